@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <vector>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace {
+
+TEST(Error, NearestChoiceIsTheOneWithFewestEdits) {
+  const std::vector<std::string> worlds = {"box_room", "downtown_west", "new_york_city"};
+  EXPECT_EQ(NearestChoice("downtwn_west", worlds), "downtown_west");
+  EXPECT_EQ(NearestChoice("BOXROOM", worlds), "box_room");
+  EXPECT_EQ(NearestChoice("x", {}), "");
+}
+
+TEST(Hash, MatchesThePublishedVector) {
+  // FIPS 180-4 example: SHA-256("abc").
+  EXPECT_EQ(Sha256Hex(AsBytes("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(Random, StreamsDependOnlyOnTheirKeyAndAreUniform) {
+  RngStream a(1, "people", 7), b(1, "people", 7), c(1, "people", 8);
+  EXPECT_EQ(a.Bits(), b.Bits());
+  EXPECT_NE(a.Bits(), c.Bits());
+  double sum = 0, square = 0;
+  constexpr int kCount = 100000;
+  for (int i = 0; i < kCount; ++i) {
+    const double u = a.Uniform();
+    sum += u;
+    square += u * u;
+  }
+  EXPECT_NEAR(sum / kCount, 0.5, 0.005);           // 5 standard errors of the mean of U(0,1)
+  EXPECT_NEAR(square / kCount, 1.0 / 3.0, 0.005);  // second moment
+}
+
+TEST(Parallel, EveryIndexIsVisitedExactlyOnceWithAnyThreadCount) {
+  for (int threads : {1, 2, 0}) {
+    ThreadLimit limit(threads);
+    std::vector<std::atomic<int>> visits(1000);
+    ParallelFor(1000, [&](int64_t i) { ++visits[static_cast<size_t>(i)]; });
+    for (const auto& v : visits) EXPECT_EQ(v.load(), 1);
+  }
+}
+
+TEST(Parallel, ExceptionsReachTheCaller) {
+  EXPECT_THROW(ParallelFor(8, [](int64_t i) { if (i == 3) throw InputError("three"); }), InputError);
+}
+
+TEST(File, AnUnwritableTargetLeavesTheOldFileAndNoTemporary) {
+  const auto folder = std::filesystem::temp_directory_path() / "airsim360_file_test";
+  CreateWritableFolder(folder / "target");  // a folder cannot be renamed over by a file
+  EXPECT_THROW(WriteFileAtomically(folder / "target", "x"), RuntimeError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "target.tmp"));
+  WriteFileAtomically(folder / "text", "hello");
+  EXPECT_EQ(ReadTextFile(folder / "text"), "hello");
+  EXPECT_THROW(ReadFile(folder / "text", 4), InputError);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace airsim360

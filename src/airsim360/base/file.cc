@@ -1,0 +1,85 @@
+#include "airsim360/base/file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace fs = std::filesystem;
+
+std::span<const std::byte> AsBytes(std::string_view text) {
+  return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
+}
+
+std::string_view AsText(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Bytes ReadFile(const fs::path& path, uint64_t max_size) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error || !fs::exists(status)) throw InputError(path.string() + ": no such file");
+  if (!fs::is_regular_file(status)) throw InputError(path.string() + ": not a regular file");
+  const uint64_t size = fs::file_size(path, error);
+  if (error) throw InputError(path.string() + ": " + error.message());
+  if (size > max_size) {
+    throw InputError(path.string() + ": " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_size));
+  }
+  Bytes bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)) && size > 0) {
+    throw InputError(path.string() + ": cannot read");
+  }
+  return bytes;
+}
+
+std::string ReadTextFile(const fs::path& path, uint64_t max_size) {
+  return std::string(AsText(ReadFile(path, max_size)));
+}
+
+namespace {
+
+[[noreturn]] void ThrowWriteError(const fs::path& path, int error) {
+  throw RuntimeError(path.string() + ": cannot write: " + std::strerror(error));
+}
+
+}  // namespace
+
+void WriteFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
+  fs::path temporary = path;
+  temporary += ".tmp";
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) ThrowWriteError(path, errno);
+
+  // Write everything and make it durable before the rename makes it visible.
+  int error = 0;
+  for (size_t done = 0; done < bytes.size() && error == 0;) {
+    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
+    if (n > 0) done += static_cast<size_t>(n);
+    if (n < 0 && errno != EINTR) error = errno;
+  }
+  if (error == 0 && ::fsync(fd) != 0) error = errno;
+  if (::close(fd) != 0 && error == 0) error = errno;
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    ThrowWriteError(path, error);
+  }
+}
+
+void WriteFileAtomically(const fs::path& path, std::string_view text) { WriteFileAtomically(path, AsBytes(text)); }
+
+void CreateWritableFolder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw RuntimeError(path.string() + ": cannot create folder: " + error.message());
+  if (!fs::is_directory(path)) throw RuntimeError(path.string() + ": not a folder");
+  if (::access(path.c_str(), W_OK) != 0) ThrowWriteError(path, errno);
+}
+
+}  // namespace airsim360

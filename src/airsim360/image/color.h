@@ -1,0 +1,30 @@
+// sRGB transfer function (IEC 61966-2-1).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace airsim360 {
+
+/// Linear light in [0, 1] of an 8-bit sRGB value.
+inline float SrgbToLinear(uint8_t value) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> t{};
+    for (int i = 0; i < 256; ++i) {
+      const double c = i / 255.0;
+      t[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return t;
+  }();
+  return table[value];
+}
+
+/// 8-bit sRGB value nearest to linear light; clamps to [0, 1].
+inline uint8_t LinearToSrgb8(float linear) {
+  const double c = linear < 0 ? 0 : linear > 1 ? 1 : static_cast<double>(linear);
+  const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  return static_cast<uint8_t>(s * 255.0 + 0.5);
+}
+
+}  // namespace airsim360

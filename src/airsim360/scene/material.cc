@@ -1,0 +1,47 @@
+#include "airsim360/scene/material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "airsim360/image/color.h"
+
+namespace airsim360 {
+namespace {
+
+// Mean of the 2x2 block above a pixel; odd borders repeat their last column or row.
+Image<Rgba8> HalfSize(const Image<Rgba8>& fine, bool srgb) {
+  Image<Rgba8> coarse(std::max(1, fine.width() / 2), std::max(1, fine.height() / 2));
+  const auto decode = [&](uint8_t v) { return srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f; };
+  const auto encode = [&](float v) { return srgb ? LinearToSrgb8(v) : static_cast<uint8_t>(v * 255.0f + 0.5f); };
+  for (int y = 0; y < coarse.height(); ++y) {
+    for (int x = 0; x < coarse.width(); ++x) {
+      float r = 0, g = 0, b = 0, a = 0;
+      for (int k = 0; k < 4; ++k) {
+        const Rgba8 p = fine(std::min(2 * x + (k & 1), fine.width() - 1), std::min(2 * y + (k >> 1), fine.height() - 1));
+        r += decode(p.r);
+        g += decode(p.g);
+        b += decode(p.b);
+        a += static_cast<float>(p.a);
+      }
+      coarse(x, y) = {encode(r / 4), encode(g / 4), encode(b / 4), static_cast<uint8_t>(a / 4 + 0.5f)};
+    }
+  }
+  return coarse;
+}
+
+}  // namespace
+
+Texture Texture::FromImage(std::string name, Image<Rgba8> image, bool srgb) {
+  Texture texture;
+  texture.name = std::move(name);
+  texture.srgb = srgb;
+  texture.levels.push_back(std::move(image));
+  while (texture.levels.back().width() > 1 || texture.levels.back().height() > 1) {
+    texture.levels.push_back(HalfSize(texture.levels.back(), srgb));
+  }
+  return texture;
+}
+
+}  // namespace airsim360

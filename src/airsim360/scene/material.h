@@ -1,0 +1,61 @@
+// Surface appearance: metallic-roughness as in glTF 2.0, plus what foliage, glass and big tiled grounds need.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "airsim360/image/image.h"
+#include "airsim360/math/vector.h"
+
+namespace airsim360 {
+
+using TextureId = int32_t;
+inline constexpr TextureId kNoTexture = -1;
+
+enum class Wrap : uint8_t { kRepeat, kMirror, kClamp };
+
+/// An 8-bit RGBA picture with its mip chain: level 0 is full size, each next level half (rounded down, at least 1).
+struct Texture {
+  std::string name;
+  bool srgb = false;  ///< colour channels are sRGB encoded (base colour, emission); alpha never is
+  Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
+  std::vector<Image<Rgba8>> levels;
+
+  /// Builds the mip chain from level 0: 2x2 box filter in linear light, alpha averaged.
+  static Texture FromImage(std::string name, Image<Rgba8> image, bool srgb);
+};
+
+enum class AlphaMode : uint8_t { kOpaque, kMask };
+
+/// What the `fast` shader does beyond metallic-roughness.
+enum class SurfaceKind : uint8_t {
+  kStandard,  ///< metallic-roughness
+  kFoliage,   ///< two-sided, transmits light: `transmission` times base colour
+  kGlass,     ///< dielectric pane: sky reflection by Fresnel over base colour
+  kWater,     ///< dielectric with procedural waves
+};
+
+/// Colours are linear light. The final base colour is base_color * texture * instance tint.
+struct Material {
+  std::string name;
+  SurfaceKind kind = SurfaceKind::kStandard;
+  AlphaMode alpha_mode = AlphaMode::kOpaque;
+  float alpha_cutoff = 0.5f;  ///< kMask: hit where base alpha * texture alpha >= cutoff
+  Vec3f base_color{0.8f, 0.8f, 0.8f};
+  float base_alpha = 1;
+  float metallic = 0;
+  float roughness = 0.9f;
+  Vec3f emission{};          ///< W/(m^2 sr) relative to the sky's units, times emission texture
+  float normal_scale = 1;
+  float transmission = 0;
+  float macro_variation = 0;  ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
+  TextureId base_color_texture = kNoTexture;          ///< sRGB, alpha = opacity
+  TextureId metallic_roughness_texture = kNoTexture;  ///< G roughness, B metallic (glTF)
+  TextureId normal_texture = kNoTexture;              ///< tangent space, +Y up in texture space (glTF)
+  TextureId emission_texture = kNoTexture;
+  Vec2f uv_scale{1, 1}, uv_offset{};  ///< applied to mesh uv: u' = u * scale.x + offset.x, after uv_rotation
+  float uv_rotation = 0;              ///< radians, KHR_texture_transform
+};
+
+}  // namespace airsim360

@@ -1,0 +1,157 @@
+#include "airsim360/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+bool IsFinite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+[[noreturn]] void Fail(const std::string& where, const std::string& what) {
+  throw InputError("scene " + where + ": " + what);
+}
+
+void CheckTexture(const std::string& where, TextureId id, size_t count) {
+  if (id != kNoTexture && (id < 0 || static_cast<size_t>(id) >= count)) {
+    Fail(where, "texture index " + std::to_string(id) + " of " + std::to_string(count));
+  }
+}
+
+void CheckMesh(const Mesh& mesh, size_t materials) {
+  const std::string where = "mesh '" + mesh.name + "'";
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) Fail(where, "normals do not match positions");
+  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) Fail(where, "uvs do not match positions");
+  for (Vec3f p : mesh.positions) {
+    if (!IsFinite(p)) Fail(where, "a vertex is not finite");
+  }
+  const auto count = static_cast<uint32_t>(mesh.positions.size());
+  for (Vec3u t : mesh.triangles) {
+    if (std::max({t.x, t.y, t.z}) >= count) {
+      Fail(where, "vertex index " + std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(count));
+    }
+  }
+  uint64_t next = 0;
+  for (const MeshPart& part : mesh.parts) {
+    if (part.first_triangle != next) Fail(where, "parts do not follow each other");
+    next += part.triangle_count;
+    if (part.material >= materials) {
+      Fail(where, "material index " + std::to_string(part.material) + " of " + std::to_string(materials));
+    }
+  }
+  if (next != mesh.triangles.size()) Fail(where, "parts do not cover all triangles");
+}
+
+// Grows the bounds of the entities that an instance shows, and returns the bounds of the whole instance.
+Box3f GrowEntityBounds(const Instance& instance, const Mesh& mesh, std::vector<Entity>& entities) {
+  Box3f whole;
+  std::vector<uint32_t> last_part(mesh.positions.size(), UINT32_MAX);  // vertex already added for this part
+  for (size_t i = 0; i < mesh.parts.size(); ++i) {
+    const MeshPart& part = mesh.parts[i];
+    const EntityId id = part.entity != kNoEntity ? part.entity : instance.entity;
+    if (part.triangle_count > 0 && (id == kNoEntity || id > entities.size())) {
+      Fail("instance of mesh '" + mesh.name + "'", "entity " + std::to_string(id) + " of " + std::to_string(entities.size()));
+    }
+    Box3f box;
+    for (uint32_t k = 0; k < part.triangle_count; ++k) {
+      const Vec3u triangle = mesh.triangles[part.first_triangle + k];
+      for (uint32_t vertex : {triangle.x, triangle.y, triangle.z}) {
+        if (std::exchange(last_part[vertex], static_cast<uint32_t>(i)) != i) box.Add(instance.X_WM * mesh.positions[vertex]);
+      }
+    }
+    if (part.triangle_count > 0) entities[id - 1].bounds.Add(box);
+    whole.Add(box);
+  }
+  return whole;
+}
+
+}  // namespace
+
+SceneCounts Scene::Count() const {
+  SceneCounts counts;
+  for (const Mesh& mesh : meshes) counts.unique_triangles += mesh.triangles.size();
+  for (const Instance& instance : instances) counts.instanced_triangles += meshes[instance.mesh].triangles.size();
+  counts.instances = instances.size();
+  counts.entities = entities.size();
+  return counts;
+}
+
+Box3f Mesh::Bounds() const {
+  Box3f box;
+  for (Vec3f p : positions) box.Add(p);
+  return box;
+}
+
+SceneBuilder::SceneBuilder(std::string name) { scene_.name = std::move(name); }
+
+TextureId SceneBuilder::AddTexture(Texture texture) {
+  scene_.textures.push_back(std::move(texture));
+  return static_cast<TextureId>(scene_.textures.size() - 1);
+}
+
+MaterialId SceneBuilder::AddMaterial(Material material) {
+  scene_.materials.push_back(std::move(material));
+  return static_cast<MaterialId>(scene_.materials.size() - 1);
+}
+
+MeshId SceneBuilder::AddMesh(Mesh mesh) {
+  if (mesh.parts.empty()) mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), 0, kNoEntity});
+  scene_.meshes.push_back(std::move(mesh));
+  return static_cast<MeshId>(scene_.meshes.size() - 1);
+}
+
+EntityId SceneBuilder::AddEntity(std::string name, CategoryId category) {
+  // The first use of a name keeps it; later ones get the next free number.
+  int& uses = name_uses_[name];
+  std::string unique = name;
+  while (++uses > 1 && name_uses_.contains(unique = name + " " + std::to_string(uses))) {
+  }
+  if (unique != name) name_uses_[unique] = 1;
+  const auto id = static_cast<EntityId>(scene_.entities.size() + 1);
+  scene_.entities.push_back({id, std::move(unique), category, {}});
+  return id;
+}
+
+void SceneBuilder::AddInstance(Instance instance) { scene_.instances.push_back(instance); }
+
+void SceneBuilder::AddSky() {
+  if (scene_.sky_entity == kNoEntity) scene_.sky_entity = AddEntity("sky", scene_.tree.At("sky"));
+}
+
+void SceneBuilder::AddAttribution(std::string line) {
+  auto& lines = scene_.attributions;
+  if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
+}
+
+std::shared_ptr<const Scene> SceneBuilder::Build() {
+  // Materials and meshes refer only to what exists.
+  for (const Material& material : scene_.materials) {
+    const std::string where = "material '" + material.name + "'";
+    for (TextureId id : {material.base_color_texture, material.metallic_roughness_texture, material.normal_texture,
+                         material.emission_texture}) {
+      CheckTexture(where, id, scene_.textures.size());
+    }
+  }
+  if (scene_.materials.empty()) scene_.materials.emplace_back();
+  for (const Mesh& mesh : scene_.meshes) CheckMesh(mesh, scene_.materials.size());
+  for (const Entity& entity : scene_.entities) static_cast<void>(scene_.tree[entity.category]);
+
+  // Instances: indices, entities of every part, bounds.
+  for (const Instance& instance : scene_.instances) {
+    if (instance.mesh >= scene_.meshes.size()) Fail("instance", "mesh index " + std::to_string(instance.mesh));
+    if (!IsFinite(instance.X_WM.p) || !IsFinite(instance.X_WM.A.row(0)) || !IsFinite(instance.X_WM.A.row(1)) ||
+        !IsFinite(instance.X_WM.A.row(2))) {
+      Fail("instance of mesh '" + scene_.meshes[instance.mesh].name + "'", "transform is not finite");
+    }
+    scene_.bounds.Add(GrowEntityBounds(instance, scene_.meshes[instance.mesh], scene_.entities));
+  }
+  auto built = std::make_shared<const Scene>(std::move(scene_));
+  scene_ = Scene();
+  name_uses_.clear();
+  return built;
+}
+
+}  // namespace airsim360

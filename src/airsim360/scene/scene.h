@@ -1,0 +1,102 @@
+// The constant part of a world: meshes, materials, textures, instances, entities, lights. Built once, then immutable.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "airsim360/math/box.h"
+#include "airsim360/math/transform.h"
+#include "airsim360/scene/material.h"
+#include "airsim360/scene/mesh.h"
+#include "airsim360/scene/semantics.h"
+
+namespace airsim360 {
+
+/// One thing (or one stuff region) that labels tell apart. Ids start at 1 and never change within a world and seed.
+struct Entity {
+  EntityId id = kNoEntity;
+  std::string name;         ///< unique within the scene
+  CategoryId category = kVoid;
+  Box3f bounds;             ///< in W; empty for the sky
+};
+
+/// A mesh placed in the world.
+struct Instance {
+  MeshId mesh = 0;
+  AffineTransform X_WM;     ///< mesh frame to W
+  EntityId entity = kNoEntity;  ///< for the parts that carry none of their own
+  Vec3f tint{1, 1, 1};      ///< multiplies base colour (linear)
+};
+
+/// Direction and strength of the sun and the state of the sky. Default: a clear early afternoon.
+struct Daylight {
+  double sun_azimuth_deg = 215;   ///< compass, clockwise from north
+  double sun_elevation_deg = 48;
+  double turbidity = 2.5;         ///< 2 very clear … 10 hazy
+  double cloud_cover = 0.35;      ///< 0 none … 1 overcast
+};
+
+/// Triangles, instances and entities of a scene as counted by `airsim360 worlds` and `--json` outputs.
+struct SceneCounts {
+  uint64_t unique_triangles = 0;
+  uint64_t instanced_triangles = 0;
+  uint64_t instances = 0;
+  uint64_t entities = 0;
+};
+
+/// Immutable after SceneBuilder::Build; share it as std::shared_ptr<const Scene>.
+struct Scene {
+  std::string name;
+  SemanticTree tree;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Entity> entities;             ///< entities[i].id == i + 1
+  EntityId sky_entity = kNoEntity;          ///< what rays that hit nothing see; kNoEntity only in closed rooms
+  Daylight daylight;
+  Vec3f interior_light{};                   ///< uniform ambient radiance of scenes without a sky (closed rooms)
+  Box3f bounds;                             ///< of all instances, in W
+  std::optional<Vec3f> spawn;               ///< a good first viewpoint
+  std::vector<std::string> attributions;    ///< one line per third-party model used: title, author, licence
+
+  const Entity& entity(EntityId id) const { return entities[id - 1]; }
+  SceneCounts Count() const;
+};
+
+/// Collects the parts of a scene, checks them, and builds it. All Add functions return the id to refer to.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(std::string name);
+
+  SemanticTree& tree() { return scene_.tree; }
+  Daylight& daylight() { return scene_.daylight; }
+  TextureId AddTexture(Texture texture);
+  MaterialId AddMaterial(Material material);
+  /// The mesh may be empty of parts: then `material` 0 covers all of it.
+  MeshId AddMesh(Mesh mesh);
+  /// Names are made unique by appending " 2", " 3", … to repeats.
+  EntityId AddEntity(std::string name, CategoryId category);
+  void AddInstance(Instance instance);
+  /// Gives the scene a sky (an entity of category "sky").
+  void AddSky();
+  void SetInteriorLight(Vec3f radiance) { scene_.interior_light = radiance; }
+  void SetSpawn(Vec3f p_W) { scene_.spawn = p_W; }
+  void AddAttribution(std::string line);
+
+  const Mesh& mesh(MeshId id) const { return scene_.meshes[id]; }
+  const Material& material(MaterialId id) const { return scene_.materials[id]; }
+
+  /// Checks every index, fills bounds and returns the scene; the builder is empty afterwards. Throws InputError for an
+  /// index out of range, a triangle without an entity, a vertex that is not finite, or parts that do not cover a mesh.
+  std::shared_ptr<const Scene> Build();
+
+ private:
+  Scene scene_;
+  std::map<std::string, int> name_uses_;
+};
+
+}  // namespace airsim360

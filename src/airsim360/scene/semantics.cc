@@ -1,0 +1,307 @@
+// The built-in category tree: our own data, from the categories of the AirSim360 paper's four scenes plus what
+// Cityscapes, COCO, ADE20K and indoor worlds need. Append only: the id of a row is its position plus one.
+#include "airsim360/scene/semantics.h"
+
+#include <algorithm>
+#include <array>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace {
+
+struct Row {
+  const char* path;
+  bool thing;
+  int ade20k, cityscapes, coco;
+  const char* raw;  // the paper's spellings, separated by '|'
+};
+
+// clang-format off
+constexpr Row kRows[] = {
+    {"animal", true, -1, -1, -1, ""},
+    {"animal/bird", true, 126, -1, 16, ""},
+    {"animal/cat", true, 126, -1, 17, ""},
+    {"animal/dog", true, 126, -1, 18, ""},
+    {"animal/horse", true, 126, -1, 19, ""},
+    {"barrier", true, -1, -1, -1, ""},
+    {"barrier/fence", true, 32, 13, 185, "Fence"},
+    {"barrier/fence/circle_fence", true, 32, 13, 185, "Circlefence"},
+    {"barrier/fence/metal_fence", true, 32, 13, 185, "Metalfence"},
+    {"barrier/fence/wood_fence", true, 32, 13, 185, "Wood Fence Wood Fence"},
+    {"barrier/railing", true, -1, -1, -1, ""},
+    {"barrier/railing/pillar", true, 42, 13, 185, "Prop Park Railing Pillar"},
+    {"barrier/railing/rail", true, 38, 13, 185, "Prop Park Railing Rail"},
+    {"barrier/rope_bollard", true, 93, 17, -1, "Bollardrope"},
+    {"barrier/wall", true, -1, -1, -1, ""},
+    {"barrier/wall/guard_rail", true, 95, 14, 185, ""},
+    {"construction", true, -1, -1, -1, ""},
+    {"construction/awning", true, 86, 11, 197, "Awning|Buidlingawning"},
+    {"construction/balcony", true, 38, 11, 197, ""},
+    {"construction/bridge", true, 61, 15, 95, ""},
+    {"construction/building", true, 1, 11, 197, "Building"},
+    {"construction/building/roof", true, 1, 11, 151, "Roof"},
+    {"construction/ceiling", true, 5, -1, 186, ""},
+    {"construction/chimney", true, 1, 11, 197, ""},
+    {"construction/column", true, 42, 11, 197, ""},
+    {"construction/door", true, 14, 11, 112, ""},
+    {"construction/escalator", true, 96, -1, 161, ""},
+    {"construction/fountain", true, 104, 4, -1, ""},
+    {"construction/house", true, 25, 11, 128, ""},
+    {"construction/phone_booth", true, 88, 4, -1, ""},
+    {"construction/pillar", true, 42, 11, 197, "Pillar"},
+    {"construction/rooftop", true, -1, -1, -1, ""},
+    {"construction/rooftop/air_conditioner", true, 1, 11, 197, ""},
+    {"construction/rooftop/antenna", true, 1, 11, 197, ""},
+    {"construction/rooftop/solar_panel", true, 1, 11, 197, ""},
+    {"construction/rooftop/ventilation_tube", true, -1, 11, 197, "Ventilationtube"},
+    {"construction/rooftop/water_tank", true, 1, 11, 197, ""},
+    {"construction/scaffolding", true, -1, 4, -1, "Scaffolding"},
+    {"construction/stairs", true, 53, -1, 161, ""},
+    {"construction/statue", true, 132, 4, -1, ""},
+    {"construction/tower", true, 84, 11, 197, ""},
+    {"construction/tunnel", true, -1, 16, -1, ""},
+    {"construction/wall", true, 0, 12, 199, ""},
+    {"construction/window", true, 8, 11, 181, ""},
+    {"furniture", true, -1, -1, -1, ""},
+    {"furniture/bathtub", true, 37, -1, -1, ""},
+    {"furniture/bed", true, 7, -1, 65, ""},
+    {"furniture/book", true, 67, -1, 84, ""},
+    {"furniture/box", true, 41, 4, -1, ""},
+    {"furniture/cabinet", true, 10, -1, 188, ""},
+    {"furniture/curtain", true, 18, -1, 109, ""},
+    {"furniture/desk", true, 33, -1, 69, ""},
+    {"furniture/electronics", true, -1, -1, -1, ""},
+    {"furniture/electronics/computer", true, 74, -1, 73, ""},
+    {"furniture/electronics/refrigerator", true, 50, -1, 82, ""},
+    {"furniture/electronics/television", true, 89, -1, 72, ""},
+    {"furniture/kitchen", true, -1, -1, -1, ""},
+    {"furniture/kitchen/microwave", true, 124, -1, 78, ""},
+    {"furniture/kitchen/oven", true, 118, -1, 79, ""},
+    {"furniture/lighting", true, -1, -1, -1, ""},
+    {"furniture/lighting/lamp", true, 36, -1, 130, ""},
+    {"furniture/lighting/lamp_post", true, 87, 17, 130, "LampPost|Lightpost Light Post"},
+    {"furniture/lighting/lamp_post/type_a", true, 87, 17, 130, "Alamppost"},
+    {"furniture/lighting/lamp_post/type_b", true, 87, 17, 130, "Blamppost"},
+    {"furniture/lighting/street_light", true, 87, 17, 130, "Light Streetlight Complete|Lamp"},
+    {"furniture/mail", true, -1, -1, -1, ""},
+    {"furniture/mail/post_box", true, 41, 4, -1, "Postbox"},
+    {"furniture/mirror", true, 27, -1, 133, ""},
+    {"furniture/misc", true, -1, 4, -1, "Streetprops"},
+    {"furniture/painting", true, 22, -1, -1, ""},
+    {"furniture/planter", true, -1, -1, -1, ""},
+    {"furniture/planter/green_pot", true, 125, 4, 64, "Greenpot"},
+    {"furniture/planter/pot", true, 125, 4, 64, "Pot"},
+    {"furniture/recreation", true, -1, -1, -1, ""},
+    {"furniture/recreation/playground", true, 108, 4, -1, "PlayGround"},
+    {"furniture/rug", true, 28, -1, 200, ""},
+    {"furniture/seating", true, -1, -1, -1, ""},
+    {"furniture/seating/bench", true, 69, 4, 15, "Bench"},
+    {"furniture/seating/bench/wood", true, 69, 4, 15, "Bench Wood"},
+    {"furniture/seating/chair", true, 19, 4, 62, "Cafechair|Prop Dining Chair|Chair"},
+    {"furniture/shade", true, -1, -1, -1, ""},
+    {"furniture/shade/tarp", true, 106, 4, 166, "Tarponly"},
+    {"furniture/shade/tarp_post", true, 93, 17, -1, "Tarppost"},
+    {"furniture/shade/umbrella", true, 106, 4, 28, "Umbrella"},
+    {"furniture/shelf", true, 24, -1, 156, ""},
+    {"furniture/sink", true, 47, -1, 81, ""},
+    {"furniture/sofa", true, 23, -1, 63, ""},
+    {"furniture/table", true, 15, 4, 189, "Table"},
+    {"furniture/table/cafe_table", true, 15, 4, 189, "Cafetable"},
+    {"furniture/table/dining_table", true, 15, 4, 67, "Prop Dining Table"},
+    {"furniture/toilet", true, 65, -1, 70, ""},
+    {"furniture/transit", true, -1, -1, -1, ""},
+    {"furniture/transit/bus_stop", true, 88, 4, -1, "Stopstation"},
+    {"furniture/utility", true, -1, -1, -1, ""},
+    {"furniture/utility/electric_box", true, 41, 4, -1, "Elecbox"},
+    {"furniture/utility/fire_hydrant", true, -1, 4, 11, "Hydrant"},
+    {"furniture/utility/parking_meter", true, -1, 4, 14, "Parkingmeter"},
+    {"furniture/vase", true, 135, -1, 86, ""},
+    {"furniture/vending", true, -1, -1, -1, ""},
+    {"furniture/vending/food_cart", true, 88, 5, -1, "Food Cart"},
+    {"furniture/vending/food_stall", true, 88, 4, -1, "FoodStalls"},
+    {"furniture/vending/hotdog_cart", true, 88, 5, -1, "Hotdogpot"},
+    {"furniture/waste", true, -1, -1, -1, ""},
+    {"furniture/waste/recycle_bin", true, 138, 4, -1, "Recycle Bin"},
+    {"furniture/waste/trash", true, 138, 4, -1, "Trash"},
+    {"furniture/waste/trash_can", true, 138, 4, -1, "Trashcan"},
+    {"ground", false, -1, -1, -1, ""},
+    {"ground/bike_lane", false, 6, 7, 149, ""},
+    {"ground/crosswalk", false, 6, 7, 149, ""},
+    {"ground/dirt", false, 13, 22, 194, "Grounddirt"},
+    {"ground/floor", false, 3, -1, 190, ""},
+    {"ground/grass", false, 9, 22, 193, ""},
+    {"ground/gravel", false, 13, 22, 125, ""},
+    {"ground/kerb", false, 11, 8, 191, ""},
+    {"ground/lane_marking", false, 6, 7, 149, ""},
+    {"ground/manhole", false, 6, 7, 149, ""},
+    {"ground/parking", false, 6, 9, 149, ""},
+    {"ground/path", false, -1, -1, -1, ""},
+    {"ground/path/park_walkway", false, 52, 8, 191, "Ground Park Walkway"},
+    {"ground/pavement", false, -1, -1, -1, ""},
+    {"ground/pavement/modular", false, 11, 8, 191, "Ground Mod"},
+    {"ground/road", false, 6, 7, 149, "Road"},
+    {"ground/sand", false, 46, 22, 154, ""},
+    {"ground/sidewalk", false, 11, 8, 191, "Sidewalk"},
+    {"ground/sidewalk/pool_edge", false, 11, 8, 191, "Pool Sidewalk"},
+    {"ground/terrain", false, -1, -1, -1, ""},
+    {"ground/terrain/landscape", false, 9, 22, 193, "Landscape"},
+    {"human", true, -1, -1, -1, ""},
+    {"human/person", true, 12, 24, 1, ""},
+    {"human/rider", true, 12, 25, 1, ""},
+    {"nature", true, -1, -1, -1, ""},
+    {"nature/hill", true, 68, 22, 192, ""},
+    {"nature/mountain", false, 16, 22, 192, "Background Mountains"},
+    {"nature/rock", true, 34, 22, 198, "Rock|Rock Rock"},
+    {"nature/terrain", true, 13, 22, 194, ""},
+    {"object", true, -1, -1, -1, ""},
+    {"signage", true, -1, -1, -1, ""},
+    {"signage/billboard", true, 43, 4, 92, "Adplane"},
+    {"signage/flag", true, 149, 4, 92, ""},
+    {"signage/flag/usa", true, 149, 4, 92, "Usaflag"},
+    {"signage/poster", true, 100, 4, 92, ""},
+    {"signage/poster_stand", true, 100, 4, 92, "Poster Stand"},
+    {"signage/shop_sign", true, 43, 4, 92, ""},
+    {"signage/traffic_sign", true, 43, 20, 13, ""},
+    {"sky", false, 2, 23, 187, "Sky"},
+    {"traffic", true, -1, -1, -1, ""},
+    {"traffic/barrier", true, -1, -1, -1, ""},
+    {"traffic/barrier/barrier", true, 32, 14, 185, "Barrier"},
+    {"traffic/barrier/concrete_block", true, -1, 14, 199, "Concreteblock"},
+    {"traffic/barrier/metal_barricade", true, 32, 13, 185, "Barricademetal"},
+    {"traffic/barrier/road_block", true, 32, 14, 185, "Roadblock"},
+    {"traffic/bollard", true, -1, -1, -1, ""},
+    {"traffic/bollard/car_pillar", true, 93, 17, -1, "Car Pillar"},
+    {"traffic/bollard/road_column", true, 93, 17, -1, "Roadcolumn"},
+    {"traffic/control", true, -1, -1, -1, ""},
+    {"traffic/control/parking_meter", true, -1, 4, 14, ""},
+    {"traffic/control/traffic_light", true, 136, 19, 10, "Trafficlight"},
+    {"traffic/temporary", true, -1, -1, -1, ""},
+    {"traffic/temporary/cone", true, -1, 5, -1, "Cone|Plasticcone"},
+    {"traffic/temporary/traffic_barrel", true, 111, 4, -1, "Trafficbarrel"},
+    {"traffic/temporary/tube", true, -1, 17, -1, "Traffictube"},
+    {"uav", true, -1, -1, -1, ""},
+    {"uav/other", true, 90, -1, 5, ""},
+    {"uav/self", true, 90, -1, 5, ""},
+    {"vegetation", true, -1, -1, -1, ""},
+    {"vegetation/climber", true, -1, -1, -1, ""},
+    {"vegetation/climber/ivy", true, 17, 21, 184, "Ivy"},
+    {"vegetation/flower", true, 66, 21, 119, ""},
+    {"vegetation/grass_tuft", true, 9, 21, 193, ""},
+    {"vegetation/hedge", true, 17, 21, 184, ""},
+    {"vegetation/plant", true, 17, 21, 64, "Plant"},
+    {"vegetation/shrub", true, -1, -1, -1, ""},
+    {"vegetation/shrub/bush", true, 17, 21, 184, "Bush"},
+    {"vegetation/tree", true, -1, -1, -1, ""},
+    {"vegetation/tree/broadleaf", true, -1, -1, -1, ""},
+    {"vegetation/tree/broadleaf/amur_cork", true, 4, 21, 184, "AmurCork"},
+    {"vegetation/tree/broadleaf/elm", true, 4, 21, 184, "Elm"},
+    {"vegetation/tree/broadleaf/generic", true, 4, 21, 184, "Tree Generic|Tree"},
+    {"vegetation/tree/broadleaf/maple", true, 4, 21, 184, "Maple"},
+    {"vegetation/tree/broadleaf/narrowleaf", true, 4, 21, 184, "Tree Narrowleaf"},
+    {"vegetation/tree/broadleaf/weeping_willow", true, 4, 21, 184, "WeepingWillow"},
+    {"vegetation/tree/conifer", true, -1, -1, -1, ""},
+    {"vegetation/tree/conifer/pine", true, 4, 21, 184, "Tree Pine"},
+    {"vegetation/tree/palm", true, 72, 21, 184, ""},
+    {"vehicle", true, -1, -1, -1, ""},
+    {"vehicle/bicycle", true, 127, 33, 2, ""},
+    {"vehicle/boat", true, 76, -1, 9, ""},
+    {"vehicle/bus", true, 80, 28, 6, "Bus"},
+    {"vehicle/car", true, 20, 26, 3, ""},
+    {"vehicle/food_truck", true, 83, 27, 8, ""},
+    {"vehicle/motorcycle", true, 116, 32, 4, ""},
+    {"vehicle/trailer", true, -1, 30, 8, ""},
+    {"vehicle/tram", true, -1, 31, 7, ""},
+    {"vehicle/truck", true, 83, 27, 8, ""},
+    {"vehicle/van", true, 102, 26, 3, ""},
+    {"water", false, -1, -1, -1, ""},
+    {"water/lake", false, 128, 0, 178, "Lake"},
+    {"water/pool", false, 109, 0, 178, ""},
+    {"water/puddle", false, 21, 0, 178, ""},
+    {"water/river", false, 60, 0, 148, ""},
+    {"water/sea", false, 26, 0, 155, ""},
+    {"water/water_plane", false, 21, 0, 178, "Water Plane"},
+};
+// clang-format on
+static_assert(std::size(kRows) < kFirstCustomId);
+
+bool IsValidPath(std::string_view path) {
+  if (path.empty() || path.size() > 200 || path.front() == '/' || path.back() == '/') return false;
+  if (path.find("//") != std::string_view::npos || std::count(path.begin(), path.end(), '/') > 7) return false;
+  return std::all_of(path.begin(), path.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
+  });
+}
+
+std::vector<std::string> Split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find(separator), text.size());
+    parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parts;
+}
+
+}  // namespace
+
+SemanticTree::SemanticTree() {
+  for (size_t i = 0; i < std::size(kRows); ++i) {
+    const Row& row = kRows[i];
+    const auto id = static_cast<CategoryId>(i + 1);
+    categories_[id] = {id, row.path, kVoid, row.thing, row.ade20k, row.cityscapes, row.coco, Split(row.raw, '|')};
+    ids_.emplace(row.path, id);
+  }
+  for (auto& [id, category] : categories_) {
+    const size_t slash = category.path.rfind('/');
+    if (slash != std::string::npos) category.parent = ids_.at(category.path.substr(0, slash));
+  }
+}
+
+std::optional<CategoryId> SemanticTree::Find(std::string_view path) const {
+  const auto it = ids_.find(path);
+  return it == ids_.end() ? std::nullopt : std::optional(it->second);
+}
+
+CategoryId SemanticTree::At(std::string_view path) const {
+  if (const auto id = Find(path)) return *id;
+  std::vector<std::string> paths;
+  for (const auto& [known, id] : ids_) paths.push_back(known);
+  throw InputError("unknown category '" + std::string(path.substr(0, 200)) + "'; the nearest is '" +
+                   NearestChoice(path, paths) + "'");
+}
+
+const Category& SemanticTree::operator[](CategoryId id) const {
+  const auto it = categories_.find(id);
+  if (it == categories_.end()) throw InputError("unknown category id " + std::to_string(id));
+  return it->second;
+}
+
+CategoryId SemanticTree::Add(std::string_view path, bool thing) {
+  if (const auto id = Find(path)) return *id;
+  if (!IsValidPath(path)) {
+    throw InputError("malformed category path '" + std::string(path.substr(0, 200)) +
+                     "': use parts of a-z, 0-9 and _ joined by '/', for example 'vehicle/car'");
+  }
+  const size_t slash = path.rfind('/');
+  const CategoryId parent = slash == std::string_view::npos ? kVoid : Add(path.substr(0, slash), thing);
+
+  // The id depends on the path alone; two paths that collide (1 in 65,000) are refused rather than renumbered.
+  const auto id = static_cast<CategoryId>(kFirstCustomId + HashName(path) % (65536 - kFirstCustomId));
+  if (categories_.contains(id)) {
+    throw InputError("category path '" + std::string(path) + "' has the same id as '" + categories_[id].path +
+                     "': choose another name for one of them");
+  }
+  Category category{id, std::string(path), parent, thing, -1, -1, -1, {}};
+  for (CategoryId up = parent; up != kVoid; up = categories_[up].parent) {
+    if (category.ade20k < 0) category.ade20k = categories_[up].ade20k;
+    if (category.cityscapes < 0) category.cityscapes = categories_[up].cityscapes;
+    if (category.coco < 0) category.coco = categories_[up].coco;
+  }
+  categories_[id] = std::move(category);
+  ids_.emplace(path, id);
+  return id;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,72 @@
+// Ray casting against a scene: nearest hit, occlusion, closest surface. Embree stays inside this module.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "airsim360/scene/scene.h"
+
+namespace airsim360 {
+
+/// Sixteen rays and their hits, structure of arrays, origin and direction in W. Fill every lane with finite values, also
+/// those that are not active. Directions need not have unit length; distances are in units of the direction's length.
+struct alignas(64) RayHit16 {
+  float origin_x[16], origin_y[16], origin_z[16];
+  float t_near[16];
+  float direction_x[16], direction_y[16], direction_z[16];
+  float time[16];   // 0
+  float t_far[16];  ///< in: farthest distance; out: distance of the hit
+  uint32_t mask[16], id[16], flags[16];
+  float normal_x[16], normal_y[16], normal_z[16];  ///< geometric normal in the mesh frame, not unit length
+  float u[16], v[16];                              ///< barycentrics: p = (1 - u - v) p0 + u p1 + v p2
+  uint32_t primitive[16], geometry[16], instance[16];  ///< resolve with RayTracer::Resolve; geometry kMiss = no hit
+};
+inline constexpr uint32_t kMiss = UINT32_MAX;
+
+/// What a hit is in terms of the scene.
+struct SurfaceRef {
+  uint32_t instance;  ///< index into Scene::instances
+  uint32_t triangle;  ///< index into Mesh::triangles
+};
+
+/// Nearest hit of one ray.
+struct SurfaceHit {
+  float distance;
+  SurfaceRef surface;
+  float u, v;
+  Vec3f normal;  ///< unit geometric normal in W, on the side the ray came from
+};
+
+struct RayTracerOptions {
+  std::string isa;  ///< Embree instruction set, e.g. "avx2" to pin goldens; empty = best of this machine
+};
+
+/// Immutable after construction; all queries are const and may run concurrently.
+class RayTracer {
+ public:
+  RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions& options = {});
+  ~RayTracer();
+
+  const Scene& scene() const;
+  /// Nearest hits of the lanes with valid[i] == -1 (0 = inactive). `coherent`: neighbouring rays, as of a camera.
+  void Intersect16(const int* valid, RayHit16& rays, bool coherent) const;
+  /// Sets occluded[i] true for active lanes whose segment [t_near, t_far] meets a surface.
+  void Occluded16(const int* valid, RayHit16& rays, bool* occluded, bool coherent) const;
+  SurfaceRef Resolve(uint32_t geometry, uint32_t instance, uint32_t primitive) const;
+
+  std::optional<SurfaceHit> Intersect(Vec3f origin, Vec3f direction,
+                                      float t_far = std::numeric_limits<float>::infinity()) const;
+  /// True if the open segment between two points of W meets a surface.
+  bool Occluded(Vec3f from, Vec3f to) const;
+  /// Distance from a point of W to the nearest surface, at most `max_distance`.
+  float Clearance(Vec3f p_W, float max_distance) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace airsim360
