@@ -50,7 +50,11 @@ TEST(Parallel, EveryIndexIsVisitedExactlyOnceWithAnyThreadCount) {
 }
 
 TEST(Parallel, ExceptionsReachTheCaller) {
-  EXPECT_THROW(ParallelFor(8, [](int64_t i) { if (i == 3) throw InputError("three"); }), InputError);
+  EXPECT_THROW(ParallelFor(8,
+                           [](int64_t i) {
+                             if (i == 3) throw InputError("three");
+                           }),
+               InputError);
 }
 
 TEST(File, AnUnwritableTargetLeavesTheOldFileAndNoTemporary) {

@@ -35,7 +35,8 @@ std::string NearestChoice(std::string_view word, std::span<const std::string> ch
   return best == choices.end() ? std::string() : *best;
 }
 
-std::string UnknownChoiceMessage(std::string_view what, std::string_view word, std::span<const std::string> choices) {
+std::string UnknownChoiceMessage(std::string_view what, std::string_view word,
+                                 std::span<const std::string> choices) {
   std::string message = "unknown " + std::string(what) + " '" + std::string(word.substr(0, 256)) + "'";
   if (choices.empty()) return message;
   message += "; did you mean '" + NearestChoice(word, choices) + "'? (choices: ";

@@ -14,8 +14,8 @@ class RuntimeError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The user's input is wrong (flag, file, name): exit status 2. The message names the flag or file:line:column,
-/// the value and the nearest valid choice.
+/// The user's input is wrong (flag, file, name): exit status 2. The message names the flag or
+/// file:line:column, the value and the nearest valid choice.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,7 +24,9 @@ class InputError : public std::runtime_error {
 /// The entry of `choices` with the smallest edit distance to `word`, or "" when `choices` is empty.
 std::string NearestChoice(std::string_view word, std::span<const std::string> choices);
 
-/// "unknown <what> 'word'; did you mean 'x'? (choices: a, b, …)": the text for a name that is not among `choices`.
-std::string UnknownChoiceMessage(std::string_view what, std::string_view word, std::span<const std::string> choices);
+/// "unknown <what> 'word'; did you mean 'x'? (choices: a, b, …)": the text for a name that is not among
+/// `choices`.
+std::string UnknownChoiceMessage(std::string_view what, std::string_view word,
+                                 std::span<const std::string> choices);
 
 }  // namespace airsim360

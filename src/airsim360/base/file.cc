@@ -28,7 +28,8 @@ Bytes ReadFile(const fs::path& path, uint64_t max_size) {
   const uint64_t size = fs::file_size(path, error);
   if (error) throw InputError(path.string() + ": " + error.message());
   if (size > max_size) {
-    throw InputError(path.string() + ": " + std::to_string(size) + " bytes, the limit is " + std::to_string(max_size));
+    throw InputError(path.string() + ": " + std::to_string(size) + " bytes, the limit is " +
+                     std::to_string(max_size));
   }
   Bytes bytes(size);
   std::ifstream file(path, std::ios::binary);
@@ -72,7 +73,9 @@ void WriteFileAtomically(const fs::path& path, std::span<const std::byte> bytes)
   }
 }
 
-void WriteFileAtomically(const fs::path& path, std::string_view text) { WriteFileAtomically(path, AsBytes(text)); }
+void WriteFileAtomically(const fs::path& path, std::string_view text) {
+  WriteFileAtomically(path, AsBytes(text));
+}
 
 void CreateWritableFolder(const fs::path& path) {
   std::error_code error;

@@ -32,9 +32,9 @@ void ProgressBar::Update(int64_t done) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const int left = fraction > 0 ? static_cast<int>(elapsed * (1 - fraction) / fraction + 0.5) : 0;
   const int filled = static_cast<int>(fraction * kWidth);
-  std::fprintf(stderr, "\r%s [%s%s] %lld/%lld  %d:%02d left ", label_.c_str(), std::string(filled, '#').c_str(),
-               std::string(kWidth - filled, '.').c_str(), static_cast<long long>(done),
-               static_cast<long long>(total_), left / 60, left % 60);
+  std::fprintf(stderr, "\r%s [%s%s] %lld/%lld  %d:%02d left ", label_.c_str(),
+               std::string(filled, '#').c_str(), std::string(kWidth - filled, '.').c_str(),
+               static_cast<long long>(done), static_cast<long long>(total_), left / 60, left % 60);
   std::fflush(stderr);
 }
 

@@ -18,7 +18,8 @@ void ParallelFor(int64_t n, const std::function<void(int64_t)>& body) {
 
 ThreadLimit::ThreadLimit(int threads) : control_(nullptr) {
   if (threads > 0) {
-    control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    control_ =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   }
 }
 

@@ -1,0 +1,166 @@
+#include "airsim360/base/config.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr uint64_t kMaxFileSize = uint64_t{16} << 20;
+
+std::string Where(std::string_view file, const YAML::Mark& mark) {
+  std::string where(file);
+  if (!mark.is_null()) where += ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+  return where + ": ";
+}
+
+/// Reads one mapping; remembers which keys are valid so that the rest can be refused at the end.
+class YamlReader : public ConfigVisitor {
+ public:
+  YamlReader(const YAML::Node& node, std::string_view file) : node_(node), file_(file) {
+    if (!node.IsMap()) throw InputError(Where(file, node.Mark()) + "expected 'key: value' lines");
+  }
+
+  void Field(std::string_view name, std::string_view, bool& value) override {
+    Read(name, "true or false", value);
+  }
+  void Field(std::string_view name, std::string_view, uint64_t& value) override {
+    // yaml-cpp would take "-1" as a large number.
+    if (const YAML::Node node = Find(name); node && node.IsScalar() && node.Scalar().starts_with("-")) {
+      Fail(node, name, "a whole number, 0 or more");
+    }
+    Read(name, "a whole number, 0 or more", value);
+  }
+  void Field(std::string_view name, std::string_view, double& value, double low, double high) override {
+    double read = value;
+    Read(name, "a number", read);
+    char range[80];
+    std::snprintf(range, sizeof(range), "a number from %g to %g", low, high);
+    if (!(read >= low && read <= high)) Fail(Find(name), name, range);
+    value = read;
+  }
+  void Field(std::string_view name, std::string_view, std::string& value) override {
+    Read(name, "a text", value);
+  }
+  void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override {
+    Read(name, "a list of texts", value);
+  }
+  void Group(std::string_view name, std::string_view, const ConfigFields& visit) override {
+    if (const YAML::Node node = Find(name)) {
+      YamlReader group(node, file_);
+      visit(group);
+      group.RefuseUnknownKeys();
+    }
+  }
+
+  void RefuseUnknownKeys() const {
+    std::set<std::string> seen;
+    for (const auto& entry : node_) {
+      if (!entry.first.IsScalar())
+        throw InputError(Where(file_, entry.first.Mark()) + "a key must be a plain word");
+      const std::string& key = entry.first.Scalar();
+      if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+        throw InputError(Where(file_, entry.first.Mark()) + UnknownChoiceMessage("key", key, known_));
+      }
+      if (!seen.insert(key).second)
+        throw InputError(Where(file_, entry.first.Mark()) + "key '" + key + "' is given twice");
+    }
+  }
+
+ private:
+  YAML::Node Find(std::string_view name) {
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.emplace_back(name);
+    const YAML::Node found = static_cast<const YAML::Node&>(node_)[std::string(name)];
+    return found.IsDefined() ? found : YAML::Node(YAML::NodeType::Undefined);
+  }
+  [[noreturn]] void Fail(const YAML::Node& node, std::string_view name, std::string_view wanted) const {
+    const std::string value =
+        node.IsScalar() ? "'" + node.Scalar().substr(0, 100) + "'" : "a list or mapping";
+    throw InputError(Where(file_, node.Mark()) + std::string(name) + ": expected " + std::string(wanted) +
+                     ", found " + value);
+  }
+  template <class T>
+  void Read(std::string_view name, std::string_view wanted, T& value) {
+    const YAML::Node node = Find(name);
+    if (!node || !node.IsDefined()) return;
+    try {
+      value = node.as<T>();
+    } catch (const YAML::Exception&) {
+      Fail(node, name, wanted);
+    }
+  }
+
+  YAML::Node node_;
+  std::string_view file_;
+  std::vector<std::string> known_;
+};
+
+/// Lists fields, their values and help.
+class Describer : public ConfigVisitor {
+ public:
+  explicit Describer(std::string indent = "") : indent_(std::move(indent)) {}
+  void Field(std::string_view name, std::string_view help, bool& value) override {
+    Line(name, value ? "true" : "false", help);
+  }
+  void Field(std::string_view name, std::string_view help, uint64_t& value) override {
+    Line(name, std::to_string(value), help);
+  }
+  void Field(std::string_view name, std::string_view help, double& value, double, double) override {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%g", value);
+    Line(name, text, help);
+  }
+  void Field(std::string_view name, std::string_view help, std::string& value) override {
+    Line(name, '"' + value + '"', help);
+  }
+  void Field(std::string_view name, std::string_view help, std::vector<std::string>& value) override {
+    std::string list = "[";
+    for (const std::string& item : value) list += (list.size() > 1 ? ", " : "") + item;
+    Line(name, list + "]", help);
+  }
+  void Group(std::string_view name, std::string_view help, const ConfigFields& visit) override {
+    Line(name, "", help);
+    Describer inner(indent_ + "  ");
+    visit(inner);
+    text_ += inner.text_;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void Line(std::string_view name, std::string_view value, std::string_view help) {
+    text_ += indent_ + std::string(name) + ": " + std::string(value) + "  # " + std::string(help) + "\n";
+  }
+  std::string indent_, text_;
+};
+
+}  // namespace
+
+void ReadYaml(std::string_view text, std::string_view name, const ConfigFields& fields) {
+  try {
+    const YAML::Node root = YAML::Load(std::string(text));
+    YamlReader reader(root, name);
+    fields(reader);
+    reader.RefuseUnknownKeys();
+  } catch (const YAML::Exception& error) {
+    throw InputError(Where(name, error.mark) + error.msg);
+  }
+}
+
+void ReadYamlFile(const std::filesystem::path& file, const ConfigFields& fields) {
+  ReadYaml(ReadTextFile(file, kMaxFileSize), file.string(), fields);
+}
+
+std::string DescribeConfig(const ConfigFields& fields) {
+  Describer describer;
+  fields(describer);
+  return describer.text();
+}
+
+}  // namespace airsim360

@@ -1,0 +1,51 @@
+// Strict configuration files: a struct with defaults names its fields once; reading, help and docs follow
+// from that.
+//
+//   struct WorldFile {
+//     std::string world;
+//     uint64_t seed = 0;
+//     void Visit(ConfigVisitor& v) { v.Field("world", "name of a world or a model file", world);
+//     v.Field("seed", "…", seed); }
+//   };
+//   WorldFile file;
+//   ReadYamlFile("town.yaml", [&](ConfigVisitor& v) { file.Visit(v); });
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace airsim360 {
+
+/// Walks the fields of a config struct. A field that a file does not mention keeps its value.
+class ConfigVisitor {
+ public:
+  virtual ~ConfigVisitor() = default;
+  virtual void Field(std::string_view name, std::string_view help, bool& value) = 0;
+  virtual void Field(std::string_view name, std::string_view help, uint64_t& value) = 0;
+  /// Numbers outside [low, high] are refused.
+  virtual void Field(std::string_view name, std::string_view help, double& value, double low,
+                     double high) = 0;
+  virtual void Field(std::string_view name, std::string_view help, std::string& value) = 0;
+  virtual void Field(std::string_view name, std::string_view help, std::vector<std::string>& value) = 0;
+  /// A nested struct.
+  virtual void Group(std::string_view name, std::string_view help,
+                     const std::function<void(ConfigVisitor&)>& visit) = 0;
+};
+
+using ConfigFields = std::function<void(ConfigVisitor&)>;
+
+/// Reads YAML (JSON is YAML) into the fields. InputError "file:line:column: …" for a syntax error, a value of
+/// the wrong kind or out of range, a repeated key, and an unknown key (naming the nearest valid one). Files
+/// up to 16 MiB.
+void ReadYamlFile(const std::filesystem::path& file, const ConfigFields& fields);
+/// The same from memory; `name` stands for the file in messages.
+void ReadYaml(std::string_view text, std::string_view name, const ConfigFields& fields);
+
+/// One line a field: name, current value, help. For --help and docs.
+std::string DescribeConfig(const ConfigFields& fields);
+
+}  // namespace airsim360

@@ -1,0 +1,49 @@
+#include "airsim360/sim/world_loader.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "airsim360/assets/import.h"
+#include "airsim360/base/config.h"
+#include "airsim360/base/error.h"
+#include "airsim360/worlds/worlds.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsModelFile(const fs::path& path) {
+  const std::string extension = path.extension();
+  return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+}
+
+bool IsWorldFile(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
+
+// The fields of a world YAML, filled into `request`; `folder` is where relative paths start.
+WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request) {
+  std::string world, labels;
+  ReadYamlFile(file, [&](ConfigVisitor& v) {
+    v.Field("world", "name of a built-in world, or a .glb, .gltf or .obj file", world);
+    v.Field("seed", "seed of the world", request.seed);
+    v.Field("labels", "label override file for imports", labels);
+    v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
+  });
+  if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
+  if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
+  request.world = IsModelFile(world) ? (file.parent_path() / world).string() : world;
+  if (!labels.empty()) request.labels = file.parent_path() / labels;
+  return request;
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
+  const fs::path path = request.world;
+  if (IsWorldFile(path)) return LoadWorld(ReadWorldFile(path, request));
+  if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
+  const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
+  return BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
+}
+
+}  // namespace airsim360
