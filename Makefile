@@ -5,8 +5,8 @@ JOBS ?= $(shell nproc)
 .PHONY: build demo test bench fuzz install-packages clean
 
 build: install-packages
-	@cmake --preset release -B $(BUILD) > $(BUILD).cmake.log 2>&1 || { cat $(BUILD).cmake.log; exit 1; }; rm -f $(BUILD).cmake.log
-	@cmake --build $(BUILD) -j $(JOBS) --target all
+	@tools/configure.sh $(BUILD)
+	@cmake --build $(BUILD) -j $(JOBS)
 
 demo: install-packages
 	@tools/demo.sh $(BUILD) $(JOBS)
@@ -17,6 +17,7 @@ test: build
 bench: build
 	@tools/bench.sh $(BUILD)
 
+# longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: install-packages
 	@tools/fuzz.sh $(BUILD)/fuzz $(JOBS) $(or $(SECONDS),300)
 

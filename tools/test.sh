@@ -1,0 +1,8 @@
+#!/bin/sh
+# Brief fuzzing of every parser, then all tests. FUZZ_SECONDS=0 skips the fuzzing.
+set -eu
+build="$1"; jobs="$2"
+cd "$(dirname "$0")/.."
+[ "${FUZZ_SECONDS:-10}" -eq 0 ] || tools/fuzz.sh "$build/fuzz" "$jobs" "${FUZZ_SECONDS:-10}"
+cd "$build"
+exec ctest --output-on-failure -j "$jobs" --timeout 600
