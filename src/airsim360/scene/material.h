@@ -1,6 +1,7 @@
 // Surface appearance: metallic-roughness as in glTF 2.0, plus what foliage, glass and big tiled grounds need.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -54,8 +55,24 @@ struct Material {
   TextureId metallic_roughness_texture = kNoTexture;  ///< G roughness, B metallic (glTF)
   TextureId normal_texture = kNoTexture;              ///< tangent space, +Y up in texture space (glTF)
   TextureId emission_texture = kNoTexture;
-  Vec2f uv_scale{1, 1}, uv_offset{};  ///< applied to mesh uv: u' = u * scale.x + offset.x, after uv_rotation
-  float uv_rotation = 0;              ///< radians, KHR_texture_transform
+  Vec2f uv_scale{1, 1}, uv_offset{};  ///< KHR_texture_transform of mesh uv: scale, then rotate, then offset
+  float uv_rotation = 0;              ///< radians, counter-clockwise seen with v downwards; see UvTransform
+};
+
+/// From mesh uv to texture uv: u' = m00 u + m01 v + t.x, v' = m10 u + m11 v + t.y (KHR_texture_transform).
+struct UvTransform {
+  float m00 = 1, m01 = 0, m10 = 0, m11 = 1;
+  Vec2f t;
+
+  UvTransform() = default;
+  explicit UvTransform(const Material& material) : t(material.uv_offset) {
+    const float c = std::cos(material.uv_rotation), s = std::sin(material.uv_rotation);
+    m00 = c * material.uv_scale.x;
+    m01 = s * material.uv_scale.y;
+    m10 = -s * material.uv_scale.x;
+    m11 = c * material.uv_scale.y;
+  }
+  Vec2f operator*(Vec2f uv) const { return {m00 * uv.x + m01 * uv.y + t.x, m10 * uv.x + m11 * uv.y + t.y}; }
 };
 
 }  // namespace airsim360

@@ -1,0 +1,182 @@
+// OpenEXR float pictures in memory, single threaded (callers are parallel over pictures).
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfVersion.h>
+#include <OpenEXR/ImfXdr.h>
+
+#include <cstring>
+
+#include "airsim360/base/error.h"
+#include "airsim360/image/codecs_internal.h"
+
+namespace airsim360 {
+namespace {
+
+class MemoryWriter : public Imf::OStream {
+ public:
+  MemoryWriter() : OStream("memory") {}
+  void write(const char data[], int n) override {
+    if (at_ + n > bytes_.size()) bytes_.resize(at_ + n);
+    std::memcpy(bytes_.data() + at_, data, static_cast<size_t>(n));
+    at_ += static_cast<size_t>(n);
+  }
+  uint64_t tellp() override { return at_; }
+  void seekp(uint64_t at) override { at_ = at; }
+  Bytes Take() { return std::move(bytes_); }
+
+ private:
+  Bytes bytes_;
+  size_t at_ = 0;
+};
+
+class MemoryReader : public Imf::IStream {
+ public:
+  explicit MemoryReader(std::span<const std::byte> bytes) : IStream("memory"), bytes_(bytes) {}
+  bool read(char out[], int n) override {
+    if (n < 0 || at_ > bytes_.size() || static_cast<size_t>(n) > bytes_.size() - at_)
+      throw InputError("truncated EXR");
+    if (n > 0) std::memcpy(out, bytes_.data() + at_, static_cast<size_t>(n));
+    at_ += static_cast<size_t>(n);
+    return at_ < bytes_.size();
+  }
+  uint64_t tellg() override { return at_; }
+  void seekg(uint64_t at) override { at_ = at; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  uint64_t at_ = 0;
+};
+
+// Writes `channels` floats a pixel, interleaved in memory.
+Bytes WriteExr(const float* data, int width, int height, std::span<const char* const> channels) {
+  internal::CheckSize(width, height, "EXR");
+  Imf::Header header(width, height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  // Range of a street scene at 2048x1024, one core: level 1 46 ms 1.568 MB, 2 44 ms 1.565 MB, 4 56 ms 1.546
+  // MB, 9 81 ms 1.544 MB.
+  header.zipCompressionLevel() = 2;
+  Imf::FrameBuffer frame;
+  const size_t pixel = sizeof(float) * channels.size();
+  for (size_t c = 0; c < channels.size(); ++c) {
+    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
+    auto* base = const_cast<char*>(reinterpret_cast<const char*>(data + c));
+    frame.insert(channels[c], Imf::Slice(Imf::FLOAT, base, pixel, pixel * width));
+  }
+  MemoryWriter writer;
+  {
+    Imf::OutputFile file(writer, header, 0);
+    file.setFrameBuffer(frame);
+    file.writePixels(height);
+  }
+  return writer.Take();
+}
+
+// Lines of pixels that a compression packs together; 0 for those we do not read (lossy ones: a range must be
+// exact).
+int LinesPerChunk(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
+      return 1;
+    case Imf::ZIP_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+      return 32;
+    default:
+      return 0;
+  }
+}
+
+// Looks at the header alone, so that a hostile one is refused before OpenEXR takes memory for it.
+void CheckHeader(std::span<const std::byte> bytes) {
+  MemoryReader reader(bytes);
+  int magic = 0, version = 0;
+  Imf::Xdr::read<Imf::StreamIO>(reader, magic);
+  Imf::Xdr::read<Imf::StreamIO>(reader, version);
+  if (magic != Imf::MAGIC) throw InputError("not an EXR file");
+  if (Imf::getVersion(version) != 2 || (Imf::getFlags(version) & ~Imf::LONG_NAMES_FLAG) != 0) {
+    throw InputError("only single-part scan-line EXR files are read");
+  }
+  Imf::Header header;
+  header.readFrom(reader, version);
+  const Imath::Box2i window = header.dataWindow();
+  const int64_t width = int64_t{window.max.x} - window.min.x + 1,
+                height = int64_t{window.max.y} - window.min.y + 1;
+  constexpr int kFarthest = 1 << 24;
+  if (window.min.x < -kFarthest || window.min.y < -kFarthest || window.max.x > kFarthest ||
+      window.max.y > kFarthest) {
+    throw InputError("data window out of range");
+  }
+  internal::CheckSize(width, height, "size");
+  const int lines = LinesPerChunk(header.compression());
+  if (lines == 0) throw InputError("lossy EXR compression; write it with none, RLE, ZIPS, ZIP or PIZ");
+
+  // The table of offsets and the head of each chunk take 16 bytes a chunk at least, and no compression we
+  // read shrinks more than 1032 times (deflate): a small file cannot hold a large picture.
+  int64_t channels = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+    const bool full = c.channel().xSampling == 1 && c.channel().ySampling == 1;
+    if (!full) throw InputError("subsampled channels are not read");
+    ++channels;
+  }
+  if (channels == 0 || channels > 64 || width * channels * 4 * lines > int64_t{1} << 30) {
+    throw InputError("too many or too wide channels");
+  }
+  const auto size = static_cast<int64_t>(bytes.size());
+  if ((height + lines - 1) / lines * 16 > size || width * height * 2 / 1032 > size) {
+    throw InputError("truncated EXR");
+  }
+}
+
+std::string ChannelToRead(const Imf::ChannelList& channels) {
+  for (const char* name : {"Y", "R"}) {
+    if (channels.findChannel(name)) return name;
+  }
+  return channels.begin().name();
+}
+
+Image<float> ReadExr(std::span<const std::byte> bytes) {
+  CheckHeader(bytes);
+  MemoryReader reader(bytes);
+  Imf::InputFile file(reader, 0);
+  if (!file.isComplete()) throw InputError("truncated EXR");
+  const Imath::Box2i window = file.header().dataWindow();
+  Image<float> image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+  Imf::FrameBuffer frame;
+  frame.insert(ChannelToRead(file.header().channels()),
+               Imf::Slice::Make(Imf::FLOAT, image.pixels().data(), window, sizeof(float),
+                                sizeof(float) * image.width()));
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+}  // namespace
+
+Bytes EncodeExr(const Image<float>& image) {
+  constexpr const char* kChannels[] = {"Y"};
+  return WriteExr(image.pixels().data(), image.width(), image.height(), kChannels);
+}
+
+Bytes EncodeExr(const Image<Rgb32f>& image) {
+  constexpr const char* kChannels[] = {"R", "G", "B"};
+  return WriteExr(reinterpret_cast<const float*>(image.pixels().data()), image.width(), image.height(),
+                  kChannels);
+}
+
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) {
+  // OpenEXR reports everything by exceptions derived from std::exception.
+  try {
+    return ReadExr(bytes);
+  } catch (const std::exception& error) {
+    internal::ThrowDamaged(name, error.what());
+  }
+}
+
+}  // namespace airsim360
