@@ -1,7 +1,7 @@
 // Encoding to and decoding from file formats, all in memory; writing files is base/file.h.
 // Encoders are deterministic: the same image and options give the same bytes.
-// Decoders take untrusted bytes: any damage gives an InputError whose message starts with `name`, never a crash;
-// images of more than kMaxPixels are refused before memory is taken.
+// Decoders take untrusted bytes: any damage gives an InputError whose message starts with `name`, never a
+// crash; images of more than kMaxPixels are refused before memory is taken.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,14 @@ namespace airsim360 {
 
 inline constexpr int64_t kMaxPixels = int64_t{1} << 28;
 
-/// What GPano (Google Photo Sphere XMP) says of an equirectangular picture; degrees, compass heading clockwise from north.
+/// What GPano (Google Photo Sphere XMP) says of an equirectangular picture; degrees, compass heading
+/// clockwise from north.
 struct GPano {
   double heading_deg = 0, pitch_deg = 0, roll_deg = 0;
 };
 
-/// PNG, 8 or 16 bit, 1 or 3 channels by pixel type. Fast lossless settings; `gpano` goes into an iTXt XMP packet.
+/// PNG, 8 or 16 bit, 1 or 3 channels by pixel type. Fast lossless settings; `gpano` goes into an iTXt XMP
+/// packet.
 Bytes EncodePng(const Image<Rgb8>& image, const std::optional<GPano>& gpano = std::nullopt);
 Bytes EncodePng(const Image<Rgb16>& image);
 Bytes EncodePng(const Image<uint8_t>& image);
@@ -31,7 +33,8 @@ Bytes EncodePng(const Image<uint16_t>& image);
 Bytes EncodeIdPng(const Image<uint32_t>& ids);
 
 /// JPEG, 4:4:4, quality 1..100; `gpano` goes into an APP1 XMP segment.
-Bytes EncodeJpeg(const Image<Rgb8>& image, int quality = 95, const std::optional<GPano>& gpano = std::nullopt);
+Bytes EncodeJpeg(const Image<Rgb8>& image, int quality = 95,
+                 const std::optional<GPano>& gpano = std::nullopt);
 
 /// OpenEXR, float32, one channel "Y" (range), ZIP compressed.
 Bytes EncodeExr(const Image<float>& image);
@@ -40,7 +43,14 @@ Bytes EncodeExr(const Image<Rgb32f>& image);
 
 /// Any PNG/JPEG/WebP, converted to 8-bit RGBA. The format is told by its first bytes.
 Image<Rgba8> DecodeRgba8(std::span<const std::byte> bytes, std::string_view name);
-/// PNG kept at full depth: gray 8/16 bit to uint16 (8-bit values not scaled), colour to 16 bit (8-bit values times 257).
+/// How a PNG stores its pixels: gray (1 channel) or colour (3), transparency aside, with 1 ... 16 bits a
+/// sample; pictures with a palette count as 8-bit colour. Reads the header alone.
+struct PngKind {
+  int channels = 0, bit_depth = 0;
+};
+PngKind ReadPngKind(std::span<const std::byte> bytes, std::string_view name);
+/// PNG kept at full depth: gray 8/16 bit to uint16 (8-bit values not scaled), colour to 16 bit (8-bit values
+/// times 257).
 Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view name);
 Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view name);
 /// Entity ids of a PNG written by EncodeIdPng.

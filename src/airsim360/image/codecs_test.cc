@@ -96,6 +96,17 @@ TEST(Png, TheWrongKindIsAnErrorThatNamesTheFile) {
   EXPECT_THROW(DecodeIdPng(EncodePng(Image<Rgb16>(2, 2)), "a.png"), InputError);
 }
 
+TEST(Png, TheKindIsReadFromTheHeader) {
+  const auto kind = [](const Bytes& png) {
+    const PngKind k = ReadPngKind(png, "x");
+    return std::pair(k.channels, k.bit_depth);
+  };
+  EXPECT_EQ(kind(EncodePng(Image<uint8_t>(2, 2))), std::pair(1, 8));
+  EXPECT_EQ(kind(EncodePng(Image<uint16_t>(2, 2))), std::pair(1, 16));
+  EXPECT_EQ(kind(EncodePng(Image<Rgb8>(2, 2))), std::pair(3, 8));
+  EXPECT_EQ(kind(EncodePng(Image<Rgb16>(2, 2))), std::pair(3, 16));
+}
+
 // Types of the chunks of a PNG in order.
 std::vector<std::string> ChunkTypes(const Bytes& png) {
   std::vector<std::string> types;

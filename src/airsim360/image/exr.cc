@@ -125,11 +125,11 @@ void CheckHeader(std::span<const std::byte> bytes) {
     if (!full) throw InputError("subsampled channels are not read");
     ++channels;
   }
-  if (channels == 0 || channels > 64 || width * channels * 4 * lines > int64_t{1} << 30) {
+  if (channels == 0 || channels > 64 || width * channels * 4 * lines > int64_t{1} << 28) {
     throw InputError("too many or too wide channels");
   }
   const auto size = static_cast<int64_t>(bytes.size());
-  if ((height + lines - 1) / lines * 16 > size || width * height * 2 / 1032 > size) {
+  if ((height + lines - 1) / lines * 16 > size || width * height * channels * 2 / 1032 > size) {
     throw InputError("truncated EXR");
   }
 }

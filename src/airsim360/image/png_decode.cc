@@ -139,6 +139,12 @@ Image<Rgba8> DecodePngRgba8(std::span<const std::byte> bytes, std::string_view n
 
 }  // namespace internal
 
+PngKind ReadPngKind(std::span<const std::byte> bytes, std::string_view name) {
+  const Info info = Reader(bytes, name).ReadHeader();
+  if (info.color_type == PNG_COLOR_TYPE_PALETTE) return {3, 8};
+  return {info.color_type & PNG_COLOR_MASK_COLOR ? 3 : 1, info.bit_depth};
+}
+
 Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view name) {
   Reader reader(bytes, name);
   const Info info = reader.ReadHeader();

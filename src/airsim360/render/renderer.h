@@ -30,8 +30,9 @@ struct RenderRequest {
   RigidTransform X_WC;  ///< pose of the camera in W
   Tier tier = Tier::kFast;
   Products products;
-  double exposure_ev = 0;  ///< stops added to the scene's fixed daylight exposure; one exposure for the whole sphere
-  int aa_samples = 4;      ///< colour samples of a pixel on an edge, the centre ray included; 1 = none
+  double exposure_ev =
+      0;  ///< stops added to the scene's fixed daylight exposure; one exposure for the whole sphere
+  int aa_samples = 4;  ///< colour samples of a pixel on an edge, the centre ray included; 1 = none
 };
 
 /// The products asked for; the others are empty. Images keep their memory between captures of the same size.
@@ -40,7 +41,7 @@ struct Frame {
   Image<float> range;          ///< metres along the ray through the pixel centre, 0 = nothing hit
   Image<CategoryId> semantic;  ///< leaf category
   Image<EntityId> entity;
-  Image<Vec3f> normal;         ///< unit geometric normal in W towards the camera; (0, 0, 0) = nothing hit
+  Image<Vec3f> normal;  ///< unit geometric normal in W towards the camera; (0, 0, 0) = nothing hit
 };
 
 /// Counters of the last capture.
@@ -52,9 +53,9 @@ struct RenderStats {
 class Renderer {
  public:
   virtual ~Renderer() = default;
-  /// Fills `frame`. The same request gives the same bytes with any number of threads. Turning an equirectangular camera
-  /// about its own vertical axis by k columns rolls every product by exactly k columns.
-  /// InputError for a tier this renderer does not have or a camera without pixels.
+  /// Fills `frame`. The same request gives the same bytes with any number of threads. Turning an
+  /// equirectangular camera about its own vertical axis by k columns rolls every product by exactly k
+  /// columns. InputError for a tier this renderer does not have or a camera without pixels.
   virtual RenderStats Render(const RenderRequest& request, Frame& frame) = 0;
 };
 

@@ -222,6 +222,13 @@ constexpr Row kRows[] = {
     {"water/river", false, 60, 0, 148, ""},
     {"water/sea", false, 26, 0, 155, ""},
     {"water/water_plane", false, 21, 0, 178, "Water Plane"},
+    // Appended later, in order of arrival.
+    {"vehicle/airplane", true, 90, -1, 5, ""},
+    {"vehicle/helicopter", true, 90, -1, -1, ""},
+    {"vehicle/train", true, -1, 31, 7, ""},
+    {"furniture/recreation/ferris_wheel", true, -1, 4, -1, ""},
+    {"construction/windmill", true, 84, 11, 197, ""},
+    {"construction/well", true, -1, 4, -1, ""},
 };
 // clang-format on
 static_assert(std::size(kRows) < kFirstCustomId);

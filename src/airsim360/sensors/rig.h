@@ -40,6 +40,7 @@ struct Capture {
 RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB);
 
 /// Takes one capture into `capture`, reusing its images.
-void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer, Capture& capture);
+void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
+                Capture& capture);
 
 }  // namespace airsim360

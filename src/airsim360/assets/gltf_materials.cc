@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/assets/gltf_parts.h"
+#include "airsim360/assets/gltf_uri.h"
+#include "airsim360/assets/words.h"
+#include "airsim360/base/error.h"
+
+namespace airsim360::internal {
+namespace {
+
+Vec3f ToColor(const std::vector<double>& c) {
+  const auto channel = [](double v) { return static_cast<float>(std::clamp(v, 0.0, 1e6)); };
+  return {channel(c[0]), channel(c[1]), channel(c[2])};
+}
+
+std::optional<JsonRef> Extension(const JsonRef& json, const char* name) {
+  const auto extensions = json.Find("extensions");
+  return extensions ? extensions->Find(name) : std::nullopt;
+}
+
+float Unit(double v) { return static_cast<float>(std::clamp(v, 0.0, 1.0)); }
+
+Wrap ToWrap(uint64_t code) {
+  return code == 33071 ? Wrap::kClamp : code == 33648 ? Wrap::kMirror : Wrap::kRepeat;
+}
+
+// Metallic share that gives a specular colour, KhronosGroup's published conversion of specular-glossiness:
+// solves for m in specular = 0.04 (1 - m) + base m, with perceived brightness of both colours.
+float SolveMetallic(float diffuse, float specular, float one_minus_specular) {
+  constexpr float kDielectric = 0.04f;
+  if (specular < kDielectric) return 0;
+  const float a = kDielectric;
+  const float b = diffuse * one_minus_specular / (1 - kDielectric) + specular - 2 * kDielectric;
+  const float c = kDielectric - specular;
+  return std::clamp((-b + std::sqrt(std::max(b * b - 4 * a * c, 0.0f))) / (2 * a), 0.0f, 1.0f);
+}
+
+float Brightness(Vec3f c) { return std::sqrt(0.299f * c.x * c.x + 0.587f * c.y * c.y + 0.114f * c.z * c.z); }
+
+// Kinds that glTF does not know, from the name.
+void GuessKind(Material& m) {
+  const std::vector<std::string> words = SplitWords(m.name);
+  if (m.kind != SurfaceKind::kStandard || m.metallic > 0.5f) return;
+  if (HasWord(words, {"leaf", "foliage", "needle", "hedge", "ivy", "bush"}) &&
+      !HasWord(words, {"trunk", "bark", "branch", "wood"})) {
+    m.kind = SurfaceKind::kFoliage;
+    m.transmission = 0.3f;
+  } else if (HasWord(words, {"water", "lake", "ocean", "sea", "river", "pond"}) &&
+             m.base_color_texture == kNoTexture) {
+    m.kind = SurfaceKind::kWater;
+  }
+}
+
+}  // namespace
+
+bool UvUse::IsIdentity() const {
+  return offset[0] == 0 && offset[1] == 0 && scale[0] == 1 && scale[1] == 1 && rotation == 0;
+}
+
+Vec2f UvUse::operator()(Vec2f uv) const {
+  const double u = uv.x * scale[0];
+  const double v = uv.y * scale[1];
+  const double c = std::cos(rotation);
+  const double s = std::sin(rotation);
+  return {static_cast<float>(c * u + s * v + offset[0]), static_cast<float>(-s * u + c * v + offset[1])};
+}
+
+TextureId GltfMaterials::ReadTexture(const JsonRef& info, bool srgb, UvUse* uv) {
+  // Where on the surface: the set, and the transform of the texture that leads.
+  UvUse use;
+  use.set = info.UintOr("texCoord", 0);
+  if (const auto transform = Extension(info, "KHR_texture_transform")) {
+    const std::vector<double> offset = transform->NumbersOr("offset", {0, 0});
+    const std::vector<double> scale = transform->NumbersOr("scale", {1, 1});
+    std::copy(offset.begin(), offset.end(), use.offset);
+    std::copy(scale.begin(), scale.end(), use.scale);
+    use.rotation = transform->NumberOr("rotation", 0);
+    use.set = transform->UintOr("texCoord", use.set);
+  }
+  if (use.set > 31) info.Fail("texture coordinate sets beyond 31 are not read");
+  if (uv) *uv = use;
+
+  // Which picture, and how it goes on beyond its edges.
+  const JsonRef texture = buffers_.Element("textures", info.At("index"));
+  const auto webp = Extension(texture, "EXT_texture_webp");
+  const auto source = webp ? webp->Find("source") : texture.Find("source");
+  if (!source) {
+    warnings_.Add(root_.file() + ": " + texture.pointer() + ": has no picture that we read: left out");
+    return kNoTexture;
+  }
+  const JsonRef image = buffers_.Element("images", *source);
+  TextureUse how{.srgb = srgb, .wrap_u = Wrap::kRepeat, .wrap_v = Wrap::kRepeat, .alpha_file = {}};
+  if (const auto sampler = texture.Find("sampler")) {
+    const JsonRef json = buffers_.Element("samplers", *sampler);
+    how.wrap_u = ToWrap(json.UintOr("wrapS", 10497));
+    how.wrap_v = ToWrap(json.UintOr("wrapT", 10497));
+  }
+
+  // Embedded pictures are known by their place in the document, others by their file name.
+  const std::string label = image.pointer().substr(1);
+  const auto uri = image.Find("uri");
+  if (!uri) {
+    const std::span<const std::byte> bytes = buffers_.View(image.At("bufferView"));
+    return textures_.Get(label, how, [&](const std::string&) { return Bytes(bytes.begin(), bytes.end()); });
+  }
+  const std::string text = uri->Text();
+  if (IsDataUri(text)) {
+    return textures_.Get(label, how, [&](const std::string&) {
+      auto bytes = DecodeDataUri(text);
+      if (!bytes) uri->Fail("a damaged data URI");
+      return bytes;
+    });
+  }
+  const auto name = DecodePercent(text);
+  if (!name) uri->Fail("a damaged URI");
+  return textures_.Get(*name, how, load_);
+}
+
+void GltfMaterials::ReadMetallicRoughness(const JsonRef& json, GltfMaterial& out) {
+  Material& m = out.material;
+  m.base_color = {1, 1, 1};
+  m.metallic = 1;
+  m.roughness = 1;
+  const auto pbr = json.Find("pbrMetallicRoughness");
+  if (!pbr) return;
+  const std::vector<double> base = pbr->NumbersOr("baseColorFactor", {1, 1, 1, 1});
+  m.base_color = ToColor(base);
+  m.base_alpha = Unit(base[3]);
+  m.metallic = Unit(pbr->NumberOr("metallicFactor", 1));
+  m.roughness = Unit(pbr->NumberOr("roughnessFactor", 1));
+  if (const auto info = pbr->Find("metallicRoughnessTexture"))
+    m.metallic_roughness_texture = ReadTexture(*info, false, &out.uv);
+  if (const auto info = pbr->Find("baseColorTexture"))
+    m.base_color_texture = ReadTexture(*info, true, &out.uv);
+}
+
+void GltfMaterials::ReadSpecularGlossiness(const JsonRef& json, GltfMaterial& out) {
+  Material& m = out.material;
+  const std::vector<double> diffuse = json.NumbersOr("diffuseFactor", {1, 1, 1, 1});
+  const Vec3f specular = ToColor(json.NumbersOr("specularFactor", {1, 1, 1}));
+  m.base_alpha = Unit(diffuse[3]);
+  m.metallic_roughness_texture = kNoTexture;
+  if (const auto info = json.Find("diffuseTexture")) m.base_color_texture = ReadTexture(*info, true, &out.uv);
+  m.roughness = 1 - Unit(json.NumberOr("glossinessFactor", 1));
+
+  // With pictures the factors do not say what the surface is: keep the diffuse colour.
+  const float strongest = std::max({specular.x, specular.y, specular.z});
+  const bool pictures = m.base_color_texture != kNoTexture || json.Has("specularGlossinessTexture");
+  m.metallic = pictures ? 0
+                        : SolveMetallic(Brightness(ToColor(diffuse)), Brightness(specular),
+                                        1 - std::min(strongest, 1.0f));
+  const Vec3f from_diffuse =
+      ToColor(diffuse) * ((1 - std::min(strongest, 1.0f)) / 0.96f / std::max(1 - m.metallic, 1e-4f));
+  const Vec3f from_specular = specular * (1 / std::max(m.metallic, 1e-4f));
+  const float share = m.metallic * m.metallic;
+  m.base_color =
+      pictures ? ToColor(diffuse) : Min(from_diffuse * (1 - share) + from_specular * share, Vec3f{1, 1, 1});
+  if (json.Has("specularGlossinessTexture")) m.roughness = std::max(m.roughness, 0.6f);
+}
+
+void GltfMaterials::ReadAlpha(const JsonRef& json, double alpha, Material& m) {
+  const std::string mode = json.TextOr("alphaMode", "OPAQUE");
+  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+    json.At("alphaMode").Fail("OPAQUE, MASK or BLEND expected");
+  m.alpha_cutoff = static_cast<float>(std::clamp(json.NumberOr("alphaCutoff", 0.5), 0.0, 1e3));
+  if (mode == "MASK") m.alpha_mode = AlphaMode::kMask;
+  if (mode != "BLEND") return;
+
+  // Blending: a see-through surface is a pane, pictures with holes are cut out at one half.
+  m.alpha_cutoff = 0.5f;
+  const bool holes = textures_.HasHoles(m.base_color_texture);
+  if (alpha < 0.95 && !(holes && alpha >= 0.5)) {
+    m.kind = SurfaceKind::kGlass;
+    m.transmission = static_cast<float>(1 - alpha);
+    m.base_color *= static_cast<float>(0.15 + 0.85 * alpha * alpha);
+  } else if (holes) {
+    m.alpha_mode = AlphaMode::kMask;
+  }
+}
+
+GltfMaterial GltfMaterials::Read(const JsonRef& json) {
+  GltfMaterial out;
+  Material& m = out.material;
+  m.name = CleanName(json.TextOr("name", ""));
+  ReadMetallicRoughness(json, out);
+  if (const auto glossy = Extension(json, "KHR_materials_pbrSpecularGlossiness"))
+    ReadSpecularGlossiness(*glossy, out);
+  UvUse* const uv_if_first =
+      m.base_color_texture == kNoTexture && m.metallic_roughness_texture == kNoTexture ? &out.uv : nullptr;
+  if (const auto normal = json.Find("normalTexture")) {
+    m.normal_texture = ReadTexture(*normal, false, uv_if_first);
+    m.normal_scale = static_cast<float>(std::clamp(normal->NumberOr("scale", 1), -10.0, 10.0));
+  }
+
+  // Emission; the strength extension goes beyond 1.
+  m.emission = ToColor(json.NumbersOr("emissiveFactor", {0, 0, 0}));
+  if (const auto strength = Extension(json, "KHR_materials_emissive_strength")) {
+    m.emission *= static_cast<float>(std::clamp(strength->NumberOr("emissiveStrength", 1), 0.0, 1e6));
+  }
+  if (const auto emissive = json.Find("emissiveTexture"))
+    m.emission_texture = ReadTexture(*emissive, true, m.normal_texture == kNoTexture ? uv_if_first : nullptr);
+
+  ReadAlpha(json, m.base_alpha, m);
+  if (const auto transmission = Extension(json, "KHR_materials_transmission")) {
+    const float share = Unit(transmission->NumberOr("transmissionFactor", 0));
+    if (share > 0.3f) {
+      m.kind = SurfaceKind::kGlass;
+      m.transmission = share;
+      m.base_color *= 1 - 0.8f * share;
+    }
+  }
+  if (Extension(json, "KHR_materials_unlit")) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
+  static_cast<void>(
+      json.BoolOr("doubleSided", false));  // every surface is seen from both sides here; still must be a bool
+  GuessKind(m);
+  return out;
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,136 @@
+// Meshes: primitives joined, skins bound, materials found.
+#include <utility>
+
+#include "airsim360/assets/gltf_parts.h"
+#include "airsim360/assets/normals.h"
+
+namespace airsim360::internal {
+
+const GltfMaterial& GltfMeshes::MaterialAt(const JsonRef& primitive, MaterialId& id) {
+  // One id beyond all indices stands for "no material".
+  constexpr uint64_t kNone = UINT64_MAX;
+  const auto index = primitive.Find("material");
+  const uint64_t key = index ? index->Uint() : kNone;
+  auto it = material_ids_.find(key);
+  if (it == material_ids_.end()) {
+    GltfMaterial material;
+    if (index) material = reader_.Read(buffers_.Element("materials", *index));
+    it = material_ids_.emplace(key, std::pair(static_cast<MaterialId>(materials.size()), material)).first;
+    materials.push_back(material.material);
+  }
+  id = it->second.first;
+  return it->second.second;
+}
+
+std::vector<TransformG> GltfMeshes::JointTransforms(const JsonRef& skin) {
+  const JsonRef joints = skin.At("joints");
+  std::vector<float> inverse;
+  if (const auto index = skin.Find("inverseBindMatrices")) {
+    inverse = buffers_.Floats(*index, 16);
+    if (inverse.size() / 16 < joints.size())
+      index->Fail(std::to_string(inverse.size() / 16) + " matrices for " + std::to_string(joints.size()) +
+                  " joints");
+  }
+  std::vector<TransformG> out;
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const uint64_t node = joints[i].Uint();
+    if (node >= nodes_.size()) joints[i].Fail("there are only " + std::to_string(nodes_.size()) + " nodes");
+    TransformG X = nodes_[static_cast<size_t>(node)].X_G;
+    if (!inverse.empty()) {
+      const float* m = inverse.data() + 16 * i;
+      X = X * TransformG{Mat3d::FromColumns({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}),
+                         {m[12], m[13], m[14]}};
+    }
+    out.push_back(X);
+  }
+  return out;
+}
+
+void GltfMeshes::ApplySkin(const std::vector<TransformG>& joints, const JsonRef& where, GltfPrimitive& p) {
+  if (p.joints.empty() || p.weights.empty()) return;
+  for (size_t i = 0; i < p.positions.size(); ++i) {
+    Vec3d position{}, normal{};
+    double sum = 0;
+    for (size_t k = 4 * i; k < 4 * i + 4; ++k) {
+      const double w = p.weights[k];
+      if (!(w > 0)) continue;
+      if (!(p.joints[k] >= 0 && p.joints[k] < static_cast<float>(joints.size())))
+        where.Fail("vertex " + std::to_string(i) + " hangs on a joint that is not there");
+      const TransformG& X = joints[static_cast<size_t>(p.joints[k])];
+      position += (X * VecCast<double>(p.positions[i])) * w;
+      if (!p.normals.empty()) normal += (X.A * VecCast<double>(p.normals[i])) * w;
+      sum += w;
+    }
+    if (sum <= 0) continue;
+    p.positions[i] = VecCast<float>(position / sum);
+    if (!p.normals.empty()) p.normals[i] = VecCast<float>(normal);
+  }
+}
+
+void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>& weights,
+                                 const std::vector<TransformG>* joints, Mesh& mesh) {
+  MaterialId material_id = 0;
+  const GltfMaterial& material = MaterialAt(json, material_id);
+  std::optional<GltfPrimitive> primitive =
+      ReadPrimitive(json, material.uv.set, weights, buffers_, limits_, warnings_);
+  if (!primitive || primitive->triangles.empty()) return;
+  if (joints) ApplySkin(*joints, json, *primitive);
+
+  // Only the vertices that triangles use: exporters share one big list among many primitives.
+  constexpr uint32_t kUnused = UINT32_MAX;
+  const auto base = static_cast<uint32_t>(mesh.positions.size());
+  std::vector<uint32_t> moved(primitive->positions.size(), kUnused);
+  mesh.uvs.resize(primitive->uvs.empty() && mesh.uvs.empty() ? 0 : base);
+  const bool uvs = !primitive->uvs.empty() || !mesh.uvs.empty();
+  const auto vertex = [&](uint32_t i) {
+    if (moved[i] != kUnused) return moved[i];
+    moved[i] = static_cast<uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(FromG(primitive->positions[i]));
+    mesh.normals.push_back(primitive->normals.empty() ? Vec3f{} : FromG(primitive->normals[i]));
+    if (uvs) {
+      const Vec2f uv = primitive->uvs.empty() ? Vec2f{} : primitive->uvs[i];
+      mesh.uvs.push_back(material.uv.IsIdentity() ? uv : material.uv(uv));
+    }
+    return moved[i];
+  };
+  const auto first = static_cast<uint32_t>(mesh.triangles.size());
+  for (const Vec3u& t : primitive->triangles) {
+    const Vec3u moved_triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
+    mesh.triangles.push_back(moved_triangle);
+  }
+  if (uvs) mesh.uvs.resize(mesh.positions.size());
+  mesh.parts.push_back({first, static_cast<uint32_t>(primitive->triangles.size()), material_id, kNoEntity});
+
+  vertices_ += mesh.positions.size() - base;
+  triangles_ += primitive->triangles.size();
+  if (vertices_ > limits_.max_vertices || triangles_ > limits_.max_triangles)
+    json.Fail("the file has too many vertices or triangles");
+}
+
+int32_t GltfMeshes::ReadMesh(const JsonRef& json, const std::vector<TransformG>* joints) {
+  Mesh mesh;
+  mesh.name = CleanName(json.TextOr("name", ""));
+  const JsonRef primitives = json.At("primitives");
+  std::vector<double> weights;
+  if (const auto list = json.Find("weights")) weights = list->Numbers(list->size());
+  for (size_t i = 0; i < primitives.size(); ++i) AppendPrimitive(primitives[i], weights, joints, mesh);
+  if (mesh.triangles.empty()) return -1;
+  FillMissingNormals(mesh);
+  meshes.push_back(std::move(mesh));
+  return static_cast<int32_t>(meshes.size() - 1);
+}
+
+int32_t GltfMeshes::MeshOf(const JsonRef& node) {
+  const auto index = node.Find("mesh");
+  if (!index) return -1;
+  const JsonRef json = buffers_.Element("meshes", *index);
+  if (const auto skin = node.Find("skin")) {
+    const std::vector<TransformG> joints = JointTransforms(buffers_.Element("skins", *skin));
+    return ReadMesh(json, &joints);
+  }
+  const auto known = mesh_ids_.find(index->Uint());
+  if (known != mesh_ids_.end()) return known->second;
+  return mesh_ids_[index->Uint()] = ReadMesh(json, nullptr);
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,61 @@
+// What the readers (OBJ, glTF) make of a file, before labels are given. Frame W (+Z up), metres.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "airsim360/base/file.h"
+#include "airsim360/math/transform.h"
+#include "airsim360/scene/material.h"
+#include "airsim360/scene/mesh.h"
+
+namespace airsim360::internal {
+
+/// A node of the file's hierarchy; parents come before their children.
+struct ImportedNode {
+  std::string name;  ///< may be empty
+  int32_t parent = -1;
+  int32_t mesh = -1;
+  AffineTransform X_WM;  ///< mesh frame to W, the whole chain of parents included
+};
+
+/// Mesh parts refer to `materials` by index, materials to `textures` by index. Meshes have normals.
+struct ImportedFile {
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<ImportedNode> nodes;
+  std::string copyright;  ///< as the file says, "" if it does not
+  std::vector<std::string> warnings;
+};
+
+/// Reads a file that a model refers to by a relative name ('/' separated, not yet decoded); nullopt if there
+/// is none. Throws InputError for a name that leads out of the model's folder.
+using ResourceLoader = std::function<std::optional<Bytes>(const std::string& name)>;
+
+/// Collects each warning once and at most 20 of them.
+class Warnings {
+ public:
+  void Add(std::string text);
+  std::vector<std::string> Take();
+
+ private:
+  std::set<std::string> seen_;
+  std::vector<std::string> list_;
+};
+
+/// A name fit for output files: valid UTF-8 without control characters (bytes that are not UTF-8 are read as
+/// Latin-1), no blanks at its ends, at most 120 bytes.
+std::string CleanName(std::string_view raw);
+/// CleanName in single quotes, for messages.
+std::string Quoted(std::string_view raw);
+
+/// Loader for the files beside a model. Refuses absolute names, drives, "..", URL schemes and links that lead
+/// outside.
+ResourceLoader FolderLoader(const std::string& model_name, const std::filesystem::path& folder);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,182 @@
+#include "airsim360/assets/scene_assembly.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "airsim360/assets/labelling.h"
+#include "airsim360/assets/limits.h"
+#include "airsim360/assets/viewpoint.h"
+#include "airsim360/base/error.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Only the given parts of a mesh, with the vertices they use.
+Mesh ExtractParts(const Mesh& mesh, const std::vector<uint32_t>& parts) {
+  constexpr uint32_t kUnused = UINT32_MAX;
+  Mesh out;
+  out.name = mesh.name;
+  std::vector<uint32_t> moved(mesh.positions.size(), kUnused);
+  const auto vertex = [&](uint32_t i) {
+    if (moved[i] != kUnused) return moved[i];
+    moved[i] = static_cast<uint32_t>(out.positions.size());
+    out.positions.push_back(mesh.positions[i]);
+    if (!mesh.normals.empty()) out.normals.push_back(mesh.normals[i]);
+    if (!mesh.uvs.empty()) out.uvs.push_back(mesh.uvs[i]);
+    return moved[i];
+  };
+  for (uint32_t index : parts) {
+    MeshPart part = mesh.parts[index];
+    const auto first = static_cast<uint32_t>(out.triangles.size());
+    for (uint32_t i = 0; i < part.triangle_count; ++i) {
+      const Vec3u t = mesh.triangles[part.first_triangle + i];
+      const Vec3u triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
+      out.triangles.push_back(triangle);
+    }
+    part.first_triangle = first;
+    out.parts.push_back(part);
+  }
+  return out;
+}
+
+class Assembler {
+ public:
+  Assembler(ImportedFile file, const LabelRules& rules, const std::string& title, const std::string& where)
+      : file_(std::move(file)), rules_(rules), title_(title), where_(where), builder_(title) {}
+
+  std::shared_ptr<const Scene> Assemble() {
+    const std::vector<std::vector<PartLabel>> labels = LabelNodes(file_, rules_, title_);
+    for (Texture& texture : file_.textures) builder_.AddTexture(std::move(texture));
+    for (size_t i = 0; i < file_.materials.size(); ++i) builder_.AddMaterial(file_.materials[i]);
+    for (size_t i = 0; i < file_.nodes.size(); ++i) {
+      if (file_.nodes[i].mesh >= 0) AddNode(file_.nodes[i], labels[i]);
+    }
+    if (instances_.empty()) throw InputError(where_ + ": has no triangles to show");
+    builder_.SetSpawn(ChooseViewpoint(meshes_, instances_, bounds_));
+    for (Mesh& mesh : meshes_) builder_.AddMesh(std::move(mesh));
+    for (const Instance& instance : instances_) builder_.AddInstance(instance);
+    builder_.AddSky();
+    if (!file_.copyright.empty()) builder_.AddAttribution(title_ + ", " + file_.copyright);
+    return builder_.Build();
+  }
+
+ private:
+  void AddNode(const ImportedNode& node, const std::vector<PartLabel>& labels) {
+    if (!IsVisible(node)) return;
+    std::map<PartLabel, std::vector<uint32_t>> groups;
+    for (uint32_t i = 0; i < labels.size(); ++i) groups[labels[i]].push_back(i);
+    for (const auto& [label, parts] : groups) {
+      Instance instance;
+      instance.mesh = MeshFor(static_cast<uint32_t>(node.mesh), parts);
+      instance.X_WM = node.X_WM;
+      instance.entity = EntityFor(node, label, parts, groups.size() > 1);
+      instances_.push_back(instance);
+    }
+  }
+
+  // Flat or not finite transforms show nothing; coordinates out of bounds are an error.
+  bool IsVisible(const ImportedNode& node) {
+    const Box3f& box = BoundsOf(static_cast<uint32_t>(node.mesh));
+    const float volume = std::abs(node.X_WM.A.determinant());
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f p =
+          node.X_WM * Vec3f{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                            corner & 4 ? box.max.z : box.min.z};
+      if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+            std::abs(p.z) <= kMaxCoordinate)) {
+        throw InputError(where_ + ": node " + Quoted(node.name) + ": placed beyond 1e9 m or not finite");
+      }
+      if (volume > 1e-30f) bounds_.Add(p);
+    }
+    return volume > 1e-30f;
+  }
+
+  const Box3f& BoundsOf(uint32_t mesh) {
+    const auto [it, is_new] = boxes_.try_emplace(mesh);
+    if (is_new) it->second = MeshAt(mesh).Bounds();
+    return it->second;
+  }
+
+  // Meshes are shared by all nodes that show the same parts of them.
+  MeshId MeshFor(uint32_t mesh, const std::vector<uint32_t>& parts) {
+    const auto [it, is_new] = mesh_ids_.try_emplace({mesh, parts}, static_cast<MeshId>(meshes_.size()));
+    if (is_new) {
+      const bool whole = parts.size() == MeshAt(mesh).parts.size();
+      meshes_.push_back(whole ? std::move(file_.meshes[mesh]) : ExtractParts(MeshAt(mesh), parts));
+      if (whole) moved_[mesh] = it->second;
+    }
+    return it->second;
+  }
+
+  // A mesh of the file, wherever it is by now.
+  const Mesh& MeshAt(uint32_t mesh) const {
+    const auto it = moved_.find(mesh);
+    return it == moved_.end() ? file_.meshes[mesh] : meshes_[it->second];
+  }
+
+  EntityId EntityFor(const ImportedNode& node, const PartLabel& label, const std::vector<uint32_t>& parts,
+                     bool is_split) {
+    const LabelRule* rule = label.rule < 0 ? nullptr : &rules_.rules[static_cast<size_t>(label.rule)];
+    const Mesh& mesh = MeshAt(static_cast<uint32_t>(node.mesh));
+    std::string name = !node.name.empty() ? node.name : !mesh.name.empty() ? mesh.name : title_;
+    if (is_split && !file_.materials[mesh.parts[parts[0]].material].name.empty())
+      name += " " + file_.materials[mesh.parts[parts[0]].material].name;
+    if (rule && !rule->name.empty()) name = rule->name;
+    if (!rule || !rule->merge) return builder_.AddEntity(name, CategoryFor(label));
+
+    // Merged: one entity for the rule and category.
+    const auto [it, is_new] = merged_.try_emplace(label, kNoEntity);
+    if (is_new) {
+      if (rule->name.empty()) name = label.category.substr(label.category.rfind('/') + 1);
+      it->second = builder_.AddEntity(name, CategoryFor(label));
+    }
+    return it->second;
+  }
+
+  CategoryId CategoryFor(const PartLabel& label) {
+    const auto [it, is_new] = categories_.try_emplace(label.category, kVoid);
+    if (!is_new) return it->second;
+    SemanticTree& tree = builder_.tree();
+    if (const auto known = tree.Find(label.category)) return it->second = *known;
+
+    // New: like its nearest known ancestor a thing or stuff.
+    bool thing = true;
+    for (size_t slash = label.category.rfind('/'); slash != std::string::npos && slash > 0;
+         slash = label.category.rfind('/', slash - 1)) {
+      if (const auto ancestor = tree.Find(std::string_view(label.category).substr(0, slash))) {
+        thing = tree[*ancestor].thing;
+        break;
+      }
+    }
+    try {
+      return it->second = tree.Add(label.category, thing);
+    } catch (const InputError& error) {
+      const int line =
+          label.rule >= 0 ? rules_.rules[static_cast<size_t>(label.rule)].line : rules_.otherwise_line;
+      throw InputError((line > 0 ? rules_.file + ":" + std::to_string(line) : where_) + ": " + error.what());
+    }
+  }
+
+  ImportedFile file_;
+  const LabelRules& rules_;
+  std::string title_, where_;
+  SceneBuilder builder_;
+  std::vector<Mesh> meshes_;
+  std::vector<Instance> instances_;
+  Box3f bounds_;
+  std::map<uint32_t, Box3f> boxes_;
+  std::map<std::pair<uint32_t, std::vector<uint32_t>>, MeshId> mesh_ids_;
+  std::map<uint32_t, MeshId> moved_;  // meshes of the file that went over whole
+  std::map<PartLabel, EntityId> merged_;
+  std::map<std::string, CategoryId> categories_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Scene> AssembleScene(ImportedFile file, const LabelRules& rules,
+                                           const std::string& title, const std::string& where) {
+  return Assembler(std::move(file), rules, title, where).Assemble();
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,20 @@
+# Fails if a kernel object defines a weak symbol that another instruction set's copy may define too.
+# cmake -DNM=nm -DOBJECTS=a.o|b.o -P check_kernel_symbols.cmake
+string(REPLACE "|" ";" objects "${OBJECTS}")
+if(NOT objects)
+  message(FATAL_ERROR "no kernel objects to check")
+endif()
+set(bad "")
+foreach(object ${objects})
+  execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" lines "${symbols}")
+  foreach(line ${lines})
+    # W/V weak, u unique global; names inside our namespaces carry isa_..., libstdc++'s simd tags its own by flags.
+    if(line MATCHES " [WVu] " AND NOT line MATCHES "isa_(sse42|avx2|avx512)" AND NOT line MATCHES "_OdrEnforcer|__odr_helper")
+      string(APPEND bad "${object}: ${line}\n")
+    endif()
+  endforeach()
+endforeach()
+if(bad)
+  message(FATAL_ERROR "weak symbols outside the ISA namespaces:\n${bad}")
+endif()

@@ -1,0 +1,187 @@
+// Tile-local wavefront on Embree: generate, trace and label 256 rays, shade them, then antialias the edges.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/render/cpu/antialias.h"
+#include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/cpu/label_tables.h"
+#include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/renderer.h"
+
+namespace airsim360 {
+namespace {
+
+using namespace internal;
+
+constexpr int kTilesPerTask = 4;
+constexpr int kMaxSamples = 64;
+
+template <class Pixel>
+void Resize(Image<Pixel>& image, int width, int height, bool wanted) {
+  if (!wanted) {
+    image = {};
+  } else if (image.width() != width || image.height() != height) {
+    image = Image<Pixel>(width, height);
+  }
+}
+
+template <class Pixel>
+Pixel* DataOrNull(Image<Pixel>& image) {
+  return image.empty() ? nullptr : image.pixels().data();
+}
+
+class CpuRenderer : public Renderer {
+ public:
+  explicit CpuRenderer(std::shared_ptr<const RayTracer> tracer)
+      : tracer_(std::move(tracer)), tables_(*tracer_), labels_(tables_.view()) {}
+
+  RenderStats Render(const RenderRequest& request, Frame& frame) override;
+
+ private:
+  void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
+  void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
+  void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
+  // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
+  PacketShape Shape(int row) const {
+    const RayField& field = rays_.field();
+    const double latitude = 0.5 - (row + 0.5 * kTileSize) / field.height;
+    return field.separable && std::abs(latitude) > 1.0 / 3 ? PacketShape::kRow : PacketShape::kBlock;
+  }
+
+  std::shared_ptr<const RayTracer> tracer_;
+  LabelTables tables_;
+  LabelView labels_;
+  TileKernels kernels_;
+  CameraRays rays_;
+  std::unique_ptr<const Shader> shader_;  // made when first needed
+  Antialiaser antialiaser_;
+  Image<EntityId> entity_;  // where the frame does not want it but edges need it
+  Image<uint8_t> luma_, edges_;
+};
+
+void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame) {
+  const int width = rays_.field().width, height = rays_.field().height;
+  const Products& products = request.products;
+  Resize(frame.rgb, width, height, color);
+  Resize(frame.range, width, height, products.range);
+  Resize(frame.semantic, width, height, products.semantic);
+  Resize(frame.entity, width, height, products.entity);
+  Resize(frame.normal, width, height, products.normal);
+  Resize(entity_, width, height, edges && !products.entity);
+  Resize(luma_, width, height, color);
+  Resize(edges_, width, height, edges);
+}
+
+RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
+  if (request.tier != Tier::kLabels && request.tier != Tier::kFast) {
+    throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
+                     "' is not in the CPU renderer (choices: labels, fast)");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  rays_.Update(request.camera, request.X_WC.R);
+  const bool color = request.products.rgb && request.tier != Tier::kLabels;
+  const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
+  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_);
+  ResizeFrame(request, color, color && samples > 1, frame);
+
+  // Centre rays: labels and colours of every pixel.
+  const RayField& field = rays_.field();
+  const int across = (field.width + kTileSize - 1) / kTileSize,
+            down = (field.height + kTileSize - 1) / kTileSize;
+  const int tiles = across * down;
+  ParallelFor((tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int64_t task) {
+    const FlushDenormals flush_denormals;
+    const int first = static_cast<int>(task) * kTilesPerTask;
+    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile)
+      RenderTile(request, color, tile, frame);
+  });
+  RenderStats stats;
+  stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
+
+  // More colour samples on edges.
+  if (color && samples > 1) {
+    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
+    const int64_t edges = antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
+    antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+                      request.exposure_ev, samples, &edges_, &frame.rgb});
+    stats.rays += static_cast<uint64_t>(edges) * static_cast<uint64_t>(samples - 1);
+  }
+  stats.render_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return stats;
+}
+
+void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame) {
+  const RayField& field = rays_.field();
+  const int across = (field.width + kTileSize - 1) / kTileSize;
+  const int column = tile % across * kTileSize, row = tile / across * kTileSize;
+  const PacketShape shape = Shape(row);
+  const Vec3f origin = VecCast<float>(request.X_WC.p);
+  const bool normals = request.products.normal;
+
+  const TileTarget target{column,
+                          row,
+                          rays_.column_shift(),
+                          field.width,
+                          field.height,
+                          shape,
+                          DataOrNull(frame.range),
+                          DataOrNull(frame.semantic),
+                          DataOrNull(entity_.empty() ? frame.entity : entity_),
+                          DataOrNull(frame.normal)};
+  kernels_.prefetch(target);
+
+  // Generate, trace and label packet by packet, while each is in the first-level cache.
+  LabelTile labels;
+  HitBatch hits;
+  RayHit16 packet;
+  alignas(64) int valid[16];
+  kernels_.init(origin.x, origin.y, origin.z, packet);
+  for (int p = 0; p < kPackets; ++p) {
+    kernels_.fill(field, column, row, p, shape, packet, valid);
+    TracePacket(*tracer_, labels_.sky_entity != kNoEntity, valid, packet);
+    kernels_.resolve(labels_, packet, valid, p, normals, labels);
+    if (color) kernels_.append_hits(labels_, packet, valid, p, hits);
+  }
+
+  kernels_.store_labels(labels, target);
+  if (!color) return;
+  hits.count = kTilePixels;
+  hits.origin = origin;
+  hits.cone_angle = static_cast<float>(rays_.cone_angle());
+  ShadeTile(request, hits, target, frame);
+}
+
+void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target,
+                            Frame& frame) {
+  RadianceBatch radiance;
+  Rgb8 colors[kTilePixels];
+  std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
+  shader_->Shade(hits, radiance);
+  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors);
+  if (!rays_.field().separable) {
+    // Pixels without a ray are black.
+    const RayField& field = rays_.field();
+    for (int y = 0; y < kTileSize; ++y) {
+      for (int x = 0; x < kTileSize; ++x) {
+        if (field.has_ray[static_cast<int64_t>(target.row + y) * field.stride + target.column + x] == 0) {
+          colors[PacketIndex(target.shape, x, y)] = {};
+        }
+      }
+    }
+  }
+  kernels_.store_colors(colors, target, frame.rgb.pixels().data(), luma_.pixels().data());
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer) {
+  return std::make_unique<CpuRenderer>(std::move(tracer));
+}
+
+}  // namespace airsim360

@@ -1,0 +1,152 @@
+#include "airsim360/render/shading/atmosphere.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/render/shading/shading_scalar.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Bruneton & Neyret (2008) for Rayleigh and ozone in the sRGB primaries; the aerosol follows Angstrom's law with exponent 1.3.
+constexpr float kGroundRadius = 6360e3f, kTopRadius = 6440e3f, kEyeHeight = 60.0f;
+constexpr float kRayleighHeight = 8000, kAerosolHeight = 1400;
+constexpr Vec3f kRayleigh{5.802e-6f, 13.558e-6f, 33.1e-6f};
+constexpr Vec3f kOzone{0.650e-6f, 1.881e-6f, 0.085e-6f};
+constexpr Vec3f kAngstrom{0.78f, 1.0f, 1.30f};
+constexpr float kAerosolAlbedo = 0.94f, kAsymmetry = 0.76f;
+constexpr Vec3f kGroundAlbedo{0.22f, 0.22f, 0.20f};
+constexpr float kPi = 3.14159265f;
+
+Vec3f Exp(Vec3f a) { return {scalar::exp_approx(a.x), scalar::exp_approx(a.y), scalar::exp_approx(a.z)}; }
+
+float RayleighPhase(float mu) { return 3.0f / (16.0f * kPi) * (1.0f + mu * mu); }
+
+// Cornette-Shanks.
+float AerosolPhase(float mu) {
+  constexpr float g = kAsymmetry, g2 = g * g;
+  const float d = 1.0f + g2 - 2.0f * g * mu;
+  return 3.0f / (8.0f * kPi) * (1.0f - g2) * (1.0f + mu * mu) / ((2.0f + g2) * d * std::sqrt(d));
+}
+
+// Distance along a ray from p (planet frame) to the sphere of radius r: the far crossing, or the near one; < 0 = none.
+float SphereDistance(Vec3f p, Vec3f d, float r, bool far) {
+  const double b = Dot(VecCast<double>(p), VecCast<double>(d));
+  const double c = Dot(VecCast<double>(p), VecCast<double>(p)) - static_cast<double>(r) * r;
+  const double q = b * b - c;
+  if (q < 0) return -1;
+  return static_cast<float>(far ? -b + std::sqrt(q) : -b - std::sqrt(q));
+}
+
+float HeightOf(Vec3f p) { return std::max(0.0f, static_cast<float>(Norm(VecCast<double>(p)) - kGroundRadius)); }
+
+// Heights of the tables: quadratic, finer near the ground.
+constexpr float kTableTop = 60e3f;
+float TableHeight(int i, int count) {
+  const float t = static_cast<float>(i) / static_cast<float>(count - 1);
+  return t * t * kTableTop;
+}
+
+template <size_t n>
+Vec3f Interpolate(const std::array<Vec3f, n>& table, float height) {
+  const float x = std::sqrt(std::min(height, kTableTop) / kTableTop) * (n - 1);
+  const int i = std::min(static_cast<int>(x), static_cast<int>(n) - 2);
+  return table[i] + (table[i + 1] - table[i]) * (x - static_cast<float>(i));
+}
+
+}  // namespace
+
+Atmosphere::Atmosphere(Vec3f to_sun, double turbidity) : to_sun_(to_sun) {
+  // Aerosol optical depth at 550 nm from Linke's turbidity, a linear fit over clean to hazy continental air.
+  const auto depth = static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0)));
+  aerosol_extinction_ = kAngstrom * (depth / kAerosolHeight);
+  aerosol_scattering_ = aerosol_extinction_ * kAerosolAlbedo;
+
+  // The sun through the air, from every height.
+  for (int i = 0; i < kHeights; ++i) {
+    sun_transmittance_[i] = Exp(-OpticalDepth({0, 0, kGroundRadius + TableHeight(i, kHeights)}, to_sun_));
+  }
+  sun_irradiance_ = SunTransmittance(kEyeHeight) * kSolarIrradiance;
+
+  // All orders above the first: second order averaged over directions, times the geometric series of its own transfer.
+  std::array<Vec3f, kHeights> multiple{};
+  for (int i = 0; i < kHeights; ++i) {
+    constexpr int kPolar = 8, kAround = 8;
+    Vec3f second{}, factor{};
+    for (int k = 0; k < kPolar * kAround; ++k) {
+      const float z = (static_cast<float>(k / kAround) + 0.5f) / kPolar * 2.0f - 1.0f;
+      const float angle = (static_cast<float>(k % kAround) + 0.5f) / kAround * 2.0f * kPi;
+      const float s = std::sqrt(1.0f - z * z);
+      Vec3f f{};
+      second += Scattered({0, 0, kGroundRadius + TableHeight(i, kHeights) + 10.0f}, {s * std::cos(angle), s * std::sin(angle), z}, true, &f);
+      factor += f;
+    }
+    const float scale = 1.0f / (kPolar * kAround);
+    for (int c = 0; c < 3; ++c) multiple[i][c] = second[c] * scale / (1.0f - factor[c] * scale);
+  }
+  multiple_ = multiple;
+}
+
+Atmosphere::Medium Atmosphere::At(float height) const {
+  const float r = scalar::exp_approx(-height / kRayleighHeight), a = scalar::exp_approx(-height / kAerosolHeight);
+  const float o = std::max(0.0f, 1.0f - std::fabs(height - 25e3f) / 15e3f);
+  return {kRayleigh * r, aerosol_scattering_ * a, kRayleigh * r + aerosol_extinction_ * a + kOzone * o};
+}
+
+Vec3f Atmosphere::GroundExtinction() const { return kRayleigh + aerosol_extinction_; }
+
+Vec3f Atmosphere::OpticalDepth(Vec3f p, Vec3f direction) const {
+  if (SphereDistance(p, direction, kGroundRadius - 100, false) > 0) return {1e3f, 1e3f, 1e3f};
+  const float length = SphereDistance(p, direction, kTopRadius, true);
+  constexpr int kSteps = 40;
+  Vec3f depth{};
+  for (int i = 0; i < kSteps; ++i) {
+    const float u = (static_cast<float>(i) + 0.5f) / kSteps;
+    const float ds = length * 2.0f * u / kSteps;
+    depth += At(HeightOf(p + direction * (length * u * u))).extinction * ds;
+  }
+  return depth;
+}
+
+Vec3f Atmosphere::SunTransmittance(float height) const { return Interpolate(sun_transmittance_, height); }
+Vec3f Atmosphere::MultipleAt(float height) const { return Interpolate(multiple_, height); }
+
+// In-scattered radiance along a ray. With `isotropic` phase functions, and then `multiple_factor` gets the share of unit
+// ambient radiance that comes back; otherwise true phase functions and the table of higher orders.
+Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, bool isotropic, Vec3f* multiple_factor) const {
+  const float ground = SphereDistance(p, direction, kGroundRadius, false);
+  const float length = ground > 0 ? ground : SphereDistance(p, direction, kTopRadius, true);
+  const float mu = Dot(direction, to_sun_);
+  const float phase_r = isotropic ? 0.25f / kPi : RayleighPhase(mu), phase_a = isotropic ? 0.25f / kPi : AerosolPhase(mu);
+  const int steps = isotropic ? 20 : 48;
+  Vec3f light{}, through{1, 1, 1}, factor{};
+  for (int i = 0; i < steps; ++i) {
+    // Steps grow quadratically; the source is constant within one and its attenuation integrated exactly.
+    const float u0 = static_cast<float>(i) / steps, u1 = static_cast<float>(i + 1) / steps;
+    const float ds = length * (u1 * u1 - u0 * u0);
+    const float height = HeightOf(p + direction * (length * 0.5f * (u0 * u0 + u1 * u1)));
+    const Medium medium = At(height);
+    const Vec3f scattering = medium.rayleigh + medium.aerosol;
+    Vec3f source = (medium.rayleigh * phase_r + medium.aerosol * phase_a) * SunTransmittance(height) * kSolarIrradiance;
+    if (!isotropic) source += scattering * MultipleAt(height);
+    const Vec3f step = Exp(medium.extinction * -ds);
+    for (int c = 0; c < 3; ++c) {
+      const float weight = through[c] * (1.0f - step[c]) / std::max(medium.extinction[c], 1e-12f);
+      light[c] += source[c] * weight;
+      factor[c] += scattering[c] * weight;
+    }
+    through = through * step;
+  }
+  if (isotropic && ground > 0) {
+    light += through * kGroundAlbedo * SunTransmittance(0) * kSolarIrradiance * (std::max(0.0f, to_sun_.z) / kPi);
+  }
+  if (multiple_factor) *multiple_factor = factor;
+  return light;
+}
+
+Vec3f Atmosphere::Radiance(Vec3f direction) const {
+  direction = Normalized(Vec3f{direction.x, direction.y, std::max(direction.z, 0.002f)});
+  return Scattered({0, 0, kGroundRadius + kEyeHeight}, direction, false, nullptr);
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,47 @@
+// Ambient light by place: sky seen past the buildings and one bounce of sun and sky, baked into a grid of probes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "airsim360/render/shading/shading_data.h"
+#include "airsim360/render/shading/sky.h"
+#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360::internal {
+
+/// Immutable. Columns stand on a square lattice over the part of the scene where its triangles are; layers are close
+/// together near the ground and further apart above. Every probe holds the best fit a + b . n of irradiance over normals
+/// n (exact for a uniform hemisphere). Probes inside solids count for nothing. The same bytes with any number of threads.
+class LightProbes {
+ public:
+  struct Options {
+    int max_probes = 200000;
+    float cell = 2.0f;  ///< least distance of columns, m
+  };
+
+  /// `sky` is nullptr in closed rooms: then surfaces glow with `interior_light`, less where something is near.
+  LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, const Options& options);
+
+  ProbeView view() const;
+  /// Irradiance at a point for a unit normal, as the shader sees it without normal bias (scalar; for tests).
+  Vec3f Irradiance(Vec3f p, Vec3f normal) const;
+  size_t size() const { return valid_.size(); }
+
+ private:
+  void Place(const Scene& scene, const Options& options);
+  void BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y, int z);
+  void FillInvalid();
+  Vec3f Position(int x, int y, int z) const;
+
+  float cell_ = 2;
+  Vec3f origin_;
+  int nx_ = 2, ny_ = 2, nz_ = 2;
+  std::vector<float> layers_;           ///< heights
+  std::vector<float> layer_of_height_;  ///< fractional layer, kHeightStep apart from origin_.z
+  std::vector<float> probes_;
+  std::vector<uint8_t> valid_;
+};
+
+}  // namespace airsim360::internal

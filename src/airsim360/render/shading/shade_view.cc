@@ -1,0 +1,44 @@
+#include "airsim360/render/shading/shade_view.h"
+
+namespace airsim360::internal {
+namespace {
+
+SkyTableView ViewOf(const SkyTable& table) {
+  return {table.texels.data(), static_cast<float>(table.width), static_cast<float>(table.height), table.stride()};
+}
+
+void Put(float (&to)[3], Vec3f from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+}  // namespace
+
+ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky, const LightProbes* probes) {
+  ShadeView view{};
+  view.triangles = tables.triangles.data();
+  view.instances = tables.instances.data();
+  view.materials = tables.materials.data();
+  view.textures = tables.textures.data();
+  view.macro_texture = 1;
+  view.ground_z = scene.bounds.empty() ? 0.0f : scene.bounds.min.z;
+  if (probes) view.probes = probes->view();
+  if (!sky) {
+    Put(view.mean_ambient, scene.interior_light);
+    return view;
+  }
+  view.has_sky = 1;
+  view.sky = ViewOf(sky->table());
+  for (int i = 0; i < Sky::kBlurLevels; ++i) view.blurred[i] = ViewOf(sky->blurred(i));
+  Put(view.to_sun, sky->to_sun());
+  Put(view.sun_irradiance, sky->sun_irradiance());
+  Put(view.sun_radiance, sky->sun_radiance());
+  Put(view.extinction, sky->extinction());
+  Put(view.horizon_mean, sky->horizon_mean());
+  Put(view.horizon_x, sky->horizon_x());
+  Put(view.horizon_y, sky->horizon_y());
+  Put(view.ground, sky->ground_radiance());
+  for (int k = 0; k < 27; ++k) view.sky_irradiance[k] = sky->irradiance_sh()[k / 3][k % 3];
+  return view;
+}
+
+}  // namespace airsim360::internal

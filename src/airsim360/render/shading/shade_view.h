@@ -1,0 +1,15 @@
+// Puts the parts of a scene's shading together for the kernels.
+#pragma once
+
+#include "airsim360/render/shading/light_probes.h"
+#include "airsim360/render/shading/shading_data.h"
+#include "airsim360/render/shading/sky.h"
+#include "airsim360/render/shading/surface_tables.h"
+
+namespace airsim360::internal {
+
+/// Refers to everything given, which must outlive it. `sky` and `probes` may be nullptr: then ambient light is the same
+/// everywhere.
+ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky, const LightProbes* probes);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,48 @@
+// From ray hits to the colours of tier `fast`: textured surfaces under sun, sky and one bounce of both.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "airsim360/image/image.h"
+#include "airsim360/math/vector.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360 {
+
+/// Up to kCapacity rays from one point and what they met. Neighbours in the batch should be neighbours on the sphere.
+struct alignas(64) HitBatch {
+  static constexpr int kCapacity = 256;
+  int count = 0;
+  Vec3f origin;          ///< camera, in W
+  float cone_angle = 0;  ///< angle between neighbouring pixels, radians (pi / H of a panorama)
+  alignas(64) float direction_x[kCapacity], direction_y[kCapacity], direction_z[kCapacity];  ///< unit, in W
+  alignas(64) float distance[kCapacity];
+  alignas(64) float u[kCapacity], v[kCapacity];                       ///< barycentrics as in RayHit16
+  alignas(64) uint32_t instance[kCapacity], triangle[kCapacity];      ///< as in SurfaceRef; instance kMiss = sky
+  alignas(64) uint32_t sample_key[kCapacity];  ///< 0 = pixel centre; others choose a point of the sun's disc
+};
+
+/// Linear radiance towards the camera, one per hit; units of Sky (sunlit white is about 20 / pi).
+struct alignas(64) RadianceBatch {
+  float r[HitBatch::kCapacity], g[HitBatch::kCapacity], b[HitBatch::kCapacity];
+};
+
+/// Immutable after construction; Shade may run concurrently and does not depend on the order of hits in a batch.
+class Shader {
+ public:
+  explicit Shader(std::shared_ptr<const RayTracer> tracer);
+  ~Shader();
+
+  void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
+  /// Factor from radiance to the input of the tone curve: fixed by the scene's daylight, the same for the whole sphere.
+  float Exposure() const;
+  /// Display colours of `count` radiances: exposure * 2^exposure_ev, filmic curve, sRGB.
+  void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace airsim360

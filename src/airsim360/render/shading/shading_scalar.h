@@ -1,0 +1,37 @@
+// shading_shared.h as plain C++ floats, in airsim360::internal::scalar: tests, table baking, probe baking.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "airsim360/math/vector.h"
+
+namespace airsim360::internal::scalar {
+
+using real = float;
+using real3 = Vec3f;
+using ufloat = float;
+using ufloat3 = Vec3f;
+using mask_t = bool;
+
+#define SHARED static inline __attribute__((always_inline, unused))
+#define INOUT(T) T&
+SHARED real sel(mask_t m, real a, real b) { return m ? a : b; }
+SHARED real3 sel3(mask_t m, real3 a, real3 b) { return m ? a : b; }
+SHARED real3 make3(real x, real y, real z) { return {x, y, z}; }
+SHARED real rmin(real a, real b) { return b < a ? b : a; }
+SHARED real rmax(real a, real b) { return a < b ? b : a; }
+SHARED real rsqrt_exact(real a) { return 1.0f / std::sqrt(a); }
+SHARED real rroot(real a) { return std::sqrt(a); }
+SHARED real rfloor(real a) { return std::floor(a); }
+SHARED real rabs(real a) { return std::fabs(a); }
+SHARED real pow2_int(real i) { return std::bit_cast<float>((static_cast<int32_t>(i) + 127) << 23); }
+SHARED real exponent_of(real a) { return static_cast<float>((std::bit_cast<int32_t>(a) >> 23) - 127); }
+SHARED real mantissa_of(real a) { return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000); }
+SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+#include "airsim360/render/shading/shading_shared.h"
+#undef SHARED
+#undef INOUT
+
+}  // namespace airsim360::internal::scalar

@@ -1,0 +1,221 @@
+// The shading functions of all tiers, once, in a subset that is C++ (scalar and SIMD) and GLSL at the same time.
+// Not a normal header: it is included inside a namespace by shading_scalar.h and shading_simd.h, or pasted into a shader
+// after shading_glsl.h; no include guard, no types of its own. The one who includes it provides
+//   real real3 (per lane), ufloat ufloat3 (same for all lanes), mask_t, SHARED, INOUT, sel sel3 make3 rmin rmax rroot
+//   rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3.
+// Only + - * / sqrt floor and bit moves are used, so every compiler and lane width gives the same bits (without
+// contraction). Directions are unit vectors pointing away from the surface; cosines are clamped by the caller.
+
+#define SHADE_PI 3.14159265f
+#define SHADE_INV_PI 0.318309886f
+
+// ---- numbers ----------------------------------------------------------------------------------------------------
+
+SHARED real clamp01(real x) { return rmin(rmax(x, real(0.0f)), real(1.0f)); }
+SHARED real lerp1(real a, real b, real t) { return a + (b - a) * t; }
+SHARED real3 lerp3(real3 a, real3 b, real t) { return a + (b - a) * t; }
+SHARED real smooth01(real t) { return t * t * (3.0f - 2.0f * t); }
+SHARED real3 normalize3(real3 a) { return a * rsqrt_exact(rmax(dot3(a, a), real(1e-30f))); }
+SHARED real luminance(real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// 2^x for |x| < 126; relative error below 2e-7 (Taylor series of exp on [-0.5, 0.5] ln 2).
+SHARED real exp2_approx(real x) {
+  real whole = rfloor(x + 0.5f);
+  real f = (x - whole) * 0.69314718f;
+  real p = 1.0f + f * (1.0f + f * (0.5f + f * (0.166666667f + f * (0.0416666667f + f * (0.00833333333f + f * 0.00138888889f)))));
+  return p * pow2_int(whole);
+}
+
+SHARED real exp_approx(real x) { return exp2_approx(rmax(x * 1.44269504f, real(-125.0f))); }
+
+// log2 of a normal positive number; absolute error below 4e-7 (atanh series about the mantissa's middle).
+SHARED real log2_approx(real x) {
+  real e = exponent_of(x);
+  real m = mantissa_of(x);
+  mask_t high = m > 1.41421356f;
+  m = sel(high, m * 0.5f, m);
+  e = sel(high, e + 1.0f, e);
+  real t = (m - 1.0f) / (m + 1.0f);
+  real t2 = t * t;
+  real s = t * (2.0f + t2 * (0.666666667f + t2 * (0.4f + t2 * (0.285714286f + t2 * 0.222222222f))));
+  return e + s * 1.44269504f;
+}
+
+// x^y for x >= 0.
+SHARED real pow_approx(real x, real y) { return exp2_approx(rmax(y * log2_approx(rmax(x, real(1e-30f))), real(-125.0f))); }
+
+// sin(x) for |x| up to a few thousand; absolute error below 3e-6 near 0, growing with |x| as float does.
+SHARED real sin_approx(real x) {
+  real turns = rfloor(x * SHADE_INV_PI + 0.5f);
+  real y = (x - turns * 3.140625f) - turns * 9.67653589e-4f;
+  real odd = turns - 2.0f * rfloor(turns * 0.5f);
+  real y2 = y * y;
+  real s = y * (1.0f + y2 * (-0.166666667f + y2 * (0.00833333333f + y2 * (-0.000198412698f + y2 * 2.75573192e-6f))));
+  return s * (1.0f - 2.0f * odd);
+}
+
+// Angle of (x, y) in (-pi, pi]; absolute error below 2e-6 (Abramowitz & Stegun 4.4.49).
+SHARED real atan2_approx(real y, real x) {
+  real ax = rabs(x);
+  real ay = rabs(y);
+  real q = rmin(ax, ay) / rmax(rmax(ax, ay), real(1e-30f));
+  real s = q * q;
+  real p = 0.0028662257f;
+  p = p * s - 0.0161657367f;
+  p = p * s + 0.0429096138f;
+  p = p * s - 0.0752896400f;
+  p = p * s + 0.1065626393f;
+  p = p * s - 0.1420889944f;
+  p = p * s + 0.1999355085f;
+  p = p * s - 0.3333314528f;
+  real a = q + q * s * p;
+  a = sel(ay > ax, 1.57079633f - a, a);
+  a = sel(x < 0.0f, SHADE_PI - a, a);
+  return sel(y < 0.0f, 0.0f - a, a);
+}
+
+SHARED real asin_approx(real x) { return atan2_approx(x, rroot(rmax(1.0f - x * x, real(0.0f)))); }
+
+// ---- colour -----------------------------------------------------------------------------------------------------
+
+// sRGB transfer function (IEC 61966-2-1), [0, 1] to [0, 1].
+SHARED real srgb_encode(real linear_value) {
+  real c = clamp01(linear_value);
+  return sel(c < 0.0031308f, c * 12.92f, 1.055f * pow_approx(c, real(0.416666667f)) - 0.055f);
+}
+
+// Its inverse as a cubic, within 0.0013 of the curve: for texels, before filtering.
+SHARED real srgb_decode_approx(real s) { return s * (s * (s * 0.305306011f + 0.682171111f) + 0.012522878f); }
+
+// Film-like response of one channel: a logistic curve in log exposure, 0 at 0, about 0.3 at 0.18 * 3, 1 at infinity.
+SHARED real film_curve(real x) {
+  real p = pow_approx(x * 1.35f, real(1.17f));
+  return p / (p + 1.0f) * 1.02f;
+}
+
+// Scene radiance times exposure to display-linear colour. A little of each channel reaches the others, as in film, so that
+// very bright colours turn white instead of clipping; saturation is given back after the curve, but not in the shadows,
+// where the eye sees little of it.
+SHARED real3 tone_curve(real3 c) {
+  real mean = (c.x + c.y + c.z) * 0.333333333f;
+  real3 mixed = lerp3(c, make3(mean, mean, mean), real(0.05f));
+  real3 shown = make3(film_curve(mixed.x), film_curve(mixed.y), film_curve(mixed.z));
+  real grey = luminance(shown);
+  real saturation = 0.90f + 0.34f * clamp01(grey * 5.0f);
+  real3 vivid = lerp3(make3(grey, grey, grey), shown, saturation);
+  return make3(clamp01(vivid.x), clamp01(vivid.y), clamp01(vivid.z));
+}
+
+// ---- reflectance ------------------------------------------------------------------------------------------------
+
+SHARED real pow5(real x) {
+  real x2 = x * x;
+  return x2 * x2 * x;
+}
+
+// Schlick (1994).
+SHARED real fresnel_schlick(real f0, real cos_theta) { return f0 + (1.0f - f0) * pow5(1.0f - cos_theta); }
+SHARED real3 fresnel_schlick3(real3 f0, real cos_theta) { return f0 + (make3(1.0f - f0.x, 1.0f - f0.y, 1.0f - f0.z)) * pow5(1.0f - cos_theta); }
+
+// Unpolarised reflectance of a smooth dielectric, eta = n_inside / n_outside > 1, light from outside.
+SHARED real fresnel_dielectric(real eta, real cos_i) {
+  real cos_t = rroot(1.0f - (1.0f - cos_i * cos_i) / (eta * eta));
+  real s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  real p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  return 0.5f * (s * s + p * p);
+}
+
+// GGX normal distribution (Walter et al. 2007); alpha = roughness^2.
+SHARED real ggx_distribution(real alpha, real n_dot_h) {
+  real a2 = alpha * alpha;
+  real d = n_dot_h * n_dot_h * (a2 - 1.0f) + 1.0f;
+  return a2 / rmax(SHADE_PI * d * d, real(1e-20f));
+}
+
+// Height-correlated Smith masking-shadowing over 4 n.l n.v (Heitz 2014).
+SHARED real smith_visibility(real alpha, real n_dot_l, real n_dot_v) {
+  real a2 = alpha * alpha;
+  real l = n_dot_v * rroot(a2 + (1.0f - a2) * n_dot_l * n_dot_l);
+  real v = n_dot_l * rroot(a2 + (1.0f - a2) * n_dot_v * n_dot_v);
+  return 0.5f / rmax(l + v, real(1e-9f));
+}
+
+// Microfacet reflectance per channel, without the cosine.
+SHARED real3 specular_brdf(real3 f0, real alpha, real n_dot_l, real n_dot_v, real n_dot_h, real v_dot_h) {
+  real w = ggx_distribution(alpha, n_dot_h) * smith_visibility(alpha, n_dot_l, n_dot_v);
+  return fresnel_schlick3(f0, v_dot_h) * w;
+}
+
+// Directional albedo of specular_brdf as f0 * x + y: Karis' analytic fit of the split sum (2014).
+SHARED real3 environment_brdf(real3 f0, real roughness, real n_dot_v) {
+  real r_x = 1.0f - roughness;
+  real r_y = 0.0425f - 0.0275f * roughness;
+  real r_z = 1.04f - 0.572f * roughness;
+  real r_w = 0.022f * roughness - 0.04f;
+  real a = rmin(r_x * r_x, exp2_approx(-9.28f * n_dot_v)) * r_x + r_y;
+  real scale = r_z - 1.04f * a;
+  real bias = 1.04f * a + r_w;
+  return f0 * scale + make3(bias, bias, bias);
+}
+
+// Lambert: reflected radiance of irradiance e.
+SHARED real3 diffuse(real3 albedo, real3 e) { return albedo * e * real(SHADE_INV_PI); }
+
+// A leaf lit from either side: n_dot_l signed towards the viewer's side; `transmission` times albedo passes through,
+// yellower than what is reflected (chlorophyll absorbs less of the green-yellow on the longer path).
+SHARED real3 leaf_diffuse(real3 albedo, real transmission, real n_dot_l) {
+  real front = rmax(n_dot_l, real(0.0f));
+  real back = rmax(0.0f - n_dot_l, real(0.0f)) * transmission;
+  return make3(albedo.x * (front + 1.10f * back), albedo.y * (front + 1.15f * back), albedo.z * (front + 0.55f * back)) * real(SHADE_INV_PI);
+}
+
+// ---- light ------------------------------------------------------------------------------------------------------
+
+// Irradiance of the sky from nine coefficients, normal n (Ramamoorthi & Hanrahan 2001; basis constants folded in).
+SHARED real3 sh9_irradiance(ufloat3 c0, ufloat3 c1, ufloat3 c2, ufloat3 c3, ufloat3 c4, ufloat3 c5, ufloat3 c6, ufloat3 c7, ufloat3 c8, real3 n) {
+  real3 e = c1 * n.y + c2 * n.z + c3 * n.x;
+  e = e + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0f * n.z * n.z - 1.0f) + c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
+  return e + c0;
+}
+
+// Part of the light that is left after `distance` through extinction beta (1 / m).
+SHARED real3 transmittance(ufloat3 beta, real distance) {
+  return make3(exp_approx(0.0f - beta.x * distance), exp_approx(0.0f - beta.y * distance), exp_approx(0.0f - beta.z * distance));
+}
+
+// ---- geometry ---------------------------------------------------------------------------------------------------
+
+SHARED real3 reflect3(real3 d, real3 n) { return d - n * (2.0f * dot3(d, n)); }
+
+// Unit vector of octahedral coordinates in [-1, 1]^2 (Meyer et al. 2010).
+SHARED real3 octahedral_decode(real x, real y) {
+  real z = 1.0f - rabs(x) - rabs(y);
+  real fold = rmax(0.0f - z, real(0.0f));
+  real px = x + sel(x < 0.0f, fold, 0.0f - fold);
+  real py = y + sel(y < 0.0f, fold, 0.0f - fold);
+  return normalize3(make3(px, py, z));
+}
+
+// Slope of water at a point (metres): seven directional ripples, fading where they get smaller than a pixel of size
+// `footprint`; the slope lost to the fade goes into `lost`, a variance. Waves of Gerstner-like phase, no time.
+SHARED real3 water_normal(real px, real py, real footprint, INOUT(real) lost) {
+  real sx = real(0.0f);
+  real sy = real(0.0f);
+  real k = real(0.55f);
+  real dx = real(1.0f);
+  real dy = real(0.25f);
+  real variance = real(0.0f);
+  for (int i = 0; i < 7; i++) {
+    real keep = clamp01(1.6f - footprint * k * 0.9f);
+    real s = sin_approx((dx * px + dy * py) * k + 1.7f * float(i)) * 0.017f;
+    sx = sx + dx * s * keep;
+    sy = sy + dy * s * keep;
+    variance = variance + 0.000145f * (1.0f - keep * keep);
+    real rx = dx * -0.36f - dy * 0.93f;
+    dy = dx * 0.93f + dy * -0.36f;
+    dx = rx;
+    k = k * 1.83f;
+  }
+  lost = variance;
+  return normalize3(make3(0.0f - sx, 0.0f - sy, real(1.0f)));
+}

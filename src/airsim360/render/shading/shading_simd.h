@@ -1,0 +1,77 @@
+// shading_shared.h as SIMD C++, in airsim360::internal::AIRSIM360_ISA: only for *_kernel.cc files (and their tests).
+#pragma once
+
+// GCC 12 takes the "undefined" operands of its own AVX-512 intrinsics for bugs of ours.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <experimental/simd>
+#pragma GCC diagnostic pop
+
+#include <cstdint>
+
+namespace airsim360::internal::AIRSIM360_ISA {
+namespace stdx = std::experimental;
+
+#define SHARED static inline __attribute__((always_inline, unused))
+#define INOUT(T) T&
+using real = stdx::native_simd<float>;
+using ireal = stdx::rebind_simd_t<int32_t, real>;
+using ufloat = float;
+using mask_t = real::mask_type;
+constexpr int kLanes = static_cast<int>(real::size());
+
+/// Three lanes-wide numbers; ufloat3 is the same for all lanes.
+struct real3 {
+  real x, y, z;
+};
+struct ufloat3 {
+  float x, y, z;
+};
+SHARED real3 operator+(real3 a, real3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+SHARED real3 operator-(real3 a, real3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+SHARED real3 operator-(real3 a) { return {-a.x, -a.y, -a.z}; }
+SHARED real3 operator*(real3 a, real s) { return {a.x * s, a.y * s, a.z * s}; }
+SHARED real3 operator*(real s, real3 a) { return a * s; }
+SHARED real3 operator*(real3 a, real3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+SHARED real3 operator+(real3 a, ufloat3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+SHARED real3 operator+(ufloat3 a, real3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+SHARED real3 operator*(real3 a, ufloat3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+SHARED real3 operator*(ufloat3 a, real3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+SHARED real3 operator*(ufloat3 a, real s) { return {a.x * s, a.y * s, a.z * s}; }
+
+SHARED real sel(mask_t m, real a, real b) {
+  stdx::where(m, b) = a;
+  return b;
+}
+SHARED real3 sel3(mask_t m, real3 a, real3 b) { return {sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z)}; }
+SHARED real3 make3(real x, real y, real z) { return {x, y, z}; }
+SHARED real rmin(real a, real b) { return sel(b < a, b, a); }
+SHARED real rmax(real a, real b) { return sel(a < b, b, a); }
+SHARED real rroot(real a) { return stdx::sqrt(a); }
+SHARED real rsqrt_exact(real a) { return 1.0f / stdx::sqrt(a); }
+SHARED real rfloor(real a) { return stdx::floor(a); }
+SHARED real rabs(real a) { return stdx::abs(a); }
+SHARED ireal bits_of(real a) { return stdx::__proposed::simd_bit_cast<ireal>(a); }
+SHARED real from_bits(ireal a) { return stdx::__proposed::simd_bit_cast<real>(a); }
+SHARED ireal to_int(real a) { return stdx::static_simd_cast<ireal>(a); }
+SHARED real to_real(ireal a) { return stdx::static_simd_cast<real>(a); }
+SHARED real pow2_int(real i) { return from_bits((to_int(i) + 127) << 23); }
+SHARED real exponent_of(real a) { return to_real((bits_of(a) >> 23) - 127); }
+SHARED real mantissa_of(real a) { return from_bits((bits_of(a) & 0x007fffff) | 0x3f800000); }
+SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+SHARED real dot3(real3 a, ufloat3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+SHARED real load(const float* p) { return real(p, stdx::vector_aligned); }
+SHARED void store(float* p, real a) { a.copy_to(p, stdx::vector_aligned); }
+SHARED real3 load3(const float* x, const float* y, const float* z) { return {load(x), load(y), load(z)}; }
+SHARED void store3(float* x, float* y, float* z, real3 a) {
+  store(x, a.x);
+  store(y, a.y);
+  store(z, a.z);
+}
+#include "airsim360/render/shading/shading_shared.h"
+#undef SHARED
+#undef INOUT
+
+}  // namespace airsim360::internal::AIRSIM360_ISA

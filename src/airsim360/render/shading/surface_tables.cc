@@ -1,0 +1,199 @@
+#include "airsim360/render/shading/surface_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/image/color.h"
+#include "airsim360/render/shading/noise.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kNoiseSize = 256;
+constexpr int kOwnTextures = 2;
+
+uint32_t Pack16(float x, float y) {
+  const auto quantize = [](float v) { return static_cast<uint32_t>(std::lround((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f)); };
+  return quantize(x) | quantize(y) << 16;
+}
+
+// Hash of the middle of a triangle's longest edge: the diagonal, where two triangles make a rectangle.
+uint32_t PaneHash(Vec3f a, Vec3f b, Vec3f c) {
+  const float ab = Norm(b - a), bc = Norm(c - b), ca = Norm(a - c);
+  const Vec3f middle = (ab >= bc && ab >= ca ? a + b : bc >= ca ? b + c : c + a) * 25.0f;
+  return HashLattice(static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)), static_cast<int>(std::lround(middle.z)));
+}
+
+TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material, const UvTransform& transform) {
+  const Vec3u t = mesh.triangles[index];
+  const uint32_t corners[3] = {t.x, t.y, t.z};
+  const Vec3f p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+  const Vec3f e1 = p[1] - p[0], e2 = p[2] - p[0], cross = Cross(e1, e2);
+  Vec3f normal = Normalized(cross);
+  if (normal == Vec3f{}) normal = {0, 0, 1};
+  TriangleRecord record{};
+  record.material = material;
+  record.geometric_normal = PackDirection(normal);
+  record.area = Norm(cross);
+  record.pane = PaneHash(p[0], p[1], p[2]);
+
+  // Vertex normals and texture coordinates.
+  Vec2f uv[3];
+  for (int k = 0; k < 3; ++k) {
+    Vec3f n = mesh.normals.empty() ? normal : Normalized(mesh.normals[corners[k]]);
+    if (!(Dot(n, n) > 0.5f)) n = normal;
+    record.normals[k] = PackDirection(n);
+    if (!mesh.uvs.empty()) uv[k] = transform * mesh.uvs[corners[k]];
+    record.uv[2 * k] = uv[k].x;
+    record.uv[2 * k + 1] = uv[k].y;
+  }
+
+  // Texture frame: p = p0 + tangent * u + ..., and how many uv units a metre has.
+  const Vec2f d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
+  const float det = d1.x * d2.y - d2.x * d1.y;
+  Vec3f tangent = std::fabs(det) > 1e-20f ? Normalized((e1 * d2.y - e2 * d1.y) * (det > 0 ? 1.0f : -1.0f)) : Normalized(e1);
+  if (tangent == Vec3f{}) tangent = {1, 0, 0};
+  record.tangent = PackDirection(tangent);
+  record.texels_log2 = 0.5f * std::log2(std::max(std::fabs(det), 1e-12f) / std::max(Norm(cross), 1e-12f));
+  // Green of a normal map points against growing v.
+  const Vec3f against_v = (e1 * d2.x - e2 * d1.x) * (det > 0 ? 1.0f : -1.0f);
+  if (Dot(Cross(normal, tangent), against_v) < 0) record.material |= kMirroredUv;
+  return record;
+}
+
+InstanceRecord MakeInstance(const Instance& instance, uint32_t first_triangle, uint32_t index) {
+  // Cofactors: the inverse transpose times the determinant, whose sign is taken back.
+  const Mat3f& A = instance.X_WM.A;
+  const float det = A.determinant();
+  const Vec3f rows[3] = {Cross(A.row(1), A.row(2)), Cross(A.row(2), A.row(0)), Cross(A.row(0), A.row(1))};
+  const float scale = std::cbrt(std::max(std::fabs(det), 1e-30f));
+  InstanceRecord record{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) record.normal_matrix[3 * i + j] = rows[i][j] * ((det < 0 ? -1.0f : 1.0f) / (scale * scale));
+    record.tint[i] = instance.tint[i];
+  }
+  record.texels_log2 = -std::log2(scale);
+  record.first_triangle = first_triangle;
+  record.hash = HashLattice(static_cast<int>(index), 77, 3);
+  return record;
+}
+
+int32_t TextureIndex(TextureId id, const Scene& scene) {
+  return id == kNoTexture || scene.textures[id].levels.empty() || scene.textures[id].levels[0].empty() ? 0 : id + kOwnTextures;
+}
+
+MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
+  MaterialRecord record{};
+  for (int i = 0; i < 3; ++i) {
+    record.base[i] = m.base_color[i];
+    record.emission[i] = m.emission[i];
+  }
+  record.metallic = m.metallic;
+  record.roughness = m.roughness;
+  record.transmission = m.transmission;
+  record.macro_variation = m.macro_variation;
+  record.normal_scale = m.normal_scale;
+  record.kind = static_cast<float>(m.kind);
+  record.base_texture = TextureIndex(m.base_color_texture, scene);
+  record.roughness_texture = TextureIndex(m.metallic_roughness_texture, scene);
+  record.normal_texture = TextureIndex(m.normal_texture, scene);
+  record.emission_texture = TextureIndex(m.emission_texture, scene);
+  return record;
+}
+
+TextureRecord MakeTexture(const Texture& texture) {
+  TextureRecord record{};
+  const int count = std::min<int>(static_cast<int>(texture.levels.size()), TextureRecord::kMaxLevels);
+  for (int i = 0; i < count; ++i) {
+    const Image<Rgba8>& level = texture.levels[i];
+    record.levels[i] = {reinterpret_cast<const uint32_t*>(level.pixels().data()), static_cast<float>(level.width()), static_cast<float>(level.height())};
+  }
+  if (count > 0) record.size_log2 = 0.5f * std::log2(record.levels[0].width * record.levels[0].height);
+  record.last_level = static_cast<float>(std::max(0, count - 1));
+  record.srgb = texture.srgb ? 1.0f : 0.0f;
+  record.wrap_u = static_cast<uint8_t>(texture.wrap_u);
+  record.wrap_v = static_cast<uint8_t>(texture.wrap_v);
+  return record;
+}
+
+// Three independent tiling noises of mean 1/2 in r, g, b.
+uint32_t NoiseTexel(int x, int y) {
+  uint32_t texel = 0xff000000u;
+  for (int c = 0; c < 3; ++c) {
+    float sum = 0;
+    for (int octave = 0, period = 8; octave < 4; ++octave, period *= 2) {
+      const float scale = static_cast<float>(period) / kNoiseSize;
+      sum += (ValueNoise(static_cast<float>(x) * scale, static_cast<float>(y) * scale, 100 + 10 * c + octave, period) - 0.5f) / static_cast<float>(1 << octave);
+    }
+    texel |= static_cast<uint32_t>(std::clamp(0.5f + 0.75f * sum, 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * c);
+  }
+  return texel;
+}
+
+TextureRecord PlainTexture(const uint32_t* texels, int size) {
+  TextureRecord record{};
+  record.levels[0] = {texels, static_cast<float>(size), static_cast<float>(size)};
+  record.size_log2 = std::log2(static_cast<float>(size));
+  return record;
+}
+
+Vec3f MeanColor(const Material& m, const Scene& scene) {
+  if (TextureIndex(m.base_color_texture, scene) == 0) return m.base_color;
+  const Texture& texture = scene.textures[m.base_color_texture];
+  const Rgba8 p = texture.levels.back()(0, 0);
+  const auto decode = [&](uint8_t v) { return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f; };
+  return m.base_color * Vec3f{decode(p.r), decode(p.g), decode(p.b)};
+}
+
+}  // namespace
+
+uint32_t PackDirection(Vec3f d) {
+  const float sum = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
+  float x = d.x / sum, y = d.y / sum;
+  if (d.z < 0) {
+    const float fx = (1 - std::fabs(y)) * (x < 0 ? -1.0f : 1.0f);
+    y = (1 - std::fabs(x)) * (y < 0 ? -1.0f : 1.0f);
+    x = fx;
+  }
+  return Pack16(x, y);
+}
+
+SurfaceTables::SurfaceTables(const Scene& scene) {
+  // Our own textures, then the scene's.
+  own_texels_.assign(1 + static_cast<size_t>(kNoiseSize) * kNoiseSize, 0xffffffffu);
+  ParallelFor(kNoiseSize, [&](int64_t y) {
+    for (int x = 0; x < kNoiseSize; ++x) own_texels_[1 + static_cast<size_t>(y) * kNoiseSize + x] = NoiseTexel(x, static_cast<int>(y));
+  });
+  textures.push_back(PlainTexture(own_texels_.data(), 1));
+  textures.push_back(PlainTexture(own_texels_.data() + 1, kNoiseSize));
+  for (const Texture& texture : scene.textures) textures.push_back(MakeTexture(texture));
+
+  std::vector<UvTransform> transforms;
+  for (const Material& material : scene.materials) {
+    materials.push_back(MakeMaterial(material, scene));
+    mean_colors.push_back(MeanColor(material, scene));
+    transforms.emplace_back(material);
+  }
+
+  // Triangles of all meshes in a row.
+  std::vector<uint32_t> first;
+  size_t count = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    first.push_back(static_cast<uint32_t>(count));
+    count += mesh.triangles.size();
+  }
+  triangles.resize(count);
+  ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
+    for (const MeshPart& part : scene.meshes[m].parts) {
+      for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+        triangles[first[m] + k] = MakeTriangle(scene.meshes[m], k, part.material, transforms[part.material]);
+      }
+    }
+  });
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    instances.push_back(MakeInstance(scene.instances[i], first[scene.instances[i].mesh], static_cast<uint32_t>(i)));
+  }
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,39 @@
+#include "airsim360/sensors/rig.h"
+
+#include <cmath>
+
+namespace airsim360 {
+namespace {
+
+// Heading of the body: that of its forward axis, or of its up axis where it points straight up or down.
+double Heading(const Mat3d& R_WB) {
+  const Vec3d forward = R_WB.column(0);
+  if (std::hypot(forward.x, forward.y) > 1e-9) return std::atan2(forward.y, forward.x);
+  const Vec3d up = R_WB.column(2) * (forward.z > 0 ? -1.0 : 1.0);
+  return std::atan2(up.y, up.x);
+}
+
+}  // namespace
+
+RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
+  if (rig.pano_frame == PanoFrame::kBody) return X_WB * rig.X_BC;
+  // The rig hangs in a gimbal: its place follows the body, its orientation only the body's heading.
+  const RigidTransform level = BodyPose(X_WB * rig.X_BC.p, Heading(X_WB.R), 0, 0);
+  return {level.R * rig.X_BC.R, level.p};
+}
+
+void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
+                Capture& capture) {
+  capture.t_ns = t_ns;
+  capture.X_WC = CameraPose(rig, body.X_WB);
+  capture.body = body;
+  capture.pano_frame = rig.pano_frame;
+  const RenderRequest request{.camera = rig.camera,
+                              .X_WC = capture.X_WC,
+                              .tier = rig.tier,
+                              .products = rig.products,
+                              .exposure_ev = rig.exposure_ev};
+  capture.stats = renderer.Render(request, capture.frame);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,42 @@
+// Alpha-tested triangles as Embree sees them: a filter that lets rays pass through the holes.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "airsim360/scene/scene.h"
+
+namespace airsim360::internal {
+
+/// Opacity of one material: where it is a hole. Pointers stay valid as long as the scene.
+class AlphaTest {
+ public:
+  AlphaTest(const Material& material, std::span<const Texture> textures);
+  /// Whether a ray that meets the surface at mesh coordinates `uv` hits it: base alpha * texture alpha >=
+  /// cutoff, the texture read bilinearly at full size.
+  bool Solid(Vec2f uv) const;
+
+ private:
+  const Texture* texture_;  // nullptr = alpha 1 everywhere
+  UvTransform transform_;
+  float scale_, cutoff_;
+};
+
+/// Whether rays can pass anywhere through a surface of this material, so that it needs a filter.
+bool NeedsAlphaTest(const Material& material);
+
+/// User data of an alpha-tested Embree geometry.
+struct AlphaGeometry {
+  const Mesh* mesh;
+  std::span<const uint32_t> triangles;   // primitive -> triangle of the mesh; empty = the same number
+  std::vector<uint32_t> primitive_test;  // primitive -> index into tests
+  std::vector<AlphaTest> tests;
+};
+
+/// Embree filter for intersection and occlusion, any packet width; user data: AlphaGeometry.
+void FilterAlpha(const RTCFilterFunctionNArguments* args);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,194 @@
+#include "airsim360/trace/embree_scene.h"
+
+#include <algorithm>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Spatial splits trace faster but take several times longer to build.
+constexpr uint64_t kMaxHighQualityTriangles = 6'000'000;
+
+// Robust: rays do not slip between neighbouring triangles, which would write a wrong label.
+SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
+  SceneHandle scene(rtcNewScene(device));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene.get(), quality);
+  return scene;
+}
+
+// The triangles of the parts for which `wanted(material)` holds; null if there are none.
+template <class Wanted>
+std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const Scene& scene, Wanted wanted) {
+  auto out = std::make_unique<MeshGeometry>();
+  out->mesh = &mesh;
+  for (const MeshPart& part : mesh.parts) {
+    if (!wanted(scene.materials[part.material])) continue;
+    for (uint32_t i = 0; i < part.triangle_count; ++i) out->triangles.push_back(part.first_triangle + i);
+  }
+  out->primitive_count = static_cast<uint32_t>(out->triangles.size());
+  if (out->primitive_count == 0) return nullptr;
+
+  // All of the mesh: share its index buffer.
+  if (out->primitive_count == mesh.triangles.size()) {
+    out->triangles = {};
+    return out;
+  }
+  out->indices.reserve(out->triangles.size());
+  for (uint32_t triangle : out->triangles) out->indices.push_back(mesh.triangles[triangle]);
+  return out;
+}
+
+std::unique_ptr<AlphaGeometry> MakeAlpha(const MeshGeometry& geometry, const Scene& scene) {
+  auto alpha = std::make_unique<AlphaGeometry>();
+  alpha->mesh = geometry.mesh;
+  alpha->triangles = geometry.triangles;
+  for (const MeshPart& part : geometry.mesh->parts) {
+    const Material& material = scene.materials[part.material];
+    if (!NeedsAlphaTest(material)) continue;
+    alpha->primitive_test.insert(alpha->primitive_test.end(), part.triangle_count,
+                                 static_cast<uint32_t>(alpha->tests.size()));
+    alpha->tests.emplace_back(material, scene.textures);
+  }
+  return alpha;
+}
+
+bool IsIdentity(const AffineTransform& X) { return X == AffineTransform(); }
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(const Scene& scene, const std::string& isa) {
+  device_.reset(rtcNewDevice(isa.empty() ? nullptr : ("isa=" + isa).c_str()));
+  if (device_ == nullptr) throw RuntimeError("ray tracer: Embree refuses a device (isa '" + isa + "')");
+  std::vector<uint32_t> uses(scene.meshes.size());
+  for (const Instance& instance : scene.instances) ++uses[instance.mesh];
+
+  SplitMeshes(scene, uses);
+  BuildSubScenes(scene, uses);
+  AttachInstances(scene, uses);
+  rtcCommitScene(top_.get());
+  ThrowOnError();
+}
+
+void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses) {
+  groups_.resize(scene.meshes.size());
+  ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
+    if (uses[m] == 0) return;
+    auto opaque =
+        SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return !NeedsAlphaTest(x); });
+    auto tested =
+        SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return NeedsAlphaTest(x); });
+    if (tested) tested->alpha = MakeAlpha(*tested, scene);
+    if (opaque) groups_[m].push_back(std::move(opaque));
+    if (tested) groups_[m].push_back(std::move(tested));
+  });
+}
+
+// Embree reads 16 bytes at every vertex, so the buffer must go on for 4 bytes after the last one.
+const Vec3f* EmbreeScene::PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM,
+                                         std::vector<Vec3f>& own) const {
+  if (X_WM == nullptr && mesh.positions.capacity() > mesh.positions.size()) return mesh.positions.data();
+  own.reserve(mesh.positions.size() + 1);
+  own = mesh.positions;
+  if (X_WM != nullptr) {
+    for (Vec3f& p : own) p = *X_WM * p;
+  }
+  own.emplace_back();
+  return own.data();
+}
+
+void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry,
+                                 const Vec3f* vertices, size_t count, RTCBuildQuality quality) const {
+  RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::vector<Vec3u>& indices = geometry.indices.empty() ? geometry.mesh->triangles : geometry.indices;
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(Vec3f),
+                             count);
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(Vec3u),
+                             indices.size());
+  rtcSetGeometryBuildQuality(g, quality);
+  if (geometry.alpha) {
+    rtcSetGeometryUserData(g, geometry.alpha.get());
+    rtcSetGeometryIntersectFilterFunction(g, FilterAlpha);
+    rtcSetGeometryOccludedFilterFunction(g, FilterAlpha);
+  }
+  rtcCommitGeometry(g);
+  rtcAttachGeometryByID(target, g, id);
+  rtcReleaseGeometry(g);
+}
+
+void EmbreeScene::BuildSubScenes(const Scene& scene, const std::vector<uint32_t>& uses) {
+  sub_scenes_.resize(scene.meshes.size());
+  mesh_vertices_.resize(scene.meshes.size());
+  ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
+    if (uses[m] < 2 || groups_[m].empty()) return;
+    const Mesh& mesh = scene.meshes[m];
+    const Vec3f* vertices = PaddedVertices(mesh, nullptr, mesh_vertices_[m]);
+    sub_scenes_[m] = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
+    for (unsigned i = 0; i < groups_[m].size(); ++i) {
+      AttachGeometry(sub_scenes_[m].get(), i, *groups_[m][i], vertices, mesh.positions.size(),
+                     RTC_BUILD_QUALITY_HIGH);
+    }
+    rtcCommitScene(sub_scenes_[m].get());
+  });
+}
+
+void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses) {
+  // Vertices of meshes used once, in W.
+  instance_vertices_.resize(scene.instances.size());
+  std::vector<const Vec3f*> vertices(scene.instances.size());
+  ParallelFor(static_cast<int64_t>(scene.instances.size()), [&](int64_t i) {
+    const Instance& instance = scene.instances[i];
+    if (uses[instance.mesh] != 1) return;
+    const AffineTransform* X_WM = IsIdentity(instance.X_WM) ? nullptr : &instance.X_WM;
+    vertices[i] = PaddedVertices(scene.meshes[instance.mesh], X_WM, instance_vertices_[i]);
+  });
+
+  uint64_t direct_triangles = 0;
+  for (size_t m = 0; m < uses.size(); ++m)
+    direct_triangles += uses[m] == 1 ? scene.meshes[m].triangles.size() : 0;
+  const auto quality =
+      direct_triangles <= kMaxHighQualityTriangles ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+  top_ = NewScene(device_.get(), quality);
+
+  // One geometry id after another, in the order of the instances.
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const MeshGroups& groups = groups_[instance.mesh];
+    const bool direct = uses[instance.mesh] == 1;
+    if (groups.empty()) continue;
+    if (!direct) {
+      RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+      const Mat3f& A = instance.X_WM.A;
+      const Vec3f columns[4] = {A.column(0), A.column(1), A.column(2), instance.X_WM.p};
+      rtcSetGeometryInstancedScene(g, sub_scenes_[instance.mesh].get());
+      rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+      rtcCommitGeometry(g);
+      rtcAttachGeometryByID(top_.get(), g, static_cast<unsigned>(first_slots_.size()));
+      rtcReleaseGeometry(g);
+      first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
+    }
+    for (const auto& group : groups) {
+      if (direct) {
+        AttachGeometry(top_.get(), static_cast<unsigned>(first_slots_.size()), *group, vertices[i],
+                       scene.meshes[instance.mesh].positions.size(), quality);
+        first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
+      }
+      slots_.push_back(
+          {i, group->primitive_count, group->triangles.empty() ? nullptr : group->triangles.data(), direct});
+    }
+  }
+}
+
+void EmbreeScene::ThrowOnError() const {
+  const RTCError error = rtcGetDeviceError(device_.get());
+  if (error == RTC_ERROR_NONE) return;
+  const char* what = error == RTC_ERROR_OUT_OF_MEMORY      ? "out of memory"
+                     : error == RTC_ERROR_INVALID_ARGUMENT ? "invalid argument"
+                     : error == RTC_ERROR_UNSUPPORTED_CPU  ? "unsupported CPU"
+                                                           : "unknown error";
+  throw RuntimeError(std::string("ray tracer: Embree could not build the scene: ") + what);
+}
+
+}  // namespace airsim360::internal
