@@ -49,6 +49,7 @@ class GltfReader {
 
  private:
   void CheckVersion();
+  void CheckNames();
   std::vector<uint32_t> SceneRoots();
   void AddTree(uint32_t node);
   void AddNode(uint32_t node, int32_t parent);
@@ -79,6 +80,15 @@ void GltfReader::CheckVersion() {
   }
 }
 
+void GltfReader::CheckNames() {
+  for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
+                            "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+    const auto elements = root_.Find(array);
+    for (size_t i = 0; elements && i < elements->size(); ++i)
+      static_cast<void>((*elements)[i].TextOr("name", ""));
+  }
+}
+
 std::vector<uint32_t> GltfReader::SceneRoots() {
   std::vector<uint32_t> roots;
   const auto scenes = root_.Find("scenes");
@@ -105,8 +115,7 @@ void GltfReader::AddNode(uint32_t i, int32_t parent) {
   const std::string name = CleanName(json.TextOr("name", ""));
   const TransformG& X = nodes_[i].X_G;
   const int32_t mesh = meshes_.MeshOf(json);
-  const auto extensions = json.Find("extensions");
-  const auto instancing = extensions ? extensions->Find("EXT_mesh_gpu_instancing") : std::nullopt;
+  const auto instancing = GltfExtension(json, "EXT_mesh_gpu_instancing");
   if (mesh >= 0 && instancing) {
     // The node itself only groups its instances.
     const auto self = static_cast<int32_t>(out_.nodes.size());
@@ -139,6 +148,7 @@ void GltfReader::AddTree(uint32_t root) {
 
 ImportedFile GltfReader::Read() {
   CheckVersion();
+  CheckNames();
   nodes_ = ReadNodes(root_, limits_);
   for (uint32_t root : SceneRoots()) AddTree(root);
   out_.meshes = std::move(meshes_.meshes);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/assets/gltf_json.h"
+#include "airsim360/assets/gltf_json_internal.h"
 #include "airsim360/assets/imported.h"
 #include "airsim360/assets/limits.h"
 #include "airsim360/math/transform.h"

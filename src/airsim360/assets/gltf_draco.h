@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/assets/gltf_json.h"
+#include "airsim360/assets/gltf_json_internal.h"
 #include "airsim360/assets/limits.h"
 
 namespace airsim360::internal {

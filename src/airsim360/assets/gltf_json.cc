@@ -1,10 +1,9 @@
-#include "airsim360/assets/gltf_json.h"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "airsim360/assets/gltf_json_internal.h"
 #include "airsim360/assets/imported.h"
 #include "airsim360/base/error.h"
 

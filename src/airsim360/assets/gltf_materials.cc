@@ -2,9 +2,7 @@
 #include <cmath>
 
 #include "airsim360/assets/gltf_parts.h"
-#include "airsim360/assets/gltf_uri.h"
 #include "airsim360/assets/words.h"
-#include "airsim360/base/error.h"
 
 namespace airsim360::internal {
 namespace {
@@ -14,16 +12,7 @@ Vec3f ToColor(const std::vector<double>& c) {
   return {channel(c[0]), channel(c[1]), channel(c[2])};
 }
 
-std::optional<JsonRef> Extension(const JsonRef& json, const char* name) {
-  const auto extensions = json.Find("extensions");
-  return extensions ? extensions->Find(name) : std::nullopt;
-}
-
 float Unit(double v) { return static_cast<float>(std::clamp(v, 0.0, 1.0)); }
-
-Wrap ToWrap(uint64_t code) {
-  return code == 33071 ? Wrap::kClamp : code == 33648 ? Wrap::kMirror : Wrap::kRepeat;
-}
 
 // Metallic share that gives a specular colour, KhronosGroup's published conversion of specular-glossiness:
 // solves for m in specular = 0.04 (1 - m) + base m, with perceived brightness of both colours.
@@ -53,69 +42,6 @@ void GuessKind(Material& m) {
 }
 
 }  // namespace
-
-bool UvUse::IsIdentity() const {
-  return offset[0] == 0 && offset[1] == 0 && scale[0] == 1 && scale[1] == 1 && rotation == 0;
-}
-
-Vec2f UvUse::operator()(Vec2f uv) const {
-  const double u = uv.x * scale[0];
-  const double v = uv.y * scale[1];
-  const double c = std::cos(rotation);
-  const double s = std::sin(rotation);
-  return {static_cast<float>(c * u + s * v + offset[0]), static_cast<float>(-s * u + c * v + offset[1])};
-}
-
-TextureId GltfMaterials::ReadTexture(const JsonRef& info, bool srgb, UvUse* uv) {
-  // Where on the surface: the set, and the transform of the texture that leads.
-  UvUse use;
-  use.set = info.UintOr("texCoord", 0);
-  if (const auto transform = Extension(info, "KHR_texture_transform")) {
-    const std::vector<double> offset = transform->NumbersOr("offset", {0, 0});
-    const std::vector<double> scale = transform->NumbersOr("scale", {1, 1});
-    std::copy(offset.begin(), offset.end(), use.offset);
-    std::copy(scale.begin(), scale.end(), use.scale);
-    use.rotation = transform->NumberOr("rotation", 0);
-    use.set = transform->UintOr("texCoord", use.set);
-  }
-  if (use.set > 31) info.Fail("texture coordinate sets beyond 31 are not read");
-  if (uv) *uv = use;
-
-  // Which picture, and how it goes on beyond its edges.
-  const JsonRef texture = buffers_.Element("textures", info.At("index"));
-  const auto webp = Extension(texture, "EXT_texture_webp");
-  const auto source = webp ? webp->Find("source") : texture.Find("source");
-  if (!source) {
-    warnings_.Add(root_.file() + ": " + texture.pointer() + ": has no picture that we read: left out");
-    return kNoTexture;
-  }
-  const JsonRef image = buffers_.Element("images", *source);
-  TextureUse how{.srgb = srgb, .wrap_u = Wrap::kRepeat, .wrap_v = Wrap::kRepeat, .alpha_file = {}};
-  if (const auto sampler = texture.Find("sampler")) {
-    const JsonRef json = buffers_.Element("samplers", *sampler);
-    how.wrap_u = ToWrap(json.UintOr("wrapS", 10497));
-    how.wrap_v = ToWrap(json.UintOr("wrapT", 10497));
-  }
-
-  // Embedded pictures are known by their place in the document, others by their file name.
-  const std::string label = image.pointer().substr(1);
-  const auto uri = image.Find("uri");
-  if (!uri) {
-    const std::span<const std::byte> bytes = buffers_.View(image.At("bufferView"));
-    return textures_.Get(label, how, [&](const std::string&) { return Bytes(bytes.begin(), bytes.end()); });
-  }
-  const std::string text = uri->Text();
-  if (IsDataUri(text)) {
-    return textures_.Get(label, how, [&](const std::string&) {
-      auto bytes = DecodeDataUri(text);
-      if (!bytes) uri->Fail("a damaged data URI");
-      return bytes;
-    });
-  }
-  const auto name = DecodePercent(text);
-  if (!name) uri->Fail("a damaged URI");
-  return textures_.Get(*name, how, load_);
-}
 
 void GltfMaterials::ReadMetallicRoughness(const JsonRef& json, GltfMaterial& out) {
   Material& m = out.material;
@@ -184,7 +110,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
   Material& m = out.material;
   m.name = CleanName(json.TextOr("name", ""));
   ReadMetallicRoughness(json, out);
-  if (const auto glossy = Extension(json, "KHR_materials_pbrSpecularGlossiness"))
+  if (const auto glossy = GltfExtension(json, "KHR_materials_pbrSpecularGlossiness"))
     ReadSpecularGlossiness(*glossy, out);
   UvUse* const uv_if_first =
       m.base_color_texture == kNoTexture && m.metallic_roughness_texture == kNoTexture ? &out.uv : nullptr;
@@ -195,14 +121,14 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
 
   // Emission; the strength extension goes beyond 1.
   m.emission = ToColor(json.NumbersOr("emissiveFactor", {0, 0, 0}));
-  if (const auto strength = Extension(json, "KHR_materials_emissive_strength")) {
+  if (const auto strength = GltfExtension(json, "KHR_materials_emissive_strength")) {
     m.emission *= static_cast<float>(std::clamp(strength->NumberOr("emissiveStrength", 1), 0.0, 1e6));
   }
   if (const auto emissive = json.Find("emissiveTexture"))
     m.emission_texture = ReadTexture(*emissive, true, m.normal_texture == kNoTexture ? uv_if_first : nullptr);
 
   ReadAlpha(json, m.base_alpha, m);
-  if (const auto transmission = Extension(json, "KHR_materials_transmission")) {
+  if (const auto transmission = GltfExtension(json, "KHR_materials_transmission")) {
     const float share = Unit(transmission->NumberOr("transmissionFactor", 0));
     if (share > 0.3f) {
       m.kind = SurfaceKind::kGlass;
@@ -210,7 +136,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
       m.base_color *= 1 - 0.8f * share;
     }
   }
-  if (Extension(json, "KHR_materials_unlit")) {
+  if (GltfExtension(json, "KHR_materials_unlit")) {
     m.metallic = 0;
     m.roughness = 1;
   }

@@ -22,6 +22,18 @@ const GltfMaterial& GltfMeshes::MaterialAt(const JsonRef& primitive, MaterialId&
   return it->second.second;
 }
 
+MaterialId GltfMeshes::Tinted(MaterialId material, Vec3f color) {
+  if (color == Vec3f{1, 1, 1}) return material;
+  const auto [it, is_new] =
+      tinted_.try_emplace({material, color.x, color.y, color.z}, static_cast<MaterialId>(materials.size()));
+  if (is_new) {
+    Material copy = materials[material];
+    copy.base_color = copy.base_color * color;
+    materials.push_back(std::move(copy));
+  }
+  return it->second;
+}
+
 std::vector<TransformG> GltfMeshes::JointTransforms(const JsonRef& skin) {
   const JsonRef joints = skin.At("joints");
   std::vector<float> inverse;
@@ -93,13 +105,16 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
     }
     return moved[i];
   };
-  const auto first = static_cast<uint32_t>(mesh.triangles.size());
-  for (const Vec3u& t : primitive->triangles) {
-    const Vec3u moved_triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
-    mesh.triangles.push_back(moved_triangle);
+  for (const ColorGroup& group : GroupByColor(*primitive)) {
+    const auto first = static_cast<uint32_t>(mesh.triangles.size());
+    for (const Vec3u& t : group.triangles) {
+      const Vec3u triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
+      mesh.triangles.push_back(triangle);
+    }
+    mesh.parts.push_back(
+        {first, static_cast<uint32_t>(group.triangles.size()), Tinted(material_id, group.color), kNoEntity});
   }
   if (uvs) mesh.uvs.resize(mesh.positions.size());
-  mesh.parts.push_back({first, static_cast<uint32_t>(primitive->triangles.size()), material_id, kNoEntity});
 
   vertices_ += mesh.positions.size() - base;
   triangles_ += primitive->triangles.size();

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "airsim360/assets/axes.h"
@@ -11,6 +12,9 @@
 #include "airsim360/assets/texture_store.h"
 
 namespace airsim360::internal {
+
+/// Member `name` of the "extensions" of a value, if there is one.
+std::optional<JsonRef> GltfExtension(const JsonRef& json, const char* name);
 
 /// Which texture coordinates a material wants, and how they are moved (KHR_texture_transform of its main
 /// texture).
@@ -60,6 +64,7 @@ struct GltfPrimitive {
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uvs;
   std::vector<float> joints, weights;  ///< four a vertex, or empty
+  std::vector<Vec3f> colors;           ///< linear light, or empty
   std::vector<Vec3u> triangles;
 };
 
@@ -68,6 +73,14 @@ struct GltfPrimitive {
 std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
                                            const std::vector<double>& morph_weights, GltfBuffers& buffers,
                                            const ImportLimits& limits, Warnings& warnings);
+
+/// The triangles of a primitive by vertex colour (mean of their corners, on at most 256 steps); white if it
+/// has none.
+struct ColorGroup {
+  Vec3f color;
+  std::vector<Vec3u> triangles;
+};
+std::vector<ColorGroup> GroupByColor(const GltfPrimitive& primitive);
 
 /// A node of /nodes with its place in the hierarchy.
 struct GltfNode {
@@ -101,6 +114,7 @@ class GltfMeshes {
   std::vector<TransformG> JointTransforms(const JsonRef& skin);
   void ApplySkin(const std::vector<TransformG>& joints, const JsonRef& where, GltfPrimitive& primitive);
   const GltfMaterial& MaterialAt(const JsonRef& primitive, MaterialId& id);
+  MaterialId Tinted(MaterialId material, Vec3f color);
 
   JsonRef root_;
   GltfBuffers& buffers_;
@@ -110,6 +124,7 @@ class GltfMeshes {
   Warnings& warnings_;
   std::map<uint64_t, int32_t> mesh_ids_;
   std::map<uint64_t, std::pair<MaterialId, GltfMaterial>> material_ids_;
+  std::map<std::tuple<MaterialId, float, float, float>, MaterialId> tinted_;
   uint64_t vertices_ = 0, triangles_ = 0;
 };
 

@@ -15,12 +15,11 @@ class Attributes {
  public:
   Attributes(const JsonRef& primitive, uint64_t uv_set, GltfBuffers& buffers, const ImportLimits& limits)
       : json_(primitive.At("attributes")), buffers_(buffers) {
-    const auto extensions = primitive.Find("extensions");
-    const auto draco = extensions ? extensions->Find("KHR_draco_mesh_compression") : std::nullopt;
+    const auto draco = GltfExtension(primitive, "KHR_draco_mesh_compression");
     if (!draco) return;
-    const std::map<std::string, int> wanted = {{"POSITION", 3},   {"NORMAL", 3},
-                                               {"TEXCOORD_0", 2}, {"TEXCOORD_" + std::to_string(uv_set), 2},
-                                               {"JOINTS_0", 4},   {"WEIGHTS_0", 4}};
+    const std::map<std::string, int> wanted = {
+        {"POSITION", 3}, {"NORMAL", 3},    {"TEXCOORD_0", 2}, {"TEXCOORD_" + std::to_string(uv_set), 2},
+        {"JOINTS_0", 4}, {"WEIGHTS_0", 4}, {"COLOR_0", 3}};
     draco_ =
         DecodeDraco(buffers.View(draco->At("bufferView")), *draco, draco->At("attributes"), wanted, limits);
     buffers.Charge(draco_->indices.size() * 4 + draco_->vertices * uint64_t{64}, *draco);
@@ -59,6 +58,21 @@ std::vector<Vec3f> ToVec3(const std::vector<float>& values) {
   std::vector<Vec3f> out(values.size() / 3);
   for (size_t i = 0; i < out.size(); ++i) out[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return out;
+}
+
+// Linear colours with or without alpha, which is left out.
+std::vector<Vec3f> ReadColors(Attributes& attributes, GltfBuffers& buffers) {
+  const auto index = attributes.json().Find("COLOR_0");
+  if (!index) return {};
+  const bool packed = attributes.draco() && attributes.draco()->attributes.contains("COLOR_0");
+  const size_t stride = !packed && buffers.Element("accessors", *index).At("type").Text() == "VEC4" ? 4 : 3;
+  const std::vector<float> values = attributes.Read("COLOR_0", static_cast<int>(stride));
+  std::vector<Vec3f> colors;
+  for (size_t i = 0; i + stride <= values.size(); i += stride) {
+    const auto channel = [&](size_t k) { return values[i + k] >= 0 ? values[i + k] : 0.0f; };  // NaN too
+    colors.push_back({channel(0), channel(1), channel(2)});
+  }
+  return colors;
 }
 
 void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where) {
@@ -154,6 +168,7 @@ std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
     const bool finite = std::isfinite(uvs[i]) && std::isfinite(uvs[i + 1]);
     out.uvs.push_back(finite ? Vec2f{uvs[i], uvs[i + 1]} : Vec2f{});
   }
+  out.colors = ReadColors(attributes, buffers);
   out.joints = attributes.Read("JOINTS_0", 4);
   out.weights = attributes.Read("WEIGHTS_0", 4);
   ApplyMorphs(json, morph_weights, buffers, out);

@@ -13,22 +13,26 @@
 namespace airsim360 {
 
 struct ImportOptions {
-  /// YAML or JSON that overrides labels, see docs/worlds.md; empty = FILE.labels.yaml beside the model if it
-  /// exists.
+  /// YAML or JSON that overrides labels, see docs/importing.md; empty = NAME.labels.yaml (.yml, .json) beside
+  /// the model NAME.glb if there is one.
   std::filesystem::path labels;
 };
 
-/// Imports a model file as a world of its own under the default sky. Every node with a mesh (glTF) or
-/// object/group (OBJ) is an entity; its category comes from the override file, else from keywords in the
-/// node, mesh and material names, else "object".
+/// Imports a model file as a world of its own under the default sky: exactly what it holds, no ground is
+/// added. Every node with a mesh (glTF) or object/group (OBJ) is an entity; its category comes from the label
+/// file, else from keywords in the node, mesh, parents', material and file names, else "object". Sets a
+/// viewpoint. InputError if there is nothing to see.
 std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
                                          const ImportOptions& options = {});
 
-/// One model file as a single prop (all nodes merged), in metres and +Z up.
+/// One model file as a single prop (all nodes merged), in metres, +Z up, standing on z = 0 and centred on the
+/// z axis.
 Model ImportModel(const std::filesystem::path& file);
 
 /// The models of Debian's sweethome3d-furniture, read in place; null if the package is not installed. Names
-/// are file stems of the catalogue ("poplar", "fordFocus"). Models come at their catalogue size.
+/// are file stems of the catalogue ("poplar", "fordFocus"), or "library/stem" where several libraries share
+/// one ("Scopia/bench"). Models come at their catalogue size. Each call reads its model anew; calls from
+/// several threads are fine.
 std::unique_ptr<ModelSource> OpenSweetHomeModels(
     const std::filesystem::path& folder = "/usr/share/sweethome3d/furniture");
 

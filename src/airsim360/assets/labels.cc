@@ -65,7 +65,7 @@ constexpr Row kWhole[] = {
     {"ground/lane_marking", "lane marking|road marking|road line|lane line"},
     {"ground/kerb", "kerb|curb"},
     {"ground/sidewalk", "sidewalk|pavement|footpath|walkway|footway"},
-    {"ground/path/park_walkway", "path|trail|pathway"},
+    {"ground/path/park_walkway", "pathway|trail|park path|garden path|foot path"},
     {"ground/parking", "parking|car park|parking lot|carpark"},
     {"ground/manhole", "manhole|manhole cover"},
     {"ground/bike_lane", "bike lane|bicycle lane|cycle lane"},
@@ -205,16 +205,30 @@ const std::map<std::string, KeywordMatch, std::less<>>& Table() {
 
 }  // namespace
 
-std::optional<KeywordMatch> FindKeyword(std::string_view name) {
+namespace {
+
+// The longest keyword among the words, the last one of equal length; only whole things if `whole`.
+std::optional<KeywordMatch> LongestKeyword(const std::vector<std::string>& words, bool whole) {
   constexpr size_t kLongest = 3;
-  const std::vector<std::string> words = SplitWords(name.substr(0, 200));
   for (size_t length = kLongest; length > 0; --length) {
     for (size_t end = words.size(); end >= length; --end) {
-      const std::string key = Joined(std::span(words).subspan(end - length, length));
-      if (const auto it = Table().find(key); it != Table().end()) return it->second;
+      const auto it = Table().find(Joined(std::span(words).subspan(end - length, length)));
+      if (it != Table().end() && !(whole && it->second.part)) return it->second;
     }
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<KeywordMatch> FindKeyword(std::string_view name) {
+  const std::vector<std::string> words = SplitWords(name.substr(0, 200));
+  const std::optional<KeywordMatch> match = LongestKeyword(words, false);
+  if (!match || !match->part) return match;
+
+  // "car_wheel": the owner stands in the same name.
+  const std::optional<KeywordMatch> owner = LongestKeyword(words, true);
+  return owner ? KeywordMatch{CategoryOfPart(match->category, owner->category), false} : *match;
 }
 
 std::string_view RootOf(std::string_view path) { return path.substr(0, path.find('/')); }

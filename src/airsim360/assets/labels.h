@@ -14,7 +14,9 @@ struct KeywordMatch {
 };
 
 /// The keyword of a name: words are compared in singular and without case; the longest keyword wins ("bus
-/// stop" over "bus"), then the last one ("truck door" is a door). nullopt if there is none.
+/// stop" over "bus"), then the last one ("car park bench" is a bench). A part whose owner stands in the same
+/// name belongs to it
+/// ("car_wheel" is car). nullopt if there is none.
 std::optional<KeywordMatch> FindKeyword(std::string_view name);
 
 /// Category of a part with category `part` of something that is an `owner`: a wheel of a car is car, a window

@@ -13,6 +13,7 @@ bool IsLetter(char c) { return IsLower(c) || IsUpper(c) || static_cast<unsigned 
 std::string Singular(std::string word) {
   const auto ends = [&](std::string_view end) { return word.size() > end.size() + 1 && word.ends_with(end); };
   if (word == "leaves") return "leaf";
+  if (word == "buses") return "bus";
   if (word == "bus" || word == "canvas" || word == "gas" || word == "moss" || ends("ss") || ends("us"))
     return word;
   if (ends("ies")) return word.substr(0, word.size() - 3) + "y";

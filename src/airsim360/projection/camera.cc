@@ -12,11 +12,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-
 // Position in [0, width] x [0, height], edges included so that rounding loses no ray.
 bool Inside(Vec2d pixel, int width, int height) {
   return pixel.x >= 0 && pixel.x <= width && pixel.y >= 0 && pixel.y <= height;
@@ -76,19 +71,19 @@ std::optional<Vec2d> Pixel(const Fisheye& c, Vec3d ray) {
   return Inside(pixel, c.width, c.height) ? std::optional(pixel) : std::nullopt;
 }
 
-// Width of faces of a camera where nothing but its size is asked.
 struct Size {
   int width, height;
 };
 
+Size Of(const CubeFace& c) { return {c.size, c.size}; }
+
+template <class C>
+Size Of(const C& c) {
+  return {c.width, c.height};
+}
+
 Size SizeOf(const Camera& camera) {
-  return std::visit(Overloaded{[](const CubeFace& c) {
-                                 return Size{c.size, c.size};
-                               },
-                               [](const auto& c) {
-                                 return Size{c.width, c.height};
-                               }},
-                    camera);
+  return std::visit([](const auto& c) { return Of(c); }, camera);
 }
 
 [[noreturn]] void ThrowBadCamera(const std::string& what) { throw InputError("camera: " + what); }

@@ -35,7 +35,9 @@ struct RenderRequest {
   int aa_samples = 4;  ///< colour samples of a pixel on an edge, the centre ray included; 1 = none
 };
 
-/// The products asked for; the others are empty. Images keep their memory between captures of the same size.
+/// The products asked for; the others are empty, and so is rgb of tier labels. Images keep their memory
+/// between captures of the same size. A pixel without a ray (outside a fisheye's circle) has range 0, entity
+/// 0, semantic void, black.
 struct Frame {
   Image<Rgb8> rgb;             ///< sRGB
   Image<float> range;          ///< metres along the ray through the pixel centre, 0 = nothing hit
@@ -46,7 +48,7 @@ struct Frame {
 
 /// Counters of the last capture.
 struct RenderStats {
-  uint64_t rays = 0;
+  uint64_t rays = 0;     ///< from the camera: pixels and antialiasing samples
   double render_ms = 0;  ///< rays and shading alone
 };
 

@@ -47,6 +47,21 @@ Vec3f NormalToWorld(const Mat3f& A, Vec3f n) {
   return Mat3f::FromColumns(Cross(b, c), Cross(c, a), Cross(a, b)) * n;
 }
 
+// Embree aborts the process on an active ray that is not finite: such lanes are taken out. Returns `valid`,
+// or `fixed`.
+const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
+  int bad[16], any = 0;
+  for (int i = 0; i < 16; ++i) {
+    const float sum = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
+                      rays.direction_y[i] + rays.direction_z[i];
+    bad[i] = sum - sum == 0 ? 0 : -1;
+    any |= bad[i] & valid[i];
+  }
+  if (any == 0) return valid;
+  for (int i = 0; i < 16; ++i) fixed[i] = valid[i] & ~bad[i];
+  return fixed;
+}
+
 }  // namespace
 
 FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
@@ -77,13 +92,17 @@ void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) con
   // valid is -1 in active lanes, so that "or" marks them as missed and leaves the others alone.
   for (int i = 0; i < 16; ++i) rays.geometry[i] |= static_cast<uint32_t>(valid[i]);
   for (int i = 0; i < 16; ++i) rays.instance[i] |= static_cast<uint32_t>(valid[i]);
+  alignas(64) int fixed[16];
   RTCIntersectContext context = Context(coherent);
-  rtcIntersect16(valid, impl_->embree.top(), &context, reinterpret_cast<RTCRayHit16*>(&rays));
+  rtcIntersect16(FiniteLanes(valid, rays, fixed), impl_->embree.top(), &context,
+                 reinterpret_cast<RTCRayHit16*>(&rays));
 }
 
 void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, bool coherent) const {
+  alignas(64) int fixed[16];
   RTCIntersectContext context = Context(coherent);
-  rtcOccluded16(valid, impl_->embree.top(), &context, reinterpret_cast<RTCRay16*>(&rays));
+  rtcOccluded16(FiniteLanes(valid, rays, fixed), impl_->embree.top(), &context,
+                reinterpret_cast<RTCRay16*>(&rays));
   for (int i = 0; i < 16; ++i) {
     if (valid[i] != 0) occluded[i] = rays.t_far[i] < 0;
   }

@@ -334,6 +334,27 @@ TEST(Clearance, ClosestPointIsNoFartherThanAnyPointOfTheTriangle) {
   }
 }
 
+TEST(RayTracer, RaysThatAreNotFiniteHitNothingAndDoNotDisturbTheOthers) {
+  RngStream rng(9, "test");
+  const RayTracer tracer(SceneOf(SphereMesh(3), {AffineTransform()}));
+  for (bool coherent : {false, true}) {
+    RayHit16 rays = Packet({0, 0, 0.5f}, rng);
+    rays.direction_y[3] = std::numeric_limits<float>::quiet_NaN();
+    rays.origin_x[9] = kInfinity;
+    RayHit16 shadow = rays;
+    Lanes valid;
+    std::fill(std::begin(valid.active), std::end(valid.active), -1);
+    bool occluded[16];
+    tracer.Intersect16(valid.active, rays, coherent);
+    tracer.Occluded16(valid.active, shadow, occluded, coherent);
+    for (int i = 0; i < 16; ++i) {
+      EXPECT_EQ(rays.geometry[i] != kMiss, i != 3 && i != 9);
+      EXPECT_EQ(occluded[i], i != 3 && i != 9);
+    }
+  }
+  EXPECT_FALSE(tracer.Intersect({0, 0, std::nanf("")}, {0, 0, 1}));
+}
+
 TEST(RayTracer, AnEmptySceneIsAllMiss) {
   SceneBuilder builder("empty");
   const RayTracer tracer(builder.Build());

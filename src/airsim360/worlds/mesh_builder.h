@@ -1,4 +1,5 @@
-// Puts meshes together from quads, boxes, cylinders and extruded outlines, with one material and entity at a time.
+// Puts meshes together from quads, boxes, cylinders and extruded outlines, with one material and entity at a
+// time.
 #pragma once
 
 #include <map>
@@ -11,8 +12,8 @@
 
 namespace airsim360 {
 
-/// Triangles are collected by (material, entity) and come out as one part each. Positions pass through the current
-/// transform. uv coordinates are metres on the surface, so that textures tile at their real size.
+/// Triangles are collected by (material, entity) and come out as one part each. Positions pass through the
+/// current transform. uv coordinates are metres on the surface, so that textures tile at their real size.
 class MeshBuilder {
  public:
   /// What the following shapes are made of; kNoEntity = the entity of the instance.
@@ -21,21 +22,31 @@ class MeshBuilder {
   /// Maps the following shapes (builder frame) to the mesh frame.
   void SetTransform(const AffineTransform& X) { X_ = X; }
 
-  /// Counter-clockwise seen from outside; uv from 3D edge lengths, u along a->b, v downwards from the edge d-c to a-b.
+  /// Counter-clockwise seen from outside; uv from 3D edge lengths, u along a->b, v downwards from the edge
+  /// d-c to a-b.
   void Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d);
   void QuadUv(Vec3f a, Vec3f b, Vec3f c, Vec3f d, Vec2f uv_a, Vec2f uv_b, Vec2f uv_c, Vec2f uv_d);
   void Triangle(Vec3f a, Vec3f b, Vec3f c, Vec2f uv_a = {}, Vec2f uv_b = {}, Vec2f uv_c = {});
   /// Triangle with shading normals (builder frame).
   void SmoothTriangle(const Vec3f (&p)[3], const Vec3f (&n)[3], const Vec2f (&uv)[3]);
   /// Axis-aligned box; `sides` chooses faces.
-  enum Side : unsigned { kLeft = 1, kRight = 2, kFront = 4, kBack = 8, kBottom = 16, kTop = 32, kAllSides = 63 };
+  enum Side : unsigned {
+    kLeft = 1,
+    kRight = 2,
+    kFront = 4,
+    kBack = 8,
+    kBottom = 16,
+    kTop = 32,
+    kAllSides = 63
+  };
   void Box(Vec3f min, Vec3f max, unsigned sides = kAllSides);
   /// Square bar of the given thickness from a to b.
   void Beam(Vec3f a, Vec3f b, float thickness);
   /// Cone frustum from a (radius ra) to b (radius rb) with smooth normals; caps where asked.
   void Tube(Vec3f a, Vec3f b, float ra, float rb, int sides, bool cap_a = true, bool cap_b = true);
   void Sphere(Vec3f center, Vec3f radii, int rings, int sides);
-  /// Flat polygon at height z facing up (`up`) or down; simple outline, counter-clockwise from above; uv = (x, -y) metres.
+  /// Flat polygon at height z facing up (`up`) or down; simple outline, counter-clockwise from above; uv =
+  /// (x, -y) metres.
   void Polygon(std::span<const Vec2f> outline, float z, bool up = true);
   /// Vertical walls of an outline (counter-clockwise from above, facing outwards) from z0 to z1.
   void Walls(std::span<const Vec2f> outline, float z0, float z1);

@@ -1,8 +1,8 @@
-// The props of a world: each kind is one file in props/, procedural, with an optional ready-made model that replaces it.
+// The props of a world: furniture, vehicles and plants, procedural, each with optional ready-made models that
+// replace it.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -14,38 +14,61 @@
 
 namespace airsim360 {
 
-/// How one kind of prop is made. Models stand on z = 0, centred on the z axis, front towards -Y, metres.
-struct PropKind {
-  std::string_view name;         ///< "bench_wood"
-  std::string_view category;     ///< path in the semantic tree
-  std::string_view library_model;  ///< name to ask the ModelSource for; "" = always procedural
-  int variants = 1;              ///< different individuals
-  Model (*make)(uint64_t seed);  ///< procedural individual
-  float footprint_radius = 0.5f;  ///< metres of ground it needs free of other props
+/// A ready-made model that may stand in for a variant of a kind.
+struct LibraryModel {
+  std::string_view name;        ///< name to ask the ModelSource for; "" = this variant is always procedural
+  float height = 0;             ///< metres; the model is scaled uniformly to it; 0 = as it comes
+  float turn_deg = 0;           ///< counter-clockwise from above, so that its front looks towards -Y
+  std::string_view paint = "";  ///< its material that gets `color`; "" = none
+  Vec3f color{};
 };
 
-/// All kinds, by name: one row per file in props/ and vegetation/.
+/// How one kind of prop is made. Models stand on z = 0, centred on the z axis, front towards -Y, metres.
+/// Parts below the ground (roots, stakes) reach down to -0.3 m at most.
+struct PropKind {
+  std::string_view name;                                     ///< "bench_wood"
+  std::string_view category;                                 ///< path in the semantic tree
+  int variants = 1;                                          ///< different individuals
+  Model (*make)(uint32_t variant, uint64_t seed) = nullptr;  ///< procedural individual, variant < variants
+  float footprint_radius = 0.5f;           ///< metres of ground it needs free of other props
+  float min_height = 0, max_height = 0;    ///< of all individuals, metres above the ground
+  uint32_t max_triangles = 5000;           ///< budget of one procedural individual
+  std::vector<LibraryModel> library = {};  ///< variant i asks for library[i]; past the end = procedural
+};
+
+/// All kinds, by name: the rows of the families in props/ and vegetation/.
 const std::vector<PropKind>& PropKinds();
 /// A kind by name; InputError naming the nearest.
 const PropKind& FindPropKind(std::string_view name);
+/// One individual: the ready-made model if `models` (may be null) has it, else the procedural one. `variant`
+/// is taken modulo the kind's variants.
+Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models);
 
-/// Adds props to a scene: each (kind, variant) is loaded once and instanced.
+/// Adds props to a scene: all variants of a kind are made at its first use (in parallel), once, and
+/// instanced. Materials and textures that are equal are shared between props.
 class PropShelf {
  public:
   PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed);
-  /// Places one prop as an entity of its own and returns it. `variant` is taken modulo the kind's variants.
+  /// Places one prop as an entity of its own, named after the kind, and returns it. `variant` is taken modulo
+  /// the kind's variants.
   EntityId Place(std::string_view kind, Vec3f p_W, float yaw = 0, uint32_t variant = 0, float scale = 1,
                  Vec3f tint = {1, 1, 1});
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
-  void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0, Vec3f tint = {1, 1, 1});
+  void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0,
+               Vec3f tint = {1, 1, 1});
 
  private:
   MeshId Get(const PropKind& kind, uint32_t variant);
+  MeshId Add(Model model);
+  TextureId AddTexture(Texture texture);
+  MaterialId AddMaterial(const Material& material);
 
   SceneBuilder& builder_;
   const ModelSource* models_;
   uint64_t seed_;
-  std::map<std::pair<std::string_view, uint32_t>, MeshId> meshes_;
+  std::map<std::string_view, std::vector<MeshId>> meshes_;  // kind -> one mesh a variant
+  std::map<std::string, TextureId> textures_;               // by name and content
+  std::multimap<std::string, MaterialId> materials_;        // by name, to find equal ones
 };
 
 }  // namespace airsim360

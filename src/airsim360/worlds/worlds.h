@@ -14,8 +14,8 @@ namespace airsim360 {
 
 struct WorldInfo {
   std::string name;
-  std::string setting;  ///< "outdoor" or "indoor"
-  double area_m2 = 0;   ///< ground that can be reached
+  std::string setting;                  ///< "outdoor" or "indoor"
+  double area_m2 = 0;                   ///< ground that can be reached
   std::vector<std::string> categories;  ///< paths of the categories present
   std::string description;
 };

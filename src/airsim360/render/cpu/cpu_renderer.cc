@@ -35,6 +35,12 @@ Pixel* DataOrNull(Image<Pixel>& image) {
   return image.empty() ? nullptr : image.pixels().data();
 }
 
+bool IsFinite(const RigidTransform& X) {
+  double sum = X.p.x + X.p.y + X.p.z;
+  for (int i = 0; i < 9; ++i) sum += X.R.m[i / 3][i % 3];
+  return std::isfinite(sum);
+}
+
 class CpuRenderer : public Renderer {
  public:
   explicit CpuRenderer(std::shared_ptr<const RayTracer> tracer)
@@ -82,6 +88,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
     throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
                      "' is not in the CPU renderer (choices: labels, fast)");
   }
+  if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
   const bool color = request.products.rgb && request.tier != Tier::kLabels;

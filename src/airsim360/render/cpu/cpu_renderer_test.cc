@@ -23,6 +23,16 @@ std::unique_ptr<Renderer> RendererOf(std::shared_ptr<const Scene> scene) {
   return MakeCpuRenderer(std::make_shared<const RayTracer>(std::move(scene)));
 }
 
+// Renderers of the test scenes, built once: preparing the shader takes longer than a frame.
+std::shared_ptr<Renderer> Room() {
+  static const std::shared_ptr<Renderer> renderer = RendererOf(MakeRoom());
+  return renderer;
+}
+std::shared_ptr<Renderer> Square() {
+  static const std::shared_ptr<Renderer> renderer = RendererOf(MakeOpenSquare());
+  return renderer;
+}
+
 Frame Labels(Renderer& renderer, const Camera& camera, const RigidTransform& X_WC) {
   Frame frame;
   renderer.Render({camera, X_WC, Tier::kLabels, kAllLabels}, frame);
@@ -70,7 +80,7 @@ void ExpectTruth(const Frame& frame, const Camera& camera, const RigidTransform&
 }
 
 TEST(CpuRenderer, InTheRoomEveryLabelIsRightAndEveryRangeExact) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   RngStream rng(1, "poses");
   for (int i = 0; i < 20; ++i) {
     const RigidTransform X_WC = RandomPose(rng);
@@ -80,7 +90,7 @@ TEST(CpuRenderer, InTheRoomEveryLabelIsRightAndEveryRangeExact) {
 }
 
 TEST(CpuRenderer, OtherCamerasSeeTheSameRoom) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   RngStream rng(2, "poses");
   const RigidTransform X_WC = RandomPose(rng);
   Fisheye lens = Fisheye::Equidistant(150, 130, 2.6);
@@ -91,7 +101,7 @@ TEST(CpuRenderer, OtherCamerasSeeTheSameRoom) {
 }
 
 TEST(CpuRenderer, OddSizesAndSinglePixelsWork) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   RngStream rng(3, "poses");
   const RigidTransform X_WC = RandomPose(rng);
   for (auto [width, height] : {std::pair{101, 50}, {15, 7}, {18, 9}, {2, 1}, {1, 1}, {334, 167}}) {
@@ -109,7 +119,7 @@ TEST(CpuRenderer, OddSizesAndSinglePixelsWork) {
 }
 
 TEST(CpuRenderer, TurningTheRigByColumnsRollsEveryProductByteForByte) {
-  const auto room = RendererOf(MakeRoom()), open = RendererOf(MakeOpenSquare());
+  const auto room = Room(), open = Square();
   RngStream rng(4, "poses");
   for (Renderer* renderer : {room.get(), open.get()}) {
     for (int width : {256, 250, 101}) {
@@ -138,15 +148,16 @@ TEST(CpuRenderer, TurningTheRigByColumnsRollsEveryProductByteForByte) {
 }
 
 TEST(CpuRenderer, OneAndManyThreadsGiveTheSameBytes) {
-  const auto scene = MakeOpenSquare();
   const RenderRequest request{Equirectangular{320, 160}, BodyPose({0, 0, 2}, 0.4, 0.1, 0.2) * CameraInBody(),
                               Tier::kFast, kEverything};
   Frame one, many;
   {
     const ThreadLimit limit(1);
-    RendererOf(scene)->Render(request, one);
+    Square()->Render(request, one);
+    // Building the ray tracer on one thread changes nothing either.
+    EXPECT_EQ(Labels(*RendererOf(MakeOpenSquare()), request.camera, request.X_WC).range, one.range);
   }
-  RendererOf(scene)->Render(request, many);
+  Square()->Render(request, many);
   EXPECT_EQ(one.rgb, many.rgb);
   EXPECT_EQ(one.entity, many.entity);
   EXPECT_EQ(one.range, many.range);
@@ -154,7 +165,7 @@ TEST(CpuRenderer, OneAndManyThreadsGiveTheSameBytes) {
 }
 
 TEST(CpuRenderer, AreasOfTheRoomCoverEveryPixelAndTheWholeSphere) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   const Equirectangular camera{512, 256};
   // From the centre of the room, far enough above the cubes: opposite walls show equal solid angles.
   const Frame frame = Labels(*renderer, camera, BodyPose({0, 0, 5}, 0.3, 0, 0) * CameraInBody());
@@ -185,7 +196,7 @@ TEST(CpuRenderer, ScalingTheWorldByTwoDoublesEveryRangeExactly) {
 }
 
 TEST(CpuRenderer, PinholeAndPanoramaAgreeThroughTheProjection) {
-  const auto renderer = RendererOf(MakeOpenSquare());
+  const auto renderer = Square();
   const RigidTransform X_WC = BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody();
   const Equirectangular erp{1024, 512};
   const Pinhole pinhole{160, 120, 90, 90, 80, 60};
@@ -214,7 +225,7 @@ TEST(CpuRenderer, PinholeAndPanoramaAgreeThroughTheProjection) {
 }
 
 TEST(CpuRenderer, CubeFacesAgreeWithThePanoramaAwayFromEdges) {
-  const auto renderer = RendererOf(MakeOpenSquare());
+  const auto renderer = Square();
   const RigidTransform X_WC = BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody();
   const Equirectangular erp{256, 128};
   const Frame panorama = Labels(*renderer, erp, X_WC);
@@ -241,7 +252,7 @@ TEST(CpuRenderer, CubeFacesAgreeWithThePanoramaAwayFromEdges) {
 }
 
 TEST(CpuRenderer, NormalsAreUnitAndFaceTheCameraAlsoOnMirroredInstances) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   RngStream rng(6, "poses");
   const RigidTransform X_WC = RandomPose(rng);
   const Equirectangular camera{256, 128};
@@ -273,7 +284,7 @@ TEST(CpuRenderer, WhereNothingIsHitThereIsSkyWithRangeZeroAndNoNormal) {
 }
 
 TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
-  const auto renderer = RendererOf(MakeOpenSquare());
+  const auto renderer = Square();
   RenderRequest request{Equirectangular{256, 128}, BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody(),
                         Tier::kFast, kEverything};
   request.aa_samples = 1;
@@ -292,7 +303,7 @@ TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
 }
 
 TEST(CpuRenderer, ProductsNotAskedForAreEmptyAndDoNotChangeTheOthers) {
-  const auto renderer = RendererOf(MakeOpenSquare());
+  const auto renderer = Square();
   RenderRequest request{Equirectangular{128, 64}, BodyPose({0, 0, 2.5}, 0.7, 0, 0) * CameraInBody(),
                         Tier::kFast, kEverything};
   Frame all, color;
@@ -310,7 +321,7 @@ TEST(CpuRenderer, ProductsNotAskedForAreEmptyAndDoNotChangeTheOthers) {
 }
 
 TEST(CpuRenderer, ImagesKeepTheirMemoryBetweenCaptures) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   Frame frame = Labels(*renderer, Equirectangular{128, 64}, BodyPose({0, 0, 5}, 0, 0, 0) * CameraInBody());
   const float* before = frame.range.pixels().data();
   renderer->Render(
@@ -320,10 +331,13 @@ TEST(CpuRenderer, ImagesKeepTheirMemoryBetweenCaptures) {
 }
 
 TEST(CpuRenderer, ATierItLacksAndACameraWithoutPixelsAreInputErrors) {
-  const auto renderer = RendererOf(MakeRoom());
+  const auto renderer = Room();
   Frame frame;
   EXPECT_THROW(renderer->Render({Equirectangular{64, 32}, {}, Tier::kHigh, {}}, frame), InputError);
   EXPECT_THROW(renderer->Render({Equirectangular{0, 0}, {}, Tier::kLabels, {}}, frame), InputError);
+  EXPECT_THROW(
+      renderer->Render({Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels, {}}, frame),
+      InputError);
 }
 
 TEST(NullRenderer, GivesSkyEverywhere) {

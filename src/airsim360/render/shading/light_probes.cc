@@ -25,6 +25,33 @@ std::array<Vec3f, kDirections> EvenDirections() {
   return directions;
 }
 
+constexpr Vec3f kAxes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+// Irradiance on the six sides of a small cube.
+using Cube = std::array<Vec3f, 6>;
+
+// How much of each side's irradiance one direction brings; uniform light gives pi on every side exactly.
+std::array<std::array<float, 6>, kDirections> CubeWeights(const std::array<Vec3f, kDirections>& directions) {
+  std::array<std::array<float, 6>, kDirections> weights{};
+  for (int k = 0; k < 6; ++k) {
+    float sum = 0;
+    for (const Vec3f d : directions) sum += std::max(0.0f, Dot(d, kAxes[k]));
+    for (int i = 0; i < kDirections; ++i) weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPi / sum;
+  }
+  return weights;
+}
+
+// Terms of irradiance over normals, see ProbeView.
+void StoreTerms(const Cube& e, float weight, float* probe) {
+  const Vec3f level = (e[0] + e[1] + e[2] + e[3]) * 0.25f;
+  const Vec3f square = (e[4] + e[5]) * 0.5f - level;
+  const Vec3f rows[4] = {level, (e[0] - e[1]) * 0.5f, (e[2] - e[3]) * 0.5f, (e[4] - e[5]) * 0.5f};
+  for (int k = 0; k < 4; ++k) {
+    for (int c = 0; c < 3; ++c) probe[4 * k + c] = rows[k][c] * weight;
+    probe[4 * k + 3] = k == 0 ? weight : square[k - 1] * weight;
+  }
+}
+
 float Percentile(std::vector<float>& values, double share) {
   const auto k = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + static_cast<int64_t>(k), values.end());
@@ -69,6 +96,17 @@ struct Packet {
     rays.id[i] = rays.flags[i] = 0;
     rays.geometry[i] = rays.instance[i] = kMiss;
     valid[i] = -1;
+  }
+  // Lanes not in use repeat one that is: Embree looks at all of them.
+  void Fill() {
+    int from = 0;
+    while (from < 15 && valid[from] == 0) ++from;
+    for (int i = 0; i < 16; ++i) {
+      if (valid[i] != 0) continue;
+      rays.origin_x[i] = rays.origin_x[from], rays.origin_y[i] = rays.origin_y[from], rays.origin_z[i] = rays.origin_z[from];
+      rays.direction_x[i] = rays.direction_x[from], rays.direction_y[i] = rays.direction_y[from], rays.direction_z[i] = rays.direction_z[from];
+      rays.t_far[i] = rays.t_far[from];
+    }
   }
 };
 
@@ -145,16 +183,18 @@ Vec3f LightProbes::Position(int x, int y, int z) const {
 // Sixteen neighbours look the same way at the same time: coherent packets.
 void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y, int z) {
   static const std::array<Vec3f, kDirections> directions = EvenDirections();
+  static const auto weights = CubeWeights(directions);
   const Vec3f interior = tracer.scene().interior_light;
-  constexpr float solid_angle = 4 * kPi / kDirections;
   for (int first = 0; first < nx_; first += 16) {
     const int count = std::min(16, nx_ - first);
-    std::array<Vec3f, 16> constant{}, slope_x{}, slope_y{}, slope_z{};
-    std::array<int, 16> behind{};
-    for (const Vec3f d : directions) {
+    // Light that is certain, and light of surfaces that they got from a sky as open as here.
+    std::array<Cube, 16> certain{}, guessed{};
+    std::array<int, 16> behind{}, open{};
+    for (int k = 0; k < kDirections; ++k) {
+      const Vec3f d = directions[k];
       Packet view;
       for (int i = 0; i < count; ++i) view.Set(i, Position(first + i, y, z), d, 0, INFINITY);
-      tracer.Intersect16(view.valid, view.rays, true);
+      tracer.Intersect16(view.valid, view.rays, false);
 
       // Those that met something look for the sun.
       Packet shadow;
@@ -170,36 +210,33 @@ void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, 
         shadow.Set(i, point + met[i].normal * 0.01f, sky->to_sun(), 0, INFINITY);
         any_lit = true;
       }
-      if (any_lit) tracer.Occluded16(shadow.valid, shadow.rays, occluded, true);
+      if (any_lit) tracer.Occluded16(shadow.valid, shadow.rays, occluded, false);
 
       for (int i = 0; i < count; ++i) {
-        Vec3f light;
+        Vec3f light{}, guess{};
         if (view.rays.geometry[i] == kMiss) {
           light = sky ? sky->blurred(0).At(d) : interior;
+          open[i] += d.z > 0;
         } else if (sky) {
-          Vec3f e = AmbientGuess(*sky, met[i].normal);
-          if (shadow.valid[i] && !occluded[i]) e += sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
-          light = met[i].albedo * e * (1 / kPi);
-          if (met[i].back && !met[i].open) light = light * 0.1f;
+          const Vec3f reflectance = met[i].albedo * ((met[i].back && !met[i].open ? 0.1f : 1.0f) / kPi);
+          guess = reflectance * AmbientGuess(*sky, met[i].normal);
+          if (shadow.valid[i] && !occluded[i]) light = reflectance * sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
         } else {
           const float t = view.rays.t_far[i];
           light = interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
         }
-        constant[i] += light * (solid_angle * 0.25f);
-        slope_x[i] += light * (solid_angle * 0.5f * d.x);
-        slope_y[i] += light * (solid_angle * 0.5f * d.y);
-        slope_z[i] += light * (solid_angle * 0.5f * d.z);
+        for (int side = 0; side < 6; ++side) {
+          certain[i][side] += light * weights[k][side];
+          guessed[i][side] += guess * weights[k][side];
+        }
       }
     }
     for (int i = 0; i < count; ++i) {
       const size_t index = (static_cast<size_t>(z) * ny_ + y) * nx_ + first + i;
       valid_[index] = behind[i] * 5 < kDirections;
-      const float weight = valid_[index] ? 1.0f : kInvalidWeight;
-      const Vec3f rows[4] = {constant[i] * weight, slope_x[i] * weight, slope_y[i] * weight, slope_z[i] * weight};
-      for (int k = 0; k < 4; ++k) {
-        for (int c = 0; c < 3; ++c) probes_[index * kFloats + 4 * k + c] = rows[k][c];
-      }
-      probes_[index * kFloats + 3] = weight;
+      const float openness = std::min(1.0f, static_cast<float>(open[i]) * (3.2f / kDirections));
+      for (int side = 0; side < 6; ++side) certain[i][side] += guessed[i][side] * openness;
+      StoreTerms(certain[i], valid_[index] ? 1.0f : kInvalidWeight, &probes_[index * kFloats]);
     }
   }
 }
@@ -251,7 +288,7 @@ Vec3f LightProbes::Irradiance(Vec3f p, Vec3f n) const {
     for (int c = 0; c < kFloats; ++c) sum[c] += probe[c] * weight;
   }
   Vec3f e;
-  for (int c = 0; c < 3; ++c) e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z) / sum[3]);
+  for (int c = 0; c < 3; ++c) e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z + sum[4 * c + 7] * n.z * n.z) / sum[3]);
   return e;
 }
 

@@ -12,8 +12,8 @@
 namespace airsim360::internal {
 
 /// Immutable. Columns stand on a square lattice over the part of the scene where its triangles are; layers are close
-/// together near the ground and further apart above. Every probe holds the best fit a + b . n of irradiance over normals
-/// n (exact for a uniform hemisphere). Probes inside solids count for nothing. The same bytes with any number of threads.
+/// together near the ground and further apart above. Every probe holds irradiance as a + b . n + c n_z^2 of the normal n,
+/// exact for n up, down, and on average level. Probes inside solids count for nothing. The same bytes with any number of threads.
 class LightProbes {
  public:
   struct Options {

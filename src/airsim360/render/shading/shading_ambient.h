@@ -118,10 +118,12 @@ static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, rea
     }
     const float scale = 1.0f / terms[0][3];
     for (Quad& t : terms) t *= scale;
+    const Quad square = {terms[1][3], terms[2][3], terms[3][3], 0};
     const Quad bent = terms[1] * nx[i] + terms[2] * ny[i] + terms[3] * nz[i];
-    front.Set(i, terms[0] + bent);
-    back.Set(i, terms[0] - bent);
-    reflected.Set(i, terms[0] + terms[1] * rx[i] + terms[2] * ry[i] + terms[3] * rz[i]);
+    const Quad even = terms[0] + square * (nz[i] * nz[i]);
+    front.Set(i, even + bent);
+    back.Set(i, even - bent);
+    reflected.Set(i, terms[0] + terms[1] * rx[i] + terms[2] * ry[i] + terms[3] * rz[i] + square * (rz[i] * rz[i]));
   }
   const auto positive = [&](real3 c) __attribute__((always_inline)) { return make3(rmax(c.x, zero), rmax(c.y, zero), rmax(c.z, zero)); };
   return {positive(front.Get()), positive(back.Get()), positive(reflected.Get())};

@@ -61,8 +61,8 @@ struct SkyTableView {
   int32_t stride;
 };
 
-/// Regular columns of probes; see light_probes.h. 16 floats each: per channel r, g, b, weight: constant, x, y, z terms of
-/// irradiance over normals.
+/// Regular columns of probes; see light_probes.h. 16 floats each, all times the weight: the constant term of r, g, b and
+/// the weight itself; the x terms and the z^2 term of r; the y terms and z^2 of g; the z terms and z^2 of b.
 struct ProbeView {
   const float* probes;     ///< nullptr = none
   float origin_x, origin_y, cells_per_metre;

@@ -55,7 +55,7 @@ TEST(ShadingShared, WhiteMirrorlikeSurfacesNeverReflectMoreThanArrives) {
       const Vec3f v{std::sqrt(1 - z * z), 0, z};
       const double out = Hemisphere([&](Vec3f l) { return Specular({1, 1, 1}, roughness * roughness, l, v).x * l.z; }, 512);
       EXPECT_LE(out, 1.005) << roughness << ' ' << z;
-      EXPECT_GT(out, 0.35) << roughness << ' ' << z;
+      EXPECT_GT(out, 0.25) << roughness << ' ' << z;
     }
   }
 }
@@ -65,7 +65,7 @@ TEST(ShadingShared, EnvironmentBrdfAgreesWithTheIntegralOfTheSpecularBrdf) {
     for (float z : {0.3f, 0.6f, 0.95f}) {
       const Vec3f v{std::sqrt(1 - z * z), 0, z};
       const double truth = Hemisphere([&](Vec3f l) { return Specular({0.5f, 0.5f, 0.5f}, roughness * roughness, l, v).x * l.z; }, 512);
-      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.04) << roughness << ' ' << z;
+      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.08) << roughness << ' ' << z;
     }
   }
 }
@@ -120,7 +120,7 @@ TEST(ShadingShared, OwnTranscendentalsAgreeWithTheLibrary) {
   for (double x = -1; x <= 1; x += 0.001) EXPECT_NEAR(scalar::asin_approx(static_cast<float>(x)), std::asin(x), 4e-4) << x;
   for (int i = 0; i <= 255; ++i) {
     const double s = i / 255.0, linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    EXPECT_NEAR(scalar::srgb_decode_approx(static_cast<float>(s)), linear, 0.0015);
+    EXPECT_NEAR(scalar::srgb_decode_approx(static_cast<float>(s)), linear, 0.001);
     EXPECT_NEAR(scalar::srgb_encode(static_cast<float>(linear)), s, 2e-6);
   }
 }

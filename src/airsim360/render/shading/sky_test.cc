@@ -27,7 +27,7 @@ Vec3f Direction(double azimuth, double elevation) {
 
 // Irradiance of the upper hemisphere by direct summation of look-ups.
 Vec3d Integrate(const Sky& sky, Vec3f normal) {
-  constexpr int kUp = 400, kAround = 800;
+  constexpr int kUp = 200, kAround = 400;
   Vec3d sum{};
   for (int i = 0; i < kUp; ++i) {
     for (int j = 0; j < kAround; ++j) {
@@ -76,7 +76,8 @@ TEST(Sky, SphericalHarmonicsGiveTheIrradianceOfTheTable) {
   const Sky& sky = DefaultSky();
   const Vec3d up = Integrate(sky, {0, 0, 1});
   const Vec3f fit = sky.Irradiance({0, 0, 1});
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(fit[c] / up[c], 1, 0.01) << c;
+  EXPECT_NEAR(Luminance(fit) / Luminance(VecCast<float>(up)), 1, 0.01);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(fit[c] / up[c], 1, 0.02) << c;
   // Sideways the third order shows.
   for (double azimuth : {0.3, 1.9, 3.5, 5.1}) {
     const Vec3f n = Direction(azimuth, 0.3);
@@ -107,8 +108,8 @@ TEST(Sky, CloudsCoverMoreWhenAskedAndLeaveTheSunFree) {
     daylight.cloud_cover = cover;
     const Sky sky(daylight);
     int white = 0, all = 0;
-    for (int i = 0; i < 20000; ++i) {
-      const Vec3f d = Direction(i * 2.39996, std::asin(0.1 + 0.9 * (i + 0.5) / 20000));
+    for (int i = 0; i < 8000; ++i) {
+      const Vec3f d = Direction(i * 2.39996, std::asin(0.1 + 0.9 * (i + 0.5) / 8000));
       if (Dot(d, sky.to_sun()) > 0.9f) continue;
       const Vec3f c = sky.Radiance(d);
       white += c.z < 1.45f * c.x;
@@ -133,8 +134,8 @@ TEST(Sky, BlurringKeepsTheMean) {
   const Sky& sky = DefaultSky();
   for (int level = 0; level < Sky::kBlurLevels; ++level) {
     double sharp = 0, blurred = 0;
-    for (int i = 0; i < 20000; ++i) {
-      const Vec3f d = Direction(i * 2.39996, std::asin(-1 + 2 * (i + 0.5) / 20000));
+    for (int i = 0; i < 8000; ++i) {
+      const Vec3f d = Direction(i * 2.39996, std::asin(-1 + 2 * (i + 0.5) / 8000));
       sharp += sky.Radiance(d).y;
       blurred += sky.blurred(level).At(d).y;
     }

@@ -126,10 +126,18 @@ KERNEL real3 MacroTint(const ShadeView& view, const Fetched& f, real3 p, real3 n
 
 /// A point of the sun's disc for samples beside the centre one.
 KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i) {
-  const ireal key = ireal([&](int k) { return static_cast<int32_t>(rays.key[i + k] * 0x9e3779b1u); });
-  const real centre = sel(to_real((key >> 8) & 0xffffff) > 0.0f, real(1.0f), real(0.0f));
+  alignas(64) int32_t mixed[kLanes];
+  alignas(64) float beside[kLanes];
+  for (int k = 0; k < kLanes; ++k) {
+    uint32_t h = rays.key[i + k];
+    beside[k] = h != 0 ? 1.0f : 0.0f;
+    h = (h ^ (h >> 16)) * 0x7feb352du;
+    h = (h ^ (h >> 15)) * 0x846ca68bu;
+    mixed[k] = static_cast<int32_t>(h ^ (h >> 16));
+  }
+  const ireal key(mixed, stdx::vector_aligned);
   const real a = to_real((key >> 8) & 0xfff) * (1.0f / 4096.0f), b = to_real((key >> 20) & 0xfff) * (1.0f / 4096.0f);
-  const real radius = rroot(a) * 0.00462f * centre, angle = b * (2.0f * SHADE_PI);
+  const real radius = rroot(a) * 0.00462f * load(beside), angle = b * (2.0f * SHADE_PI);
   const ufloat3 s{view.to_sun[0], view.to_sun[1], view.to_sun[2]};
   const float side = s.x * s.x + s.y * s.y > 1e-6f ? 1.0f / __builtin_sqrtf(s.x * s.x + s.y * s.y) : 0.0f;
   const ufloat3 e1 = side > 0 ? ufloat3{-s.y * side, s.x * side, 0} : ufloat3{1, 0, 0};

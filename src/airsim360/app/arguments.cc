@@ -1,0 +1,111 @@
+#include "airsim360/app/arguments.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr int kMinSide = 2;
+constexpr int kMaxSide = 16384;
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  while (true) {
+    const size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == text.size()) return parts;
+    begin = end + 1;
+  }
+}
+
+// The whole of `text` as a number; false if it is anything else.
+template <class Number>
+bool ParseNumber(std::string_view text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string Trimmed(const std::string& text) {
+  const size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+}
+
+}  // namespace
+
+ImageSize ParseSize(const std::string& text) {
+  ImageSize size;
+  const std::vector<std::string> parts = Split(text, 'x');
+  if (parts.size() != 2 || !ParseNumber(parts[0], size.width) || !ParseNumber(parts[1], size.height)) {
+    throw InputError("--size: '" + text + "' is not WIDTHxHEIGHT, for example 2048x1024");
+  }
+  for (int side : {size.width, size.height}) {
+    if (side < kMinSide || side > kMaxSide) {
+      throw InputError("--size: '" + text + "': " + std::to_string(side) + " is not in " +
+                       std::to_string(kMinSide) + " … " + std::to_string(kMaxSide));
+    }
+  }
+  return size;
+}
+
+void CheckPanoramaSize(ImageSize size) {
+  if (size.width == 2 * size.height) return;
+  const int height = std::clamp(size.width / 2, kMinSide / 2, kMaxSide / 2);
+  throw InputError("--size: '" + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                   "' is not twice as wide as high, as an equirectangular panorama is; did you mean '" +
+                   std::to_string(2 * height) + "x" + std::to_string(height) + "'?");
+}
+
+PoseArgument ParsePose(const std::string& text) {
+  const std::vector<std::string> parts = Split(text, ',');
+  double values[6] = {};
+  bool good = parts.size() >= 3 && parts.size() <= 6;
+  for (size_t i = 0; good && i < parts.size(); ++i) {
+    good =
+        ParseNumber(Trimmed(parts[i]), values[i]) && std::isfinite(values[i]) && std::fabs(values[i]) <= 1e7;
+  }
+  if (!good) {
+    throw InputError("--pose: '" + text +
+                     "' is not x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees");
+  }
+  return {{values[0], values[1], values[2]}, values[3], values[4], values[5]};
+}
+
+Tier ParseTierArgument(const std::string& text) {
+  static const std::vector<std::string> kBuilt = {"labels", "fast"};
+  if (std::find(kBuilt.begin(), kBuilt.end(), text) == kBuilt.end()) {
+    throw InputError("--tier: " + UnknownChoiceMessage("tier", text, kBuilt));
+  }
+  return ParseTier(text);
+}
+
+std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
+                                   const std::vector<std::string>& choices) {
+  std::vector<std::string> parts = Split(text, ',');
+  for (const std::string& part : parts) {
+    if (std::find(choices.begin(), choices.end(), part) == choices.end()) {
+      throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("value", part, choices));
+    }
+  }
+  return parts;
+}
+
+void PrintJson(const nlohmann::ordered_json& value) {
+  std::puts(value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+double PeakRssMib() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
+}
+
+}  // namespace airsim360

@@ -1,0 +1,44 @@
+// Values of flags that several commands share, and the JSON they print.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "airsim360/math/vector.h"
+#include "airsim360/render/renderer.h"
+
+namespace airsim360 {
+
+struct ImageSize {
+  int width = 0, height = 0;
+};
+
+/// "WxH" with both in 2…16384; InputError naming `--size` and the value.
+ImageSize ParseSize(const std::string& text);
+/// The height that makes a full equirectangular panorama; InputError unless width = 2 height.
+void CheckPanoramaSize(ImageSize size);
+
+/// "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]]": metres and degrees, finite. InputError naming `--pose` and the
+/// value.
+struct PoseArgument {
+  Vec3d p;
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+};
+PoseArgument ParsePose(const std::string& text);
+
+/// A tier that can be rendered today; InputError naming `--tier` otherwise.
+Tier ParseTierArgument(const std::string& text);
+
+/// "a,b,c" split; InputError naming `flag` for an entry that is not among `choices`.
+std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
+                                   const std::vector<std::string>& choices);
+
+/// Prints one JSON object on stdout.
+void PrintJson(const nlohmann::ordered_json& value);
+
+/// Largest resident memory of this process so far, MiB.
+double PeakRssMib();
+
+}  // namespace airsim360

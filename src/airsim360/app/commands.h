@@ -1,0 +1,27 @@
+// The commands of the program: one file each, registered here.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+namespace airsim360 {
+
+/// Flags that every command takes; main.cc adds them to each command and applies --threads and --device.
+struct GlobalOptions {
+  bool json = false;            ///< machine-readable result on stdout
+  uint64_t seed = 0;            ///< of the world, the route and everything random
+  int threads = 0;              ///< 0 = all cores
+  std::string device = "auto";  ///< auto, cpu or vulkan
+};
+
+/// Each adds one subcommand to `app`. The command runs in its callback, after all flags are parsed; `globals`
+/// outlives it. It throws InputError (exit status 2) or RuntimeError (exit status 1).
+void AddWorldsCommand(CLI::App& app, GlobalOptions& globals);
+void AddRenderCommand(CLI::App& app, GlobalOptions& globals);
+void AddCollectCommand(CLI::App& app, GlobalOptions& globals);
+void AddVerifyCommand(CLI::App& app, GlobalOptions& globals);
+void AddStitchCommand(CLI::App& app, GlobalOptions& globals);
+void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
+
+}  // namespace airsim360

@@ -1,0 +1,123 @@
+// airsim360 render: one capture as a dataset of one frame.
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <numbers>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/session.h"
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+struct RenderArguments {
+  std::string world, pose, projection = "erp", size, tier = "fast", rgb_format = "png", pano_frame = "body",
+                           out;
+  double fov_deg = 0;  // 0: not given
+  bool normal = false;
+};
+
+Projection ParseProjection(const std::string& text) {
+  const std::vector<std::string> names(std::begin(kProjectionNames), std::end(kProjectionNames));
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end())
+    throw InputError("--projection: " + UnknownChoiceMessage("projection", text, names));
+  return static_cast<Projection>(found - names.begin());
+}
+
+// The size and field of view that fit the projection.
+void SetCamera(const RenderArguments& arguments, DatasetSpec& spec) {
+  static constexpr const char* kDefaultSizes[] = {"2048x1024", "512x512", "1024x768", "1024x1024"};
+  spec.projection = ParseProjection(arguments.projection);
+  const bool pinhole = spec.projection == Projection::kPinhole,
+             fisheye = spec.projection == Projection::kFisheye;
+  const ImageSize size =
+      ParseSize(arguments.size.empty() ? kDefaultSizes[static_cast<int>(spec.projection)] : arguments.size);
+  if (spec.projection == Projection::kErp) CheckPanoramaSize(size);
+  if (spec.projection == Projection::kCube && size.width != size.height) {
+    throw InputError("--size: '" + arguments.size + "': cube faces are square; did you mean '" +
+                     std::to_string(size.width) + "x" + std::to_string(size.width) + "'?");
+  }
+  spec.width = size.width;
+  spec.height = size.height;
+  if (arguments.fov_deg != 0 && !pinhole && !fisheye) {
+    throw InputError("--fov: '" + arguments.projection +
+                     "' has no field of view to choose; use pinhole or fisheye");
+  }
+  const double limit = pinhole ? 179 : 360;
+  spec.fov_deg = arguments.fov_deg != 0 ? arguments.fov_deg : pinhole ? 90 : 180;
+  if (!(spec.fov_deg >= 1 && spec.fov_deg <= limit)) {
+    throw InputError("--fov: " + std::to_string(arguments.fov_deg) + " degrees is not in 1 … " +
+                     std::to_string(static_cast<int>(limit)));
+  }
+}
+
+std::string Number(double value) {
+  char buffer[32];
+  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
+  // Everything that can be wrong with the flags is found before the world is loaded.
+  DatasetSpec spec;
+  spec.command = "render";
+  spec.world = arguments.world;
+  spec.seed = globals.seed;
+  SetCamera(arguments, spec);
+  spec.tier = ParseTierArgument(arguments.tier);
+  spec.normal = arguments.normal;
+  if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
+    throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
+                                                             std::vector<std::string>{"png", "jpg"}));
+  }
+  spec.rgb_format = arguments.rgb_format == "jpg" ? RgbFormat::kJpeg : RgbFormat::kPng;
+  if (arguments.pano_frame != "body" && arguments.pano_frame != "level") {
+    throw InputError("--pano-frame: " + UnknownChoiceMessage("value", arguments.pano_frame,
+                                                             std::vector<std::string>{"body", "level"}));
+  }
+  spec.pano_frame = arguments.pano_frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
+  PoseArgument pose;
+  if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
+
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed);
+  if (arguments.pose.empty())
+    pose.p = VecCast<double>(world.scene->spawn.value_or(world.scene->bounds.center()));
+  spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
+               Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
+  constexpr double kRadians = std::numbers::pi / 180;
+  const Flight flight =
+      Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
+  const CollectResult result = Collect({spec, *world.scene, flight, arguments.out}, *world.renderer);
+  ReportRun(world, spec, result, arguments.out, globals.json);
+}
+
+}  // namespace
+
+void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand("render", "one capture with all labels, as a dataset of one frame");
+  auto arguments = std::make_shared<RenderArguments>();
+  command
+      ->add_option("--world", arguments->world,
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+      ->required();
+  command->add_option("--out", arguments->out, "folder of the dataset")->required();
+  command->add_option(
+      "--pose", arguments->pose,
+      "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees (default: the world's spawn)");
+  command->add_option("--projection", arguments->projection, "erp, cube, pinhole or fisheye (default erp)");
+  command->add_option("--size", arguments->size,
+                      "WxH; a cube face for cube (default 2048x1024, 512x512, 1024x768, 1024x1024)");
+  command->add_option(
+      "--fov", arguments->fov_deg,
+      "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
+  command->add_option("--tier", arguments->tier, "labels or fast (default fast)");
+  command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
+  command->add_option("--pano-frame", arguments->pano_frame,
+                      "body or level: turn with the body or only with its heading");
+  command->add_flag("--normal", arguments->normal, "write world normals too");
+  command->callback([arguments, &globals] { RunRender(*arguments, globals); });
+}
+
+}  // namespace airsim360

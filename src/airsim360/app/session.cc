@@ -1,0 +1,61 @@
+#include "airsim360/app/session.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/sim/world_loader.h"
+
+namespace airsim360 {
+
+OpenedWorld OpenWorld(const std::string& world, uint64_t seed) {
+  const auto start = std::chrono::steady_clock::now();
+  OpenedWorld opened;
+  opened.scene = LoadWorld({.world = world, .seed = seed, .labels = {}});
+  opened.tracer = std::make_shared<const RayTracer>(opened.scene);
+  opened.renderer = MakeCpuRenderer(opened.tracer);
+  opened.load_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return opened;
+}
+
+void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,
+               const std::filesystem::path& out, bool json) {
+  // Means of the frames that this run wrote.
+  const double written = result.written > 0 ? static_cast<double>(result.written) : 1;
+  const double render_ms = result.render_ms / written, write_ms = result.write_ms / written;
+  const double rendered_fps = render_ms > 0 ? 1000 / render_ms : 0;
+  const double written_fps =
+      result.wall_ms > 0 ? 1000 * static_cast<double>(result.written) / result.wall_ms : 0;
+  const SceneCounts counts = world.scene->Count();
+  if (json) {
+    PrintJson({{"out", out.string()},
+               {"world", spec.world},
+               {"frames", result.frames},
+               {"frames_written", result.written},
+               {"already_complete", result.already_complete},
+               {"render_ms", render_ms},
+               {"write_ms", write_ms},
+               {"load_ms", world.load_ms},
+               {"frames_per_second", rendered_fps},
+               {"frames_per_second_written", written_fps},
+               {"rays", static_cast<uint64_t>(static_cast<double>(result.rays) / written + 0.5)},
+               {"triangles", counts.instanced_triangles},
+               {"entities", counts.entities},
+               {"peak_rss_mib", PeakRssMib()}});
+    return;
+  }
+  if (result.already_complete) {
+    std::printf("%s is complete already: %lld frames; nothing changed\n", out.c_str(),
+                static_cast<long long>(result.frames));
+    return;
+  }
+  std::printf(
+      "%s: %lld frames (%lld written now), %.1f ms rendering a frame (%.2f frames/s), %.2f frames/s "
+      "written\n",
+      out.c_str(), static_cast<long long>(result.frames), static_cast<long long>(result.written), render_ms,
+      rendered_fps, written_fps);
+  std::printf("contact sheet: %s\n", (out / "contact_sheet.png").c_str());
+}
+
+}  // namespace airsim360

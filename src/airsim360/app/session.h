@@ -1,0 +1,28 @@
+// What `render` and `collect` share: opening a world and reporting what a run did.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "airsim360/app/commands.h"
+#include "airsim360/dataset/collector.h"
+#include "airsim360/render/renderer.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360 {
+
+/// A world ready to be rendered.
+struct OpenedWorld {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const RayTracer> tracer;
+  std::unique_ptr<Renderer> renderer;
+  double load_ms = 0;  ///< building or importing the scene and its ray tracing structure
+};
+OpenedWorld OpenWorld(const std::string& world, uint64_t seed);
+
+/// Prints what a run did: JSON or a few lines of text.
+void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,
+               const std::filesystem::path& out, bool json);
+
+}  // namespace airsim360

@@ -1,0 +1,91 @@
+// README.md of a dataset.
+#include <algorithm>
+#include <cstdio>
+
+#include "airsim360/dataset/summaries.h"
+#include "airsim360/dataset/version.h"
+
+namespace airsim360 {
+namespace {
+
+template <class... Values>
+std::string Format(const char* format, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+// Classes, the largest part of the sphere first.
+std::string HistogramTable(const std::vector<CategoryTotal>& totals, const Scene& scene) {
+  std::vector<CategoryTotal> sorted = totals;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.pixels > b.pixels; });
+  int64_t pixels = 0;
+  double solid_angle = 0;
+  for (const CategoryTotal& total : totals) {
+    pixels += total.pixels;
+    solid_angle += total.solid_angle;
+  }
+  std::string table =
+      "| id | category | kind | entities | pixels | % of pixels | % of solid angle "
+      "|\n|--:|---|---|--:|--:|--:|--:|\n";
+  for (const CategoryTotal& total : sorted) {
+    const Category& category = scene.tree[total.category];
+    table +=
+        "| " + std::to_string(total.category) + " | `" + category.path + "` | " +
+        (category.thing ? "thing" : "stuff") + " | " + std::to_string(total.entities) + " | " +
+        std::to_string(total.pixels) +
+        Format(" | %.3f | %.3f |\n", 100.0 * static_cast<double>(total.pixels) / static_cast<double>(pixels),
+               100.0 * total.solid_angle / solid_angle);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene) {
+  const std::vector<CategoryTotal> totals = index.CategoryTotals();
+  const size_t entities = index.SeenEntities().size();
+  std::string text = "# " + scene.name + ": labelled " +
+                     (spec.projection == Projection::kErp ? "panoramas" : "pictures") + "\n\n";
+  text += "![colour, range, semantic and entity pictures of some frames](contact_sheet.png)\n\n";
+  text += "| | |\n|---|---|\n";
+  const auto row = [&](const std::string& key, const std::string& value) {
+    text += "| " + key + " | " + value + " |\n";
+  };
+  row("world", "`" + spec.world + "`, seed " + std::to_string(spec.seed));
+  row("frames",
+      std::to_string(index.Frames().size()) +
+          (spec.shards > 1 ? " (shard " + std::to_string(spec.shard) + " of " + std::to_string(spec.shards) +
+                                 " of " + std::to_string(spec.frames) + ")"
+                           : std::string()));
+  row("size", std::to_string(spec.width) + " x " + std::to_string(spec.height) + ", " +
+                  kProjectionNames[static_cast<int>(spec.projection)]);
+  row("tier", kTierNames[static_cast<int>(spec.tier)]);
+  row("route", spec.route);
+  row("classes seen", std::to_string(totals.size()));
+  row("entities seen", std::to_string(entities));
+  row("generator", std::string("airsim360 ") + kVersion);
+
+  text += "\n## Files\n\n";
+  for (const ProductFolder& folder : ProductFolders(spec)) {
+    text += "- `" + folder.name + "/*" + folder.extension + "`\n";
+  }
+  text +=
+      "- `frames.jsonl` pose, velocity and SHA-256 of every file, one line a frame; `entities.json`; "
+      "`panoptic.json` (COCO panoptic)\n"
+      "- `trajectory.csv` the whole flight; `index.sqlite` for queries; `meta.json` conventions, encodings "
+      "and category tree\n"
+      "- `SHA256SUMS`: check with `sha256sum -c SHA256SUMS` or `airsim360 verify .`\n";
+  text += "\n## Classes\n\n" + HistogramTable(totals, scene);
+  text +=
+      "\n## Licence\n\nThe pictures and labels are computed by AirSim360 and belong to whoever made them.\n";
+  if (!scene.attributions.empty()) {
+    text +=
+        "The world shows these third-party models; keep their attribution when you publish the pictures:\n\n";
+    for (const std::string& line : scene.attributions) text += "- " + line + "\n";
+  }
+  return text;
+}
+
+}  // namespace airsim360

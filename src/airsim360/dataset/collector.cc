@@ -1,0 +1,149 @@
+#include "airsim360/dataset/collector.h"
+
+#include <chrono>
+#include <map>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
+#include "airsim360/base/log.h"
+#include "airsim360/dataset/folder.h"
+#include "airsim360/dataset/frame_writer.h"
+#include "airsim360/dataset/summaries.h"
+
+namespace airsim360 {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+double Milliseconds(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<int64_t> FramesOfShard(const DatasetSpec& spec) {
+  std::vector<int64_t> frames;
+  for (int64_t i = spec.shard; i < spec.frames; i += spec.shards) frames.push_back(i);
+  return frames;
+}
+
+// True if every file of a frame is there with its size.
+bool FilesArePresent(const fs::path& folder, const std::vector<FileRecord>& files) {
+  for (const FileRecord& file : files) {
+    std::error_code error;
+    const auto size = fs::file_size(folder / file.path, error);
+    if (error || static_cast<int64_t>(size) != file.bytes) return false;
+  }
+  return true;
+}
+
+// Frames of this shard that are still to be made; the journal forgets frames whose files are gone.
+std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& index) {
+  std::map<int64_t, bool> done;
+  for (int64_t frame : index.Frames()) {
+    done[frame] = FilesArePresent(input.out, index.Files(frame));
+    if (!done[frame]) index.RemoveFrame(frame);
+  }
+  std::vector<int64_t> missing;
+  for (int64_t frame : FramesOfShard(input.spec)) {
+    if (!done[frame]) missing.push_back(frame);
+  }
+  return missing;
+}
+
+// True if all frames and all files that describe them are there: SHA256SUMS is the last file written.
+bool IsFinished(const fs::path& folder) {
+  for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "trajectory.csv",
+                           "README.md", "contact_sheet.png"}) {
+    if (!fs::exists(folder / name)) return false;
+  }
+  return true;
+}
+
+PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
+  PanoramicRig rig;
+  rig.camera = view.camera;
+  rig.pano_frame = spec.pano_frame;
+  rig.tier = spec.tier;
+  rig.products = ProductsOf(spec);
+  return rig;
+}
+
+// Renders and writes the missing frames.
+void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, Renderer& renderer,
+                 DatasetIndex& index, CollectResult& result) {
+  const EncodeContext context = MakeEncodeContext(input.spec, input.scene);
+  FrameWriter writer(context, index, input.out);
+  ProgressBar progress("collect", static_cast<int64_t>(frames.size()));
+  for (int64_t frame : frames) {
+    const Shot& shot = input.flight.shots.at(static_cast<size_t>(frame));
+    std::vector<Capture> captures = writer.Acquire();
+    for (size_t v = 0; v < captures.size(); ++v) {
+      CaptureRig(MakeRig(input.spec, context.views[v]), shot.body, shot.t_ns, renderer, captures[v]);
+      result.render_ms += captures[v].stats.render_ms;
+      result.rays += captures[v].stats.rays;
+    }
+    writer.Submit(frame, std::move(captures));
+    progress.Update(++result.written);
+  }
+  writer.Finish();
+  result.write_ms = writer.write_ms();
+}
+
+// Writes the files that are made from all frames, and last the checksums of everything.
+void WriteSummaries(const CollectInput& input) {
+  DatasetIndex::Finish(input.out, input.scene);
+  const DatasetIndex index(input.out, DatasetIndex::Mode::kRead);
+  std::map<std::string, std::string> checksums;
+  const auto write = [&](const char* name, std::span<const std::byte> bytes) {
+    WriteFileAtomically(input.out / name, bytes);
+    checksums[name] = Sha256Hex(bytes);
+  };
+  write("frames.jsonl", AsBytes(FramesJsonl(index)));
+  write("entities.json", AsBytes(EntitiesJson(index, input.scene)));
+  write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
+  write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
+  write("contact_sheet.png", ContactSheetPng(index, input.spec, input.out));
+  write("README.md", AsBytes(CardMarkdown(index, input.spec, input.scene)));
+
+  for (const char* name : {kMetaName, kIndexName}) checksums[name] = Sha256HexOfFile(input.out / name);
+  for (int64_t frame : index.Frames()) {
+    for (const FileRecord& file : index.Files(frame)) checksums[file.path] = file.sha256;
+  }
+  std::string text;
+  for (const auto& [name, sha256] : checksums) text += sha256 + "  " + name + "\n";
+  WriteFileAtomically(input.out / kChecksumsName, text);
+}
+
+}  // namespace
+
+CollectResult Collect(const CollectInput& input, Renderer& renderer) {
+  if (static_cast<int64_t>(input.flight.shots.size()) != input.spec.frames) {
+    throw RuntimeError("collect: the flight has " + std::to_string(input.flight.shots.size()) +
+                       " shots for " + std::to_string(input.spec.frames) + " frames");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  CollectResult result{.frames = static_cast<int64_t>(FramesOfShard(input.spec).size())};
+  const std::string meta = MetaJson(input.spec, input.scene);
+  CheckFolder(input.out, meta);
+  const FolderLock lock(input.out);
+  RemoveTemporaryFiles(input.out);
+  if (!fs::exists(input.out / kMetaName)) WriteFileAtomically(input.out / kMetaName, meta);
+  for (const ProductFolder& folder : ProductFolders(input.spec))
+    CreateWritableFolder(input.out / folder.name);
+  {
+    DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
+    const std::vector<int64_t> missing = MissingFrames(input, index);
+    if (missing.empty() && IsFinished(input.out)) {
+      result.already_complete = true;
+      return result;
+    }
+    fs::remove(input.out / kChecksumsName);
+    WriteFrames(input, missing, renderer, index, result);
+    result.wall_ms = Milliseconds(start);
+  }
+  WriteSummaries(input);
+  return result;
+}
+
+}  // namespace airsim360

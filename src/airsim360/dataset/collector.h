@@ -1,0 +1,37 @@
+// Collecting a dataset: captures along a flight, written so that any interruption can be finished later.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "airsim360/dataset/spec.h"
+#include "airsim360/sim/flight.h"
+
+namespace airsim360 {
+
+struct CollectInput {
+  const DatasetSpec& spec;
+  const Scene& scene;
+  const Flight& flight;  ///< its shots are all frames of the dataset; this shard takes its own
+  std::filesystem::path out;
+};
+
+/// What a run did.
+struct CollectResult {
+  int64_t frames = 0;             ///< frames of this shard
+  int64_t written = 0;            ///< of them written by this run; 0 if the dataset was complete already
+  bool already_complete = false;  ///< nothing was changed
+  double render_ms = 0;           ///< rays and shading, all frames written
+  double write_ms = 0;            ///< encoding, hashing and writing, all frames written
+  double wall_ms = 0;             ///< rendering and writing together, which overlap
+  uint64_t rays = 0;
+};
+
+/// Renders and writes every frame that is not there yet, then the files that describe them all. The frame is
+/// done once the journal names its files' SHA-256. The result depends only on spec, scene and flight: not on
+/// threads, interruptions or time. InputError if `out` holds something else; RuntimeError if writing fails:
+/// what was done so far stays valid.
+CollectResult Collect(const CollectInput& input, Renderer& renderer);
+
+}  // namespace airsim360

@@ -1,0 +1,124 @@
+#include "airsim360/dataset/encode.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "airsim360/base/hash.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/image/codecs.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr int kJpegQuality = 95;
+
+// Compass heading, pitch and roll of the panorama, degrees.
+GPano PhotoSpherePose(const Mat3d& R_WC) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const Vec3d right = R_WC.column(0), down = R_WC.column(1), forward = R_WC.column(2);
+  double heading = std::atan2(forward.x, forward.y) * kDegrees;
+  if (heading < 0) heading += 360;
+  return {heading, std::asin(std::clamp(forward.z, -1.0, 1.0)) * kDegrees,
+          std::atan2(-right.z, -down.z) * kDegrees};
+}
+
+Bytes EncodeRgb(const Capture& capture, const DatasetSpec& spec) {
+  std::optional<GPano> gpano;
+  if (spec.projection == Projection::kErp) gpano = PhotoSpherePose(capture.X_WC.R);
+  return spec.rgb_format == RgbFormat::kJpeg ? EncodeJpeg(capture.frame.rgb, kJpegQuality, gpano)
+                                             : EncodePng(capture.frame.rgb, gpano);
+}
+
+Bytes EncodeSemantic(const Image<CategoryId>& semantic, bool wide) {
+  if (wide) return EncodePng(semantic);
+  Image<uint8_t> narrow(semantic.width(), semantic.height());
+  std::transform(semantic.pixels().begin(), semantic.pixels().end(), narrow.pixels().begin(),
+                 [](CategoryId id) { return static_cast<uint8_t>(id); });
+  return EncodePng(narrow);
+}
+
+// n in [-1, 1] as round((n + 1) * 32767); nothing hit stays (0, 0, 0), which no unit normal gives.
+Bytes EncodeNormal(const Image<Vec3f>& normal) {
+  Image<Rgb16> coded(normal.width(), normal.height());
+  std::transform(normal.pixels().begin(), normal.pixels().end(), coded.pixels().begin(), [](Vec3f n) {
+    if (n == Vec3f{}) return Rgb16{};
+    const auto code = [](float x) {
+      return static_cast<uint16_t>(std::lround((std::clamp(x, -1.0f, 1.0f) + 1) * 32767.0f));
+    };
+    return Rgb16{code(n.x), code(n.y), code(n.z)};
+  });
+  return EncodePng(coded);
+}
+
+Bytes EncodeProduct(const std::string& product, const Capture& capture, const EncodeContext& context) {
+  if (product == "rgb") return EncodeRgb(capture, context.spec);
+  if (product == "range") return EncodeExr(capture.frame.range);
+  if (product == "semantic") return EncodeSemantic(capture.frame.semantic, NeedsWideSemantics(context.scene));
+  if (product == "entity") return EncodeIdPng(capture.frame.entity);
+  return EncodeNormal(capture.frame.normal);
+}
+
+// Smallest and median range over the pixels of all views that hit something.
+void FillRangeFigures(const std::vector<Capture>& captures, FrameRecord& record) {
+  std::vector<float> hits;
+  for (const Capture& capture : captures) {
+    std::copy_if(capture.frame.range.pixels().begin(), capture.frame.range.pixels().end(),
+                 std::back_inserter(hits), [](float range) { return range > 0; });
+  }
+  if (hits.empty()) return;
+  const auto middle = hits.begin() + static_cast<ptrdiff_t>((hits.size() - 1) / 2);
+  std::nth_element(hits.begin(), middle, hits.end());
+  record.range_median = *middle;
+  record.range_min = *std::min_element(hits.begin(), middle + 1);
+}
+
+}  // namespace
+
+EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene) {
+  EncodeContext context{spec, scene, Views(spec), {}};
+  for (const View& view : context.views) context.solid_angles.emplace_back(view.camera);
+  return context;
+}
+
+EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures) {
+  const std::vector<ProductFolder> folders = ProductFolders(context.spec);
+  const size_t views = context.views.size();
+  EncodedFrame frame;
+  frame.record.index = index;
+  frame.record.t_ns = captures[0].t_ns;
+  frame.record.X_WC = captures[0].X_WC;
+  frame.record.body = captures[0].body;
+  frame.record.views.resize(views);
+  frame.files.resize(folders.size() * views);
+
+  // Every file is one task; so are the segments of every view and the range figures of the frame.
+  const auto tasks = static_cast<int64_t>(frame.files.size() + views + 1);
+  ParallelFor(tasks, [&](int64_t task) {
+    const auto i = static_cast<size_t>(task);
+    if (i < frame.files.size()) {
+      const ProductFolder& folder = folders[i / views];
+      const View& view = context.views[i % views];
+      EncodedFile& file = frame.files[i];
+      file.bytes = EncodeProduct(folder.name, captures[i % views], context);
+      file.record = {folder.name + view.suffix,
+                     folder.name + "/" + Stem(index) + view.suffix + folder.extension,
+                     static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
+    } else if (i < frame.files.size() + views) {
+      const size_t v = i - frame.files.size();
+      const Frame& image = captures[v].frame;
+      frame.record.views[v] = {
+          context.views[v].suffix,
+          FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
+                       {.wraps = context.spec.projection == Projection::kErp,
+                        .allows_void = context.spec.projection == Projection::kFisheye})};
+    } else {
+      FillRangeFigures(captures, frame.record);
+    }
+  });
+  for (const EncodedFile& file : frame.files) frame.record.files.push_back(file.record);
+  return frame;
+}
+
+}  // namespace airsim360

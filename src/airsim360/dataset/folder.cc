@@ -1,0 +1,71 @@
+#include "airsim360/dataset/folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/dataset/spec.h"
+
+namespace airsim360 {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool IsTemporary(const fs::path& path) { return path.extension() == ".tmp"; }
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder)
+    : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (fd_ < 0) throw RuntimeError(folder.string() + ": cannot open: " + std::strerror(errno));
+  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(fd_);
+    throw RuntimeError(folder.string() + ": another airsim360 is writing here");
+  }
+}
+
+FolderLock::~FolderLock() { ::close(fd_); }
+
+void CheckFolder(const fs::path& folder, const std::string& meta) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw InputError("--out: '" + folder.string() + "' is not a folder");
+  CreateWritableFolder(folder);
+  const fs::path on_disk = folder / kMetaName;
+  if (!fs::exists(on_disk)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (IsTemporary(entry.path())) continue;
+      throw InputError("--out: '" + folder.string() + "' is not empty and not a dataset (it holds '" +
+                       entry.path().filename().string() + "')");
+    }
+    return;
+  }
+  const std::string difference = DescribeMetaDifference(ReadTextFile(on_disk), meta);
+  if (!difference.empty()) {
+    throw InputError("--out: '" + folder.string() + "' holds another dataset: " + difference +
+                     "; choose another folder or the same parameters");
+  }
+}
+
+void RemoveTemporaryFiles(const fs::path& folder) {
+  for (const std::string& file : ListFiles(folder)) {
+    if (IsTemporary(file)) fs::remove(folder / file);
+  }
+}
+
+std::vector<std::string> ListFiles(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder).generic_string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace airsim360

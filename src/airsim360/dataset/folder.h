@@ -1,0 +1,36 @@
+// A dataset's folder while it is written: who may write, what is already there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace airsim360 {
+
+inline constexpr char kMetaName[] = "meta.json";
+inline constexpr char kChecksumsName[] = "SHA256SUMS";
+
+/// Holds the folder for one writer; nothing is left behind when the process ends in any way.
+class FolderLock {
+ public:
+  /// RuntimeError if another process holds it.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int fd_;
+};
+
+/// Creates the folder if needed. InputError if it holds something that is not this dataset (naming the first
+/// difference of the parameters). `meta` is the meta.json wanted.
+void CheckFolder(const std::filesystem::path& folder, const std::string& meta);
+
+/// Removes files that an interrupted run left under temporary names.
+void RemoveTemporaryFiles(const std::filesystem::path& folder);
+
+/// Relative paths of all files below a folder, '/' separated, sorted.
+std::vector<std::string> ListFiles(const std::filesystem::path& folder);
+
+}  // namespace airsim360

@@ -1,0 +1,217 @@
+#include "airsim360/dataset/index.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "airsim360/base/error.h"
+#include "airsim360/dataset/sqlite.h"
+
+namespace airsim360 {
+
+using internal::Database;
+using internal::Statement;
+using internal::Transaction;
+
+namespace {
+
+constexpr char kSchema[] = R"(
+CREATE TABLE frames(frame INTEGER PRIMARY KEY, stem TEXT, t_ns INTEGER, x REAL, y REAL, z REAL,
+  qw REAL, qx REAL, qy REAL, qz REAL, range_min REAL, range_median REAL, json TEXT);
+CREATE TABLE files(frame INTEGER, position INTEGER, key TEXT, path TEXT, bytes INTEGER, sha256 TEXT,
+  PRIMARY KEY(frame, position)) WITHOUT ROWID;
+CREATE TABLE segments(frame INTEGER, view TEXT, entity INTEGER, category INTEGER, area INTEGER,
+  x INTEGER, y INTEGER, w INTEGER, h INTEGER, wrap_x INTEGER, wrap_w INTEGER, solid_angle REAL,
+  PRIMARY KEY(frame, view, entity)) WITHOUT ROWID;
+CREATE TABLE categories(category INTEGER PRIMARY KEY, path TEXT, parent INTEGER, kind TEXT);
+CREATE TABLE entities(entity INTEGER PRIMARY KEY, name TEXT, category INTEGER, first_frame INTEGER);
+CREATE VIEW frame_categories AS SELECT frame, category, path, SUM(area) AS pixels, SUM(solid_angle) AS solid_angle,
+  COUNT(DISTINCT entity) AS entities FROM segments JOIN categories USING(category) GROUP BY frame, category;
+)";
+
+constexpr int64_t kApplicationId = 0x41533336;  // "AS36"
+
+// The schema, in a database that has none yet.
+void CreateSchema(Database& database) {
+  Transaction transaction(database);
+  database.Run("PRAGMA application_id=" + std::to_string(kApplicationId));
+  database.Run(kSchema);
+  transaction.Commit();
+}
+
+int64_t ApplicationId(Database& database) {
+  Statement statement(database, "PRAGMA application_id");
+  return statement.Next() ? statement.Int(0) : 0;
+}
+
+void InsertNames(Database& database, const Scene& scene) {
+  Statement category(database, "INSERT INTO categories VALUES(?,?,?,?)");
+  for (const auto& [id, entry] : scene.tree.categories()) {
+    if (id == kVoid) continue;
+    category.Bind(0, int64_t{id}).Bind(1, entry.path).Bind(2, int64_t{entry.parent});
+    category.Bind(3, std::string_view(entry.thing ? "thing" : "stuff")).Run();
+  }
+  Statement seen(database,
+                 "SELECT entity, category, MIN(frame) FROM segments GROUP BY entity ORDER BY entity");
+  Statement entity(database, "INSERT INTO entities VALUES(?,?,?,?)");
+  while (seen.Next()) {
+    const std::string& name = scene.entity(static_cast<EntityId>(seen.Int(0))).name;
+    entity.Bind(0, seen.Int(0)).Bind(1, name).Bind(2, seen.Int(1)).Bind(3, seen.Int(2)).Run();
+  }
+}
+
+// Makes a finished file durable and gives it its name.
+void PublishFile(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  const int fd = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  int error = fd < 0 || ::fsync(fd) != 0 ? errno : 0;
+  if (fd >= 0) ::close(fd);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) throw RuntimeError(path.string() + ": cannot write: " + std::strerror(error));
+}
+
+}  // namespace
+
+struct DatasetIndex::Impl {
+  mutable Database database;
+};
+
+DatasetIndex::DatasetIndex(const std::filesystem::path& folder, Mode mode)
+    : impl_(new Impl{Database(folder / kIndexName,
+                              mode == Mode::kRead ? Database::Mode::kRead : Database::Mode::kWrite)}) {
+  Database& database = impl_->database;
+  if (mode == Mode::kJournal) {
+    database.Run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
+    Statement tables(database, "SELECT COUNT(*) FROM sqlite_master");
+    if (tables.Next() && tables.Int(0) == 0) CreateSchema(database);
+  }
+  if (ApplicationId(database) != kApplicationId)
+    throw RuntimeError(database.path().string() + ": not a dataset index");
+}
+
+DatasetIndex::~DatasetIndex() = default;
+
+void DatasetIndex::AddFrame(const FrameRecord& frame, const std::string& json) {
+  Transaction transaction(impl_->database);
+  const Quaternion q = ToQuaternion(frame.X_WC.R);
+  Statement row(impl_->database, "INSERT INTO frames VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  row.Bind(0, frame.index).Bind(1, Stem(frame.index)).Bind(2, frame.t_ns);
+  row.Bind(3, frame.X_WC.p.x).Bind(4, frame.X_WC.p.y).Bind(5, frame.X_WC.p.z);
+  row.Bind(6, q.w).Bind(7, q.x).Bind(8, q.y).Bind(9, q.z);
+  row.Bind(10, frame.range_min).Bind(11, frame.range_median).Bind(12, json).Run();
+
+  Statement file(impl_->database, "INSERT INTO files VALUES(?,?,?,?,?,?)");
+  for (size_t i = 0; i < frame.files.size(); ++i) {
+    const FileRecord& f = frame.files[i];
+    file.Bind(0, frame.index).Bind(1, static_cast<int64_t>(i)).Bind(2, f.key).Bind(3, f.path);
+    file.Bind(4, f.bytes).Bind(5, f.sha256).Run();
+  }
+  Statement segment(impl_->database, "INSERT INTO segments VALUES(?,?,?,?,?,?,?,?,?,?,?,?)");
+  for (const ViewRecord& view : frame.views) {
+    for (const Segment& s : view.segments) {
+      segment.Bind(0, frame.index)
+          .Bind(1, view.suffix)
+          .Bind(2, int64_t{s.entity})
+          .Bind(3, int64_t{s.category});
+      segment.Bind(4, s.area).Bind(5, int64_t{s.box.x}).Bind(6, int64_t{s.box.y}).Bind(7, int64_t{s.box.w});
+      segment.Bind(8, int64_t{s.box.h}).Bind(9, int64_t{s.box_wrap.x}).Bind(10, int64_t{s.box_wrap.w});
+      segment.Bind(11, s.solid_angle).Run();
+    }
+  }
+  transaction.Commit();
+}
+
+void DatasetIndex::RemoveFrame(int64_t index) {
+  Transaction transaction(impl_->database);
+  for (const char* table : {"frames", "files", "segments"}) {
+    Statement(impl_->database, std::string("DELETE FROM ") + table + " WHERE frame=?").Bind(0, index).Run();
+  }
+  transaction.Commit();
+}
+
+std::vector<int64_t> DatasetIndex::Frames() const {
+  std::vector<int64_t> frames;
+  Statement rows(impl_->database, "SELECT frame FROM frames ORDER BY frame");
+  while (rows.Next()) frames.push_back(rows.Int(0));
+  return frames;
+}
+
+std::vector<FileRecord> DatasetIndex::Files(int64_t frame) const {
+  std::vector<FileRecord> files;
+  Statement rows(impl_->database,
+                 "SELECT key, path, bytes, sha256 FROM files WHERE frame=? ORDER BY position");
+  rows.Bind(0, frame);
+  while (rows.Next()) files.push_back({rows.Text(0), rows.Text(1), rows.Int(2), rows.Text(3)});
+  return files;
+}
+
+std::string DatasetIndex::FrameLine(int64_t frame) const {
+  Statement row(impl_->database, "SELECT json FROM frames WHERE frame=?");
+  row.Bind(0, frame);
+  return row.Next() ? row.Text(0) : std::string();
+}
+
+std::vector<Segment> DatasetIndex::Segments(int64_t frame, const std::string& view) const {
+  std::vector<Segment> segments;
+  Statement rows(impl_->database,
+                 "SELECT entity, category, area, x, y, w, h, wrap_x, wrap_w, solid_angle FROM segments "
+                 "WHERE frame=? AND view=? ORDER BY entity");
+  rows.Bind(0, frame).Bind(1, view);
+  while (rows.Next()) {
+    const auto integer = [&](int column) { return static_cast<int>(rows.Int(column)); };
+    const PixelBox box{integer(3), integer(4), integer(5), integer(6)};
+    segments.push_back({static_cast<EntityId>(rows.Int(0)),
+                        static_cast<CategoryId>(rows.Int(1)),
+                        rows.Int(2),
+                        box,
+                        {integer(7), box.y, integer(8), box.h},
+                        rows.Real(9)});
+  }
+  return segments;
+}
+
+std::vector<CategoryTotal> DatasetIndex::CategoryTotals() const {
+  std::vector<CategoryTotal> totals;
+  Statement rows(impl_->database,
+                 "SELECT category, SUM(area), SUM(solid_angle), COUNT(DISTINCT entity) FROM "
+                 "(SELECT * FROM segments ORDER BY frame, view, entity) GROUP BY category ORDER BY category");
+  while (rows.Next())
+    totals.push_back({static_cast<CategoryId>(rows.Int(0)), rows.Int(1), rows.Real(2), rows.Int(3)});
+  return totals;
+}
+
+std::vector<SeenEntity> DatasetIndex::SeenEntities() const {
+  std::vector<SeenEntity> seen;
+  Statement rows(impl_->database, "SELECT entity, MIN(frame) FROM segments GROUP BY entity ORDER BY entity");
+  while (rows.Next()) seen.push_back({static_cast<EntityId>(rows.Int(0)), rows.Int(1)});
+  return seen;
+}
+
+void DatasetIndex::Finish(const std::filesystem::path& folder, const Scene& scene) {
+  const std::filesystem::path path = folder / kIndexName, temporary = path.string() + ".tmp";
+  std::filesystem::remove(temporary);
+  try {
+    // A new file, filled in order in one go: its bytes depend on the rows alone.
+    Database database(temporary, Database::Mode::kWrite);
+    database.Run("PRAGMA page_size=4096; PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF");
+    CreateSchema(database);
+    Statement(database, "ATTACH ? AS journal").Bind(0, path.string()).Run();
+    {
+      Transaction transaction(database);
+      database.Run("INSERT INTO main.frames SELECT * FROM journal.frames ORDER BY frame");
+      database.Run("INSERT INTO main.files SELECT * FROM journal.files ORDER BY frame, position");
+      database.Run("INSERT INTO main.segments SELECT * FROM journal.segments ORDER BY frame, view, entity");
+      InsertNames(database, scene);
+      transaction.Commit();
+    }
+    database.Run("DETACH journal");
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+  PublishFile(temporary, path);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,127 @@
+// meta.json: what a dataset is, for people and programs.
+#include <nlohmann/json.hpp>
+
+#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/version.h"
+
+namespace airsim360 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ParametersJson(const DatasetSpec& spec) {
+  Json json = {{"command", spec.command},
+               {"world", spec.world},
+               {"seed", spec.seed},
+               {"projection", kProjectionNames[static_cast<int>(spec.projection)]},
+               {"width", spec.width},
+               {"height", spec.height},
+               {"tier", kTierNames[static_cast<int>(spec.tier)]},
+               {"frames", spec.frames},
+               {"shard", spec.shard},
+               {"shards", spec.shards},
+               {"route", spec.route},
+               {"normal", spec.normal},
+               {"rgb_format", spec.rgb_format == RgbFormat::kJpeg ? "jpg" : "png"},
+               {"pano_frame", spec.pano_frame == PanoFrame::kLevel ? "level" : "body"}};
+  if (spec.projection == Projection::kPinhole || spec.projection == Projection::kFisheye)
+    json["fov_deg"] = spec.fov_deg;
+  return json;
+}
+
+Json ConventionsJson() {
+  return {
+      {"world", "W: right-handed, +X east, +Y north, +Z up; metres, radians, seconds"},
+      {"body", "B: +X forward, +Y left, +Z up"},
+      {"camera",
+       "C: +X right, +Y down, +Z forward (OpenCV, COLMAP); the image centre looks along the body's forward "
+       "axis"},
+      {"pose", "X_WC maps camera to world: p_W = R(q_wxyz) p_C + p; Hamilton quaternions w, x, y, z"},
+      {"velocities", "v_WB in W, m/s; w_WB_B in B, rad/s"},
+      {"equirectangular",
+       "COLMAP EQUIRECTANGULAR, W = 2H: theta = 2 pi ((x + 0.5) / W - 0.5), phi = pi (0.5 - (y + 0.5) / H), "
+       "ray = (cos phi sin theta, -sin phi, cos phi cos theta)"},
+      {"pano_frame", "body: the panorama turns with the body; level: only with its heading, up is world up"},
+      {"cube",
+       "faces STEM_+x, -x, +y, -y, +z, -z: 90 degree pinholes along the axes of C, +z forward, -y up; the "
+       "top of -y is "
+       "back, the top of +y is front"}};
+}
+
+Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
+  Json json;
+  if (spec.tier != Tier::kLabels) {
+    json["rgb"] = spec.rgb_format == RgbFormat::kJpeg ? "8-bit sRGB JPEG 4:4:4" : "8-bit sRGB PNG";
+  }
+  json["range"] =
+      "OpenEXR float32, channel Y: metres along the ray through the pixel centre, 0 = nothing hit (sky)";
+  json["semantic"] = std::string(NeedsWideSemantics(scene) ? "16" : "8") +
+                     "-bit PNG, category id of `categories`; 0 = void, never written";
+  json["entity"] = "8-bit RGB PNG, entity id = R + 256 G + 65536 B; 0 never appears";
+  if (spec.normal) {
+    json["normal"] =
+        "16-bit RGB PNG, unit world normal towards the camera: n = value / 32767 - 1; (0, 0, 0) = nothing "
+        "hit";
+  }
+  return json;
+}
+
+Json CategoriesJson(const SemanticTree& tree) {
+  Json list = Json::array();
+  for (const auto& [id, category] : tree.categories()) {
+    if (id == kVoid) continue;
+    list.push_back({{"id", id},
+                    {"path", category.path},
+                    {"parent", category.parent},
+                    {"kind", category.thing ? "thing" : "stuff"},
+                    {"ade20k", category.ade20k},
+                    {"cityscapes", category.cityscapes},
+                    {"coco", category.coco}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string MetaJson(const DatasetSpec& spec, const Scene& scene) {
+  const SceneCounts counts = scene.Count();
+  Json json = {
+      {"format", "airsim360-native-1"},
+      {"generator", std::string("airsim360 ") + kVersion},
+      {"command", spec.command},
+      {"world", spec.world},
+      {"seed", spec.seed},
+      {"size", {spec.width, spec.height}},
+      {"tier", kTierNames[static_cast<int>(spec.tier)]},
+      {"parameters", ParametersJson(spec)},
+      {"scene",
+       {{"name", scene.name}, {"triangles", counts.instanced_triangles}, {"entities", counts.entities}}},
+      {"attributions", scene.attributions},
+      {"conventions", ConventionsJson()},
+      {"encodings", EncodingsJson(spec, scene)},
+      {"categories", CategoriesJson(scene.tree)}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string DescribeMetaDifference(const std::string& on_disk, const std::string& wanted) {
+  if (on_disk == wanted) return {};
+  const Json a = Json::parse(on_disk, nullptr, false), b = Json::parse(wanted);
+  if (!a.is_object()) return "its meta.json is damaged";
+  const auto text = [](const Json& json, const std::string& key) {
+    return json.is_object() && json.contains(key) ? json[key].dump() : std::string("nothing");
+  };
+  const Json parameters = a.value("parameters", Json::object());
+  for (const auto& [key, value] : b["parameters"].items()) {
+    if (text(parameters, key) != value.dump())
+      return key + " is " + text(parameters, key) + " there, " + value.dump() + " here";
+  }
+  for (const auto& [key, value] : b.items()) {
+    if (key == "parameters" || text(a, key) == value.dump()) continue;
+    const bool brief = text(a, key).size() < 200 && value.dump().size() < 200;
+    return key +
+           (brief ? " is " + text(a, key) + " there, " + value.dump() + " here" : std::string(" differs"));
+  }
+  return "its meta.json differs";
+}
+
+}  // namespace airsim360

@@ -1,0 +1,41 @@
+// What the index knows of a frame, and its line in frames.jsonl.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "airsim360/dataset/segments.h"
+#include "airsim360/dataset/spec.h"
+
+namespace airsim360 {
+
+/// One file of a frame.
+struct FileRecord {
+  std::string key;   ///< in frames.jsonl's "sha256": the product, with the view's suffix
+  std::string path;  ///< relative to the dataset, '/' separated
+  int64_t bytes = 0;
+  std::string sha256;
+};
+
+struct ViewRecord {
+  std::string suffix;
+  std::vector<Segment> segments;
+};
+
+/// A finished frame.
+struct FrameRecord {
+  int64_t index = 0;
+  int64_t t_ns = 0;
+  RigidTransform X_WC;
+  Kinematics body;
+  double range_min = 0;     ///< metres, over the pixels that hit something; 0 if none did
+  double range_median = 0;  ///< lower median
+  std::vector<FileRecord> files;
+  std::vector<ViewRecord> views;
+};
+
+/// One line of frames.jsonl, without the line feed.
+std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec);
+
+}  // namespace airsim360

@@ -1,0 +1,62 @@
+#include "airsim360/dataset/spec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace airsim360 {
+
+std::vector<View> Views(const DatasetSpec& spec) {
+  const int w = spec.width, h = spec.height;
+  const double fov = spec.fov_deg * std::numbers::pi / 180;
+  switch (spec.projection) {
+    case Projection::kErp:
+      return {{"", Equirectangular{w, h}}};
+    case Projection::kPinhole: {
+      const double f = 0.5 * w / std::tan(0.5 * fov);
+      return {{"", Pinhole{.width = w, .height = h, .fx = f, .fy = f, .cx = 0.5 * w, .cy = 0.5 * h}}};
+    }
+    case Projection::kFisheye:
+      return {{"", Fisheye::Equidistant(w, h, fov)}};
+    case Projection::kCube:
+      break;
+  }
+  std::vector<View> faces;
+  for (int face = 0; face < 6; ++face) {
+    faces.push_back({std::string("_") + kCubeFaceNames[face], CubeFace{static_cast<CubeFaceName>(face), w}});
+  }
+  return faces;
+}
+
+Products ProductsOf(const DatasetSpec& spec) {
+  return {.rgb = spec.tier != Tier::kLabels,
+          .range = true,
+          .semantic = true,
+          .entity = true,
+          .normal = spec.normal};
+}
+
+std::string Stem(int64_t index) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%06lld", static_cast<long long>(index));
+  return text;
+}
+
+std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
+  std::vector<ProductFolder> folders;
+  if (spec.tier != Tier::kLabels)
+    folders.push_back({"rgb", spec.rgb_format == RgbFormat::kJpeg ? ".jpg" : ".png"});
+  folders.push_back({"range", ".exr"});
+  folders.push_back({"semantic", ".png"});
+  folders.push_back({"entity", ".png"});
+  if (spec.normal) folders.push_back({"normal", ".png"});
+  return folders;
+}
+
+bool NeedsWideSemantics(const Scene& scene) {
+  return std::any_of(scene.entities.begin(), scene.entities.end(),
+                     [](const Entity& entity) { return entity.category > 255; });
+}
+
+}  // namespace airsim360

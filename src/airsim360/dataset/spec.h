@@ -1,0 +1,69 @@
+// What a dataset consists of: the parameters that determine every byte of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "airsim360/scene/scene.h"
+#include "airsim360/sensors/rig.h"
+
+namespace airsim360 {
+
+enum class Projection { kErp, kCube, kPinhole, kFisheye };
+inline constexpr const char* kProjectionNames[] = {"erp", "cube", "pinhole", "fisheye"};
+
+enum class RgbFormat { kPng, kJpeg };
+
+/// Parameters of a dataset. Two runs with equal parameters (and the same program and models) write the same
+/// bytes.
+struct DatasetSpec {
+  std::string command = "collect";  ///< "collect" or "render"
+  std::string world;                ///< as given: a name or a path
+  uint64_t seed = 0;
+  Projection projection = Projection::kErp;
+  int width = 2048, height = 1024;  ///< of one picture; a cube face for Projection::kCube
+  double fov_deg = 90;              ///< pinhole: across the width; fisheye: across the shorter side
+  Tier tier = Tier::kFast;
+  bool normal = false;
+  RgbFormat rgb_format = RgbFormat::kPng;
+  PanoFrame pano_frame = PanoFrame::kBody;
+  int64_t frames = 1;             ///< of the whole dataset, all shards together
+  int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
+  std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+};
+
+/// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube
+/// six with
+/// "_+x", "_-x", … appended to the stem.
+struct View {
+  std::string suffix;
+  Camera camera;
+};
+
+/// The views of a capture, in the order in which they are written.
+std::vector<View> Views(const DatasetSpec& spec);
+
+/// The products a capture fills: colour unless the tier is labels.
+Products ProductsOf(const DatasetSpec& spec);
+
+/// "000000": the name of a frame's files.
+std::string Stem(int64_t index);
+
+/// Folder and file name extension of a product: ("rgb", ".png").
+struct ProductFolder {
+  std::string name, extension;
+};
+std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec);
+
+/// True if semantic pictures of this scene need 16 bits: some entity's category is above 255.
+bool NeedsWideSemantics(const Scene& scene);
+
+/// meta.json: generator, parameters, conventions in words, encodings, category tree. Ends with a line feed.
+std::string MetaJson(const DatasetSpec& spec, const Scene& scene);
+
+/// "" if two meta.json texts are of the same dataset, else one line that names the first difference and both
+/// values.
+std::string DescribeMetaDifference(const std::string& on_disk, const std::string& wanted);
+
+}  // namespace airsim360

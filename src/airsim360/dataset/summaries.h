@@ -1,0 +1,26 @@
+// The files of a dataset that are made from its index once all frames are there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "airsim360/dataset/index.h"
+
+namespace airsim360 {
+
+/// frames.jsonl: one line for each frame, in order.
+std::string FramesJsonl(const DatasetIndex& index);
+/// entities.json: id -> name, category, category_path, kind, first_frame of every entity seen.
+std::string EntitiesJson(const DatasetIndex& index, const Scene& scene);
+/// panoptic.json: COCO panoptic over entity/*.png, with bbox_wrap and solid_angle beside the standard keys.
+std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
+/// README.md: the dataset card.
+std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
+/// contact_sheet.png: colour | range | semantic | entity, one row for each of up to kContactRows frames
+/// spread evenly. Reads the pictures from `folder`.
+inline constexpr int kContactRows = 8;
+std::vector<std::byte> ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
+                                       const std::filesystem::path& folder);
+
+}  // namespace airsim360

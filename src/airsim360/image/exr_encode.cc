@@ -1,0 +1,69 @@
+// OpenEXR float pictures to memory, single threaded (callers are parallel over pictures).
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfOutputFile.h>
+
+#include <cstring>
+
+#include "airsim360/image/codecs_internal.h"
+
+namespace airsim360 {
+namespace {
+
+class MemoryWriter : public Imf::OStream {
+ public:
+  MemoryWriter() : OStream("memory") {}
+  void write(const char data[], int n) override {
+    if (at_ + n > bytes_.size()) bytes_.resize(at_ + n);
+    std::memcpy(bytes_.data() + at_, data, static_cast<size_t>(n));
+    at_ += static_cast<size_t>(n);
+  }
+  uint64_t tellp() override { return at_; }
+  void seekp(uint64_t at) override { at_ = at; }
+  Bytes Take() { return std::move(bytes_); }
+
+ private:
+  Bytes bytes_;
+  size_t at_ = 0;
+};
+
+// Writes `channels` floats a pixel, interleaved in memory.
+Bytes WriteExr(const float* data, int width, int height, std::span<const char* const> channels) {
+  internal::CheckSize(width, height, "EXR");
+  Imf::Header header(width, height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  // Range of a street scene at 2048x1024, one core: level 1 46 ms 1.568 MB, 2 44 ms 1.565 MB, 4 56 ms 1.546
+  // MB, 9 81 ms 1.544 MB.
+  header.zipCompressionLevel() = 2;
+  Imf::FrameBuffer frame;
+  const size_t pixel = sizeof(float) * channels.size();
+  for (size_t c = 0; c < channels.size(); ++c) {
+    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
+    auto* base = const_cast<char*>(reinterpret_cast<const char*>(data + c));
+    frame.insert(channels[c], Imf::Slice(Imf::FLOAT, base, pixel, pixel * width));
+  }
+  MemoryWriter writer;
+  {
+    Imf::OutputFile file(writer, header, 0);
+    file.setFrameBuffer(frame);
+    file.writePixels(height);
+  }
+  return writer.Take();
+}
+
+}  // namespace
+
+Bytes EncodeExr(const Image<float>& image) {
+  constexpr const char* kChannels[] = {"Y"};
+  return WriteExr(image.pixels().data(), image.width(), image.height(), kChannels);
+}
+
+Bytes EncodeExr(const Image<Rgb32f>& image) {
+  constexpr const char* kChannels[] = {"R", "G", "B"};
+  return WriteExr(reinterpret_cast<const float*>(image.pixels().data()), image.width(), image.height(),
+                  kChannels);
+}
+
+}  // namespace airsim360

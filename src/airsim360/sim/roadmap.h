@@ -1,0 +1,45 @@
+// Free places of a scene and the free straight ways between them.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360 {
+
+/// Where to look for free places.
+struct PlaceOptions {
+  uint64_t seed = 0;
+  double radius = 1;                         ///< metres free around a place
+  double min_height = 1.6, max_height = 60;  ///< metres above the ground
+  int candidates = 900;                      ///< places tried
+};
+
+/// Free places, spread over the cells of the ground that hold things of everyday size (so that a far horizon
+/// is left out) and over heights, denser near the ground, with something below; the scene's spawn first if it
+/// is free. A pure function of scene and options.
+std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options);
+
+/// True if a ball of `radius` can move along the segment. Its free distance is measured at most 0.1 m apart
+/// where it is tight.
+bool IsFree(const RayTracer& tracer, Vec3d a, Vec3d b, double radius);
+
+struct Roadmap {
+  std::vector<Vec3d> places;
+  std::vector<std::vector<std::pair<int, double>>> ways;  ///< from each place: (place, cost)
+};
+
+/// Connects each place with its nearest ones where a ball of `radius` can move between them. The cost of a
+/// way is its length, more at height, so that shortest ways follow the streets.
+Roadmap Connect(const RayTracer& tracer, std::vector<Vec3d> places, double radius);
+
+/// Cheapest ways from one place to all (Dijkstra).
+struct CheapestWays {
+  std::vector<double> cost;   ///< infinite where there is none
+  std::vector<int> previous;  ///< place before, -1 at the start and where there is no way
+};
+CheapestWays FindCheapestWays(const Roadmap& map, int from);
+
+}  // namespace airsim360

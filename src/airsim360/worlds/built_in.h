@@ -1,0 +1,26 @@
+// The built-in worlds, one function each; worlds.cc lists them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "airsim360/scene/scene.h"
+#include "airsim360/worlds/placer.h"
+#include "airsim360/worlds/worlds.h"
+
+namespace airsim360::internal {
+
+/// The analytic test world of docs/contracts.md: inner faces at x = ±5, y = ±5, z = 0, z = 6; a cube of edge
+/// 1 m centred at (3, 0, 0.5), without its bottom face, which would coincide with the floor. Seven entities,
+/// no sky.
+std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions& options);
+WorldInfo BoxRoomInfo();
+
+/// A downtown of nine blocks around a plaza and a park, with backdrop to the horizon.
+std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options);
+/// The same; `placements` receives every prop that was placed by the rule of free footprints.
+std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
+                                               std::vector<Placement>* placements);
+WorldInfo DowntownWestInfo();
+
+}  // namespace airsim360::internal

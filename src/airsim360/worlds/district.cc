@@ -1,0 +1,96 @@
+#include "airsim360/worlds/district.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/random.h"
+
+namespace airsim360::internal {
+
+float FacingYaw(Vec2f direction) { return std::atan2(direction.x, -direction.y); }
+
+void PlaceRun(District& d, std::string_view kind, Vec2f a, Vec2f b, float z, std::string_view post) {
+  const Vec2f v = b - a;
+  const float length = std::hypot(v.x, v.y), yaw = std::atan2(v.y, v.x);
+  const int panels = std::max(1, static_cast<int>(std::lround(length / 2)));
+  const PropKind& row = FindPropKind(kind);
+  const EntityId run = d.builder.AddEntity(std::string(kind) + " run", d.builder.tree().At(row.category));
+  for (int i = 0; i < panels; ++i) {
+    const Vec2f at = a + v * ((static_cast<float>(i) + 0.5f) / static_cast<float>(panels));
+    AffineTransform X = PlaceUpright({at.x, at.y, z}, yaw);
+    const float stretch = length / (2 * static_cast<float>(panels));
+    for (auto& r : X.A.m) r[0] *= stretch;
+    d.placer.shelf().PlaceAs(run, kind, X, d.placer.rng().Index(static_cast<uint32_t>(row.variants)));
+  }
+  d.placer.Reserve({(a + b) * 0.5f, {length / 2, 0.1f}, yaw});
+  if (post.empty()) return;
+  for (int i = 0; i <= panels; ++i) {
+    const Vec2f at = a + v * (static_cast<float>(i) / static_cast<float>(panels));
+    d.placer.Put(post, {at.x, at.y, z}, yaw, 1, {1, 1, 1}, 0u);
+  }
+}
+
+void LayTreePit(Ground& ground, Vec2f at, float z) {
+  const GroundRect outer{at.x - 0.8f, at.y - 0.8f, at.x + 0.8f, at.y + 0.8f}, inner = outer.Inset(0.12f);
+  ground.Begin("tree pit", "ground/terrain/landscape", Surface::kKerb);
+  // A frame two centimetres high, soil a little lower.
+  const float top = z + 0.02f, soil = z + 0.012f;
+  ground.Rect({outer.x0, outer.y0, outer.x1, inner.y0}, top);
+  ground.Rect({outer.x0, inner.y1, outer.x1, outer.y1}, top);
+  ground.Rect({outer.x0, inner.y0, inner.x0, inner.y1}, top);
+  ground.Rect({inner.x1, inner.y0, outer.x1, inner.y1}, top);
+  ground.mesh().Walls(outer.Outline(), z, top);
+  ground.Use(Surface::kSoil);
+  ground.Rect(inner, soil);
+}
+
+bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p) {
+  bool inside = false;
+  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Vec2f a = outline[i], b = outline[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
+float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p) {
+  float best = 1e9f;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const Vec2f a = outline[i], v = outline[(i + 1) % outline.size()] - a, w = p - a;
+    const float t = std::clamp((w.x * v.x + w.y * v.y) / std::max(v.x * v.x + v.y * v.y, 1e-9f), 0.0f, 1.0f);
+    best = std::min(best, std::hypot(w.x - v.x * t, w.y - v.y * t));
+  }
+  return best;
+}
+
+void GrowGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2) {
+  GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
+  for (Vec2f p : outline)
+    box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
+  RngStream rng(d.seed, "grass", lawn);
+  const auto tufts = static_cast<int>(box.area() * per_m2);
+  for (int i = 0; i < tufts; ++i) {
+    const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
+                  static_cast<float>(rng.Uniform(box.y0, box.y1))};
+    const auto yaw = static_cast<float>(rng.Uniform(0, 6.283)),
+               scale = static_cast<float>(rng.Uniform(0.7, 1.35));
+    const auto variant = static_cast<uint32_t>(rng.Index(16));
+    const auto tone = static_cast<float>(rng.Uniform(0.8, 1.15));
+    if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.25f) continue;
+    d.placer.shelf().PlaceAs(lawn, "grass_tuft", PlaceUpright({p.x, p.y, z}, yaw, scale), variant,
+                             {tone, tone, tone * 0.9f});
+  }
+}
+
+void DropLeaves(District& d, EntityId ground, Vec2f at, float radius, int count, float z) {
+  RngStream& rng = d.placer.rng();
+  for (int i = 0; i < count; ++i) {
+    const double a = rng.Uniform(0, 6.283), r = radius * std::sqrt(rng.Uniform());
+    const Vec2f p{at.x + static_cast<float>(r * std::cos(a)), at.y + static_cast<float>(r * std::sin(a))};
+    d.placer.shelf().PlaceAs(ground, "leaf_litter",
+                             PlaceUpright({p.x, p.y, z}, static_cast<float>(rng.Uniform(0, 6.283))),
+                             rng.Index(16));
+  }
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,51 @@
+// What the builders of one downtown share, and the builders of its parts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "airsim360/worlds/ground.h"
+#include "airsim360/worlds/massing.h"
+#include "airsim360/worlds/placer.h"
+
+namespace airsim360::internal {
+
+struct District {
+  SceneBuilder& builder;
+  const Surfaces& surfaces;
+  const StreetPlan& plan;
+  Ground& ground;
+  Placer& placer;
+  uint64_t seed;
+};
+
+/// Yaw that turns a prop's front (-Y) towards a direction.
+float FacingYaw(Vec2f direction);
+/// A run of `kind` panels of 2 m from a to b at height z, stretched to fit, all one entity; with `post` also
+/// posts (an entity each) at the joints. The panels' front looks to the right-hand side of a -> b.
+void PlaceRun(District& district, std::string_view kind, Vec2f a, Vec2f b, float z,
+              std::string_view post = {});
+/// A square tree pit of soil in a stone frame, laid over the paving.
+void LayTreePit(Ground& ground, Vec2f at, float z = 0);
+/// Grass tufts over a lawn at height z as part of its entity, about `per_m2`; none within 0.25 m of its edge.
+void GrowGrass(District& district, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2);
+/// Twigs and leaves on the ground around a tree.
+void DropLeaves(District& district, EntityId ground, Vec2f at, float radius, int count, float z);
+bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);
+/// Distance from p to the nearest edge of the outline.
+float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p);
+
+/// The plaza: paving, fountain, terrace with café, market, allées.
+void BuildPlaza(District& district, const Block& block);
+/// The park: pond, ring walk, curved paths, lawns with trees, rocks and wooden fence.
+void BuildPark(District& district, const Block& block);
+/// Ground and planting inside a built block.
+void BuildYard(District& district, const Block& block);
+/// Lamps, trees, meters, bins … along the pavements, by rule.
+void FurnishPavements(District& district);
+/// Cars at the kerb and in the lanes, buses, manholes.
+void FurnishStreets(District& district, const std::vector<StreetStretch>& streets);
+/// Far blocks to 640 m, the plain to the horizon, mountain ridges.
+void BuildBackdrop(District& district);
+
+}  // namespace airsim360::internal

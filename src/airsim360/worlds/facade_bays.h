@@ -1,0 +1,32 @@
+// One bay of one storey, per style.
+#pragma once
+
+#include "airsim360/base/random.h"
+#include "airsim360/worlds/facade.h"
+
+namespace airsim360::internal {
+
+/// Surfaces and proportions of one building.
+struct Dress {
+  Surface wall, trim, frame, shutter, glass, party, far;
+  float cornice = 0;  ///< scale of the cornice, 0 = none
+};
+Dress DressOf(const BuildingPlan& plan);
+
+/// A cell of the wall: x and z range, storey number above the ground floor.
+struct Bay {
+  float x0, x1, z0, z1;
+  int floor, floors;
+  float middle() const { return (x0 + x1) / 2; }
+};
+
+void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay,
+              RngStream& rng);
+/// Recessed opening with frame and pane, no ornament.
+void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng);
+/// A rear door in a bay of the ground floor.
+void DoorOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float height, float middle);
+void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float z0, float z1, float ox0,
+                   float ox1, float oz0, float oz1, float depth, RngStream& rng);
+
+}  // namespace airsim360::internal

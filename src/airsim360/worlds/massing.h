@@ -1,0 +1,64 @@
+// Parcels and building volumes of the blocks of a street plan: footprints, heights, styles; no geometry yet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "airsim360/scene/scene.h"
+#include "airsim360/worlds/street_plan.h"
+
+namespace airsim360 {
+
+enum class FacadeStyle {
+  kBrickWalkUp,
+  kClassicStone,
+  kStuccoShutters,
+  kConcreteGrid,
+  kCurtainWall,
+  kBrickLoft,
+  kRibbon,
+  kCount
+};
+
+enum class EdgeKind {
+  kStreet,  ///< full dress, shops below
+  kRear,    ///< windows without ornament
+  kParty,   ///< shared with a neighbour; bare above its roof
+};
+
+enum class RoofKind { kFlatGravel, kFlatBitumen, kHipTile, kHipSlate };
+
+/// One building: a convex outline extruded from z = 0.
+struct BuildingPlan {
+  std::vector<Vec2f> outline;       ///< counter-clockwise from above
+  std::vector<EdgeKind> edges;      ///< edge i runs from corner i to corner i + 1
+  std::vector<float> party_height;  ///< of the neighbour behind a party edge, else 0
+  int floors = 4;                   ///< above the ground floor
+  FacadeStyle style = FacadeStyle::kBrickWalkUp;
+  int palette = 0;
+  RoofKind roof = RoofKind::kFlatGravel;
+  uint64_t seed = 0;
+  size_t block = 0;      ///< index into StreetPlan::blocks
+  float height() const;  ///< of the eaves or the roof deck, metres
+  GroundRect bounds() const;
+};
+
+/// Storey heights of a style.
+struct StyleMetrics {
+  float ground_height, floor_height, bay;
+  int palettes;
+};
+const StyleMetrics& MetricsOf(FacadeStyle style);
+
+/// Buildings of all built and backdrop blocks, block by block. A perimeter of parcels around a courtyard.
+std::vector<BuildingPlan> PlanBuildings(const StreetPlan& plan, uint64_t seed);
+/// The open middle of a built block (its perimeter buildings are this deep at most).
+GroundRect CourtyardOf(const Block& block);
+
+/// A convex outline moved inwards by `d` (outwards where negative).
+std::vector<Vec2f> OffsetConvex(const std::vector<Vec2f>& outline, float d);
+
+/// Ground within plan.reach() that no building stands on, square metres.
+double FreeGroundArea(const StreetPlan& plan, const std::vector<BuildingPlan>& buildings);
+
+}  // namespace airsim360

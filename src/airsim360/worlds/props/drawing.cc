@@ -1,0 +1,201 @@
+#include "airsim360/worlds/props/drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <utility>
+
+#include "airsim360/base/random.h"
+#include "airsim360/image/color.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Letters on a grid of 5 x 7, one byte a row, most significant of 5 bits at the left.
+constexpr std::string_view kGlyphNames = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-!&%";
+constexpr std::array<std::array<uint8_t, 7>, 41> kGlyphs = {{
+    {14, 17, 17, 31, 17, 17, 17}, {30, 17, 17, 30, 17, 17, 30}, {14, 17, 16, 16, 16, 17, 14},
+    {30, 17, 17, 17, 17, 17, 30}, {31, 16, 16, 30, 16, 16, 31}, {31, 16, 16, 30, 16, 16, 16},
+    {14, 17, 16, 23, 17, 17, 14}, {17, 17, 17, 31, 17, 17, 17}, {14, 4, 4, 4, 4, 4, 14},
+    {7, 2, 2, 2, 2, 18, 12},      {17, 18, 20, 24, 20, 18, 17}, {16, 16, 16, 16, 16, 16, 31},
+    {17, 27, 21, 21, 17, 17, 17}, {17, 25, 21, 19, 17, 17, 17}, {14, 17, 17, 17, 17, 17, 14},
+    {30, 17, 17, 30, 16, 16, 16}, {14, 17, 17, 17, 21, 18, 13}, {30, 17, 17, 30, 20, 18, 17},
+    {15, 16, 16, 14, 1, 1, 30},   {31, 4, 4, 4, 4, 4, 4},       {17, 17, 17, 17, 17, 17, 14},
+    {17, 17, 17, 17, 17, 10, 4},  {17, 17, 17, 21, 21, 27, 17}, {17, 17, 10, 4, 10, 17, 17},
+    {17, 17, 10, 4, 4, 4, 4},     {31, 1, 2, 4, 8, 16, 31},     {14, 17, 19, 21, 25, 17, 14},
+    {4, 12, 4, 4, 4, 4, 14},      {14, 17, 1, 6, 8, 16, 31},    {31, 2, 4, 6, 1, 17, 14},
+    {2, 6, 10, 18, 31, 2, 2},     {31, 16, 30, 1, 1, 17, 14},   {6, 8, 16, 30, 17, 17, 14},
+    {31, 1, 2, 4, 4, 4, 4},       {14, 17, 17, 14, 17, 17, 14}, {14, 17, 17, 15, 1, 2, 12},
+    {0, 0, 0, 0, 0, 12, 12},      {0, 0, 0, 14, 0, 0, 0},       {4, 4, 4, 4, 4, 0, 4},
+    {8, 20, 20, 8, 21, 18, 13},   {24, 25, 2, 4, 8, 19, 3},
+}};
+
+float Lattice(int x, int y, uint64_t seed) {
+  const uint64_t key =
+      MixBits(seed ^ (static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32 | static_cast<uint32_t>(y)));
+  return static_cast<float>(key >> 40) * 0x1p-24f;
+}
+
+int Wrapped(int i, int period) { return ((i % period) + period) % period; }
+
+Rgba8 Encode(Vec3f c) { return {LinearToSrgb8(c.x), LinearToSrgb8(c.y), LinearToSrgb8(c.z), 255}; }
+
+}  // namespace
+
+float TileNoise(float x, float y, int period_x, int period_y, uint64_t seed) {
+  const float fx = std::floor(x), fy = std::floor(y);
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const auto ease = [](float t) { return t * t * (3 - 2 * t); };
+  const float s = ease(x - fx), t = ease(y - fy);
+  const auto at = [&](int dx, int dy) {
+    return Lattice(Wrapped(ix + dx, period_x), Wrapped(iy + dy, period_y), seed);
+  };
+  const float a = at(0, 0) + (at(1, 0) - at(0, 0)) * s, b = at(0, 1) + (at(1, 1) - at(0, 1)) * s;
+  return a + (b - a) * t;
+}
+
+float TileFractal(float u, float v, int cells_x, int cells_y, int octaves, uint64_t seed) {
+  float sum = 0, weight = 0, gain = 1;
+  for (int i = 0; i < octaves; ++i) {
+    const int nx = cells_x << i, ny = cells_y << i;
+    sum += gain * TileNoise(u * static_cast<float>(nx), v * static_cast<float>(ny), nx, ny,
+                            seed + static_cast<uint64_t>(i));
+    weight += gain;
+    gain *= 0.5f;
+  }
+  return sum / weight;
+}
+
+Image<Rgba8> Shade(int width, int height, const std::function<Vec3f(float, float)>& color) {
+  Image<Rgba8> image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image(x, y) = Encode(color((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                                 (static_cast<float>(y) + 0.5f) / static_cast<float>(height)));
+    }
+  }
+  return image;
+}
+
+Texture NormalsFromHeight(std::string name, int width, int height, float aspect,
+                          const std::function<float(float, float)>& height_at) {
+  std::vector<float> field(static_cast<size_t>(width) * height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      field[static_cast<size_t>(y) * width + x] =
+          height_at((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                    (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+    }
+  }
+  const auto at = [&](int x, int y) {
+    return field[static_cast<size_t>(Wrapped(y, height)) * width + Wrapped(x, width)];
+  };
+  const auto encode = [](float v) { return static_cast<uint8_t>((v * 0.5f + 0.5f) * 255 + 0.5f); };
+  Image<Rgba8> image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      // +X of the tangent frame is +u, +Y is up in the picture: -v.
+      const float du = (at(x + 1, y) - at(x - 1, y)) * 0.5f * static_cast<float>(width);
+      const float dv = (at(x, y + 1) - at(x, y - 1)) * 0.5f * static_cast<float>(height) * aspect;
+      const Vec3f n = Normalized(Vec3f{-du, dv, 1});
+      image(x, y) = {encode(n.x), encode(n.y), encode(n.z), 255};
+    }
+  }
+  return Texture::FromImage(std::move(name), std::move(image), false);
+}
+
+Canvas::Canvas(int width, int height, Vec3f background)
+    : width_(static_cast<float>(width)),
+      height_(static_cast<float>(height)),
+      image_(width, height, Encode(background)) {}
+
+void Canvas::Fill(Vec2f min_px, Vec2f max_px, const std::function<bool(float, float)>& inside, Vec3f color) {
+  const int x0 = std::max(0, static_cast<int>(std::floor(min_px.x))),
+            x1 = std::min(image_.width(), static_cast<int>(std::ceil(max_px.x)));
+  const int y0 = std::max(0, static_cast<int>(std::floor(min_px.y))),
+            y1 = std::min(image_.height(), static_cast<int>(std::ceil(max_px.y)));
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      int hits = 0;
+      for (int k = 0; k < 16; ++k) {
+        hits += inside(static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4,
+                       static_cast<float>(y) + (static_cast<float>(k / 4) + 0.5f) / 4);
+      }
+      if (hits == 0) continue;
+      const float f = static_cast<float>(hits) / 16;
+      const Rgba8 old = image_(x, y);
+      const Vec3f under{SrgbToLinear(old.r), SrgbToLinear(old.g), SrgbToLinear(old.b)};
+      image_(x, y) = Encode(under * (1 - f) + color * f);
+    }
+  }
+}
+
+void Canvas::Rectangle(Vec2f min, Vec2f max, Vec3f color) {
+  const Vec2f lo{min.x * width_, min.y * height_}, hi{max.x * width_, max.y * height_};
+  Fill(
+      lo, hi, [&](float x, float y) { return x >= lo.x && x < hi.x && y >= lo.y && y < hi.y; }, color);
+}
+
+void Canvas::Disc(Vec2f center, float r, Vec3f color) {
+  const Vec2f c{center.x * width_, center.y * height_};
+  const float radius = r * height_;
+  Fill(
+      c - Vec2f{radius, radius}, c + Vec2f{radius, radius},
+      [&](float x, float y) { return std::hypot(x - c.x, y - c.y) < radius; }, color);
+}
+
+void Canvas::Line(Vec2f a, Vec2f b, float thickness, Vec3f color) {
+  const Vec2f p{a.x * width_, a.y * height_}, q{b.x * width_, b.y * height_}, d = q - p;
+  const float half = thickness * height_ / 2, length2 = std::max(1e-6f, d.x * d.x + d.y * d.y);
+  const Vec2f lo{std::min(p.x, q.x) - half, std::min(p.y, q.y) - half},
+      hi{std::max(p.x, q.x) + half, std::max(p.y, q.y) + half};
+  Fill(
+      lo, hi,
+      [&](float x, float y) {
+        const float t = std::clamp(((x - p.x) * d.x + (y - p.y) * d.y) / length2, 0.0f, 1.0f);
+        return std::hypot(x - p.x - t * d.x, y - p.y - t * d.y) < half;
+      },
+      color);
+}
+
+void Canvas::RegularPolygon(Vec2f center, float r, int sides, float turn, Vec3f color) {
+  const Vec2f c{center.x * width_, center.y * height_};
+  const float radius = r * height_, step = 2 * std::numbers::pi_v<float> / static_cast<float>(sides),
+              apothem = radius * std::cos(step / 2);
+  Fill(
+      c - Vec2f{radius, radius}, c + Vec2f{radius, radius},
+      [&](float x, float y) {
+        const float from_corner = std::remainder(std::atan2(c.y - y, x - c.x) - turn - step / 2, step);
+        return std::hypot(x - c.x, y - c.y) * std::cos(from_corner) < apothem;
+      },
+      color);
+}
+
+void Canvas::Text(std::string_view text, Vec2f center, float size, Vec3f color) {
+  const float cell = size * height_ / 7, advance = 6 * cell;
+  float x0 = center.x * width_ - (static_cast<float>(text.size()) * advance - cell) / 2;
+  const float y0 = center.y * height_ - 3.5f * cell;
+  for (char c : text) {
+    const size_t glyph = kGlyphNames.find(c);
+    if (glyph != std::string_view::npos) {
+      const auto& rows = kGlyphs[glyph];
+      Fill(
+          {x0, y0}, {x0 + 5 * cell, y0 + 7 * cell},
+          [&](float x, float y) {
+            const int column = static_cast<int>((x - x0) / cell), row = static_cast<int>((y - y0) / cell);
+            return x >= x0 && y >= y0 && column < 5 && row < 7 &&
+                   (rows[static_cast<size_t>(row)] >> (4 - column) & 1);
+          },
+          color);
+    }
+    x0 += advance;
+  }
+}
+
+Texture Canvas::Finish(std::string name) {
+  return Texture::FromImage(std::move(name), std::exchange(image_, Image<Rgba8>{}), true);
+}
+
+}  // namespace airsim360::internal

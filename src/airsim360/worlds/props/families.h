@@ -1,0 +1,33 @@
+// The families of props. A new prop is a row and a function in the file of its family; a new family is one
+// file that defines its function, declared here and listed in props.cc.
+#pragma once
+
+#include <vector>
+
+#include "airsim360/worlds/props.h"
+
+namespace airsim360::internal {
+
+std::vector<PropKind> BarrierKinds();  // fences, railings, bollards
+std::vector<PropKind> BusKinds();
+std::vector<PropKind> CarKinds();  // cars and vans
+std::vector<PropKind> CycleKinds();
+std::vector<PropKind> FountainKinds();
+std::vector<PropKind> LampKinds();
+std::vector<PropKind> RockKinds();
+std::vector<PropKind> RooftopKinds();
+std::vector<PropKind> SeatingKinds();  // chairs, tables, benches
+std::vector<PropKind> ShadeKinds();    // umbrellas, tarps
+std::vector<PropKind> SignageKinds();  // posters, traffic signs
+std::vector<PropKind> StreetKinds();   // manholes, bus stops
+std::vector<PropKind> TrafficLightKinds();
+std::vector<PropKind> UtilityKinds();  // hydrants, mailboxes, meters, boxes
+std::vector<PropKind> VendingKinds();
+std::vector<PropKind> WasteKinds();
+std::vector<PropKind> PlanterKinds();
+std::vector<PropKind> GroundPlantKinds();  // grass, litter, flowers
+std::vector<PropKind> ShrubKinds();        // shrubs, hedges
+std::vector<PropKind> BroadleafKinds();
+std::vector<PropKind> ConiferKinds();
+
+}  // namespace airsim360::internal

@@ -1,0 +1,33 @@
+// What props are made of: the common finishes, and the textures drawn for them.
+#pragma once
+
+#include "airsim360/scene/material.h"
+
+namespace airsim360::internal {
+
+class PropBuilder;
+
+/// Linear colours. Names describe the finish, so that equal finishes of different props are shared.
+Material Paint(Vec3f color, float roughness = 0.4f);  ///< painted or powder-coated metal
+Material Metal(Vec3f color = {0.56f, 0.57f, 0.58f}, float roughness = 0.35f);  ///< bare metal
+Material CastIron();
+Material Plastic(Vec3f color, float roughness = 0.45f);
+Material Rubber();
+Material Fabric(Vec3f color);                          ///< cloth: two-sided, lets some light through
+Material Glass(Vec3f color = {0.03f, 0.035f, 0.04f});  ///< pane in front of something dark
+Material Glow(Vec3f color, float strength);            ///< lamp glass, lit
+Material Stone(Vec3f color, float roughness = 0.85f);  ///< concrete, stone, terracotta, soil: matt
+Material Leaf(Vec3f color = {1, 1, 1}, float transmission = 0.8f);
+
+/// Makes the following shapes of `b` wooden boards; the grain runs along the vertical or Y, or along X.
+enum class Grain { kUpright, kAlongX };
+void UseWood(PropBuilder& b, Vec3f tint = {1, 1, 1}, Grain grain = Grain::kUpright);
+
+/// Tiling textures (albedo where not said otherwise), made once and then shared; tile sizes in metres.
+const Texture& WoodTexture();       ///< planed boards, grain along v; tile 0.25 x 1
+const Texture& ConcreteTexture();   ///< fine mottling, mean 1; tile 1 x 1
+const Texture& BarkTexture();       ///< furrows along v, mean 1; tile 0.5 x 1
+const Texture& BarkNormals();       ///< normal map of the same
+const Texture& ScratchedTexture();  ///< weathered paint, mean near 1; tile 1 x 1
+
+}  // namespace airsim360::internal

@@ -1,0 +1,83 @@
+// Fountains.
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/base/random.h"
+#include "airsim360/worlds/props/families.h"
+#include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/prop_builder.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kTau = 2 * std::numbers::pi_v<float>;
+
+Material Water() {
+  Material m;
+  m.name = "water";
+  m.kind = SurfaceKind::kWater;
+  m.base_color = {0.03f, 0.055f, 0.05f};
+  m.roughness = 0.05f;
+  return m;
+}
+
+// Round stone basin, a bowl on a baluster, two water surfaces, arching jets that thin out.
+Model MakeFountain(uint32_t, uint64_t) {
+  PropBuilder b("fountain");
+  b.Use(Stone({0.46f, 0.43f, 0.38f}, 0.8f), ConcreteTexture());
+  const Vec2f basin[] = {{2.75f, -0.1f}, {2.75f, 0.10f}, {2.62f, 0.13f}, {2.55f, 0.18f}, {2.55f, 0.40f},
+                         {2.62f, 0.44f}, {2.68f, 0.47f}, {2.68f, 0.53f}, {2.64f, 0.56f}, {2.30f, 0.56f},
+                         {2.26f, 0.53f}, {2.26f, 0.12f}, {0.55f, 0.10f}};
+  b.Lathe(basin, 72);
+  const Vec2f column[] = {{0.55f, 0.10f}, {0.55f, 0.55f}, {0.48f, 0.60f}, {0.26f, 0.66f}, {0.20f, 0.80f},
+                          {0.26f, 0.98f}, {0.30f, 1.08f}, {0.22f, 1.18f}, {0.20f, 1.24f}, {0.45f, 1.30f},
+                          {0.85f, 1.42f}, {1.02f, 1.55f}, {1.05f, 1.58f}, {1.04f, 1.60f}, {0.98f, 1.60f},
+                          {0.92f, 1.54f}, {0.20f, 1.44f}};
+  b.Lathe(column, 48);
+  const Vec2f upper[] = {{0.20f, 1.44f}, {0.14f, 1.60f}, {0.10f, 1.80f}, {0.13f, 1.92f},
+                         {0.24f, 1.98f}, {0.40f, 2.06f}, {0.42f, 2.10f}, {0.38f, 2.10f},
+                         {0.06f, 2.04f}, {0.05f, 2.18f}, {0, 2.20f}};
+  b.Lathe(upper, 32);
+  b.Use(Water());
+  const auto disc = [&](float inner, float outer, float z) {
+    const Vec2f profile[] = {{outer, z}, {inner, z}};
+    b.Lathe(profile, 64);
+  };
+  disc(0.50f, 2.27f, 0.44f);
+  disc(0.12f, 0.955f, 1.565f);
+  // Jets: from the rim of the bowl outwards, and a plume on top.
+  Material spray = Glass({0.45f, 0.50f, 0.52f});
+  spray.name = "spray";
+  b.Use(spray);
+  for (int i = 0; i < 12; ++i) {
+    const float a = kTau * static_cast<float>(i) / 12;
+    const Vec3f d{std::cos(a), std::sin(a), 0};
+    std::vector<Vec3f> path;
+    std::vector<float> radii;
+    for (int k = 0; k <= 12; ++k) {
+      const float t = static_cast<float>(k) / 12;
+      path.push_back(d * (1.0f + 0.85f * t) + Vec3f{0, 0, 1.57f + 0.95f * t - 2.09f * t * t});
+      radii.push_back(0.010f + 0.010f * t);
+    }
+    b.Bar(path, radii, 6);
+  }
+  for (int i = 0; i < 10; ++i) {
+    const float a = kTau * static_cast<float>(i) / 10;
+    const Vec3f d{std::cos(a), std::sin(a), 0};
+    std::vector<Vec3f> path;
+    for (int k = 0; k <= 10; ++k) {
+      const float t = static_cast<float>(k) / 10;
+      path.push_back(d * (0.01f + 0.55f * t) + Vec3f{0, 0, 2.19f + 1.7f * t - 2.32f * t * t});
+    }
+    b.Bar(path, 0.009f, 5);
+  }
+  return b.Finish();
+}
+
+}  // namespace
+
+std::vector<PropKind> FountainKinds() {
+  return {{"fountain", "construction/fountain", 1, MakeFountain, 2.9f, 2.2f, 2.7f, 9000}};
+}
+
+}  // namespace airsim360::internal

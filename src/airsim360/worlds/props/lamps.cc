@@ -1,0 +1,94 @@
+// Lamp posts and street lights.
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/worlds/props/families.h"
+#include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/prop_builder.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kTau = 2 * std::numbers::pi_v<float>;
+constexpr Vec3f kGreenBlack{0.020f, 0.030f, 0.026f};
+
+// Post of cast iron with opal globes: one on top and three or four on curved arms.
+Model MakeLampPost(uint32_t variant, uint64_t) {
+  PropBuilder b("lamp_post");
+  b.Use(Paint(kGreenBlack, 0.35f));
+  const Vec2f post[] = {{0.24f, -0.2f},  {0.24f, 0.05f},  {0.22f, 0.07f},  {0.20f, 0.075f}, {0.19f, 0.30f},
+                        {0.165f, 0.34f}, {0.165f, 0.72f}, {0.185f, 0.75f}, {0.185f, 0.79f}, {0.13f, 0.85f},
+                        {0.095f, 1.0f},  {0.075f, 1.2f},  {0.09f, 1.22f},  {0.09f, 1.26f},  {0.072f, 1.29f},
+                        {0.055f, 3.35f}, {0.085f, 3.37f}, {0.085f, 3.42f}, {0.055f, 3.46f}, {0.05f, 3.75f},
+                        {0.09f, 3.80f},  {0.09f, 3.84f},  {0.03f, 3.86f},  {0, 3.86f}};
+  b.Lathe(post, 20);
+  const int arms = variant == 0 ? 3 : variant == 1 ? 4 : 2;
+  std::vector<Vec3f> globes = {{0, 0, 4.03f}};
+  for (int i = 0; i < arms; ++i) {
+    const float a = kTau * static_cast<float>(i) / static_cast<float>(arms);
+    const Vec3f d{std::cos(a), std::sin(a), 0};
+    const auto at = [&](float r, float z) { return d * r + Vec3f{0, 0, z}; };
+    const Vec3f arm[] = {at(0.04f, 3.40f), at(0.18f, 3.34f), at(0.32f, 3.33f), at(0.44f, 3.39f),
+                         at(0.48f, 3.50f)};
+    const Vec3f curl[] = {at(0.05f, 3.05f), at(0.12f, 3.10f), at(0.20f, 3.22f), at(0.25f, 3.33f)};
+    b.Bar(arm, 0.022f, 10);
+    b.Bar(curl, 0.013f, 8);
+    const Vec2f cup[] = {{0.022f, 0}, {0.05f, 0.01f}, {0.085f, 0.05f}, {0.085f, 0.075f}, {0, 0.075f}};
+    b.Lathe(cup, 16, at(0.48f, 3.49f));
+    globes.push_back(at(0.48f, 3.70f));
+  }
+  b.Use(Glow({0.86f, 0.82f, 0.74f}, 0.25f));
+  for (Vec3f c : globes) b.mesh().Sphere(c, {0.19f, 0.19f, 0.19f}, 14, 24);
+  b.Use(Paint(kGreenBlack, 0.35f));
+  for (Vec3f c : globes) {
+    const Vec2f finial[] = {{0.06f, 0.180f}, {0.05f, 0.20f}, {0.012f, 0.205f}, {0.014f, 0.24f}, {0, 0.25f}};
+    b.Lathe(finial, 12, c);
+  }
+  return b.Finish();
+}
+
+// Tapered steel mast with a curved arm towards -Y (the road) and a flat LED or cobra head.
+Model MakeStreetLight(uint32_t variant, uint64_t) {
+  PropBuilder b("street_light");
+  const float height = variant == 0 ? 8.6f : 9.2f, reach = variant == 0 ? 2.4f : 1.8f;
+  b.Use(Metal({0.50f, 0.51f, 0.52f}, 0.42f), ScratchedTexture());
+  b.BevelBox({-0.17f, -0.17f, 0}, {0.17f, 0.17f, 0.025f}, 0.006f);
+  const Vec2f mast[] = {{0.125f, 0.02f}, {0.125f, 0.05f},         {0.11f, 0.07f},
+                        {0.10f, 1.2f},   {0.058f, height - 0.9f}, {0, height - 0.88f}};
+  b.Lathe(mast, 18);
+  b.BevelBox({-0.06f, -0.122f, 0.55f}, {0.06f, -0.085f, 0.95f}, 0.008f);
+  for (float x : {-0.13f, 0.13f}) {
+    for (float y : {-0.13f, 0.13f}) b.mesh().Tube({x, y, 0.02f}, {x, y, 0.055f}, 0.016f, 0.016f, 6);
+  }
+  // The arm rises and levels out like a quarter of an ellipse.
+  std::vector<Vec3f> arm;
+  std::vector<float> radii;
+  for (int i = 0; i <= 12; ++i) {
+    const float a = kTau / 4 * static_cast<float>(i) / 12;
+    arm.push_back({0, -reach * (1 - std::cos(a)), height - 1.0f + 0.95f * std::sin(a)});
+    radii.push_back(0.055f - 0.0018f * static_cast<float>(i));
+  }
+  b.Bar(arm, radii, 12);
+  // Head: a flattened body along the arm with a lens below.
+  b.Place(Turn(0, 0, 0, {0, -reach - 0.22f, height - 0.05f}));
+  const Vec2f outline[] = {{0.05f, 0.30f},   {-0.05f, 0.30f}, {-0.13f, 0.10f}, {-0.15f, -0.18f},
+                           {-0.11f, -0.36f}, {0.11f, -0.36f}, {0.15f, -0.18f}, {0.13f, 0.10f}};
+  b.Prism(outline, -0.03f, 0.035f);
+  std::vector<Vec2f> crown;
+  for (Vec2f p : outline) crown.push_back({p.x * 0.72f, p.y * 0.85f});
+  b.Prism(crown, 0.034f, 0.06f);
+  b.Use(Glow({0.9f, 0.9f, 0.85f}, 0.2f));
+  b.BevelBox({-0.10f, -0.30f, -0.045f}, {0.10f, 0.02f, -0.029f}, 0.012f);
+  return b.Finish();
+}
+
+}  // namespace
+
+std::vector<PropKind> LampKinds() {
+  return {
+      {"lamp_post", "furniture/lighting/lamp_post", 3, MakeLampPost, 0.4f, 4.0f, 4.5f, 6000},
+      {"street_light", "furniture/lighting/street_light", 2, MakeStreetLight, 0.3f, 8.0f, 9.5f, 2000},
+  };
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,106 @@
+// The surfaces that ground and buildings are made of: procedural tiling textures and plain paints.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "airsim360/scene/scene.h"
+
+namespace airsim360 {
+
+/// Every surface of the procedural cities. Wall surfaces come in palettes: kBrickRed … kPanelWhite.
+enum class Surface {
+  kAsphalt,
+  kAsphaltPatch,
+  kAsphaltOld,
+  kTar,
+  kGutter,
+  kKerb,
+  kSlabs,
+  kSlabsWarm,
+  kTactile,
+  kPlazaBrick,
+  kPlazaBrickDark,
+  kPlazaStone,
+  kPath,
+  kLawn,
+  kSoil,
+  kWater,
+  kPaintWhite,
+  kPaintYellow,
+  kBikeLane,
+  kIron,
+  kBrickRed,
+  kBrickBrown,
+  kBrickYellow,
+  kBrickWhite,
+  kLimestone,
+  kSandstone,
+  kGranite,
+  kStuccoOchre,
+  kStuccoWhite,
+  kStuccoRose,
+  kStuccoBlue,
+  kConcrete,
+  kConcreteWarm,
+  kPanelWhite,
+  kPanelDark,
+  kTrimStone,
+  kTrimWhite,
+  kTrimDark,
+  kFrameWhite,
+  kFrameDark,
+  kFrameGreen,
+  kFrameWood,
+  kShutterGreen,
+  kShutterBlue,
+  kGlassDark,
+  kGlassBlue,
+  kGlassBlind,
+  kGlassCurtain,
+  kGlassLit,
+  kShopInside0,
+  kShopInside1,
+  kShopInside2,
+  kSigns,
+  kDoorRed,
+  kDoorGreen,
+  kDoorWood,
+  kAwningRed,
+  kAwningGreen,
+  kAwningBlue,
+  kAwningYellow,
+  kRoofGravel,
+  kRoofBitumen,
+  kRoofTile,
+  kRoofSlate,
+  kCoping,
+  kMetal,
+  kFarWalls0,
+  kFarWalls1,
+  kFarWalls2,
+  kFarRoof,
+  kMountain,
+  kMountainFar,
+  kPlain,
+  kCount
+};
+
+/// Material of every surface.
+class Surfaces {
+ public:
+  MaterialId operator[](Surface surface) const { return materials_[static_cast<size_t>(surface)]; }
+
+ private:
+  friend Surfaces AddSurfaces(SceneBuilder& builder);
+  std::array<MaterialId, static_cast<size_t>(Surface::kCount)> materials_{};
+};
+
+/// Generates the textures (in parallel, a second or two) and adds all materials. Textures tile in metres.
+Surfaces AddSurfaces(SceneBuilder& builder);
+
+/// Number of different shop signs on Surface::kSigns: sign i covers v in [i, i + 1] / kSignCount of the
+/// texture.
+inline constexpr int kSignCount = 16;
+
+}  // namespace airsim360

@@ -1,0 +1,186 @@
+// Pots and planters with plants in them.
+#include <cmath>
+#include <utility>
+
+#include "airsim360/worlds/props/families.h"
+#include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/prop_builder.h"
+#include "airsim360/worlds/vegetation/plant_mesh.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kTau = 6.2831853f;
+
+const Texture& PotLeaves() {
+  static const Vec3f tones[] = {{0.052f, 0.092f, 0.024f}, {0.070f, 0.110f, 0.030f}, {0.045f, 0.078f, 0.026f}};
+  static const Texture atlas = LeafAtlas("leaves pot", tones);
+  return atlas;
+}
+
+// Adds the parts of `plant` to `model`.
+void Merge(Model& model, Model plant) {
+  const auto vertices = static_cast<uint32_t>(model.mesh.positions.size()),
+             triangles = static_cast<uint32_t>(model.mesh.triangles.size());
+  const auto materials = static_cast<MaterialId>(model.materials.size());
+  const auto textures = static_cast<TextureId>(model.textures.size());
+  const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(model.mesh.positions, plant.mesh.positions);
+  append(model.mesh.normals, plant.mesh.normals);
+  append(model.mesh.uvs, plant.mesh.uvs);
+  append(model.textures, plant.textures);
+  for (Vec3u t : plant.mesh.triangles)
+    model.mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
+  for (MeshPart part : plant.mesh.parts)
+    model.mesh.parts.push_back(
+        {part.first_triangle + triangles, part.triangle_count, part.material + materials, kNoEntity});
+  for (Material& m : plant.materials) {
+    for (TextureId* id : {&m.base_color_texture, &m.normal_texture}) {
+      if (*id != kNoTexture) *id += textures;
+    }
+    model.materials.push_back(std::move(m));
+  }
+}
+
+// A leafy ball on the soil: radius r, its middle at `c`; or arching strap leaves from the soil.
+Model Foliage(bool straps, Vec3f c, float r, int leaves, RngStream& random) {
+  std::vector<PlantLayer> layers = PlantLayers({}, PotLeaves());
+  for (int i = 0; i < leaves; ++i) {
+    const Vec3f d = RandomDirection(random);
+    if (straps) {
+      const Vec3f lean = Normalized(Vec3f{d.x, d.y, 0.001f}) * static_cast<float>(random.Uniform(0.2, 1.0));
+      const Vec3f foot = c + Vec3f{d.x, d.y, 0} * (0.25f * r);
+      AddBlade(layers[random.Chance(0.4) ? 2 : 3], foot, r * static_cast<float>(random.Uniform(1.4, 2.4)),
+               0.035f, lean, std::atan2(lean.y, lean.x) + kTau / 4,
+               static_cast<int>(random.Index(kLeafCells - 1)));
+      continue;
+    }
+    const float shell = std::cbrt(static_cast<float>(random.Uniform(0.04, 1.0))) *
+                        (0.85f + 0.3f * Noise(d * 2.0f + c * 3.0f, 5));
+    const Vec3f p = c + Vec3f{d.x, d.y, d.z * 0.9f} * (r * shell);
+    const float size = 0.068f * static_cast<float>(random.Uniform(0.7, 1.25));
+    AddLeaf(LeavesAt(layers, 1.7f * shell - 0.75f + 0.3f * d.z), p,
+            Normalized(d + RandomDirection(random) * 0.8f),
+            d * 0.8f + Vec3f{0, 0, 0.7f} + RandomDirection(random) * 0.5f, {size, size * 0.58f, 0.14f, 0.2f},
+            static_cast<int>(random.Index(kLeafCells - 1)), d * 0.4f);
+  }
+  return JoinLayers("foliage", layers);
+}
+
+// Turned pots: terracotta, glazed, concrete bowl, tall tapered.
+Model MakePot(uint32_t variant, uint64_t seed) {
+  RngStream random(seed, "pot");
+  PropBuilder b("pot");
+  const Vec3f tones[4] = {
+      {0.38f, 0.15f, 0.075f}, {0.03f, 0.08f, 0.13f}, {0.40f, 0.385f, 0.36f}, {0.055f, 0.056f, 0.06f}};
+  const bool glazed = variant == 1;
+  b.Use(Stone(tones[variant], glazed ? 0.15f : 0.8f), ConcreteTexture());
+  const std::vector<Vec2f> profiles[4] = {{{0, 0},
+                                           {0.19f, 0},
+                                           {0.20f, 0.01f},
+                                           {0.275f, 0.40f},
+                                           {0.30f, 0.41f},
+                                           {0.305f, 0.48f},
+                                           {0.295f, 0.49f},
+                                           {0.265f, 0.49f},
+                                           {0.255f, 0.42f},
+                                           {0, 0.42f}},
+                                          {{0, 0},
+                                           {0.15f, 0},
+                                           {0.24f, 0.12f},
+                                           {0.29f, 0.28f},
+                                           {0.27f, 0.44f},
+                                           {0.22f, 0.52f},
+                                           {0.24f, 0.56f},
+                                           {0.23f, 0.57f},
+                                           {0.20f, 0.53f},
+                                           {0.20f, 0.49f},
+                                           {0, 0.49f}},
+                                          {{0, 0},
+                                           {0.22f, 0},
+                                           {0.22f, 0.05f},
+                                           {0.40f, 0.22f},
+                                           {0.46f, 0.36f},
+                                           {0.46f, 0.40f},
+                                           {0.42f, 0.41f},
+                                           {0.40f, 0.35f},
+                                           {0, 0.35f}},
+                                          {{0, 0},
+                                           {0.15f, 0},
+                                           {0.155f, 0.01f},
+                                           {0.24f, 0.72f},
+                                           {0.245f, 0.75f},
+                                           {0.22f, 0.755f},
+                                           {0.21f, 0.69f},
+                                           {0, 0.69f}}};
+  b.Lathe(profiles[variant], 32);
+  const float soil = profiles[variant].back().y;
+  b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
+  const float r = profiles[variant][profiles[variant].size() - 2].x;
+  const Vec2f earth[] = {{r, soil + 0.005f}, {r * 0.5f, soil + 0.03f}, {0, soil + 0.035f}};
+  b.Lathe(earth, 24);
+  Model model = b.Finish();
+  const bool straps = variant == 3;
+  const float ball = variant == 2 ? 0.40f : 0.30f;
+  Merge(model, Foliage(straps, {0, 0, straps ? soil : soil + ball * 0.8f}, ball,
+                       straps         ? 70
+                       : variant == 2 ? 1700
+                                      : 1100,
+                       random));
+  return model;
+}
+
+// Long planter box (1.6 m along X) of timber, concrete or steel with mixed planting.
+Model MakePlanter(uint32_t variant, uint64_t seed) {
+  RngStream random(seed, "planter");
+  PropBuilder b("planter");
+  const float w = 0.8f, d = 0.32f, h = 0.58f;
+  if (variant == 0) {
+    UseWood(b, {0.85f, 0.80f, 0.75f}, Grain::kAlongX);
+    for (int i = 0; i < 4; ++i) {
+      const float z = 0.04f + 0.135f * static_cast<float>(i);
+      for (float y : {-1.0f, 1.0f})
+        b.BevelBox({-w, y > 0 ? d - 0.03f : -d, z}, {w, y > 0 ? d : -d + 0.03f, z + 0.128f}, 0.005f);
+      for (float x : {-1.0f, 1.0f})
+        b.BevelBox({x > 0 ? w - 0.03f : -w, -d + 0.03f, z}, {x > 0 ? w : -w + 0.03f, d - 0.03f, z + 0.128f},
+                   0.005f);
+    }
+    b.Use(CastIron());
+    for (float x : {-w + 0.06f, w - 0.06f}) {
+      for (float y : {-d + 0.06f, d - 0.06f})
+        b.BevelBox({x - 0.03f, y - 0.03f, 0}, {x + 0.03f, y + 0.03f, h - 0.04f}, 0.004f);
+    }
+  } else {
+    b.Use(variant == 1 ? Stone({0.42f, 0.40f, 0.37f}) : Metal({0.16f, 0.085f, 0.05f}, 0.75f),
+          variant == 1 ? ConcreteTexture() : ScratchedTexture());
+    const auto wall = [&](Vec3f lo, Vec3f hi) { b.BevelBox(lo, hi, variant == 1 ? 0.02f : 0.005f); };
+    const float t = variant == 1 ? 0.06f : 0.025f;
+    wall({-w, -d, 0}, {w, -d + t, h});
+    wall({-w, d - t, 0}, {w, d, h});
+    wall({-w, -d, 0}, {-w + t, d, h});
+    wall({w - t, -d, 0}, {w, d, h});
+  }
+  b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
+  b.mesh().Box({-w + 0.02f, -d + 0.02f, 0.3f}, {w - 0.02f, d - 0.02f, h - 0.06f}, MeshBuilder::kTop);
+  Model model = b.Finish();
+  for (int i = 0; i < 4; ++i) {
+    const Vec3f c{-0.57f + 0.38f * static_cast<float>(i), 0.04f * static_cast<float>(random.Normal()),
+                  h + 0.08f};
+    const bool straps = (static_cast<uint32_t>(i) + variant) % 3 == 2;
+    Merge(model, Foliage(straps, straps ? c - Vec3f{0, 0, 0.12f} : c,
+                         straps ? 0.26f : static_cast<float>(random.Uniform(0.22, 0.30)), straps ? 60 : 1250,
+                         random));
+  }
+  return model;
+}
+
+}  // namespace
+
+std::vector<PropKind> PlanterKinds() {
+  return {
+      {"pot", "furniture/planter/pot", 4, MakePot, 0.5f, 0.75f, 1.6f, 7000},
+      {"planter", "furniture/planter/pot", 3, MakePlanter, 0.95f, 0.8f, 1.4f, 12000},
+  };
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,40 @@
+#include "airsim360/worlds/worlds.h"
+
+#include "airsim360/base/error.h"
+#include "airsim360/worlds/built_in.h"
+
+namespace airsim360 {
+namespace {
+
+struct BuiltIn {
+  std::string_view name;
+  WorldInfo (*info)();
+  std::shared_ptr<const Scene> (*build)(const WorldOptions&);
+};
+
+constexpr BuiltIn kBuiltIn[] = {
+    {"box_room", internal::BoxRoomInfo, internal::BuildBoxRoom},
+    {"downtown_west", internal::DowntownWestInfo, internal::BuildDowntownWest},
+};
+
+}  // namespace
+
+const std::vector<WorldInfo>& ListWorlds() {
+  static const std::vector<WorldInfo> list = [] {
+    std::vector<WorldInfo> infos;
+    for (const BuiltIn& world : kBuiltIn) infos.push_back(world.info());
+    return infos;
+  }();
+  return list;
+}
+
+std::shared_ptr<const Scene> BuildWorld(std::string_view name, const WorldOptions& options) {
+  std::vector<std::string> names;
+  for (const BuiltIn& world : kBuiltIn) {
+    if (world.name == name) return world.build(options);
+    names.emplace_back(world.name);
+  }
+  throw InputError(UnknownChoiceMessage("world", name, names));
+}
+
+}  // namespace airsim360

@@ -1,0 +1,124 @@
+"""Bad input gives one clear line and exit status 2, run-time failures 1, and nothing half-written."""
+import json
+import os
+import shutil
+import subprocess
+import unittest
+
+from program import ProgramTest, run, tree
+
+ROOM = ["--world", "box_room", "--size", "64x32"]
+
+
+class BadFlags(ProgramTest):
+    def test_unknown_names_come_with_the_nearest(self):
+        out = self.folder / "out"
+        for arguments, says in [
+            (["colect"], ["unknown command 'colect'", "did you mean 'collect'"]),
+            (["collect", *ROOM, "--out", out, "--frame", "3"], ["--frame", "did you mean '--frames'"]),
+            (["worlds", "--jsn"], ["--jsn", "did you mean '--json'"]),
+            (["render", "--world", "box_rom", "--out", out], ["box_rom", "did you mean 'box_room'"]),
+            (["collect", *ROOM, "--tier", "fats", "--out", out], ["--tier", "did you mean 'fast'"]),
+            (["collect", *ROOM, "--format", "native,koko", "--out", out], ["koko", "did you mean 'coco'"]),
+            (["render", *ROOM, "--projection", "rep", "--out", out], ["did you mean 'erp'"]),
+            (["worlds", "--device", "cup"], ["--device", "did you mean 'cpu'"]),
+            (["worlds", "--device", "vulkan"], ["vulkan", "not built yet"]),
+        ]:
+            self.run_bad(2, *arguments, says=says)
+        self.assertFalse(out.exists())
+
+    def test_bad_values_name_flag_and_value(self):
+        out = self.folder / "out"
+        for flag, value in [("--size", "64"), ("--size", "64x33"), ("--size", "0x0"), ("--size", "40000x20000"), ("--size", "-64x-32"),
+                            ("--size", "64x32x3"), ("--frames", "0"), ("--frames", "-3"), ("--frames", "many"), ("--shard", "2/2"),
+                            ("--shard", "1"), ("--shard", "0/9"), ("--threads", "-1"), ("--threads", "x"), ("--seed", "-1"),
+                            ("--rgb-format", "bmp"), ("--pano-frame", "sideways")]:
+            arguments = ["collect", "--world", "box_room", "--size", "64x32", "--frames", "4", "--out", out]
+            if flag in arguments:
+                arguments[arguments.index(flag) + 1] = value
+            else:
+                arguments += [flag, value]
+            self.run_bad(2, *arguments, says=[flag, value])
+        for value in ["1,2", "1,2,3,4,5,6,7", "a,b,c", "1,2,nan", "1,2,inf", "1,2,1e30", ""]:
+            result = run("render", *ROOM, "--pose", value, "--out", out)
+            self.assertEqual(result.returncode, 2 if value else 0, (value, result.stderr))
+        for value in ["0.5", "180", "nan", "-90"]:
+            self.run_bad(2, "render", "--world", "box_room", "--projection", "pinhole", "--fov", value, "--out", out, says=["--fov"])
+        self.run_bad(2, "render", "--world", "box_room", "--projection", "cube", "--size", "64x32", "--out", out, says=["did you mean '64x64'"])
+
+    def test_missing_flags_are_named(self):
+        self.run_bad(2, "collect", "--world", "box_room", says=["--out"])
+        self.run_bad(2, "render", "--out", self.folder / "out", says=["--world"])
+        self.run_bad(2)
+
+    def test_route_errors_name_file_and_line(self):
+        route, out = self.folder / "route.csv", self.folder / "out"
+        route.write_text("x,y,z\n0,0,2\n0,zero,2\n")
+        self.run_bad(2, "collect", *ROOM, "--route", route, "--out", out, says=["route.csv:3:3", "zero"])
+        self.run_bad(2, "collect", *ROOM, "--route", self.folder / "none.csv", "--out", out, says=["none.csv"])
+        self.assertFalse(out.exists())
+
+    def test_help_of_every_command_documents_the_common_flags(self):
+        for command in ["worlds", "render", "collect", "verify", "stitch", "doctor"]:
+            text = self.run_ok(command, "--help").stdout
+            for flag in ["--json", "--seed", "--threads", "--device"]:
+                self.assertIn(flag, text, command)
+
+
+class Outputs(ProgramTest):
+    def test_worlds_lists_the_contract_fields(self):
+        worlds = json.loads(self.run_ok("worlds", "--json").stdout)
+        room = next(w for w in worlds if w["name"] == "box_room")
+        self.assertEqual(room["setting"], "indoor")
+        self.assertAlmostEqual(room["area_m2"], 100, delta=1)
+        self.assertTrue(room["categories"])
+
+    def test_doctor_says_what_to_do(self):
+        checks = json.loads(self.run_ok("doctor", "--json").stdout)
+        for check in checks:
+            self.assertEqual(bool(check["fix"]), not check["present"])
+
+    def test_existing_file_or_foreign_folder_is_refused(self):
+        (self.folder / "file").write_text("x")
+        self.run_bad(2, "collect", *ROOM, "--out", self.folder / "file", says=["not a folder"])
+        self.run_bad(2, "collect", *ROOM, "--out", self.folder, says=["not empty and not a dataset"])
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["file"])
+
+    def test_unwritable_folder_is_a_run_time_failure(self):
+        self.run_bad(1, "collect", *ROOM, "--out", "/proc/airsim360", says=["/proc/airsim360"])
+        if os.getuid() != 0:
+            self.folder.chmod(0o500)
+            self.run_bad(1, "collect", *ROOM, "--out", self.folder / "out", says=["out"])
+
+    def test_full_disk_leaves_whole_files_and_can_be_finished(self):
+        disk = self.folder / "disk"
+        disk.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=200k", "tmpfs", disk], capture_output=True)
+        if mounted.returncode:
+            self.skipTest("mounting a small file system is not permitted here")
+        try:
+            command = ["collect", *ROOM, "--frames", "20", "--out"]
+            failed = self.run_bad(1, *command, disk / "out", says=[str(disk / "out")])
+            self.assertRegex(failed.stderr, "No space left on device|disk is full")
+            self.run_ok(*command, self.folder / "whole")
+            whole, partial = tree(self.folder / "whole"), tree(disk / "out")
+            for name, sha in partial.items():
+                if not name.startswith("index.sqlite"):
+                    self.assertEqual(whole[name], sha, name)
+            # With room again the same command finishes it.
+            subprocess.run(["mount", "-o", "remount,size=64m", disk], check=True)
+            self.run_ok(*command, disk / "out")
+            self.assertEqual(tree(disk / "out"), whole)
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+    def test_full_stdout_is_a_run_time_failure(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full")
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([run.__globals__["PROGRAM"], "worlds", "--json"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 1, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
