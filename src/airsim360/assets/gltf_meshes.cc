@@ -1,4 +1,5 @@
 // Meshes: primitives joined, skins bound, materials found.
+#include <cmath>
 #include <utility>
 
 #include "airsim360/assets/gltf_parts.h"
@@ -86,7 +87,10 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
   std::optional<GltfPrimitive> primitive =
       ReadPrimitive(json, material.uv.set, weights, buffers_, limits_, warnings_);
   if (!primitive || primitive->triangles.empty()) return;
-  if (joints) ApplySkin(*joints, json, *primitive);
+  if (joints) {
+    ApplySkin(*joints, json, *primitive);
+    CheckPositions(primitive->positions, json);
+  }
 
   // Only the vertices that triangles use: exporters share one big list among many primitives.
   constexpr uint32_t kUnused = UINT32_MAX;
@@ -101,7 +105,8 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
     mesh.normals.push_back(primitive->normals.empty() ? Vec3f{} : FromG(primitive->normals[i]));
     if (uvs) {
       const Vec2f uv = primitive->uvs.empty() ? Vec2f{} : primitive->uvs[i];
-      mesh.uvs.push_back(material.uv.IsIdentity() ? uv : material.uv(uv));
+      const Vec2f moved_uv = material.uv.IsIdentity() ? uv : material.uv(uv);
+      mesh.uvs.push_back(std::isfinite(moved_uv.x) && std::isfinite(moved_uv.y) ? moved_uv : Vec2f{});
     }
     return moved[i];
   };

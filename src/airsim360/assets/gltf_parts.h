@@ -74,6 +74,9 @@ std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
                                            const std::vector<double>& morph_weights, GltfBuffers& buffers,
                                            const ImportLimits& limits, Warnings& warnings);
 
+/// InputError at `where` for a position that is not finite or beyond kMaxCoordinate.
+void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where);
+
 /// The triangles of a primitive by vertex colour (mean of their corners, on at most 256 steps); white if it
 /// has none.
 struct ColorGroup {

@@ -75,17 +75,6 @@ std::vector<Vec3f> ReadColors(Attributes& attributes, GltfBuffers& buffers) {
   return colors;
 }
 
-void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where) {
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const Vec3f p = positions[i];
-    // Written so that NaN fails too.
-    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-          std::abs(p.z) <= kMaxCoordinate)) {
-      where.Fail("vertex " + std::to_string(i) + " is not finite or beyond 1e9");
-    }
-  }
-}
-
 // Morph targets at rest: p += weight * target.
 void ApplyMorphs(const JsonRef& primitive, const std::vector<double>& weights, GltfBuffers& buffers,
                  GltfPrimitive& out) {
@@ -143,6 +132,17 @@ std::vector<uint32_t> ReadIndices(const JsonRef& primitive, Attributes& attribut
 }
 
 }  // namespace
+
+void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where) {
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const Vec3f p = positions[i];
+    // Written so that NaN fails too.
+    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+          std::abs(p.z) <= kMaxCoordinate)) {
+      where.Fail("vertex " + std::to_string(i) + " is not finite or beyond 1e9");
+    }
+  }
+}
 
 std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
                                            const std::vector<double>& morph_weights, GltfBuffers& buffers,

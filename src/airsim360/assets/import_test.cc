@@ -110,6 +110,7 @@ TEST_F(ImportTest, PlacementsBeyondAllBoundsAreErrors) {
   GltfDocument doc = GltfDocument::Triangle();
   doc.json["nodes"][0]["translation"] = {1e12, 0, 0};
   EXPECT_TRUE(Contains(ErrorOf(Write("a.glb", doc.Glb())), {"node 'node'", "beyond"}));
+  EXPECT_THROW(ImportModel(folder_ / "a.glb"), InputError);
 }
 
 // Every model file below a folder.

@@ -1,9 +1,11 @@
 #include "airsim360/assets/merge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
+#include "airsim360/assets/limits.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360::internal {
@@ -26,6 +28,16 @@ uint32_t AppendVertices(Mesh& to, const Mesh& from) {
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
   if (!to.uvs.empty()) to.uvs.resize(to.positions.size());
   return base;
+}
+
+void CheckInBounds(const Mesh& mesh, const std::string& file, const std::string& node) {
+  for (Vec3f p : mesh.positions) {
+    // Written so that NaN fails too.
+    if (!(std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+          std::abs(p.z) <= kMaxCoordinate)) {
+      throw InputError(file + ": node " + Quoted(node) + ": placed beyond 1e9 m or not finite");
+    }
+  }
 }
 
 }  // namespace
@@ -56,6 +68,7 @@ Model MergeNodes(ImportedFile file, const std::string& name, uint64_t max_triang
     if (count > max_triangles)
       throw InputError(name + ": more than " + std::to_string(max_triangles) + " triangles as one model");
     TransformMesh(mesh, node.X_WM);
+    CheckInBounds(mesh, name, node.name);
     const uint32_t base = AppendVertices(model.mesh, mesh);
     for (const MeshPart& part : mesh.parts) {
       std::vector<Vec3u>& group = triangles[part.material];

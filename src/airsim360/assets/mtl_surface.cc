@@ -1,6 +1,9 @@
 // Which physical surface a Phong material of an MTL file most likely is.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "airsim360/assets/mtl.h"
 #include "airsim360/assets/words.h"
@@ -63,6 +66,24 @@ bool IsCarPaint(const MtlMaterial& m, const MtlContext& context, const std::vect
                           "fabric", "black", "matte", "light"});
 }
 
+// Stand-in for a picture that is missing, from the words of its name; nullopt if they say nothing.
+std::optional<Vec3f> ColorFromWords(const std::vector<std::string>& words) {
+  static const std::pair<std::string_view, Vec3f> kColors[] = {
+      {"rooftile", {0.36f, 0.15f, 0.10f}}, {"tile", {0.36f, 0.15f, 0.10f}},
+      {"brick", {0.40f, 0.18f, 0.12f}},    {"wood", {0.30f, 0.19f, 0.11f}},
+      {"plank", {0.30f, 0.19f, 0.11f}},    {"bark", {0.22f, 0.16f, 0.11f}},
+      {"grass", {0.13f, 0.24f, 0.06f}},    {"leaf", {0.12f, 0.26f, 0.05f}},
+      {"stone", {0.42f, 0.40f, 0.36f}},    {"rock", {0.42f, 0.40f, 0.36f}},
+      {"concrete", {0.5f, 0.5f, 0.48f}},   {"asphalt", {0.09f, 0.09f, 0.09f}},
+      {"black", {0.03f, 0.03f, 0.03f}},    {"white", {0.8f, 0.8f, 0.8f}},
+      {"red", {0.5f, 0.05f, 0.04f}},       {"green", {0.1f, 0.35f, 0.08f}},
+      {"blue", {0.06f, 0.14f, 0.45f}},     {"yellow", {0.7f, 0.52f, 0.08f}}};
+  for (const auto& [word, color] : kColors) {
+    if (HasWord(words, {word})) return color;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Material ToMaterial(const MtlMaterial& m, const MtlContext& context, TextureStore& textures,
@@ -85,7 +106,11 @@ Material ToMaterial(const MtlMaterial& m, const MtlContext& context, TextureStor
     if (textures.HasHoles(out.base_color_texture)) out.alpha_mode = AlphaMode::kMask;
     // A picture replaces Kd, as in the modellers that write these files: pictures are not made to be
     // darkened.
-    if (out.base_color_texture != kNoTexture) out.base_color = {1, 1, 1};
+    if (out.base_color_texture != kNoTexture) {
+      out.base_color = {1, 1, 1};
+    } else if (m.diffuse.x == m.diffuse.y && m.diffuse.y == m.diffuse.z) {
+      out.base_color = ColorFromWords(SplitWords(m.map_diffuse)).value_or(m.diffuse);
+    }
   }
   if (!m.map_emission.empty()) out.emission_texture = textures.Get(m.map_emission, {}, load);
   if (!m.map_normal.empty()) {
@@ -98,7 +123,7 @@ Material ToMaterial(const MtlMaterial& m, const MtlContext& context, TextureStor
   if (m.opacity < 0.95f && m.map_opacity.empty() && out.alpha_mode == AlphaMode::kOpaque) {
     // Seen from outside a pane is dark: what it lets through comes back little from behind.
     out.kind = HasWord(words, {"water"}) ? SurfaceKind::kWater : SurfaceKind::kGlass;
-    out.base_color = m.diffuse * (0.15f + 0.85f * m.opacity * m.opacity);
+    out.base_color = m.diffuse * (0.08f + 0.7f * m.opacity * m.opacity);
     out.base_alpha = m.opacity;
     out.transmission = 1 - m.opacity;
     out.roughness = HasWord(words, {"frosted"}) ? 0.4f : 0.04f;

@@ -104,6 +104,13 @@ TEST(Mtl, PicturesReplaceTheColourAndHolesMakeAMask) {
   EXPECT_EQ(file.textures.size(), 2u);
 }
 
+TEST(Mtl, MissingPicturesLeaveAColourThatTheirNameTells) {
+  const Files files = {{"m.mtl", "newmtl a\nKd 0.6 0.6 0.6\nmap_Kd WoodPlanks01.jpg\n"}};
+  const Vec3f wood =
+      Read("mtllib m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", files).materials.at(0).base_color;
+  EXPECT_GT(wood.x, wood.z * 1.5f);
+}
+
 TEST(HostileObj, DamageNamesItsLine) {
   EXPECT_TRUE(Contains(ErrorOf("v 0 0\n"), {"test.obj:1: three numbers"}));
   EXPECT_TRUE(Contains(ErrorOf("\nv 0 zero 0\n"), {"test.obj:2: 'zero' is not a number"}));

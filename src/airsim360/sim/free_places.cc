@@ -62,32 +62,48 @@ double LowDiscrepancy(uint64_t k, int axis, double offset) {
   return x - std::floor(x);
 }
 
-// Candidates: low-discrepancy points over cells, places in a cell and heights.
-std::vector<Vec3d> Candidates(const RayTracer& tracer, const PlaceOptions& options) {
-  const Scene& scene = tracer.scene();
-  const Box3f bounds = scene.bounds;
-  const bool open = scene.sky_entity != kNoEntity;
-  const double ground = GroundHeight(tracer);
-  const double top = bounds.max.z - ground + (open ? 10 : 0);
+// Ground that a survey looks at: cells of a town, or a box around a single model or room.
+struct Ground {
+  std::vector<Vec2d> cells;  // empty: the box counts
+  Box3f box;
+};
+
+Ground FindGround(const Scene& scene) {
+  constexpr size_t kFewestCells = 16;
+  Ground ground{OccupiedCells(scene), scene.bounds};
+  if (ground.cells.size() >= kFewestCells) return ground;
+  ground.cells.clear();
+  if (scene.sky_entity == kNoEntity) return ground;
+  // A single model in the open is looked at from around it.
+  const Vec3f size = scene.bounds.size();
+  const float margin = std::clamp(std::max(size.x, size.y) / 2, 6.0f, 60.0f);
+  ground.box.min -= Vec3f{margin, margin, 0};
+  ground.box.max += Vec3f{margin, margin, 0};
+  return ground;
+}
+
+// Candidates: low-discrepancy points over the ground and heights.
+std::vector<Vec3d> Candidates(const RayTracer& tracer, const Ground& ground, const PlaceOptions& options) {
+  const bool open = tracer.scene().sky_entity != kNoEntity;
+  const double bottom = GroundHeight(tracer);
+  const double top = ground.box.max.z - bottom + (open ? 10 : 0);
   const double low = std::min(options.min_height, std::max(options.radius, top / 2));
   const double high = std::max(low, std::min(options.max_height, top));
-  const std::vector<Vec2d> cells = OccupiedCells(scene);
   RngStream random(options.seed, "survey");
   const double offset[3] = {random.Uniform(), random.Uniform(), random.Uniform()};
 
   std::vector<Vec3d> candidates;
   for (int k = 0; k < options.candidates; ++k) {
     const double u = LowDiscrepancy(k, 0, offset[0]), v = LowDiscrepancy(k, 1, offset[1]);
-    const double height = low + std::pow(LowDiscrepancy(k, 2, offset[2]), kLowBias) * (high - low);
-    if (cells.empty()) {
-      const Vec3f size = bounds.size();
-      candidates.push_back({bounds.min.x + u * size.x, bounds.min.y + v * size.y, ground + height});
+    const double z = bottom + low + std::pow(LowDiscrepancy(k, 2, offset[2]), kLowBias) * (high - low);
+    if (ground.cells.empty()) {
+      const Vec3f size = ground.box.size();
+      candidates.push_back({ground.box.min.x + u * size.x, ground.box.min.y + v * size.y, z});
       continue;
     }
-    const double cell = u * static_cast<double>(cells.size());
-    const Vec2d corner = cells[static_cast<size_t>(cell)];
-    candidates.push_back(
-        {corner.x + (cell - std::floor(cell)) * kCell, corner.y + v * kCell, ground + height});
+    const double cell = u * static_cast<double>(ground.cells.size());
+    const Vec2d corner = ground.cells[static_cast<size_t>(cell)];
+    candidates.push_back({corner.x + (cell - std::floor(cell)) * kCell, corner.y + v * kCell, z});
   }
   return candidates;
 }
@@ -95,14 +111,16 @@ std::vector<Vec3d> Candidates(const RayTracer& tracer, const PlaceOptions& optio
 }  // namespace
 
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options) {
-  const std::vector<Vec3d> candidates = Candidates(tracer, options);
+  const Ground ground = FindGround(tracer.scene());
+  const std::vector<Vec3d> candidates = Candidates(tracer, ground, options);
   const auto is_free = [&](Vec3f p) {
     return tracer.Clearance(p, static_cast<float>(options.radius + 1)) >= options.radius;
   };
   std::vector<uint8_t> free(candidates.size());
   ParallelFor(static_cast<int64_t>(candidates.size()), [&](int64_t k) {
     const Vec3f p = VecCast<float>(candidates[static_cast<size_t>(k)]);
-    free[static_cast<size_t>(k)] = is_free(p) && tracer.Intersect(p, {0, 0, -1});
+    const bool may_float = ground.cells.empty();  // towns have ground everywhere; models may have none
+    free[static_cast<size_t>(k)] = is_free(p) && (may_float || tracer.Intersect(p, {0, 0, -1}));
   });
   std::vector<Vec3d> places;
   if (const auto& spawn = tracer.scene().spawn; spawn && is_free(*spawn))

@@ -17,9 +17,10 @@ struct PlaceOptions {
   int candidates = 900;                      ///< places tried
 };
 
-/// Free places, spread over the cells of the ground that hold things of everyday size (so that a far horizon
-/// is left out) and over heights, denser near the ground, with something below; the scene's spawn first if it
-/// is free. A pure function of scene and options.
+/// Free places at heights from low to high, denser near the ground, the scene's spawn first if it is free. In
+/// a town they are spread over the cells of the ground that hold most of the things of everyday size (a far
+/// horizon is left out) and have something below them; around a single model in the open, or in a room, over
+/// its box. A pure function of scene and options.
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options);
 
 /// True if a ball of `radius` can move along the segment. Its free distance is measured at most 0.1 m apart

@@ -9,6 +9,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/sim/flight.h"
 #include "airsim360/sim/survey.h"
+#include "airsim360/worlds/mesh_builder.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -113,6 +114,28 @@ TEST(PlanSurvey, IsAFunctionOfWorldAndSeedAlone) {
     EXPECT_EQ(a->nodes()[i].t, b->nodes()[i].t);
   }
   EXPECT_NE(a->duration(), c->duration());
+}
+
+TEST(PlanSurvey, GoesAroundASingleModelInTheOpen) {
+  // A pillar of 1 x 1 x 4 m under the sky, without any ground.
+  SceneBuilder builder("pillar");
+  builder.AddSky();
+  const EntityId pillar = builder.AddEntity("pillar", builder.tree().At("construction/pillar"));
+  MeshBuilder shape;
+  shape.Box({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 4});
+  builder.AddInstance({.mesh = builder.AddMesh(shape.Finish("pillar")), .X_WM = {}, .entity = pillar});
+  const RayTracer tracer(builder.Build());
+  const Route route = PlanSurvey(tracer, {});
+  bool side[4] = {};
+  for (double t = 0; t <= route.duration(); t += 0.1) {
+    const Vec3d p = route.At(t).p;
+    ASSERT_GE(tracer.Clearance(VecCast<float>(p), 2), 1.0f) << t;
+    side[0] |= p.x > 2;
+    side[1] |= p.x < -2;
+    side[2] |= p.y > 2;
+    side[3] |= p.y < -2;
+  }
+  for (bool seen : side) EXPECT_TRUE(seen);
 }
 
 TEST(FlyRoute, TakesEveryShotAtItsTimeOnTheRoute) {

@@ -1,6 +1,7 @@
 #include "airsim360/sim/survey.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -12,6 +13,7 @@
 namespace airsim360 {
 namespace {
 
+constexpr double kFirstLayer = 2.5;  // metres, height of the lowest layer of viewpoints
 constexpr double kRounding =
     0.3;  // metres that rounded corners may leave the legs by, and gaps between checks
 
@@ -46,13 +48,25 @@ int StartPlace(const Roadmap& map) {
   return best;
 }
 
-// The start and the first places of the low-discrepancy sequence that can be reached: evenly spread like all
-// of it.
+// The start, then places that can be reached, taken in turn from layers of height that double upwards: as
+// many views from the street as from above the roofs. Within a layer the places follow the low-discrepancy
+// sequence, so that they spread.
 std::vector<int> ChooseViewpoints(const Roadmap& map, int start, int count) {
+  constexpr int kLayers = 5;
   const CheapestWays from_start = FindCheapestWays(map, start);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec3d& place : map.places) lowest = std::min(lowest, place.z);
+  std::array<std::vector<int>, kLayers> layers;
+  for (int i = 0; i < static_cast<int>(map.places.size()); ++i) {
+    if (i == start || !std::isfinite(from_start.cost[i])) continue;
+    const double doublings = std::log2((map.places[i].z - lowest + kFirstLayer) / kFirstLayer);
+    layers[std::min(static_cast<int>(doublings), kLayers - 1)].push_back(i);
+  }
   std::vector<int> chosen = {start};
-  for (int i = 0; i < static_cast<int>(map.places.size()) && static_cast<int>(chosen.size()) < count; ++i) {
-    if (i != start && std::isfinite(from_start.cost[i])) chosen.push_back(i);
+  for (size_t round = 0; round < map.places.size(); ++round) {
+    for (const std::vector<int>& layer : layers) {
+      if (round < layer.size() && static_cast<int>(chosen.size()) < count) chosen.push_back(layer[round]);
+    }
   }
   return chosen;
 }

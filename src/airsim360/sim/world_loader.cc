@@ -1,6 +1,6 @@
 #include "airsim360/sim/world_loader.h"
 
-#include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "airsim360/assets/import.h"
@@ -13,12 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string LowerExtension(const fs::path& path) {
+  std::string extension = path.extension();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
 bool IsModelFile(const fs::path& path) {
-  const std::string extension = path.extension();
+  const std::string extension = LowerExtension(path);
   return extension == ".glb" || extension == ".gltf" || extension == ".obj";
 }
 
-bool IsWorldFile(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
+bool IsWorldFile(const fs::path& path) {
+  const std::string extension = LowerExtension(path);
+  return extension == ".yaml" || extension == ".yml";
+}
 
 // The fields of a world YAML, filled into `request`; `folder` is where relative paths start.
 WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request) {
