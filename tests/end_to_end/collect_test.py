@@ -148,9 +148,9 @@ class Collect(ProgramTest):
         self.assertEqual(len(frames), 3)
         for frame, (p, forward) in zip(frames, [((0, 0, 2), (1, 0, 0)), ((-2, 1, 3), (0, 1, 0)), ((1, -2, 4), (-1, 0, 0))]):
             for a, b in zip(frame["X_WC"]["p"], p):
-                self.assertLess(abs(a - b), 0.05)
+                self.assertLess(abs(a - b), 1e-9)
             for a, b in zip(rotate(frame["X_WC"]["q_wxyz"], (0, 0, 1)), forward):
-                self.assertLess(abs(a - b), 0.05)
+                self.assertLess(abs(a - b), 1e-9)
 
     def test_shards_hold_their_frames_of_the_whole(self):
         whole = tree(self.collect("whole"))

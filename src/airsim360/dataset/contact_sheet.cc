@@ -36,6 +36,11 @@ Image<Rgb8> WithoutAlpha(const Image<Rgba8>& source) {
   return target;
 }
 
+std::string Title(const std::string& product) {
+  if (product == "rgb") return "colour";
+  return product == "range" ? "range, 1 m light ... 300 m dark" : product;
+}
+
 // Near is light, far is dark, nothing is black.
 Rgb8 RangeColor(float range) {
   return range > 0 ? ScaleColor(1 - LogScale(range, kNearest, kFarthest)) : Rgb8{};
@@ -79,9 +84,7 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
   Image<Rgb8> sheet(static_cast<int>(columns) * (width + kGap) - kGap,
                     kHeader + static_cast<int>(rows) * (height + kGap) - kGap, {255, 255, 255});
   for (size_t c = 0; c < products.size(); ++c) {
-    const std::string title =
-        products[c].name == "range" ? "range, 1 m light ... 300 m dark" : products[c].name;
-    DrawText(title, static_cast<int>(c) * (width + kGap) + kGap, kGap, {0, 0, 0}, 2, sheet);
+    DrawText(Title(products[c].name), static_cast<int>(c) * (width + kGap) + kGap, kGap, {0, 0, 0}, 2, sheet);
   }
   std::vector<Image<Rgb8>> thumbs(cells.size());
   ParallelFor(static_cast<int64_t>(cells.size()), [&](int64_t i) {

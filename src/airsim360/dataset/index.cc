@@ -1,12 +1,6 @@
 #include "airsim360/dataset/index.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
-#include "airsim360/base/error.h"
+#include "airsim360/dataset/index_schema.h"
 #include "airsim360/dataset/sqlite.h"
 
 namespace airsim360 {
@@ -14,64 +8,6 @@ namespace airsim360 {
 using internal::Database;
 using internal::Statement;
 using internal::Transaction;
-
-namespace {
-
-constexpr char kSchema[] = R"(
-CREATE TABLE frames(frame INTEGER PRIMARY KEY, stem TEXT, t_ns INTEGER, x REAL, y REAL, z REAL,
-  qw REAL, qx REAL, qy REAL, qz REAL, range_min REAL, range_median REAL, json TEXT);
-CREATE TABLE files(frame INTEGER, position INTEGER, key TEXT, path TEXT, bytes INTEGER, sha256 TEXT,
-  PRIMARY KEY(frame, position)) WITHOUT ROWID;
-CREATE TABLE segments(frame INTEGER, view TEXT, entity INTEGER, category INTEGER, area INTEGER,
-  x INTEGER, y INTEGER, w INTEGER, h INTEGER, wrap_x INTEGER, wrap_w INTEGER, solid_angle REAL,
-  PRIMARY KEY(frame, view, entity)) WITHOUT ROWID;
-CREATE TABLE categories(category INTEGER PRIMARY KEY, path TEXT, parent INTEGER, kind TEXT);
-CREATE TABLE entities(entity INTEGER PRIMARY KEY, name TEXT, category INTEGER, first_frame INTEGER);
-CREATE VIEW frame_categories AS SELECT frame, category, path, SUM(area) AS pixels, SUM(solid_angle) AS solid_angle,
-  COUNT(DISTINCT entity) AS entities FROM segments JOIN categories USING(category) GROUP BY frame, category;
-)";
-
-constexpr int64_t kApplicationId = 0x41533336;  // "AS36"
-
-// The schema, in a database that has none yet.
-void CreateSchema(Database& database) {
-  Transaction transaction(database);
-  database.Run("PRAGMA application_id=" + std::to_string(kApplicationId));
-  database.Run(kSchema);
-  transaction.Commit();
-}
-
-int64_t ApplicationId(Database& database) {
-  Statement statement(database, "PRAGMA application_id");
-  return statement.Next() ? statement.Int(0) : 0;
-}
-
-void InsertNames(Database& database, const Scene& scene) {
-  Statement category(database, "INSERT INTO categories VALUES(?,?,?,?)");
-  for (const auto& [id, entry] : scene.tree.categories()) {
-    if (id == kVoid) continue;
-    category.Bind(0, int64_t{id}).Bind(1, entry.path).Bind(2, int64_t{entry.parent});
-    category.Bind(3, std::string_view(entry.thing ? "thing" : "stuff")).Run();
-  }
-  Statement seen(database,
-                 "SELECT entity, category, MIN(frame) FROM segments GROUP BY entity ORDER BY entity");
-  Statement entity(database, "INSERT INTO entities VALUES(?,?,?,?)");
-  while (seen.Next()) {
-    const std::string& name = scene.entity(static_cast<EntityId>(seen.Int(0))).name;
-    entity.Bind(0, seen.Int(0)).Bind(1, name).Bind(2, seen.Int(1)).Bind(3, seen.Int(2)).Run();
-  }
-}
-
-// Makes a finished file durable and gives it its name.
-void PublishFile(const std::filesystem::path& temporary, const std::filesystem::path& path) {
-  const int fd = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  int error = fd < 0 || ::fsync(fd) != 0 ? errno : 0;
-  if (fd >= 0) ::close(fd);
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) throw RuntimeError(path.string() + ": cannot write: " + std::strerror(error));
-}
-
-}  // namespace
 
 struct DatasetIndex::Impl {
   mutable Database database;
@@ -84,10 +20,9 @@ DatasetIndex::DatasetIndex(const std::filesystem::path& folder, Mode mode)
   if (mode == Mode::kJournal) {
     database.Run("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
     Statement tables(database, "SELECT COUNT(*) FROM sqlite_master");
-    if (tables.Next() && tables.Int(0) == 0) CreateSchema(database);
+    if (tables.Next() && tables.Int(0) == 0) internal::CreateIndexSchema(database);
   }
-  if (ApplicationId(database) != kApplicationId)
-    throw RuntimeError(database.path().string() + ": not a dataset index");
+  internal::CheckIsIndex(database);
 }
 
 DatasetIndex::~DatasetIndex() = default;
@@ -186,32 +121,6 @@ std::vector<SeenEntity> DatasetIndex::SeenEntities() const {
   Statement rows(impl_->database, "SELECT entity, MIN(frame) FROM segments GROUP BY entity ORDER BY entity");
   while (rows.Next()) seen.push_back({static_cast<EntityId>(rows.Int(0)), rows.Int(1)});
   return seen;
-}
-
-void DatasetIndex::Finish(const std::filesystem::path& folder, const Scene& scene) {
-  const std::filesystem::path path = folder / kIndexName, temporary = path.string() + ".tmp";
-  std::filesystem::remove(temporary);
-  try {
-    // A new file, filled in order in one go: its bytes depend on the rows alone.
-    Database database(temporary, Database::Mode::kWrite);
-    database.Run("PRAGMA page_size=4096; PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF");
-    CreateSchema(database);
-    Statement(database, "ATTACH ? AS journal").Bind(0, path.string()).Run();
-    {
-      Transaction transaction(database);
-      database.Run("INSERT INTO main.frames SELECT * FROM journal.frames ORDER BY frame");
-      database.Run("INSERT INTO main.files SELECT * FROM journal.files ORDER BY frame, position");
-      database.Run("INSERT INTO main.segments SELECT * FROM journal.segments ORDER BY frame, view, entity");
-      InsertNames(database, scene);
-      transaction.Commit();
-    }
-    database.Run("DETACH journal");
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw;
-  }
-  PublishFile(temporary, path);
 }
 
 }  // namespace airsim360

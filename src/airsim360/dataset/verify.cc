@@ -11,7 +11,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/index.h"
-#include "airsim360/image/codecs.h"
+#include "airsim360/dataset/label_check.h"
 
 namespace airsim360 {
 
@@ -93,69 +93,6 @@ int64_t CheckFrameLines(const fs::path& folder, const Checksums& checksums, std:
   return frames;
 }
 
-// Ids of one picture and of one annotation, both ways, with their areas. Throws on malformed JSON.
-std::string CompareLabels(const fs::path& file, const Json& annotation, bool allows_void) {
-  std::map<int64_t, int64_t> in_picture, in_json;
-  const Image<uint32_t> ids = DecodeIdPng(ReadFile(file), file.string());
-  for (int y = 0; y < ids.height(); ++y) {
-    for (int x = 0; x < ids.width();) {
-      const int begin = x;
-      const auto row = ids.row(y);
-      while (x < ids.width() && row[x] == row[begin]) ++x;
-      in_picture[row[begin]] += x - begin;
-    }
-  }
-  for (const Json& segment : annotation.at("segments_info")) {
-    in_json[segment.at("id").get<int64_t>()] = segment.at("area").get<int64_t>();
-  }
-  if (in_picture.erase(0) > 0 && !allows_void) return "pixels without an entity";
-  for (const auto& [id, area] : in_picture) {
-    if (!in_json.contains(id))
-      return "id " + std::to_string(id) + " is in the picture but not in panoptic.json";
-    if (in_json[id] != area) {
-      return "id " + std::to_string(id) + " covers " + std::to_string(area) + " pixels, panoptic.json says " +
-             std::to_string(in_json[id]);
-    }
-  }
-  for (const auto& [id, area] : in_json) {
-    if (!in_picture.contains(id))
-      return "id " + std::to_string(id) + " is in panoptic.json but not in the picture";
-  }
-  return {};
-}
-
-// True for projections whose pictures have pixels without a ray.
-bool AllowsVoid(const fs::path& folder) {
-  const Json meta =
-      fs::exists(folder / kMetaName) ? Json::parse(ReadTextFile(folder / kMetaName), nullptr, false) : Json();
-  const Json::json_pointer projection("/parameters/projection");
-  return meta.is_object() && meta.contains(projection) && meta[projection] == "fisheye";
-}
-
-void CheckLabels(const fs::path& folder, std::vector<Finding>& findings) {
-  const Json panoptic =
-      Json::parse(ReadTextFile(folder / "panoptic.json", uint64_t{8} << 30), nullptr, false);
-  if (!panoptic.is_object() || !panoptic.contains("annotations") || !panoptic["annotations"].is_array()) {
-    findings.push_back({Finding::Kind::kLabels, "panoptic.json", "not COCO panoptic JSON"});
-    return;
-  }
-  const bool allows_void = AllowsVoid(folder);
-  const Json& annotations = panoptic["annotations"];
-  std::vector<std::vector<Finding>> found(annotations.size());
-  ParallelFor(static_cast<int64_t>(annotations.size()), [&](int64_t i) {
-    const Json& annotation = annotations[static_cast<size_t>(i)];
-    std::string path = "panoptic.json", problem;
-    try {
-      path = "entity/" + annotation.at("file_name").get<std::string>();
-      if (fs::exists(folder / path)) problem = CompareLabels(folder / path, annotation, allows_void);
-    } catch (const std::exception& error) {
-      problem = error.what();
-    }
-    if (!problem.empty()) found[static_cast<size_t>(i)].push_back({Finding::Kind::kLabels, path, problem});
-  });
-  for (const auto& here : found) findings.insert(findings.end(), here.begin(), here.end());
-}
-
 void FindExtraFiles(const fs::path& folder, const Checksums& checksums, bool complete,
                     std::vector<Finding>& findings) {
   static const std::set<std::string> kOwn = {kMetaName, kIndexName, kChecksumsName, "index.sqlite-journal"};
@@ -186,7 +123,7 @@ VerifyResult VerifyDataset(const fs::path& folder) {
   if (result.complete) {
     if (fs::exists(folder / "frames.jsonl"))
       result.frames = CheckFrameLines(folder, checksums, result.findings);
-    if (fs::exists(folder / "panoptic.json")) CheckLabels(folder, result.findings);
+    if (fs::exists(folder / "panoptic.json")) internal::CheckLabels(folder, result.findings);
   } else {
     result.findings.push_back({Finding::Kind::kMissing, kChecksumsName,
                                "the collection was interrupted: run it again to finish it"});

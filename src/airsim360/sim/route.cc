@@ -73,15 +73,15 @@ RoutePoint Route::At(double t) const {
 }
 
 Route RouteThrough(const std::vector<Waypoint>& waypoints, double speed) {
+  constexpr double kTicks = 50;         // a second: free times fall on steps of the simulation
   constexpr double kShortestLeg = 0.5;  // seconds, also for waypoints in the same place
   std::vector<RouteNode> nodes;
+  double ticks = 0;
   for (size_t i = 0; i < waypoints.size(); ++i) {
     const Waypoint& w = waypoints[i];
-    RouteNode node{.t = w.t - waypoints[0].t, .p = w.p, .v = {}, .yaw = w.yaw};
-    if (!w.has_time) {
-      node.t = i == 0 ? 0 : nodes.back().t + std::max(kShortestLeg, Norm(w.p - waypoints[i - 1].p) / speed);
-    }
-    nodes.push_back(node);
+    if (i > 0) ticks += std::ceil(kTicks * std::max(kShortestLeg, Norm(w.p - waypoints[i - 1].p) / speed));
+    const double t = w.has_time ? w.t - waypoints[0].t : ticks / kTicks;
+    nodes.push_back({.t = t, .p = w.p, .v = {}, .yaw = w.yaw});
   }
   // Velocity by central differences; heading along it where none is given.
   double heading = 0;
@@ -137,6 +137,36 @@ std::vector<double> LegHeadings(const std::vector<Leg>& legs) {
   return headings;
 }
 
+// Adds the nodes of one leg: enter it at corner speed, reach the highest speed it allows, brake for the next
+// corner.
+struct LegSpeeds {
+  double from, to;
+};
+struct LegCuts {
+  double in, out;
+};
+void AppendLeg(Vec3d start, const Leg& leg, double heading, LegSpeeds speeds, LegCuts cuts,
+               const FlightLimits& limits, std::vector<RouteNode>& nodes) {
+  // A change of speed from u to v takes 0.75 |v^2 - u^2| / acceleration of way.
+  const double way = leg.length - cuts.in - cuts.out;
+  const double from2 = speeds.from * speeds.from, to2 = speeds.to * speeds.to;
+  const double top = std::min(limits.speed, std::sqrt((way * limits.acceleration / 0.75 + from2 + to2) / 2));
+  const double rise = 0.75 * (top * top - from2) / limits.acceleration;
+  const double fall = 0.75 * (top * top - to2) / limits.acceleration;
+  const double level = std::max(way - rise - fall, 0.0);
+  double s = cuts.in, t = nodes.back().t;
+  const auto add = [&](double distance, double time, double speed) {
+    s += distance;
+    t += time;
+    if (time > 1e-9)
+      nodes.push_back({.t = t, .p = start + leg.direction * s, .v = leg.direction * speed, .yaw = heading});
+  };
+  add(0, 2 * cuts.in / speeds.from, speeds.from);
+  add(rise, 1.5 * (top - speeds.from) / limits.acceleration, top);
+  add(level, level / top, top);
+  add(fall, 1.5 * (top - speeds.to) / limits.acceleration, speeds.to);
+}
+
 }  // namespace
 
 Route RoundedRoute(std::vector<Vec3d> points, const FlightLimits& limits) {
@@ -157,30 +187,13 @@ Route RoundedRoute(std::vector<Vec3d> points, const FlightLimits& limits) {
   const std::vector<double> speeds = CornerSpeeds(legs, cut, limits);
   const std::vector<double> headings = LegHeadings(legs);
 
-  // Every leg: enter it at corner speed, reach the highest speed it allows, brake for the next corner.
   std::vector<RouteNode> nodes = {{.t = 0, .p = points[0], .v = {}, .yaw = headings[0]}};
-  double t = 0;
   for (size_t i = 0; i < legs.size(); ++i) {
-    const auto [u, length] = legs[i];
-    const double from = speeds[i], to = speeds[i + 1];
-    const double way = length - cut[i] - cut[i + 1];
-    const double top =
-        std::min(limits.speed, std::sqrt((way * limits.acceleration / 0.75 + from * from + to * to) / 2));
-    const double rise = 0.75 * (top * top - from * from) / limits.acceleration;
-    const double fall = 0.75 * (top * top - to * to) / limits.acceleration;
-    double s = cut[i];
-    const auto add = [&](double distance, double time, double speed) {
-      s += distance;
-      t += time;
-      if (time > 1e-9) nodes.push_back({.t = t, .p = points[i] + u * s, .v = u * speed, .yaw = headings[i]});
-    };
-    add(0, 2 * cut[i] / from, from);
-    add(rise, 1.5 * (top - from) / limits.acceleration, top);
-    add(std::max(way - rise - fall, 0.0), std::max(way - rise - fall, 0.0) / top, top);
-    add(fall, 1.5 * (top - to) / limits.acceleration, to);
+    AppendLeg(points[i], legs[i], headings[i], {speeds[i], speeds[i + 1]}, {cut[i], cut[i + 1]}, limits,
+              nodes);
   }
-  t += 2 * cut.back() / speeds.back();
-  nodes.push_back({.t = t, .p = points.back(), .v = {}, .yaw = headings.back()});
+  const double landing = 2 * cut.back() / speeds.back();
+  nodes.push_back({.t = nodes.back().t + landing, .p = points.back(), .v = {}, .yaw = headings.back()});
   return Route(std::move(nodes));
 }
 

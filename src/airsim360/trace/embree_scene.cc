@@ -159,6 +159,7 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
     const bool direct = uses[instance.mesh] == 1;
     if (groups.empty()) continue;
     if (!direct) {
+      has_instances_ = true;
       RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
       const Mat3f& A = instance.X_WM.A;
       const Vec3f columns[4] = {A.column(0), A.column(1), A.column(2), instance.X_WM.p};

@@ -42,6 +42,7 @@ class EmbreeScene {
   EmbreeScene(const Scene& scene, const std::string& isa);
 
   RTCScene top() const { return top_.get(); }
+  bool has_instances() const { return has_instances_; }
   const std::vector<HitSlot>& slots() const { return slots_; }
   const std::vector<uint32_t>& first_slots() const { return first_slots_; }
 
@@ -63,6 +64,7 @@ class EmbreeScene {
   std::vector<std::vector<Vec3f>> instance_vertices_;  // by instance: baked or padded copy
   std::vector<SceneHandle> sub_scenes_;                // by mesh; null where not instanced
   SceneHandle top_;
+  bool has_instances_ = false;
   std::vector<HitSlot> slots_;
   std::vector<uint32_t> first_slots_;
 };

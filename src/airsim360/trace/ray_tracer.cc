@@ -99,8 +99,10 @@ void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) con
 }
 
 void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, bool coherent) const {
+  // rtcOccluded16 with COHERENT may loop for ever in scenes with instances (Embree 3.13.5: it depends on what
+  // the stack held before; seen with and without ROBUST, with any rays). rtcIntersect16 is not affected.
   alignas(64) int fixed[16];
-  RTCIntersectContext context = Context(coherent);
+  RTCIntersectContext context = Context(coherent && !impl_->embree.has_instances());
   rtcOccluded16(FiniteLanes(valid, rays, fixed), impl_->embree.top(), &context,
                 reinterpret_cast<RTCRay16*>(&rays));
   for (int i = 0; i < 16; ++i) {

@@ -334,6 +334,37 @@ TEST(Clearance, ClosestPointIsNoFartherThanAnyPointOfTheTriangle) {
   }
 }
 
+// Overwrites the stack below with words that are NaN as floats.
+__attribute__((noinline)) void DirtyTheStack() {
+  volatile uint32_t words[20000];
+  for (volatile uint32_t& word : words) word = UINT32_MAX;
+}
+
+TEST(RayTracer, CoherentOcclusionEndsInScenesWithInstances) {
+  // Embree 3.13.5 itself does not end here; see Occluded16.
+  RngStream rng(10, "test");
+  std::vector<AffineTransform> places;
+  for (int i = 0; i < 30; ++i) places.push_back(RandomAffine(rng, 15));
+  const RayTracer tracer(SceneOf(BoxMesh({-1, -1, -1}, {1, 1, 1}), places));
+  Lanes valid;
+  std::fill(std::begin(valid.active), std::end(valid.active), -1);
+  for (int round = 0; round < 500; ++round) {
+    const Vec3f d = RandomDirection(rng);
+    RayHit16 rays = Packet(RandomDirection(rng) * 10.0f, rng);
+    for (int i = 0; i < 16; ++i) {
+      rays.direction_x[i] = d.x + 0.01f * static_cast<float>(i & 3);
+      rays.direction_y[i] = d.y + 0.01f * static_cast<float>(i >> 2);
+      rays.direction_z[i] = d.z;
+    }
+    RayHit16 nearest = rays;
+    bool occluded[16];
+    DirtyTheStack();
+    tracer.Occluded16(valid.active, rays, occluded, true);
+    tracer.Intersect16(valid.active, nearest, true);
+    for (int i = 0; i < 16; ++i) EXPECT_EQ(occluded[i], nearest.geometry[i] != kMiss);
+  }
+}
+
 TEST(RayTracer, RaysThatAreNotFiniteHitNothingAndDoNotDisturbTheOthers) {
   RngStream rng(9, "test");
   const RayTracer tracer(SceneOf(SphereMesh(3), {AffineTransform()}));

@@ -10,7 +10,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr float kPitch = 110, kRoad = 13, kCityEdge = 640, kPlainZ = -0.5f;
+constexpr float kPitch = 112, kRoad = 13, kCityEdge = 640, kPlainZ = -0.5f;
 
 // A far building: walls with pictured windows, a deck, a box on top.
 void BuildFarTower(District& d, const GroundRect& r, float height, RngStream& rng) {

@@ -79,8 +79,8 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
   const float hw = street.line.half_width, s0 = street.s0 + 5.6f, s1 = street.s1 - 5.6f, parking = hw - 2.35f;
   if (bike_lane) {
     ground.Begin("bike lane " + name, "ground/bike_lane", Surface::kBikeLane);
-    StreetRect(ground, street, s0, s1, parking - 1.6f, parking - 0.12f, kPatchLift);
-    StreetRect(ground, street, s0, s1, -parking + 0.12f, -parking + 1.6f, kPatchLift);
+    StreetRect(ground, street, s0, s1, parking - 1.6f, parking - 0.12f, kPaintLift);
+    StreetRect(ground, street, s0, s1, -parking + 0.12f, -parking + 1.6f, kPaintLift);
   }
   // Two yellow lines in the middle, white along the parking bays, and a stop bar before each crosswalk.
   ground.Begin("markings " + name, "ground/lane_marking", Surface::kPaintYellow);
@@ -173,7 +173,8 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
     ground.Use(rng.Chance(0.6) ? Surface::kAsphaltPatch : Surface::kAsphaltOld);
     for (int k = 0; k < nx * ny; ++k) {
       const float x = x0 + 0.4f * static_cast<float>(k % nx), y = y0 + 0.4f * static_cast<float>(k / nx);
-      if (std::hypot(x + 0.2f - fan.middle.x, y + 0.2f - fan.middle.y) < 0.9f) continue;  // the cover in the middle
+      if (std::hypot(x + 0.2f - fan.middle.x, y + 0.2f - fan.middle.y) < 0.9f)
+        continue;  // the cover in the middle
       ground.Quad(on(x, y, 0.006f), on(x + 0.4f, y, 0.006f), on(x + 0.4f, y + 0.4f, 0.006f),
                   on(x, y + 0.4f, 0.006f));
     }
@@ -222,7 +223,7 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
         LayMarkings(ground, street, name, along_x && i == 2);
         if (is_core(k)) LayCrosswalk(ground, street, true, name + " start");
         if (is_core(k + 1)) LayCrosswalk(ground, street, false, name + " end");
-        if (is_core(k) && is_core(k + 1)) core.push_back(street);
+        core.push_back(street);
       }
     }
   }

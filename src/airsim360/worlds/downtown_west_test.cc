@@ -214,51 +214,103 @@ TEST_F(DowntownWest, NoPropStandsInABuilding) {
   }
 }
 
-// Second method for the area: cells of 1 m whose centre has ground under it and no building on it.
-TEST_F(DowntownWest, GroundHasNoHoleAndTheAnnouncedArea) {
-  const StreetPlan plan = PlanDowntownWest();
-  const GroundRect reach = plan.reach();
-  const int w = static_cast<int>(reach.width()), h = static_cast<int>(reach.depth());
-  std::vector<char> covered(static_cast<size_t>(w) * static_cast<size_t>(h), 0);
-  const auto center = [&](int x, int y) {
-    return Vec2f{reach.x0 + static_cast<float>(x) + 0.503f, reach.y0 + static_cast<float>(y) + 0.503f};
+// Surfaces of the ground mesh above points of a grid of 1 m over the reachable ground.
+class GroundColumns {
+ public:
+  explicit GroundColumns(const Scene& scene, const GroundRect& area)
+      : area_(area), width_(static_cast<int>(area.width())), height_(static_cast<int>(area.depth())) {
+    surfaces_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
+    for (const Mesh& mesh : scene.meshes) {
+      if (mesh.name != "ground") continue;
+      for (const MeshPart& part : mesh.parts) {
+        for (uint32_t i = 0; i < part.triangle_count; ++i) {
+          const Vec3u t = mesh.triangles[part.first_triangle + i];
+          Add(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z], part.entity);
+        }
+      }
+    }
+  }
+  struct Surface {
+    float z;
+    EntityId entity;
   };
-  const auto mark = [&](Vec3f a, Vec3f b, Vec3f c) {
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Vec2f Center(int x, int y) const {
+    return {area_.x0 + static_cast<float>(x) + 0.503f, area_.y0 + static_cast<float>(y) + 0.507f};
+  }
+  /// Up-facing surfaces at a point, in no order.
+  const std::vector<Surface>& At(int x, int y) const {
+    return surfaces_[static_cast<size_t>(y) * width_ + x];
+  }
+
+ private:
+  void Add(Vec3f a, Vec3f b, Vec3f c, EntityId entity) {
+    const Vec3f n = Cross(b - a, c - a);
+    if (n.z <= 1e-9f) return;
     const auto cross = [](Vec3f p, Vec3f q, Vec2f r) {
       return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     };
-    const int x0 = std::max(0, static_cast<int>(std::min({a.x, b.x, c.x}) - reach.x0) - 1);
-    const int x1 = std::min(w - 1, static_cast<int>(std::max({a.x, b.x, c.x}) - reach.x0) + 1);
-    const int y0 = std::max(0, static_cast<int>(std::min({a.y, b.y, c.y}) - reach.y0) - 1);
-    const int y1 = std::min(h - 1, static_cast<int>(std::max({a.y, b.y, c.y}) - reach.y0) + 1);
+    const int x0 = std::max(0, static_cast<int>(std::min({a.x, b.x, c.x}) - area_.x0) - 1);
+    const int x1 = std::min(width_ - 1, static_cast<int>(std::max({a.x, b.x, c.x}) - area_.x0) + 1);
+    const int y0 = std::max(0, static_cast<int>(std::min({a.y, b.y, c.y}) - area_.y0) - 1);
+    const int y1 = std::min(height_ - 1, static_cast<int>(std::max({a.y, b.y, c.y}) - area_.y0) + 1);
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
-        const Vec2f p = center(x, y);
-        if (cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0)
-          covered[static_cast<size_t>(y) * w + x] = 1;
+        const Vec2f p = Center(x, y);
+        if (cross(a, b, p) < 0 || cross(b, c, p) < 0 || cross(c, a, p) < 0) continue;
+        surfaces_[static_cast<size_t>(y) * width_ + x].push_back(
+            {a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z, entity});
       }
     }
-  };
-  for (const Mesh& mesh : scene_->meshes) {
-    if (mesh.name != "ground") continue;
-    for (Vec3u t : mesh.triangles) mark(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
   }
 
+  GroundRect area_;
+  int width_, height_;
+  std::vector<std::vector<Surface>> surfaces_;
+};
+
+// Second method for the area: cells of 1 m whose centre has ground under it and no building on it.
+TEST_F(DowntownWest, GroundHasNoHoleAndTheAnnouncedArea) {
+  const StreetPlan plan = PlanDowntownWest();
+  const GroundColumns columns(*scene_, plan.reach());
   const std::vector<BuildingPlan> buildings = PlanBuildings(plan, 0);
   double area = 0;
   int holes = 0;
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      const Vec2f p = center(x, y);
-      const bool built = std::any_of(buildings.begin(), buildings.end(),
-                                     [&](const BuildingPlan& b) { return b.bounds().Contains(p); });
-      if (covered[static_cast<size_t>(y) * w + x] && !built) area += 1;
-      if (!covered[static_cast<size_t>(y) * w + x] && !built) ++holes;
+  for (int y = 0; y < columns.height(); ++y) {
+    for (int x = 0; x < columns.width(); ++x) {
+      const Vec2f p = columns.Center(x, y);
+      if (std::any_of(buildings.begin(), buildings.end(),
+                      [&](const BuildingPlan& b) { return b.bounds().Contains(p); }))
+        continue;
+      if (columns.At(x, y).empty()) {
+        ++holes;
+      } else {
+        area += 1;
+      }
     }
   }
   EXPECT_EQ(holes, 0);
   EXPECT_GE(area, 60000);
   EXPECT_NEAR(area, internal::DowntownWestInfo().area_m2, 0.01 * area);
+}
+
+// Layers that lie on each other keep a gap, so that labels do not flicker with distance.
+TEST_F(DowntownWest, NoTwoGroundEntitiesShareASurface) {
+  const GroundColumns columns(*scene_, PlanDowntownWest().reach());
+  for (int y = 0; y < columns.height(); ++y) {
+    for (int x = 0; x < columns.width(); ++x) {
+      const auto& at = columns.At(x, y);
+      for (size_t i = 0; i < at.size(); ++i) {
+        for (size_t k = i + 1; k < at.size(); ++k) {
+          if (at[i].entity == at[k].entity) continue;
+          EXPECT_GE(std::abs(at[i].z - at[k].z), 0.0019f)
+              << scene_->entity(at[i].entity).name << " and " << scene_->entity(at[k].entity).name << " at "
+              << columns.Center(x, y).x << " " << columns.Center(x, y).y;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

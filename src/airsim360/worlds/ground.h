@@ -54,7 +54,7 @@ struct StreetStretch {
 };
 
 /// Lays all carriageways, junctions, markings, crosswalks, gutters, patches, cracks and drains of the plan.
-/// Returns the stretches between core junctions, for cars and manholes.
+/// Returns the stretches of the core streets, out to the edge of the backdrop ring, for cars and manholes.
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed);
 
 /// Where a crosswalk meets the kerb, measured along a block side from the end of the kerb return.

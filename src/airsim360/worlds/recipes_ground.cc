@@ -73,7 +73,7 @@ Texel Grass(float u, float v) {
   const float clump = TilingFbm(71, u, v, 6, 5), blade = TilingFbm(72, u * 1.0f, v, 128, 2);
   const float streak = HashUnit(static_cast<uint32_t>(u * 512), static_cast<uint32_t>(v * 256), 9);
   const float dry = Step(0.1f, 0.8f, TilingFbm(73, u, v, 4, 4));
-  const Vec3f green = Mix({0.095f, 0.135f, 0.034f}, {0.15f, 0.185f, 0.055f}, streak);
+  const Vec3f green = Mix({0.105f, 0.130f, 0.038f}, {0.165f, 0.185f, 0.066f}, streak);
   const Vec3f color = Mix(green, {0.25f, 0.23f, 0.09f}, 0.55f * dry) * (1 + 0.25f * clump + 0.3f * blade);
   return {color, 0.010f * blade + 0.012f * clump + 0.004f * streak, 0.75f};
 }

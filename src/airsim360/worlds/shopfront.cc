@@ -44,81 +44,113 @@ void BuildSign(FacadeContext& context, FacadePen& pen, float x0, float x1, RngSt
               {crop, row / n}, {1 - crop, (row + 1) / n});
 }
 
-}  // namespace
+constexpr float kPier = 0.38f, kHead = kSignFrom - 0.05f, kPost = 0.12f;
 
-void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor, float x0, float x1,
-               RngStream& rng) {
+// Where the parts of a shop lie along the wall, and what they are made of.
+struct Shop {
+  float x0, x1;  // whole bay
+  float a, b;    // between the piers
+  float d0, d1;  // door
+  float w0, w1;  // display window
+  bool door_right;
+  Surface inside, door;
+};
+
+Shop PlanShop(float x0, float x1, RngStream& rng) {
   static constexpr Surface kInsides[] = {Surface::kShopInside0, Surface::kShopInside1, Surface::kShopInside2};
   static constexpr Surface kDoors[] = {Surface::kDoorGreen, Surface::kDoorRed, Surface::kDoorWood,
                                        Surface::kFrameDark};
-  const Surface inside = kInsides[rng.Index(3)], door = kDoors[rng.Index(4)], frame = floor.frame;
-  const float pier = 0.38f, a = x0 + pier, b = x1 - pier, head = kSignFrom - 0.05f,
-              door_width = std::min(1.15f, (b - a) * 0.4f);
-  const bool door_right = rng.Chance(0.5);
-  const float d0 = door_right ? b - door_width : a, d1 = d0 + door_width;
-  const float w0 = door_right ? a : d1 + 0.12f, w1 = door_right ? d0 - 0.12f : b;
+  Shop shop;
+  shop.inside = kInsides[rng.Index(3)];
+  shop.door = kDoors[rng.Index(4)];
+  shop.door_right = rng.Chance(0.5);
+  shop.x0 = x0;
+  shop.x1 = x1;
+  shop.a = x0 + kPier;
+  shop.b = x1 - kPier;
+  const float door_width = std::min(1.15f, (shop.b - shop.a) * 0.4f);
+  shop.d0 = shop.door_right ? shop.b - door_width : shop.a;
+  shop.d1 = shop.d0 + door_width;
+  shop.w0 = shop.door_right ? shop.a : shop.d1 + kPost;
+  shop.w1 = shop.door_right ? shop.d0 - kPost : shop.b;
+  return shop;
+}
 
-  // Piers with plinth blocks, wall above the fascia.
-  pen.UseEntity(floor.entity);
-  for (float x : {x0, b}) {
+// Piers with plinth blocks, wall and a course above the fascia.
+void BuildPiers(FacadePen& pen, const GroundFloor& floor, const Shop& shop) {
+  for (float x : {shop.x0, shop.b}) {
     pen.Use(floor.trim);
-    pen.Bar(x, x + pier, 0.45f, kSignTo, -0.10f, 0.35f, true, false);
+    pen.Bar(x, x + kPier, 0.45f, kSignTo, -0.10f, 0.35f, true, false);
     pen.Use(Surface::kGranite);
-    pen.Bar(x - 0.02f, x + pier + 0.02f, 0, 0.45f, -0.13f, 0.35f, true, false);
+    pen.Bar(x - 0.02f, x + kPier + 0.02f, 0, 0.45f, -0.13f, 0.35f, true, false);
   }
   pen.Use(floor.wall);
-  pen.Front(x0, x1, kSignTo, floor.height, 0);
+  pen.Front(shop.x0, shop.x1, kSignTo, floor.height, 0);
   pen.Use(floor.trim);
-  pen.Bar(x0, x1, kSignTo, kSignTo + 0.14f, -0.24f, 0, true, true);
+  pen.Bar(shop.x0, shop.x1, kSignTo, kSignTo + 0.14f, -0.24f, 0, true, true);
+}
 
-  // Fascia with the sign.
-  pen.Use(frame);
-  pen.Bar(a, b, head, kSignTo, -0.12f, 0.3f, false, true);
-  BuildSign(context, pen, a + 0.1f, b - 0.1f, rng);
-  pen.UseEntity(floor.entity);
-
-  // Display window over a stall riser, the shop behind it.
-  pen.Use(door);
+// Display window over a stall riser, the shop behind it.
+void BuildDisplay(FacadePen& pen, const GroundFloor& floor, const Shop& shop, RngStream& rng) {
+  const float w0 = shop.w0, w1 = shop.w1;
+  pen.Use(shop.door);
   pen.Bar(w0, w1, 0, 0.5f, 0.02f, 0.25f, true, false);
-  pen.Use(frame);
+  pen.Use(floor.frame);
   pen.Bar(w0, w1, 0.5f, 0.58f, 0.0f, 0.2f, false, false);
   for (float x : {w0, (w0 + w1) / 2, w1 - 0.06f}) {
-    pen.Front(x, x + 0.06f, 0.58f, head, 0.06f);
-    pen.Left(x, 0.06f, 0.12f, 0.58f, head);
-    pen.Right(x + 0.06f, 0.06f, 0.12f, 0.58f, head);
+    pen.Front(x, x + 0.06f, 0.58f, kHead, 0.06f);
+    pen.Left(x, 0.06f, 0.12f, 0.58f, kHead);
+    pen.Right(x + 0.06f, 0.06f, 0.12f, 0.58f, kHead);
   }
   pen.Bar(w0, w1, 2.55f, 2.62f, 0.05f, 0.12f, false, true);
   const float u0 = static_cast<float>(rng.Uniform(0, 0.5)), span = std::min(1.0f, (w1 - w0) / 5);
-  pen.Use(inside);
-  pen.Picture(w0, w1, 0.58f, head, 0.12f, {u0, 0}, {u0 + span, 1});
+  pen.Use(shop.inside);
+  pen.Picture(w0, w1, 0.58f, kHead, 0.12f, {u0, 0}, {u0 + span, 1});
+}
 
-  // Door set back between two glass cheeks.
-  const float back = 0.95f;
+// Door set back behind a threshold, and the post between it and the display window.
+void BuildDoor(FacadePen& pen, const GroundFloor& floor, const Shop& shop) {
+  const float back = 0.95f, d0 = shop.d0, d1 = shop.d1, l = d0 + 0.12f, r = d1 - 0.12f;
   pen.Use(Surface::kGranite);
   pen.Up(d0, d1, 0, back, 0.03f);
   pen.Front(d0, d1, 0, 0.03f, 0);
   pen.Use(floor.trim);
-  pen.Down(d0, d1, 0, back, head);
-  pen.Use(door_right ? inside : floor.trim);
-  pen.Right(d0, 0.12f, back, 0.03f, head);
-  pen.Use(door_right ? floor.trim : inside);
-  pen.Left(d1, 0.12f, back, 0.03f, head);
-  pen.Use(door);
-  pen.Front(d0, d0 + 0.12f, 0.03f, head, back);
-  pen.Front(d1 - 0.12f, d1, 0.03f, head, back);
-  pen.Front(d0 + 0.12f, d1 - 0.12f, 0.03f, 0.75f, back);
-  pen.Front(d0 + 0.12f, d1 - 0.12f, 2.15f, 2.3f, back);
-  pen.Use(inside);
-  pen.Picture(d0 + 0.12f, d1 - 0.12f, 0.75f, 2.15f, back + 0.03f, {0.3f, 0.3f}, {0.5f, 0.8f});
-  pen.Picture(d0 + 0.12f, d1 - 0.12f, 2.3f, head, back + 0.03f, {0.3f, 0.02f}, {0.5f, 0.2f});
+  pen.Down(d0, d1, 0, back, kHead);
+  // Cheeks: glass towards the display window.
+  pen.Use(shop.door_right ? shop.inside : floor.trim);
+  pen.Right(d0, 0.12f, back, 0.03f, kHead);
+  pen.Use(shop.door_right ? floor.trim : shop.inside);
+  pen.Left(d1, 0.12f, back, 0.03f, kHead);
+  // Leaf with two panes and a handle.
+  pen.Use(shop.door);
+  pen.Front(d0, l, 0.03f, kHead, back);
+  pen.Front(r, d1, 0.03f, kHead, back);
+  pen.Front(l, r, 0.03f, 0.75f, back);
+  pen.Front(l, r, 2.15f, 2.3f, back);
+  pen.Use(shop.inside);
+  pen.Picture(l, r, 0.75f, 2.15f, back + 0.03f, {0.3f, 0.3f}, {0.5f, 0.8f});
+  pen.Picture(l, r, 2.3f, kHead, back + 0.03f, {0.3f, 0.02f}, {0.5f, 0.2f});
   pen.Use(Surface::kMetal);
   pen.Bar(d0 + 0.16f, d0 + 0.19f, 0.95f, 1.35f, back - 0.06f, back);
-  // The post between door and display window.
-  pen.Use(frame);
-  const float post = door_right ? d0 - 0.12f : d1;
-  pen.Bar(post, post + 0.12f, 0, head, 0.0f, 0.2f, true, false);
+  pen.Use(floor.frame);
+  const float post = shop.door_right ? d0 - kPost : d1;
+  pen.Bar(post, post + kPost, 0, kHead, 0.0f, 0.2f, true, false);
+}
 
-  if (rng.Chance(0.45)) BuildAwning(context, pen, a, b, rng);
+}  // namespace
+
+void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor, float x0, float x1,
+               RngStream& rng) {
+  const Shop shop = PlanShop(x0, x1, rng);
+  pen.UseEntity(floor.entity);
+  BuildPiers(pen, floor, shop);
+  pen.Use(floor.frame);
+  pen.Bar(shop.a, shop.b, kHead, kSignTo, -0.12f, 0.3f, false, true);
+  BuildSign(context, pen, shop.a + 0.1f, shop.b - 0.1f, rng);
+  pen.UseEntity(floor.entity);
+  BuildDisplay(pen, floor, shop, rng);
+  BuildDoor(pen, floor, shop);
+  if (rng.Chance(0.45)) BuildAwning(context, pen, shop.a, shop.b, rng);
   pen.UseEntity(floor.entity);
 }
 

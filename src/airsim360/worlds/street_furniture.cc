@@ -122,6 +122,15 @@ void FurnishCorner(District& d, const Block& block, const BlockSide& side) {
   }
 }
 
+// The street along a side of a block is one of the core's, perhaps on its way out.
+bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side) {
+  const int line = side == 0   ? block.row
+                   : side == 1 ? block.column + 1
+                   : side == 2 ? block.row + 1
+                               : block.column;
+  return line >= plan.first_core && line <= plan.last_core;
+}
+
 }  // namespace
 
 void FurnishPavements(District& d) {
@@ -130,7 +139,7 @@ void FurnishPavements(District& d) {
     const Block& block = d.plan.blocks[i];
     for (int k = 0; k < 4; ++k) {
       const BlockSide side = SideOf(block, k);
-      if (!reach.Contains(side.At(side.length / 2, 1))) continue;
+      if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "pavement", i * 4 + static_cast<size_t>(k));
       const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
       const Strip strip{side, end, side.length - end, block.pavement};

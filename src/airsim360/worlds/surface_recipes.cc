@@ -19,7 +19,7 @@ TextureRecipe MakeRecipe(Recipe recipe) {
     case Recipe::kGravelPath:
       return {"gravel path", 3, 0.33f, GravelPath};
     case Recipe::kGrass:
-      return {"grass", 4, 0.165f, Grass};
+      return {"grass", 4, 0.145f, Grass};
     case Recipe::kSoil:
       return {"soil", 3, 0.14f, Soil};
     case Recipe::kBrick:

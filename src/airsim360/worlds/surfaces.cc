@@ -155,6 +155,11 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
       material.metallic_roughness_texture = ids.roughness;
       if (ids.roughness != kNoTexture) material.roughness = 1;
       material.uv_scale = {1 / ids.tile, 1 / ids.tile};
+      // Shops are lit inside, faintly by day.
+      if (row.recipe >= R::kShop0 && row.recipe <= R::kShop2) {
+        material.emission = {0.65f, 0.58f, 0.46f};
+        material.emission_texture = ids.color;
+      }
     }
     surfaces.materials_[static_cast<size_t>(row.surface)] = builder.AddMaterial(std::move(material));
   }

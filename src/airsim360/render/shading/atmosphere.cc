@@ -8,7 +8,8 @@
 namespace airsim360::internal {
 namespace {
 
-// Bruneton & Neyret (2008) for Rayleigh and ozone in the sRGB primaries; the aerosol follows Angstrom's law with exponent 1.3.
+// Bruneton & Neyret (2008) for Rayleigh and ozone in the sRGB primaries; the aerosol follows Angstrom's law
+// with exponent 1.3.
 constexpr float kGroundRadius = 6360e3f, kTopRadius = 6440e3f, kEyeHeight = 60.0f;
 constexpr float kRayleighHeight = 8000, kAerosolHeight = 1400;
 constexpr Vec3f kRayleigh{5.802e-6f, 13.558e-6f, 33.1e-6f};
@@ -29,7 +30,8 @@ float AerosolPhase(float mu) {
   return 3.0f / (8.0f * kPi) * (1.0f - g2) * (1.0f + mu * mu) / ((2.0f + g2) * d * std::sqrt(d));
 }
 
-// Distance along a ray from p (planet frame) to the sphere of radius r: the far crossing, or the near one; < 0 = none.
+// Distance along a ray from p (planet frame) to the sphere of radius r: the far crossing, or the near one; <
+// 0 = none.
 float SphereDistance(Vec3f p, Vec3f d, float r, bool far) {
   const double b = Dot(VecCast<double>(p), VecCast<double>(d));
   const double c = Dot(VecCast<double>(p), VecCast<double>(p)) - static_cast<double>(r) * r;
@@ -38,7 +40,9 @@ float SphereDistance(Vec3f p, Vec3f d, float r, bool far) {
   return static_cast<float>(far ? -b + std::sqrt(q) : -b - std::sqrt(q));
 }
 
-float HeightOf(Vec3f p) { return std::max(0.0f, static_cast<float>(Norm(VecCast<double>(p)) - kGroundRadius)); }
+float HeightOf(Vec3f p) {
+  return std::max(0.0f, static_cast<float>(Norm(VecCast<double>(p)) - kGroundRadius));
+}
 
 // Heights of the tables: quadratic, finer near the ground.
 constexpr float kTableTop = 60e3f;
@@ -68,7 +72,8 @@ Atmosphere::Atmosphere(Vec3f to_sun, double turbidity) : to_sun_(to_sun) {
   }
   sun_irradiance_ = SunTransmittance(kEyeHeight) * kSolarIrradiance;
 
-  // All orders above the first: second order averaged over directions, times the geometric series of its own transfer.
+  // All orders above the first: second order averaged over directions, times the geometric series of its own
+  // transfer.
   std::array<Vec3f, kHeights> multiple{};
   for (int i = 0; i < kHeights; ++i) {
     constexpr int kPolar = 8, kAround = 8;
@@ -78,7 +83,8 @@ Atmosphere::Atmosphere(Vec3f to_sun, double turbidity) : to_sun_(to_sun) {
       const float angle = (static_cast<float>(k % kAround) + 0.5f) / kAround * 2.0f * kPi;
       const float s = std::sqrt(1.0f - z * z);
       Vec3f f{};
-      second += Scattered({0, 0, kGroundRadius + TableHeight(i, kHeights) + 10.0f}, {s * std::cos(angle), s * std::sin(angle), z}, true, &f);
+      second += Scattered({0, 0, kGroundRadius + TableHeight(i, kHeights) + 10.0f},
+                          {s * std::cos(angle), s * std::sin(angle), z}, true, &f);
       factor += f;
     }
     const float scale = 1.0f / (kPolar * kAround);
@@ -88,7 +94,8 @@ Atmosphere::Atmosphere(Vec3f to_sun, double turbidity) : to_sun_(to_sun) {
 }
 
 Atmosphere::Medium Atmosphere::At(float height) const {
-  const float r = scalar::exp_approx(-height / kRayleighHeight), a = scalar::exp_approx(-height / kAerosolHeight);
+  const float r = scalar::exp_approx(-height / kRayleighHeight),
+              a = scalar::exp_approx(-height / kAerosolHeight);
   const float o = std::max(0.0f, 1.0f - std::fabs(height - 25e3f) / 15e3f);
   return {kRayleigh * r, aerosol_scattering_ * a, kRayleigh * r + aerosol_extinction_ * a + kOzone * o};
 }
@@ -111,13 +118,15 @@ Vec3f Atmosphere::OpticalDepth(Vec3f p, Vec3f direction) const {
 Vec3f Atmosphere::SunTransmittance(float height) const { return Interpolate(sun_transmittance_, height); }
 Vec3f Atmosphere::MultipleAt(float height) const { return Interpolate(multiple_, height); }
 
-// In-scattered radiance along a ray. With `isotropic` phase functions, and then `multiple_factor` gets the share of unit
-// ambient radiance that comes back; otherwise true phase functions and the table of higher orders.
+// In-scattered radiance along a ray. With `isotropic` phase functions, and then `multiple_factor` gets the
+// share of unit ambient radiance that comes back; otherwise true phase functions and the table of higher
+// orders.
 Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, bool isotropic, Vec3f* multiple_factor) const {
   const float ground = SphereDistance(p, direction, kGroundRadius, false);
   const float length = ground > 0 ? ground : SphereDistance(p, direction, kTopRadius, true);
   const float mu = Dot(direction, to_sun_);
-  const float phase_r = isotropic ? 0.25f / kPi : RayleighPhase(mu), phase_a = isotropic ? 0.25f / kPi : AerosolPhase(mu);
+  const float phase_r = isotropic ? 0.25f / kPi : RayleighPhase(mu),
+              phase_a = isotropic ? 0.25f / kPi : AerosolPhase(mu);
   const int steps = isotropic ? 20 : 48;
   Vec3f light{}, through{1, 1, 1}, factor{};
   for (int i = 0; i < steps; ++i) {
@@ -127,7 +136,8 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, bool isotropic, Vec3f* mul
     const float height = HeightOf(p + direction * (length * 0.5f * (u0 * u0 + u1 * u1)));
     const Medium medium = At(height);
     const Vec3f scattering = medium.rayleigh + medium.aerosol;
-    Vec3f source = (medium.rayleigh * phase_r + medium.aerosol * phase_a) * SunTransmittance(height) * kSolarIrradiance;
+    Vec3f source =
+        (medium.rayleigh * phase_r + medium.aerosol * phase_a) * SunTransmittance(height) * kSolarIrradiance;
     if (!isotropic) source += scattering * MultipleAt(height);
     const Vec3f step = Exp(medium.extinction * -ds);
     for (int c = 0; c < 3; ++c) {
@@ -138,7 +148,8 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, bool isotropic, Vec3f* mul
     through = through * step;
   }
   if (isotropic && ground > 0) {
-    light += through * kGroundAlbedo * SunTransmittance(0) * kSolarIrradiance * (std::max(0.0f, to_sun_.z) / kPi);
+    light +=
+        through * kGroundAlbedo * SunTransmittance(0) * kSolarIrradiance * (std::max(0.0f, to_sun_.z) / kPi);
   }
   if (multiple_factor) *multiple_factor = factor;
   return light;

@@ -7,15 +7,16 @@
 
 namespace airsim360::internal {
 
-/// Irradiance of the sun outside the atmosphere on a plane facing it, in the units of all radiance of `fast`: linear
-/// sRGB of a camera balanced for daylight, so that ground in sun and sky comes out neutral. In photometric terms 20 units
-/// of luminance are 133.3 klx.
+/// Irradiance of the sun outside the atmosphere on a plane facing it, in the units of all radiance of `fast`:
+/// linear sRGB of a camera balanced for daylight, so that ground in sun and sky comes out neutral. In
+/// photometric terms 20 units of luminance are 133.3 klx.
 inline constexpr Vec3f kSolarIrradiance{19.1f, 20.0f, 21.2f};
 inline constexpr float kLuxPerUnit = 133300.0f / 20.0f;
 
-/// Rayleigh, aerosol and ozone atmosphere over a sphere with one sun position, seen from near the ground. Single
-/// scattering is integrated along each ray; all higher orders are the isotropic closed-form series of Hillaire, "A
-/// Scalable and Production Ready Sky and Atmosphere Rendering Technique" (2020), tabulated over height.
+/// Rayleigh, aerosol and ozone atmosphere over a sphere with one sun position, seen from near the ground.
+/// Single scattering is integrated along each ray; all higher orders are the isotropic closed-form series of
+/// Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique" (2020), tabulated over
+/// height.
 class Atmosphere {
  public:
   /// `to_sun` is a unit vector of W; `turbidity` is Linke's, 2 very clear … 10 hazy.
@@ -30,9 +31,9 @@ class Atmosphere {
 
  private:
   struct Medium {
-    Vec3f rayleigh;      // scattering, 1 / m
-    Vec3f aerosol;       // scattering, 1 / m
-    Vec3f extinction;    // of both and ozone, 1 / m
+    Vec3f rayleigh;    // scattering, 1 / m
+    Vec3f aerosol;     // scattering, 1 / m
+    Vec3f extinction;  // of both and ozone, 1 / m
   };
   Medium At(float height) const;
   Vec3f OpticalDepth(Vec3f p, Vec3f direction) const;

@@ -35,7 +35,8 @@ float Altitude(Vec3f p) { return p.z + (p.x * p.x + p.y * p.y) * (0.5f / kEarth)
 
 }  // namespace
 
-Clouds::Clouds(double cover, const CloudLight& light) : light_(light), cover_(static_cast<float>(std::clamp(cover, 0.0, 1.0))) {
+Clouds::Clouds(double cover, const CloudLight& light)
+    : light_(light), cover_(static_cast<float>(std::clamp(cover, 0.0, 1.0))) {
   if (cover_ <= 0) return;
   FreeTheSun();
   BakeCoverage();
@@ -44,7 +45,8 @@ Clouds::Clouds(double cover, const CloudLight& light) : light_(light), cover_(st
 // How much cloud stands over a place, [0, 1]; p relative to the observer.
 float Clouds::Coverage(float x, float y) const {
   const float qx = x + offset_x_, qy = y + offset_y_;
-  const float c = 0.58f * ValueNoise(qx / 2600, qy / 2600, 3) + 0.30f * ValueNoise(qx / 950, qy / 950, 4) + 0.12f * ValueNoise(qx / 420, qy / 420, 5);
+  const float c = 0.58f * ValueNoise(qx / 2600, qy / 2600, 3) + 0.30f * ValueNoise(qx / 950, qy / 950, 4) +
+                  0.12f * ValueNoise(qx / 420, qy / 420, 5);
   const float far = SmoothStep(2500, 12000, std::sqrt(x * x + y * y));
   const float threshold = Mix(0.71f, 0.40f, far) - (cover_ - 0.35f) * 0.75f;
   return Clamp01((c - threshold) / 0.28f);
@@ -59,7 +61,9 @@ void Clouds::FreeTheSun() {
     const float t = 0.5f * (kBase + kTop) / light_.to_sun.z;
     float blocked = 0;
     for (int j = -3; j <= 3; ++j) {
-      for (int i = -3; i <= 3; ++i) blocked += Coverage(light_.to_sun.x * t + 330.0f * static_cast<float>(i), light_.to_sun.y * t + 330.0f * static_cast<float>(j));
+      for (int i = -3; i <= 3; ++i)
+        blocked += Coverage(light_.to_sun.x * t + 330.0f * static_cast<float>(i),
+                            light_.to_sun.y * t + 330.0f * static_cast<float>(j));
     }
     if (blocked <= 0.05f) return;
   }
@@ -69,7 +73,9 @@ void Clouds::BakeCoverage() {
   coverage_.resize(static_cast<size_t>(kMap) * kMap);
   ParallelFor(kMap, [&](int64_t j) {
     for (int i = 0; i < kMap; ++i) {
-      coverage_[static_cast<size_t>(j) * kMap + i] = Coverage((static_cast<float>(i) + 0.5f) * kMapCell - kFarthest, (static_cast<float>(j) + 0.5f) * kMapCell - kFarthest);
+      coverage_[static_cast<size_t>(j) * kMap + i] =
+          Coverage((static_cast<float>(i) + 0.5f) * kMapCell - kFarthest,
+                   (static_cast<float>(j) + 0.5f) * kMapCell - kFarthest);
     }
   });
 }
@@ -79,7 +85,8 @@ float Clouds::Density(Vec3f p, int detail) const {
   const float h = (Altitude(p) - kBase) / (kTop - kBase);
   if (h <= 0 || h >= 1) return 0;
   const float mx = (p.x + kFarthest) / kMapCell - 0.5f, my = (p.y + kFarthest) / kMapCell - 0.5f;
-  const int i = std::clamp(static_cast<int>(mx), 0, kMap - 2), j = std::clamp(static_cast<int>(my), 0, kMap - 2);
+  const int i = std::clamp(static_cast<int>(mx), 0, kMap - 2),
+            j = std::clamp(static_cast<int>(my), 0, kMap - 2);
   const float fx = mx - static_cast<float>(i), fy = my - static_cast<float>(j);
   const float* m = &coverage_[static_cast<size_t>(j) * kMap + i];
   const float c = Clamp01(Mix(Mix(m[0], m[1], fx), Mix(m[kMap], m[kMap + 1], fx), fy));
@@ -89,9 +96,11 @@ float Clouds::Density(Vec3f p, int detail) const {
   const float profile = SmoothStep(0, 0.07f, h) * (1 - SmoothStep(0.18f + 0.5f * c, 0.34f + 0.66f * c, h));
   if (profile <= 0.01f) return 0;
   const Vec3f q{p.x + offset_x_, p.y + offset_y_, p.z};
-  float d = Clamp01((noise_.At(q * (1 / 1700.0f)) - 0.33f) * 2.2f * profile * (0.5f + c) - (1 - c) * 0.28f - (1 - profile) * 0.3f);
+  float d = Clamp01((noise_.At(q * (1 / 1700.0f)) - 0.33f) * 2.2f * profile * (0.5f + c) - (1 - c) * 0.28f -
+                    (1 - profile) * 0.3f);
   if (d <= 0 || detail == 0) return d;
-  float erosion = 0.60f * noise_.At(q * (1 / 430.0f) + Vec3f{0.3f, 0.1f, h}) + 0.28f * noise_.At(q * (1 / 130.0f));
+  float erosion =
+      0.60f * noise_.At(q * (1 / 430.0f) + Vec3f{0.3f, 0.1f, h}) + 0.28f * noise_.At(q * (1 / 130.0f));
   erosion += 0.12f * (detail == 2 ? noise_.At(q * (1 / 47.0f)) : 0.5f);
   return Clamp01((d - (0.60f - erosion) * 0.80f * (1 - d)) * 1.5f);
 }
@@ -109,11 +118,12 @@ float Clouds::DepthTowardsSun(Vec3f p, float dither) const {
 
 // Streaks of a thin sheet; coordinates in units of its cells.
 float Clouds::CirrusAlpha(float x, float y) const {
-  const float mask = SmoothStep(0.54f, 0.76f, FractalNoise(x * 0.45f + 3, y * 0.45f, 3, 72));
+  const float mask = SmoothStep(0.50f, 0.72f, FractalNoise(x * 0.62f + 3, y * 0.62f, 4, 72));
   if (mask <= 0) return 0;
-  const float wx = FractalNoise(x * 0.9f + 9, y * 0.9f, 3, 51) - 0.5f, wy = FractalNoise(x * 0.9f, y * 0.9f + 5, 3, 57) - 0.5f;
-  const float body = FractalNoise(x * 1.1f + wx * 1.9f + y * 0.4f, y * 3.0f + wy * 2.2f, 6, 61);
-  const float ridge = 1 - std::fabs(2 * FractalNoise(x * 2.6f + wx * 4, y * 11.0f + wy * 5, 3, 65) - 1);
+  const float wx = FractalNoise(x * 0.9f + 9, y * 0.9f, 3, 51) - 0.5f,
+              wy = FractalNoise(x * 0.9f, y * 0.9f + 5, 3, 57) - 0.5f;
+  const float body = FractalNoise(x * 1.5f + wx * 2.6f + y * 0.5f, y * 2.9f + wy * 2.8f, 7, 61);
+  const float ridge = 1 - std::fabs(2 * FractalNoise(x * 4.1f + wx * 5, y * 9.0f + wy * 6, 4, 65) - 1);
   return Clamp01(SmoothStep(0.44f, 0.86f, 0.72f * body + 0.24f * ridge) * mask * 1.25f);
 }
 
@@ -124,15 +134,17 @@ Vec3f Clouds::AddSheets(Vec3f direction, Vec3f behind) const {
   const float mu = Dot(direction, light_.to_sun);
   const float scatter = 0.055f + 0.16f * std::pow(std::max(0.0f, mu), 6.0f);
   const float t = 7600 / (direction.z + 0.05f);
-  const float x = direction.x * t * 0.92f + direction.y * t * 0.39f, y = direction.y * t * 0.92f - direction.x * t * 0.39f;
-  const float alpha = (1 - Exp(-0.6f * CirrusAlpha(x / 5200 + 7, y / 5200))) * fade;
+  const float x = direction.x * t * 0.92f + direction.y * t * 0.39f,
+              y = direction.y * t * 0.92f - direction.x * t * 0.39f;
+  const float alpha = (1 - Exp(-0.8f * CirrusAlpha(x / 5200 + 7, y / 5200))) * fade;
   return Mix(behind, light_.sun * scatter + light_.ambient * 0.55f + behind * 0.25f, alpha);
 }
 
 Vec3f Clouds::Over(Vec3f direction, Vec3f behind, Vec3f haze, float dither) const {
   if (cover_ <= 0) return behind;
   const Vec3f background = AddSheets(direction, behind);
-  const float first = DistanceToLayer(direction.z, kBase), last = std::min(DistanceToLayer(direction.z, kTop), kFarthest);
+  const float first = DistanceToLayer(direction.z, kBase),
+              last = std::min(DistanceToLayer(direction.z, kTop), kFarthest);
   if (first >= last) return background;
 
   // Multiple scattering as three octaves of single scattering, each wider, weaker and less attenuated.
@@ -161,7 +173,8 @@ Vec3f Clouds::Over(Vec3f direction, Vec3f behind, Vec3f haze, float dither) cons
       b *= 0.20f;
     }
     const float h = Clamp01((Altitude(p) - kBase) / (kTop - kBase));
-    const Vec3f source = light_.sun * (1.40f * direct + 0.014f + 0.035f * h) + light_.ambient * (0.40f + 0.75f * h);
+    const Vec3f source =
+        light_.sun * (1.40f * direct + 0.014f + 0.035f * h) + light_.ambient * (0.40f + 0.75f * h);
     const float kept = Exp(-density * kExtinction * step);
     const float share = through * (1 - kept);
     light += source * share;

@@ -1,4 +1,5 @@
-// Fair-weather clouds: a volume of cumulus, thin sheets above it. Own composition; lighting after Wrenninge et al. (2013).
+// Fair-weather clouds: a volume of cumulus, thin sheets above it. Own composition; lighting after Wrenninge
+// et al. (2013).
 #pragma once
 
 #include <vector>
@@ -15,15 +16,15 @@ struct CloudLight {
   Vec3f ambient;  ///< mean radiance of the clear sky
 };
 
-/// Immutable. Coverage grows with distance, so that a bank stands low around the horizon and only puffs hang overhead;
-/// the field is shifted so that the sun is free from the origin.
+/// Immutable. Coverage grows with distance, so that a bank stands low around the horizon and only puffs hang
+/// overhead; the field is shifted so that the sun is free from the origin.
 class Clouds {
  public:
   /// `cover` is Daylight::cloud_cover; at 0 there are none.
   Clouds(double cover, const CloudLight& light);
 
-  /// Radiance of a sky direction with clouds before a clear sky: `behind` is the clear radiance there, `haze` that of the
-  /// air between. `dither` in [0, 1) shifts the steps.
+  /// Radiance of a sky direction with clouds before a clear sky: `behind` is the clear radiance there, `haze`
+  /// that of the air between. `dither` in [0, 1) shifts the steps.
   Vec3f Over(Vec3f direction, Vec3f behind, Vec3f haze, float dither) const;
 
  private:

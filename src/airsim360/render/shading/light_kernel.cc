@@ -39,7 +39,8 @@ KERNEL real3 Skin(real3 f0, real roughness, real kind, real n_dot_v) {
   return sel3(water, make3(wet, wet, wet), skin);
 }
 
-KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LightSet& out) {
+KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
+                        LightSet& out) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const real3 p = load3(s.px + i, s.py + i, s.pz + i);
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
@@ -59,19 +60,23 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   // Sky and bounced light.
   const Ambient ambient = SampleProbes(view, p, g, n, r);
   const real3 yellow = make3(real(1.10f), real(1.15f), real(0.55f)) * transmission;
-  real3 body = diffuse(inside, ambient.front + sel3(leaf, ambient.back * yellow, Grey(0)));
+  real3 body =
+      diffuse(inside, ambient.front * load(s.contact + i) + sel3(leaf, ambient.back * yellow, Grey(0)));
 
   // Sun.
   const real3 sun = Uniform(view.sun_irradiance) * load(s.sunlit + i);
   const real n_dot_l = dot3(n, l);
   const real lambert = rmax(n_dot_l, real(0.0f));
-  const real3 lit = sel3(leaf, leaf_diffuse(inside, transmission, n_dot_l), inside * (lambert * SHADE_INV_PI));
+  const real3 lit =
+      sel3(leaf, leaf_diffuse(inside, transmission, n_dot_l), inside * (lambert * SHADE_INV_PI));
   body = body + sun * lit;
   const real3 h = normalize3(l - d);
   const real alpha = rmax(roughness * roughness, real(0.006f));
-  const real3 glint = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, rmax(dot3(n, h), real(0.0f)), clamp01(dot3(l, h)));
+  const real3 glint = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v,
+                                    rmax(dot3(n, h), real(0.0f)), clamp01(dot3(l, h)));
   const real3 shine = sun * glint * lambert;
-  const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)), rmin(shine.z, real(kBrightest)));
+  const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
+                              rmin(shine.z, real(kBrightest)));
 
   const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * skin;
   real3 light = body * through + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
@@ -79,13 +84,15 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   // Air between.
   if (view.has_sky > 0.5f) {
     const real3 kept = transmittance(Uniform(view.extinction), load(rays.distance + i));
-    const real3 haze = Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
+    const real3 haze =
+        Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
     light = light * kept + haze * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z);
   }
   store3(out.r + i, out.g + i, out.b + i, light);
 }
 
-/// The sun's disc of 0.53 degrees, darker towards its limb: 1 - 0.6 (1 - mu) (Hestroffer & Magnan 1998, mid-visible).
+/// The sun's disc of 0.53 degrees, darker towards its limb: 1 - 0.6 (1 - mu) (Hestroffer & Magnan 1998,
+/// mid-visible).
 KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
   const real3 off = d - make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
   const real x2 = dot3(off, off) * (1.0f / (0.004625f * 0.004625f));
@@ -121,7 +128,7 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
 
 void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, Rgb8* out) {
   alignas(64) int32_t shown[3][kLanes];
-  const auto map = [&](real3 light, Rgb8* to, int n) __attribute__((always_inline)) {
+  const auto map = [&](real3 light, Rgb8 * to, int n) __attribute__((always_inline)) {
     const real3 c = tone_curve(light * real(exposure));
     to_int(srgb_encode(c.x) * 255.0f + 0.5f).copy_to(shown[0], stdx::vector_aligned);
     to_int(srgb_encode(c.y) * 255.0f + 0.5f).copy_to(shown[1], stdx::vector_aligned);
@@ -134,7 +141,9 @@ void ToneMapRow(const float* r, const float* g, const float* b, int count, float
   };
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    map({real(r + i, stdx::element_aligned), real(g + i, stdx::element_aligned), real(b + i, stdx::element_aligned)}, out + i, kLanes);
+    map({real(r + i, stdx::element_aligned), real(g + i, stdx::element_aligned),
+         real(b + i, stdx::element_aligned)},
+        out + i, kLanes);
   }
   if (i == count) return;
   // The rest, in a vector filled up with zeros.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/render/shading/probe_rays.h"
 #include "airsim360/render/shading/shading_scalar.h"
 
 namespace airsim360::internal {
@@ -14,11 +15,13 @@ constexpr int kDirections = 64;
 constexpr float kPi = 3.14159265f, kHeightStep = 0.125f, kInvalidWeight = 1e-4f;
 constexpr int kFloats = 16;
 
-// Spherical Fibonacci points: even and the same for all probes, so that neighbours differ only by what they see.
+// Spherical Fibonacci points: even and the same for all probes, so that neighbours differ only by what they
+// see.
 std::array<Vec3f, kDirections> EvenDirections() {
   std::array<Vec3f, kDirections> directions;
   for (int i = 0; i < kDirections; ++i) {
-    const float z = 1 - (2 * static_cast<float>(i) + 1) / kDirections, angle = static_cast<float>(i) * 2.39996323f;
+    const float z = 1 - (2 * static_cast<float>(i) + 1) / kDirections,
+                angle = static_cast<float>(i) * 2.39996323f;
     const float s = std::sqrt(1 - z * z);
     directions[i] = {s * std::cos(angle), s * std::sin(angle), z};
   }
@@ -36,7 +39,8 @@ std::array<std::array<float, 6>, kDirections> CubeWeights(const std::array<Vec3f
   for (int k = 0; k < 6; ++k) {
     float sum = 0;
     for (const Vec3f d : directions) sum += std::max(0.0f, Dot(d, kAxes[k]));
-    for (int i = 0; i < kDirections; ++i) weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPi / sum;
+    for (int i = 0; i < kDirections; ++i)
+      weights[i][k] = std::max(0.0f, Dot(directions[i], kAxes[k])) * kPi / sum;
   }
   return weights;
 }
@@ -52,90 +56,6 @@ void StoreTerms(const Cube& e, float weight, float* probe) {
   }
 }
 
-float Percentile(std::vector<float>& values, double share) {
-  const auto k = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<int64_t>(k), values.end());
-  return values[k];
-}
-
-// Where the scene's detail is: all but the outermost hundredths of its triangles, each way.
-Box3f DetailBounds(const Scene& scene) {
-  uint64_t total = 0;
-  for (const Instance& instance : scene.instances) total += scene.meshes[instance.mesh].triangles.size();
-  if (total == 0) return {};
-  const uint64_t stride = std::max<uint64_t>(1, total / 200000);
-  std::vector<float> axes[3];
-  uint64_t skip = 0;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    for (; skip < mesh.triangles.size(); skip += stride) {
-      const Vec3f p = instance.X_WM * mesh.positions[mesh.triangles[skip].x];
-      for (int k = 0; k < 3; ++k) axes[k].push_back(p[k]);
-    }
-    skip -= mesh.triangles.size();
-  }
-  Box3f box;
-  box.Add(Vec3f{Percentile(axes[0], 0.01), Percentile(axes[1], 0.01), Percentile(axes[2], 0.002)});
-  box.Add(Vec3f{Percentile(axes[0], 0.99), Percentile(axes[1], 0.99), Percentile(axes[2], 0.998)});
-  const Vec3f margin = box.size() * 0.1f + Vec3f{4, 4, 1};
-  return {Max(box.min - margin, scene.bounds.min), Min(box.max + margin, scene.bounds.max)};
-}
-
-// Sixteen rays that may start anywhere, all lanes finite.
-struct Packet {
-  RayHit16 rays;
-  alignas(64) int valid[16];
-
-  Packet() : rays{}, valid{} {
-    for (int i = 0; i < 16; ++i) rays.direction_z[i] = 1, rays.mask[i] = UINT32_MAX;
-  }
-  void Set(int i, Vec3f p, Vec3f d, float t_near, float t_far) {
-    rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
-    rays.direction_x[i] = d.x, rays.direction_y[i] = d.y, rays.direction_z[i] = d.z;
-    rays.t_near[i] = t_near, rays.t_far[i] = t_far, rays.time[i] = 0, rays.mask[i] = UINT32_MAX;
-    rays.id[i] = rays.flags[i] = 0;
-    rays.geometry[i] = rays.instance[i] = kMiss;
-    valid[i] = -1;
-  }
-  // Lanes not in use repeat one that is: Embree looks at all of them.
-  void Fill() {
-    int from = 0;
-    while (from < 15 && valid[from] == 0) ++from;
-    for (int i = 0; i < 16; ++i) {
-      if (valid[i] != 0) continue;
-      rays.origin_x[i] = rays.origin_x[from], rays.origin_y[i] = rays.origin_y[from], rays.origin_z[i] = rays.origin_z[from];
-      rays.direction_x[i] = rays.direction_x[from], rays.direction_y[i] = rays.direction_y[from], rays.direction_z[i] = rays.direction_z[from];
-      rays.t_far[i] = rays.t_far[from];
-    }
-  }
-};
-
-Vec3f UnpackDirection(uint32_t packed) {
-  constexpr float scale = 2.0f / 65534.0f;
-  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1, static_cast<float>(packed >> 16) * scale - 1);
-}
-
-// What a probe ray met.
-struct Met {
-  Vec3f point, normal, albedo;
-  bool back, open;  // seen from behind; foliage or glass, which has no inside
-};
-
-Met Resolve(const SurfaceTables& tables, const SurfaceRef& ref, Vec3f point, Vec3f direction) {
-  const InstanceRecord& instance = tables.instances[ref.instance];
-  const TriangleRecord& triangle = tables.triangles[instance.first_triangle + ref.triangle];
-  const uint32_t material = triangle.material & ~kMirroredUv;
-  const Vec3f n = UnpackDirection(triangle.geometric_normal);
-  const float* m = instance.normal_matrix;
-  Vec3f normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z, m[6] * n.x + m[7] * n.y + m[8] * n.z});
-  const bool back = Dot(normal, direction) > 0;
-  if (back) normal = -normal;
-  const auto kind = static_cast<SurfaceKind>(static_cast<int>(tables.materials[material].kind));
-  const Vec3f tint{instance.tint[0], instance.tint[1], instance.tint[2]};
-  return {point, normal, Min(tables.mean_colors[material] * tint, Vec3f{0.9f, 0.9f, 0.9f}), back,
-          kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
-}
-
 // Light of the sky on a surface in a street, half of it hidden; and of ground like that of the scene.
 Vec3f AmbientGuess(const Sky& sky, Vec3f n) {
   return sky.Irradiance(n) * 0.5f + sky.ground_radiance() * (kPi * 0.5f * (0.5f - 0.5f * n.z));
@@ -143,7 +63,8 @@ Vec3f AmbientGuess(const Sky& sky, Vec3f n) {
 
 }  // namespace
 
-LightProbes::LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, const Options& options) {
+LightProbes::LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky,
+                         const Options& options) {
   Place(tracer.scene(), options);
   probes_.assign(static_cast<size_t>(nx_) * ny_ * nz_ * kFloats, 0.0f);
   valid_.assign(static_cast<size_t>(nx_) * ny_ * nz_, 0);
@@ -160,19 +81,26 @@ void LightProbes::Place(const Scene& scene, const Options& options) {
   // Layers: 1.2 m apart at the bottom, growing to 6 m.
   float z = box.min.z + 0.3f, step = 1.2f;
   const float top = std::max(box.max.z + 2.0f, z + 2.5f);
-  for (; z < top || layers_.size() < 2; z += step, step = std::min(step * 1.16f, std::max(6.0f, (top - box.min.z) / 16))) layers_.push_back(z);
+  for (; z < top || layers_.size() < 2;
+       z += step, step = std::min(step * 1.16f, std::max(6.0f, (top - box.min.z) / 16)))
+    layers_.push_back(z);
   nz_ = static_cast<int>(layers_.size());
   const Vec3f size = Max(box.size(), Vec3f{2, 2, 2});
-  cell_ = std::max(options.cell, std::sqrt(size.x * size.y * static_cast<float>(nz_) / static_cast<float>(options.max_probes)));
+  const float wanted = std::clamp(std::max(size.x, size.y) / 24, 0.4f, options.cell);
+  cell_ = std::max(
+      wanted, std::sqrt(size.x * size.y * static_cast<float>(nz_) / static_cast<float>(options.max_probes)));
   nx_ = static_cast<int>(std::ceil(size.x / cell_)) + 1;
   ny_ = static_cast<int>(std::ceil(size.y / cell_)) + 1;
-  origin_ = {box.min.x + 0.5f * (size.x - cell_ * static_cast<float>(nx_ - 1)), box.min.y + 0.5f * (size.y - cell_ * static_cast<float>(ny_ - 1)), layers_[0]};
+  origin_ = {box.min.x + 0.5f * (size.x - cell_ * static_cast<float>(nx_ - 1)),
+             box.min.y + 0.5f * (size.y - cell_ * static_cast<float>(ny_ - 1)), layers_[0]};
 
   const int heights = static_cast<int>((layers_.back() - layers_[0]) / kHeightStep) + 2;
   for (int i = 0, k = 0; i < heights; ++i) {
     const float h = std::min(layers_[0] + static_cast<float>(i) * kHeightStep, layers_.back());
     while (k + 2 < nz_ && h > layers_[k + 1]) ++k;
-    layer_of_height_.push_back(std::min(static_cast<float>(k) + (h - layers_[k]) / (layers_[k + 1] - layers_[k]), static_cast<float>(nz_) - 1.0001f));
+    layer_of_height_.push_back(
+        std::min(static_cast<float>(k) + (h - layers_[k]) / (layers_[k + 1] - layers_[k]),
+                 static_cast<float>(nz_) - 1.0001f));
   }
 }
 
@@ -181,7 +109,8 @@ Vec3f LightProbes::Position(int x, int y, int z) const {
 }
 
 // Sixteen neighbours look the same way at the same time: coherent packets.
-void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y, int z) {
+void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y,
+                          int z) {
   static const std::array<Vec3f, kDirections> directions = EvenDirections();
   static const auto weights = CubeWeights(directions);
   const Vec3f interior = tracer.scene().interior_light;
@@ -204,7 +133,9 @@ void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, 
       for (int i = 0; i < count; ++i) {
         if (view.rays.geometry[i] == kMiss) continue;
         const Vec3f point = Position(first + i, y, z) + d * view.rays.t_far[i];
-        met[i] = Resolve(tables, tracer.Resolve(view.rays.geometry[i], view.rays.instance[i], view.rays.primitive[i]), point, d);
+        met[i] = ResolveMet(
+            tables, tracer.Resolve(view.rays.geometry[i], view.rays.instance[i], view.rays.primitive[i]),
+            point, d);
         behind[i] += met[i].back && !met[i].open;
         if (sky == nullptr || sky->to_sun().z < 0 || Dot(met[i].normal, sky->to_sun()) <= 0) continue;
         shadow.Set(i, point + met[i].normal * 0.01f, sky->to_sun(), 0, INFINITY);
@@ -220,7 +151,8 @@ void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, 
         } else if (sky) {
           const Vec3f reflectance = met[i].albedo * ((met[i].back && !met[i].open ? 0.1f : 1.0f) / kPi);
           guess = reflectance * AmbientGuess(*sky, met[i].normal);
-          if (shadow.valid[i] && !occluded[i]) light = reflectance * sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
+          if (shadow.valid[i] && !occluded[i])
+            light = reflectance * sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
         } else {
           const float t = view.rays.t_far[i];
           light = interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
@@ -265,7 +197,8 @@ ProbeView LightProbes::view() const {
   view.probes = probes_.data();
   view.origin_x = origin_.x, view.origin_y = origin_.y;
   view.cells_per_metre = 1 / cell_;
-  view.max_x = static_cast<float>(nx_ - 2), view.max_y = static_cast<float>(ny_ - 2), view.max_z = static_cast<float>(nz_ - 2);
+  view.max_x = static_cast<float>(nx_ - 2), view.max_y = static_cast<float>(ny_ - 2),
+  view.max_z = static_cast<float>(nz_ - 2);
   view.stride_y = nx_, view.stride_z = nx_ * ny_;
   view.layer_of_height = layer_of_height_.data();
   view.height_origin = layers_[0];
@@ -277,18 +210,23 @@ ProbeView LightProbes::view() const {
 Vec3f LightProbes::Irradiance(Vec3f p, Vec3f n) const {
   const float x = std::clamp((p.x - origin_.x) / cell_, 0.0f, static_cast<float>(nx_) - 1.0001f);
   const float y = std::clamp((p.y - origin_.y) / cell_, 0.0f, static_cast<float>(ny_) - 1.0001f);
-  const float h = std::clamp((p.z - origin_.z) / kHeightStep, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
+  const float h =
+      std::clamp((p.z - origin_.z) / kHeightStep, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
   const float z = layer_of_height_[static_cast<size_t>(h + 0.5f)];
   const int ix = static_cast<int>(x), iy = static_cast<int>(y), iz = static_cast<int>(z);
   float sum[kFloats] = {};
   for (int k = 0; k < 8; ++k) {
     const int dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
-    const float weight = (dx ? x - ix : 1 - (x - ix)) * (dy ? y - iy : 1 - (y - iy)) * (dz ? z - iz : 1 - (z - iz));
+    const float weight =
+        (dx ? x - ix : 1 - (x - ix)) * (dy ? y - iy : 1 - (y - iy)) * (dz ? z - iz : 1 - (z - iz));
     const float* probe = &probes_[((static_cast<size_t>(iz + dz) * ny_ + iy + dy) * nx_ + ix + dx) * kFloats];
     for (int c = 0; c < kFloats; ++c) sum[c] += probe[c] * weight;
   }
   Vec3f e;
-  for (int c = 0; c < 3; ++c) e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z + sum[4 * c + 7] * n.z * n.z) / sum[3]);
+  for (int c = 0; c < 3; ++c)
+    e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z +
+                           sum[4 * c + 7] * n.z * n.z) /
+                              sum[3]);
   return e;
 }
 

@@ -1,4 +1,5 @@
-// Ambient light by place: sky seen past the buildings and one bounce of sun and sky, baked into a grid of probes.
+// Ambient light by place: sky seen past the buildings and one bounce of sun and sky, baked into a grid of
+// probes.
 #pragma once
 
 #include <memory>
@@ -11,17 +12,19 @@
 
 namespace airsim360::internal {
 
-/// Immutable. Columns stand on a square lattice over the part of the scene where its triangles are; layers are close
-/// together near the ground and further apart above. Every probe holds irradiance as a + b . n + c n_z^2 of the normal n,
-/// exact for n up, down, and on average level. Probes inside solids count for nothing. The same bytes with any number of threads.
+/// Immutable. Columns stand on a square lattice over the part of the scene where its triangles are; layers
+/// are close together near the ground and further apart above. Every probe holds irradiance as a + b . n + c
+/// n_z^2 of the normal n, exact for n up, down, and on average level. Probes inside solids count for nothing.
+/// The same bytes with any number of threads.
 class LightProbes {
  public:
   struct Options {
     int max_probes = 200000;
-    float cell = 2.0f;  ///< least distance of columns, m
+    float cell = 2.0f;  ///< distance of columns, m; less in small rooms, more where max_probes is reached
   };
 
-  /// `sky` is nullptr in closed rooms: then surfaces glow with `interior_light`, less where something is near.
+  /// `sky` is nullptr in closed rooms: then surfaces glow with `interior_light`, less where something is
+  /// near.
   LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, const Options& options);
 
   ProbeView view() const;

@@ -29,8 +29,10 @@ void AddBox(Mesh& mesh, Vec3f lo, Vec3f hi, bool inwards = false) {
         corner[k][(axis + 2) % 3] = k >= 2 ? hi[(axis + 2) % 3] : lo[(axis + 2) % 3];
       }
       const bool forward = (side == 1) != inwards;
-      if (forward) AddQuad(mesh, corner[0], corner[1], corner[2], corner[3]);
-      else AddQuad(mesh, corner[3], corner[2], corner[1], corner[0]);
+      if (forward)
+        AddQuad(mesh, corner[0], corner[1], corner[2], corner[3]);
+      else
+        AddQuad(mesh, corner[3], corner[2], corner[1], corner[0]);
     }
   }
 }
@@ -75,14 +77,15 @@ TEST(LightProbes, OverAnEmptyPlaneTheyShowTheSky) {
 TEST(LightProbes, SunlitGroundLightsFromBelow) {
   const World world(Ground(), 0.5f);
   const Vec3f below = world.probes->Irradiance({1, 2, 1.5f}, {0, 0, -1});
-  const float full = 0.5f * (world.sky->sun_irradiance().y * world.sky->to_sun().z + 0.5f * world.sky->Irradiance({0, 0, 1}).y);
+  const float full = 0.5f * (world.sky->sun_irradiance().y * world.sky->to_sun().z +
+                             0.5f * world.sky->Irradiance({0, 0, 1}).y);
   EXPECT_NEAR(below.y / full, 1, 0.25f);
 }
 
 TEST(LightProbes, InAClosedBoxItIsDarkAndUnderARoofHalfDark) {
   Mesh mesh = Ground();
-  AddBox(mesh, {8, 8, 0.01f}, {20, 20, 9}, true);     // a room closed on all sides
-  AddBox(mesh, {-20, -10, 4}, {-4, 10, 4.5f});        // a roof without walls
+  AddBox(mesh, {8, 8, 0.01f}, {20, 20, 9}, true);  // a room closed on all sides
+  AddBox(mesh, {-20, -10, 4}, {-4, 10, 4.5f});     // a roof without walls
   const World world(mesh, 0.3f);
   const float open = world.probes->Irradiance({5, -15, 1}, {0, 0, 1}).y;
   const float closed = world.probes->Irradiance({14, 14, 4}, {0, 0, 1}).y;
@@ -96,7 +99,8 @@ TEST(LightProbes, LightDoesNotLeakFromInsideSolids) {
   Mesh mesh = Ground();
   AddBox(mesh, {-6, -6, 0}, {6, 6, 12});
   const World world(mesh, 0.3f);
-  // Close to the wall the probes inside count for nothing: about half the sky is seen, wherever the lattice falls.
+  // Close to the wall the probes inside count for nothing: about half the sky is seen, wherever the lattice
+  // falls.
   const float open = world.probes->Irradiance({25, 0, 3}, {1, 0, 0}).y;
   for (float y : {-3.0f, -1.3f, 0.0f, 1.7f}) {
     const float wall = world.probes->Irradiance({6.9f, y, 5}, {1, 0, 0}).y;
@@ -132,7 +136,8 @@ TEST(LightProbes, AreTheSameWithAnyNumberOfThreads) {
   const World single(mesh);
   ASSERT_EQ(many.probes->size(), single.probes->size());
   for (float x = -9; x < 9; x += 0.7f) {
-    EXPECT_EQ(many.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}), single.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}));
+    EXPECT_EQ(many.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}),
+              single.probes->Irradiance({x, 0.3f * x, 2}, {0, 0.6f, 0.8f}));
   }
 }
 

@@ -13,7 +13,8 @@ int Wrap(int i, int period) { return period > 0 ? ((i % period) + period) % peri
 
 // 1 - distance to the nearest of the random points, one a cell.
 float Worley(Vec3f p, int period) {
-  const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y)), z = static_cast<int>(std::floor(p.z));
+  const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y)),
+            z = static_cast<int>(std::floor(p.z));
   float best = 9;
   for (int k = 0; k < 27; ++k) {
     const int i = x + k % 3 - 1, j = y + k / 3 % 3 - 1, l = z + k / 9 - 1;
@@ -64,9 +65,12 @@ CloudNoise::CloudNoise() : voxels_(static_cast<size_t>(kSize) * kSize * kSize) {
   ParallelFor(kSize, [&](int64_t k) {
     for (int j = 0; j < kSize; ++j) {
       for (int i = 0; i < kSize; ++i) {
-        const Vec3f p = Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)} * (1.0f / kSize);
-        const float worley = 0.55f * Worley(p * 4.0f, 4) + 0.27f * Worley(p * 8.0f, 8) + 0.18f * Worley(p * 16.0f, 16);
-        const float value = 0.5f * ValueNoise3(p * 5.0f, 5) + 0.3f * ValueNoise3(p * 10.0f, 10) + 0.2f * ValueNoise3(p * 20.0f, 20);
+        const Vec3f p =
+            Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)} * (1.0f / kSize);
+        const float worley =
+            0.55f * Worley(p * 4.0f, 4) + 0.27f * Worley(p * 8.0f, 8) + 0.18f * Worley(p * 16.0f, 16);
+        const float value = 0.5f * ValueNoise3(p * 5.0f, 5) + 0.3f * ValueNoise3(p * 10.0f, 10) +
+                            0.2f * ValueNoise3(p * 20.0f, 20);
         voxels_[(static_cast<size_t>(k) * kSize + j) * kSize + i] = 0.55f * worley + 0.45f * value;
       }
     }
@@ -78,7 +82,8 @@ float CloudNoise::At(Vec3f p) const {
   const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
   const float u = p.x - fx, v = p.y - fy, w = p.z - fz;
   constexpr int kMask = kSize - 1;
-  const int x0 = static_cast<int>(fx) & kMask, y0 = static_cast<int>(fy) & kMask, z0 = static_cast<int>(fz) & kMask;
+  const int x0 = static_cast<int>(fx) & kMask, y0 = static_cast<int>(fy) & kMask,
+            z0 = static_cast<int>(fz) & kMask;
   const int x1 = (x0 + 1) & kMask, y1 = (y0 + 1) & kMask, z1 = (z0 + 1) & kMask;
   const auto at = [&](int i, int j, int k) { return voxels_[(k * kSize + j) * kSize + i]; };
   return Mix(Mix(Mix(at(x0, y0, z0), at(x1, y0, z0), u), Mix(at(x0, y1, z0), at(x1, y1, z0), u), v),

@@ -4,7 +4,8 @@ namespace airsim360::internal {
 namespace {
 
 SkyTableView ViewOf(const SkyTable& table) {
-  return {table.texels.data(), static_cast<float>(table.width), static_cast<float>(table.height), table.stride()};
+  return {table.texels.data(), static_cast<float>(table.width), static_cast<float>(table.height),
+          table.stride()};
 }
 
 void Put(float (&to)[3], Vec3f from) {
@@ -13,7 +14,8 @@ void Put(float (&to)[3], Vec3f from) {
 
 }  // namespace
 
-ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky, const LightProbes* probes) {
+ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky,
+                        const LightProbes* probes) {
   ShadeView view{};
   view.triangles = tables.triangles.data();
   view.instances = tables.instances.data();

@@ -8,8 +8,9 @@
 
 namespace airsim360::internal {
 
-/// Refers to everything given, which must outlive it. `sky` and `probes` may be nullptr: then ambient light is the same
-/// everywhere.
-ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky, const LightProbes* probes);
+/// Refers to everything given, which must outlive it. `sky` and `probes` may be nullptr: then ambient light
+/// is the same everywhere.
+ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky,
+                        const LightProbes* probes);
 
 }  // namespace airsim360::internal

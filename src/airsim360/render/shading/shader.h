@@ -10,7 +10,8 @@
 
 namespace airsim360 {
 
-/// Up to kCapacity rays from one point and what they met. Neighbours in the batch should be neighbours on the sphere.
+/// Up to kCapacity rays from one point and what they met. Neighbours in the batch should be neighbours on the
+/// sphere.
 struct alignas(64) HitBatch {
   static constexpr int kCapacity = 256;
   int count = 0;
@@ -18,8 +19,8 @@ struct alignas(64) HitBatch {
   float cone_angle = 0;  ///< angle between neighbouring pixels, radians (pi / H of a panorama)
   alignas(64) float direction_x[kCapacity], direction_y[kCapacity], direction_z[kCapacity];  ///< unit, in W
   alignas(64) float distance[kCapacity];
-  alignas(64) float u[kCapacity], v[kCapacity];                       ///< barycentrics as in RayHit16
-  alignas(64) uint32_t instance[kCapacity], triangle[kCapacity];      ///< as in SurfaceRef; instance kMiss = sky
+  alignas(64) float u[kCapacity], v[kCapacity];                   ///< barycentrics as in RayHit16
+  alignas(64) uint32_t instance[kCapacity], triangle[kCapacity];  ///< as in SurfaceRef; instance kMiss = sky
   alignas(64) uint32_t sample_key[kCapacity];  ///< 0 = pixel centre; others choose a point of the sun's disc
 };
 
@@ -28,17 +29,20 @@ struct alignas(64) RadianceBatch {
   float r[HitBatch::kCapacity], g[HitBatch::kCapacity], b[HitBatch::kCapacity];
 };
 
-/// Immutable after construction; Shade may run concurrently and does not depend on the order of hits in a batch.
+/// Immutable after construction; Shade may run concurrently and does not depend on the order of hits in a
+/// batch.
 class Shader {
  public:
   explicit Shader(std::shared_ptr<const RayTracer> tracer);
   ~Shader();
 
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
-  /// Factor from radiance to the input of the tone curve: fixed by the scene's daylight, the same for the whole sphere.
+  /// Factor from radiance to the input of the tone curve: fixed by the scene's daylight, the same for the
+  /// whole sphere.
   float Exposure() const;
   /// Display colours of `count` radiances: exposure * 2^exposure_ev, filmic curve, sRGB.
-  void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out) const;
+  void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,
+               Rgb8* out) const;
 
  private:
   struct Impl;

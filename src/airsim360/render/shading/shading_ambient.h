@@ -33,7 +33,8 @@ static __attribute__((noinline)) real3 SampleSky(const SkyTableView& table, real
     t = (rroot(0.36f + 1.6f * e) - 0.6f) * 1.25f;
   }
   const real row = clamp01(t) * (table.height - 1.0f);
-  const real x = rmin(rfloor(column), real(table.width - 1.0f)), y = rmin(rfloor(row), real(table.height - 2.0f));
+  const real x = rmin(rfloor(column), real(table.width - 1.0f)),
+             y = rmin(rfloor(row), real(table.height - 2.0f));
   alignas(64) int32_t index[kLanes];
   alignas(64) float fx[kLanes], fy[kLanes];
   ((to_int(y) * table.stride + to_int(x)) * 4).copy_to(index, stdx::vector_aligned);
@@ -53,7 +54,9 @@ static __attribute__((noinline)) real3 SampleSky(const SkyTableView& table, real
 /// Sky, and ground below the horizon, blurred as by a surface of this roughness.
 KERNEL real3 BlurredSky(const ShadeView& view, real3 d, real roughness) {
   const real3 up = SampleSky(view.sky, d, false);
-  const real3 sharp = sel3(d.z > 0.0f, up, lerp3(up, make3(real(view.ground[0]), real(view.ground[1]), real(view.ground[2])), clamp01(d.z * -12.0f)));
+  const real3 sharp = sel3(d.z > 0.0f, up,
+                           lerp3(up, make3(real(view.ground[0]), real(view.ground[1]), real(view.ground[2])),
+                                 clamp01(d.z * -12.0f)));
   if (!stdx::any_of(roughness > 0.05f)) return sharp;
   const real3 a = SampleSky(view.blurred[0], d, true);
   const real3 b = SampleSky(view.blurred[1], d, true);
@@ -72,8 +75,11 @@ struct Ambient {
 KERNEL Ambient UniformAmbient(const ShadeView& view, real3 n, real3 r) {
   const float* c = view.sky_irradiance;
   const auto sky = [&](real3 a) __attribute__((always_inline)) {
-    const real3 e = sh9_irradiance(Uniform(c), Uniform(c + 3), Uniform(c + 6), Uniform(c + 9), Uniform(c + 12), Uniform(c + 15), Uniform(c + 18), Uniform(c + 21), Uniform(c + 24), a);
-    const ufloat3 extra{view.mean_ambient[0] * SHADE_PI, view.mean_ambient[1] * SHADE_PI, view.mean_ambient[2] * SHADE_PI};
+    const real3 e =
+        sh9_irradiance(Uniform(c), Uniform(c + 3), Uniform(c + 6), Uniform(c + 9), Uniform(c + 12),
+                       Uniform(c + 15), Uniform(c + 18), Uniform(c + 21), Uniform(c + 24), a);
+    const ufloat3 extra{view.mean_ambient[0] * SHADE_PI, view.mean_ambient[1] * SHADE_PI,
+                        view.mean_ambient[2] * SHADE_PI};
     const real3 sum = e + Uniform(view.ground) * ((0.5f - 0.5f * a.z) * SHADE_PI * view.has_sky) + extra;
     const real zero = real(0.0f);
     return make3(rmax(sum.x, zero), rmax(sum.y, zero), rmax(sum.z, zero));
@@ -81,7 +87,8 @@ KERNEL Ambient UniformAmbient(const ShadeView& view, real3 n, real3 r) {
   return {sky(n), sky(-n), sky(r)};
 }
 
-static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g, real3 n, real3 r) {
+static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g, real3 n,
+                                                      real3 r) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, r);
 
@@ -97,13 +104,16 @@ static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, rea
   for (int i = 0; i < kLanes; ++i) layer[i] = grid.layer_of_height[static_cast<int>(layer[i])];
   const real z = load(layer);
 
-  const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)), z0 = rmin(rfloor(z), real(grid.max_z));
-  alignas(64) float fx[kLanes], fy[kLanes], fz[kLanes], nx[kLanes], ny[kLanes], nz[kLanes], rx[kLanes], ry[kLanes], rz[kLanes];
+  const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)),
+             z0 = rmin(rfloor(z), real(grid.max_z));
+  alignas(64) float fx[kLanes], fy[kLanes], fz[kLanes], nx[kLanes], ny[kLanes], nz[kLanes], rx[kLanes],
+      ry[kLanes], rz[kLanes];
   alignas(64) int32_t index[kLanes];
   store3(fx, fy, fz, make3(x - x0, y - y0, z - z0));
   store3(nx, ny, nz, n);
   store3(rx, ry, rz, r);
-  ((to_int(z0) * grid.stride_z + to_int(y0) * grid.stride_y + to_int(x0)) * 16).copy_to(index, stdx::vector_aligned);
+  ((to_int(z0) * grid.stride_z + to_int(y0) * grid.stride_y + to_int(x0)) * 16)
+      .copy_to(index, stdx::vector_aligned);
 
   ColorLanes front, back, reflected;
   const int along_x = 16, along_y = grid.stride_y * 16, along_z = grid.stride_z * 16;
@@ -113,7 +123,8 @@ static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, rea
     Quad terms[4] = {};
     for (int k = 0; k < 8; ++k) {
       const float* probe = base + (k & 1 ? along_x : 0) + (k & 2 ? along_y : 0) + (k & 4 ? along_z : 0);
-      const float weight = (k & 1 ? fx[i] : 1 - fx[i]) * (k & 2 ? fy[i] : 1 - fy[i]) * (k & 4 ? fz[i] : 1 - fz[i]);
+      const float weight =
+          (k & 1 ? fx[i] : 1 - fx[i]) * (k & 2 ? fy[i] : 1 - fy[i]) * (k & 4 ? fz[i] : 1 - fz[i]);
       for (int j = 0; j < 4; ++j) terms[j] += LoadQuad(probe + 4 * j) * weight;
     }
     const float scale = 1.0f / terms[0][3];
@@ -123,9 +134,12 @@ static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, rea
     const Quad even = terms[0] + square * (nz[i] * nz[i]);
     front.Set(i, even + bent);
     back.Set(i, even - bent);
-    reflected.Set(i, terms[0] + terms[1] * rx[i] + terms[2] * ry[i] + terms[3] * rz[i] + square * (rz[i] * rz[i]));
+    reflected.Set(
+        i, terms[0] + terms[1] * rx[i] + terms[2] * ry[i] + terms[3] * rz[i] + square * (rz[i] * rz[i]));
   }
-  const auto positive = [&](real3 c) __attribute__((always_inline)) { return make3(rmax(c.x, zero), rmax(c.y, zero), rmax(c.z, zero)); };
+  const auto positive = [&](real3 c) __attribute__((always_inline)) {
+    return make3(rmax(c.x, zero), rmax(c.y, zero), rmax(c.z, zero));
+  };
   return {positive(front.Get()), positive(back.Get()), positive(reflected.Get())};
 }
 

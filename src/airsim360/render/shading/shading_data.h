@@ -1,21 +1,22 @@
-// What the shading kernels read and write: plain data only, because kernels are compiled once per instruction set.
+// What the shading kernels read and write: plain data only, because kernels are compiled once per instruction
+// set.
 #pragma once
 
 #include <cstdint>
 
 namespace airsim360::internal {
 
-/// Everything of one triangle that shading needs, in one cache line. Directions are in the mesh frame, packed as two
-/// 16-bit octahedral coordinates.
+/// Everything of one triangle that shading needs, in one cache line. Directions are in the mesh frame, packed
+/// as two 16-bit octahedral coordinates.
 struct alignas(64) TriangleRecord {
   uint32_t normals[3];
   uint32_t geometric_normal;
-  uint32_t tangent;       ///< direction of growing u
-  float uv[6];            ///< in texture space, transform applied
-  float texels_log2;      ///< log2 of uv units per metre
-  uint32_t material;      ///< index; kMirroredUv: green of a normal map points along -(n x t)
-  uint32_t pane;          ///< hash, the same for both triangles of a quad
-  float area;             ///< m^2, of the quad where it is one
+  uint32_t tangent;   ///< direction of growing u
+  float uv[6];        ///< in texture space, transform applied
+  float texels_log2;  ///< log2 of uv units per metre
+  uint32_t material;  ///< index; kMirroredUv: green of a normal map points along -(n x t)
+  uint32_t pane;      ///< hash, the same for both triangles of a quad
+  float area;         ///< m^2, of the quad where it is one
 };
 inline constexpr uint32_t kMirroredUv = 0x80000000u;
 
@@ -23,12 +24,17 @@ inline constexpr uint32_t kMirroredUv = 0x80000000u;
 struct alignas(64) InstanceRecord {
   float normal_matrix[9];  ///< row-major, mesh frame to W, for normals; not normalised
   float tint[3];
-  float texels_log2;       ///< minus log2 of its scale
+  float texels_log2;  ///< minus log2 of its scale
   uint32_t first_triangle;
   uint32_t hash;
 };
 
-enum MaterialFlags : uint32_t { kNormalMapped = 1, kRoughnessMapped = 2, kEmissionMapped = 4, kBaseMapped = 8 };
+enum MaterialFlags : uint32_t {
+  kNormalMapped = 1,
+  kRoughnessMapped = 2,
+  kEmissionMapped = 4,
+  kBaseMapped = 8
+};
 
 /// Of one material, one cache line and a bit.
 struct alignas(64) MaterialRecord {
@@ -36,7 +42,7 @@ struct alignas(64) MaterialRecord {
   float metallic, roughness;
   float emission[3];
   float transmission, macro_variation, normal_scale;
-  float kind;              ///< SurfaceKind as a number
+  float kind;                                                                 ///< SurfaceKind as a number
   int32_t base_texture, roughness_texture, normal_texture, emission_texture;  ///< index; 0 = plain white
 };
 
@@ -56,19 +62,20 @@ struct TextureRecord {
 };
 
 struct SkyTableView {
-  const float* texels;     ///< SkyTable::texels
-  float width, height;     ///< height - 1 intervals
+  const float* texels;  ///< SkyTable::texels
+  float width, height;  ///< height - 1 intervals
   int32_t stride;
 };
 
-/// Regular columns of probes; see light_probes.h. 16 floats each, all times the weight: the constant term of r, g, b and
-/// the weight itself; the x terms and the z^2 term of r; the y terms and z^2 of g; the z terms and z^2 of b.
+/// Regular columns of probes; see light_probes.h. 16 floats each, all times the weight: the constant term of
+/// r, g, b and the weight itself; the x terms and the z^2 term of r; the y terms and z^2 of g; the z terms
+/// and z^2 of b.
 struct ProbeView {
-  const float* probes;     ///< nullptr = none
+  const float* probes;  ///< nullptr = none
   float origin_x, origin_y, cells_per_metre;
-  float max_x, max_y, max_z;        ///< highest valid coordinate of the lower corner of a cell
-  int32_t stride_y, stride_z;       ///< in probes
-  const float* layer_of_height;     ///< table of fractional layers over height
+  float max_x, max_y, max_z;     ///< highest valid coordinate of the lower corner of a cell
+  int32_t stride_y, stride_z;    ///< in probes
+  const float* layer_of_height;  ///< table of fractional layers over height
   float height_origin, height_scale, height_last;
 };
 
@@ -84,10 +91,10 @@ struct ShadeView {
   ProbeView probes;
   float to_sun[3], sun_irradiance[3], sun_radiance[3];
   float extinction[3], horizon_mean[3], horizon_x[3], horizon_y[3];
-  float ground[3];          ///< radiance of the far ground below the horizon
-  float ground_z;           ///< where it lies
+  float ground[3];  ///< radiance of the far ground below the horizon
+  float ground_z;   ///< where it lies
   float sky_irradiance[27];
-  float mean_ambient[3];    ///< radiance where there are no probes
+  float mean_ambient[3];  ///< radiance where there are no probes
 };
 
 inline constexpr int kBatch = 256;
@@ -96,11 +103,11 @@ inline constexpr int kBatch = 256;
 struct alignas(64) RaySet {
   float ox[kBatch], oy[kBatch], oz[kBatch];
   float dx[kBatch], dy[kBatch], dz[kBatch];
-  float distance[kBatch], width[kBatch];     ///< from the origin; of the ray cone there
+  float distance[kBatch], width[kBatch];  ///< from the origin; of the ray cone there
   float u[kBatch], v[kBatch];
   uint32_t instance[kBatch], triangle[kBatch];
-  uint32_t key[kBatch], slot[kBatch];        ///< sample key; where the answer goes
-  int count;                                 ///< last, so that all arrays are aligned
+  uint32_t key[kBatch], slot[kBatch];  ///< sample key; where the answer goes
+  int count;                           ///< last, so that all arrays are aligned
 };
 
 /// Surfaces under those rays.
@@ -115,7 +122,8 @@ struct alignas(64) SurfaceSet {
   float mirror[kBatch];                      ///< > 0: reflects sharply enough for a traced ray
   float lx[kBatch], ly[kBatch], lz[kBatch];  ///< towards the sun (a point of its disc)
   float sunlit[kBatch];                      ///< in: 1 if the sun can matter; then 1 if it is seen
-  float traced[kBatch];                      ///< 1 if reflected_* is the radiance along the reflected direction
+  float contact[kBatch];                     ///< share of ambient light that things close above leave
+  float traced[kBatch];  ///< 1 if reflected_* is the radiance along the reflected direction
   float reflected_r[kBatch], reflected_g[kBatch], reflected_b[kBatch];
 };
 

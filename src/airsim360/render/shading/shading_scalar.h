@@ -28,7 +28,9 @@ SHARED real rfloor(real a) { return std::floor(a); }
 SHARED real rabs(real a) { return std::fabs(a); }
 SHARED real pow2_int(real i) { return std::bit_cast<float>((static_cast<int32_t>(i) + 127) << 23); }
 SHARED real exponent_of(real a) { return static_cast<float>((std::bit_cast<int32_t>(a) >> 23) - 127); }
-SHARED real mantissa_of(real a) { return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000); }
+SHARED real mantissa_of(real a) {
+  return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
+}
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shading/shading_shared.h"
 #undef SHARED

@@ -1,15 +1,18 @@
-// The shading functions of all tiers, once, in a subset that is C++ (scalar and SIMD) and GLSL at the same time.
-// Not a normal header: it is included inside a namespace by shading_scalar.h and shading_simd.h, or pasted into a shader
-// after shading_glsl.h; no include guard, no types of its own. The one who includes it provides
-//   real real3 (per lane), ufloat ufloat3 (same for all lanes), mask_t, SHARED, INOUT, sel sel3 make3 rmin rmax rroot
-//   rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3.
-// Only + - * / sqrt floor and bit moves are used, so every compiler and lane width gives the same bits (without
-// contraction). Directions are unit vectors pointing away from the surface; cosines are clamped by the caller.
+// The shading functions of all tiers, once, in a subset that is C++ (scalar and SIMD) and GLSL at the same
+// time. Not a normal header: it is included inside a namespace by shading_scalar.h and shading_simd.h, or
+// pasted into a shader after shading_glsl.h; no include guard, no types of its own. The one who includes it
+// provides
+//   real real3 (per lane), ufloat ufloat3 (same for all lanes), mask_t, SHARED, INOUT, sel sel3 make3 rmin
+//   rmax rroot rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3.
+// Only + - * / sqrt floor and bit moves are used, so every compiler and lane width gives the same bits
+// (without contraction). Directions are unit vectors pointing away from the surface; cosines are clamped by
+// the caller.
 
 #define SHADE_PI 3.14159265f
 #define SHADE_INV_PI 0.318309886f
 
-// ---- numbers ----------------------------------------------------------------------------------------------------
+// ---- numbers
+// ----------------------------------------------------------------------------------------------------
 
 SHARED real clamp01(real x) { return rmin(rmax(x, real(0.0f)), real(1.0f)); }
 SHARED real lerp1(real a, real b, real t) { return a + (b - a) * t; }
@@ -22,7 +25,9 @@ SHARED real luminance(real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f 
 SHARED real exp2_approx(real x) {
   real whole = rfloor(x + 0.5f);
   real f = (x - whole) * 0.69314718f;
-  real p = 1.0f + f * (1.0f + f * (0.5f + f * (0.166666667f + f * (0.0416666667f + f * (0.00833333333f + f * 0.00138888889f)))));
+  real p =
+      1.0f + f * (1.0f + f * (0.5f + f * (0.166666667f +
+                                          f * (0.0416666667f + f * (0.00833333333f + f * 0.00138888889f)))));
   return p * pow2_int(whole);
 }
 
@@ -42,7 +47,9 @@ SHARED real log2_approx(real x) {
 }
 
 // x^y for x >= 0.
-SHARED real pow_approx(real x, real y) { return exp2_approx(rmax(y * log2_approx(rmax(x, real(1e-30f))), real(-125.0f))); }
+SHARED real pow_approx(real x, real y) {
+  return exp2_approx(rmax(y * log2_approx(rmax(x, real(1e-30f))), real(-125.0f)));
+}
 
 // sin(x) for |x| up to a few thousand; absolute error below 3e-6 near 0, growing with |x| as float does.
 SHARED real sin_approx(real x) {
@@ -50,7 +57,8 @@ SHARED real sin_approx(real x) {
   real y = (x - turns * 3.140625f) - turns * 9.67653589e-4f;
   real odd = turns - 2.0f * rfloor(turns * 0.5f);
   real y2 = y * y;
-  real s = y * (1.0f + y2 * (-0.166666667f + y2 * (0.00833333333f + y2 * (-0.000198412698f + y2 * 2.75573192e-6f))));
+  real s = y * (1.0f +
+                y2 * (-0.166666667f + y2 * (0.00833333333f + y2 * (-0.000198412698f + y2 * 2.75573192e-6f))));
   return s * (1.0f - 2.0f * odd);
 }
 
@@ -76,7 +84,8 @@ SHARED real atan2_approx(real y, real x) {
 
 SHARED real asin_approx(real x) { return atan2_approx(x, rroot(rmax(1.0f - x * x, real(0.0f)))); }
 
-// ---- colour -----------------------------------------------------------------------------------------------------
+// ---- colour
+// -----------------------------------------------------------------------------------------------------
 
 // sRGB transfer function (IEC 61966-2-1), [0, 1] to [0, 1].
 SHARED real srgb_encode(real linear_value) {
@@ -84,21 +93,23 @@ SHARED real srgb_encode(real linear_value) {
   return sel(c < 0.0031308f, c * 12.92f, 1.055f * pow_approx(c, real(0.416666667f)) - 0.055f);
 }
 
-// Its inverse with a quartic fit above the toe, within 1.2 per cent of the curve: for texels, before filtering.
+// Its inverse with a quartic fit above the toe, within 1.2 per cent of the curve: for texels, before
+// filtering.
 SHARED real srgb_decode_approx(real s) {
   real p = 0.00109740f + s * (0.02750550f + s * (0.56390260f + s * (0.52268787f - s * 0.11601764f)));
   return sel(s < 0.04045f, s * 0.0773993808f, p);
 }
 
-// Film-like response of one channel: a logistic curve in log exposure, 0 at 0, about 0.3 at 0.18 * 3, 1 at infinity.
+// Film-like response of one channel: a logistic curve in log exposure, 0 at 0, about 0.3 at 0.18 * 3, 1 at
+// infinity.
 SHARED real film_curve(real x) {
   real p = pow_approx(x * 1.35f, real(1.17f));
   return p / (p + 1.0f) * 1.02f;
 }
 
-// Scene radiance times exposure to display-linear colour. A little of each channel reaches the others, as in film, so that
-// very bright colours turn white instead of clipping; saturation is given back after the curve, but not in the shadows,
-// where the eye sees little of it.
+// Scene radiance times exposure to display-linear colour. A little of each channel reaches the others, as in
+// film, so that very bright colours turn white instead of clipping; saturation is given back after the curve,
+// but not in the shadows, where the eye sees little of it.
 SHARED real3 tone_curve(real3 c) {
   real mean = (c.x + c.y + c.z) * 0.333333333f;
   real3 mixed = lerp3(c, make3(mean, mean, mean), real(0.05f));
@@ -109,7 +120,8 @@ SHARED real3 tone_curve(real3 c) {
   return make3(clamp01(vivid.x), clamp01(vivid.y), clamp01(vivid.z));
 }
 
-// ---- reflectance ------------------------------------------------------------------------------------------------
+// ---- reflectance
+// ------------------------------------------------------------------------------------------------
 
 SHARED real pow5(real x) {
   real x2 = x * x;
@@ -118,7 +130,9 @@ SHARED real pow5(real x) {
 
 // Schlick (1994).
 SHARED real fresnel_schlick(real f0, real cos_theta) { return f0 + (1.0f - f0) * pow5(1.0f - cos_theta); }
-SHARED real3 fresnel_schlick3(real3 f0, real cos_theta) { return f0 + (make3(1.0f - f0.x, 1.0f - f0.y, 1.0f - f0.z)) * pow5(1.0f - cos_theta); }
+SHARED real3 fresnel_schlick3(real3 f0, real cos_theta) {
+  return f0 + (make3(1.0f - f0.x, 1.0f - f0.y, 1.0f - f0.z)) * pow5(1.0f - cos_theta);
+}
 
 // Unpolarised reflectance of a smooth dielectric, eta = n_inside / n_outside > 1, light from outside.
 SHARED real fresnel_dielectric(real eta, real cos_i) {
@@ -165,29 +179,37 @@ SHARED real3 environment_brdf(real3 f0, real roughness, real n_dot_v) {
 // Lambert: reflected radiance of irradiance e.
 SHARED real3 diffuse(real3 albedo, real3 e) { return albedo * e * real(SHADE_INV_PI); }
 
-// A leaf lit from either side: n_dot_l signed towards the viewer's side; `transmission` times albedo passes through,
-// yellower than what is reflected (chlorophyll absorbs less of the green-yellow on the longer path).
+// A leaf lit from either side: n_dot_l signed towards the viewer's side; `transmission` times albedo passes
+// through, yellower than what is reflected (chlorophyll absorbs less of the green-yellow on the longer path).
 SHARED real3 leaf_diffuse(real3 albedo, real transmission, real n_dot_l) {
   real front = rmax(n_dot_l, real(0.0f));
   real back = rmax(0.0f - n_dot_l, real(0.0f)) * transmission;
-  return make3(albedo.x * (front + 1.10f * back), albedo.y * (front + 1.15f * back), albedo.z * (front + 0.55f * back)) * real(SHADE_INV_PI);
+  return make3(albedo.x * (front + 1.10f * back), albedo.y * (front + 1.15f * back),
+               albedo.z * (front + 0.55f * back)) *
+         real(SHADE_INV_PI);
 }
 
-// ---- light ------------------------------------------------------------------------------------------------------
+// ---- light
+// ------------------------------------------------------------------------------------------------------
 
-// Irradiance of the sky from nine coefficients, normal n (Ramamoorthi & Hanrahan 2001; basis constants folded in).
-SHARED real3 sh9_irradiance(ufloat3 c0, ufloat3 c1, ufloat3 c2, ufloat3 c3, ufloat3 c4, ufloat3 c5, ufloat3 c6, ufloat3 c7, ufloat3 c8, real3 n) {
+// Irradiance of the sky from nine coefficients, normal n (Ramamoorthi & Hanrahan 2001; basis constants folded
+// in).
+SHARED real3 sh9_irradiance(ufloat3 c0, ufloat3 c1, ufloat3 c2, ufloat3 c3, ufloat3 c4, ufloat3 c5,
+                            ufloat3 c6, ufloat3 c7, ufloat3 c8, real3 n) {
   real3 e = c1 * n.y + c2 * n.z + c3 * n.x;
-  e = e + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0f * n.z * n.z - 1.0f) + c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
+  e = e + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0f * n.z * n.z - 1.0f) + c7 * (n.x * n.z) +
+      c8 * (n.x * n.x - n.y * n.y);
   return e + c0;
 }
 
 // Part of the light that is left after `distance` through extinction beta (1 / m).
 SHARED real3 transmittance(ufloat3 beta, real distance) {
-  return make3(exp_approx(0.0f - beta.x * distance), exp_approx(0.0f - beta.y * distance), exp_approx(0.0f - beta.z * distance));
+  return make3(exp_approx(0.0f - beta.x * distance), exp_approx(0.0f - beta.y * distance),
+               exp_approx(0.0f - beta.z * distance));
 }
 
-// ---- geometry ---------------------------------------------------------------------------------------------------
+// ---- geometry
+// ---------------------------------------------------------------------------------------------------
 
 SHARED real3 reflect3(real3 d, real3 n) { return d - n * (2.0f * dot3(d, n)); }
 
@@ -200,8 +222,9 @@ SHARED real3 octahedral_decode(real x, real y) {
   return normalize3(make3(px, py, z));
 }
 
-// Slope of water at a point (metres): seven directional ripples, fading where they get smaller than a pixel of size
-// `footprint`; the slope lost to the fade goes into `lost`, a variance. Waves of Gerstner-like phase, no time.
+// Slope of water at a point (metres): seven directional ripples, fading where they get smaller than a pixel
+// of size `footprint`; the slope lost to the fade goes into `lost`, a variance. Waves of Gerstner-like phase,
+// no time.
 SHARED real3 water_normal(real px, real py, real footprint, INOUT(real) lost) {
   real sx = real(0.0f);
   real sy = real(0.0f);

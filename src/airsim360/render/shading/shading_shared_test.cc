@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -6,8 +7,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-
-#include <unistd.h>
 
 #define AIRSIM360_ISA isa_test
 #include "airsim360/base/random.h"
@@ -38,7 +37,9 @@ double Hemisphere(F f, int n = 256) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const double z = (i + 0.5) / n, a = (j + 0.5) / n * 2 * kPi, s = std::sqrt(1 - z * z);
-      sum += f(Vec3f{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)}) * 2 * kPi / (n * n);
+      sum += f(Vec3f{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)),
+                     static_cast<float>(z)}) *
+             2 * kPi / (n * n);
     }
   }
   return sum;
@@ -53,7 +54,11 @@ TEST(ShadingShared, WhiteMirrorlikeSurfacesNeverReflectMoreThanArrives) {
   for (float roughness : {0.2f, 0.4f, 0.7f, 1.0f}) {
     for (float z : {0.1f, 0.5f, 1.0f}) {
       const Vec3f v{std::sqrt(1 - z * z), 0, z};
-      const double out = Hemisphere([&](Vec3f l) { return Specular({1, 1, 1}, roughness * roughness, l, v).x * l.z; }, 512);
+      const double out = Hemisphere(
+          [&](Vec3f l) {
+            return Specular({1, 1, 1}, roughness * roughness, l, v).x * l.z;
+          },
+          512);
       EXPECT_LE(out, 1.005) << roughness << ' ' << z;
       EXPECT_GT(out, 0.25) << roughness << ' ' << z;
     }
@@ -64,8 +69,13 @@ TEST(ShadingShared, EnvironmentBrdfAgreesWithTheIntegralOfTheSpecularBrdf) {
   for (float roughness : {0.3f, 0.6f, 0.9f}) {
     for (float z : {0.3f, 0.6f, 0.95f}) {
       const Vec3f v{std::sqrt(1 - z * z), 0, z};
-      const double truth = Hemisphere([&](Vec3f l) { return Specular({0.5f, 0.5f, 0.5f}, roughness * roughness, l, v).x * l.z; }, 512);
-      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.08) << roughness << ' ' << z;
+      const double truth = Hemisphere(
+          [&](Vec3f l) {
+            return Specular({0.5f, 0.5f, 0.5f}, roughness * roughness, l, v).x * l.z;
+          },
+          512);
+      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.08)
+          << roughness << ' ' << z;
     }
   }
 }
@@ -75,7 +85,8 @@ TEST(ShadingShared, SpecularReflectionIsReciprocal) {
   for (int i = 0; i < 100000; ++i) {
     const Vec3f a = RandomUp(random), b = RandomUp(random);
     const auto alpha = static_cast<float>(random.Uniform(0.05, 1));
-    const float ab = Specular({0.04f, 0.5f, 0.9f}, alpha, a, b).y, ba = Specular({0.04f, 0.5f, 0.9f}, alpha, b, a).y;
+    const float ab = Specular({0.04f, 0.5f, 0.9f}, alpha, a, b).y,
+                ba = Specular({0.04f, 0.5f, 0.9f}, alpha, b, a).y;
     ASSERT_NEAR(ab, ba, 1e-5f * (1 + ab));
   }
 }
@@ -115,9 +126,11 @@ TEST(ShadingShared, OwnTranscendentalsAgreeWithTheLibrary) {
     EXPECT_NEAR(scalar::exp_approx(f) / std::exp(static_cast<double>(f)), 1, 4e-6) << x;
     EXPECT_NEAR(scalar::sin_approx(f), std::sin(static_cast<double>(f)), 5e-6) << x;
     EXPECT_NEAR(scalar::log2_approx(std::exp(f)), std::log2(static_cast<double>(std::exp(f))), 6e-6) << x;
-    EXPECT_NEAR(scalar::atan2_approx(std::sin(f), std::cos(f)), std::atan2(std::sin(f), std::cos(f)), 3e-6) << x;
+    EXPECT_NEAR(scalar::atan2_approx(std::sin(f), std::cos(f)), std::atan2(std::sin(f), std::cos(f)), 3e-6)
+        << x;
   }
-  for (double x = -1; x <= 1; x += 0.001) EXPECT_NEAR(scalar::asin_approx(static_cast<float>(x)), std::asin(x), 4e-4) << x;
+  for (double x = -1; x <= 1; x += 0.001)
+    EXPECT_NEAR(scalar::asin_approx(static_cast<float>(x)), std::asin(x), 4e-4) << x;
   for (int i = 0; i <= 255; ++i) {
     const double s = i / 255.0, linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
     EXPECT_NEAR(scalar::srgb_decode_approx(static_cast<float>(s)), linear, 0.001);
@@ -147,15 +160,27 @@ void ExpectSame(const char* name, Wide wide_function, Scalar scalar_function, do
     wide::store(out, wide_function(wide::load(a), wide::load(b), wide::load(c)));
     for (int i = 0; i < wide::kLanes; ++i) {
       const float expected = scalar_function(a[i], b[i], c[i]);
-      ASSERT_NEAR(out[i], expected, 1e-6f * (1e-3f + std::fabs(expected))) << name << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
+      ASSERT_NEAR(out[i], expected, 1e-6f * (1e-3f + std::fabs(expected)))
+          << name << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
     }
   }
 }
 
 TEST(ShadingShared, ScalarAndSimdAgree) {
-#define SAME(low, high, expression)                                                                        \
-  ExpectSame(#expression, [](wide::real a, wide::real b, wide::real c) { using namespace wide; (void)a, (void)b, (void)c; return expression; }, \
-             [](float a, float b, float c) { using namespace scalar; (void)a, (void)b, (void)c; return expression; }, low, high)
+#define SAME(low, high, expression)                  \
+  ExpectSame(                                        \
+      #expression,                                   \
+      [](wide::real a, wide::real b, wide::real c) { \
+        using namespace wide;                        \
+        (void)a, (void)b, (void)c;                   \
+        return expression;                           \
+      },                                             \
+      [](float a, float b, float c) {                \
+        using namespace scalar;                      \
+        (void)a, (void)b, (void)c;                   \
+        return expression;                           \
+      },                                             \
+      low, high)
   SAME(-20, 20, exp_approx(a) + sin_approx(b * 50.0f) + atan2_approx(b, c));
   SAME(0.001, 50, log2_approx(a) + pow_approx(b, c * 0.1f));
   SAME(0.001, 1, srgb_encode(a) + srgb_decode_approx(b) + asin_approx(c));
@@ -170,7 +195,8 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
 }
 
 TEST(ShadingShared, CompilesAsGlsl) {
-  if (std::system("command -v glslangValidator > /dev/null 2>&1") != 0) GTEST_SKIP() << "glslangValidator is not installed";
+  if (std::system("command -v glslangValidator > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "glslangValidator is not installed";
   // A compute shader that uses the functions, pasted together from our headers.
   const auto read = [](const std::string& name) {
     std::ifstream file("src/airsim360/render/shading/" + name);
@@ -180,16 +206,20 @@ TEST(ShadingShared, CompilesAsGlsl) {
   };
   const std::string shared = read("shading_shared.h");
   if (shared.empty()) GTEST_SKIP() << "not run from the repository's root";
-  const std::string stem = (std::filesystem::temp_directory_path() / ("airsim360_glsl_" + std::to_string(getpid()))).string();
+  const std::string stem =
+      (std::filesystem::temp_directory_path() / ("airsim360_glsl_" + std::to_string(getpid()))).string();
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
         << read("shading_glsl.h") << shared
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
-           "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + leaf_diffuse(n, v[0], v[1]);\n"
-           "  v[0] = srgb_encode(luminance(tone_curve(c))) + asin_approx(v[3]) + fresnel_dielectric(1.5, v[4]) + lost; }\n";
+           "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
+           "leaf_diffuse(n, v[0], v[1]);\n"
+           "  v[0] = srgb_encode(luminance(tone_curve(c))) + asin_approx(v[3]) + fresnel_dielectric(1.5, "
+           "v[4]) + lost; }\n";
   }
-  const int status = std::system(("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());
+  const int status = std::system(
+      ("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());
   std::ifstream log(stem + ".log");
   std::ostringstream message;
   message << log.rdbuf();

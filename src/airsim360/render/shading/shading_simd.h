@@ -1,4 +1,5 @@
-// shading_shared.h as SIMD C++, in airsim360::internal::AIRSIM360_ISA: only for *_kernel.cc files (and their tests).
+// shading_shared.h as SIMD C++, in airsim360::internal::AIRSIM360_ISA: only for *_kernel.cc files (and their
+// tests).
 #pragma once
 
 // GCC 12 takes the "undefined" operands of its own AVX-512 intrinsics for bugs of ours.
@@ -44,7 +45,9 @@ SHARED real sel(mask_t m, real a, real b) {
   stdx::where(m, b) = a;
   return b;
 }
-SHARED real3 sel3(mask_t m, real3 a, real3 b) { return {sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z)}; }
+SHARED real3 sel3(mask_t m, real3 a, real3 b) {
+  return {sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z)};
+}
 SHARED real3 make3(real x, real y, real z) { return {x, y, z}; }
 SHARED real rmin(real a, real b) { return sel(b < a, b, a); }
 SHARED real rmax(real a, real b) { return sel(a < b, b, a); }

@@ -1,4 +1,5 @@
-// Texture look-up for the shading kernels (only for *_kernel.cc files): filtered across all lanes of a vector.
+// Texture look-up for the shading kernels (only for *_kernel.cc files): filtered across all lanes of a
+// vector.
 #pragma once
 
 #include "airsim360/render/shading/shading_data.h"
@@ -31,12 +32,16 @@ KERNEL TexelColor Decode(const int32_t* texels, real srgb) {
   c.a = to_real((t >> 24) & 255) * (1.0f / 255.0f);
   const mask_t encoded = srgb > 0.5f;
   if (stdx::any_of(encoded)) {
-    c.rgb = sel3(encoded, make3(srgb_decode_approx(c.rgb.x), srgb_decode_approx(c.rgb.y), srgb_decode_approx(c.rgb.z)), c.rgb);
+    c.rgb = sel3(encoded,
+                 make3(srgb_decode_approx(c.rgb.x), srgb_decode_approx(c.rgb.y), srgb_decode_approx(c.rgb.z)),
+                 c.rgb);
   }
   return c;
 }
 
-KERNEL TexelColor MixColor(const TexelColor& a, const TexelColor& b, real t) { return {lerp3(a.rgb, b.rgb, t), lerp1(a.a, b.a, t)}; }
+KERNEL TexelColor MixColor(const TexelColor& a, const TexelColor& b, real t) {
+  return {lerp3(a.rgb, b.rgb, t), lerp1(a.a, b.a, t)};
+}
 
 /// Bilinear in one level; u, v already brought into [0, 1].
 KERNEL TexelColor SampleLevel(const LevelLanes& level, real u, real v, real srgb) {
@@ -52,7 +57,8 @@ KERNEL TexelColor SampleLevel(const LevelLanes& level, real u, real v, real srgb
   const real bottom = sel(y0 + 1.0f > h - 0.5f, sel(cv, h - 1.0f, real(0.0f)), y0 + 1.0f);
 
   alignas(64) int32_t index[4][kLanes], texel[4][kLanes];
-  const ireal row0 = to_int(top) * to_int(w), row1 = to_int(bottom) * to_int(w), l = to_int(left), r = to_int(right);
+  const ireal row0 = to_int(top) * to_int(w), row1 = to_int(bottom) * to_int(w), l = to_int(left),
+              r = to_int(right);
   (row0 + l).copy_to(index[0], stdx::vector_aligned);
   (row0 + r).copy_to(index[1], stdx::vector_aligned);
   (row1 + l).copy_to(index[2], stdx::vector_aligned);
@@ -72,9 +78,11 @@ KERNEL real FoldCoordinate(real x, real wrap) {
   return sel(wrap < 0.5f, repeated, sel(wrap < 1.5f, sel(twice > 1.0f, 2.0f - twice, twice), clamp01(x)));
 }
 
-/// Filtered look-up of one texture per lane. `footprint_log2` is log2 of the pixel's size in uv units; with `trilinear`
-/// two levels are mixed, else the nearer is taken.
-static __attribute__((noinline)) TexelColor SampleTexture(const TextureRecord* textures, const int32_t* id, real u, real v, real footprint_log2, bool trilinear) {
+/// Filtered look-up of one texture per lane. `footprint_log2` is log2 of the pixel's size in uv units; with
+/// `trilinear` two levels are mixed, else the nearer is taken.
+static __attribute__((noinline)) TexelColor SampleTexture(const TextureRecord* textures, const int32_t* id,
+                                                          real u, real v, real footprint_log2,
+                                                          bool trilinear) {
   alignas(64) Lanes lod, size, last, srgb, wrap_u, wrap_v;
   for (int i = 0; i < kLanes; ++i) {
     const TextureRecord& t = textures[id[i]];

@@ -1,32 +1,15 @@
-// The sky as a table: clear atmosphere, clouds, what lies below the horizon, and what surfaces need to know of all that.
+// The sky as a table: clear atmosphere, clouds, what lies below the horizon, and what surfaces need to know
+// of all that.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "airsim360/math/vector.h"
+#include "airsim360/render/shading/sky_table.h"
 #include "airsim360/scene/scene.h"
 
 namespace airsim360::internal {
-
-/// A lat-long picture of directions: row r holds elevations from `SkyTable::ElevationOfRow`; texels are r, g, b, unused.
-/// Column i is azimuth (i + 0.5) * 2 pi / width from +X towards +Y; one more column repeats the first, so that bilinear
-/// look-up never wraps. The last row is the zenith.
-struct SkyTable {
-  int width = 0, height = 0;
-  bool full_sphere = false;  ///< rows from nadir to zenith, linear in elevation; else from the horizon up, finer near it
-  std::vector<float> texels;
-
-  int stride() const { return width + 1; }
-  float ElevationOfRow(int row) const;
-  Vec3f Texel(int x, int y) const;
-  void SetTexel(int x, int y, Vec3f c);
-  /// Bilinear; below its lowest row the table repeats it.
-  Vec3f At(Vec3f direction) const;
-};
-
-/// Elevation of the upper-hemisphere tables, as a share e of pi/2, is kSkyRowSlope * t + (1 - kSkyRowSlope) * t^2 of the row t.
-inline constexpr float kSkyRowSlope = 0.6f;
 
 /// Immutable, built once per daylight.
 class Sky {
@@ -49,7 +32,8 @@ class Sky {
   Vec3f Irradiance(Vec3f normal) const;
   /// Radiance without the sun's disc; below the horizon far sunlit ground in haze.
   Vec3f Radiance(Vec3f direction) const;
-  /// Extinction of the air, 1 / m, and the light it adds at infinity: horizon_mean + horizon_x * dx + horizon_y * dy.
+  /// Extinction of the air, 1 / m, and the light it adds at infinity: horizon_mean + horizon_x * dx +
+  /// horizon_y * dy.
   Vec3f extinction() const { return extinction_; }
   Vec3f horizon_mean() const { return horizon_mean_; }
   Vec3f horizon_x() const { return horizon_x_; }

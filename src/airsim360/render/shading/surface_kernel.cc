@@ -11,7 +11,8 @@ constexpr float kMirrorRoughness = 0.12f;
 /// Records of the triangles under one vector of rays, turned into lanes.
 struct alignas(64) Fetched {
   alignas(64) int32_t normal[3][kLanes], geometric[kLanes], tangent[kLanes];
-  alignas(64) int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes], emission_id[kLanes], macro_id[kLanes];
+  alignas(64) int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes],
+      emission_id[kLanes], macro_id[kLanes];
   alignas(64) Lanes uv[6], texels_log2, mirrored, pane, area;
   alignas(64) Lanes matrix[9], color[3], emission[3];
   alignas(64) Lanes metallic, roughness, transmission, macro, normal_scale, kind;
@@ -22,12 +23,14 @@ struct alignas(64) Fetched {
 KERNEL void Prefetch(const ShadeView& view, const RaySet& rays, int begin) {
   if (begin >= rays.count) return;
   for (int i = 0; i < kLanes; ++i) {
-    __builtin_prefetch(&view.triangles[view.instances[rays.instance[begin + i]].first_triangle + rays.triangle[begin + i]]);
+    __builtin_prefetch(
+        &view.triangles[view.instances[rays.instance[begin + i]].first_triangle + rays.triangle[begin + i]]);
   }
 }
 
 KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
-  f.any_normal = f.any_roughness = f.any_emission = f.any_macro = f.any_glass = f.any_water = f.any_base = false;
+  f.any_normal = f.any_roughness = f.any_emission = f.any_macro = f.any_glass = f.any_water = f.any_base =
+      false;
   for (int i = 0; i < kLanes; ++i) {
     const InstanceRecord& instance = view.instances[rays.instance[begin + i]];
     const TriangleRecord& triangle = view.triangles[instance.first_triangle + rays.triangle[begin + i]];
@@ -71,7 +74,9 @@ KERNEL real3 UnpackDirection(const int32_t* packed) {
 }
 
 KERNEL real3 ToWorld(const Fetched& f, real3 a) {
-  const auto row = [&](int k) __attribute__((always_inline)) { return load(f.matrix[k]) * a.x + load(f.matrix[k + 1]) * a.y + load(f.matrix[k + 2]) * a.z; };
+  const auto row = [&](int k) __attribute__((always_inline)) {
+    return load(f.matrix[k]) * a.x + load(f.matrix[k + 1]) * a.y + load(f.matrix[k + 2]) * a.z;
+  };
   return normalize3(make3(row(0), row(3), row(6)));
 }
 
@@ -81,19 +86,22 @@ KERNEL real3 Facing(real3 n, real3 direction) {
 }
 
 /// A part of the normal map's slope; what mipmapping shortened becomes roughness (Toksvig 2005).
-KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, real3 n, real u, real v, real footprint, real& roughness) {
+KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, real3 n, real u, real v, real footprint,
+                       real& roughness) {
   const TexelColor c = SampleTexture(view.textures, f.normal_id, u, v, footprint, false);
   const real3 m = c.rgb * real(2.0f) - make3(real(1.0f), real(1.0f), real(1.0f));
   const real length = rmin(rroot(dot3(m, m)), real(1.0f));
   const real scale = load(f.normal_scale);
   const real3 t0 = ToWorld(f, UnpackDirection(f.tangent));
   const real3 t = normalize3(t0 - n * dot3(n, t0));
-  const real3 b = make3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) * load(f.mirrored);
+  const real3 b =
+      make3(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x) * load(f.mirrored);
   const real3 bent = normalize3(t * (m.x * scale) + b * (m.y * scale) + n * rmax(m.z, real(0.05f)));
   const mask_t mapped = to_real(ireal(f.normal_id, stdx::vector_aligned)) > 0.5f;
   const real variance = (1.0f - length) / rmax(length, real(0.2f)) * scale * scale;
   const real alpha = roughness * roughness;
-  const real widened = rroot(rroot(rmin(alpha * alpha + 2.0f * variance * variance + variance * 0.5f, real(1.0f))));
+  const real widened =
+      rroot(rroot(rmin(alpha * alpha + 2.0f * variance * variance + variance * 0.5f, real(1.0f))));
   roughness = sel(mapped, rmax(widened, roughness), roughness);
   return sel3(mapped, bent, n);
 }
@@ -106,7 +114,8 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
   const real along = (p.x * across.x + p.y * across.y) * 2.1f + h1 * 40.0f;
   const real bend = sin_approx(along) * 0.0035f, rise = sin_approx(p.z * 1.9f + h2 * 40.0f) * 0.0035f;
   const mask_t upright = side > 0.3f;
-  const real3 tilted = n + across * ((h1 - 0.5f) * 0.011f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.011f + rise);
+  const real3 tilted =
+      n + across * ((h1 - 0.5f) * 0.011f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.011f + rise);
   return sel3(upright, normalize3(tilted), n);
 }
 
@@ -114,14 +123,17 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
 KERNEL real3 MacroTint(const ShadeView& view, const Fetched& f, real3 p, real3 n, real width) {
   const real px = p.x + 0.41f * p.z * n.x, py = p.y + 0.37f * p.z;
   const real none = real(-40.0f);
-  const TexelColor wide = SampleTexture(view.textures, f.macro_id, px * (1.0f / 311.0f), py * (1.0f / 311.0f), none, false);
-  const TexelColor fine = SampleTexture(view.textures, f.macro_id, px * (1.0f / 47.0f) + 0.37f, py * (1.0f / 47.0f), none, false);
+  const TexelColor wide =
+      SampleTexture(view.textures, f.macro_id, px * (1.0f / 311.0f), py * (1.0f / 311.0f), none, false);
+  const TexelColor fine =
+      SampleTexture(view.textures, f.macro_id, px * (1.0f / 47.0f) + 0.37f, py * (1.0f / 47.0f), none, false);
   const real fade = rmin(real(1.0f), 6.0f / rmax(width, real(1e-3f)));
   const real amount = load(f.macro) * 2.0f;
   const real light = (wide.rgb.x - 0.5f) * 1.1f + (fine.rgb.x - 0.5f) * 0.9f * fade;
   const real warm = (wide.rgb.y - 0.5f) * 0.35f + (fine.rgb.y - 0.5f) * 0.2f * fade;
   const real low = real(0.35f);
-  return make3(rmax(1.0f + amount * (light + warm), low), rmax(1.0f + amount * light, low), rmax(1.0f + amount * (light - warm), low));
+  return make3(rmax(1.0f + amount * (light + warm), low), rmax(1.0f + amount * light, low),
+               rmax(1.0f + amount * (light - warm), low));
 }
 
 /// A point of the sun's disc for samples beside the centre one.
@@ -136,7 +148,8 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i) {
     mixed[k] = static_cast<int32_t>(h ^ (h >> 16));
   }
   const ireal key(mixed, stdx::vector_aligned);
-  const real a = to_real((key >> 8) & 0xfff) * (1.0f / 4096.0f), b = to_real((key >> 20) & 0xfff) * (1.0f / 4096.0f);
+  const real a = to_real((key >> 8) & 0xfff) * (1.0f / 4096.0f),
+             b = to_real((key >> 20) & 0xfff) * (1.0f / 4096.0f);
   const real radius = rroot(a) * 0.00462f * load(beside), angle = b * (2.0f * SHADE_PI);
   const ufloat3 s{view.to_sun[0], view.to_sun[1], view.to_sun[2]};
   const float side = s.x * s.x + s.y * s.y > 1e-6f ? 1.0f / __builtin_sqrtf(s.x * s.x + s.y * s.y) : 0.0f;
@@ -156,7 +169,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real3 p = load3(rays.ox + i, rays.oy + i, rays.oz + i) + d * load(rays.distance + i);
   const real u = load(rays.u + i), v = load(rays.v + i), w = 1.0f - u - v;
   const real3 g = ToWorld(f, UnpackDirection(f.geometric));
-  const real3 smooth = ToWorld(f, UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u + UnpackDirection(f.normal[2]) * v);
+  const real3 smooth = ToWorld(f, UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
+                                      UnpackDirection(f.normal[2]) * v);
   const real front = sel(dot3(g, d) > 0.0f, real(-1.0f), real(1.0f));
   const real3 facing = g * front;
   real3 n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * front;
@@ -166,7 +180,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
   const real width = load(rays.width + i);
   const real slant = rmax(rabs(dot3(facing, d)), real(0.03f));
-  const real footprint = log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + load(f.texels_log2);
+  const real footprint =
+      log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + load(f.texels_log2);
 
   real3 color = load3(f.color[0], f.color[1], f.color[2]);
   real metallic = load(f.metallic), roughness = load(f.roughness);
@@ -178,7 +193,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
     roughness = roughness * c.rgb.y;
     metallic = metallic * c.rgb.z;
   }
-  if (f.any_emission) emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true).rgb;
+  if (f.any_emission)
+    emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true).rgb;
   roughness = rmin(rmax(roughness, real(0.03f)), real(1.0f));
 
   // Normal: map, panes, waves.
@@ -189,7 +205,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
     n = sel3(glass, GlassNormal(f, n, p), n);
     roughness = sel(glass, rmin(roughness, real(0.08f)), roughness);
     // Behind some large panes hang blinds: brighter than the dark room.
-    const real blind = clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) * clamp01((0.3f - rabs(facing.z)) * 8.0f);
+    const real blind = clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) *
+                       clamp01((0.3f - rabs(facing.z)) * 8.0f);
     const real shade = sel(glass, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
     color = color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
   }
@@ -219,7 +236,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real below = dot3(r, facing);
   r = sel3(below < 0.01f, normalize3(r + facing * (0.02f - below)), r);
   store3(out.rx + i, out.ry + i, out.rz + i, r);
-  const mask_t sharp = (kind == kGlass) || (kind == kWater) || ((roughness < kMirrorRoughness) && (metallic > 0.3f));
+  const mask_t sharp =
+      (kind == kGlass) || (kind == kWater) || ((roughness < kMirrorRoughness) && (metallic > 0.3f));
   store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
 
   // Sun.
@@ -229,6 +247,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const mask_t up = real(view.to_sun[2]) > -0.02f;
   store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
   store(out.traced + i, real(0.0f));
+  store(out.contact + i, real(1.0f));
 }
 
 }  // namespace

@@ -14,7 +14,9 @@ constexpr int kNoiseSize = 256;
 constexpr int kOwnTextures = 2;
 
 uint32_t Pack16(float x, float y) {
-  const auto quantize = [](float v) { return static_cast<uint32_t>(std::lround((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f)); };
+  const auto quantize = [](float v) {
+    return static_cast<uint32_t>(std::lround((std::clamp(v, -1.0f, 1.0f) * 0.5f + 0.5f) * 65534.0f));
+  };
   return quantize(x) | quantize(y) << 16;
 }
 
@@ -22,10 +24,12 @@ uint32_t Pack16(float x, float y) {
 uint32_t PaneHash(Vec3f a, Vec3f b, Vec3f c) {
   const float ab = Norm(b - a), bc = Norm(c - b), ca = Norm(a - c);
   const Vec3f middle = (ab >= bc && ab >= ca ? a + b : bc >= ca ? b + c : c + a) * 25.0f;
-  return HashLattice(static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)), static_cast<int>(std::lround(middle.z)));
+  return HashLattice(static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.y)),
+                     static_cast<int>(std::lround(middle.z)));
 }
 
-TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material, const UvTransform& transform) {
+TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
+                            const UvTransform& transform) {
   const Vec3u t = mesh.triangles[index];
   const uint32_t corners[3] = {t.x, t.y, t.z};
   const Vec3f p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
@@ -52,7 +56,8 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
   // Texture frame: p = p0 + tangent * u + ..., and how many uv units a metre has.
   const Vec2f d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
   const float det = d1.x * d2.y - d2.x * d1.y;
-  Vec3f tangent = std::fabs(det) > 1e-20f ? Normalized((e1 * d2.y - e2 * d1.y) * (det > 0 ? 1.0f : -1.0f)) : Normalized(e1);
+  Vec3f tangent = std::fabs(det) > 1e-20f ? Normalized((e1 * d2.y - e2 * d1.y) * (det > 0 ? 1.0f : -1.0f))
+                                          : Normalized(e1);
   if (tangent == Vec3f{}) tangent = {1, 0, 0};
   record.tangent = PackDirection(tangent);
   record.texels_log2 = 0.5f * std::log2(std::max(std::fabs(det), 1e-12f) / std::max(Norm(cross), 1e-12f));
@@ -70,7 +75,8 @@ InstanceRecord MakeInstance(const Instance& instance, uint32_t first_triangle, u
   const float scale = std::cbrt(std::max(std::fabs(det), 1e-30f));
   InstanceRecord record{};
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) record.normal_matrix[3 * i + j] = rows[i][j] * ((det < 0 ? -1.0f : 1.0f) / (scale * scale));
+    for (int j = 0; j < 3; ++j)
+      record.normal_matrix[3 * i + j] = rows[i][j] * ((det < 0 ? -1.0f : 1.0f) / (scale * scale));
     record.tint[i] = instance.tint[i];
   }
   record.texels_log2 = -std::log2(scale);
@@ -80,7 +86,9 @@ InstanceRecord MakeInstance(const Instance& instance, uint32_t first_triangle, u
 }
 
 int32_t TextureIndex(TextureId id, const Scene& scene) {
-  return id == kNoTexture || scene.textures[id].levels.empty() || scene.textures[id].levels[0].empty() ? 0 : id + kOwnTextures;
+  return id == kNoTexture || scene.textures[id].levels.empty() || scene.textures[id].levels[0].empty()
+             ? 0
+             : id + kOwnTextures;
 }
 
 MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
@@ -107,7 +115,8 @@ TextureRecord MakeTexture(const Texture& texture) {
   const int count = std::min<int>(static_cast<int>(texture.levels.size()), TextureRecord::kMaxLevels);
   for (int i = 0; i < count; ++i) {
     const Image<Rgba8>& level = texture.levels[i];
-    record.levels[i] = {reinterpret_cast<const uint32_t*>(level.pixels().data()), static_cast<float>(level.width()), static_cast<float>(level.height())};
+    record.levels[i] = {reinterpret_cast<const uint32_t*>(level.pixels().data()),
+                        static_cast<float>(level.width()), static_cast<float>(level.height())};
   }
   if (count > 0) record.size_log2 = 0.5f * std::log2(record.levels[0].width * record.levels[0].height);
   record.last_level = static_cast<float>(std::max(0, count - 1));
@@ -124,7 +133,10 @@ uint32_t NoiseTexel(int x, int y) {
     float sum = 0;
     for (int octave = 0, period = 8; octave < 4; ++octave, period *= 2) {
       const float scale = static_cast<float>(period) / kNoiseSize;
-      sum += (ValueNoise(static_cast<float>(x) * scale, static_cast<float>(y) * scale, 100 + 10 * c + octave, period) - 0.5f) / static_cast<float>(1 << octave);
+      sum += (ValueNoise(static_cast<float>(x) * scale, static_cast<float>(y) * scale, 100 + 10 * c + octave,
+                         period) -
+              0.5f) /
+             static_cast<float>(1 << octave);
     }
     texel |= static_cast<uint32_t>(std::clamp(0.5f + 0.75f * sum, 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * c);
   }
@@ -142,7 +154,9 @@ Vec3f MeanColor(const Material& m, const Scene& scene) {
   if (TextureIndex(m.base_color_texture, scene) == 0) return m.base_color;
   const Texture& texture = scene.textures[m.base_color_texture];
   const Rgba8 p = texture.levels.back()(0, 0);
-  const auto decode = [&](uint8_t v) { return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f; };
+  const auto decode = [&](uint8_t v) {
+    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
+  };
   return m.base_color * Vec3f{decode(p.r), decode(p.g), decode(p.b)};
 }
 
@@ -163,7 +177,8 @@ SurfaceTables::SurfaceTables(const Scene& scene) {
   // Our own textures, then the scene's.
   own_texels_.assign(1 + static_cast<size_t>(kNoiseSize) * kNoiseSize, 0xffffffffu);
   ParallelFor(kNoiseSize, [&](int64_t y) {
-    for (int x = 0; x < kNoiseSize; ++x) own_texels_[1 + static_cast<size_t>(y) * kNoiseSize + x] = NoiseTexel(x, static_cast<int>(y));
+    for (int x = 0; x < kNoiseSize; ++x)
+      own_texels_[1 + static_cast<size_t>(y) * kNoiseSize + x] = NoiseTexel(x, static_cast<int>(y));
   });
   textures.push_back(PlainTexture(own_texels_.data(), 1));
   textures.push_back(PlainTexture(own_texels_.data() + 1, kNoiseSize));
@@ -192,7 +207,8 @@ SurfaceTables::SurfaceTables(const Scene& scene) {
     }
   });
   for (size_t i = 0; i < scene.instances.size(); ++i) {
-    instances.push_back(MakeInstance(scene.instances[i], first[scene.instances[i].mesh], static_cast<uint32_t>(i)));
+    instances.push_back(
+        MakeInstance(scene.instances[i], first[scene.instances[i].mesh], static_cast<uint32_t>(i)));
   }
 }
 

@@ -24,7 +24,7 @@ float BarkHeight(float u, float v) {
   const float wander = 0.10f * (TileFractal(u, v, 3, 4, 3, 11) - 0.5f);
   const float ridges = std::abs(2 * TileFractal(u + wander, v, 14, 3, 2, 12) - 1);
   const float cracks = std::abs(2 * TileFractal(u, v + wander, 7, 16, 2, 13) - 1);
-  const float plate = std::min(1.0f, 5.0f * ridges) * std::min(1.0f, 0.55f + 4.0f * cracks);
+  const float plate = std::min(1.0f, 2.8f * ridges) * std::min(1.0f, 0.45f + 3.0f * cracks);
   return plate * (0.75f + 0.25f * TileFractal(u, v, 32, 48, 2, 14));
 }
 
@@ -104,7 +104,7 @@ const Texture& BarkTexture() {
       Shade(256, 512,
             [](float u, float v) {
               const float h = BarkHeight(u, v), patch = TileFractal(u, v, 2, 3, 3, 15);
-              return (Vec3f{0.30f, 0.26f, 0.22f} * (1 - h) + Vec3f{0.98f, 0.95f, 0.90f} * h) *
+              return (Vec3f{0.16f, 0.135f, 0.115f} * (1 - h) + Vec3f{1.0f, 0.97f, 0.92f} * h) *
                      (0.75f + 0.4f * patch);
             }),
       true);
@@ -113,7 +113,7 @@ const Texture& BarkTexture() {
 
 const Texture& BarkNormals() {
   static const Texture texture = NormalsFromHeight(
-      "bark normals", 256, 512, 0.5f, [](float u, float v) { return 0.022f * BarkHeight(u, v); });
+      "bark normals", 256, 512, 0.5f, [](float u, float v) { return 0.020f * BarkHeight(u, v); });
   return texture;
 }
 

@@ -21,8 +21,42 @@ Material Water() {
   return m;
 }
 
+// A drop: an octahedron stretched along the vertical.
+void AddDrop(MeshBuilder& mesh, Vec3f c, float r) {
+  const Vec3f up = c + Vec3f{0, 0, 1.5f * r}, down = c - Vec3f{0, 0, 1.5f * r};
+  const Vec3f ring[4] = {c + Vec3f{r, 0, 0}, c + Vec3f{0, r, 0}, c - Vec3f{r, 0, 0}, c - Vec3f{0, r, 0}};
+  for (int k = 0; k < 4; ++k) {
+    mesh.Triangle(ring[k], ring[(k + 1) % 4], up);
+    mesh.Triangle(ring[(k + 1) % 4], ring[k], down);
+  }
+}
+
+// Water along a parabola in the vertical plane of `azimuth`: a thread that breaks up into drops. `from` and
+// `speed` have their horizontal part in x; the flight lasts one unit of time.
+void AddJet(PropBuilder& b, float azimuth, Vec3f from, Vec3f speed, float gravity, RngStream& random) {
+  b.Place(Turn(0, 0, azimuth * 360 / kTau));
+  const auto at = [&](float t) { return from + speed * t - Vec3f{0, 0, gravity * t * t}; };
+  std::vector<Vec3f> thread;
+  std::vector<float> radii;
+  for (int k = 0; k <= 6; ++k) {
+    const float t = 0.42f * static_cast<float>(k) / 6;
+    thread.push_back(at(t));
+    radii.push_back(0.008f - 0.0009f * static_cast<float>(k));
+  }
+  b.Bar(thread, radii, 5);
+  for (int k = 0; k < 70; ++k) {
+    const float t = 0.30f + 0.70f * (static_cast<float>(k) + static_cast<float>(random.Uniform())) / 70,
+                spread = 0.03f * t * t;
+    const Vec3f stray{spread * static_cast<float>(random.Normal()),
+                      spread * static_cast<float>(random.Normal()),
+                      spread * static_cast<float>(random.Normal())};
+    AddDrop(b.mesh(), at(t) + stray, static_cast<float>(random.Uniform(0.004, 0.011)));
+  }
+  b.Place({});
+}
+
 // Round stone basin, a bowl on a baluster, two water surfaces, arching jets that thin out.
-Model MakeFountain(uint32_t, uint64_t) {
+Model MakeFountain(uint32_t, uint64_t seed) {
   PropBuilder b("fountain");
   b.Use(Stone({0.46f, 0.43f, 0.38f}, 0.8f), ConcreteTexture());
   const Vec2f basin[] = {{2.75f, -0.1f}, {2.75f, 0.10f}, {2.62f, 0.13f}, {2.55f, 0.18f}, {2.55f, 0.40f},
@@ -46,38 +80,21 @@ Model MakeFountain(uint32_t, uint64_t) {
   disc(0.50f, 2.27f, 0.44f);
   disc(0.12f, 0.955f, 1.565f);
   // Jets: from the rim of the bowl outwards, and a plume on top.
-  Material spray = Glass({0.45f, 0.50f, 0.52f});
+  Material spray = Plastic({0.72f, 0.75f, 0.76f}, 0.15f);
   spray.name = "spray";
   b.Use(spray);
-  for (int i = 0; i < 12; ++i) {
-    const float a = kTau * static_cast<float>(i) / 12;
-    const Vec3f d{std::cos(a), std::sin(a), 0};
-    std::vector<Vec3f> path;
-    std::vector<float> radii;
-    for (int k = 0; k <= 12; ++k) {
-      const float t = static_cast<float>(k) / 12;
-      path.push_back(d * (1.0f + 0.85f * t) + Vec3f{0, 0, 1.57f + 0.95f * t - 2.09f * t * t});
-      radii.push_back(0.010f + 0.010f * t);
-    }
-    b.Bar(path, radii, 6);
-  }
-  for (int i = 0; i < 10; ++i) {
-    const float a = kTau * static_cast<float>(i) / 10;
-    const Vec3f d{std::cos(a), std::sin(a), 0};
-    std::vector<Vec3f> path;
-    for (int k = 0; k <= 10; ++k) {
-      const float t = static_cast<float>(k) / 10;
-      path.push_back(d * (0.01f + 0.55f * t) + Vec3f{0, 0, 2.19f + 1.7f * t - 2.32f * t * t});
-    }
-    b.Bar(path, 0.009f, 5);
-  }
+  RngStream random(seed, "fountain");
+  for (int i = 0; i < 12; ++i)
+    AddJet(b, kTau * static_cast<float>(i) / 12, {1.0f, 0, 1.57f}, {0.85f, 0, 0.95f}, 2.09f, random);
+  for (int i = 0; i < 10; ++i)
+    AddJet(b, kTau * static_cast<float>(i) / 10, {0.01f, 0, 2.19f}, {0.55f, 0, 1.7f}, 2.32f, random);
   return b.Finish();
 }
 
 }  // namespace
 
 std::vector<PropKind> FountainKinds() {
-  return {{"fountain", "construction/fountain", 1, MakeFountain, 2.9f, 2.2f, 2.7f, 9000}};
+  return {{"fountain", "construction/fountain", 1, MakeFountain, 2.9f, 2.2f, 2.7f, 20000}};
 }
 
 }  // namespace airsim360::internal

@@ -54,9 +54,8 @@ TEST(BevelBox, IsClosedAndLosesOnlyItsEdges) {
   const Mesh mesh = b.Finish().mesh;
   EXPECT_EQ(mesh.triangles.size(), 44u);
   EXPECT_TRUE(IsClosed(mesh));
-  // A bevel of width c takes half of c^2 along each edge; where three meet, 3 prisms of length c overlap: in
-  // all 4 c^2/2 (a + b + h) - 8 (5/6) c^3... computed here from its three cuts: edges between the corners,
-  // and the corners.
+  // A bevel of width c takes a prism of area c^2 / 2 off each edge between the corners, and at each corner
+  // all of a cube of side c but the tetrahedron c^3 / 6 that its cut leaves.
   const double a = 2, d = 4, h = 3, c = 0.1;
   const double edges = 4 * (c * c / 2) * ((a - 2 * c) + (d - 2 * c) + (h - 2 * c)),
                corners = 8 * (c * c * c - c * c * c / 6);

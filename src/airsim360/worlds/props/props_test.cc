@@ -96,14 +96,16 @@ TEST_P(EveryKind, KeepsItsTriangleBudget) {
 }
 
 TEST_P(EveryKind, HasFiniteVerticesUnitNormalsAndUvs) {
-  const Model model = Make(0);
-  const Mesh& mesh = model.mesh;
-  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
-  ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
-  for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    ASSERT_TRUE(IsFinite(mesh.positions[i]));
-    ASSERT_NEAR(Norm(mesh.normals[i]), 1, 1e-3) << "vertex " << i;
-    ASSERT_TRUE(std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y));
+  for (int v = 0; v < kind().variants; ++v) {
+    const Model model = Make(v);
+    const Mesh& mesh = model.mesh;
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+      ASSERT_TRUE(IsFinite(mesh.positions[i]));
+      ASSERT_NEAR(Norm(mesh.normals[i]), 1, 1e-3) << "variant " << v << ", vertex " << i;
+      ASSERT_TRUE(std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y));
+    }
   }
 }
 

@@ -124,8 +124,8 @@ Model MakePot(uint32_t variant, uint64_t seed) {
   const float ball = variant == 2 ? 0.40f : 0.30f;
   Merge(model, Foliage(straps, {0, 0, straps ? soil : soil + ball * 0.8f}, ball,
                        straps         ? 70
-                       : variant == 2 ? 1700
-                                      : 1100,
+                       : variant == 2 ? 2600
+                                      : 1500,
                        random));
   return model;
 }
