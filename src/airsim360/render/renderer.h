@@ -26,10 +26,10 @@ struct Products {
 };
 
 struct RenderRequest {
-  Camera camera;
-  RigidTransform X_WC;  ///< pose of the camera in W
+  Camera camera = {};
+  RigidTransform X_WC = {};  ///< pose of the camera in W
   Tier tier = Tier::kFast;
-  Products products;
+  Products products = {};
   double exposure_ev =
       0;  ///< stops added to the scene's fixed daylight exposure; one exposure for the whole sphere
   int aa_samples = 4;  ///< colour samples of a pixel on an edge, the centre ray included; 1 = none

@@ -173,7 +173,7 @@ Route RoundedRoute(std::vector<Vec3d> points, const FlightLimits& limits) {
   // Legs between points that differ, and how much of them each corner (and the start and the end) takes.
   const auto same = [](Vec3d a, Vec3d b) { return Norm(a - b) < 1e-3; };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
-  if (points.size() < 2) return Route({{.t = 0, .p = points.at(0)}});
+  if (points.size() < 2) return Route({RouteNode{0, points.at(0), {}, 0}});
   std::vector<Leg> legs;
   for (size_t i = 0; i + 1 < points.size(); ++i) {
     const Vec3d d = points[i + 1] - points[i];

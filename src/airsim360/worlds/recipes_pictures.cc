@@ -87,14 +87,21 @@ Texel Sign(float u, float v) {
   Texel texel{sign.ground, 0, 0.55f};
   if (y < 0.04f || y > 0.96f) texel.color = sign.letters * 0.8f;
   const float cx = x / unit, cy = (y * 0.8f - 2 * unit) / unit;
-  if (cx < 0 || cy < 0 || cy >= 7 || cx >= n * 6) return texel;
-  const auto letter = static_cast<size_t>(cx / 6);
-  const int column = static_cast<int>(cx - static_cast<float>(letter) * 6), row = static_cast<int>(cy);
-  const char c = sign.text[letter];
-  const int glyph = c == '&' ? 26 : c == ' ' ? 27 : c - 'A';
-  if (column < 5 && (kFont[static_cast<size_t>(glyph)][static_cast<size_t>(row)] >> (4 - column) & 1)) {
-    texel.color = sign.letters;
-  }
+  if (cx < -1 || cy < -1 || cy > 8 || cx > n * 6 + 1) return texel;
+  // Letters rounded by blending the four nearest cells of the bitmap.
+  const auto bit = [&](int column, int row) {
+    const auto letter = static_cast<size_t>(std::max(0, column) / 6);
+    const int in = column - static_cast<int>(letter) * 6;
+    if (column < 0 || row < 0 || row > 6 || in > 4 || letter >= sign.text.size()) return 0.0f;
+    const char c = sign.text[letter];
+    const int glyph = c == '&' ? 26 : c == ' ' ? 27 : c - 'A';
+    return static_cast<float>(kFont[static_cast<size_t>(glyph)][static_cast<size_t>(row)] >> (4 - in) & 1);
+  };
+  const float fx = std::floor(cx - 0.5f), fy = std::floor(cy - 0.5f), s = cx - 0.5f - fx, t = cy - 0.5f - fy;
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const float ink =
+      Mix(Mix(bit(ix, iy), bit(ix + 1, iy), s), Mix(bit(ix, iy + 1), bit(ix + 1, iy + 1), s), t);
+  texel.color = Mix(sign.ground, sign.letters, Step(0.42f, 0.52f, ink));
   return texel;
 }
 

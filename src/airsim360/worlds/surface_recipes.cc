@@ -11,7 +11,7 @@ TextureRecipe MakeRecipe(Recipe recipe) {
     case Recipe::kConcrete:
       return {"concrete", 3, 0.5f, Concrete};
     case Recipe::kSlabs:
-      return {"slabs", 3, 0.38f, Slabs};
+      return {"slabs", 3, 0.32f, Slabs};
     case Recipe::kPavingBrick:
       return {"paving brick", 2, 0.165f, PavingBrick};
     case Recipe::kStoneSetts:
@@ -43,11 +43,11 @@ TextureRecipe MakeRecipe(Recipe recipe) {
     case Recipe::kFields:
       return {"fields", 2400, 0.13f, Fields};
     case Recipe::kShop0:
-      return {"shop 0", 1, 0.26f, [](float u, float v) { return Shop(u, v, 0); }};
+      return {"shop 0", 1, 0.17f, [](float u, float v) { return Shop(u, v, 0); }};
     case Recipe::kShop1:
-      return {"shop 1", 1, 0.26f, [](float u, float v) { return Shop(u, v, 1); }};
+      return {"shop 1", 1, 0.17f, [](float u, float v) { return Shop(u, v, 1); }};
     case Recipe::kShop2:
-      return {"shop 2", 1, 0.24f, [](float u, float v) { return Shop(u, v, 2); }};
+      return {"shop 2", 1, 0.17f, [](float u, float v) { return Shop(u, v, 2); }};
     case Recipe::kSigns:
       return {"signs", 1, 0.22f, Sign};
     case Recipe::kPaintWorn:

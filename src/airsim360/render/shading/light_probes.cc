@@ -12,7 +12,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kDirections = 64;
-constexpr float kPi = 3.14159265f, kHeightStep = 0.125f, kInvalidWeight = 1e-4f;
+constexpr float kPi = 3.14159265f, kInvalidWeight = 1e-4f;
 constexpr int kFloats = 16;
 
 // Spherical Fibonacci points: even and the same for all probes, so that neighbours differ only by what they
@@ -56,11 +56,6 @@ void StoreTerms(const Cube& e, float weight, float* probe) {
   }
 }
 
-// Light of the sky on a surface in a street, half of it hidden; and of ground like that of the scene.
-Vec3f AmbientGuess(const Sky& sky, Vec3f n) {
-  return sky.Irradiance(n) * 0.5f + sky.ground_radiance() * (kPi * 0.5f * (0.5f - 0.5f * n.z));
-}
-
 }  // namespace
 
 LightProbes::LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky,
@@ -89,14 +84,15 @@ void LightProbes::Place(const Scene& scene, const Options& options) {
   const float wanted = std::clamp(std::max(size.x, size.y) / 24, 0.4f, options.cell);
   cell_ = std::max(
       wanted, std::sqrt(size.x * size.y * static_cast<float>(nz_) / static_cast<float>(options.max_probes)));
-  nx_ = static_cast<int>(std::ceil(size.x / cell_)) + 1;
-  ny_ = static_cast<int>(std::ceil(size.y / cell_)) + 1;
+  nx_ = std::max(2, static_cast<int>(std::ceil(size.x / cell_)) + 1);
+  ny_ = std::max(2, static_cast<int>(std::ceil(size.y / cell_)) + 1);
   origin_ = {box.min.x + 0.5f * (size.x - cell_ * static_cast<float>(nx_ - 1)),
              box.min.y + 0.5f * (size.y - cell_ * static_cast<float>(ny_ - 1)), layers_[0]};
 
-  const int heights = static_cast<int>((layers_.back() - layers_[0]) / kHeightStep) + 2;
+  height_step_ = std::max(height_step_, (layers_.back() - layers_[0]) / 8192);
+  const int heights = static_cast<int>((layers_.back() - layers_[0]) / height_step_) + 2;
   for (int i = 0, k = 0; i < heights; ++i) {
-    const float h = std::min(layers_[0] + static_cast<float>(i) * kHeightStep, layers_.back());
+    const float h = std::min(layers_[0] + static_cast<float>(i) * height_step_, layers_.back());
     while (k + 2 < nz_ && h > layers_[k + 1]) ++k;
     layer_of_height_.push_back(
         std::min(static_cast<float>(k) + (h - layers_[k]) / (layers_[k + 1] - layers_[k]),
@@ -113,53 +109,22 @@ void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, 
                           int z) {
   static const std::array<Vec3f, kDirections> directions = EvenDirections();
   static const auto weights = CubeWeights(directions);
-  const Vec3f interior = tracer.scene().interior_light;
   for (int first = 0; first < nx_; first += 16) {
     const int count = std::min(16, nx_ - first);
     // Light that is certain, and light of surfaces that they got from a sky as open as here.
     std::array<Cube, 16> certain{}, guessed{};
     std::array<int, 16> behind{}, open{};
+    std::array<Vec3f, 16> points;
+    for (int i = 0; i < count; ++i) points[i] = Position(first + i, y, z);
     for (int k = 0; k < kDirections; ++k) {
-      const Vec3f d = directions[k];
-      Packet view;
-      for (int i = 0; i < count; ++i) view.Set(i, Position(first + i, y, z), d, 0, INFINITY);
-      tracer.Intersect16(view.valid, view.rays, false);
-
-      // Those that met something look for the sun.
-      Packet shadow;
-      std::array<Met, 16> met;
-      bool any_lit = false;
-      alignas(64) bool occluded[16] = {};
+      const Seen seen =
+          LookAlong(tracer, tables, sky, {points.data(), static_cast<size_t>(count)}, directions[k]);
       for (int i = 0; i < count; ++i) {
-        if (view.rays.geometry[i] == kMiss) continue;
-        const Vec3f point = Position(first + i, y, z) + d * view.rays.t_far[i];
-        met[i] = ResolveMet(
-            tables, tracer.Resolve(view.rays.geometry[i], view.rays.instance[i], view.rays.primitive[i]),
-            point, d);
-        behind[i] += met[i].back && !met[i].open;
-        if (sky == nullptr || sky->to_sun().z < 0 || Dot(met[i].normal, sky->to_sun()) <= 0) continue;
-        shadow.Set(i, point + met[i].normal * 0.01f, sky->to_sun(), 0, INFINITY);
-        any_lit = true;
-      }
-      if (any_lit) tracer.Occluded16(shadow.valid, shadow.rays, occluded, false);
-
-      for (int i = 0; i < count; ++i) {
-        Vec3f light{}, guess{};
-        if (view.rays.geometry[i] == kMiss) {
-          light = sky ? sky->blurred(0).At(d) : interior;
-          open[i] += d.z > 0;
-        } else if (sky) {
-          const Vec3f reflectance = met[i].albedo * ((met[i].back && !met[i].open ? 0.1f : 1.0f) / kPi);
-          guess = reflectance * AmbientGuess(*sky, met[i].normal);
-          if (shadow.valid[i] && !occluded[i])
-            light = reflectance * sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
-        } else {
-          const float t = view.rays.t_far[i];
-          light = interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
-        }
+        behind[i] += seen.behind[i];
+        open[i] += seen.open[i] && directions[k].z > 0;
         for (int side = 0; side < 6; ++side) {
-          certain[i][side] += light * weights[k][side];
-          guessed[i][side] += guess * weights[k][side];
+          certain[i][side] += seen.light[i] * weights[k][side];
+          guessed[i][side] += seen.guess[i] * weights[k][side];
         }
       }
     }
@@ -202,7 +167,7 @@ ProbeView LightProbes::view() const {
   view.stride_y = nx_, view.stride_z = nx_ * ny_;
   view.layer_of_height = layer_of_height_.data();
   view.height_origin = layers_[0];
-  view.height_scale = 1 / kHeightStep;
+  view.height_scale = 1 / height_step_;
   view.height_last = static_cast<float>(layer_of_height_.size() - 1);
   return view;
 }
@@ -211,7 +176,7 @@ Vec3f LightProbes::Irradiance(Vec3f p, Vec3f n) const {
   const float x = std::clamp((p.x - origin_.x) / cell_, 0.0f, static_cast<float>(nx_) - 1.0001f);
   const float y = std::clamp((p.y - origin_.y) / cell_, 0.0f, static_cast<float>(ny_) - 1.0001f);
   const float h =
-      std::clamp((p.z - origin_.z) / kHeightStep, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
+      std::clamp((p.z - origin_.z) / height_step_, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
   const float z = layer_of_height_[static_cast<size_t>(h + 0.5f)];
   const int ix = static_cast<int>(x), iy = static_cast<int>(y), iz = static_cast<int>(z);
   float sum[kFloats] = {};

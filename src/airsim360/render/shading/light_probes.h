@@ -41,8 +41,9 @@ class LightProbes {
   float cell_ = 2;
   Vec3f origin_;
   int nx_ = 2, ny_ = 2, nz_ = 2;
-  std::vector<float> layers_;           ///< heights
-  std::vector<float> layer_of_height_;  ///< fractional layer, kHeightStep apart from origin_.z
+  std::vector<float> layers_;  ///< heights
+  float height_step_ = 0.125f;
+  std::vector<float> layer_of_height_;  ///< fractional layer, height_step_ apart from origin_.z
   std::vector<float> probes_;
   std::vector<uint8_t> valid_;
 };

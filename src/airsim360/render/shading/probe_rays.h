@@ -1,36 +1,27 @@
 // What the baking of light probes asks of the scene.
 #pragma once
 
+#include <array>
+#include <span>
+
+#include "airsim360/render/shading/sky.h"
 #include "airsim360/render/shading/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
 
-/// Sixteen rays that may start anywhere, all lanes finite.
-struct Packet {
-  RayHit16 rays;
-  alignas(64) int valid[16];
-
-  Packet() : rays{}, valid{} {
-    for (int i = 0; i < 16; ++i) rays.direction_z[i] = 1, rays.mask[i] = UINT32_MAX;
-  }
-  void Set(int i, Vec3f p, Vec3f d, float t_near, float t_far) {
-    rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
-    rays.direction_x[i] = d.x, rays.direction_y[i] = d.y, rays.direction_z[i] = d.z;
-    rays.t_near[i] = t_near, rays.t_far[i] = t_far, rays.time[i] = 0, rays.mask[i] = UINT32_MAX;
-    rays.id[i] = rays.flags[i] = 0;
-    rays.geometry[i] = rays.instance[i] = kMiss;
-    valid[i] = -1;
-  }
+/// What up to sixteen probes see in one direction.
+struct Seen {
+  std::array<Vec3f, 16> light{};  ///< radiance: the sky, or a surface lit by the sun
+  std::array<Vec3f, 16> guess{};  ///< what a surface adds if it sees as much sky as in a street
+  std::array<bool, 16> open{};    ///< nothing was met
+  std::array<bool, 16> behind{};  ///< a surface was met from behind: the probe is in a solid
 };
 
-/// What a probe ray met.
-struct Met {
-  Vec3f point, normal, albedo;
-  bool back, open;  ///< seen from behind; foliage or glass, which has no inside
-};
-
-Met ResolveMet(const SurfaceTables& tables, const SurfaceRef& ref, Vec3f point, Vec3f direction);
+/// One packet from at most sixteen points. `sky` is nullptr in closed rooms: there surfaces glow with the
+/// scene's interior light, less where they are near.
+Seen LookAlong(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky,
+               std::span<const Vec3f> points, Vec3f direction);
 
 /// Where the scene's detail is: all but the outermost hundredths of its triangles, each way, with a margin;
 /// empty for an empty scene.

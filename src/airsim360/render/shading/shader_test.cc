@@ -241,6 +241,29 @@ TEST(Shader, SunSamplesSoftenShadowsAroundTheSameMean) {
   EXPECT_LT(lit, 56);
 }
 
+TEST(Shader, SurvivesCoordinatesThatAreNotNumbers) {
+  World world;
+  Image<Rgba8> grey(16, 16, {120, 120, 120, 255});
+  Material material = Matte(0.5f);
+  material.base_color_texture = world.builder.AddTexture(Texture::FromImage("grey", grey, true));
+  material.normal_texture = material.base_color_texture;
+  material.metallic = 1;
+  material.roughness = 0.2f;
+  Mesh mesh = Plane(10);
+  mesh.uvs = {{NAN, 0}, {INFINITY, 1e38f}, {-INFINITY, -1e38f}, {3e38f, NAN}};
+  mesh.normals = {{NAN, NAN, NAN}, {0, 0, 0}, {1e30f, 1e30f, 0}, {0, 0, 1}};
+  world.Add(mesh, material);
+  world.Add(Plane(1e-25f, 2), material);
+  world.Add(Plane(1e20f, -5), material);
+  world.Build();
+  std::vector<Vec3f> rays;
+  for (int i = 0; i < 100; ++i) {
+    rays.push_back(Normalized(
+        Vec3f{0.05f * static_cast<float>(i % 10 - 5), 0.05f * static_cast<float>(i / 10 - 5), -1}));
+  }
+  EXPECT_EQ(world.See({0.1f, 0.2f, 4}, rays).size(), rays.size());
+}
+
 // The copies for every instruction set of this machine give the same bytes.
 TEST(Shader, AllInstructionSetsAgreeToTheBit) {
   World world;

@@ -33,8 +33,9 @@ static __attribute__((noinline)) real3 SampleSky(const SkyTableView& table, real
     t = (rroot(0.36f + 1.6f * e) - 0.6f) * 1.25f;
   }
   const real row = clamp01(t) * (table.height - 1.0f);
-  const real x = rmin(rfloor(column), real(table.width - 1.0f)),
-             y = rmin(rfloor(row), real(table.height - 2.0f));
+  // Written so that a direction that is not a number still finds a texel.
+  const real x = rmin(real(table.width - 1.0f), rmax(real(0.0f), rfloor(column)));
+  const real y = rmin(real(table.height - 2.0f), rmax(real(0.0f), rfloor(row)));
   alignas(64) int32_t index[kLanes];
   alignas(64) float fx[kLanes], fy[kLanes];
   ((to_int(y) * table.stride + to_int(x)) * 4).copy_to(index, stdx::vector_aligned);
@@ -96,9 +97,9 @@ static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, rea
   const float bias = 0.45f / grid.cells_per_metre;
   const real3 q = p + g * real(bias);
   const real zero = real(0.0f);
-  const real x = rmin(rmax((q.x - grid.origin_x) * grid.cells_per_metre, zero), real(grid.max_x + 0.9999f));
-  const real y = rmin(rmax((q.y - grid.origin_y) * grid.cells_per_metre, zero), real(grid.max_y + 0.9999f));
-  const real h = rmin(rmax((q.z - grid.height_origin) * grid.height_scale, zero), real(grid.height_last));
+  const real x = rmin(real(grid.max_x + 0.9999f), rmax(zero, (q.x - grid.origin_x) * grid.cells_per_metre));
+  const real y = rmin(real(grid.max_y + 0.9999f), rmax(zero, (q.y - grid.origin_y) * grid.cells_per_metre));
+  const real h = rmin(real(grid.height_last), rmax(zero, (q.z - grid.height_origin) * grid.height_scale));
   alignas(64) float layer[kLanes];
   store(layer, rfloor(h + 0.5f));
   for (int i = 0; i < kLanes; ++i) layer[i] = grid.layer_of_height[static_cast<int>(layer[i])];

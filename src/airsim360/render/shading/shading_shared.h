@@ -14,7 +14,8 @@
 // ---- numbers
 // ----------------------------------------------------------------------------------------------------
 
-SHARED real clamp01(real x) { return rmin(rmax(x, real(0.0f)), real(1.0f)); }
+// 0 where x is not a number (C++).
+SHARED real clamp01(real x) { return rmin(real(1.0f), rmax(real(0.0f), x)); }
 SHARED real lerp1(real a, real b, real t) { return a + (b - a) * t; }
 SHARED real3 lerp3(real3 a, real3 b, real t) { return a + (b - a) * t; }
 SHARED real smooth01(real t) { return t * t * (3.0f - 2.0f * t); }

@@ -92,7 +92,7 @@ static __attribute__((noinline)) TexelColor SampleTexture(const TextureRecord* t
     wrap_u[i] = t.wrap_u;
     wrap_v[i] = t.wrap_v;
   }
-  const real level = rmin(rmax(footprint_log2 + load(size), real(0.0f)), load(last));
+  const real level = rmin(load(last), rmax(real(0.0f), footprint_log2 + load(size)));
   const real lower = trilinear ? rfloor(level) : rfloor(level + 0.5f);
   const real fraction = level - lower;
   u = FoldCoordinate(u, load(wrap_u));

@@ -28,6 +28,12 @@ uint32_t PaneHash(Vec3f a, Vec3f b, Vec3f c) {
                      static_cast<int>(std::lround(middle.z)));
 }
 
+// Imported coordinates may be anything; look-ups need numbers with a fraction.
+Vec2f Sane(Vec2f uv) {
+  const auto sane = [](float x) { return std::isfinite(x) ? std::clamp(x, -1e6f, 1e6f) : 0.0f; };
+  return {sane(uv.x), sane(uv.y)};
+}
+
 TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
                             const UvTransform& transform) {
   const Vec3u t = mesh.triangles[index];
@@ -48,7 +54,7 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
     Vec3f n = mesh.normals.empty() ? normal : Normalized(mesh.normals[corners[k]]);
     if (!(Dot(n, n) > 0.5f)) n = normal;
     record.normals[k] = PackDirection(n);
-    if (!mesh.uvs.empty()) uv[k] = transform * mesh.uvs[corners[k]];
+    if (!mesh.uvs.empty()) uv[k] = Sane(transform * mesh.uvs[corners[k]]);
     record.uv[2 * k] = uv[k].x;
     record.uv[2 * k + 1] = uv[k].y;
   }
@@ -60,7 +66,9 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
                                           : Normalized(e1);
   if (tangent == Vec3f{}) tangent = {1, 0, 0};
   record.tangent = PackDirection(tangent);
-  record.texels_log2 = 0.5f * std::log2(std::max(std::fabs(det), 1e-12f) / std::max(Norm(cross), 1e-12f));
+  const float texels_log2 =
+      0.5f * std::log2(std::max(std::fabs(det), 1e-12f) / std::max(Norm(cross), 1e-12f));
+  record.texels_log2 = std::isfinite(texels_log2) ? texels_log2 : 0;
   // Green of a normal map points against growing v.
   const Vec3f against_v = (e1 * d2.x - e2 * d1.x) * (det > 0 ? 1.0f : -1.0f);
   if (Dot(Cross(normal, tangent), against_v) < 0) record.material |= kMirroredUv;
@@ -164,6 +172,7 @@ Vec3f MeanColor(const Material& m, const Scene& scene) {
 
 uint32_t PackDirection(Vec3f d) {
   const float sum = std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z);
+  if (!(sum > 0) || !std::isfinite(sum)) return PackDirection({0, 0, 1});
   float x = d.x / sum, y = d.y / sum;
   if (d.z < 0) {
     const float fx = (1 - std::fabs(y)) * (x < 0 ? -1.0f : 1.0f);
