@@ -134,6 +134,17 @@ void EmbreeScene::BuildSubScenes(const Scene& scene, const std::vector<uint32_t>
   });
 }
 
+void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM) {
+  RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+  const Vec3f columns[4] = {X_WM.A.column(0), X_WM.A.column(1), X_WM.A.column(2), X_WM.p};
+  rtcSetGeometryInstancedScene(g, sub_scene);
+  rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  rtcCommitGeometry(g);
+  rtcAttachGeometryByID(top_.get(), g, id);
+  rtcReleaseGeometry(g);
+  has_instances_ = true;
+}
+
 void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses) {
   // Vertices of meshes used once, in W.
   instance_vertices_.resize(scene.instances.size());
@@ -159,15 +170,8 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
     const bool direct = uses[instance.mesh] == 1;
     if (groups.empty()) continue;
     if (!direct) {
-      has_instances_ = true;
-      RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-      const Mat3f& A = instance.X_WM.A;
-      const Vec3f columns[4] = {A.column(0), A.column(1), A.column(2), instance.X_WM.p};
-      rtcSetGeometryInstancedScene(g, sub_scenes_[instance.mesh].get());
-      rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-      rtcCommitGeometry(g);
-      rtcAttachGeometryByID(top_.get(), g, static_cast<unsigned>(first_slots_.size()));
-      rtcReleaseGeometry(g);
+      AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(),
+                     instance.X_WM);
       first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
     }
     for (const auto& group : groups) {

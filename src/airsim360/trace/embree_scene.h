@@ -53,6 +53,7 @@ class EmbreeScene {
   void SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses);
   void BuildSubScenes(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses);
+  void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM);
   void AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices,
                       size_t count, RTCBuildQuality quality) const;
   const Vec3f* PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM, std::vector<Vec3f>& own) const;

@@ -27,22 +27,90 @@ uint8_t EncodeSrgb(float linear) {
   return table[static_cast<int>(linear * (kTableSize - 1) + 0.5f)];
 }
 
-// The rays of one tile's edge pixels on their way through tracing and shading.
-struct EdgeBatch {
-  int pixel_count = 0;
-  uint8_t x[kTilePixels], y[kTilePixels];  // tile pixels
-  float r[kTilePixels] = {}, g[kTilePixels] = {}, b[kTilePixels] = {};
-  int weight[kTilePixels] = {};
-
-  HitBatch hits;
-  int owner[kTilePixels];  // index of the pixel of each ray
-
-  void Add(int pixel, Rgb8 color) {
-    r[pixel] += SrgbToLinear(color.r);
-    g[pixel] += SrgbToLinear(color.g);
-    b[pixel] += SrgbToLinear(color.b);
-    ++weight[pixel];
+// One tile's edge pixels and their rays on their way through tracing (16 at a time) and shading (256 at a
+// time).
+class EdgeTile {
+ public:
+  EdgeTile(const AntialiasTask& task, const TileKernels& kernels) : task_(task), kernels_(kernels) {
+    hits_.origin = task.origin;
+    hits_.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
+    kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
   }
+
+  // Adds a pixel of the tile with the colour of its centre ray.
+  void AddPixel(int x, int y, Rgb8 center) {
+    x_[pixel_count_] = static_cast<uint8_t>(x);
+    y_[pixel_count_] = static_cast<uint8_t>(y);
+    AddColor(pixel_count_++, center);
+  }
+  int pixel_count() const { return pixel_count_; }
+  int x(int pixel) const { return x_[pixel]; }
+  int y(int pixel) const { return y_[pixel]; }
+
+  // Adds a ray of a pixel; `key` chooses its random numbers.
+  void AddRay(int pixel, Vec3d direction, uint32_t key) {
+    packet_.direction_x[lanes_] = static_cast<float>(direction.x);
+    packet_.direction_y[lanes_] = static_cast<float>(direction.y);
+    packet_.direction_z[lanes_] = static_cast<float>(direction.z);
+    hits_.sample_key[hits_.count + lanes_] = key;
+    owner_[hits_.count + lanes_] = pixel;
+    if (++lanes_ == 16) Trace();
+  }
+
+  // Traces and shades what is left.
+  void Finish() {
+    if (lanes_ > 0) Trace();
+    if (hits_.count > 0) Shade();
+  }
+
+  Rgb8 Mean(int pixel) const {
+    const float scale = 1.0f / static_cast<float>(weight_[pixel]);
+    return {EncodeSrgb(r_[pixel] * scale), EncodeSrgb(g_[pixel] * scale), EncodeSrgb(b_[pixel] * scale)};
+  }
+
+ private:
+  void AddColor(int pixel, Rgb8 color) {
+    r_[pixel] += SrgbToLinear(color.r);
+    g_[pixel] += SrgbToLinear(color.g);
+    b_[pixel] += SrgbToLinear(color.b);
+    ++weight_[pixel];
+  }
+
+  void Trace() {
+    alignas(64) int valid[16];
+    for (int i = 0; i < 16; ++i) {
+      valid[i] = i < lanes_ ? -1 : 0;
+      packet_.t_far[i] = std::numeric_limits<float>::infinity();
+      if (i < lanes_) continue;
+      packet_.direction_x[i] = packet_.direction_x[0];
+      packet_.direction_y[i] = packet_.direction_y[0];
+      packet_.direction_z[i] = packet_.direction_z[0];
+    }
+    TracePacket(*task_.tracer, task_.labels.sky_entity != kNoEntity, valid, packet_);
+    kernels_.append_hits(task_.labels, packet_, valid, hits_.count / 16, hits_);
+    hits_.count += lanes_;
+    lanes_ = 0;
+    if (hits_.count > HitBatch::kCapacity - 16) Shade();
+  }
+
+  void Shade() {
+    RadianceBatch radiance;
+    Rgb8 colors[HitBatch::kCapacity];
+    task_.shader->Shade(hits_, radiance);
+    task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors);
+    for (int i = 0; i < hits_.count; ++i) AddColor(owner_[i], colors[i]);
+    hits_.count = 0;
+  }
+
+  const AntialiasTask& task_;
+  const TileKernels& kernels_;
+  int pixel_count_ = 0, lanes_ = 0;
+  uint8_t x_[kTilePixels], y_[kTilePixels];  // of the pixels in the tile
+  float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
+  int weight_[kTilePixels] = {};
+  RayHit16 packet_;
+  HitBatch hits_;
+  int owner_[HitBatch::kCapacity];  // pixel of each ray
 };
 
 }  // namespace
@@ -103,75 +171,31 @@ void Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const 
   };
 
   // Edge pixels, block by block so that neighbours stay together.
-  EdgeBatch batch;
+  EdgeTile tile(task, kernels_);
   for (int i = 0; i < kTilePixels; ++i) {
     const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
     if (column + x >= field.width || row + y >= field.height || !(*task.edges)(image_column(x), row + y))
       continue;
-    batch.x[batch.pixel_count] = static_cast<uint8_t>(x);
-    batch.y[batch.pixel_count] = static_cast<uint8_t>(y);
-    batch.Add(batch.pixel_count++, (*task.colors)(image_column(x), row + y));
+    tile.AddPixel(x, y, (*task.colors)(image_column(x), row + y));
   }
-  if (batch.pixel_count == 0) return;
+  if (tile.pixel_count() == 0) return;
 
+  // Their rays; everything random depends on the canonical pixel alone.
   const FlushDenormals flush_denormals;
-  RayHit16 packet;
-  alignas(64) int valid[16];
-  int lanes = 0;
-  HitBatch& hits = batch.hits;
-  hits.origin = task.origin;
-  hits.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
-  kernels_.init(task.origin.x, task.origin.y, task.origin.z, packet);
-
-  const auto shade = [&] {
-    RadianceBatch radiance;
-    Rgb8 colors[kTilePixels];
-    task.shader->Shade(hits, radiance);
-    task.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits.count, task.exposure_ev, colors);
-    for (int i = 0; i < hits.count; ++i) batch.Add(batch.owner[i], colors[i]);
-    hits.count = 0;
-  };
-  const auto trace = [&] {
-    for (int i = 0; i < 16; ++i) {
-      valid[i] = i < lanes ? -1 : 0;
-      packet.t_far[i] = std::numeric_limits<float>::infinity();
-      if (i < lanes) continue;
-      packet.direction_x[i] = packet.direction_x[0];
-      packet.direction_y[i] = packet.direction_y[0];
-      packet.direction_z[i] = packet.direction_z[0];
-    }
-    TracePacket(*task.tracer, task.labels.sky_entity != kNoEntity, valid, packet);
-    kernels_.append_hits(task.labels, packet, valid, hits.count / 16, hits);
-    hits.count += lanes;
-    lanes = 0;
-    if (hits.count > HitBatch::kCapacity - 16) shade();
-  };
-
-  // Sixteen rays at a time, sixteen packets at a time.
-  for (int i = 0; i < batch.pixel_count; ++i) {
-    const int x = column + batch.x[i], y = row + batch.y[i];
+  for (int i = 0; i < tile.pixel_count(); ++i) {
+    const int x = column + tile.x(i), y = row + tile.y(i);
     const uint64_t key =
         MixBits(static_cast<uint64_t>(y) * static_cast<uint64_t>(field.width) + static_cast<uint64_t>(x));
     const PixelOffset* offsets = &offsets_[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
     for (int s = 1; s < task.samples; ++s) {
       Vec3d direction;
       if (!task.rays->Direction(x, y, offsets[s - 1], direction)) continue;
-      packet.direction_x[lanes] = static_cast<float>(direction.x);
-      packet.direction_y[lanes] = static_cast<float>(direction.y);
-      packet.direction_z[lanes] = static_cast<float>(direction.z);
-      hits.sample_key[hits.count + lanes] =
-          static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u;
-      batch.owner[hits.count + lanes] = i;
-      if (++lanes == 16) trace();
+      tile.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
     }
   }
-  if (lanes > 0) trace();
-  if (hits.count > 0) shade();
-
-  for (int i = 0; i < batch.pixel_count; ++i) {
-    const float scale = 1.0f / static_cast<float>(batch.weight[i]);
-    (*task.colors)(image_column(batch.x[i]), row + batch.y[i]) = {
-        EncodeSrgb(batch.r[i] * scale), EncodeSrgb(batch.g[i] * scale), EncodeSrgb(batch.b[i] * scale)};
+  tile.Finish();
+  for (int i = 0; i < tile.pixel_count(); ++i) {
+    (*task.colors)(image_column(tile.x(i)), row + tile.y(i)) = tile.Mean(i);
   }
 }
 
