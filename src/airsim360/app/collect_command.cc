@@ -115,7 +115,7 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
   if (arguments.route != "auto") ReadRouteCsv(arguments.route);
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
   const Flight flight = FlyRoute({.tracer = world.tracer}, plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");

@@ -81,7 +81,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
   if (arguments.pose.empty())
     pose.p = VecCast<double>(world.scene->spawn.value_or(world.scene->bounds.center()));
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +

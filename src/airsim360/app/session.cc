@@ -8,12 +8,12 @@
 
 namespace airsim360 {
 
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed) {
+OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier) {
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
-  opened.scene = LoadWorld({.world = world, .seed = seed, .labels = {}});
+  opened.scene = LoadWorld({.world = world, .seed = seed});
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
-  opened.renderer = MakeCpuRenderer(opened.tracer);
+  opened.renderer = MakeCpuRenderer(opened.tracer, tier);
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;

@@ -19,7 +19,7 @@ struct OpenedWorld {
   std::unique_ptr<Renderer> renderer;
   double load_ms = 0;  ///< building or importing the scene and its ray tracing structure
 };
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed);
+OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier);
 
 /// Prints what a run did: JSON or a few lines of text.
 void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,

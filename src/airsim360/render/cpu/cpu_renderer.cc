@@ -43,8 +43,10 @@ bool IsFinite(const RigidTransform& X) {
 
 class CpuRenderer : public Renderer {
  public:
-  explicit CpuRenderer(std::shared_ptr<const RayTracer> tracer)
-      : tracer_(std::move(tracer)), tables_(*tracer_), labels_(tables_.view()) {}
+  CpuRenderer(std::shared_ptr<const RayTracer> tracer, Tier tier)
+      : tracer_(std::move(tracer)), tables_(*tracer_), labels_(tables_.view()) {
+    if (tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_);
+  }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;
 
@@ -89,11 +91,11 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
                      "' is not in the CPU renderer (choices: labels, fast)");
   }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
+  const bool color = request.products.rgb && request.tier != Tier::kLabels;
+  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
-  const bool color = request.products.rgb && request.tier != Tier::kLabels;
   const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
-  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_);
   ResizeFrame(request, color, color && samples > 1, frame);
 
   // Centre rays: labels and colours of every pixel.
@@ -187,8 +189,8 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
 
 }  // namespace
 
-std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer) {
-  return std::make_unique<CpuRenderer>(std::move(tracer));
+std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer, Tier tier) {
+  return std::make_unique<CpuRenderer>(std::move(tracer), tier);
 }
 
 }  // namespace airsim360
