@@ -37,15 +37,21 @@ class EdgeTile {
     kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
   }
 
-  // Adds a pixel of the tile with the colour of its centre ray.
-  void AddPixel(int x, int y, Rgb8 center) {
+  // Adds a pixel of the tile with its kind of edge and the colour of its centre ray.
+  void AddPixel(int x, int y, uint8_t edge, Rgb8 center) {
     x_[pixel_count_] = static_cast<uint8_t>(x);
     y_[pixel_count_] = static_cast<uint8_t>(y);
+    edge_[pixel_count_] = edge;
+    low_[pixel_count_] = 255;
     AddColor(pixel_count_++, center);
   }
   int pixel_count() const { return pixel_count_; }
   int x(int pixel) const { return x_[pixel]; }
   int y(int pixel) const { return y_[pixel]; }
+  bool on_silhouette(int pixel) const { return (edge_[pixel] & kSilhouette) != 0; }
+  // Darkest to lightest of the pixel's samples so far, of 255.
+  int contrast(int pixel) const { return high_[pixel] - low_[pixel]; }
+  int ray_count() const { return ray_count_; }
 
   // Adds a ray of a pixel; `key` chooses its random numbers.
   void AddRay(int pixel, Vec3d direction, uint32_t key) {
@@ -54,6 +60,7 @@ class EdgeTile {
     packet_.direction_z[lanes_] = static_cast<float>(direction.z);
     hits_.sample_key[hits_.count + lanes_] = key;
     owner_[hits_.count + lanes_] = pixel;
+    ++ray_count_;
     if (++lanes_ == 16) Trace();
   }
 
@@ -74,6 +81,9 @@ class EdgeTile {
     g_[pixel] += SrgbToLinear(color.g);
     b_[pixel] += SrgbToLinear(color.b);
     ++weight_[pixel];
+    const auto luma = static_cast<uint8_t>((2 * color.r + 5 * color.g + color.b) >> 3);
+    low_[pixel] = std::min(low_[pixel], luma);
+    high_[pixel] = std::max(high_[pixel], luma);
   }
 
   void Trace() {
@@ -104,8 +114,9 @@ class EdgeTile {
 
   const AntialiasTask& task_;
   const TileKernels& kernels_;
-  int pixel_count_ = 0, lanes_ = 0;
+  int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
   uint8_t x_[kTilePixels], y_[kTilePixels];  // of the pixels in the tile
+  uint8_t edge_[kTilePixels], low_[kTilePixels], high_[kTilePixels] = {};
   float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
   int weight_[kTilePixels] = {};
   RayHit16 packet_;
@@ -115,24 +126,18 @@ class EdgeTile {
 
 }  // namespace
 
-int64_t Antialiaser::FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps,
-                               Image<uint8_t>& edges) const {
+void Antialiaser::FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps,
+                            Image<uint8_t>& edges) const {
   const int width = entity.width(), height = entity.height();
-  std::atomic<int64_t> total = 0;
   ParallelFor((height + kRowsPerTask - 1) / kRowsPerTask, [&](int64_t task) {
-    int64_t count = 0;
     for (int y = static_cast<int>(task) * kRowsPerTask;
          y < std::min(height, static_cast<int>(task + 1) * kRowsPerTask); ++y) {
       const int up = std::max(y - 1, 0), down = std::min(y + 1, height - 1);
       const uint32_t* entity_rows[3] = {entity.row(up).data(), entity.row(y).data(), entity.row(down).data()};
       const uint8_t* luma_rows[3] = {luma.row(up).data(), luma.row(y).data(), luma.row(down).data()};
-      uint8_t* out = edges.row(y).data();
-      kernels_.mark_edges(entity_rows, luma_rows, width, wraps, kContrast, out);
-      for (int x = 0; x < width; ++x) count += out[x];
+      kernels_.mark_edges(entity_rows, luma_rows, width, wraps, kContrast, edges.row(y).data());
     }
-    total += count;
   });
-  return total;
 }
 
 void Antialiaser::MakeOffsets(const CameraRays& rays, int samples) {
@@ -153,17 +158,20 @@ void Antialiaser::MakeOffsets(const CameraRays& rays, int samples) {
   }
 }
 
-void Antialiaser::Run(const AntialiasTask& task) {
+int64_t Antialiaser::Run(const AntialiasTask& task) {
   MakeOffsets(*task.rays, task.samples);
   const RayField& field = task.rays->field();
   const int across = (field.width + kTileSize - 1) / kTileSize,
             down = (field.height + kTileSize - 1) / kTileSize;
+  std::atomic<int64_t> ray_count = 0;
   ParallelFor(int64_t{across} * down, [&](int64_t tile) {
-    RunTile(task, static_cast<int>(tile % across) * kTileSize, static_cast<int>(tile / across) * kTileSize);
+    ray_count += RunTile(task, static_cast<int>(tile % across) * kTileSize,
+                         static_cast<int>(tile / across) * kTileSize);
   });
+  return ray_count;
 }
 
-void Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
+int Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
   const RayField& field = task.rays->field();
   const auto image_column = [&](int x) {
     const int c = column + x - task.rays->column_shift();
@@ -174,29 +182,37 @@ void Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const 
   EdgeTile tile(task, kernels_);
   for (int i = 0; i < kTilePixels; ++i) {
     const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
-    if (column + x >= field.width || row + y >= field.height || !(*task.edges)(image_column(x), row + y))
-      continue;
-    tile.AddPixel(x, y, (*task.colors)(image_column(x), row + y));
+    if (column + x >= field.width || row + y >= field.height) continue;
+    const uint8_t edge = (*task.edges)(image_column(x), row + y);
+    if (edge != 0) tile.AddPixel(x, y, edge, (*task.colors)(image_column(x), row + y));
   }
-  if (tile.pixel_count() == 0) return;
+  if (tile.pixel_count() == 0) return 0;
 
-  // Their rays; everything random depends on the canonical pixel alone.
+  // Rays first … last - 1 of a pixel; everything random depends on the canonical pixel alone.
   const FlushDenormals flush_denormals;
-  for (int i = 0; i < tile.pixel_count(); ++i) {
+  const auto add_rays = [&](int i, int first, int last) {
     const int x = column + tile.x(i), y = row + tile.y(i);
     const uint64_t key =
         MixBits(static_cast<uint64_t>(y) * static_cast<uint64_t>(field.width) + static_cast<uint64_t>(x));
     const PixelOffset* offsets = &offsets_[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
-    for (int s = 1; s < task.samples; ++s) {
+    for (int s = first; s < last; ++s) {
       Vec3d direction;
       if (!task.rays->Direction(x, y, offsets[s - 1], direction)) continue;
       tile.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
     }
+  };
+
+  // Silhouettes get all their rays at once; others the rest when the first differs from the centre.
+  for (int i = 0; i < tile.pixel_count(); ++i) add_rays(i, 1, tile.on_silhouette(i) ? task.samples : 2);
+  tile.Finish();
+  for (int i = 0; i < tile.pixel_count(); ++i) {
+    if (!tile.on_silhouette(i) && tile.contrast(i) > kContrast / 2) add_rays(i, 2, task.samples);
   }
   tile.Finish();
   for (int i = 0; i < tile.pixel_count(); ++i) {
     (*task.colors)(image_column(tile.x(i)), row + tile.y(i)) = tile.Mean(i);
   }
+  return tile.ray_count();
 }
 
 }  // namespace airsim360::internal

@@ -18,23 +18,25 @@ struct AntialiasTask {
   LabelView labels;
   Vec3f origin;
   double exposure_ev;
-  int samples;  ///< of an edge pixel, the centre ray included
+  int samples;  ///< of a pixel on a silhouette, the centre ray included
   const Image<uint8_t>* edges;
   Image<Rgb8>* colors;  ///< in: of the centre rays
 };
 
 class Antialiaser {
  public:
-  /// Marks the pixels that differ from a neighbour; returns how many.
-  int64_t FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps,
-                    Image<uint8_t>& edges) const;
+  /// Marks the pixels that differ from a neighbour.
+  void FindEdges(const Image<EntityId>& entity, const Image<uint8_t>& luma, bool wraps,
+                 Image<uint8_t>& edges) const;
   /// Replaces the colours of marked pixels by the mean, in display-linear light, of `samples` rays spread
   /// over the pixel (box filter of one pixel). Tone mapping before the mean keeps edges of highlights smooth.
-  void Run(const AntialiasTask& task);
+  /// A pixel that only contrasts with a neighbour of the same entity gets one ray more at first, and the rest
+  /// if that one looks different. Returns the number of rays.
+  int64_t Run(const AntialiasTask& task);
 
  private:
   void MakeOffsets(const CameraRays& rays, int samples);
-  void RunTile(const AntialiasTask& task, int column, int row) const;
+  int RunTile(const AntialiasTask& task, int column, int row) const;
 
   TileKernels kernels_;
   std::vector<PixelOffset> offsets_;  // [symmetry][sample - 1]

@@ -115,10 +115,11 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   // More colour samples on edges.
   if (color && samples > 1) {
     const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
-    const int64_t edges = antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
-    antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                      request.exposure_ev, samples, &edges_, &frame.rgb});
-    stats.rays += static_cast<uint64_t>(edges) * static_cast<uint64_t>(samples - 1);
+    antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
+    const int64_t rays =
+        antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+                          request.exposure_ev, samples, &edges_, &frame.rgb});
+    stats.rays += static_cast<uint64_t>(rays);
   }
   stats.render_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

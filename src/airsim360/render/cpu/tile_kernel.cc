@@ -354,17 +354,19 @@ void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_ro
   const uint8_t *luma_above = luma_rows[0], *luma = luma_rows[1], *luma_below = luma_rows[2];
   const auto differs = [&](int i, int j) __attribute__((always_inline)) {
     const int d = luma[i] - luma[j];
-    return (here[i] != here[j]) | (d > contrast) | (-d > contrast);
+    return (here[i] != here[j]) * kSilhouette | ((d > contrast) | (-d > contrast)) * kContrastEdge;
   };
   for (int i = 0; i < width; ++i) {
     const int up = luma[i] - luma_above[i], down = luma[i] - luma_below[i];
-    out[i] = (here[i] != above[i]) | (here[i] != below[i]) | (up > contrast) | (-up > contrast) |
-             (down > contrast) | (-down > contrast);
+    const int silhouette = (here[i] != above[i]) | (here[i] != below[i]);
+    const int step = (up > contrast) | (-up > contrast) | (down > contrast) | (-down > contrast);
+    out[i] = static_cast<uint8_t>(silhouette * kSilhouette | step * kContrastEdge);
   }
   for (int i = 1; i < width - 1; ++i) out[i] |= differs(i, i - 1) | differs(i, i + 1);
   if (width > 1) {
-    out[0] |= differs(0, 1) | (wraps & differs(0, width - 1));
-    out[width - 1] |= differs(width - 1, width - 2) | (wraps & differs(width - 1, 0));
+    const int seam = wraps ? kSilhouette | kContrastEdge : 0;
+    out[0] |= differs(0, 1) | (seam & differs(0, width - 1));
+    out[width - 1] |= differs(width - 1, width - 2) | (seam & differs(width - 1, 0));
   }
 }
 

@@ -25,6 +25,9 @@ struct alignas(64) LabelTile {
   float normal_x[kTilePixels], normal_y[kTilePixels], normal_z[kTilePixels];
 };
 
+/// Kinds of edges, bits of the edge image.
+inline constexpr int kContrastEdge = 1, kSilhouette = 2;
+
 /// One tile of the image and where its pixels go; null = not wanted.
 struct TileTarget {
   int column, row;    ///< canonical pixel of its corner
@@ -64,8 +67,8 @@ AIRSIM360_DECLARE_KERNEL(void StoreLabels(const LabelTile& tile, const TileTarge
 /// … and its colours; `luma` gets their weighted mean (2 R + 5 G + B) / 8.
 AIRSIM360_DECLARE_KERNEL(void StoreColors(const Rgb8* colors, const TileTarget& target, Rgb8* image,
                                           uint8_t* luma))
-/// Marks pixels of one row (1, else 0) that differ from the one above, below, left or right in entity or by
-/// more than `contrast` in luma. Rows are those of the image; a missing neighbour row is the row itself.
-/// Columns wrap if `wraps`.
+/// Marks pixels of one row that differ from the one above, below, left or right: kSilhouette in entity, plus
+/// kContrastEdge by more than `contrast` in luma, else 0. Rows are those of the image; a missing neighbour
+/// row is the row itself. Columns wrap if `wraps`.
 AIRSIM360_DECLARE_KERNEL(void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows,
                                         int width, bool wraps, int contrast, uint8_t* out))
