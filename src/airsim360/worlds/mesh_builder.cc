@@ -155,7 +155,9 @@ void MeshBuilder::Walls(std::span<const Vec2f> outline, float z0, float z1) {
 Mesh MeshBuilder::Finish(std::string name) {
   Mesh mesh;
   mesh.name = std::move(name);
-  for (auto& [key, group] : groups_) {
+  for (auto& entry : groups_) {
+    const auto& key = entry.first;
+    const Group& group = entry.second;
     // Merge equal vertices within the part.
     std::unordered_map<Vertex, uint32_t, VertexHash> seen;
     const auto index = [&](size_t i) {
