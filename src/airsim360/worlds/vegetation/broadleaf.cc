@@ -184,14 +184,14 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
             0.40f,
             5200,
             {},
-            {0.155f, 0.105f, 0.12f, 0.25f},
+            {0.195f, 0.132f, 0.12f, 0.25f},
             0,
             0.75f,
             {0.17f, 0.14f, 0.11f}};
   s.growth.step = 0.20f;
   s.growth.influence = 1.7f;
   s.growth.kill = 0.42f * b.radius / 4.0f;
-  s.leaves = static_cast<int>(27000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
+  s.leaves = static_cast<int>(17000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
   return MakeTree(s, atlases[variant % 2], seed);
 }
 
@@ -217,8 +217,8 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
             0.52f,
             4600,
             {},
-            {0.165f, 0.046f, 0.15f, 0.2f},
-            33000,
+            {0.210f, 0.059f, 0.15f, 0.2f},
+            20000,
             0.6f,
             {0.20f, 0.18f, 0.15f}};
   s.growth.step = 0.20f;

@@ -137,8 +137,8 @@ struct Proportions {
 class Trees : public testing::TestWithParam<Proportions> {};
 
 INSTANTIATE_TEST_SUITE_P(Species, Trees,
-                         testing::Values(Proportions{"tree_generic", 0.9, 1.8, 24000},
-                                         Proportions{"tree_narrowleaf", 1.8, 3.6, 50000},
+                         testing::Values(Proportions{"tree_generic", 0.9, 1.8, 20000},
+                                         Proportions{"tree_narrowleaf", 1.8, 3.6, 40000},
                                          Proportions{"tree_pine", 1.6, 3.6, 60000}),
                          [](const auto& info) { return std::string(info.param.kind); });
 
