@@ -16,6 +16,7 @@ class BadFlags(ProgramTest):
         for arguments, says in [
             (["colect"], ["unknown command 'colect'", "did you mean 'collect'"]),
             (["collect", *ROOM, "--out", out, "--frame", "3"], ["--frame", "did you mean '--frames'"]),
+            (["render", "--wrld", "box_room", "--out", out], ["--wrld", "did you mean '--world'"]),
             (["worlds", "--jsn"], ["--jsn", "did you mean '--json'"]),
             (["render", "--world", "box_rom", "--out", out], ["box_rom", "did you mean 'box_room'"]),
             (["collect", *ROOM, "--tier", "fats", "--out", out], ["--tier", "did you mean 'fast'"]),

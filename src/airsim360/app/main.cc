@@ -89,7 +89,7 @@ std::vector<std::string> FlagNames(const CLI::App& app) {
   return names;
 }
 
-// The text for flags or words that the command does not take, naming the nearest flag.
+// The text for flags or words that the command does not take, naming the nearest flag; else that of `error`.
 std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   const CLI::App& command = chosen.empty() ? app : *chosen.front();
@@ -130,11 +130,10 @@ int ParseAndRun(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    throw InputError(UnknownArgumentMessage(app, error));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    throw InputError(error.what());
+    // A misspelt flag may also be why a required one is missing: it is named first.
+    throw InputError(UnknownArgumentMessage(app, error));
   }
   if (std::fflush(stdout) != 0) throw RuntimeError("cannot write to stdout");
   return 0;
