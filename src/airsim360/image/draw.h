@@ -31,6 +31,8 @@ Rgb8 IdColor(uint32_t id);
 
 /// Letters of 5 x 7 pixels in cells of 6 x 8, for ASCII 32..126; other bytes show as '?'.
 inline constexpr int kGlyphCellWidth = 6, kGlyphCellHeight = 8;
+/// Whether the letter has ink at column 0 … 4, row 0 … 6 of its cell; false outside.
+bool HasInk(char letter, int column, int row);
 /// Writes one line with the top left corner at (x, y), each font pixel `scale` x `scale` (>= 1) pixels.
 void DrawText(std::string_view text, int x, int y, Rgb8 color, int scale, Image<Rgb8>& canvas);
 /// Width in pixels that DrawText covers.

@@ -25,6 +25,12 @@ constexpr std::array<uint64_t, 95> kGlyphs = {
 
 }  // namespace
 
+bool HasInk(char letter, int column, int row) {
+  if (column < 0 || column > 4 || row < 0 || row > 6) return false;
+  const uint64_t glyph = kGlyphs[static_cast<size_t>((letter < 32 || letter > 126 ? '?' : letter) - 32)];
+  return (glyph >> (34 - (row * 5 + column)) & 1) != 0;
+}
+
 int TextWidth(std::string_view text, int scale) {
   return static_cast<int>(text.size()) * kGlyphCellWidth * scale;
 }
@@ -32,10 +38,11 @@ int TextWidth(std::string_view text, int scale) {
 void DrawText(std::string_view text, int x, int y, Rgb8 color, int scale, Image<Rgb8>& canvas) {
   if (scale < 1) throw InputError("DrawText: scale must be at least 1");
   for (char c : text) {
-    const uint64_t glyph = kGlyphs[static_cast<size_t>((c < 32 || c > 126 ? '?' : c) - 32)];
-    for (int bit = 0; bit < 35; ++bit) {
-      if (glyph >> (34 - bit) & 1)
-        FillRectangle(x + bit % 5 * scale, y + bit / 5 * scale, scale, scale, color, canvas);
+    for (int row = 0; row < 7; ++row) {
+      for (int column = 0; column < 5; ++column) {
+        if (HasInk(c, column, row))
+          FillRectangle(x + column * scale, y + row * scale, scale, scale, color, canvas);
+      }
     }
     x += kGlyphCellWidth * scale;
   }

@@ -4,24 +4,12 @@
 #include <cmath>
 #include <string_view>
 
+#include "airsim360/image/draw.h"
 #include "airsim360/worlds/recipe_shapes.h"
 
 namespace airsim360::internal {
 
 namespace {
-// 5 x 7 letters A-Z, '&' and blank: one row of five bits after the other, top row first.
-constexpr std::array<std::array<uint8_t, 7>, 28> kFont = {{
-    {14, 17, 17, 31, 17, 17, 17}, {30, 17, 17, 30, 17, 17, 30}, {14, 17, 16, 16, 16, 17, 14},
-    {30, 17, 17, 17, 17, 17, 30}, {31, 16, 16, 30, 16, 16, 31}, {31, 16, 16, 30, 16, 16, 16},
-    {14, 17, 16, 23, 17, 17, 15}, {17, 17, 17, 31, 17, 17, 17}, {14, 4, 4, 4, 4, 4, 14},
-    {7, 2, 2, 2, 2, 18, 12},      {17, 18, 20, 24, 20, 18, 17}, {16, 16, 16, 16, 16, 16, 31},
-    {17, 27, 21, 21, 17, 17, 17}, {17, 25, 21, 19, 17, 17, 17}, {14, 17, 17, 17, 17, 17, 14},
-    {30, 17, 17, 30, 16, 16, 16}, {14, 17, 17, 17, 21, 18, 13}, {30, 17, 17, 30, 20, 18, 17},
-    {15, 16, 16, 14, 1, 1, 30},   {31, 4, 4, 4, 4, 4, 4},       {17, 17, 17, 17, 17, 17, 14},
-    {17, 17, 17, 17, 17, 10, 4},  {17, 17, 17, 21, 21, 27, 17}, {17, 17, 10, 4, 10, 17, 17},
-    {17, 17, 10, 4, 4, 4, 4},     {31, 1, 2, 4, 8, 16, 31},     {12, 18, 20, 8, 21, 18, 13},
-    {0, 0, 0, 0, 0, 0, 0},
-}};
 struct SignStyle {
   std::string_view text;
   Vec3f ground, letters;
@@ -93,9 +81,7 @@ Texel Sign(float u, float v) {
     const auto letter = static_cast<size_t>(std::max(0, column) / 6);
     const int in = column - static_cast<int>(letter) * 6;
     if (column < 0 || row < 0 || row > 6 || in > 4 || letter >= sign.text.size()) return 0.0f;
-    const char c = sign.text[letter];
-    const int glyph = c == '&' ? 26 : c == ' ' ? 27 : c - 'A';
-    return static_cast<float>(kFont[static_cast<size_t>(glyph)][static_cast<size_t>(row)] >> (4 - in) & 1);
+    return HasInk(sign.text[letter], in, row) ? 1.0f : 0.0f;
   };
   const float fx = std::floor(cx - 0.5f), fy = std::floor(cy - 0.5f), s = cx - 0.5f - fx, t = cy - 0.5f - fy;
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);

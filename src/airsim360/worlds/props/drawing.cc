@@ -1,7 +1,6 @@
 #include "airsim360/worlds/props/drawing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -9,28 +8,10 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
+#include "airsim360/image/draw.h"
 
 namespace airsim360::internal {
 namespace {
-
-// Letters on a grid of 5 x 7, one byte a row, most significant of 5 bits at the left.
-constexpr std::string_view kGlyphNames = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-!&%";
-constexpr std::array<std::array<uint8_t, 7>, 41> kGlyphs = {{
-    {14, 17, 17, 31, 17, 17, 17}, {30, 17, 17, 30, 17, 17, 30}, {14, 17, 16, 16, 16, 17, 14},
-    {30, 17, 17, 17, 17, 17, 30}, {31, 16, 16, 30, 16, 16, 31}, {31, 16, 16, 30, 16, 16, 16},
-    {14, 17, 16, 23, 17, 17, 14}, {17, 17, 17, 31, 17, 17, 17}, {14, 4, 4, 4, 4, 4, 14},
-    {7, 2, 2, 2, 2, 18, 12},      {17, 18, 20, 24, 20, 18, 17}, {16, 16, 16, 16, 16, 16, 31},
-    {17, 27, 21, 21, 17, 17, 17}, {17, 25, 21, 19, 17, 17, 17}, {14, 17, 17, 17, 17, 17, 14},
-    {30, 17, 17, 30, 16, 16, 16}, {14, 17, 17, 17, 21, 18, 13}, {30, 17, 17, 30, 20, 18, 17},
-    {15, 16, 16, 14, 1, 1, 30},   {31, 4, 4, 4, 4, 4, 4},       {17, 17, 17, 17, 17, 17, 14},
-    {17, 17, 17, 17, 17, 10, 4},  {17, 17, 17, 21, 21, 27, 17}, {17, 17, 10, 4, 10, 17, 17},
-    {17, 17, 10, 4, 4, 4, 4},     {31, 1, 2, 4, 8, 16, 31},     {14, 17, 19, 21, 25, 17, 14},
-    {4, 12, 4, 4, 4, 4, 14},      {14, 17, 1, 6, 8, 16, 31},    {31, 2, 4, 6, 1, 17, 14},
-    {2, 6, 10, 18, 31, 2, 2},     {31, 16, 30, 1, 1, 17, 14},   {6, 8, 16, 30, 17, 17, 14},
-    {31, 1, 2, 4, 4, 4, 4},       {14, 17, 17, 14, 17, 17, 14}, {14, 17, 17, 15, 1, 2, 12},
-    {0, 0, 0, 0, 0, 12, 12},      {0, 0, 0, 14, 0, 0, 0},       {4, 4, 4, 4, 4, 0, 4},
-    {8, 20, 20, 8, 21, 18, 13},   {24, 25, 2, 4, 8, 19, 3},
-}};
 
 float Lattice(int x, int y, uint64_t seed) {
   const uint64_t key =
@@ -178,18 +159,11 @@ void Canvas::Text(std::string_view text, Vec2f center, float size, Vec3f color) 
   float x0 = center.x * width_ - (static_cast<float>(text.size()) * advance - cell) / 2;
   const float y0 = center.y * height_ - 3.5f * cell;
   for (char c : text) {
-    const size_t glyph = kGlyphNames.find(c);
-    if (glyph != std::string_view::npos) {
-      const auto& rows = kGlyphs[glyph];
-      Fill(
-          {x0, y0}, {x0 + 5 * cell, y0 + 7 * cell},
-          [&](float x, float y) {
-            const int column = static_cast<int>((x - x0) / cell), row = static_cast<int>((y - y0) / cell);
-            return x >= x0 && y >= y0 && column < 5 && row < 7 &&
-                   (rows[static_cast<size_t>(row)] >> (4 - column) & 1);
-          },
-          color);
-    }
+    const auto inked = [&](float x, float y) {
+      return HasInk(c, static_cast<int>(std::floor((x - x0) / cell)),
+                    static_cast<int>(std::floor((y - y0) / cell)));
+    };
+    Fill({x0, y0}, {x0 + 5 * cell, y0 + 7 * cell}, inked, color);
     x0 += advance;
   }
 }
