@@ -5,7 +5,9 @@
 // GCC 12 takes the "undefined" operands of its own AVX-512 intrinsics for bugs of ours.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <experimental/simd>
 #pragma GCC diagnostic pop
 

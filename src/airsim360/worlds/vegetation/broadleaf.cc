@@ -9,8 +9,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
-
 // One individual of a species; metres.
 struct Species {
   std::string_view name;
