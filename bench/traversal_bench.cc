@@ -33,6 +33,7 @@ struct Options {
   int width = 2048, rounds = 9, trees = 0;
   long triangles = 2'000'000;
   bool json = false;
+  std::string isa;  // Embree's instruction set, for both sides; empty = the best of this machine
 };
 
 constexpr float kSide = 2000;  // metres
@@ -142,7 +143,8 @@ std::shared_ptr<const Scene> BuildCity(const Options& options) {
 // The same scene handed to Embree with nothing around it.
 class RawScene {
  public:
-  explicit RawScene(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(NewScene()) {
+  RawScene(const Scene& scene, const std::string& isa)
+      : device_(rtcNewDevice(isa.empty() ? nullptr : ("isa=" + isa).c_str())), scene_(NewScene()) {
     std::vector<RTCScene> subs(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
       RTCScene& sub = subs[instance.mesh];
@@ -359,8 +361,12 @@ Options Parse(int argc, char** argv) {
       options.rounds = static_cast<int>(value());
     else if (flag == "--trees")
       options.trees = static_cast<int>(value());
+    else if (flag == "--isa" && i + 1 < argc)
+      options.isa = argv[++i];
     else {
-      std::fprintf(stderr, "traversal_bench [--json] [--width N] [--triangles N] [--trees N] [--rounds N]\n");
+      std::fprintf(stderr,
+                   "traversal_bench [--json] [--isa sse4.2|avx2|avx512] [--width N] [--triangles N] [--trees "
+                   "N] [--rounds N]\n");
       std::exit(2);
     }
   }
@@ -373,9 +379,10 @@ int main(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   const auto scene = BuildCity(options);
   std::shared_ptr<const RayTracer> tracer;
-  const double build_ms = Milliseconds([&] { tracer = std::make_shared<const RayTracer>(scene); });
+  const double build_ms =
+      Milliseconds([&] { tracer = std::make_shared<const RayTracer>(scene, RayTracerOptions{options.isa}); });
   const auto renderer = MakeCpuRenderer(tracer);
-  const RawScene raw(*scene);
+  const RawScene raw(*scene, options.isa);
   const RayTables tables(options.width);
 
   std::vector<Row> rows = {Measure(1, options.rounds, raw, tables, *renderer)};
