@@ -47,6 +47,17 @@ def cast(p, d):
 
 
 class Render(ProgramTest):
+    def test_without_a_pose_an_imported_thing_is_in_the_middle_of_the_picture(self):
+        model, out = self.folder / "car.obj", self.folder / "out"
+        corners = [(x, y, z) for x in (4, 6) for y in (0, 1) for z in (-9, -5)]  # OBJ: y up
+        faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+        model.write_text("o car\n" + "".join("v %g %g %g\n" % c for c in corners) + "".join("f %d %d %d %d\n" % f for f in faces))
+        self.run_ok("render", "--world", model, "--size", "64x32", "--tier", "labels", "--out", out)
+        names = {int(i): e["name"] for i, e in read_json(out / "entities.json").items()}
+        entity = read_ids(out / "entity/000000.png")
+        self.assertEqual(names[entity[16][32]], "car")
+        self.assertEqual(names[entity[2][32]], "sky")
+
     def test_panorama_of_the_room_is_exact(self):
         out = self.folder / "out"
         self.run_ok("render", "--world", "box_room", "--pose", "-1.3,0.7,2.1,33,12,-7", "--size", "96x48", "--tier", "labels",

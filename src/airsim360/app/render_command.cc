@@ -1,6 +1,7 @@
 // airsim360 render: one capture as a dataset of one frame.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -59,6 +60,20 @@ std::string Number(double value) {
   return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
+// The scene's first viewpoint: facing east, or from outside the scene facing its middle.
+PoseArgument DefaultPose(const Scene& scene) {
+  const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
+  PoseArgument pose;
+  pose.p = VecCast<double>(spawn);
+  const Vec3d to_middle = VecCast<double>(scene.bounds.center() - spawn);
+  if (!scene.bounds.empty() && !scene.bounds.Contains(spawn)) {
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    pose.yaw_deg = std::atan2(to_middle.y, to_middle.x) * kDegrees;
+    pose.pitch_deg = std::atan2(to_middle.z, std::hypot(to_middle.x, to_middle.y)) * kDegrees;
+  }
+  return pose;
+}
+
 void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded.
   DatasetSpec spec;
@@ -82,8 +97,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
   const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
-  if (arguments.pose.empty())
-    pose.p = VecCast<double>(world.scene->spawn.value_or(world.scene->bounds.center()));
+  if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
   constexpr double kRadians = std::numbers::pi / 180;
