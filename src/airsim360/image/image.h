@@ -31,7 +31,9 @@ class Image {
   Image() = default;
   /// width x height pixels, all equal to `fill`; sizes must not be negative.
   Image(int width, int height, Pixel fill = {})
-      : width_(width), height_(height), pixels_(static_cast<size_t>(width) * static_cast<size_t>(height), fill) {}
+      : width_(width),
+        height_(height),
+        pixels_(static_cast<size_t>(width) * static_cast<size_t>(height), fill) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -40,7 +42,9 @@ class Image {
   /// Pixel of column x, row y (not checked).
   Pixel& operator()(int x, int y) { return pixels_[static_cast<size_t>(y) * width_ + x]; }
   const Pixel& operator()(int x, int y) const { return pixels_[static_cast<size_t>(y) * width_ + x]; }
-  std::span<Pixel> row(int y) { return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)}; }
+  std::span<Pixel> row(int y) {
+    return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)};
+  }
   std::span<const Pixel> row(int y) const {
     return {pixels_.data() + static_cast<size_t>(y) * width_, static_cast<size_t>(width_)};
   }

@@ -52,7 +52,9 @@ struct RigidTransform {
   Vec3d p;
 
   friend Vec3d operator*(const RigidTransform& X, Vec3d v) { return X.R * v + X.p; }
-  friend RigidTransform operator*(const RigidTransform& a, const RigidTransform& b) { return {a.R * b.R, a * b.p}; }
+  friend RigidTransform operator*(const RigidTransform& a, const RigidTransform& b) {
+    return {a.R * b.R, a * b.p};
+  }
   RigidTransform inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
@@ -62,18 +64,22 @@ struct AffineTransform {
   Vec3f p;
 
   friend Vec3f operator*(const AffineTransform& X, Vec3f v) { return X.A * v + X.p; }
-  friend AffineTransform operator*(const AffineTransform& a, const AffineTransform& b) { return {a.A * b.A, a * b.p}; }
+  friend AffineTransform operator*(const AffineTransform& a, const AffineTransform& b) {
+    return {a.A * b.A, a * b.p};
+  }
   friend bool operator==(const AffineTransform&, const AffineTransform&) = default;
 };
 
 /// Places an upright thing at `p`, turned by `yaw` (counter-clockwise seen from above) and scaled uniformly.
 AffineTransform PlaceUpright(Vec3f p, float yaw = 0, float scale = 1);
 
-/// Pose of a vehicle body (+X forward, +Y left, +Z up) in the world: R_WB = Rz(yaw) Ry(-pitch) Rx(roll). Radians.
-/// yaw 0 faces +X and grows counter-clockwise seen from above; pitch is positive nose up; roll positive right side down.
+/// Pose of a vehicle body (+X forward, +Y left, +Z up) in the world: R_WB = Rz(yaw) Ry(-pitch) Rx(roll).
+/// Radians. yaw 0 faces +X and grows counter-clockwise seen from above; pitch is positive nose up; roll
+/// positive right side down.
 RigidTransform BodyPose(Vec3d p_WB, double yaw, double pitch, double roll);
 
-/// Pose of a camera (+X right, +Y down, +Z forward) that looks along the body's forward axis, at the body's origin.
+/// Pose of a camera (+X right, +Y down, +Z forward) that looks along the body's forward axis, at the body's
+/// origin.
 RigidTransform CameraInBody();
 
 }  // namespace airsim360

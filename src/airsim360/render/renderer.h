@@ -61,8 +61,8 @@ class Renderer {
   virtual RenderStats Render(const RenderRequest& request, Frame& frame) = 0;
 };
 
-/// CPU renderer on Embree: tiers labels and fast. What `tier` needs beyond tracing (sky, light probes) is made
-/// here; what another tier needs, at its first capture.
+/// CPU renderer on Embree: tiers labels and fast. What `tier` needs beyond tracing (sky, light probes) is
+/// made here; what another tier needs, at its first capture.
 std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer, Tier tier = Tier::kLabels);
 /// Renderer for tests of everything above: sky everywhere, range 0, no rays.
 std::unique_ptr<Renderer> MakeNullRenderer(std::shared_ptr<const Scene> scene);

@@ -16,7 +16,8 @@ inline constexpr TextureId kNoTexture = -1;
 
 enum class Wrap : uint8_t { kRepeat, kMirror, kClamp };
 
-/// An 8-bit RGBA picture with its mip chain: level 0 is full size, each next level half (rounded down, at least 1).
+/// An 8-bit RGBA picture with its mip chain: level 0 is full size, each next level half (rounded down, at
+/// least 1).
 struct Texture {
   std::string name;
   bool srgb = false;  ///< colour channels are sRGB encoded (base colour, emission); alpha never is
@@ -47,10 +48,11 @@ struct Material {
   float base_alpha = 1;
   float metallic = 0;
   float roughness = 0.9f;
-  Vec3f emission{};          ///< W/(m^2 sr) relative to the sky's units, times emission texture
+  Vec3f emission{};  ///< W/(m^2 sr) relative to the sky's units, times emission texture
   float normal_scale = 1;
   float transmission = 0;
-  float macro_variation = 0;  ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
+  float macro_variation =
+      0;  ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
   TextureId base_color_texture = kNoTexture;          ///< sRGB, alpha = opacity
   TextureId metallic_roughness_texture = kNoTexture;  ///< G roughness, B metallic (glTF)
   TextureId normal_texture = kNoTexture;              ///< tangent space, +Y up in texture space (glTF)

@@ -15,8 +15,8 @@ using MaterialId = uint32_t;
 using EntityId = uint32_t;
 inline constexpr EntityId kNoEntity = 0;
 
-/// A run of triangles with one material. If `entity` is not kNoEntity it wins over the entity of the instance: merged
-/// static geometry carries many entities in one mesh.
+/// A run of triangles with one material. If `entity` is not kNoEntity it wins over the entity of the
+/// instance: merged static geometry carries many entities in one mesh.
 struct MeshPart {
   uint32_t first_triangle = 0;
   uint32_t triangle_count = 0;
@@ -24,9 +24,9 @@ struct MeshPart {
   EntityId entity = kNoEntity;
 };
 
-/// Vertices in the mesh's own frame (metres, +Z up). `normals` and `uvs` are empty or as long as `positions`; without
-/// normals the geometric normal of each triangle is used. Counter-clockwise triangles face their viewer.
-/// uv (0, 0) is the top left corner of a texture, v grows downwards (glTF).
+/// Vertices in the mesh's own frame (metres, +Z up). `normals` and `uvs` are empty or as long as `positions`;
+/// without normals the geometric normal of each triangle is used. Counter-clockwise triangles face their
+/// viewer. uv (0, 0) is the top left corner of a texture, v grows downwards (glTF).
 struct Mesh {
   std::string name;
   std::vector<Vec3f> positions;

@@ -24,7 +24,8 @@ struct Model {
 class ModelSource {
  public:
   virtual ~ModelSource() = default;
-  /// The model called `name`, or nullopt if this library does not have it (callers then use a procedural one).
+  /// The model called `name`, or nullopt if this library does not have it (callers then use a procedural
+  /// one).
   virtual std::optional<Model> Load(std::string_view name) const = 0;
 };
 

@@ -23,15 +23,18 @@ void CheckTexture(const std::string& where, TextureId id, size_t count) {
 
 void CheckMesh(const Mesh& mesh, size_t materials) {
   const std::string where = "mesh '" + mesh.name + "'";
-  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) Fail(where, "normals do not match positions");
-  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) Fail(where, "uvs do not match positions");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+    Fail(where, "normals do not match positions");
+  if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
+    Fail(where, "uvs do not match positions");
   for (Vec3f p : mesh.positions) {
     if (!IsFinite(p)) Fail(where, "a vertex is not finite");
   }
   const auto count = static_cast<uint32_t>(mesh.positions.size());
   for (Vec3u t : mesh.triangles) {
     if (std::max({t.x, t.y, t.z}) >= count) {
-      Fail(where, "vertex index " + std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(count));
+      Fail(where,
+           "vertex index " + std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(count));
     }
   }
   uint64_t next = 0;
@@ -53,13 +56,15 @@ Box3f GrowEntityBounds(const Instance& instance, const Mesh& mesh, std::vector<E
     const MeshPart& part = mesh.parts[i];
     const EntityId id = part.entity != kNoEntity ? part.entity : instance.entity;
     if (part.triangle_count > 0 && (id == kNoEntity || id > entities.size())) {
-      Fail("instance of mesh '" + mesh.name + "'", "entity " + std::to_string(id) + " of " + std::to_string(entities.size()));
+      Fail("instance of mesh '" + mesh.name + "'",
+           "entity " + std::to_string(id) + " of " + std::to_string(entities.size()));
     }
     Box3f box;
     for (uint32_t k = 0; k < part.triangle_count; ++k) {
       const Vec3u triangle = mesh.triangles[part.first_triangle + k];
       for (uint32_t vertex : {triangle.x, triangle.y, triangle.z}) {
-        if (std::exchange(last_part[vertex], static_cast<uint32_t>(i)) != i) box.Add(instance.X_WM * mesh.positions[vertex]);
+        if (std::exchange(last_part[vertex], static_cast<uint32_t>(i)) != i)
+          box.Add(instance.X_WM * mesh.positions[vertex]);
       }
     }
     if (part.triangle_count > 0) entities[id - 1].bounds.Add(box);
@@ -73,7 +78,8 @@ Box3f GrowEntityBounds(const Instance& instance, const Mesh& mesh, std::vector<E
 SceneCounts Scene::Count() const {
   SceneCounts counts;
   for (const Mesh& mesh : meshes) counts.unique_triangles += mesh.triangles.size();
-  for (const Instance& instance : instances) counts.instanced_triangles += meshes[instance.mesh].triangles.size();
+  for (const Instance& instance : instances)
+    counts.instanced_triangles += meshes[instance.mesh].triangles.size();
   counts.instances = instances.size();
   counts.entities = entities.size();
   return counts;
@@ -98,7 +104,8 @@ MaterialId SceneBuilder::AddMaterial(Material material) {
 }
 
 MeshId SceneBuilder::AddMesh(Mesh mesh) {
-  if (mesh.parts.empty()) mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), 0, kNoEntity});
+  if (mesh.parts.empty())
+    mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), 0, kNoEntity});
   scene_.meshes.push_back(std::move(mesh));
   return static_cast<MeshId>(scene_.meshes.size() - 1);
 }
@@ -130,8 +137,8 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   // Materials and meshes refer only to what exists.
   for (const Material& material : scene_.materials) {
     const std::string where = "material '" + material.name + "'";
-    for (TextureId id : {material.base_color_texture, material.metallic_roughness_texture, material.normal_texture,
-                         material.emission_texture}) {
+    for (TextureId id : {material.base_color_texture, material.metallic_roughness_texture,
+                         material.normal_texture, material.emission_texture}) {
       CheckTexture(where, id, scene_.textures.size());
     }
   }
@@ -141,9 +148,10 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
 
   // Instances: indices, entities of every part, bounds.
   for (const Instance& instance : scene_.instances) {
-    if (instance.mesh >= scene_.meshes.size()) Fail("instance", "mesh index " + std::to_string(instance.mesh));
-    if (!IsFinite(instance.X_WM.p) || !IsFinite(instance.X_WM.A.row(0)) || !IsFinite(instance.X_WM.A.row(1)) ||
-        !IsFinite(instance.X_WM.A.row(2))) {
+    if (instance.mesh >= scene_.meshes.size())
+      Fail("instance", "mesh index " + std::to_string(instance.mesh));
+    if (!IsFinite(instance.X_WM.p) || !IsFinite(instance.X_WM.A.row(0)) ||
+        !IsFinite(instance.X_WM.A.row(1)) || !IsFinite(instance.X_WM.A.row(2))) {
       Fail("instance of mesh '" + scene_.meshes[instance.mesh].name + "'", "transform is not finite");
     }
     scene_.bounds.Add(GrowEntityBounds(instance, scene_.meshes[instance.mesh], scene_.entities));

@@ -1,4 +1,5 @@
-// The constant part of a world: meshes, materials, textures, instances, entities, lights. Built once, then immutable.
+// The constant part of a world: meshes, materials, textures, instances, entities, lights. Built once, then
+// immutable.
 #pragma once
 
 #include <map>
@@ -15,28 +16,29 @@
 
 namespace airsim360 {
 
-/// One thing (or one stuff region) that labels tell apart. Ids start at 1 and never change within a world and seed.
+/// One thing (or one stuff region) that labels tell apart. Ids start at 1 and never change within a world and
+/// seed.
 struct Entity {
   EntityId id = kNoEntity;
-  std::string name;         ///< unique within the scene
+  std::string name;  ///< unique within the scene
   CategoryId category = kVoid;
-  Box3f bounds;             ///< in W; empty for the sky
+  Box3f bounds;  ///< in W; empty for the sky
 };
 
 /// A mesh placed in the world.
 struct Instance {
   MeshId mesh = 0;
-  AffineTransform X_WM;     ///< mesh frame to W
+  AffineTransform X_WM;         ///< mesh frame to W
   EntityId entity = kNoEntity;  ///< for the parts that carry none of their own
-  Vec3f tint{1, 1, 1};      ///< multiplies base colour (linear)
+  Vec3f tint{1, 1, 1};          ///< multiplies base colour (linear)
 };
 
 /// Direction and strength of the sun and the state of the sky. Default: a clear early afternoon.
 struct Daylight {
-  double sun_azimuth_deg = 215;   ///< compass, clockwise from north
+  double sun_azimuth_deg = 215;  ///< compass, clockwise from north
   double sun_elevation_deg = 48;
-  double turbidity = 2.5;         ///< 2 very clear … 10 hazy
-  double cloud_cover = 0.35;      ///< 0 none … 1 overcast
+  double turbidity = 2.5;     ///< 2 very clear … 10 hazy
+  double cloud_cover = 0.35;  ///< 0 none … 1 overcast
 };
 
 /// Triangles, instances and entities of a scene as counted by `airsim360 worlds` and `--json` outputs.
@@ -55,13 +57,13 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Entity> entities;             ///< entities[i].id == i + 1
-  EntityId sky_entity = kNoEntity;          ///< what rays that hit nothing see; kNoEntity only in closed rooms
+  std::vector<Entity> entities;     ///< entities[i].id == i + 1
+  EntityId sky_entity = kNoEntity;  ///< what rays that hit nothing see; kNoEntity only in closed rooms
   Daylight daylight;
-  Vec3f interior_light{};                   ///< uniform ambient radiance of scenes without a sky (closed rooms)
-  Box3f bounds;                             ///< of all instances, in W
-  std::optional<Vec3f> spawn;               ///< a good first viewpoint
-  std::vector<std::string> attributions;    ///< one line per third-party model used: title, author, licence
+  Vec3f interior_light{};                 ///< uniform ambient radiance of scenes without a sky (closed rooms)
+  Box3f bounds;                           ///< of all instances, in W
+  std::optional<Vec3f> spawn;             ///< a good first viewpoint
+  std::vector<std::string> attributions;  ///< one line per third-party model used: title, author, licence
 
   const Entity& entity(EntityId id) const { return entities[id - 1]; }
   SceneCounts Count() const;
@@ -90,8 +92,9 @@ class SceneBuilder {
   const Mesh& mesh(MeshId id) const { return scene_.meshes[id]; }
   const Material& material(MaterialId id) const { return scene_.materials[id]; }
 
-  /// Checks every index, fills bounds and returns the scene; the builder is empty afterwards. Throws InputError for an
-  /// index out of range, a triangle without an entity, a vertex that is not finite, or parts that do not cover a mesh.
+  /// Checks every index, fills bounds and returns the scene; the builder is empty afterwards. Throws
+  /// InputError for an index out of range, a triangle without an entity, a vertex that is not finite, or
+  /// parts that do not cover a mesh.
   std::shared_ptr<const Scene> Build();
 
  private:

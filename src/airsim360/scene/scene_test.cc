@@ -10,9 +10,7 @@
 namespace airsim360 {
 namespace {
 
-Mesh UnitTriangle() {
-  return {"triangle", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {{0, 1, 2}}, {}};
-}
+Mesh UnitTriangle() { return {"triangle", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {{0, 1, 2}}, {}}; }
 
 TEST(Semantics, IdsAreUniqueBelowTheCustomRangeAndParentsComeByPath) {
   const SemanticTree tree;

@@ -1,5 +1,6 @@
-// The built-in category tree: our own data, from the categories of the AirSim360 paper's four scenes plus what
-// Cityscapes, COCO, ADE20K and indoor worlds need. Append only: the id of a row is its position plus one.
+// The built-in category tree: our own data, from the categories of the AirSim360 paper's four scenes plus
+// what Cityscapes, COCO, ADE20K and indoor worlds need. Append only: the id of a row is its position plus
+// one.
 #include "airsim360/scene/semantics.h"
 
 #include <algorithm>
@@ -235,7 +236,8 @@ static_assert(std::size(kRows) < kFirstCustomId);
 
 bool IsValidPath(std::string_view path) {
   if (path.empty() || path.size() > 200 || path.front() == '/' || path.back() == '/') return false;
-  if (path.find("//") != std::string_view::npos || std::count(path.begin(), path.end(), '/') > 7) return false;
+  if (path.find("//") != std::string_view::npos || std::count(path.begin(), path.end(), '/') > 7)
+    return false;
   return std::all_of(path.begin(), path.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
   });
@@ -257,7 +259,8 @@ SemanticTree::SemanticTree() {
   for (size_t i = 0; i < std::size(kRows); ++i) {
     const Row& row = kRows[i];
     const auto id = static_cast<CategoryId>(i + 1);
-    categories_[id] = {id, row.path, kVoid, row.thing, row.ade20k, row.cityscapes, row.coco, Split(row.raw, '|')};
+    categories_[id] = {id,         row.path,       kVoid,    row.thing,
+                       row.ade20k, row.cityscapes, row.coco, Split(row.raw, '|')};
     ids_.emplace(row.path, id);
   }
   for (auto& [id, category] : categories_) {
@@ -294,7 +297,8 @@ CategoryId SemanticTree::Add(std::string_view path, bool thing) {
   const size_t slash = path.rfind('/');
   const CategoryId parent = slash == std::string_view::npos ? kVoid : Add(path.substr(0, slash), thing);
 
-  // The id depends on the path alone; two paths that collide (1 in 65,000) are refused rather than renumbered.
+  // The id depends on the path alone; two paths that collide (1 in 65,000) are refused rather than
+  // renumbered.
   const auto id = static_cast<CategoryId>(kFirstCustomId + HashName(path) % (65536 - kFirstCustomId));
   if (categories_.contains(id)) {
     throw InputError("category path '" + std::string(path) + "' has the same id as '" + categories_[id].path +

@@ -12,7 +12,7 @@
 namespace airsim360 {
 
 using CategoryId = uint16_t;
-inline constexpr CategoryId kVoid = 0;           ///< never written by our worlds
+inline constexpr CategoryId kVoid = 0;             ///< never written by our worlds
 inline constexpr CategoryId kFirstCustomId = 256;  ///< built-in ids are below
 
 /// One node of the tree, leaf or inner. External ids are -1 where there is no counterpart.
@@ -38,9 +38,9 @@ class SemanticTree {
   CategoryId At(std::string_view path) const;
   /// Category of an id; InputError if unknown.
   const Category& operator[](CategoryId id) const;
-  /// Adds a path (and missing ancestors) unless present; returns its id. Custom ids depend on the path alone, so that they
-  /// agree between worlds. External ids are inherited from the nearest ancestor that has one. InputError for a
-  /// malformed path: parts of [a-z0-9_] joined by '/', at most 8 parts and 200 characters.
+  /// Adds a path (and missing ancestors) unless present; returns its id. Custom ids depend on the path alone,
+  /// so that they agree between worlds. External ids are inherited from the nearest ancestor that has one.
+  /// InputError for a malformed path: parts of [a-z0-9_] joined by '/', at most 8 parts and 200 characters.
   CategoryId Add(std::string_view path, bool thing = true);
   /// All categories, by id.
   const std::map<CategoryId, Category>& categories() const { return categories_; }

@@ -13,7 +13,7 @@ struct WorldRequest {
   std::string world;  ///< name of a built-in world, or path to .glb/.gltf/.obj/.yaml
   uint64_t seed = 0;
   std::filesystem::path labels = {};  ///< label override file for imports, see docs/importing.md
-  bool use_models = true;        ///< use sweethome3d-furniture where installed
+  bool use_models = true;             ///< use sweethome3d-furniture where installed
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "airsim360/worlds/props.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
@@ -133,6 +134,8 @@ struct Proportions {
   double min_slender, max_slender;  // height of the tree over the width of its crown
   size_t min_foliage;
 };
+
+void PrintTo(const Proportions& proportions, std::ostream* out) { *out << proportions.kind; }
 
 class Trees : public testing::TestWithParam<Proportions> {};
 
