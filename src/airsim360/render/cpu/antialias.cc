@@ -81,7 +81,7 @@ class EdgeTile {
     g_[pixel] += SrgbToLinear(color.g);
     b_[pixel] += SrgbToLinear(color.b);
     ++weight_[pixel];
-    const auto luma = static_cast<uint8_t>((2 * color.r + 5 * color.g + color.b) >> 3);
+    const uint8_t luma = Luma(color.r, color.g, color.b);
     low_[pixel] = std::min(low_[pixel], luma);
     high_[pixel] = std::max(high_[pixel], luma);
   }

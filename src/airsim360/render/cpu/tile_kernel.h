@@ -25,6 +25,11 @@ struct alignas(64) LabelTile {
   float normal_x[kTilePixels], normal_y[kTilePixels], normal_z[kTilePixels];
 };
 
+/// Lightness by which edges are judged, of 255: (2 R + 5 G + B) / 8.
+inline __attribute__((always_inline)) uint8_t Luma(uint8_t r, uint8_t g, uint8_t b) {
+  return static_cast<uint8_t>((2 * r + 5 * g + b) >> 3);
+}
+
 /// Kinds of edges, bits of the edge image.
 inline constexpr int kContrastEdge = 1, kSilhouette = 2;
 
@@ -64,7 +69,7 @@ AIRSIM360_DECLARE_KERNEL(void AppendHits(const LabelView& view, const RayHit16& 
 AIRSIM360_DECLARE_KERNEL(void PrefetchTile(const TileTarget& target))
 /// Writes a tile into the images.
 AIRSIM360_DECLARE_KERNEL(void StoreLabels(const LabelTile& tile, const TileTarget& target))
-/// … and its colours; `luma` gets their weighted mean (2 R + 5 G + B) / 8.
+/// … and its colours; `luma` gets their Luma.
 AIRSIM360_DECLARE_KERNEL(void StoreColors(const Rgb8* colors, const TileTarget& target, Rgb8* image,
                                           uint8_t* luma))
 /// Marks pixels of one row that differ from the one above, below, left or right: kSilhouette in entity, plus

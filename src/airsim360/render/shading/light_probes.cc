@@ -104,7 +104,7 @@ Vec3f LightProbes::Position(int x, int y, int z) const {
   return {origin_.x + cell_ * static_cast<float>(x), origin_.y + cell_ * static_cast<float>(y), layers_[z]};
 }
 
-// Sixteen neighbours look the same way at the same time: coherent packets.
+// Sixteen neighbours look the same way at the same time; metres apart, so not as a coherent packet.
 void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y,
                           int z) {
   static const std::array<Vec3f, kDirections> directions = EvenDirections();
