@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const auto route = std::make_shared<const Route>(PlanSurvey(*tracer, {}));
   const Flight flight = FlyRoute({.tracer = tracer}, route, EvenTimes(*route, frames));
-  const auto renderer = MakeCpuRenderer(tracer, Tier::kFast);
+  const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kFast});
 
   // All rows take turns at every pose, so that a busy moment of the machine hits all of them.
   std::vector<Row> rows;

@@ -13,7 +13,7 @@ OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier) {
   OpenedWorld opened;
   opened.scene = LoadWorld({.world = world, .seed = seed});
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
-  opened.renderer = MakeCpuRenderer(opened.tracer, tier);
+  opened.renderer = MakeCpuRenderer(opened.tracer, {.tier = tier});
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;

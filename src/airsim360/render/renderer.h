@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "airsim360/math/transform.h"
 #include "airsim360/projection/camera.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/scene/scene_state.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -20,9 +22,16 @@ inline constexpr const char* kTierNames[] = {"labels", "fast", "high", "referenc
 /// Tier of a name; InputError naming the nearest if there is none.
 Tier ParseTier(std::string_view name);
 
+/// From scene radiance to display values.
+enum class ToneCurve { kFilmic, kAgx, kLinear };
+inline constexpr const char* kToneCurveNames[] = {"filmic", "agx", "linear"};
+
 /// Which images a capture fills. Labels cost nothing beside each other: they come from the same rays.
 struct Products {
   bool rgb = true, range = true, semantic = true, entity = true, normal = false;
+  bool position = false, albedo = false, material = false, coverage = false;
+  bool flow = false;      ///< needs RenderRequest::X_WC_next
+  bool radiance = false;  ///< linear light before exposure and tone curve
 };
 
 struct RenderRequest {
@@ -33,6 +42,38 @@ struct RenderRequest {
   double exposure_ev =
       0;  ///< stops added to the scene's fixed daylight exposure; one exposure for the whole sphere
   int aa_samples = 4;  ///< colour samples of a pixel on an edge, the centre ray included; 1 = none
+
+  /// What has moved; nullptr = nothing. Shared with the flow's second instant below.
+  std::shared_ptr<const SceneState> state = nullptr;
+  /// The instant that flow leads to: pose of the camera and what has moved by then.
+  std::optional<RigidTransform> X_WC_next = {};
+  std::shared_ptr<const SceneState> next_state = nullptr;
+
+  // Tiers high and reference.
+  int samples =
+      0;  ///< high: ambient rays of a pixel at the equator; reference: paths of a pixel; 0 = default
+  bool latitude_sampling = true;  ///< fewer samples where rows of a panorama are shorter
+  bool denoise = true;            ///< high
+  bool temporal = false;  ///< high: reuse the last frame of this renderer; off = frames are independent
+  uint64_t seed = 0;      ///< of all random choices
+
+  ToneCurve tone = ToneCurve::kFilmic;
+  bool auto_exposure = false;  ///< from the picture's own solid-angle-weighted histogram
+};
+
+/// Where the surface point of a pixel is at the next instant.
+struct FlowPixel {
+  float dx = 0, dy = 0;  ///< pixels; across the seam of a panorama the short way, so |dx| <= W / 2
+  float range = 0;       ///< to that point then, metres; 0 = sky
+  uint8_t occluded = 0;  ///< 1: something else hides it then, or it leaves the picture
+  Vec3f motion;          ///< scene flow: displacement of the point in W, metres
+};
+
+/// The entities in a pixel by the share of its area, largest first; entity kNoEntity = no more.
+struct CoveragePixel {
+  static constexpr int kEntities = 4;
+  EntityId entity[kEntities] = {};
+  float share[kEntities] = {};  ///< sums to 1 with what is left out
 };
 
 /// The products asked for; the others are empty, and so is rgb of tier labels. Images keep their memory
@@ -43,7 +84,13 @@ struct Frame {
   Image<float> range;          ///< metres along the ray through the pixel centre, 0 = nothing hit
   Image<CategoryId> semantic;  ///< leaf category
   Image<EntityId> entity;
-  Image<Vec3f> normal;  ///< unit geometric normal in W towards the camera; (0, 0, 0) = nothing hit
+  Image<Vec3f> normal;            ///< unit geometric normal in W towards the camera; (0, 0, 0) = nothing hit
+  Image<Vec3f> position;          ///< of the point hit, in W; (0, 0, 0) = nothing hit
+  Image<Rgb32f> albedo;           ///< linear base colour of the surface, textures included; 0 = sky
+  Image<uint16_t> material;       ///< index into Scene::materials plus 1; 0 = nothing hit
+  Image<FlowPixel> flow;          ///< to the next instant
+  Image<CoveragePixel> coverage;  ///< soft edges
+  Image<Rgb32f> radiance;         ///< linear light, units of Sky
 };
 
 /// Counters of the last capture.
@@ -61,9 +108,14 @@ class Renderer {
   virtual RenderStats Render(const RenderRequest& request, Frame& frame) = 0;
 };
 
-/// CPU renderer on Embree: tiers labels and fast. What `tier` needs beyond tracing (sky, light probes) is
-/// made here; what another tier needs, at its first capture.
-std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer, Tier tier = Tier::kLabels);
+struct RendererOptions {
+  Tier tier = Tier::kLabels;  ///< what it needs beyond tracing (sky, lights, probes) is made at construction
+  std::optional<Environment> environment = {};  ///< instead of the scene's own
+};
+
+/// CPU renderer on Embree. What a tier other than the one announced needs is made at its first capture.
+std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer,
+                                          const RendererOptions& options = {});
 /// Renderer for tests of everything above: sky everywhere, range 0, no rays.
 std::unique_ptr<Renderer> MakeNullRenderer(std::shared_ptr<const Scene> scene);
 

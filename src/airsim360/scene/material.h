@@ -34,7 +34,8 @@ enum class AlphaMode : uint8_t { kOpaque, kMask };
 enum class SurfaceKind : uint8_t {
   kStandard,  ///< metallic-roughness
   kFoliage,   ///< two-sided, transmits light: `transmission` times base colour
-  kGlass,     ///< dielectric pane: sky reflection by Fresnel over base colour
+  kGlass,     ///< thin pane: reflects by Fresnel; behind it a room (`interior`), else `base_color` as the
+              ///< colour of what lies behind
   kWater,     ///< dielectric with procedural waves
 };
 
@@ -51,6 +52,10 @@ struct Material {
   Vec3f emission{};  ///< W/(m^2 sr) relative to the sky's units, times emission texture
   float normal_scale = 1;
   float transmission = 0;
+  float clear_coat = 0;  ///< 0 … 1: a smooth dielectric layer (n = 1.5) over everything, as on car paint
+  float clear_coat_roughness = 0.03f;
+  bool interior = false;  ///< kGlass: a furnished room is seen behind each pane (interior mapping)
+  bool lamp = false;      ///< emission shines only while Environment::lamps_on()
   float macro_variation =
       0;  ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
   TextureId base_color_texture = kNoTexture;          ///< sRGB, alpha = opacity

@@ -10,6 +10,7 @@
 
 #include "airsim360/math/box.h"
 #include "airsim360/math/transform.h"
+#include "airsim360/scene/environment.h"
 #include "airsim360/scene/material.h"
 #include "airsim360/scene/mesh.h"
 #include "airsim360/scene/semantics.h"
@@ -33,14 +34,6 @@ struct Instance {
   Vec3f tint{1, 1, 1};          ///< multiplies base colour (linear)
 };
 
-/// Direction and strength of the sun and the state of the sky. Default: a clear early afternoon.
-struct Daylight {
-  double sun_azimuth_deg = 215;  ///< compass, clockwise from north
-  double sun_elevation_deg = 48;
-  double turbidity = 2.5;     ///< 2 very clear … 10 hazy
-  double cloud_cover = 0.35;  ///< 0 none … 1 overcast
-};
-
 /// Triangles, instances and entities of a scene as counted by `airsim360 worlds` and `--json` outputs.
 struct SceneCounts {
   uint64_t unique_triangles = 0;
@@ -57,9 +50,9 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Entity> entities;     ///< entities[i].id == i + 1
-  EntityId sky_entity = kNoEntity;  ///< what rays that hit nothing see; kNoEntity only in closed rooms
-  Daylight daylight;
+  std::vector<Entity> entities;           ///< entities[i].id == i + 1
+  EntityId sky_entity = kNoEntity;        ///< what rays that hit nothing see; kNoEntity only in closed rooms
+  Environment environment;                ///< the world's own; renderers may be given another
   Vec3f interior_light{};                 ///< uniform ambient radiance of scenes without a sky (closed rooms)
   Box3f bounds;                           ///< of all instances, in W
   std::optional<Vec3f> spawn;             ///< a good first viewpoint
@@ -75,7 +68,7 @@ class SceneBuilder {
   explicit SceneBuilder(std::string name);
 
   SemanticTree& tree() { return scene_.tree; }
-  Daylight& daylight() { return scene_.daylight; }
+  Environment& environment() { return scene_.environment; }
   TextureId AddTexture(Texture texture);
   MaterialId AddMaterial(Material material);
   /// The mesh may be empty of parts: then `material` 0 covers all of it.

@@ -52,7 +52,7 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
                                                std::vector<Placement>* placements) {
   SceneBuilder builder("downtown_west");
   builder.AddSky();
-  builder.daylight() = {
+  builder.environment() = {
       .sun_azimuth_deg = 222, .sun_elevation_deg = 44, .turbidity = 2.6, .cloud_cover = 0.35};
   const Surfaces surfaces = AddSurfaces(builder);
   const StreetPlan plan = PlanDowntownWest();

@@ -43,9 +43,12 @@ bool IsFinite(const RigidTransform& X) {
 
 class CpuRenderer : public Renderer {
  public:
-  CpuRenderer(std::shared_ptr<const RayTracer> tracer, Tier tier)
-      : tracer_(std::move(tracer)), tables_(*tracer_), labels_(tables_.view()) {
-    if (tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_);
+  CpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options)
+      : tracer_(std::move(tracer)),
+        environment_(options.environment.value_or(tracer_->scene().environment)),
+        tables_(*tracer_),
+        labels_(tables_.view()) {
+    if (options.tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_, environment_);
   }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;
@@ -62,6 +65,7 @@ class CpuRenderer : public Renderer {
   }
 
   std::shared_ptr<const RayTracer> tracer_;
+  Environment environment_;
   LabelTables tables_;
   LabelView labels_;
   TileKernels kernels_;
@@ -92,7 +96,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = request.products.rgb && request.tier != Tier::kLabels;
-  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_);
+  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
   const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
@@ -190,8 +194,9 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
 
 }  // namespace
 
-std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer, Tier tier) {
-  return std::make_unique<CpuRenderer>(std::move(tracer), tier);
+std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer,
+                                          const RendererOptions& options) {
+  return std::make_unique<CpuRenderer>(std::move(tracer), options);
 }
 
 }  // namespace airsim360

@@ -20,7 +20,7 @@ struct CloudLight {
 /// overhead; the field is shifted so that the sun is free from the origin.
 class Clouds {
  public:
-  /// `cover` is Daylight::cloud_cover; at 0 there are none.
+  /// `cover` is Environment::cloud_cover; at 0 there are none.
   Clouds(double cover, const CloudLight& light);
 
   /// Radiance of a sky direction with clouds before a clear sky: `behind` is the clear radiance there, `haze`

@@ -51,11 +51,11 @@ struct World {
     const EntityId entity = builder.AddEntity("all", builder.tree().At("construction/building"));
     if (open) builder.AddSky();
     builder.SetInteriorLight(interior);
-    builder.daylight().cloud_cover = 0;
+    builder.environment().cloud_cover = 0;
     builder.AddInstance({builder.AddMesh(std::move(mesh)), AffineTransform(), entity});
     tracer = std::make_shared<const RayTracer>(builder.Build());
     tables = std::make_unique<SurfaceTables>(tracer->scene());
-    if (open) sky = std::make_unique<Sky>(tracer->scene().daylight);
+    if (open) sky = std::make_unique<Sky>(tracer->scene().environment);
     probes = std::make_unique<LightProbes>(*tracer, *tables, sky.get(), LightProbes::Options{20000, 2.0f});
   }
 };

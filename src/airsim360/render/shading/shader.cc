@@ -37,9 +37,10 @@ struct Kernels {
 }  // namespace
 
 struct Shader::Impl {
-  explicit Impl(std::shared_ptr<const RayTracer> t) : tracer(std::move(t)), tables(tracer->scene()) {
+  Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
+      : tracer(std::move(t)), tables(tracer->scene()) {
     const Scene& scene = tracer->scene();
-    if (scene.sky_entity != kNoEntity) sky.emplace(scene.daylight);
+    if (scene.sky_entity != kNoEntity) sky.emplace(environment);
     if (!scene.instances.empty())
       probes.emplace(*tracer, tables, sky ? &*sky : nullptr, internal::LightProbes::Options{});
     view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
@@ -72,8 +73,8 @@ struct Shader::Impl {
   float exposure = 1;
 };
 
-Shader::Shader(std::shared_ptr<const RayTracer> tracer)
-    : impl_(std::make_unique<const Impl>(std::move(tracer))) {}
+Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
+    : impl_(std::make_unique<const Impl>(std::move(tracer), environment)) {}
 Shader::~Shader() = default;
 
 float Shader::Exposure() const { return impl_->exposure; }

@@ -33,12 +33,12 @@ struct alignas(64) RadianceBatch {
 /// batch.
 class Shader {
  public:
-  explicit Shader(std::shared_ptr<const RayTracer> tracer);
+  Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
   ~Shader();
 
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
-  /// Factor from radiance to the input of the tone curve: fixed by the scene's daylight, the same for the
-  /// whole sphere.
+  /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
+  /// the whole sphere.
   float Exposure() const;
   /// Display colours of `count` radiances: exposure * 2^exposure_ev, filmic curve, sRGB.
   void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,

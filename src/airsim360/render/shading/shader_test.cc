@@ -32,7 +32,7 @@ struct World {
 
   World() {
     builder.AddSky();
-    builder.daylight().cloud_cover = 0;
+    builder.environment().cloud_cover = 0;
   }
   void Add(Mesh mesh, Material material, Vec3f tint = {1, 1, 1}) {
     const MaterialId id = builder.AddMaterial(std::move(material));
@@ -41,7 +41,7 @@ struct World {
   }
   void Build() {
     tracer = std::make_shared<const RayTracer>(builder.Build());
-    shader = std::make_unique<const Shader>(tracer);
+    shader = std::make_unique<const Shader>(tracer, tracer->scene().environment);
   }
   // Radiance along rays from one point.
   std::vector<Vec3f> See(Vec3f origin, const std::vector<Vec3f>& directions, float cone = 1e-3f,
@@ -84,7 +84,7 @@ TEST(Shader, SunlitGroundIsBrighterThanGroundInShadowByTheSunsShare) {
   world.Add(Plane(40), Matte(0.2f));
   world.Add(Plane(3, 8), Matte(0.2f));
   world.Build();
-  const internal::Sky sky(world.tracer->scene().daylight);
+  const internal::Sky sky(world.tracer->scene().environment);
   const Vec3f s = sky.to_sun();
   const Vec3f shadow = Vec3f{-s.x, -s.y, 0} * (8 / s.z);
   const Vec3f sunlit = world.SeeOne({20, 20, 6}, {20, 22, 0}),
@@ -194,7 +194,7 @@ TEST(Shader, LeavesGlowAgainstTheSun) {
 
 TEST(Shader, FarSurfacesFadeIntoTheHorizon) {
   World world;
-  world.builder.daylight().turbidity = 6;
+  world.builder.environment().turbidity = 6;
   world.Add(Plane(60000), Matte(0.02f));
   world.Build();
   const Vec3f near = world.SeeOne({0, 0, 50}, {50, 0, 0}), far = world.SeeOne({0, 0, 50}, {40000, 0, 0});
@@ -228,7 +228,7 @@ TEST(Shader, SunSamplesSoftenShadowsAroundTheSameMean) {
   world.Add(Plane(60), Matte(0.2f));
   world.Add(Plane(6, 20), Matte(0.2f));
   world.Build();
-  const internal::Sky sky(world.tracer->scene().daylight);
+  const internal::Sky sky(world.tracer->scene().environment);
   const Vec3f s = sky.to_sun();
   // Just on the border of the shadow some samples see the sun and some do not.
   const Vec3f edge = Vec3f{6, 0, 0} + Vec3f{-s.x, -s.y, 0} * (20 / s.z);
@@ -283,7 +283,7 @@ TEST(Shader, AllInstructionSetsAgreeToTheBit) {
   world.Build();
   const Scene& scene = world.tracer->scene();
   const internal::SurfaceTables tables(scene);
-  const internal::Sky sky(scene.daylight);
+  const internal::Sky sky(scene.environment);
   const internal::ShadeView view = internal::MakeShadeView(scene, tables, &sky, nullptr);
 
   internal::RaySet rays{};

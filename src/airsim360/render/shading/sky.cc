@@ -18,13 +18,13 @@ constexpr float kSunSolidAngle = 6.72e-5f;  // disc of 0.53 degrees
 
 }  // namespace
 
-Sky::Sky(const Daylight& daylight) {
-  const double azimuth = daylight.sun_azimuth_deg * (kPi / 180.0),
-               elevation = daylight.sun_elevation_deg * (kPi / 180.0);
+Sky::Sky(const Environment& environment) {
+  const double azimuth = environment.sun_azimuth_deg * (kPi / 180.0),
+               elevation = environment.sun_elevation_deg * (kPi / 180.0);
   to_sun_ = {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
              static_cast<float>(std::cos(azimuth) * std::cos(elevation)),
              static_cast<float>(std::sin(elevation))};
-  BakeTable(daylight);
+  BakeTable(environment);
   BakeIrradiance();
   BakeHorizon();
   BakeBlurred();
@@ -32,8 +32,8 @@ Sky::Sky(const Daylight& daylight) {
 
 Vec3f Sky::sun_radiance() const { return sun_irradiance_ * (1 / kSunSolidAngle); }
 
-void Sky::BakeTable(const Daylight& daylight) {
-  const Atmosphere atmosphere(to_sun_, daylight.turbidity);
+void Sky::BakeTable(const Environment& environment) {
+  const Atmosphere atmosphere(to_sun_, environment.turbidity);
   sun_irradiance_ = atmosphere.SunIrradiance();
   extinction_ = atmosphere.GroundExtinction();
 
@@ -51,7 +51,7 @@ void Sky::BakeTable(const Daylight& daylight) {
   }
 
   // Then clouds before it.
-  const Clouds clouds(daylight.cloud_cover, {to_sun_, sun_irradiance_, ambient});
+  const Clouds clouds(environment.cloud_cover, {to_sun_, sun_irradiance_, ambient});
   table_ = MakeTable(2048, 512, false);
   ParallelFor(table_.height, [&](int64_t row) {
     const int y = static_cast<int>(row);

@@ -11,14 +11,14 @@
 
 namespace airsim360::internal {
 
-/// Immutable, built once per daylight.
+/// Immutable, built once per environment.
 class Sky {
  public:
   static constexpr int kBlurLevels = 3;
   /// Roughness of the blurred tables; table 0 of roughness 0 is `table()`.
   static constexpr std::array<float, kBlurLevels> kBlurRoughness{0.30f, 0.55f, 0.85f};
 
-  explicit Sky(const Daylight& daylight);
+  explicit Sky(const Environment& environment);
 
   Vec3f to_sun() const { return to_sun_; }
   /// On a plane facing the sun.
@@ -42,7 +42,7 @@ class Sky {
   Vec3f ground_radiance() const { return ground_radiance_; }
 
  private:
-  void BakeTable(const Daylight& daylight);
+  void BakeTable(const Environment& environment);
   void BakeIrradiance();
   void BakeHorizon();
   void BakeBlurred();

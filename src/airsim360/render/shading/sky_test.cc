@@ -16,7 +16,7 @@ constexpr double kPi = 3.14159265358979;
 double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 const Sky& DefaultSky() {
-  static const Sky sky{Daylight{}};
+  static const Sky sky{Environment{}};
   return sky;
 }
 
@@ -89,11 +89,11 @@ TEST(Sky, SphericalHarmonicsGiveTheIrradianceOfTheTable) {
 }
 
 TEST(Sky, SunStandsWhereTheCompassSays) {
-  Daylight daylight;
-  daylight.cloud_cover = 0;
-  daylight.sun_azimuth_deg = 90;
-  daylight.sun_elevation_deg = 30;
-  const Sky sky(daylight);
+  Environment environment;
+  environment.cloud_cover = 0;
+  environment.sun_azimuth_deg = 90;
+  environment.sun_elevation_deg = 30;
+  const Sky sky(environment);
   EXPECT_NEAR(sky.to_sun().x, std::cos(kPi / 6), 1e-6);
   EXPECT_NEAR(sky.to_sun().y, 0, 1e-6);
   EXPECT_NEAR(sky.to_sun().z, 0.5, 1e-6);
@@ -108,9 +108,9 @@ TEST(Sky, CloudsCoverMoreWhenAskedAndLeaveTheSunFree) {
   double share[3];
   int k = 0;
   for (double cover : {0.0, 0.35, 0.8}) {
-    Daylight daylight;
-    daylight.cloud_cover = cover;
-    const Sky sky(daylight);
+    Environment environment;
+    environment.cloud_cover = cover;
+    const Sky sky(environment);
     int white = 0, all = 0;
     for (int i = 0; i < 8000; ++i) {
       const Vec3f d = Direction(i * 2.39996, std::asin(0.1 + 0.9 * (i + 0.5) / 8000));
@@ -129,7 +129,7 @@ TEST(Sky, CloudsCoverMoreWhenAskedAndLeaveTheSunFree) {
 
 TEST(Sky, IsTheSameWithAnyNumberOfThreads) {
   const ThreadLimit one(1);
-  const Sky sky{Daylight{}};
+  const Sky sky{Environment{}};
   EXPECT_EQ(sky.table().texels, DefaultSky().table().texels);
   EXPECT_EQ(sky.blurred(1).texels, DefaultSky().blurred(1).texels);
 }

@@ -1,0 +1,28 @@
+// Tier `high` of one frame: what needs the whole image (denoising) between tracing and display.
+#pragma once
+
+#include <memory>
+
+#include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/cpu/label_tables.h"
+#include "airsim360/render/renderer.h"
+#include "airsim360/render/shading/shader.h"
+
+namespace airsim360::internal {
+
+/// Keeps its buffers between frames.
+class HighFrame {
+ public:
+  HighFrame();
+  ~HighFrame();
+  /// Fills `radiance` (linear, edges antialiased) and the labels asked for. Returns the number of rays.
+  uint64_t Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays,
+                  const LabelView& labels, const RenderRequest& request, Image<Rgb32f>& radiance,
+                  Frame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace airsim360::internal
