@@ -7,8 +7,6 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "airsim360/image/color.h"
-
 namespace airsim360::internal {
 namespace {
 
@@ -38,18 +36,6 @@ class Groups {
  private:
   std::vector<uint32_t> parent_;
 };
-
-// Emission of a part of a mesh, its texture averaged.
-Vec3f MeanEmission(const Scene& scene, const Material& m) {
-  if (m.emission_texture == kNoTexture || scene.textures[m.emission_texture].levels.empty())
-    return m.emission;
-  const Texture& texture = scene.textures[m.emission_texture];
-  const Rgba8 p = texture.levels.back()(0, 0);
-  const auto decode = [&](uint8_t v) {
-    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
-  };
-  return m.emission * Vec3f{decode(p.r), decode(p.g), decode(p.b)};
-}
 
 }  // namespace
 
@@ -127,8 +113,6 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
   const Instance& placed = scene.instances[instance];
   const Mesh& mesh = scene.meshes[placed.mesh];
   const uint32_t first = tables.instances[instance].first_triangle;
-  Vec3f emission;
-  uint32_t last_material = UINT32_MAX;
 
   // Sums over the area.
   PlacedLamp out;
@@ -138,12 +122,10 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
   for (uint32_t k : shape.triangles) {
     const LampTriangle t = PlaceTriangle(mesh, k, placed.X_WM);
     const uint32_t material = tables.triangles[first + k].material & ~kMirroredUv;
-    if (material != last_material) emission = MeanEmission(scene, scene.materials[material]);
-    last_material = material;
     lamp.area += t.area;
     lamp.center += (t.corner[0] + t.corner[1] + t.corner[2]) * (t.area / 3);
     lamp.facing += t.normal * t.area;
-    lamp.power += emission * (kPi * t.area);
+    lamp.power += tables.mean_emissions[material] * (kPi * t.area);
     normals.push_back(t.normal);
     for (Vec3f p : t.corner) out.box.Add(p);
   }

@@ -78,8 +78,17 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
                               rmin(shine.z, real(kBrightest)));
 
+  // Lamps.
+  real3 glare = load3(s.er + i, s.eg + i, s.eb + i);
+  if (view.lamps.lamps != nullptr) {
+    const real3 front = load3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i);
+    const real3 back = load3(s.lamp_back_r + i, s.lamp_back_g + i, s.lamp_back_b + i);
+    body = body + diffuse(inside, front + sel3(leaf, back * yellow, Grey(0)));
+    glare = glare + load3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i);
+  }
+
   const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * skin;
-  real3 light = body * through + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
+  real3 light = body * through + mirrored + bounded + glare;
 
   // Air between.
   if (view.has_sky > 0.5f) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/render/lights/clear_panes.h"
+
 namespace airsim360::internal {
 namespace {
 
@@ -17,12 +19,14 @@ struct RayQueue {
   alignas(64) int valid[16] = {};
   int lane[16] = {};
   int count = 0;
+  uint32_t mask;
 
+  explicit RayQueue(uint32_t meets = kMaskAll) : mask(meets) {}
   void Add(Vec3f p, Vec3f d, int index, float reach = INFINITY) {
     const int i = count++;
     rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
     rays.direction_x[i] = d.x, rays.direction_y[i] = d.y, rays.direction_z[i] = d.z;
-    rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = UINT32_MAX;
+    rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = mask;
     lane[i] = index;
   }
   // Marks the lanes in use; the others repeat the last ray.
@@ -34,10 +38,31 @@ struct RayQueue {
       rays.origin_z[i] = rays.origin_z[0];
       rays.direction_x[i] = rays.direction_x[0], rays.direction_y[i] = rays.direction_y[0],
       rays.direction_z[i] = rays.direction_z[0];
-      rays.t_near[i] = 0, rays.t_far[i] = INFINITY, rays.mask[i] = UINT32_MAX;
+      rays.t_near[i] = 0, rays.t_far[i] = INFINITY, rays.mask[i] = mask;
     }
   }
 };
+
+// Share of light that gets to each ray's origin: 0 behind something solid, less than 1 behind clear panes.
+// Colour of panes is averaged.
+void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share) {
+  bool occluded[16] = {};
+  float reach[16];
+  std::copy(queue.rays.t_far, queue.rays.t_far + 16, reach);
+  queue.Close();
+  // Faster without COHERENT, and Embree 3.13 hung on coherent ones.
+  tracer.Occluded16(queue.valid, queue.rays, occluded, false);
+  for (int i = 0; i < queue.count; ++i) share[i] = occluded[i] ? 0.0f : 1.0f;
+  if (!tracer.has_clear_panes()) return;
+  for (int i = 0; i < queue.count; ++i) {
+    queue.valid[i] = occluded[i] ? 0 : -1;
+    queue.rays.t_far[i] = reach[i];
+  }
+  std::array<Vec3f, 16> tint;
+  tint.fill({1, 1, 1});
+  DimByPanes(tracer, tables, queue.valid, queue.rays, tint);
+  for (int i = 0; i < queue.count; ++i) share[i] *= (tint[i].x + tint[i].y + tint[i].z) / 3;
+}
 
 }  // namespace
 
@@ -53,14 +78,12 @@ void Pad(RaySet& set) {
   }
 }
 
-void TraceSun(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
-  RayQueue queue;
+void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, SurfaceSet& s) {
+  RayQueue queue(kMaskSolid);
   const auto flush = [&] {
-    bool occluded[16] = {};
-    queue.Close();
-    tracer.Occluded16(queue.valid, queue.rays, occluded,
-                      false);  // faster so, and Embree 3.13 hung on coherent ones
-    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = occluded[i] ? 0.0f : 1.0f;
+    float share[16];
+    SeenShare(tracer, tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = share[i];
     queue.count = 0;
   };
   for (int i = 0; i < rays.count; ++i) {
@@ -91,6 +114,43 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
     queue.Add(p + g * OffsetAt(p, rays.distance[i]), {0.0123f, 0.0071f, 1}, i, kReach);
     if (queue.count == 16) flush();
+  }
+  if (queue.count > 0) flush();
+}
+
+void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
+                const LampRays& wanted, int count, SurfaceSet& s) {
+  RayQueue queue(kMaskSolid);
+  const LampRays::Ray* asked[16];
+  const auto learn = [&](int i, const LampRays::Ray& ray, float seen) {
+    const float more = (seen - ray.guess) * ray.share;
+    s.lamp_r[i] += ray.front[0] * more, s.lamp_g[i] += ray.front[1] * more,
+        s.lamp_b[i] += ray.front[2] * more;
+    s.lamp_back_r[i] += ray.back[0] * more, s.lamp_back_g[i] += ray.back[1] * more;
+    s.lamp_back_b[i] += ray.back[2] * more;
+    s.lamp_shine_r[i] += ray.shine[0] * more, s.lamp_shine_g[i] += ray.shine[1] * more;
+    s.lamp_shine_b[i] += ray.shine[2] * more;
+  };
+  const auto flush = [&] {
+    float share[16];
+    SeenShare(tracer, tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) learn(queue.lane[i], *asked[i], share[i]);
+    queue.count = 0;
+  };
+  for (int k = 0; k < count; ++k) {
+    for (int i = 0; i < rays.count; ++i) {
+      const LampRays::Ray& ray = wanted.ray[k][i];
+      if (ray.share == 0) continue;
+      const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, d{ray.dx, ray.dy, ray.dz};
+      const float offset = OffsetAt(p, rays.distance[i]);
+      if (ray.distance <= offset) {
+        learn(i, ray, 1);
+        continue;
+      }
+      asked[queue.count] = &ray;
+      queue.Add(p + g * (Dot(g, d) < 0 ? -offset : offset), d, i, ray.distance);
+      if (queue.count == 16) flush();
+    }
   }
   if (queue.count > 0) flush();
 }

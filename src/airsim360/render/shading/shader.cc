@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "airsim360/render/lights/lamp_grid.h"
+#include "airsim360/render/lights/light_table.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
@@ -26,10 +28,15 @@ static_assert(HitBatch::kCapacity == kBatch);
 constexpr float kPi = 3.14159265f;
 // Input of the tone curve for sunlit ground of reflectance 0.18.
 constexpr float kGreyLevel = 0.38f;
+// Irradiance to which pictures get brighter: a lit path, 1 lx.
+constexpr float kDarkest = internal::kLux;
+// Rays from a surface to its strongest lamps.
+constexpr int kLampRays = 2;
 
 struct Kernels {
   decltype(&internal::isa_sse42::PrepareSurfaces) prepare = AIRSIM360_SELECT_KERNEL(PrepareSurfaces);
   decltype(&internal::isa_sse42::LightSurfaces) light = AIRSIM360_SELECT_KERNEL(LightSurfaces);
+  decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
   decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
   decltype(&internal::isa_sse42::ToneMapRow) tone = AIRSIM360_SELECT_KERNEL(ToneMapRow);
 };
@@ -38,27 +45,38 @@ struct Kernels {
 
 struct Shader::Impl {
   Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
-      : tracer(std::move(t)), tables(tracer->scene()) {
+      : tracer(std::move(t)),
+        tables(tracer->scene(), environment.lamps_on()),
+        lights(tracer->scene(), tables, environment) {
     const Scene& scene = tracer->scene();
     if (scene.sky_entity != kNoEntity) sky.emplace(environment);
+    lamps.emplace(*tracer, lights, Daylight());
     if (!scene.instances.empty())
-      probes.emplace(*tracer, tables, sky ? &*sky : nullptr, internal::LightProbes::Options{});
+      probes.emplace(internal::ProbeLight{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps},
+                     internal::LightProbes::Options{});
     view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
+    view.lamps = lamps->view();
     exposure = ChooseExposure(scene);
   }
 
+  static float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+  // Of sun and sky on level ground.
+  float Daylight() const {
+    if (!sky) return 0;
+    return Luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
+  }
+
   // Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
-  // fast as the light.
+  // fast as the light. Where lamps bring more than the sky the eye is used to their light.
   float ChooseExposure(const Scene& scene) const {
-    const auto luminance = [](Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
+    const float of_lamps = lamps->TypicalLight();
     if (!sky) {
-      const float light = luminance(scene.interior_light);
+      const float light = Luminance(scene.interior_light) + of_lamps / kPi;
       return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
     }
-    const float light =
-        luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
+    const float light = std::max(Daylight(), of_lamps);
     constexpr float kNoon = 14.0f;
-    return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, 1e-3f), 0.9f);
+    return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
   }
 
   void ShadeReflections(const RaySet& rays, SurfaceSet& s) const;  // fills reflected_*, traced
@@ -66,7 +84,9 @@ struct Shader::Impl {
 
   std::shared_ptr<const RayTracer> tracer;
   internal::SurfaceTables tables;
+  internal::LightTable lights;
   std::optional<internal::Sky> sky;
+  std::optional<internal::LampGrid> lamps;
   std::optional<internal::LightProbes> probes;
   ShadeView view{};
   Kernels kernels;
@@ -105,7 +125,14 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) cons
   SurfaceSet surfaces;
   Pad(rays);
   kernels.prepare(view, rays, surfaces);
-  if (sky) internal::TraceSun(*tracer, rays, surfaces);
+  if (sky) internal::TraceSun(*tracer, tables, rays, surfaces);
+  if (view.lamps.lamps != nullptr) {
+    // What is seen in a mirror does without rays to lamps.
+    const int count = bounce == 0 ? kLampRays : 0;
+    internal::LampRays wanted;
+    kernels.lamps(view, rays, count, false, surfaces, wanted);
+    internal::TraceLamps(*tracer, tables, rays, wanted, count, surfaces);
+  }
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
     ShadeReflections(rays, surfaces);

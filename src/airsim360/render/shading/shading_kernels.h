@@ -12,6 +12,11 @@ AIRSIM360_DECLARE_KERNEL(void PrepareSurfaces(const ShadeView& view, const RaySe
 /// Radiance towards the viewer: sun where seen, ambient light of the probes, reflections, haze of the way.
 AIRSIM360_DECLARE_KERNEL(void LightSurfaces(const ShadeView& view, const RaySet& rays,
                                             const SurfaceSet& surfaces, LightSet& light))
+/// Light of the lamps around every surface with the visibility that the grid knows (fills lamp_*), and the
+/// `count` rays of each that would tell better; `soft`: towards random points of the lamps, else their
+/// centres.
+AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft,
+                                           SurfaceSet& surfaces, LampRays& wanted))
 /// Radiance of rays that met nothing; `sun_disc`: also the sun itself.
 AIRSIM360_DECLARE_KERNEL(void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc,
                                         LightSet& light))
