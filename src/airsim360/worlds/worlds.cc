@@ -15,6 +15,7 @@ struct BuiltIn {
 constexpr BuiltIn kBuiltIn[] = {
     {"box_room", internal::BoxRoomInfo, internal::BuildBoxRoom},
     {"downtown_west", internal::DowntownWestInfo, internal::BuildDowntownWest},
+    {"sunlit_room", internal::SunlitRoomInfo, internal::BuildSunlitRoom},
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr float kPi = 3.14159265f;
 // Lamps of one instance closer than this are one (the globes of a post, the two head lights of a car).
 constexpr float kMergeDistance = 1.5f;
 // Dimmer surfaces light so evenly that probes do better; small scenes have room for all.
-constexpr float kBrightLamp = 1000 * kLux;
+constexpr float kBrightLamp = 300 * kLux;
 constexpr size_t kFewLamps = 256;
 // A lamp reaches as far as it brings 0.05 lx, or one part in 10,000 of the daylight; one that brings less
 // than a five-hundredth of the daylight at 2 m is left out.

@@ -186,6 +186,7 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
 void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s,
                   LampRays& wanted) {
   CellLanes cell;
+  cell.count = 0;
   uint32_t loaded = 0;
   const int padded = (rays.count + 15) / 16 * 16;
   for (int i = 0; i < padded; ++i) {
