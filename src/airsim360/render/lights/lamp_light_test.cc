@@ -244,8 +244,12 @@ TEST(LampLight, IsTheSameOnEveryInstructionSetAndWithAnyNumberOfThreads) {
   const auto base = run(isa_sse42::LightByLamps, world.view);
   EXPECT_GT(base->s.lamp_g[3], 0);
   const auto same = [&](const Result& other) { return std::memcmp(base.get(), &other, sizeof(Result)) == 0; };
-  if (CurrentKernelIsa() >= KernelIsa::kAvx2) EXPECT_TRUE(same(*run(isa_avx2::LightByLamps, world.view)));
-  if (CurrentKernelIsa() >= KernelIsa::kAvx512) EXPECT_TRUE(same(*run(isa_avx512::LightByLamps, world.view)));
+  if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
+    EXPECT_TRUE(same(*run(isa_avx2::LightByLamps, world.view)));
+  }
+  if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
+    EXPECT_TRUE(same(*run(isa_avx512::LightByLamps, world.view)));
+  }
   const ThreadLimit one(1);
   const LampGrid single(*world.tracer, *world.lights, 0);
   ShadeView view{};
