@@ -80,7 +80,7 @@ PoseArgument ParsePose(const std::string& text) {
 }
 
 Tier ParseTierArgument(const std::string& text) {
-  static const std::vector<std::string> kBuilt = {"labels", "fast"};
+  static const std::vector<std::string> kBuilt = {"labels", "fast", "high"};
   if (std::find(kBuilt.begin(), kBuilt.end(), text) == kBuilt.end()) {
     throw InputError("--tier: " + UnknownChoiceMessage("tier", text, kBuilt));
   }

@@ -39,37 +39,37 @@ KERNEL real3 Skin(real3 f0, real roughness, real kind, real n_dot_v) {
   return sel3(water, make3(wet, wet, wet), skin);
 }
 
-KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
-                        LightSet& out) {
-  const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
-  const real3 p = load3(s.px + i, s.py + i, s.pz + i);
-  const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
-  const real3 r = load3(s.rx + i, s.ry + i, s.rz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
+/// What a surface does with light, before it is known how much ambient light there is.
+struct Response {
+  real3 skin;    ///< reflectance of its surface
+  real3 body;    ///< reflectance of what lies under it, times what the skin lets through
+  real3 yellow;  ///< of a leaf: light from behind counts so much of light from the front
+  real3 sun;     ///< radiance by the sun if it is seen
+  mask_t leaf;
+};
+
+KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d) {
+  const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
   const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
   const real metallic = load(s.metallic + i), roughness = load(s.roughness + i), kind = load(s.kind + i);
   const real transmission = load(s.transmission + i);
-  const mask_t leaf = kind == kFoliage;
   const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(0.02f));
 
-  const real dielectric = sel(leaf, real(0.028f), real(0.04f));
+  Response out;
+  out.leaf = kind == kFoliage;
+  const real dielectric = sel(out.leaf, real(0.028f), real(0.04f));
   const real3 f0 = lerp3(make3(dielectric, dielectric, dielectric), base, metallic);
-  const real3 skin = Skin(f0, roughness, kind, n_dot_v);
+  out.skin = Skin(f0, roughness, kind, n_dot_v);
   const real3 inside = base * (1.0f - metallic);
-  const real3 through = make3(1.0f - skin.x, 1.0f - skin.y, 1.0f - skin.z);
+  const real3 through = make3(1.0f - out.skin.x, 1.0f - out.skin.y, 1.0f - out.skin.z);
+  out.body = inside * through;
+  out.yellow = sel3(out.leaf, make3(real(1.10f), real(1.15f), real(0.55f)) * transmission, Grey(0));
 
-  // Sky and bounced light.
-  const Ambient ambient = SampleProbes(view, p, g, n, r);
-  const real3 yellow = make3(real(1.10f), real(1.15f), real(0.55f)) * transmission;
-  real3 body =
-      diffuse(inside, ambient.front * load(s.contact + i) + sel3(leaf, ambient.back * yellow, Grey(0)));
-
-  // Sun.
-  const real3 sun = Uniform(view.sun_irradiance) * load(s.sunlit + i);
+  const real3 sun = Uniform(view.sun_irradiance) * real(1.0f);
   const real n_dot_l = dot3(n, l);
   const real lambert = rmax(n_dot_l, real(0.0f));
   const real3 lit =
-      sel3(leaf, leaf_diffuse(inside, transmission, n_dot_l), inside * (lambert * SHADE_INV_PI));
-  body = body + sun * lit;
+      sel3(out.leaf, leaf_diffuse(inside, transmission, n_dot_l), inside * (lambert * SHADE_INV_PI));
   const real3 h = normalize3(l - d);
   const real alpha = rmax(roughness * roughness, real(0.006f));
   const real3 glint = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v,
@@ -77,18 +77,70 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real3 shine = sun * glint * lambert;
   const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
                               rmin(shine.z, real(kBrightest)));
+  out.sun = sun * lit * through + bounded;
+  return out;
+}
 
-  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * skin;
-  real3 light = body * through + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
+/// A clear pane shows what was traced behind it instead of its body.
+KERNEL real3 SeenThrough(const SurfaceSet& s, int i, real3 body, real3 skin) {
+  const mask_t clear = load(s.clear + i) > 0.5f;
+  if (!stdx::any_of(clear)) return body;
+  const real3 behind = load3(s.behind_r + i, s.behind_g + i, s.behind_b + i);
+  return sel3(clear, behind * make3(1.0f - skin.x, 1.0f - skin.y, 1.0f - skin.z), body);
+}
 
-  // Air between.
+/// Share of light left after the way, and what the air adds.
+KERNEL void Air(const ShadeView& view, real3 d, real distance, real3& kept, real3& haze) {
+  kept = transmittance(Uniform(view.extinction), distance);
+  const real3 horizon =
+      Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
+  haze = horizon * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z);
+}
+
+KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
+                        LightSet& out) {
+  const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
+  const real3 p = load3(s.px + i, s.py + i, s.pz + i);
+  const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
+  const real3 r = load3(s.rx + i, s.ry + i, s.rz + i);
+  const Response surface = RespondTo(view, s, i, d);
+
+  const Ambient ambient = SampleProbes(view, p, g, n, r);
+  const real3 around = ambient.front * load(s.contact + i) + ambient.back * surface.yellow;
+  const real3 body = SeenThrough(s, i, diffuse(surface.body, around), surface.skin);
+  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;
+  real3 light =
+      body + surface.sun * load(s.sunlit + i) + mirrored + load3(s.er + i, s.eg + i, s.eb + i);
   if (view.has_sky > 0.5f) {
-    const real3 kept = transmittance(Uniform(view.extinction), load(rays.distance + i));
-    const real3 haze =
-        Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
-    light = light * kept + haze * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z);
+    real3 kept, haze;
+    Air(view, d, load(rays.distance + i), kept, haze);
+    light = light * kept + haze;
   }
   store3(out.r + i, out.g + i, out.b + i, light);
+}
+
+KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
+                        LightTerms& out) {
+  const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
+  const Response surface = RespondTo(view, s, i, d);
+  const mask_t traced = load(s.traced + i) > 0.5f, clear = load(s.clear + i) > 0.5f;
+  // What no ray was sent for mirrors the same light that the body gets.
+  const real3 rough = sel3(traced, Grey(0), surface.skin);
+  const real3 mirrored =
+      sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * surface.skin, Grey(0));
+  real3 ambient = (sel3(clear, Grey(0), surface.body) + rough) * real(SHADE_INV_PI);
+  real3 sun = surface.sun;
+  real3 rest = SeenThrough(s, i, Grey(0), surface.skin) + mirrored + load3(s.er + i, s.eg + i, s.eb + i);
+  if (view.has_sky > 0.5f) {
+    real3 kept, haze;
+    Air(view, d, load(rays.distance + i), kept, haze);
+    ambient = ambient * kept;
+    sun = sun * kept;
+    rest = rest * kept + haze;
+  }
+  store3(out.ambient_r + i, out.ambient_g + i, out.ambient_b + i, ambient);
+  store3(out.sun_r + i, out.sun_g + i, out.sun_b + i, sun);
+  store3(out.rest_r + i, out.rest_g + i, out.rest_b + i, rest);
 }
 
 /// The sun's disc of 0.53 degrees, darker towards its limb: 1 - 0.6 (1 - mu) (Hestroffer & Magnan 1998,
@@ -104,6 +156,10 @@ KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
 
 void LightSurfaces(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightSet& light) {
   for (int i = 0; i < rays.count; i += kLanes) LightVector(view, rays, surfaces, i, light);
+}
+
+void SplitLight(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightTerms& terms) {
+  for (int i = 0; i < rays.count; i += kLanes) TermsVector(view, rays, surfaces, i, terms);
 }
 
 void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSet& light) {

@@ -17,5 +17,8 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s);
 /// is the index of the surface.
 void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
                       RaySet& misses);
+/// Follows the view through clear panes (glass with transmission), one each, to what stands behind.
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+                RaySet& misses);
 
 }  // namespace airsim360::internal

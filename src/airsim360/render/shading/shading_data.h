@@ -94,7 +94,8 @@ struct ShadeView {
   float ground[3];  ///< radiance of the far ground below the horizon
   float ground_z;   ///< where it lies
   float sky_irradiance[27];
-  float mean_ambient[3];  ///< radiance where there are no probes
+  float mean_ambient[3];     ///< radiance where there are no probes
+  const float* mean_colors;  ///< of a material: base colour with the mean of its texture, r g b
 };
 
 inline constexpr int kBatch = 256;
@@ -125,6 +126,24 @@ struct alignas(64) SurfaceSet {
   float contact[kBatch];                     ///< share of ambient light that things close above leave
   float traced[kBatch];  ///< 1 if reflected_* is the radiance along the reflected direction
   float reflected_r[kBatch], reflected_g[kBatch], reflected_b[kBatch];
+  float clear[kBatch];  ///< 1 if behind_* is the radiance behind a clear pane, times its colour
+  float behind_r[kBatch], behind_g[kBatch], behind_b[kBatch];
+};
+
+/// Radiance in the order of a RaySet, while light that needs neighbours to be known well is not known yet:
+/// ambient * (irradiance around) + sun * (share of the sun's disc seen) + rest. Haze is in all of them.
+struct alignas(64) LightTerms {
+  float ambient_r[kBatch], ambient_g[kBatch], ambient_b[kBatch];
+  float sun_r[kBatch], sun_g[kBatch], sun_b[kBatch];
+  float rest_r[kBatch], rest_g[kBatch], rest_b[kBatch];
+};
+
+/// Heights along the sun's direction of the first surface that the sun meets, on a square lattice.
+struct SunMapView {
+  const float* heights;  ///< nullptr = no sun; [row * size + column]
+  int32_t size;
+  float column[4], row[4], height[4];  ///< of p: x p.x + y p.y + z p.z + w; columns and rows in texels
+  float bias;                          ///< metres
 };
 
 /// Radiance in the order of a RaySet.

@@ -228,7 +228,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store3(out.er + i, out.eg + i, out.eb + i, emission);
   store(out.metallic + i, metallic);
   store(out.roughness + i, roughness);
-  store(out.transmission + i, sel(kind == kFoliage, load(f.transmission), real(0.0f)));
+  store(out.transmission + i, sel((kind == kFoliage) || (kind == kGlass), load(f.transmission), real(0.0f)));
   store(out.kind + i, kind);
 
   // Reflection: above the surface itself.
@@ -248,6 +248,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
   store(out.traced + i, real(0.0f));
   store(out.contact + i, real(1.0f));
+  store(out.clear + i, real(0.0f));
 }
 
 }  // namespace

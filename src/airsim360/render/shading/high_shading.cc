@@ -1,0 +1,89 @@
+#include "airsim360/render/shading/high_shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "airsim360/render/shading/high_rays.h"
+#include "airsim360/render/shading/sampling.h"
+#include "airsim360/render/shading/secondary_rays.h"
+#include "airsim360/render/shading/shader_impl.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kTermCount = sizeof(LightTerms) / sizeof(float) / kBatch;
+
+// Random numbers of each surface for its reflection.
+void ReflectionPoints(const RaySet& rays, const TileSampling* sampling, float* u, float* v) {
+  for (int i = 0; i < rays.count; ++i) {
+    const uint32_t slot = rays.slot[i];
+    const Vec2f point = sampling != nullptr
+                            ? SobolPoint(sampling->layout->phase[slot], sampling->seed ^ 0x51ed270bu)
+                            : SobolPoint(0, rays.key[i]);
+    u[i] = point.x, v[i] = point.y;
+  }
+  for (int i = rays.count; i % 16 != 0; ++i) u[i] = v[i] = 0;
+}
+
+void PutSky(const RaySet& sky, const LightSet& light, HighTile& tile) {
+  for (int i = 0; i < sky.count; ++i) {
+    const uint32_t k = sky.slot[i];
+    float* terms = &tile.terms.ambient_r[k];
+    for (int t = 0; t < kTermCount; ++t) terms[t * kBatch] = 0;
+    tile.terms.rest_r[k] = light.r[i], tile.terms.rest_g[k] = light.g[i], tile.terms.rest_b[k] = light.b[i];
+    tile.sun_seen[k] = 0;
+    tile.normal_x[k] = tile.normal_y[k] = tile.normal_z[k] = 0;
+    tile.light_r[k] = tile.light_g[k] = tile.light_b[k] = 0;
+    tile.light_samples[k] = tile.penumbra[k] = 0;
+  }
+}
+
+void PutSurfaces(const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, HighTile& tile) {
+  for (int t = 0; t < kTermCount; ++t) {
+    const float* from = &terms.ambient_r[0] + t * kBatch;
+    float* to = &tile.terms.ambient_r[0] + t * kBatch;
+    for (int i = 0; i < rays.count; ++i) to[rays.slot[i]] = from[i];
+  }
+  for (int i = 0; i < rays.count; ++i) {
+    const uint32_t k = rays.slot[i];
+    tile.normal_x[k] = s.nx[i], tile.normal_y[k] = s.ny[i], tile.normal_z[k] = s.nz[i];
+    tile.sun_seen[k] = s.sunlit[i];
+  }
+}
+
+}  // namespace
+
+void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
+               const TileSampling* sampling, HighTile& tile) {
+  const Shader::Impl& impl = shader.impl();
+  RaySet rays, sky;
+  SplitHits(hits, rays, sky);
+  if (sky.count > 0) {
+    LightSet light;
+    impl.kernels.sky(impl.view, sky, true, light);
+    PutSky(sky, light, tile);
+  }
+  if (rays.count == 0) return;
+
+  SurfaceSet surfaces;
+  impl.kernels.prepare(impl.view, rays, surfaces);
+  for (int i = 0; i < rays.count; ++i) tile.penumbra[rays.slot[i]] = 0;
+  if (impl.sky) {
+    if (sampling != nullptr)
+      TraceSunDisc(*impl.tracer, impl.sky->to_sun(), *sampling, rays, surfaces, tile.penumbra);
+    else
+      TraceSun(*impl.tracer, rays, surfaces);
+  }
+  alignas(64) float u[kBatch], v[kBatch];
+  ReflectionPoints(rays, sampling, u, v);
+  impl.kernels.scatter(rays, u, v, surfaces);
+  impl.FollowRays(rays, surfaces);
+
+  LightTerms terms;
+  impl.kernels.split(impl.view, rays, surfaces, terms);
+  PutSurfaces(rays, surfaces, terms, tile);
+  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, terms, tile);
+}
+
+}  // namespace airsim360::internal
