@@ -5,8 +5,9 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kFoliage = 1, kGlass = 2, kWater = 3;  // SurfaceKind
-constexpr float kBrightest = 400;  // radiance of a sun glint that still averages well over few samples
+constexpr float kFoliage = BSDF_FOLIAGE;
+constexpr float kBrightest = 400;    // radiance of a sun glint that still averages well over few samples
+constexpr float kSunAlpha = 0.006f;  // about the sine of the sun's diameter of 0.53 degrees, less its limb
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
@@ -26,19 +27,6 @@ KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3
   return sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i), light);
 }
 
-/// Reflectance of the surface's skin towards the viewer.
-KERNEL real3 Skin(real3 f0, real roughness, real kind, real n_dot_v) {
-  const real3 rough = environment_brdf(f0, roughness, n_dot_v);
-  const mask_t glass = kind == kGlass, water = kind == kWater;
-  if (!stdx::any_of(glass || water)) return rough;
-  // A pane has two faces, and a coating.
-  const real one = fresnel_dielectric(real(1.5f), n_dot_v), both = 2.0f * one / (1.0f + one);
-  const real pane = both + (1.0f - both) * 0.07f;
-  const real wet = fresnel_dielectric(real(1.33f), n_dot_v);
-  real3 skin = sel3(glass, make3(pane, pane, pane), rough);
-  return sel3(water, make3(wet, wet, wet), skin);
-}
-
 KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
                         LightSet& out) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
@@ -51,35 +39,28 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const mask_t leaf = kind == kFoliage;
   const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(0.02f));
 
-  const real dielectric = sel(leaf, real(0.028f), real(0.04f));
-  const real3 f0 = lerp3(make3(dielectric, dielectric, dielectric), base, metallic);
-  const real3 skin = Skin(f0, roughness, kind, n_dot_v);
-  const real3 inside = base * (1.0f - metallic);
-  const real3 through = make3(1.0f - skin.x, 1.0f - skin.y, 1.0f - skin.z);
+  // Behind a pane this tier sees no further than its body.
+  const Bsdf bsdf = bsdf_make(kind, base, metallic, roughness, sel(leaf, transmission, real(0.0f)),
+                              load(s.coat + i), load(s.coat_roughness + i));
+  const BsdfSide seen = bsdf_side(bsdf, n_dot_v);
+  const real3 through = bsdf_entering(seen);
 
   // Sky and bounced light.
   const Ambient ambient = SampleProbes(view, p, g, n, r);
-  const real3 yellow = make3(real(1.10f), real(1.15f), real(0.55f)) * transmission;
-  real3 body =
-      diffuse(inside, ambient.front * load(s.contact + i) + sel3(leaf, ambient.back * yellow, Grey(0)));
+  const real3 body = (bsdf.body * ambient.front * load(s.contact + i) + bsdf.through * ambient.back) *
+                     through * real(SHADE_INV_PI);
 
-  // Sun.
+  // Sun: a point, so lobes narrower than its disc take the disc's width.
   const real3 sun = Uniform(view.sun_irradiance) * load(s.sunlit + i);
-  const real n_dot_l = dot3(n, l);
-  const real lambert = rmax(n_dot_l, real(0.0f));
+  real pdf = real(0.0f);
   const real3 lit =
-      sel3(leaf, leaf_diffuse(inside, transmission, n_dot_l), inside * (lambert * SHADE_INV_PI));
-  body = body + sun * lit;
-  const real3 h = normalize3(l - d);
-  const real alpha = rmax(roughness * roughness, real(0.006f));
-  const real3 glint = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v,
-                                    rmax(dot3(n, h), real(0.0f)), clamp01(dot3(l, h)));
-  const real3 shine = sun * glint * lambert;
+      bsdf_evaluate(bsdf_widen(bsdf, real(kSunAlpha)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf);
+  const real3 shine = sun * lit;
   const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
                               rmin(shine.z, real(kBrightest)));
 
-  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * skin;
-  real3 light = body * through + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
+  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * bsdf_reflected(seen);
+  real3 light = body + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
 
   // Air between.
   if (view.has_sky > 0.5f) {
