@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/base/parallel.h"
-
 namespace airsim360::internal {
 namespace {
-
-constexpr int kRowsPerTask = 8;
 
 template <class Pixel>
 void Fit(Image<Pixel>& image, int width, int height) {
@@ -43,37 +39,6 @@ bool SameSurface(const HighBuffers& buffers, const RayField& field, int x, int y
   const float apart = Dot(n, PixelDirection(field, u, v)) * buffers.range(u, v) -
                       Dot(n, PixelDirection(field, x, y)) * range;
   return std::fabs(apart) < 0.02f + 0.01f * range;
-}
-
-void MeanOverPhases(const HighBuffers& buffers, const RayField& field, Image<Rgb32f>& out) {
-  const int width = buffers.range.width(), height = buffers.range.height();
-  if (out.width() != width || out.height() != height) out = Image<Rgb32f>(width, height);
-  ParallelFor((height + kRowsPerTask - 1) / kRowsPerTask, [&](int64_t task) {
-    const int first = static_cast<int>(task) * kRowsPerTask;
-    for (int y = first; y < std::min(first + kRowsPerTask, height); ++y) {
-      for (int x = 0; x < width; ++x) {
-        float r = 0, g = 0, b = 0, weight = 0;
-        if (buffers.light_samples(x, y) != 0) {
-          for (int dy = -2; dy <= 2; ++dy) {
-            const int v = y + dy;
-            if (v < 0 || v >= height) continue;
-            for (int dx = -2; dx <= 2; ++dx) {
-              int u = x + dx;
-              if (!field.separable && (u < 0 || u >= width)) continue;
-              u = Wrapped(u, width);
-              if (buffers.light_samples(u, v) == 0 || !SameSurface(buffers, field, x, y, u, v)) continue;
-              const float w = static_cast<float>(buffers.light_samples(u, v)) * (std::abs(dx) == 2 ? 0.5f : 1) *
-                              (std::abs(dy) == 2 ? 0.5f : 1);
-              const Rgb32f c = buffers.light(u, v);
-              r += c.r * w, g += c.g * w, b += c.b * w, weight += w;
-            }
-          }
-        }
-        const float scale = weight > 0 ? 1 / weight : 0;
-        out(x, y) = {r * scale, g * scale, b * scale};
-      }
-    }
-  });
 }
 
 float SmoothSun(const HighBuffers& buffers, const RayField& field, int x, int y) {

@@ -49,10 +49,6 @@ inline Vec3f PixelDirection(const RayField& f, int x, int y) {
 /// Whether light of pixel (u, v) may stand for that of (x, y): the same entity, about the same plane.
 bool SameSurface(const HighBuffers& buffers, const RayField& field, int x, int y, int u, int v);
 
-/// Mean of the sixteen phases of TileLayout around every pixel (5 x 5 pixels, those at the border by half)
-/// along its surface.
-void MeanOverPhases(const HighBuffers& buffers, const RayField& field, Image<Rgb32f>& out);
-
 /// Share of the sun's disc seen from a pixel, smoothed in penumbrae along its surface.
 float SmoothSun(const HighBuffers& buffers, const RayField& field, int x, int y);
 

@@ -13,6 +13,7 @@
 #include "airsim360/render/cpu/high_buffers.h"
 #include "airsim360/render/cpu/high_edges.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/filter/denoiser.h"
 #include "airsim360/render/shading/shader_impl.h"
 #include "airsim360/render/shading/sun_map.h"
 
@@ -59,7 +60,7 @@ struct HighFrame::Impl {
   TileKernels kernels;
   TileLayout layouts[2] = {MakeLayout(PacketShape::kBlock), MakeLayout(PacketShape::kRow)};
   HighBuffers buffers;
-  Image<Rgb32f> filtered;
+  Denoiser denoiser;
   std::optional<SunMap> sun_map;
   const Shader* sun_map_of = nullptr;
   uint64_t frames = 0;  // for the random choices of frames that are added up
@@ -77,6 +78,7 @@ struct HighFrame::Impl {
   void TraceTiles();
   void TraceTile(int tile);
   void StoreTile(const HighTile& shaded, LabelTile& labels, TileTarget target, int tile);
+  void Denoise();
   void Combine();
   void CombineTile(int tile);
   void Output(Image<Rgb32f>& radiance) const;
@@ -100,10 +102,7 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   impl.frames = request.temporal ? impl.frames + 1 : 0;
 
   impl.TraceTiles();
-  if (request.denoise) {
-    MeanOverPhases(impl.buffers, field, impl.filtered);
-    std::swap(impl.filtered, impl.buffers.light);
-  }
+  if (request.denoise) impl.Denoise();
   impl.Combine();
 
   uint64_t count = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
@@ -218,6 +217,15 @@ void HighFrame::Impl::StoreTile(const HighTile& shaded, LabelTile& tile_labels, 
     }
   }
   buffers.smooth[static_cast<size_t>(tile)] = smooth;
+}
+
+void HighFrame::Impl::Denoise() {
+  // The camera of canonical columns.
+  RigidTransform X_WC;
+  for (int i = 0; i < 9; ++i) X_WC.R.m[i / 3][i % 3] = rays->field().R[i];
+  X_WC.p = request->X_WC.p;
+  const FilterGuides guides{&request->camera, X_WC, &buffers.range, &buffers.entity, &buffers.normal};
+  denoiser.Run(guides, {&buffers.light, &buffers.light_samples}, request->temporal);
 }
 
 void HighFrame::Impl::Combine() {

@@ -5,7 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kFoliage = 1, kGlass = 2, kWater = 3;  // SurfaceKind
 constexpr float kVisibleSkin = 0.08f;  // reflectance from which a blurred reflection deserves a ray
 
 /// Surfaces of sixteen lanes, gathered.
@@ -34,7 +33,7 @@ KERNEL void FetchMet(const ShadeView& view, const uint32_t* instance, const uint
       met.albedo[k][i] = albedo < 0.9f ? albedo : 0.9f;
       met.emission[k][i] = material.emission[k];
     }
-    met.leaf[i] = material.kind == kFoliage ? material.transmission : 0.0f;
+    met.leaf[i] = material.kind == BSDF_FOLIAGE ? material.transmission : 0.0f;
   }
 }
 
@@ -157,14 +156,6 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Met& me
   return diffuse(albedo, light) + emission;
 }
 
-KERNEL real3 Across(real3 n, real3& other) {
-  // Orthonormal basis without branches (Duff et al., JCGT 6(1), 2017).
-  const real sign = sel(n.z < 0.0f, real(-1.0f), real(1.0f));
-  const real a = -1.0f / (sign + n.z), b = n.x * n.y * a;
-  other = make3(b, sign + n.y * n.y * a, 0.0f - n.y);
-  return make3(1.0f + sign * n.x * n.x * a, sign * b, 0.0f - sign * n.x);
-}
-
 }  // namespace
 
 void AmbientRays(const RaySet& rays, const SurfaceSet& s, const int* index, const float* side,
@@ -218,29 +209,26 @@ void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map, const RayHit
 void ScatterReflections(const RaySet& rays, const float* u, const float* v, SurfaceSet& s) {
   for (int i = 0; i < rays.count; i += kLanes) {
     const real roughness = load(s.roughness + i), metallic = load(s.metallic + i), kind = load(s.kind + i);
-    const mask_t candidate = ((roughness < 0.5f) || (metallic > 0.2f)) && (kind != kFoliage) &&
-                             (kind != kGlass) && (kind != kWater) && !(load(s.mirror + i) > 0.5f);
-    if (!stdx::any_of(candidate)) continue;
+    const real coat = load(s.coat + i);
+    const mask_t untraced = !(load(s.mirror + i) > 0.5f) && (kind < 0.5f);
+    const mask_t coated = untraced && (coat > 0.05f);
+    const mask_t rough = untraced && !coated && ((roughness < 0.5f) || (metallic > 0.2f));
+    if (!stdx::any_of(coated || rough)) continue;
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
-    const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
+    const Bsdf bsdf = bsdf_make(kind, load3(s.ar + i, s.ag + i, s.ab + i), metallic, roughness, real(0.0f),
+                                coat, load(s.coat_roughness + i));
     const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(0.02f));
-    const real3 f0 = lerp3(make3(real(0.04f), real(0.04f), real(0.04f)), base, metallic);
-    const mask_t chosen =
-        candidate && (luminance(environment_brdf(f0, roughness, n_dot_v)) > kVisibleSkin);
-    // A microfacet of the GGX distribution (Walter et al. 2007, equation 35).
-    const real alpha = rmax(roughness * roughness, real(1e-3f)), a = load(u + i);
-    const real cosine = rroot((1.0f - a) / (1.0f + (alpha * alpha - 1.0f) * a));
-    const real sine = rroot(rmax(1.0f - cosine * cosine, real(0.0f))), angle = load(v + i) * (2.0f * SHADE_PI);
-    real3 t2;
-    const real3 t1 = Across(n, t2);
-    const real3 h = t1 * (sine * sin_approx(angle + 0.5f * SHADE_PI)) + t2 * (sine * sin_approx(angle)) +
-                    n * cosine;
-    real3 r = reflect3(d, h);
+    const mask_t visible = luminance(bsdf_reflected(bsdf_side(bsdf, n_dot_v))) > kVisibleSkin;
+    // A facet of the skin as the viewer sees it; a coat is taken as smooth.
+    const BsdfLobes skin_alone{real(0.0f), real(1.0f), real(0.0f), real(0.0f), real(0.0f)};
+    real event = real(0.0f);
+    real3 r = bsdf_sample(bsdf, skin_alone, n, -d, real(0.5f), load(u + i), load(v + i), event);
     const real below = dot3(r, g);
     r = sel3(below < 0.01f, normalize3(r + g * (0.02f - 2.0f * below)), r);
-    store3(s.rx + i, s.ry + i, s.rz + i, sel3(chosen, r, load3(s.rx + i, s.ry + i, s.rz + i)));
-    store(s.mirror + i, sel(chosen, real(1.0f), load(s.mirror + i)));
+    const mask_t turned = rough && visible;
+    store3(s.rx + i, s.ry + i, s.rz + i, sel3(turned, r, load3(s.rx + i, s.ry + i, s.rz + i)));
+    store(s.mirror + i, sel(turned || (coated && visible), real(1.0f), load(s.mirror + i)));
   }
 }
 

@@ -73,7 +73,7 @@ void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s) const {
   });
   internal::TraceClear(*tracer, rays, s, hits, misses);
   shade([&](uint32_t slot, float r, float g, float b) {
-    s.behind_r[slot] = r * s.ar[slot], s.behind_g[slot] = g * s.ag[slot], s.behind_b[slot] = b * s.ab[slot];
+    s.behind_r[slot] = r, s.behind_g[slot] = g, s.behind_b[slot] = b;
     s.clear[slot] = 1;
   });
 }

@@ -44,6 +44,7 @@ struct alignas(64) MaterialRecord {
   float transmission, macro_variation, normal_scale;
   float kind;                                                                 ///< SurfaceKind as a number
   int32_t base_texture, roughness_texture, normal_texture, emission_texture;  ///< index; 0 = plain white
+  float clear_coat, clear_coat_roughness;
 };
 
 /// One level of a mip chain.
@@ -126,7 +127,8 @@ struct alignas(64) SurfaceSet {
   float contact[kBatch];                     ///< share of ambient light that things close above leave
   float traced[kBatch];  ///< 1 if reflected_* is the radiance along the reflected direction
   float reflected_r[kBatch], reflected_g[kBatch], reflected_b[kBatch];
-  float clear[kBatch];  ///< 1 if behind_* is the radiance behind a clear pane, times its colour
+  float coat[kBatch], coat_roughness[kBatch];  ///< clear coat: share, roughness
+  float clear[kBatch];  ///< 1 if behind_* is the radiance behind a clear pane
   float behind_r[kBatch], behind_g[kBatch], behind_b[kBatch];
 };
 
