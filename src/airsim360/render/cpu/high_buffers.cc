@@ -36,8 +36,8 @@ bool SameSurface(const HighBuffers& buffers, const RayField& field, int x, int y
   if (Dot(n, buffers.normal(u, v)) < 0.9f) return false;
   // The other point's distance from this one's plane.
   const float range = buffers.range(x, y);
-  const float apart = Dot(n, PixelDirection(field, u, v)) * buffers.range(u, v) -
-                      Dot(n, PixelDirection(field, x, y)) * range;
+  const float apart =
+      Dot(n, PixelDirection(field, u, v)) * buffers.range(u, v) - Dot(n, PixelDirection(field, x, y)) * range;
   return std::fabs(apart) < 0.02f + 0.01f * range;
 }
 

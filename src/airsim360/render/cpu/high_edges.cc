@@ -144,7 +144,8 @@ int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::
                HighBuffers& buffers, int column, int row) {
   const RayField& field = task.rays->field();
   bool any = false;
-  const int columns = std::min(kTileSize, field.width - column), rows = std::min(kTileSize, field.height - row);
+  const int columns = std::min(kTileSize, field.width - column),
+            rows = std::min(kTileSize, field.height - row);
   for (int y = 0; y < rows; ++y) {
     const uint8_t* edges = &buffers.edges(column, row + y);
     for (int x = 0; x < columns; ++x) any |= edges[x] != 0;

@@ -29,14 +29,18 @@ Pixel* DataOrNull(Image<Pixel>& image) {
   return image.empty() ? nullptr : image.pixels().data();
 }
 
+// Number 0 … 15 of the place (x, y) in its 4 x 4 block: any aligned 2 x 2 are four in a row.
+uint32_t Morton(int x, int y) {
+  return static_cast<uint32_t>((x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2);
+}
+
 // Pixels of a tile by phase (see TileLayout) for either shape of packets.
 TileLayout MakeLayout(PacketShape shape) {
   TileLayout layout{};
   for (int y = 0; y < kTileSize; ++y) {
     for (int x = 0; x < kTileSize; ++x) {
       const int slot = PacketIndex(shape, x, y);
-      // In Morton order, so that any 2 x 2 pixels have a stratified set of their own, too.
-      const int phase = (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2;
+      const uint32_t phase = Morton(x, y);
       layout.slot_of[y * kTileSize + x] = static_cast<uint8_t>(slot);
       layout.phase[slot] = static_cast<uint8_t>(phase);
       layout.members[phase][(y >> 2) * 4 + (x >> 2)] = static_cast<uint8_t>(slot);
@@ -178,10 +182,11 @@ void HighFrame::Impl::TraceTile(int tile) {
   hits.origin = origin;
   hits.cone_angle = static_cast<float>(rays->cone_angle());
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
+  const int across = column / kTileSize, down = row / kTileSize;
   const uint64_t key = MixBits(MixBits(request->seed + frames * 0x9e3779b97f4a7c15ull) +
-                               static_cast<uint64_t>(tile));
+                               static_cast<uint64_t>(down / 4 * buffers.across() + across / 4));
   const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
-                              AmbientRays(row), hits.cone_angle};
+                              Morton(across, down), AmbientRays(row), hits.cone_angle};
   HighTile shaded;
   ShadeHigh(*shader, SunView(), hits, &sampling, shaded);
   StoreTile(shaded, tile_labels, target, tile);

@@ -68,8 +68,7 @@ KERNEL real SunSeen(const SunMapView& map, real3 p) {
 KERNEL Quad AllProbes(const ProbeView& grid, const float* base, const float* f, const float* n) {
   Quad terms[4] = {};
   for (int k = 0; k < 8; ++k) {
-    const float* probe =
-        base + ((k & 1) + (k & 2 ? grid.stride_y : 0) + (k & 4 ? grid.stride_z : 0)) * 16;
+    const float* probe = base + ((k & 1) + (k & 2 ? grid.stride_y : 0) + (k & 4 ? grid.stride_z : 0)) * 16;
     const float weight = (k & 1 ? f[0] : 1 - f[0]) * (k & 2 ? f[1] : 1 - f[1]) * (k & 4 ? f[2] : 1 - f[2]);
     for (int j = 0; j < 4; ++j) terms[j] += LoadQuad(probe + 4 * j) * weight;
   }

@@ -10,9 +10,10 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kSide = 16;
-constexpr float kSunAngle = 0.0093f;  // width of the disc, radians (0.53 degrees)
-constexpr int kSunSamples = 8;        // of a pixel in a penumbra
-constexpr int kMaxSmoothing = 3;      // pixels
+constexpr float kSunAngle = 0.0093f;          // width of the disc, radians (0.53 degrees)
+constexpr int kSunRounds = 2, kSunRound = 8;  // rays of a pixel in a penumbra: rounds of so many
+constexpr int kSunSamples = kSunRounds * kSunRound;
+constexpr int kMaxSmoothing = 3;  // pixels
 
 // Index of the surface of each pixel of a tile, -1 = none.
 struct SurfaceGrid {
@@ -29,8 +30,8 @@ struct SurfaceGrid {
 // Whether two surfaces are about the same plane.
 bool SamePlane(const RaySet& rays, const SurfaceSet& s, int i, int k) {
   const float facing = s.gx[i] * s.gx[k] + s.gy[i] * s.gy[k] + s.gz[i] * s.gz[k];
-  const float apart = s.gx[i] * (s.px[k] - s.px[i]) + s.gy[i] * (s.py[k] - s.py[i]) +
-                      s.gz[i] * (s.pz[k] - s.pz[i]);
+  const float apart =
+      s.gx[i] * (s.px[k] - s.px[i]) + s.gy[i] * (s.py[k] - s.py[i]) + s.gz[i] * (s.pz[k] - s.pz[i]);
   return facing > 0.9f && std::fabs(apart) < 0.01f + 0.002f * rays.distance[i];
 }
 
@@ -55,16 +56,31 @@ Vec3f SunStart(const RaySet& rays, const SurfaceSet& s, int i, Vec3f to_sun) {
   return p + g * ((Dot(g, to_sun) < 0 ? -1.0f : 1.0f) * RayOffset(p, rays.distance[i]));
 }
 
-// The shared directions to the sun's disc, [sample][phase].
+// The shared directions to the sun's disc, and points of a pixel in units of it, [sample][phase].
 struct SunDirections {
   Vec3f at[kSunSamples][16];
+  Vec2f offset[kSunSamples][16];
   SunDirections(Vec3f to_sun, uint32_t seed) {
     for (uint32_t k = 0; k < kSunSamples; ++k) {
-      for (uint32_t phase = 0; phase < 16; ++phase)
+      for (uint32_t phase = 0; phase < 16; ++phase) {
         at[k][phase] = SunPoint(to_sun, SobolPoint(16 * k + phase, seed ^ 0x68bc21ebu));
+        const Vec2f u = SobolPoint(16 * k + phase, seed ^ 0x02e5be93u);
+        offset[k][phase] = {u.x - 0.5f, u.y - 0.5f};
+      }
     }
   }
 };
+
+// Moves the start of a ray over the part of the surface's plane that the pixel shows.
+Vec3f WithinPixel(const RaySet& rays, const SurfaceSet& s, int i, Vec2f offset, float cone_angle) {
+  const Vec3f d{rays.dx[i], rays.dy[i], rays.dz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
+  const Vec3f across = Normalized(std::fabs(d.z) < 0.9f ? Vec3f{-d.y, d.x, 0} : Vec3f{0, -d.z, d.y});
+  const Vec3f up = Cross(across, d);
+  const Vec3f beside = d + across * (offset.x * cone_angle) + up * (offset.y * cone_angle);
+  const float slant = Dot(g, d), there = Dot(g, beside);
+  const float stretch = there < 0.3f * slant ? std::clamp(slant / there, 0.5f, 2.0f) : 1.0f;
+  return (beside * stretch - d) * rays.distance[i];
+}
 
 }  // namespace
 
@@ -96,7 +112,8 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
   for (int i = 0; i < rays.count; ++i) (s.sunlit[i] != 0 ? lit : dark) |= asked[i] != 0;
   if (!lit || !dark) return;
 
-  // Seven more where neighbours disagree; how far the blockers are tells how wide the penumbra is.
+  // More where neighbours disagree, from all over the pixel, in rounds while they differ; how far the
+  // blockers are tells how wide the penumbra is.
   const SurfaceGrid grid(*sampling.layout, rays);
   int edge[kBatch], count = 0;
   for (int pixel = 0; pixel < 256; ++pixel) {
@@ -115,23 +132,30 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
     }
     queue.count = 0;
   };
-  for (int n = 0; n < count; ++n) {
-    const int i = edge[n];
-    const Vec3f start = SunStart(rays, s, i, to_sun);
-    for (int k = 1; k < kSunSamples; ++k) {
-      queue.Add(start, directions.at[k][phase[rays.slot[i]]], i);
-      if (queue.count == 16) look();
+  for (int round = 1, sent = 0; round <= kSunRounds && count > 0; ++round) {
+    for (int n = 0; n < count; ++n) {
+      const int i = edge[n], at = phase[rays.slot[i]];
+      const Vec3f start = SunStart(rays, s, i, to_sun);
+      for (int k = sent; k < kSunRound * round; ++k) {
+        queue.Add(start + WithinPixel(rays, s, i, directions.offset[k][at], sampling.cone_angle),
+                  directions.at[k][at], i);
+        if (queue.count == 16) look();
+      }
     }
-  }
-  if (queue.count > 0) look();
-  for (int n = 0; n < count; ++n) {
-    const int i = edge[n];
-    s.sunlit[i] = (s.sunlit[i] + static_cast<float>(kSunSamples - 1 - blocked[i])) / kSunSamples;
-    if (blocked[i] == 0) continue;
-    const float width = kSunAngle * away[i] / static_cast<float>(blocked[i]);
-    const float pixels = width / std::max(1e-6f, rays.distance[i] * sampling.cone_angle);
-    penumbra[rays.slot[i]] =
-        static_cast<uint8_t>(std::min(static_cast<float>(kMaxSmoothing), pixels * 0.2f));
+    if (queue.count > 0) look();
+    sent = kSunRound * round;
+    int mixed = 0;
+    for (int n = 0; n < count; ++n) {
+      const int i = edge[n];
+      s.sunlit[i] = static_cast<float>(sent - blocked[i]) / static_cast<float>(sent);
+      if (blocked[i] == 0 || blocked[i] == sent) continue;
+      edge[mixed++] = i;
+      const float width = kSunAngle * away[i] / static_cast<float>(blocked[i]);
+      const float pixels = width / std::max(1e-6f, rays.distance[i] * sampling.cone_angle);
+      penumbra[rays.slot[i]] =
+          static_cast<uint8_t>(std::min(static_cast<float>(kMaxSmoothing), pixels * 0.2f));
+    }
+    count = mixed;
   }
 }
 
@@ -157,13 +181,14 @@ class AmbientTile {
     }
     // A whole number of rays, right on average over the sixteen phases.
     const float turn = static_cast<float>(ReverseBits(static_cast<uint32_t>(phase)) >> 28) / 16 +
-                       static_cast<float>(sampling_.seed >> 8) * 0x1p-24f;
+                       static_cast<float>((sampling_.seed + sampling_.tile * 0x9e3779b9u) >> 8) * 0x1p-24f;
     const int samples = std::max(1, static_cast<int>(sampling_.ambient_rays + turn - std::floor(turn)));
-    const int most = static_cast<int>(std::ceil(sampling_.ambient_rays));
+    const auto most = static_cast<uint32_t>(std::ceil(sampling_.ambient_rays));
+    const uint32_t first = (sampling_.tile * 16 + static_cast<uint32_t>(phase)) * most;
     for (int k = 0; k < samples; ++k) {
-      const Vec3f sphere = SpherePoint(SobolPoint(static_cast<uint32_t>(phase * most + k), sampling_.seed));
+      const Vec3f sphere = SpherePoint(SobolPoint(first + static_cast<uint32_t>(k), sampling_.seed));
       // Leaves look to both sides in turn.
-      const bool behind = ((k + phase + static_cast<int>(sampling_.seed)) & 1) != 0;
+      const bool behind = ((k + phase + static_cast<int>(sampling_.tile)) & 1) != 0;
       Trace(sphere, behind);
       // Each side stands for the rays that were not sent to the other, too.
       const int alike = (samples + 1 - (k & 1)) / 2;
@@ -201,7 +226,8 @@ class AmbientTile {
       const uint32_t slot = rays_.slot[k];
       Vec3f weight{1, 1, 1};
       if (leaf_[i]) weight = weight * leaf_share;
-      if (leaf_[i] && behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[k];
+      if (leaf_[i] && behind)
+        weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[k];
       tile_.light_r[slot] += r_[i] * weight.x;
       tile_.light_g[slot] += g_[i] * weight.y;
       tile_.light_b[slot] += b_[i] * weight.z;

@@ -18,9 +18,9 @@ constexpr int kTermCount = sizeof(LightTerms) / sizeof(float) / kBatch;
 void ReflectionPoints(const RaySet& rays, const TileSampling* sampling, float* u, float* v) {
   for (int i = 0; i < rays.count; ++i) {
     const uint32_t slot = rays.slot[i];
-    const Vec2f point = sampling != nullptr
-                            ? SobolPoint(sampling->layout->phase[slot], sampling->seed ^ 0x51ed270bu)
-                            : SobolPoint(0, rays.key[i]);
+    const Vec2f point = sampling != nullptr ? SobolPoint(16 * sampling->tile + sampling->layout->phase[slot],
+                                                         sampling->seed ^ 0x51ed270bu)
+                                            : SobolPoint(0, rays.key[i]);
     u[i] = point.x, v[i] = point.y;
   }
   for (int i = rays.count; i % 16 != 0; ++i) u[i] = v[i] = 0;

@@ -90,8 +90,8 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const Response surface = RespondTo(view, s, i, d);
 
   const Ambient ambient = SampleProbes(view, p, g, n, r);
-  const real3 body = (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) *
-                     real(SHADE_INV_PI);
+  const real3 body =
+      (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) * real(SHADE_INV_PI);
   const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;
   real3 light = body + Behind(s, i, surface.straight) + surface.sun * load(s.sunlit + i) + mirrored +
                 load3(s.er + i, s.eg + i, s.eb + i);
@@ -111,8 +111,8 @@ KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const Surface
   // for mirrors the same light that the body gets.
   const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > 0.05f;
   const real3 sharp = sel3(traced, sel3(coated, surface.coat, surface.skin), Grey(0));
-  const real3 reflected = sel3(
-      traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
+  const real3 reflected =
+      sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
   real3 ambient = (surface.body + surface.skin - sharp) * real(SHADE_INV_PI);
   real3 sun = surface.sun;
   real3 rest = reflected + Behind(s, i, surface.straight) + load3(s.er + i, s.eg + i, s.eb + i);

@@ -53,8 +53,7 @@ void SunMap::Bake(const RayTracer& tracer) {
       const int y = static_cast<int>(block_row) * 4;
       for (int i = 0; i < 16; ++i) {
         const Vec3f p = right_ * (left_ + (static_cast<float>(x + (i & 3)) + 0.5f) * texel_) +
-                        up_ * (bottom_ + (static_cast<float>(y + (i >> 2)) + 0.5f) * texel_) +
-                        to_sun_ * top_;
+                        up_ * (bottom_ + (static_cast<float>(y + (i >> 2)) + 0.5f) * texel_) + to_sun_ * top_;
         rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
         rays.t_far[i] = INFINITY;
       }

@@ -8,9 +8,9 @@
 
 namespace airsim360::internal {
 
-/// An orthographic depth map along the sun's direction over the detailed part of a scene (DetailBounds), which
-/// tells for about a nanosecond whether a point is sunlit, to within a texel. Immutable; the same bytes with
-/// any number of threads.
+/// An orthographic depth map along the sun's direction over the detailed part of a scene (DetailBounds),
+/// which tells for about a nanosecond whether a point is sunlit, to within a texel. Immutable; the same bytes
+/// with any number of threads.
 class SunMap {
  public:
   /// `size` texels a side, a multiple of 4, but none smaller than 5 cm.
