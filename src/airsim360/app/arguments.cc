@@ -87,6 +87,14 @@ Tier ParseTierArgument(const std::string& text) {
   return ParseTier(text);
 }
 
+int CheckSamples(int samples) {
+  if (samples < 0 || samples > 256) {
+    throw InputError("--samples: " + std::to_string(samples) + " is not in 1 … 256; did you mean " +
+                     (samples < 0 ? "1" : "256") + "?");
+  }
+  return samples;
+}
+
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
                                    const std::vector<std::string>& choices) {
   std::vector<std::string> parts = Split(text, ',');

@@ -110,6 +110,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
     RenderStats stats;
     stats.rays = high_.Render(*tracer_, *shader_, rays_, labels_, request, radiance_, frame);
     Display(request, frame);
+    if (request.products.radiance) frame.radiance = radiance_;
     stats.render_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return stats;
