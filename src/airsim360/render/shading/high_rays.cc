@@ -60,15 +60,22 @@ Vec3f SunStart(const RaySet& rays, const SurfaceSet& s, int i, Vec3f to_sun) {
 struct SunDirections {
   Vec3f at[kSunSamples][16];
   Vec2f offset[kSunSamples][16];
-  SunDirections(Vec3f to_sun, uint32_t seed) {
-    for (uint32_t k = 0; k < kSunSamples; ++k) {
-      for (uint32_t phase = 0; phase < 16; ++phase) {
-        at[k][phase] = SunPoint(to_sun, SobolPoint(16 * k + phase, seed ^ 0x68bc21ebu));
-        const Vec2f u = SobolPoint(16 * k + phase, seed ^ 0x02e5be93u);
+
+  SunDirections(Vec3f to_sun, uint32_t seed) : disc_(to_sun), seed_(seed) {}
+  void Make(int first, int last) {
+    for (int k = first; k < last; ++k) {
+      for (int phase = 0; phase < 16; ++phase) {
+        const auto index = static_cast<uint32_t>(16 * k + phase);
+        at[k][phase] = disc_.At(SobolPoint(index, seed_ ^ 0x68bc21ebu));
+        const Vec2f u = SobolPoint(index, seed_ ^ 0x02e5be93u);
         offset[k][phase] = {u.x - 0.5f, u.y - 0.5f};
       }
     }
   }
+
+ private:
+  SunDisc disc_;
+  uint32_t seed_;
 };
 
 // Moves the start of a ray over the part of the surface's plane that the pixel shows.
@@ -90,7 +97,8 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
   bool any = false;
   for (int i = 0; i < rays.count; ++i) any |= (asked[i] = s.sunlit[i] != 0);
   if (!any) return;
-  const SunDirections directions(to_sun, sampling.seed);
+  SunDirections directions(to_sun, sampling.seed + 0x9e3779b9u * sampling.tile);
+  directions.Make(0, 1);
   const uint8_t* phase = sampling.layout->phase;
 
   // One ray each.
@@ -133,6 +141,7 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
     queue.count = 0;
   };
   for (int round = 1, sent = 0; round <= kSunRounds && count > 0; ++round) {
+    directions.Make(sent, kSunRound * round);
     for (int n = 0; n < count; ++n) {
       const int i = edge[n], at = phase[rays.slot[i]];
       const Vec3f start = SunStart(rays, s, i, to_sun);

@@ -14,13 +14,17 @@ namespace {
 
 constexpr int kTermCount = sizeof(LightTerms) / sizeof(float) / kBatch;
 
-// Random numbers of each surface for its reflection.
-void ReflectionPoints(const RaySet& rays, const TileSampling* sampling, float* u, float* v) {
+// Random numbers of each surface for its reflection; rough ones need none.
+void ReflectionPoints(const RaySet& rays, const SurfaceSet& s, const TileSampling* sampling, float* u,
+                      float* v) {
   for (int i = 0; i < rays.count; ++i) {
     const uint32_t slot = rays.slot[i];
-    const Vec2f point = sampling != nullptr ? SobolPoint(16 * sampling->tile + sampling->layout->phase[slot],
-                                                         sampling->seed ^ 0x51ed270bu)
-                                            : SobolPoint(0, rays.key[i]);
+    Vec2f point{};
+    if (s.roughness[i] < 0.5f || s.metallic[i] > 0.2f) {
+      point = sampling != nullptr ? SobolPoint(16 * sampling->tile + sampling->layout->phase[slot],
+                                               sampling->seed ^ 0x51ed270bu)
+                                  : SobolPoint(0, rays.key[i]);
+    }
     u[i] = point.x, v[i] = point.y;
   }
   for (int i = rays.count; i % 16 != 0; ++i) u[i] = v[i] = 0;
@@ -76,7 +80,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
       TraceSun(*impl.tracer, rays, surfaces);
   }
   alignas(64) float u[kBatch], v[kBatch];
-  ReflectionPoints(rays, sampling, u, v);
+  ReflectionPoints(rays, surfaces, sampling, u, v);
   impl.kernels.scatter(rays, u, v, surfaces);
   impl.FollowRays(rays, surfaces);
 

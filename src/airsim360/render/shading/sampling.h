@@ -46,14 +46,24 @@ inline Vec3f SpherePoint(Vec2f u) {
   return {s * scalar::sin_approx(angle + 1.57079633f), s * scalar::sin_approx(angle), z};
 }
 
-/// Direction to a point of the sun's disc of 0.53 degrees, `to_sun` its centre.
-inline Vec3f SunPoint(Vec3f to_sun, Vec2f u) {
-  constexpr float kRadius = 0.00462f;  // radians
-  const Vec3f reference = std::fabs(to_sun.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
-  const Vec3f right = Normalized(Cross(reference, to_sun)), up = Cross(to_sun, right);
-  const float radius = kRadius * std::sqrt(u.x), angle = 6.28318531f * u.y;
-  return Normalized(to_sun + right * (radius * scalar::sin_approx(angle + 1.57079633f)) +
-                    up * (radius * scalar::sin_approx(angle)));
-}
+/// Directions to points of the sun's disc of 0.53 degrees.
+class SunDisc {
+ public:
+  explicit SunDisc(Vec3f to_sun) : to_sun_(to_sun) {
+    const Vec3f reference = std::fabs(to_sun.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
+    right_ = Normalized(Cross(reference, to_sun)) * kRadius;
+    up_ = Cross(to_sun, right_);
+  }
+  /// Even over the disc for u even over the unit square.
+  Vec3f At(Vec2f u) const {
+    const float radius = std::sqrt(u.x), angle = 6.28318531f * u.y;
+    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 1.57079633f)) +
+                      up_ * (radius * scalar::sin_approx(angle)));
+  }
+
+ private:
+  static constexpr float kRadius = 0.00462f;  // radians
+  Vec3f to_sun_, right_, up_;
+};
 
 }  // namespace airsim360::internal
