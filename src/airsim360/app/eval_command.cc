@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <optional>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
@@ -38,20 +37,20 @@ void RunImage(const ImageArguments& arguments, const GlobalOptions& globals) {
   const double psnr = Psnr(a, b), ssim = Ssim(a, b), flip = MeanFlip(b, a, arguments.flip);
   // Rows have solid angles in a full panorama only.
   const bool panorama = a.width() == 2 * a.height();
-  const std::optional<double> ws_psnr = panorama ? std::optional(WsPsnr(a, b)) : std::nullopt;
+  const double ws_psnr = panorama ? WsPsnr(a, b) : 0;
   if (globals.json) {
     PrintJson({{"first", arguments.first},
                {"second", arguments.second},
                {"width", a.width()},
                {"height", a.height()},
                {"equal", a == b},
-               {"ws_psnr_db", ws_psnr ? Decibels(*ws_psnr) : nlohmann::ordered_json(nullptr)},
+               {"ws_psnr_db", panorama ? Decibels(ws_psnr) : nlohmann::ordered_json(nullptr)},
                {"psnr_db", Decibels(psnr)},
                {"ssim", ssim},
                {"flip", flip}});
     return;
   }
-  if (ws_psnr) std::printf("WS-PSNR  %8.3f dB\n", *ws_psnr);
+  if (panorama) std::printf("WS-PSNR  %8.3f dB\n", ws_psnr);
   std::printf("PSNR     %8.3f dB\nSSIM     %8.5f\nFLIP     %8.5f (mean)\n", psnr, ssim, flip);
 }
 

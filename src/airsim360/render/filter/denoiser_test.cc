@@ -106,10 +106,10 @@ TEST(DenoiserTest, NoiseOnSurfacesFallsByAFactorOfAHundredInVariance) {
 }
 
 TEST(DenoiserTest, ALargerRadiusLeavesLess) {
-  const View view = MakeBall(256);
+  const View view = MakeBall(512);
   const Image<Rgb32f> noise = Noise(view, 1, 0.2f);
   double last = 0.04;
-  for (const float radius : {1.0f, 4.0f, 16.0f}) {
+  for (const float radius : {1.0f, 2.0f, 4.0f, 8.0f}) {
     const double left = Variance(view, Filter(view, noise, nullptr, radius), 1, Anywhere);
     EXPECT_LT(left, 0.5 * last) << radius;
     last = left;
@@ -122,6 +122,28 @@ TEST(DenoiserTest, TheMeanStays) {
   double sum = 0;
   for (const Rgb32f& c : light.pixels()) sum += c.g;
   EXPECT_NEAR(sum / static_cast<double>(light.size()), 1, 0.2 * 3 / std::sqrt(view.width() * view.height()));
+}
+
+TEST(DenoiserTest, TheMeanOfOcclusionByFourRaysStays) {
+  const View view = MakeBall(256);
+  Image<Rgb32f> light(view.width(), view.height());
+  const Image<uint8_t> samples(view.width(), view.height(), 4);
+  RngStream rng(8, "rays");
+  for (Rgb32f& c : light.pixels()) {
+    int open = 0;
+    for (int ray = 0; ray < 4; ++ray) open += rng.Chance(0.7);
+    c.r = c.g = c.b = 0.25f * static_cast<float>(open);
+  }
+  const Image<Rgb32f> filtered = Filter(view, light, &samples);
+  double sum = 0, weight = 0;
+  Variance(view, filtered, 0, [&](int x, int y) {
+    const double w = std::cos(std::numbers::pi * (0.5 - (y + 0.5) / view.height()));
+    sum += w * filtered(x, y).g;
+    weight += w;
+    return true;
+  });
+  EXPECT_NEAR(sum / weight, 0.7, 0.014);
+  EXPECT_LT(Variance(view, filtered, 0.7f, Anywhere), 0.7 * 0.3 / 4 / 60);
 }
 
 TEST(DenoiserTest, LightOfOneEntityNeverReachesAnother) {
@@ -191,7 +213,12 @@ TEST(DenoiserTest, WithoutNoiseAShadowEdgeStaysWhereItIs) {
   for (int y = 0; y < view.height(); ++y) {
     for (int x = 40; x < 140; ++x) light(x, y) = {0.5f, 0.5f, 0.5f};
   }
-  EXPECT_TRUE(Filter(view, light, &samples) == light);
+  const Image<Rgb32f> filtered = Filter(view, light, &samples);
+  // Beyond 60 degrees pixels that are narrower than high are averaged first.
+  const int h = view.height();
+  for (int y = h / 6 + 1; y < h - h / 6 - 1; ++y) {
+    for (int x = 0; x < view.width(); ++x) ASSERT_EQ(filtered(x, y), light(x, y)) << x << " " << y;
+  }
 }
 
 TEST(DenoiserTest, PolesAndSeamKeepNoMoreNoiseThanTheEquator) {
@@ -213,8 +240,9 @@ TEST(DenoiserTest, PolesAndSeamKeepNoMoreNoiseThanTheEquator) {
   const double poles = Variance(view, light, 1, [&](int, int y) { return y < h / 16 || y >= h - h / 16; });
   const double seam = Variance(
       view, light, 1, [&](int x, int y) { return (x < 8 || x >= w - 8) && std::abs(2 * y - h) < h / 2; });
+  // Near the poles samples are where chance put them, some pixels have several: a third less good.
   EXPECT_LT(poles, 1.6 * equator);
-  EXPECT_LT(seam, 1.6 * equator);
+  EXPECT_LT(seam, 1.3 * equator);
   EXPECT_LT(equator, 0.04 / 60);
 }
 
@@ -337,13 +365,13 @@ TEST(DenoiserTest, LeavesShareLightWithLeavesAround) {
 }
 
 TEST(DenoiserTest, AFireflyGoesAndLeavesNothingAround) {
-  const View view = MakeBall(256);
+  const View view = MakeBall(512);
   Image<Rgb32f> light = Noise(view, 1, 0.1f);
-  light(100, 64) = {80, 80, 80};
+  light(100, 128) = {80, 80, 80};
   light = Filter(view, light);
-  EXPECT_LT(light(100, 64).g, 2);
-  EXPECT_LT(light(101, 64).g, 1.2);
-  EXPECT_LT(light(104, 60).g, 1.2);
+  EXPECT_LT(light(100, 128).g, 1.5);
+  EXPECT_LT(light(101, 128).g, 1.1);
+  EXPECT_LT(light(104, 124).g, 1.1);
 }
 
 TEST(DenoiserTest, SkyIsLeftAlone) {

@@ -166,7 +166,9 @@ Rgb32f FilterBuffers::FillHole(int set, int x, int y) const {
           column += f.width / 2;
         }
         for (int k = -r; k <= r; k += whole ? 1 : 2 * r) {
-          const int c = ((column + k * step_x / r) % f.wrap + f.wrap) % f.wrap;
+          int c = column + k * step_x / r;
+          if (!f.sphere && (c < 0 || c >= f.width)) continue;
+          c = (c % f.wrap + f.wrap) % f.wrap;
           const size_t i = static_cast<size_t>(row) * f.stride + c;
           const uint32_t there = f.data_id[set][i];
           if (there == 0 || (!any_surface && there != id)) continue;

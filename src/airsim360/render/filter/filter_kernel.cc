@@ -15,14 +15,14 @@ constexpr float kNormal = 48, kLooseNormal = 1.5f;
 // How much thicker than a pixel's width a plane is where there are no like neighbours.
 constexpr float kLooseThickness = 16;
 // x_light = difference^2 / (2 (kSigmas sigma)^2).
-constexpr float kSigmas = 2.5f;
+constexpr float kSigmas = 3;
 // A neighbourhood whose samples all agree has still an uncertain mean (rule of succession): variance of a
 // pixel of n samples, about l^2 / (9 n) / n, halved.
 constexpr float kAgreement = 0.5f / 9;
 // A harmonic mean of variances of nine values is too small by (9 - 1 - 2) / (9 - 1).
 constexpr float kHarmonicBias = 8.0f / 6.0f;
 // The noise is never taken for less than this part of the mean variance around.
-constexpr float kLeastShare = 1.0f / 16;
+constexpr float kLeastShare = 1.0f / 32;
 
 using uids = stdx::rebind_simd_t<uint32_t, real>;
 
@@ -68,7 +68,7 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   const real3 p = At3(f.p, i);
   c.g = At3(f.g, i);
   c.plane = dot3(c.g, p);
-  const real sharpness = lerp1(real(kNormal / 8), real(kLooseNormal / 8), loose);
+  const real sharpness = lerp1(real(kLooseNormal / 8), real(kNormal / 8), (1.0f - loose) * (1.0f - loose));
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
   const real thickness = rroot(dot3(p, p)) * (f.cone_angle * (1.0f + f.plane_slope * step)) *
@@ -176,7 +176,7 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
   const real beyond = rmax(rmax(l - high, low - l), real(0.0f));
   Put(f.window, i, variance);
   Put(f.own, i, If(known && (entity.n > 3.5f), beyond * beyond));
-  Put(f.loose, i, clamp01((3.0f - alike) * 0.5f));
+  Put(f.loose, i, clamp01((4.0f - alike) * 0.5f));
 }
 
 KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
@@ -210,7 +210,10 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
   const real3 base = At3(f.light[in], i);
   const real l = luminance(base), variance = At(f.variance, i);
   const real sharpness = If(known, 1.0f / (variance * (16 * kSigmas * kSigmas) + 1e-20f));
-  real weight = If(known, real(0.25f)), squares = weight * weight;
+  // Means of more samples count for more; after the first level all are mixed.
+  const bool by_samples = step == 1;
+  real weight = If(known, real(0.25f) * (by_samples ? At(f.samples, i) : real(1.0f)));
+  real squares = weight * weight;
   real3 sum = make3(real(0.0f), real(0.0f), real(0.0f));
   ForNeighbours(
       f, rows, x, step_x, [&](int64_t j, bool corner) __attribute__((always_inline)) {
@@ -218,12 +221,13 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
         if (stdx::none_of(same)) return;
         const real3 light = At3(f.light[in], j);
         const real d = luminance(light) - l;
-        const real w = If(same, Power8(Likeness(f, c, j) - d * d * sharpness) * (corner ? 0.0625f : 0.125f));
+        real w = If(same, Power8(Likeness(f, c, j) - d * d * sharpness) * (corner ? 0.0625f : 0.125f));
+        if (by_samples) w = w * At(f.samples, j);
         sum = sum + (light - base) * w;
         weight = weight + w;
         squares = squares + w * w;
       });
-  const real inverse = 1.0f / rmax(weight, real(1e-20f));
+  const real inverse = 1.0f / rmax(weight, real(1e-10f));
   const real3 mean = base + sum * inverse;
   Put(f.light[1 - in][0], i, mean.x);
   Put(f.light[1 - in][1], i, mean.y);
