@@ -18,12 +18,12 @@ struct alignas(64) Met {
   alignas(64) float m[9][16], albedo[3][16], emission[3][16], leaf[16], hit[16];
 };
 
-KERNEL void FetchMet(const ShadeView& view, const uint32_t* instance, const uint32_t* triangle, Met& met) {
+KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
   for (int i = 0; i < 16; ++i) {
-    const bool hit = instance[i] != kMiss;
+    const bool hit = hits.instance[i] != kMiss;
     met.hit[i] = hit ? 1.0f : 0.0f;
-    const InstanceRecord& placed = view.instances[hit ? instance[i] : 0];
-    const TriangleRecord& record = view.triangles[placed.first_triangle + (hit ? triangle[i] : 0)];
+    const InstanceRecord& placed = view.instances[hit ? hits.instance[i] : 0];
+    const TriangleRecord& record = view.triangles[placed.first_triangle + (hit ? hits.triangle[i] : 0)];
     const uint32_t id = record.material & ~kMirroredUv;
     const MaterialRecord& material = view.materials[id];
     met.normal[i] = static_cast<int32_t>(record.geometric_normal);
@@ -31,7 +31,7 @@ KERNEL void FetchMet(const ShadeView& view, const uint32_t* instance, const uint
     for (int k = 0; k < 3; ++k) {
       const float albedo = view.mean_colors[3 * id + static_cast<uint32_t>(k)] * placed.tint[k];
       met.albedo[k][i] = albedo < 0.9f ? albedo : 0.9f;
-      met.emission[k][i] = material.emission[k];
+      met.emission[k][i] = hit ? material.emission[k] * hits.shines[i] : 0.0f;
     }
     met.leaf[i] = material.kind == BSDF_FOLIAGE ? material.transmission : 0.0f;
   }
@@ -134,17 +134,18 @@ KERNEL real3 NearProbe(const ShadeView& view, real3 p, real3 n) {
 }
 
 /// Light of the surface met, towards the ray's origin.
-KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Met& met, int i, real3 p, real3 d,
-                     real distance) {
+KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const AmbientHits& hits, const Met& met,
+                     int i, real3 p, real3 d, real distance) {
   const real3 emission = load3(met.emission[0] + i, met.emission[1] + i, met.emission[2] + i);
-  if (view.has_sky < 0.5f) {
-    // Closed rooms glow, less where something is near: the model that their probes use.
+  const real3 glow{real(view.mean_ambient[0]), real(view.mean_ambient[1]), real(view.mean_ambient[2])};
+  if (view.mean_ambient[0] + view.mean_ambient[1] + view.mean_ambient[2] > 0.0f) {
+    // Closed rooms that glow do so less where something is near: the model that their probes use.
     const real t2 = distance * distance;
-    return Uniform(view.mean_ambient) * (0.35f + 0.65f * t2 / (t2 + 0.5f)) + emission;
+    return glow * (0.35f + 0.65f * t2 / (t2 + 0.5f)) + emission;
   }
   const real3 outward = MetNormal(met, i);
   const real3 n = outward * sel(dot3(outward, d) > 0.0f, real(-1.0f), real(1.0f));
-  real3 light = NearProbe(view, p, n);
+  real3 light = NearProbe(view, p, n) + load3(hits.lamp_r + i, hits.lamp_g + i, hits.lamp_b + i);
   if (map.heights != nullptr) {
     const real cosine = dot3(n, ufloat3{view.to_sun[0], view.to_sun[1], view.to_sun[2]});
     const real zero = real(0.0f);
@@ -186,11 +187,11 @@ void AmbientRays(const RaySet& rays, const SurfaceSet& s, const int* index, cons
 }
 
 void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map, const RayHit16& rays,
-                  const uint32_t* instance, const uint32_t* triangle, float* r, float* g, float* b) {
+                  const AmbientHits& hits, float* r, float* g, float* b) {
   uint32_t any_hit = 0, any_miss = 0;
-  for (int i = 0; i < 16; ++i) any_hit |= instance[i] != kMiss, any_miss |= instance[i] == kMiss;
+  for (int i = 0; i < 16; ++i) any_hit |= hits.instance[i] != kMiss, any_miss |= hits.instance[i] == kMiss;
   Met met;
-  if (any_hit != 0) FetchMet(view, instance, triangle, met);
+  if (any_hit != 0) FetchMet(view, hits, met);
   for (int i = 0; i < 16; i += kLanes) {
     const real3 d = load3(rays.direction_x + i, rays.direction_y + i, rays.direction_z + i);
     real3 light = make3(real(view.mean_ambient[0]), real(view.mean_ambient[1]), real(view.mean_ambient[2]));
@@ -199,7 +200,7 @@ void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map, const RayHit
       const mask_t hit = load(met.hit + i) > 0.5f;
       const real t = sel(hit, load(rays.t_far + i), real(0.0f));
       const real3 p = load3(rays.origin_x + i, rays.origin_y + i, rays.origin_z + i) + d * t;
-      light = sel3(hit, Bounced(view, sun_map, met, i, p, d, t), light);
+      light = sel3(hit, Bounced(view, sun_map, hits, met, i, p, d, t), light);
     }
     store3(r + i, g + i, b + i, light);
   }

@@ -5,6 +5,7 @@
 
 #include "airsim360/render/shading/ray_queue.h"
 #include "airsim360/render/shading/sampling.h"
+#include "airsim360/render/shading/secondary_rays.h"
 
 namespace airsim360::internal {
 namespace {
@@ -91,8 +92,10 @@ Vec3f WithinPixel(const RaySet& rays, const SurfaceSet& s, int i, Vec2f offset, 
 
 }  // namespace
 
-void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sampling, const RaySet& rays,
-                  SurfaceSet& s, uint8_t* penumbra) {
+void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s,
+                  uint8_t* penumbra) {
+  const RayTracer& tracer = *shader.tracer;
+  const Vec3f to_sun = shader.sky->to_sun();
   uint8_t asked[kBatch];
   bool any = false;
   for (int i = 0; i < rays.count; ++i) any |= (asked[i] = s.sunlit[i] != 0);
@@ -102,12 +105,15 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
   const uint8_t* phase = sampling.layout->phase;
 
   // One ray each.
-  RayQueue queue;
+  RayQueue queue(kMaskSolid);
+  float clear[kBatch];  // what panes on the way leave
   const auto flush = [&] {
-    bool occluded[16] = {};
-    queue.Close();
-    tracer.Occluded16(queue.valid, queue.rays, occluded, false);
-    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = occluded[i] ? 0.0f : 1.0f;
+    float share[16];
+    SeenShare(tracer, shader.tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) {
+      s.sunlit[queue.lane[i]] = share[i] > 0 ? 1.0f : 0.0f;
+      clear[queue.lane[i]] = share[i];
+    }
     queue.count = 0;
   };
   bool lit = false, dark = false;
@@ -117,14 +123,15 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
     if (queue.count == 16) flush();
   }
   if (queue.count > 0) flush();
-  for (int i = 0; i < rays.count; ++i) (s.sunlit[i] != 0 ? lit : dark) |= asked[i] != 0;
-  if (!lit || !dark) return;
+  for (int i = 0; i < rays.count; ++i) {
+    if (asked[i]) (s.sunlit[i] != 0 ? lit : dark) = true;
+  }
 
   // More where neighbours disagree, from all over the pixel, in rounds while they differ; how far the
   // blockers are tells how wide the penumbra is.
   const SurfaceGrid grid(*sampling.layout, rays);
   int edge[kBatch], count = 0;
-  for (int pixel = 0; pixel < 256; ++pixel) {
+  for (int pixel = 0; pixel < (lit && dark ? 256 : 0); ++pixel) {
     const int i = grid.at[pixel];
     if (i >= 0 && asked[i] && AtShadowEdge(rays, s, grid, asked, pixel)) edge[count++] = i;
   }
@@ -166,6 +173,10 @@ void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sam
     }
     count = mixed;
   }
+  if (!tracer.has_clear_panes()) return;
+  for (int i = 0; i < rays.count; ++i) {
+    if (asked[i] && clear[i] > 0) s.sunlit[i] *= clear[i];
+  }
 }
 
 namespace {
@@ -178,7 +189,11 @@ class AmbientTile {
   AmbientTile(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
               const RaySet& rays, const SurfaceSet& s, HighTile& tile)
       : shader_(shader), sun_map_(sun_map), sampling_(sampling), rays_(rays), s_(s), tile_(tile) {
-    for (int i = 0; i < 16; ++i) packet_.mask[i] = UINT32_MAX;
+    for (int i = 0; i < 16; ++i) {
+      packet_.mask[i] = kMaskSolid;  // clear panes let light pass
+      hits_.shines[i] = 1;
+      hits_.lamp_r[i] = hits_.lamp_g[i] = hits_.lamp_b[i] = 0;
+    }
   }
 
   // All rays of up to sixteen surfaces of one phase.
@@ -219,13 +234,26 @@ class AmbientTile {
     for (int i = 0; i < 16; ++i) packet_.t_far[i] = INFINITY;
     shader_.tracer->Intersect16(valid_, packet_, false);
     for (int i = 0; i < 16; ++i) {
-      instance_[i] = kMiss;
+      hits_.instance[i] = kMiss;
       if (valid_[i] == 0 || packet_.geometry[i] == kMiss) continue;
       const SurfaceRef ref =
           shader_.tracer->Resolve(packet_.geometry[i], packet_.instance[i], packet_.primitive[i]);
-      instance_[i] = ref.instance, triangle_[i] = ref.triangle;
+      hits_.instance[i] = ref.instance, hits_.triangle[i] = ref.triangle;
+      if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref);
     }
-    shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, instance_, triangle_, r_, g_, b_);
+    shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, hits_, r_, g_, b_);
+  }
+
+  // Light of lamps on what was met.
+  void AddLamps(int i, const SurfaceRef& ref) {
+    const uint32_t lamp = shader_.lights.LampOf(ref.instance, ref.triangle);
+    hits_.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
+    const Vec3f d{packet_.direction_x[i], packet_.direction_y[i], packet_.direction_z[i]};
+    const Vec3f p =
+        Vec3f{packet_.origin_x[i], packet_.origin_y[i], packet_.origin_z[i]} + d * packet_.t_far[i];
+    // By the side that the ray came from: the grid's means are too coarse for normals to matter more.
+    const Vec3f light = shader_.lamps->NearIrradiance(p, -d);
+    hits_.lamp_r[i] = light.x, hits_.lamp_g[i] = light.y, hits_.lamp_b[i] = light.z;
   }
 
   void AddLight(int count, bool behind, float leaf_share) {
@@ -252,7 +280,7 @@ class AmbientTile {
   RayHit16 packet_{};
   alignas(64) int valid_[16];
   alignas(64) float side_[16], r_[16], g_[16], b_[16];
-  uint32_t instance_[16], triangle_[16];
+  AmbientHits hits_{};
   int index_[16];
   bool leaf_[16];
 };

@@ -10,7 +10,7 @@ namespace airsim360::internal {
 /// neighbours on the same plane disagree, sixteen where the eight do: these start all over the pixel, so that
 /// edges of shadows are smooth. `penumbra` gets, at the surfaces' slots, the radius in pixels over
 /// which that share may be smoothed: a fifth of the penumbra's width.
-void TraceSunDisc(const RayTracer& tracer, Vec3f to_sun, const TileSampling& sampling, const RaySet& rays,
+void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays,
                   SurfaceSet& surfaces, uint8_t* penumbra);
 
 /// Sends the ambient rays of a tile and leaves their mean and number in `light_*` and `light_samples`.

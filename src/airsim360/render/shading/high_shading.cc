@@ -75,10 +75,11 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   for (int i = 0; i < rays.count; ++i) tile.penumbra[rays.slot[i]] = 0;
   if (impl.sky) {
     if (sampling != nullptr)
-      TraceSunDisc(*impl.tracer, impl.sky->to_sun(), *sampling, rays, surfaces, tile.penumbra);
+      TraceSunDisc(impl, *sampling, rays, surfaces, tile.penumbra);
     else
-      TraceSun(*impl.tracer, rays, surfaces);
+      TraceSun(*impl.tracer, impl.tables, rays, surfaces);
   }
+  impl.LightByLamps(rays, kLampRays, surfaces);
   alignas(64) float u[kBatch], v[kBatch];
   ReflectionPoints(rays, surfaces, sampling, u, v);
   impl.kernels.scatter(rays, u, v, surfaces);

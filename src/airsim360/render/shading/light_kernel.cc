@@ -73,6 +73,16 @@ KERNEL real3 Behind(const SurfaceSet& s, int i, real3 straight) {
   return sel3(clear, load3(s.behind_r + i, s.behind_g + i, s.behind_b + i) * straight, Grey(0));
 }
 
+/// Emission, and the light of lamps.
+KERNEL real3 OwnAndLamps(const ShadeView& view, const SurfaceSet& s, int i, const Response& surface) {
+  real3 light = load3(s.er + i, s.eg + i, s.eb + i);
+  if (view.lamps.lamps == nullptr) return light;
+  const real3 front = load3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i);
+  const real3 back = load3(s.lamp_back_r + i, s.lamp_back_g + i, s.lamp_back_b + i);
+  light = light + (surface.body * front + surface.leaf * back) * real(SHADE_INV_PI);
+  return light + load3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i);
+}
+
 /// Share of light left after the way, and what the air adds.
 KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3& kept, real3& added) {
   kept = transmittance(Uniform(view.extinction), load(rays.distance + i));
@@ -94,7 +104,7 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
       (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) * real(SHADE_INV_PI);
   const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;
   real3 light = body + Behind(s, i, surface.straight) + surface.sun * load(s.sunlit + i) + mirrored +
-                load3(s.er + i, s.eg + i, s.eb + i);
+                OwnAndLamps(view, s, i, surface);
   if (view.has_sky > 0.5f) {
     real3 kept, added;
     Air(view, rays, i, d, kept, added);
@@ -115,7 +125,7 @@ KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const Surface
       sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
   real3 ambient = (surface.body + surface.skin - sharp) * real(SHADE_INV_PI);
   real3 sun = surface.sun;
-  real3 rest = reflected + Behind(s, i, surface.straight) + load3(s.er + i, s.eg + i, s.eb + i);
+  real3 rest = reflected + Behind(s, i, surface.straight) + OwnAndLamps(view, s, i, surface);
   if (view.has_sky > 0.5f) {
     real3 kept, added;
     Air(view, rays, i, d, kept, added);

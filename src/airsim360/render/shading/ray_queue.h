@@ -18,12 +18,14 @@ struct RayQueue {
   alignas(64) int valid[16] = {};
   int lane[16] = {};
   int count = 0;
+  uint32_t mask;
 
+  explicit RayQueue(uint32_t meets = kMaskAll) : mask(meets) {}
   void Add(Vec3f p, Vec3f d, int index, float reach = INFINITY) {
     const int i = count++;
     rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
     rays.direction_x[i] = d.x, rays.direction_y[i] = d.y, rays.direction_z[i] = d.z;
-    rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = UINT32_MAX;
+    rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = mask;
     lane[i] = index;
   }
   /// Marks the lanes in use; the others repeat the last ray.
@@ -35,7 +37,7 @@ struct RayQueue {
       rays.origin_z[i] = rays.origin_z[0];
       rays.direction_x[i] = rays.direction_x[0], rays.direction_y[i] = rays.direction_y[0],
       rays.direction_z[i] = rays.direction_z[0];
-      rays.t_near[i] = 0, rays.t_far[i] = INFINITY, rays.mask[i] = UINT32_MAX;
+      rays.t_near[i] = 0, rays.t_far[i] = INFINITY, rays.mask[i] = mask;
     }
   }
 };

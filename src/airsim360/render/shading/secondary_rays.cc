@@ -3,9 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shading/ray_queue.h"
 
 namespace airsim360::internal {
+
+void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share) {
+  bool occluded[16] = {};
+  float reach[16];
+  std::copy(queue.rays.t_far, queue.rays.t_far + 16, reach);
+  queue.Close();
+  // Faster without COHERENT, and Embree 3.13 hung on coherent ones.
+  tracer.Occluded16(queue.valid, queue.rays, occluded, false);
+  for (int i = 0; i < queue.count; ++i) share[i] = occluded[i] ? 0.0f : 1.0f;
+  if (!tracer.has_clear_panes()) return;
+  for (int i = 0; i < queue.count; ++i) {
+    queue.valid[i] = occluded[i] ? 0 : -1;
+    queue.rays.t_far[i] = reach[i];
+  }
+  std::array<Vec3f, 16> tint;
+  tint.fill({1, 1, 1});
+  DimByPanes(tracer, tables, queue.valid, queue.rays, tint);
+  for (int i = 0; i < queue.count; ++i) share[i] *= (tint[i].x + tint[i].y + tint[i].z) / 3;
+}
+
 void Pad(RaySet& set) {
   if (set.count == 0) return;
   const int from = set.count - 1;
@@ -18,14 +39,12 @@ void Pad(RaySet& set) {
   }
 }
 
-void TraceSun(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
-  RayQueue queue;
+void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, SurfaceSet& s) {
+  RayQueue queue(kMaskSolid);
   const auto flush = [&] {
-    bool occluded[16] = {};
-    queue.Close();
-    tracer.Occluded16(queue.valid, queue.rays, occluded,
-                      false);  // faster so, and Embree 3.13 hung on coherent ones
-    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = occluded[i] ? 0.0f : 1.0f;
+    float share[16];
+    SeenShare(tracer, tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = share[i];
     queue.count = 0;
   };
   for (int i = 0; i < rays.count; ++i) {
@@ -56,6 +75,43 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
     queue.Add(p + g * RayOffset(p, rays.distance[i]), {0.0123f, 0.0071f, 1}, i, kReach);
     if (queue.count == 16) flush();
+  }
+  if (queue.count > 0) flush();
+}
+
+void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
+                const LampRays& wanted, int count, SurfaceSet& s) {
+  RayQueue queue(kMaskSolid);
+  const LampRays::Ray* asked[16];
+  const auto learn = [&](int i, const LampRays::Ray& ray, float seen) {
+    const float more = (seen - ray.guess) * ray.share;
+    s.lamp_r[i] += ray.front[0] * more, s.lamp_g[i] += ray.front[1] * more,
+        s.lamp_b[i] += ray.front[2] * more;
+    s.lamp_back_r[i] += ray.back[0] * more, s.lamp_back_g[i] += ray.back[1] * more;
+    s.lamp_back_b[i] += ray.back[2] * more;
+    s.lamp_shine_r[i] += ray.shine[0] * more, s.lamp_shine_g[i] += ray.shine[1] * more;
+    s.lamp_shine_b[i] += ray.shine[2] * more;
+  };
+  const auto flush = [&] {
+    float share[16];
+    SeenShare(tracer, tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) learn(queue.lane[i], *asked[i], share[i]);
+    queue.count = 0;
+  };
+  for (int k = 0; k < count; ++k) {
+    for (int i = 0; i < rays.count; ++i) {
+      const LampRays::Ray& ray = wanted.ray[k][i];
+      if (ray.share == 0) continue;
+      const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, d{ray.dx, ray.dy, ray.dz};
+      const float offset = RayOffset(p, rays.distance[i]);
+      if (ray.distance <= offset) {
+        learn(i, ray, 1);
+        continue;
+      }
+      asked[queue.count] = &ray;
+      queue.Add(p + g * (Dot(g, d) < 0 ? -offset : offset), d, i, ray.distance);
+      if (queue.count == 16) flush();
+    }
   }
   if (queue.count > 0) flush();
 }

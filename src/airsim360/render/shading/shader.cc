@@ -21,32 +21,44 @@ static_assert(HitBatch::kCapacity == kBatch);
 constexpr float kPi = 3.14159265f;
 // Input of the tone curve for sunlit ground of reflectance 0.18.
 constexpr float kGreyLevel = 0.38f;
+// Irradiance to which pictures get brighter: a lit path, 1 lx.
+constexpr float kDarkest = internal::kLux;
 
 float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 }  // namespace
 
 Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
-    : tracer(std::move(t)), tables(tracer->scene()) {
+    : tracer(std::move(t)),
+      tables(tracer->scene(), environment.lamps_on()),
+      lights(tracer->scene(), tables, environment) {
   const Scene& scene = tracer->scene();
   if (scene.sky_entity != kNoEntity) sky.emplace(environment);
+  lamps.emplace(*tracer, lights, Daylight());
   if (!scene.instances.empty())
-    probes.emplace(*tracer, tables, sky ? &*sky : nullptr, internal::LightProbes::Options{});
+    probes.emplace(internal::ProbeLight{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps},
+                   internal::LightProbes::Options{});
   view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
+  view.lamps = lamps->view();
   exposure = ChooseExposure(scene);
 }
 
+float Shader::Impl::Daylight() const {
+  if (!sky) return 0;
+  return Luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
+}
+
 // Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
-// fast as the light.
+// fast as the light. Where lamps bring more than the sky the eye is used to their light.
 float Shader::Impl::ChooseExposure(const Scene& scene) const {
+  const float of_lamps = lamps->TypicalLight();
   if (!sky) {
-    const float light = Luminance(scene.interior_light);
+    const float light = Luminance(scene.interior_light) + of_lamps / kPi;
     return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
   }
-  const float light =
-      Luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
+  const float light = std::max(Daylight(), of_lamps);
   constexpr float kNoon = 14.0f;
-  return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, 1e-3f), 0.9f);
+  return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
 }
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
@@ -78,11 +90,20 @@ void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s) const {
   });
 }
 
+void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) const {
+  if (view.lamps.lamps == nullptr) return;
+  internal::LampRays wanted;
+  kernels.lamps(view, rays, count, false, s, wanted);
+  internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
+}
+
 void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) const {
   SurfaceSet surfaces;
   Pad(rays);  // sets that come from tracing are not yet
   kernels.prepare(view, rays, surfaces);
-  if (sky) internal::TraceSun(*tracer, rays, surfaces);
+  if (sky) internal::TraceSun(*tracer, tables, rays, surfaces);
+  // What is seen in a mirror does without rays to lamps.
+  LightByLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
     FollowRays(rays, surfaces);

@@ -26,10 +26,15 @@ AIRSIM360_DECLARE_KERNEL(void ScatterReflections(const RaySet& rays, const float
 AIRSIM360_DECLARE_KERNEL(void AmbientRays(const RaySet& rays, const SurfaceSet& surfaces, const int* index,
                                           const float* side, const float* sphere, RayHit16& out))
 /// Radiance that such rays bring: sky (its sharpest blurred table), or the light of what they met once
-/// reflected: sun by `sun_map`, irradiance of a probe near by, emission. `instance` kMiss = sky.
+/// reflected: sun by `sun_map`, irradiance of a probe near by, lamps, emission.
 AIRSIM360_DECLARE_KERNEL(void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map,
-                                           const RayHit16& rays, const uint32_t* instance,
-                                           const uint32_t* triangle, float* r, float* g, float* b))
+                                           const RayHit16& rays, const AmbientHits& hits, float* r, float* g,
+                                           float* b))
+/// Light of the lamps around every surface with the visibility that the grid knows (fills lamp_*), and the
+/// `count` rays of each that would tell better; `soft`: towards random points of the lamps, else their
+/// centres.
+AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft,
+                                           SurfaceSet& surfaces, LampRays& wanted))
 /// Radiance of rays that met nothing; `sun_disc`: also the sun itself.
 AIRSIM360_DECLARE_KERNEL(void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc,
                                         LightSet& light))
