@@ -64,7 +64,7 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
       diffuse(inside, ambient.front * load(s.contact + i) + sel3(leaf, ambient.back * yellow, Grey(0)));
 
   // Sun.
-  const real3 sun = Uniform(view.sun_irradiance) * load(s.sunlit + i);
+  const real3 sun = Uniform(view.sun_irradiance) * (load(s.sunlit + i) * CloudShadow(view.cloud_shadow, p));
   const real n_dot_l = dot3(n, l);
   const real lambert = rmax(n_dot_l, real(0.0f));
   const real3 lit =
@@ -83,10 +83,8 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
 
   // Air between.
   if (view.has_sky > 0.5f) {
-    const real3 kept = transmittance(Uniform(view.extinction), load(rays.distance + i));
-    const real3 haze =
-        Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
-    light = light * kept + haze * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z);
+    const AirEffect air = air_to_surface(view.air, load(rays.oz + i), d, load(rays.distance + i));
+    light = light * air.kept + air.added;
   }
   store3(out.r + i, out.g + i, out.b + i, light);
 }
@@ -111,16 +109,27 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     real3 c = Grey(0);
     if (view.has_sky > 0.5f) {
-      c = SampleSky(view.sky, d, false);
+      const real z = load(rays.oz + i);
       const mask_t down = d.z < 0.0f;
+      const real3 up = make3(d.x, d.y, rabs(d.z));
+      c = SampleSky(view.sky, d, false);
       if (stdx::any_of(down)) {
-        // Far ground in haze.
-        const real height = rmax(load(rays.oz + i) - view.ground_z, real(2.0f));
-        const real3 kept = transmittance(Uniform(view.extinction), height / rmax(0.0f - d.z, real(1e-4f)));
-        const real3 ground = Uniform(view.ground) * real(1.0f);
-        c = sel3(down, ground * kept + c * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z), c);
+        // Far ground in haze, or the lower half of a picture.
+        const real distance = rmax(z - view.ground_z, real(2.0f)) / rmax(0.0f - d.z, real(1e-4f));
+        real3 below = Grey(0);
+        if (view.sky_below.texels) {
+          below = SampleSky(view.sky_below, up, false);
+        } else {
+          const AirEffect air = air_to_surface(view.air, z, d, distance);
+          below = Uniform(view.ground) * air.kept + air.added;
+        }
+        c = sel3(down, below, c);
       }
       if (sun_disc) c = c + SunDisc(view, d);
+      if (view.air.weather > 0.0f) {
+        const AirEffect air = air_to_sky(view.air, z, up, real(kFarAir));
+        c = sel3(down, c, c * air.kept + air.added);
+      }
     }
     store3(light.r + i, light.g + i, light.b + i, c);
   }

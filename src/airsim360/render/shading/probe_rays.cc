@@ -125,7 +125,8 @@ Seen LookAlong(const RayTracer& tracer, const SurfaceTables& tables, const Sky* 
       const Vec3f reflectance = met[i].albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
       seen.guess[i] = reflectance * AmbientGuess(*sky, met[i].normal);
       if (shadow.valid[i] && !occluded[i]) {
-        seen.light[i] = reflectance * sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
+        seen.light[i] = reflectance * sky->sun_irradiance() *
+                        (Dot(met[i].normal, sky->to_sun()) * sky->CloudShadow(met[i].point));
       }
     } else {
       const float t = view.rays.t_far[i];

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "airsim360/render/shading/atmosphere.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
@@ -31,6 +32,7 @@ struct Kernels {
   decltype(&internal::isa_sse42::PrepareSurfaces) prepare = AIRSIM360_SELECT_KERNEL(PrepareSurfaces);
   decltype(&internal::isa_sse42::LightSurfaces) light = AIRSIM360_SELECT_KERNEL(LightSurfaces);
   decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
+  decltype(&internal::isa_sse42::AddPrecipitation) precipitation = AIRSIM360_SELECT_KERNEL(AddPrecipitation);
   decltype(&internal::isa_sse42::ToneMapRow) tone = AIRSIM360_SELECT_KERNEL(ToneMapRow);
 };
 
@@ -40,25 +42,27 @@ struct Shader::Impl {
   Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
       : tracer(std::move(t)), tables(tracer->scene()) {
     const Scene& scene = tracer->scene();
-    if (scene.sky_entity != kNoEntity) sky.emplace(environment);
+    if (scene.sky_entity != kNoEntity) sky.emplace(environment, scene.spawn.value_or(Vec3f{}));
     if (!scene.instances.empty())
       probes.emplace(*tracer, tables, sky ? &*sky : nullptr, internal::LightProbes::Options{});
     view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
-    exposure = ChooseExposure(scene);
+    exposure = ChooseExposure(scene, environment);
   }
 
   // Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
   // fast as the light.
-  float ChooseExposure(const Scene& scene) const {
+  float ChooseExposure(const Scene& scene, const Environment& environment) const {
     const auto luminance = [](Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
     if (!sky) {
       const float light = luminance(scene.interior_light);
       return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
     }
-    const float light =
-        luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
-    constexpr float kNoon = 14.0f;
-    return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, 1e-3f), 0.9f);
+    // Under burning lamps the eye goes by them: about 10 lx on a lit street (EN 13201, class P).
+    constexpr float kNoon = 14.0f, kLampLight = 10.0f / internal::kLuxPerUnit, kDarkest = 1e-8f;
+    const bool lamps = environment.lamps_on() && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                                             [](const Material& m) { return m.lamp; });
+    const float light = sky->GroundIlluminance() + (lamps ? kLampLight : 0.0f);
+    return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
   }
 
   void ShadeReflections(const RaySet& rays, SurfaceSet& s) const;  // fills reflected_*, traced
@@ -138,13 +142,17 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
     }
   };
   LightSet light;
+  const ShadeView& view = impl_->view;
+  const bool falling = view.air.rain + view.air.snow > 0;
   if (surfaces.count > 0) {
     impl_->ShadeSurfaces(surfaces, 0, light);
+    if (falling) impl_->kernels.precipitation(view, surfaces, false, hits.cone_angle, light);
     put(surfaces, light);
   }
   if (sky.count > 0) {
     Pad(sky);
-    impl_->kernels.sky(impl_->view, sky, true, light);
+    impl_->kernels.sky(view, sky, true, light);
+    if (falling) impl_->kernels.precipitation(view, sky, true, hits.cone_angle, light);
     put(sky, light);
   }
 }
