@@ -150,7 +150,8 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Ambient
     const real cosine = dot3(n, ufloat3{view.to_sun[0], view.to_sun[1], view.to_sun[2]});
     const real zero = real(0.0f);
     const real share = rmax(cosine, zero) + rmax(zero - cosine, zero) * load(met.leaf + i);
-    light = light + Uniform(view.sun_irradiance) * (share * SunSeen(map, p));
+    light =
+        light + Uniform(view.sun_irradiance) * (share * SunSeen(map, p) * CloudShadow(view.cloud_shadow, p));
   }
   const real3 albedo = load3(met.albedo[0] + i, met.albedo[1] + i, met.albedo[2] + i);
   return diffuse(albedo, light) + emission;

@@ -56,16 +56,35 @@ void PutSurfaces(const RaySet& rays, const SurfaceSet& s, const LightTerms& term
   }
 }
 
+// Drops and flakes before a surface hide a share of every term and add their own light.
+void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_angle, LightTerms& terms) {
+  LightSet black{}, own;
+  std::copy(std::begin(terms.rest_r), std::end(terms.rest_r), own.r);
+  std::copy(std::begin(terms.rest_g), std::end(terms.rest_g), own.g);
+  std::copy(std::begin(terms.rest_b), std::end(terms.rest_b), own.b);
+  impl.kernels.precipitation(impl.view, rays, false, cone_angle, own);
+  impl.kernels.precipitation(impl.view, rays, false, cone_angle, black);
+  const Vec3f drop{impl.view.air.drop_light[0], impl.view.air.drop_light[1], impl.view.air.drop_light[2]};
+  for (int i = 0; i < rays.count; ++i) {
+    terms.rest_r[i] = own.r[i], terms.rest_g[i] = own.g[i], terms.rest_b[i] = own.b[i];
+    const float kept = drop.y > 0 ? 1 - black.g[i] / drop.y : 1;
+    terms.ambient_r[i] *= kept, terms.ambient_g[i] *= kept, terms.ambient_b[i] *= kept;
+    terms.sun_r[i] *= kept, terms.sun_g[i] *= kept, terms.sun_b[i] *= kept;
+  }
+}
+
 }  // namespace
 
 void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
                const TileSampling* sampling, HighTile& tile) {
   const Shader::Impl& impl = shader.impl();
+  const bool falling = impl.view.air.rain + impl.view.air.snow > 0;
   RaySet rays, sky;
   SplitHits(hits, rays, sky);
   if (sky.count > 0) {
     LightSet light;
     impl.kernels.sky(impl.view, sky, true, light);
+    if (falling) impl.kernels.precipitation(impl.view, sky, true, hits.cone_angle, light);
     PutSky(sky, light, tile);
   }
   if (rays.count == 0) return;
@@ -87,6 +106,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
 
   LightTerms terms;
   impl.kernels.split(impl.view, rays, surfaces, terms);
+  if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, terms);
   PutSurfaces(rays, surfaces, terms, tile);
   if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, terms, tile);
 }

@@ -60,7 +60,7 @@ KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, rea
   real pdf = real(0.0f);
   const real3 shine =
       bsdf_evaluate(bsdf_widen(bsdf, real(kSunAlpha)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf) *
-      Uniform(view.sun_irradiance);
+      Uniform(view.sun_irradiance) * CloudShadow(view.cloud_shadow, load3(s.px + i, s.py + i, s.pz + i));
   out.sun = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
                   rmin(shine.z, real(kBrightest)));
   return out;
@@ -85,10 +85,9 @@ KERNEL real3 OwnAndLamps(const ShadeView& view, const SurfaceSet& s, int i, cons
 
 /// Share of light left after the way, and what the air adds.
 KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3& kept, real3& added) {
-  kept = transmittance(Uniform(view.extinction), load(rays.distance + i));
-  const real3 horizon =
-      Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
-  added = horizon * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z);
+  const AirEffect air = air_to_surface(view.air, load(rays.oz + i), d, load(rays.distance + i));
+  kept = air.kept;
+  added = air.added;
 }
 
 KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
@@ -162,16 +161,27 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     real3 c = Grey(0);
     if (view.has_sky > 0.5f) {
-      c = SampleSky(view.sky, d, false);
+      const real z = load(rays.oz + i);
       const mask_t down = d.z < 0.0f;
+      const real3 up = make3(d.x, d.y, rabs(d.z));
+      c = SampleSky(view.sky, d, false);
       if (stdx::any_of(down)) {
-        // Far ground in haze.
-        const real height = rmax(load(rays.oz + i) - view.ground_z, real(2.0f));
-        const real3 kept = transmittance(Uniform(view.extinction), height / rmax(0.0f - d.z, real(1e-4f)));
-        const real3 ground = Uniform(view.ground) * real(1.0f);
-        c = sel3(down, ground * kept + c * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z), c);
+        // Far ground in haze, or the lower half of a picture.
+        const real distance = rmax(z - view.ground_z, real(2.0f)) / rmax(0.0f - d.z, real(1e-4f));
+        real3 below = Grey(0);
+        if (view.sky_below.texels) {
+          below = SampleSky(view.sky_below, up, false);
+        } else {
+          const AirEffect air = air_to_surface(view.air, z, d, distance);
+          below = Uniform(view.ground) * air.kept + air.added;
+        }
+        c = sel3(down, below, c);
       }
       if (sun_disc) c = c + SunDisc(view, d);
+      if (view.air.weather > 0.0f) {
+        const AirEffect air = air_to_sky(view.air, z, up, real(kFarAir));
+        c = sel3(down, c, c * air.kept + air.added);
+      }
     }
     store3(light.r + i, light.g + i, light.b + i, c);
   }

@@ -33,7 +33,7 @@ Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& enviro
       tables(tracer->scene(), environment.lamps_on()),
       lights(tracer->scene(), tables, environment) {
   const Scene& scene = tracer->scene();
-  if (scene.sky_entity != kNoEntity) sky.emplace(environment);
+  if (scene.sky_entity != kNoEntity) sky.emplace(environment, scene.spawn.value_or(Vec3f{}));
   lamps.emplace(*tracer, lights, Daylight());
   if (!scene.instances.empty())
     probes.emplace(internal::ProbeLight{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps},
@@ -45,7 +45,7 @@ Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& enviro
 
 float Shader::Impl::Daylight() const {
   if (!sky) return 0;
-  return Luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
+  return sky->GroundIlluminance();
 }
 
 // Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
@@ -140,12 +140,16 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
     }
   };
   LightSet light;
+  const internal::ShadeView& view = impl_->view;
+  const bool falling = view.air.rain + view.air.snow > 0;
   if (surfaces.count > 0) {
     impl_->ShadeSurfaces(surfaces, 0, light);
+    if (falling) impl_->kernels.precipitation(view, surfaces, false, hits.cone_angle, light);
     put(surfaces, light);
   }
   if (sky.count > 0) {
-    impl_->kernels.sky(impl_->view, sky, true, light);
+    impl_->kernels.sky(view, sky, true, light);
+    if (falling) impl_->kernels.precipitation(view, sky, true, hits.cone_angle, light);
     put(sky, light);
   }
 }

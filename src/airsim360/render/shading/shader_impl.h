@@ -25,6 +25,8 @@ struct Shader::Impl {
     decltype(&internal::isa_sse42::ShadeAmbient) shade_ambient = AIRSIM360_SELECT_KERNEL(ShadeAmbient);
     decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
     decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
+    decltype(&internal::isa_sse42::AddPrecipitation) precipitation =
+        AIRSIM360_SELECT_KERNEL(AddPrecipitation);
     decltype(&internal::isa_sse42::ToneMapRow) tone = AIRSIM360_SELECT_KERNEL(ToneMapRow);
   };
 

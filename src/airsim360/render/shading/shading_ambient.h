@@ -53,6 +53,27 @@ static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& tab
   return colors.Get();
 }
 
+/// Share of the sun's light that clouds leave at p; CloudShadowMap::At for lanes.
+KERNEL real CloudShadow(const CloudShadowView& map, real3 p) {
+  if (map.texels == nullptr) return real(1.0f);
+  const auto size = static_cast<float>(map.size);
+  const real above = p.z - map.plane_z;
+  const real x = shadow_column(p.x, above, map.slant_x, map.origin_x, map.cells_per_metre, size);
+  const real y = shadow_column(p.y, above, map.slant_y, map.origin_y, map.cells_per_metre, size);
+  const real x0 = rfloor(x), y0 = rfloor(y);
+  alignas(64) int32_t index[kLanes];
+  (to_int(y0) * map.size + to_int(x0)).copy_to(index, stdx::vector_aligned);
+  alignas(64) float t[4][kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    const float* q = map.texels + index[i];
+    t[0][i] = q[0], t[1][i] = q[1], t[2][i] = q[map.size], t[3][i] = q[map.size + 1];
+  }
+  const real fx = x - x0, fy = y - y0;
+  const real low = load(t[0]) + (load(t[1]) - load(t[0])) * fx,
+             high = load(t[2]) + (load(t[3]) - load(t[2])) * fx;
+  return low + (high - low) * fy;
+}
+
 /// Sky, and ground below the horizon, blurred as by a surface of this roughness.
 KERNEL real3 BlurredSky(const ShadeView& view, real3 d, real roughness) {
   const real3 up = SampleSky(view.sky, d, false);

@@ -109,6 +109,28 @@ struct LampView {
   int32_t nx, ny, nz;
 };
 
+/// The air over a scene; see shading_air.h. Extinctions are in 1 / m at height `base_z`.
+struct AirView {
+  float rayleigh[3], aerosol[3], weather;  ///< weather: fog, rain and snow, grey
+  float rayleigh_height, aerosol_height, weather_height, base_z;
+  float horizon[5][3];  ///< light of much clear air, as around_horizon, without the glow about the sun
+  float glow[3];        ///< times forward_phase of kAirAsymmetry: what the glow adds to 1
+  float weather_light[3], weather_glow[3];  ///< the same of much fog; the glow is added
+  float to_sun[3];
+  float rain, snow;     ///< drops and flakes in the air, mm/h
+  float drop_light[3];  ///< radiance of a drop or flake
+};
+inline constexpr float kAirAsymmetry = 0.76f, kFogAsymmetry = 0.80f;
+/// Length of a way through the whole air.
+inline constexpr float kFarAir = 2e5f;
+
+/// See CloudShadowMap.
+struct CloudShadowView {
+  const float* texels;  ///< nullptr = no shadows
+  int32_t size;
+  float slant_x, slant_y, origin_x, origin_y, cells_per_metre, plane_z;
+};
+
 /// The constant part of a scene for the kernels.
 struct ShadeView {
   const TriangleRecord* triangles;
@@ -120,13 +142,15 @@ struct ShadeView {
   SkyTableView sky, blurred[3];
   ProbeView probes;
   float to_sun[3], sun_irradiance[3], sun_radiance[3];
-  float extinction[3], horizon_mean[3], horizon_x[3], horizon_y[3];
   float ground[3];  ///< radiance of the far ground below the horizon
   float ground_z;   ///< where it lies
   float sky_irradiance[27];
   float mean_ambient[3];     ///< radiance where there are no probes
   const float* mean_colors;  ///< of a material: base colour with the mean of its texture, r g b
   LampView lamps;
+  AirView air;
+  CloudShadowView cloud_shadow;
+  SkyTableView sky_below;  ///< Sky::below; texels nullptr = far ground
 };
 
 inline constexpr int kBatch = 256;

@@ -38,6 +38,10 @@ AIRSIM360_DECLARE_KERNEL(void LightByLamps(const ShadeView& view, const RaySet& 
 /// Radiance of rays that met nothing; `sun_disc`: also the sun itself.
 AIRSIM360_DECLARE_KERNEL(void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc,
                                         LightSet& light))
+/// Rain and snow before what camera rays show: up to the surface, or of sky where `sky`. `cone_angle` is the
+/// angle between neighbouring pixels.
+AIRSIM360_DECLARE_KERNEL(void AddPrecipitation(const ShadeView& view, const RaySet& rays, bool sky,
+                                               float cone_angle, LightSet& light))
 /// Display colours: times `exposure`, tone curve, sRGB.
 AIRSIM360_DECLARE_KERNEL(void ToneMapRow(const float* r, const float* g, const float* b, int count,
                                          float exposure, Rgb8* out))
