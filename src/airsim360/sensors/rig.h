@@ -24,6 +24,8 @@ struct PanoramicRig {
   Tier tier = Tier::kFast;
   Products products;
   double exposure_ev = 0;
+  int samples = 0;      ///< as RenderRequest::samples
+  bool denoise = true;  ///< as RenderRequest::denoise
 };
 
 /// Everything one trigger gave.

@@ -144,7 +144,8 @@ Seen LookAlong(const ProbeLight& world, std::span<const Vec3f> points, Vec3f dir
     const Vec3f reflectance = m.albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
     Vec3f irradiance;
     if (shadow.valid[i] && !occluded[i])
-      irradiance = sky->sun_irradiance() * Dot(m.normal, sky->to_sun()) * sun_tint[i];
+      irradiance = sky->sun_irradiance() * sun_tint[i] *
+                   (Dot(m.normal, sky->to_sun()) * sky->CloudShadow(m.point));
     if (world.lamps) irradiance += world.lamps->NearIrradiance(m.point, m.normal);
     // Rooms that glow by themselves have their bounces in the glow.
     const bool glows = !sky && interior != Vec3f{};

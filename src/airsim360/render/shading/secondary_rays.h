@@ -1,12 +1,16 @@
 // The rays that surfaces send: to the sun, upwards, along reflections. All trace sixteen at a time.
 #pragma once
 
+#include "airsim360/render/shading/ray_queue.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/render/shading/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
 
+/// Share of light that gets to each ray's origin: 0 behind something solid, less than 1 behind clear panes
+/// (their colour is averaged).
+void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share);
 /// Repeats the last ray of a set up to a full vector, so that kernels read sane values.
 void Pad(RaySet& set);
 /// Turns `sunlit` from "may matter" to "is seen": 1, less behind clear panes.
@@ -21,5 +25,8 @@ void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RayS
 /// is the index of the surface.
 void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
                       RaySet& misses);
+/// Follows the view through clear panes (glass with transmission), one each, to what stands behind.
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+                RaySet& misses);
 
 }  // namespace airsim360::internal

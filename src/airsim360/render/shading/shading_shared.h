@@ -3,7 +3,7 @@
 // pasted into a shader after shading_glsl.h; no include guard, no types of its own. The one who includes it
 // provides
 //   real real3 (per lane), ufloat ufloat3 (same for all lanes), mask_t, SHARED, INOUT, sel sel3 make3 rmin
-//   rmax rroot rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3.
+//   rmax rroot rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3 any_lane.
 // Only + - * / sqrt floor and bit moves are used, so every compiler and lane width gives the same bits
 // (without contraction). Directions are unit vectors pointing away from the surface; cosines are clamped by
 // the caller.

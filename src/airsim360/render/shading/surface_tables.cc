@@ -112,6 +112,8 @@ MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   record.macro_variation = m.macro_variation;
   record.normal_scale = m.normal_scale;
   record.kind = static_cast<float>(m.kind);
+  record.clear_coat = m.clear_coat;
+  record.clear_coat_roughness = m.clear_coat_roughness;
   record.base_texture = TextureIndex(m.base_color_texture, scene);
   record.roughness_texture = TextureIndex(m.metallic_roughness_texture, scene);
   record.normal_texture = TextureIndex(m.normal_texture, scene);
