@@ -376,10 +376,14 @@ Vec3f LampGrid::NearIrradiance(Vec3f p, Vec3f n) const {
 float LampGrid::TypicalLight() const {
   std::vector<float> light;
   for (size_t i = 1; i < sides_.size(); ++i) light.push_back(Luminance(sides_[i][4]));
-  if (light.empty()) return 0;
-  const auto quartile = light.begin() + static_cast<int64_t>(light.size() * 3 / 4);
-  std::nth_element(light.begin(), quartile, light.end());
-  return *quartile;
+  std::sort(light.begin(), light.end());
+  double sum = 0, below = 0;
+  for (float e : light) sum += e;
+  for (float e : light) {
+    below += e;
+    if (2 * below >= sum) return e;
+  }
+  return 0;
 }
 
 LampView LampGrid::view() const {
