@@ -164,7 +164,7 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
     }
     // Somebody is at home behind these: warm light, through a curtain less of it.
     if (row.surface == S::kGlassLit || row.surface == S::kGlassCurtain) {
-      material.emission = row.surface == S::kGlassLit ? Vec3f{110, 78, 44} * kNit : Vec3f{34, 22, 11} * kNit;
+      material.emission = row.surface == S::kGlassLit ? Vec3f{72, 52, 30} * kNit : Vec3f{20, 13, 6.5f} * kNit;
       material.lamp = true;
     }
     surfaces.materials_[static_cast<size_t>(row.surface)] = builder.AddMaterial(std::move(material));
