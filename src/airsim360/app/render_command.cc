@@ -66,6 +66,7 @@ PoseArgument DefaultPose(const Scene& scene) {
   const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
   PoseArgument pose;
   pose.p = VecCast<double>(spawn);
+  pose.yaw_deg = scene.spawn_yaw_deg;
   const Vec3d to_middle = VecCast<double>(scene.bounds.center() - spawn);
   if (!scene.bounds.empty() && !scene.bounds.Contains(spawn)) {
     constexpr double kDegrees = 180 / std::numbers::pi;
