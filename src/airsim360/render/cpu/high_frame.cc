@@ -40,10 +40,12 @@ TileLayout MakeLayout(PacketShape shape) {
   for (int y = 0; y < kTileSize; ++y) {
     for (int x = 0; x < kTileSize; ++x) {
       const int slot = PacketIndex(shape, x, y);
-      const uint32_t phase = Morton(x, y);
+      // Any 4 x 4 pixels whose rows start at a multiple of 4 have all sixteen; and so that filters that skip
+      // pixels do not meet the same phase again and again, four rows further it is another.
+      const int phase = (x + 4 * y + (y >> 2)) & 15;
       layout.slot_of[y * kTileSize + x] = static_cast<uint8_t>(slot);
       layout.phase[slot] = static_cast<uint8_t>(phase);
-      layout.members[phase][(y >> 2) * 4 + (x >> 2)] = static_cast<uint8_t>(slot);
+      layout.members[phase][y] = static_cast<uint8_t>(slot);
     }
   }
   return layout;
@@ -188,7 +190,7 @@ void HighFrame::Impl::TraceTile(int tile) {
   const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
                               Morton(across, down), AmbientRays(row), hits.cone_angle};
   HighTile shaded;
-  ShadeHigh(*shader, SunView(), hits, &sampling, shaded);
+  ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, shaded);
   StoreTile(shaded, tile_labels, target, tile);
 }
 
@@ -254,6 +256,7 @@ void HighFrame::Impl::CombineTile(int tile) {
       const Rgb32f light = buffers.light(x, y);
       const float sun =
           smooth && buffers.penumbra(x, y) != 0 ? SmoothSun(buffers, field, x, y) : buffers.sun_seen(x, y);
+      buffers.sun_smooth(x, y) = sun;
       Rgb32f c{t.ambient_r[k] * light.r + t.sun_r[k] * sun + t.rest_r[k],
                t.ambient_g[k] * light.g + t.sun_g[k] * sun + t.rest_g[k],
                t.ambient_b[k] * light.b + t.sun_b[k] * sun + t.rest_b[k]};
