@@ -73,7 +73,6 @@ struct HighFrame::Impl {
   uint64_t tile_order = 0;
 
   SunMapView SunView() const { return sun_map ? sun_map->view() : SunMapView{}; }
-  void MakeSunMap();
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
     const RayField& field = rays->field();
@@ -104,7 +103,7 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   impl.origin = VecCast<float>(request.X_WC.p);
   impl.exposure = shader.Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
   impl.buffers.Resize(field.width, field.height);
-  impl.MakeSunMap();
+  Prepare(tracer, shader);
   impl.frames = request.temporal ? impl.frames + 1 : 0;
 
   impl.TraceTiles();
@@ -124,13 +123,13 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   return count;
 }
 
-void HighFrame::Impl::MakeSunMap() {
-  if (sun_map_of == shader) return;
-  sun_map_of = shader;
-  sun_map.reset();
-  const auto& sky = shader->impl().sky;
-  if (sky && sky->to_sun().z > 0 && !tracer->scene().instances.empty())
-    sun_map.emplace(*tracer, sky->to_sun());
+void HighFrame::Prepare(const RayTracer& tracer, const Shader& shader) {
+  if (impl_->sun_map_of == &shader) return;
+  impl_->sun_map_of = &shader;
+  impl_->sun_map.reset();
+  const auto& sky = shader.impl().sky;
+  if (sky && sky->to_sun().z > 0 && !tracer.scene().instances.empty())
+    impl_->sun_map.emplace(tracer, sky->to_sun());
 }
 
 // Rows of a panorama are shorter towards the poles, and so are the pixels' shares of the sphere.
