@@ -50,6 +50,7 @@ class CpuRenderer : public Renderer {
         tables_(*tracer_),
         labels_(tables_.view()) {
     if (options.tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_, environment_);
+    if (options.tier == Tier::kHigh) high_.Prepare(*tracer_, *shader_);
   }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;

@@ -239,6 +239,8 @@ class AmbientTile {
       const SurfaceRef ref =
           shader_.tracer->Resolve(packet_.geometry[i], packet_.instance[i], packet_.primitive[i]);
       hits_.instance[i] = ref.instance, hits_.triangle[i] = ref.triangle;
+      __builtin_prefetch(
+          &shader_.view.triangles[shader_.view.instances[ref.instance].first_triangle + ref.triangle]);
       if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref);
     }
     shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, hits_, r_, g_, b_);
