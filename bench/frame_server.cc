@@ -1,5 +1,6 @@
 // Renders frames on request and says how long each took: our side of comparisons with other renderers
-// (bench/cycles). Usage: frame_server WORLD THREADS [TIER]. Reads one JSON object a line:
+// (bench/cycles). Usage: frame_server WORLD THREADS [TIER [SKY_WORLD]]; SKY_WORLD lends its sun and weather.
+// Says {"ready": true, "sun_irradiance": [r, g, b]}, then reads one JSON object a line:
 //   {"size": [W, H], "tier": "fast", "X_WC": {"p": [...], "q_wxyz": [...]}, "labels": true, "samples": N,
 //    "aa_samples": N, "seed": N, "radiance": FILE.exr or absent}
 // and answers each with {"seconds": ..., "rays": ...}.
@@ -13,6 +14,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/render/shading/sky.h"
 #include "airsim360/sim/world_loader.h"
 
 namespace {
@@ -44,8 +46,13 @@ int main(int argc, char** argv) {
   }
   const ThreadLimit limit(std::stoi(argv[2]));
   const auto tracer = std::make_shared<const RayTracer>(LoadWorld({.world = argv[1]}));
-  const auto renderer = MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast")});
-  std::printf("{\"ready\": true}\n");
+  Environment environment = tracer->scene().environment;
+  if (argc > 4) environment = LoadWorld({.world = argv[4]})->environment;
+  const auto renderer =
+      MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast"), .environment = environment});
+  const Vec3f sun = internal::Sky(environment).sun_irradiance();
+  std::printf("{\"ready\": true, \"sun_irradiance\": [%g, %g, %g]}\n", static_cast<double>(sun.x),
+              static_cast<double>(sun.y), static_cast<double>(sun.z));
   std::fflush(stdout);
   Frame frame;
   for (std::string line; std::getline(std::cin, line);) {
