@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
@@ -11,6 +12,7 @@
 #include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/reference/path_tracer.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
@@ -56,6 +58,7 @@ class CpuRenderer : public Renderer {
  private:
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
+  uint64_t RenderPaths(const RenderRequest& request, Frame& frame);
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
@@ -74,6 +77,7 @@ class CpuRenderer : public Renderer {
   Antialiaser antialiaser_;
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
+  Image<Rgb32f> radiance_;  // of tier reference
 };
 
 void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame) {
@@ -90,16 +94,18 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
 }
 
 RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
-  if (request.tier != Tier::kLabels && request.tier != Tier::kFast) {
+  if (request.tier == Tier::kHigh) {
     throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
-                     "' is not in the CPU renderer (choices: labels, fast)");
+                     "' is not in the CPU renderer (choices: labels, fast, reference)");
   }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = request.products.rgb && request.tier != Tier::kLabels;
   if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
-  const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
+  // Paths come after the labels, which are the same as those of the other tiers.
+  const bool paths = color && request.tier == Tier::kReference;
+  const int samples = paths ? 1 : std::clamp(request.aa_samples, 1, kMaxSamples);
   ResizeFrame(request, color, color && samples > 1, frame);
 
   // Centre rays: labels and colours of every pixel.
@@ -111,10 +117,12 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
     const FlushDenormals flush_denormals;
     const int first = static_cast<int>(task) * kTilesPerTask;
     for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile)
-      RenderTile(request, color, tile, frame);
+      RenderTile(request, color && !paths, tile, frame);
   });
   RenderStats stats;
   stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
+
+  if (paths) stats.rays += RenderPaths(request, frame);
 
   // More colour samples on edges.
   if (color && samples > 1) {
@@ -128,6 +136,26 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   stats.render_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return stats;
+}
+
+// Colour of tier `reference`; returns the number of paths.
+uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Frame& frame) {
+  const int samples = request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
+  TracePaths(*tracer_, *shader_, rays_, VecCast<float>(request.X_WC.p),
+             {.samples = samples, .seed = request.seed}, radiance_);
+  const int width = radiance_.width(), height = radiance_.height();
+  ParallelFor(height, [&](int64_t y) {
+    std::vector<float> channels(3 * static_cast<size_t>(width));
+    float* c[3] = {channels.data(), channels.data() + width, channels.data() + 2 * width};
+    const auto row = radiance_.row(static_cast<int>(y));
+    for (int x = 0; x < width; ++x) c[0][x] = row[x].r, c[1][x] = row[x].g, c[2][x] = row[x].b;
+    const auto colors = frame.rgb.row(static_cast<int>(y));
+    shader_->ToneMap(c[0], c[1], c[2], width, request.exposure_ev, colors.data());
+    const RayField& field = rays_.field();
+    for (int x = 0; x < width && !field.separable; ++x)
+      if (field.has_ray[y * field.stride + x] == 0) colors[x] = {};
+  });
+  return static_cast<uint64_t>(width) * static_cast<uint64_t>(height) * static_cast<uint64_t>(samples);
 }
 
 void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame) {

@@ -154,4 +154,7 @@ void Shader::ToneMap(const float* r, const float* g, const float* b, int count, 
   impl_->kernels.tone(r, g, b, count, Exposure() * static_cast<float>(std::exp2(exposure_ev)), out);
 }
 
+const internal::ShadeView& Shader::view() const { return impl_->view; }
+const internal::Sky* Shader::sky() const { return impl_->sky ? &*impl_->sky : nullptr; }
+
 }  // namespace airsim360

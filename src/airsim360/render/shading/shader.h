@@ -10,6 +10,11 @@
 
 namespace airsim360 {
 
+namespace internal {
+struct ShadeView;
+class Sky;
+}  // namespace internal
+
 /// Up to kCapacity rays from one point and what they met. Neighbours in the batch should be neighbours on the
 /// sphere.
 struct alignas(64) HitBatch {
@@ -35,6 +40,10 @@ class Shader {
  public:
   Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
   ~Shader();
+
+  /// What it has made of the scene, for tier `reference`; sky() is nullptr in a closed room.
+  const internal::ShadeView& view() const;
+  const internal::Sky* sky() const;
 
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for

@@ -1,0 +1,209 @@
+#include "airsim360/render/reference/path_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/render/reference/path_rays.h"
+#include "airsim360/render/shading/secondary_rays.h"
+#include "airsim360/render/shading/shading_scalar.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Pairs of numbers of one step: where on the sun, where in the sky, where next (two pairs).
+constexpr uint32_t kPairsPerStep = 4, kFirstPair = 1;
+constexpr int kFirstRoulette = 3;
+// Rays of a lobe see textures through a cone a quarter as wide as the circle that holds its density.
+constexpr float kLobeWidth = 0.25f, kWidestSpread = 0.2f;
+// In a closed room the light of a mirror is what is seen in it.
+constexpr float kMirrorPdf = 50;
+constexpr float kPi = 3.14159265f;
+
+float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+Vec3f DirectionAt(const RaySet& r, int i) { return {r.dx[i], r.dy[i], r.dz[i]}; }
+
+}  // namespace
+
+void PathBatch::Run() {
+  active_.resize(paths_.size());
+  for (size_t i = 0; i < paths_.size(); ++i) active_[i] = static_cast<int>(i);
+  RaySet rays, misses;
+  for (int step = 0; !active_.empty() && step < max_bounces_ + kMostPanes; ++step) {
+    FillRays(rays);
+    TraceNearest(scene_.tracer, rays, step == 0, at_, misses);
+    for (int i = 0; i < at_.count; ++i) at_.width[i] += at_.distance[i] * paths_[at_.slot[i]].spread;
+    Pad(at_);
+    Pad(misses);
+    active_.clear();
+    if (misses.count > 0) Escape(misses);
+    if (at_.count > 0) Arrive(at_, static_cast<uint32_t>(step));
+  }
+}
+
+void PathBatch::FillRays(RaySet& rays) const {
+  rays.count = static_cast<int>(active_.size());
+  for (int i = 0; i < rays.count; ++i) {
+    const Path& path = paths_[active_[i]];
+    rays.ox[i] = path.origin.x, rays.oy[i] = path.origin.y, rays.oz[i] = path.origin.z;
+    rays.dx[i] = path.direction.x, rays.dy[i] = path.direction.y, rays.dz[i] = path.direction.z;
+    rays.width[i] = path.width;
+    rays.slot[i] = static_cast<uint32_t>(active_[i]);
+  }
+}
+
+// The sky and the sun's disc, which a scattered path shares with the rays that were sent there (balance
+// heuristic: Veach 1997).
+void PathBatch::Escape(RaySet& misses) {
+  LightSet sky;
+  scene_.look_up_sky(scene_.view, misses, false, sky);
+  for (int i = 0; i < misses.count; ++i) {
+    Path& path = paths_[misses.slot[i]];
+    const Vec3f d = DirectionAt(misses, i);
+    float of_sky = 1, of_sun = 1;
+    if (path.pdf > 0 && next_event_) {
+      of_sky = path.pdf / (path.pdf + scene_.lights.SkyPdf(d));
+      of_sun = path.pdf / (path.pdf + scene_.lights.SunPdf(d));
+    }
+    path.radiance += path.throughput *
+                     (Vec3f{sky.r[i], sky.g[i], sky.b[i]} * of_sky + scene_.lights.SunRadiance(d) * of_sun);
+  }
+}
+
+void PathBatch::Arrive(RaySet& hits, uint32_t step) {
+  scene_.prepare(scene_.view, hits, surfaces_);
+  const SurfaceSet& s = surfaces_;
+  const ShadeView& view = scene_.view;
+  const auto vec = [](const float* v) { return Vec3f{v[0], v[1], v[2]}; };
+  bool any = false;
+  for (int i = 0; i < hits.count; ++i) {
+    Path& path = paths_[hits.slot[i]];
+    const float t = hits.distance[i];
+    // The air on the way here.
+    if (view.has_sky > 0.5f) {
+      const Vec3f d = DirectionAt(hits, i), kept = scalar::transmittance(vec(view.extinction), t);
+      const Vec3f haze = vec(view.horizon_x) * d.x + vec(view.horizon_y) * d.y + vec(view.horizon_mean);
+      path.radiance += path.throughput * haze * (Vec3f{1, 1, 1} - kept);
+      path.throughput = path.throughput * kept;
+    }
+    path.radiance += path.throughput * Vec3f{s.er[i], s.eg[i], s.eb[i]};
+    const bool lit_by_room = path.bounces > 0 && path.pdf < kMirrorPdf && Luminance(scene_.room_light) > 0;
+    if (lit_by_room)
+      path.radiance += path.throughput * scene_.room_light * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+    if (lit_by_room || path.bounces >= max_bounces_) path.throughput = {};
+    any |= Luminance(path.throughput) > 0;
+  }
+  if (!any) return;
+  if (next_event_ && scene_.lights.has_sun()) JoinSun(step);
+  if (next_event_ && scene_.lights.has_sky()) JoinSky(step);
+  Scatter(step);
+}
+
+void PathBatch::JoinSun(uint32_t step) {
+  for (int i = 0; i < at_.count; ++i) {
+    const Path& path = paths_[at_.slot[i]];
+    const Vec3f d =
+        scene_.lights.SampleSun(path.sampler.Pair(path.sample, kFirstPair + step * kPairsPerStep));
+    scatter_.x[i] = d.x, scatter_.y[i] = d.y, scatter_.z[i] = d.z;
+    // Rounding may put a point of the rim outside the disc.
+    const float pdf = scene_.lights.SunPdf(d);
+    light_[i] = scene_.lights.SunRadiance(d);
+    light_pdf_[i] = pdf > 0 ? pdf : 1;
+  }
+  JoinLights(false);
+}
+
+void PathBatch::JoinSky(uint32_t step) {
+  for (int i = 0; i < at_.count; ++i) {
+    const Path& path = paths_[at_.slot[i]];
+    const Vec3f d =
+        scene_.lights.SampleSky(path.sampler.Pair(path.sample, kFirstPair + 1 + step * kPairsPerStep));
+    scatter_.x[i] = d.x, scatter_.y[i] = d.y, scatter_.z[i] = d.z;
+    light_[i] = {1, 1, 1};
+    light_pdf_[i] = scene_.lights.SkyPdf(d);
+  }
+  JoinLights(true);
+}
+
+// Adds the light from the directions in scatter_ where nothing hides it; the sky's radiance is looked up for
+// what is seen, the sun's is in light_ already.
+void PathBatch::JoinLights(bool of_sky) {
+  // Lanes beyond the last surface need sane numbers.
+  for (int i = at_.count; i % 16 != 0 && i < kBatch; ++i)
+    scatter_.x[i] = scatter_.x[0], scatter_.y[i] = scatter_.y[0], scatter_.z[i] = scatter_.z[0];
+  scene_.evaluate(at_, surfaces_, scatter_);
+
+  // Those that would bring something: BSDF times radiance over density, with the weight of the balance
+  // heuristic.
+  RaySet& shadow = shadow_.rays;
+  shadow.count = 0;
+  for (int i = 0; i < at_.count; ++i) {
+    const Path& path = paths_[at_.slot[i]];
+    const Vec3f light = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]} * light_[i] *
+                        (1 / (light_pdf_[i] + scatter_.pdf[i]));
+    if (!(Luminance(light) > 0)) continue;
+    const int k = shadow.count++;
+    const Vec3f d{scatter_.x[i], scatter_.y[i], scatter_.z[i]}, from = LeaveSurface(at_, surfaces_, i, d);
+    shadow.ox[k] = from.x, shadow.oy[k] = from.y, shadow.oz[k] = from.z;
+    shadow.dx[k] = d.x, shadow.dy[k] = d.y, shadow.dz[k] = d.z;
+    shadow.width[k] = 0;
+    shadow.slot[k] = at_.slot[i];
+    shadow_.light[k] = light;
+  }
+  if (shadow.count == 0) return;
+  if (scene_.clear_panes) {
+    DimByPanes(scene_, shadow_);
+  } else {
+    DropHidden(scene_.tracer, shadow_);
+  }
+  LightSet radiance;
+  if (of_sky) {
+    Pad(shadow);
+    scene_.look_up_sky(scene_.view, shadow, false, radiance);
+  }
+  for (int k = 0; k < shadow.count; ++k) {
+    const Vec3f seen = of_sky ? Vec3f{radiance.r[k], radiance.g[k], radiance.b[k]} : Vec3f{1, 1, 1};
+    paths_[shadow.slot[k]].radiance += shadow_.light[k] * seen;
+  }
+}
+
+void PathBatch::Scatter(uint32_t step) {
+  ScatterNumbers numbers;
+  Vec2f rest[kBatch];
+  for (int i = 0; i < at_.count; ++i) {
+    const Path& path = paths_[at_.slot[i]];
+    const uint32_t pair = kFirstPair + 2 + step * kPairsPerStep;
+    const Vec2f where = path.sampler.Pair(path.sample, pair);
+    rest[i] = path.sampler.Pair(path.sample, pair + 1);
+    numbers.choice[i] = rest[i].x, numbers.u[i] = where.x, numbers.w[i] = where.y;
+  }
+  for (int i = at_.count; i % 16 != 0 && i < kBatch; ++i) {
+    numbers.choice[i] = numbers.choice[0], numbers.u[i] = numbers.u[0], numbers.w[i] = numbers.w[0];
+  }
+  scene_.sample(at_, surfaces_, numbers, scatter_);
+
+  for (int i = 0; i < at_.count; ++i) {
+    Path& path = paths_[at_.slot[i]];
+    path.throughput = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]};
+    if (scatter_.event[i] == 0 || !(Luminance(path.throughput) > 0)) continue;
+    const Vec3f d{scatter_.x[i], scatter_.y[i], scatter_.z[i]};
+    path.origin = LeaveSurface(at_, surfaces_, i, d);
+    path.direction = d;
+    path.width = at_.width[i];
+    // Through a pane a path goes on as what it was.
+    if (scatter_.event[i] < 1.5f) {
+      path.pdf = scatter_.pdf[i];
+      path.spread = std::clamp(kLobeWidth / std::sqrt(kPi * path.pdf), path.spread, kWidestSpread);
+      ++path.bounces;
+    }
+    if (path.bounces >= kFirstRoulette) {
+      const float survival =
+          std::min(0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+      if (rest[i].y >= survival) continue;
+      path.throughput = path.throughput * (1 / survival);
+    }
+    active_.push_back(static_cast<int>(at_.slot[i]));
+  }
+}
+
+}  // namespace airsim360::internal
