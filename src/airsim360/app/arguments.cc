@@ -80,11 +80,18 @@ PoseArgument ParsePose(const std::string& text) {
 }
 
 Tier ParseTierArgument(const std::string& text) {
-  static const std::vector<std::string> kBuilt = {"labels", "fast"};
+  static const std::vector<std::string> kBuilt = {"labels", "fast", "reference"};
   if (std::find(kBuilt.begin(), kBuilt.end(), text) == kBuilt.end()) {
     throw InputError("--tier: " + UnknownChoiceMessage("tier", text, kBuilt));
   }
   return ParseTier(text);
+}
+
+int SamplesFor(Tier tier, int samples) {
+  constexpr int kDefault = 64;
+  if (tier == Tier::kReference) return samples > 0 ? samples : kDefault;
+  if (samples > 0) throw InputError("--samples: only tier reference takes samples");
+  return 0;
 }
 
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,

@@ -30,6 +30,8 @@ PoseArgument ParsePose(const std::string& text);
 
 /// A tier that can be rendered today; InputError naming `--tier` otherwise.
 Tier ParseTierArgument(const std::string& text);
+/// Paths of a pixel for --samples (0 = not given); InputError for a tier that takes none.
+int SamplesFor(Tier tier, int samples);
 
 /// "a,b,c" split; InputError naming `flag` for an entry that is not among `choices`.
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,

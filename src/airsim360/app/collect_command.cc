@@ -26,6 +26,7 @@ struct CollectArguments {
   std::string pano_frame = "body", shard = "0/1", out;
   int64_t frames = 0;  // 0: not given
   bool normal = false;
+  int samples = 0;  // 0: not given
 };
 
 // "I/N", 0 <= I < N.
@@ -60,6 +61,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.width = size.width;
   spec.height = size.height;
   spec.tier = ParseTierArgument(arguments.tier);
+  spec.samples = SamplesFor(spec.tier, arguments.samples);
   spec.normal = arguments.normal;
   ParseList("--format", arguments.format,
             {"native", "coco"});  // the native layout holds panoptic.json in any case
@@ -140,7 +142,9 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
   command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");
-  command->add_option("--tier", arguments->tier, "labels or fast (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast or reference (default fast)");
+  command->add_option("--samples", arguments->samples, "paths of a pixel of tier reference (default 64)")
+      ->check(CLI::Range(1, 1 << 20));
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic)");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");

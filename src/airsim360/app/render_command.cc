@@ -18,6 +18,7 @@ struct RenderArguments {
                            out;
   double fov_deg = 0;  // 0: not given
   bool normal = false;
+  int samples = 0;  // 0: not given
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -82,6 +83,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.seed = globals.seed;
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
+  spec.samples = SamplesFor(spec.tier, arguments.samples);
   spec.normal = arguments.normal;
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
     throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
@@ -126,7 +128,9 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option(
       "--fov", arguments->fov_deg,
       "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
-  command->add_option("--tier", arguments->tier, "labels or fast (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast or reference (default fast)");
+  command->add_option("--samples", arguments->samples, "paths of a pixel of tier reference (default 64)")
+      ->check(CLI::Range(1, 1 << 20));
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");

