@@ -68,6 +68,7 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   rig.products = ProductsOf(spec);
   rig.samples = spec.samples;
   rig.seed = spec.seed;
+  rig.denoise = spec.denoise;
   return rig;
 }
 

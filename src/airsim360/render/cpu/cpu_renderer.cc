@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/cpu/antialias.h"
 #include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/cpu/high_frame.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
 #include "airsim360/render/reference/path_tracer.h"
@@ -59,6 +59,7 @@ class CpuRenderer : public Renderer {
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
   uint64_t RenderPaths(const RenderRequest& request, Frame& frame);
+  void Display(const RenderRequest& request, Frame& frame) const;
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
@@ -75,9 +76,10 @@ class CpuRenderer : public Renderer {
   CameraRays rays_;
   std::unique_ptr<const Shader> shader_;  // made when first needed
   Antialiaser antialiaser_;
+  HighFrame high_;
+  Image<Rgb32f> radiance_;  // of tiers high and reference
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
-  Image<Rgb32f> radiance_;  // of tier reference
 };
 
 void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame) {
@@ -94,10 +96,6 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
 }
 
 RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
-  if (request.tier == Tier::kHigh) {
-    throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
-                     "' is not in the CPU renderer (choices: labels, fast, reference)");
-  }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = request.products.rgb && request.tier != Tier::kLabels;
   if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
@@ -106,7 +104,17 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   // Paths come after the labels, which are the same as those of the other tiers.
   const bool paths = color && request.tier == Tier::kReference;
   const int samples = paths ? 1 : std::clamp(request.aa_samples, 1, kMaxSamples);
-  ResizeFrame(request, color, color && samples > 1, frame);
+  const bool high = color && request.tier == Tier::kHigh;
+  ResizeFrame(request, color, color && samples > 1 && !high, frame);
+  if (high) {
+    RenderStats stats;
+    stats.rays = high_.Render(*tracer_, *shader_, rays_, labels_, request, radiance_, frame);
+    Display(request, frame);
+    if (request.products.radiance) frame.radiance = radiance_;
+    stats.render_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return stats;
+  }
 
   // Centre rays: labels and colours of every pixel.
   const RayField& field = rays_.field();
@@ -143,19 +151,14 @@ uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Frame& frame) {
   const int samples = request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
   TracePaths(*tracer_, *shader_, rays_, VecCast<float>(request.X_WC.p),
              {.samples = samples, .seed = request.seed}, radiance_);
-  const int width = radiance_.width(), height = radiance_.height();
-  ParallelFor(height, [&](int64_t y) {
-    std::vector<float> channels(3 * static_cast<size_t>(width));
-    float* c[3] = {channels.data(), channels.data() + width, channels.data() + 2 * width};
-    const auto row = radiance_.row(static_cast<int>(y));
-    for (int x = 0; x < width; ++x) c[0][x] = row[x].r, c[1][x] = row[x].g, c[2][x] = row[x].b;
-    const auto colors = frame.rgb.row(static_cast<int>(y));
-    shader_->ToneMap(c[0], c[1], c[2], width, request.exposure_ev, colors.data());
-    const RayField& field = rays_.field();
-    for (int x = 0; x < width && !field.separable; ++x)
-      if (field.has_ray[y * field.stride + x] == 0) colors[x] = {};
-  });
-  return static_cast<uint64_t>(width) * static_cast<uint64_t>(height) * static_cast<uint64_t>(samples);
+  Display(request, frame);
+  const RayField& field = rays_.field();
+  for (int y = 0; y < field.height && !field.separable; ++y)
+    for (int x = 0; x < field.width; ++x)
+      if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) frame.rgb(x, y) = {};
+  if (request.products.radiance) frame.radiance = radiance_;
+  return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height) *
+         static_cast<uint64_t>(samples);
 }
 
 void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame) {
@@ -218,6 +221,24 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
     }
   }
   kernels_.store_colors(colors, target, frame.rgb.pixels().data(), luma_.pixels().data());
+}
+
+// From linear radiance to what a screen shows.
+void CpuRenderer::Display(const RenderRequest& request, Frame& frame) const {
+  ParallelFor(radiance_.height(), [&](int64_t y) {
+    alignas(64) float channels[3][kTilePixels];
+    const auto row = radiance_.row(static_cast<int>(y));
+    const auto out = frame.rgb.row(static_cast<int>(y));
+    for (size_t first = 0; first < row.size(); first += kTilePixels) {
+      const size_t count = std::min<size_t>(kTilePixels, row.size() - first);
+      for (size_t i = 0; i < count; ++i) {
+        const Rgb32f c = row[first + i];
+        channels[0][i] = c.r, channels[1][i] = c.g, channels[2][i] = c.b;
+      }
+      shader_->ToneMap(channels[0], channels[1], channels[2], static_cast<int>(count), request.exposure_ev,
+                       &out[first]);
+    }
+  });
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct Path {
   Vec3f throughput{1, 1, 1}, radiance{};
   float width = 0, spread = 0;  ///< ray cone: at the origin, growth per metre
   float pdf = 0;                ///< of the direction; 0 = from the camera
+  Vec3f from, from_normal;      ///< the surface that chose the direction: point, normal as in SampleLamp
   int bounces = 0;
   PathSampler sampler{0, 0};
   uint32_t sample = 0;
@@ -21,8 +22,9 @@ struct Path {
 /// Buffers of one thread's work.
 class PathBatch {
  public:
-  PathBatch(const PathScene& scene, int max_bounces, bool next_event)
-      : scene_(scene), max_bounces_(max_bounces), next_event_(next_event) {}
+  /// `cone_angle`: between neighbouring pixels.
+  PathBatch(const PathScene& scene, int max_bounces, bool next_event, float cone_angle)
+      : scene_(scene), max_bounces_(max_bounces), next_event_(next_event), cone_angle_(cone_angle) {}
 
   void Clear() { paths_.clear(); }
   /// At most kBatch.
@@ -38,20 +40,25 @@ class PathBatch {
   void Arrive(RaySet& hits, uint32_t step);
   void JoinSun(uint32_t step);
   void JoinSky(uint32_t step);
+  void JoinLamps(uint32_t step);
+  void SetLight(int i, const LightRay& ray);
+  float EmissionWeight(const Path& path, int i) const;
+  void AddPrecipitation(const RaySet& rays, bool sky);
   void JoinLights(bool of_sky);
   void Scatter(uint32_t step);
 
   const PathScene& scene_;
   const int max_bounces_;
   const bool next_event_;
+  const float cone_angle_;
   std::vector<Path> paths_;
   std::vector<int> active_;
   RaySet at_;  // rays of the surfaces below; slot is the path
   SurfaceSet surfaces_;
   ScatterSet scatter_;
-  Vec3f light_[kBatch];  // radiance of the directions in scatter_, and their densities
-  float light_pdf_[kBatch];
+  LightRay lights_[kBatch];  // of the directions in scatter_
   ShadowRays shadow_;
+  RaySet camera_hits_, camera_misses_;  // where it rains or snows
 };
 
 }  // namespace airsim360::internal

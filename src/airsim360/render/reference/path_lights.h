@@ -1,39 +1,51 @@
-// The lights that paths are joined to: the sun's disc and the sky.
+// The lights that paths are joined to: the sun's disc, the sky, lamps.
 #pragma once
 
-#include <vector>
-
 #include "airsim360/math/vector.h"
-#include "airsim360/render/shading/shading_data.h"
-#include "airsim360/render/shading/sky.h"
+#include "airsim360/render/shading/shader_impl.h"
 
 namespace airsim360::internal {
 
-/// Immutable. Directions only: what lies in the way and the sky's radiance are the tracer's to find.
+/// What a shadow ray goes for. Densities are per solid angle.
+struct LightRay {
+  Vec3f direction;  ///< unit
+  Vec3f radiance;   ///< from there; of the sky (1, 1, 1), to be looked up when it is seen
+  float pdf = 0;    ///< 0: there is no light that way
+  float reach;      ///< distance of a lamp, else infinity
+};
+
+/// Immutable; refers to the shader's parts.
 class PathLights {
  public:
-  /// Both must outlive it; `sky` nullptr = a closed room.
-  PathLights(const ShadeView& view, const Sky* sky);
+  explicit PathLights(const Shader::Impl& parts);
 
-  bool has_sky() const { return !density_.empty(); }
+  bool has_sky() const { return sky_ != nullptr; }
   bool has_sun() const { return has_sun_; }
+  bool has_lamps() const { return !lamps_.empty(); }
 
-  /// A point of the sun's disc, u in [0, 1)^2; even over its solid angle.
-  Vec3f SampleSun(Vec2f u) const;
+  /// A point of the sun's disc as seen from p, u in [0, 1)^2; even over its solid angle.
+  LightRay SampleSun(Vec3f p, Vec2f u) const;
   /// Density of SampleSun: 0 beside the disc.
   float SunPdf(Vec3f direction) const;
-  /// Radiance of the disc, darker towards its limb: the same as LookUpSky adds (light_kernel.cc).
-  Vec3f SunRadiance(Vec3f direction) const;
+  /// Radiance of the disc, darker towards its limb: the same as LookUpSky adds (light_kernel.cc), in the
+  /// shadow of clouds at p.
+  Vec3f SunRadiance(Vec3f p, Vec3f direction) const;
 
-  /// A direction of the whole sphere with density about proportional to the sky's luminance, u in [0, 1)^2.
-  Vec3f SampleSky(Vec2f u) const;
-  float SkyPdf(Vec3f direction) const;
+  LightRay SampleSky(Vec2f u) const;
+  float SkyPdf(Vec3f direction) const { return sky_ != nullptr ? sky_->Pdf(direction) : 0.0f; }
+
+  /// A point of a lamp for a surface at p; a zero normal takes light from all sides.
+  LightRay SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const;
+  /// Density with which SampleLamp at (p, normal) finds the triangle that a ray has met after `distance` with
+  /// cosine `cos_lamp`.
+  float LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance,
+                float cos_lamp) const;
 
  private:
-  Vec3f to_sun_, sun_radiance_;
-  Vec3f sun_right_, sun_up_;
+  const Sky* sky_;
+  const LightTable& lamps_;
+  Vec3f to_sun_, sun_radiance_, sun_right_, sun_up_;
   bool has_sun_ = false;
-  std::vector<float> density_, cumulative_, rows_;  // per solid angle; within rows; of rows
 };
 
 }  // namespace airsim360::internal

@@ -1,15 +1,17 @@
 #include "airsim360/render/reference/path_rays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "airsim360/render/shading/ray_queue.h"
 #include "airsim360/render/shading/secondary_rays.h"
 
 namespace airsim360::internal {
 namespace {
 
-// Rays `first` … of a set as a packet; lanes beyond it repeat the first.
-void FillPacket(const RaySet& rays, int first, RayHit16& packet, int* valid) {
+// Rays `first` … of a set as a packet, each to its reach if there is one; lanes beyond it repeat the first.
+void FillPacket(const RaySet& rays, int first, const float* reach, RayHit16& packet, int* valid) {
   for (int k = 0; k < 16; ++k) {
     const bool used = first + k < rays.count;
     const int i = used ? first + k : first;
@@ -17,7 +19,7 @@ void FillPacket(const RaySet& rays, int first, RayHit16& packet, int* valid) {
     packet.direction_x[k] = rays.dx[i], packet.direction_y[k] = rays.dy[i],
     packet.direction_z[k] = rays.dz[i];
     packet.t_near[k] = packet.time[k] = 0;
-    packet.t_far[k] = INFINITY;
+    packet.t_far[k] = reach != nullptr ? reach[i] : INFINITY;
     packet.mask[k] = UINT32_MAX;
     packet.id[k] = packet.flags[k] = 0;
     packet.geometry[k] = packet.instance[k] = kMiss;
@@ -39,19 +41,20 @@ void CopyRay(const RaySet& from, int k, RaySet& to, int i) {
 }  // namespace
 
 PathScene::PathScene(const RayTracer& t, const Shader& shader)
-    : tracer(t), view(shader.view()), lights(shader.view(), shader.sky()) {
+    : tracer(t), view(shader.impl().view), kernels(shader.impl().kernels), lights(shader.impl()) {
   const Scene& scene = tracer.scene();
-  if (shader.sky() == nullptr) room_light = scene.interior_light;
+  if (!lights.has_sky()) room_light = scene.interior_light;
   for (const Material& m : scene.materials)
     clear_panes |= m.kind == SurfaceKind::kGlass && m.transmission > 0;
 }
 
-void TraceNearest(const RayTracer& tracer, const RaySet& rays, bool coherent, RaySet& hits, RaySet& misses) {
+void TraceNearest(const RayTracer& tracer, const RaySet& rays, bool coherent, RaySet& hits, RaySet& misses,
+                  const float* reach) {
   hits.count = misses.count = 0;
   RayHit16 packet;
   alignas(64) int valid[16];
   for (int first = 0; first < rays.count; first += 16) {
-    FillPacket(rays, first, packet, valid);
+    FillPacket(rays, first, reach, packet, valid);
     tracer.Intersect16(valid, packet, coherent);
     for (int k = 0; k < 16 && first + k < rays.count; ++k) {
       const bool miss = packet.geometry[k] == kMiss;
@@ -72,7 +75,7 @@ void DropHidden(const RayTracer& tracer, ShadowRays& shadow) {
   alignas(64) int valid[16];
   for (int first = 0; first < shadow.rays.count; first += 16) {
     bool occluded[16] = {};
-    FillPacket(shadow.rays, first, packet, valid);
+    FillPacket(shadow.rays, first, shadow.reach, packet, valid);
     tracer.Occluded16(valid, packet, occluded, false);
     for (int k = 0; k < 16 && first + k < shadow.rays.count; ++k)
       if (occluded[k]) shadow.light[first + k] = {};
@@ -85,12 +88,14 @@ void DimByPanes(const PathScene& scene, ShadowRays& shadow) {
   std::iota(rays.slot, rays.slot + rays.count, 0u);
   SurfaceSet surfaces;
   ScatterSet passed;
+  float reach[kBatch];
+  std::copy_n(shadow.reach, rays.count, reach);
   for (int pane = 0; rays.count > 0; ++pane) {
-    TraceNearest(scene.tracer, rays, false, hits, misses);
+    TraceNearest(scene.tracer, rays, false, hits, misses, reach);
     Pad(hits);
     rays.count = 0;
     if (hits.count == 0) return;
-    scene.prepare(scene.view, hits, surfaces);
+    scene.kernels.prepare(scene.view, hits, surfaces);
     scene.pass_straight(hits, surfaces, passed);
     for (int i = 0; i < hits.count; ++i) {
       Vec3f& light = shadow.light[hits.slot[i]];
@@ -99,15 +104,22 @@ void DimByPanes(const PathScene& scene, ShadowRays& shadow) {
       const int k = rays.count++;
       const Vec3f from = LeaveSurface(hits, surfaces, i, {hits.dx[i], hits.dy[i], hits.dz[i]});
       CopyRay(hits, i, rays, k);
+      const Vec3f way = from - Vec3f{shadow.rays.ox[hits.slot[i]], shadow.rays.oy[hits.slot[i]],
+                                     shadow.rays.oz[hits.slot[i]]};
+      reach[k] = shadow.reach[hits.slot[i]] - Norm(way);
       rays.ox[k] = from.x, rays.oy[k] = from.y, rays.oz[k] = from.z;
     }
   }
 }
 
+float OffsetOf(const RaySet& rays, const SurfaceSet& s, int i) {
+  // Above the rounding errors of hit points.
+  return RayOffset({s.px[i], s.py[i], s.pz[i]}, rays.distance[i]);
+}
+
 Vec3f LeaveSurface(const RaySet& rays, const SurfaceSet& s, int i, Vec3f d) {
   const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-  // Above the rounding errors of hit points, as in secondary_rays.cc.
-  const float offset = 1e-3f + 4e-6f * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) + rays.distance[i]);
+  const float offset = OffsetOf(rays, s, i);
   return p + g * (Dot(g, d) < 0 ? -offset : offset);
 }
 

@@ -68,7 +68,7 @@ void ImageTracer::RunTile(int column, int row, Image<Rgb32f>& radiance, Image<Rg
   const RayField& field = rays_.field();
   const int width = std::min(kTileSize, field.width - column),
             height = std::min(kTileSize, field.height - row);
-  PathBatch batch(scene_, options_.max_bounces, options_.next_event);
+  PathBatch batch(scene_, options_.max_bounces, options_.next_event, static_cast<float>(rays_.cone_angle()));
   Sums sums[kTileSize * kTileSize];
   int pixel_of[kTileSize * kTileSize];
   for (int sample = 0; sample < options_.samples; ++sample) {

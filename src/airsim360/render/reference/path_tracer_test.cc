@@ -301,25 +301,25 @@ TEST(PathLights, ChooseDirectionsByTheirDensity) {
   world.builder.environment().cloud_cover = 0.4;
   world.Add(Ground(5), Matte(0.5f));
   world.Build();
-  const internal::PathLights lights(world.shader->view(), world.shader->sky());
+  const internal::PathLights lights(world.shader->impl());
   RngStream random(1, "sky");
   const auto unit = [&] { return static_cast<float>(random.Bits() >> 40) * 0x1p-24f; };
   // Two tests at 1 % together: the sky, and the sun's disc in chord squared by angle.
   const double significance = test::Sidak(0.01, 2);
   const double sky = test::ChiSquareOfDirections(
       [&](Vec3f& d) {
-        d = lights.SampleSky({unit(), unit()});
+        d = lights.SampleSky({unit(), unit()}).direction;
         return true;
       },
       [&](Vec3f d) { return lights.SkyPdf(d); }, 200000, {.across = 64, .up = 32, .fine = 8});
   EXPECT_GT(sky, significance);
 
   constexpr int kCells = 8, kCount = 50000;
-  const Vec3f to_sun = world.shader->sky()->to_sun();
+  const Vec3f to_sun = world.shader->impl().sky->to_sun();
   const Vec3f right = Normalized(Cross({0, 0, 1}, to_sun)), up = Cross(to_sun, right);
   std::vector<double> seen(kCells * kCells);
   for (int i = 0; i < kCount; ++i) {
-    const Vec3f d = lights.SampleSun({unit(), unit()});
+    const Vec3f d = lights.SampleSun({}, {unit(), unit()}).direction;
     const double x = Dot(d, right), y = Dot(d, up), r2 = (x * x + y * y) / (0.004625 * 0.004625);
     const int ring = std::min(kCells - 1, static_cast<int>(r2 * kCells));
     const int sector = std::min(kCells - 1, static_cast<int>((std::atan2(y, x) / (2 * kPi) + 0.5) * kCells));

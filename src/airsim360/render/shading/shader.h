@@ -10,11 +10,6 @@
 
 namespace airsim360 {
 
-namespace internal {
-struct ShadeView;
-class Sky;
-}  // namespace internal
-
 /// Up to kCapacity rays from one point and what they met. Neighbours in the batch should be neighbours on the
 /// sphere.
 struct alignas(64) HitBatch {
@@ -41,10 +36,6 @@ class Shader {
   Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
   ~Shader();
 
-  /// What it has made of the scene, for tier `reference`; sky() is nullptr in a closed room.
-  const internal::ShadeView& view() const;
-  const internal::Sky* sky() const;
-
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
@@ -53,8 +44,11 @@ class Shader {
   void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,
                Rgb8* out) const;
 
- private:
   struct Impl;
+  /// For the other tiers: shader_impl.h.
+  const Impl& impl() const { return *impl_; }
+
+ private:
   std::unique_ptr<const Impl> impl_;
 };
 

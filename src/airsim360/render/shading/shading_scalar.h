@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "airsim360/math/vector.h"
+#include "airsim360/render/shading/shading_data.h"
 
 namespace airsim360::internal::scalar {
 
@@ -36,6 +37,8 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shading/shading_shared.h"
 //
 #include "airsim360/render/shading/shading_bsdf.h"
+#include "airsim360/render/shading/shading_air.h"
+#include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT
 

@@ -209,6 +209,20 @@ SHARED real3 transmittance(ufloat3 beta, real distance) {
                exp_approx(0.0f - beta.z * distance));
 }
 
+// ---- lamps
+// ------------------------------------------------------------------------------------------------------
+
+// Part of a lamp's light that still counts at `distance`: all of it up to 3/4 of its reach.
+SHARED real lamp_fade(real distance, real reach) { return smooth01(clamp01(4.0f - 4.0f * distance / reach)); }
+
+// Irradiance on a surface that faces a lamp, per unit of its radiance: projected area over squared distance.
+// `towards` is facing . w for the direction w from the lamp.
+SHARED real lamp_irradiance(real body, real towards, real soft, real radius, real distance, real reach) {
+  real near_side = 0.5f * radius;
+  real d2 = rmax(distance * distance, near_side * near_side) + soft;
+  return rmax(body + towards, real(0.0f)) * lamp_fade(distance, reach) / rmax(d2, real(1e-8f));
+}
+
 // ---- geometry
 // ---------------------------------------------------------------------------------------------------
 

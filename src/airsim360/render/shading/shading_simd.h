@@ -13,6 +13,8 @@
 
 #include <cstdint>
 
+#include "airsim360/render/shading/shading_data.h"
+
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace stdx = std::experimental;
 
@@ -79,6 +81,8 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
 #include "airsim360/render/shading/shading_shared.h"
 //
 #include "airsim360/render/shading/shading_bsdf.h"
+#include "airsim360/render/shading/shading_air.h"
+#include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT
 

@@ -227,7 +227,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store3(out.nx + i, out.ny + i, out.nz + i, n);
   store3(out.gx + i, out.gy + i, out.gz + i, facing);
   store3(out.ar + i, out.ag + i, out.ab + i, color);
-  store3(out.er + i, out.eg + i, out.eb + i, emission);
+  store3(out.er + i, out.eg + i, out.eb + i, sel3(front > 0.0f, emission, emission * real(0.0f)));
   store(out.metallic + i, metallic);
   store(out.roughness + i, roughness);
   store(out.transmission + i, load(f.transmission));
@@ -252,6 +252,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
   store(out.traced + i, real(0.0f));
   store(out.contact + i, real(1.0f));
+  store(out.clear + i, real(0.0f));
 }
 
 }  // namespace
