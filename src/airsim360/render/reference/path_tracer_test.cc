@@ -41,7 +41,7 @@ struct World {
   // A clear sky with the sun at this elevation, due south.
   void AddSky(double sun_elevation_deg) {
     builder.AddSky();
-    builder.environment().cloud_cover = 0;
+    builder.environment().cloud_cover = builder.environment().cirrus_cover = 0;
     builder.environment().sun_azimuth_deg = 180;
     builder.environment().sun_elevation_deg = sun_elevation_deg;
   }
@@ -145,7 +145,7 @@ TEST(PathTracer, OpenGroundHasTheLightOfSunAndSkyByIntegration) {
   world.AddSky(40);
   world.Add(Ground(50), Matte(0.4f));
   world.Build();
-  const internal::Sky sky(world.tracer->scene().environment);
+  const internal::Sky& sky = *world.shader->impl().sky;
   const auto b = scalar::bsdf_make(0, {0.4f, 0.4f, 0.4f}, 0, 1, 0, 0, 0.03f);
   const auto seen = scalar::bsdf_side(b, 1);
   const auto lobes = scalar::bsdf_lobes(b, seen);
