@@ -42,6 +42,7 @@ struct World {
   void AddSky(double sun_elevation_deg) {
     builder.AddSky();
     builder.environment().cloud_cover = builder.environment().cirrus_cover = 0;
+    builder.environment().moon_elevation_deg = -30;
     builder.environment().sun_azimuth_deg = 180;
     builder.environment().sun_elevation_deg = sun_elevation_deg;
   }
