@@ -61,7 +61,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.width = size.width;
   spec.height = size.height;
   spec.tier = ParseTierArgument(arguments.tier);
-  spec.samples = CheckSamples(arguments.samples);
+  spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   ParseList("--format", arguments.format,
@@ -143,9 +143,9 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
   command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");
-  command->add_option("--tier", arguments->tier, "labels, fast or high (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
-                      "tier high: ambient rays of a pixel at the equator, 1 … 256 (default 4)");
+                      "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic)");

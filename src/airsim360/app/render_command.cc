@@ -84,7 +84,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.seed = globals.seed;
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
-  spec.samples = CheckSamples(arguments.samples);
+  spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
@@ -130,9 +130,9 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option(
       "--fov", arguments->fov_deg,
       "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
-  command->add_option("--tier", arguments->tier, "labels, fast or high (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
-                      "tier high: ambient rays of a pixel at the equator, 1 … 256 (default 4)");
+                      "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
