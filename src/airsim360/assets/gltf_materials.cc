@@ -150,7 +150,6 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
     if (share > 0.3f) {
       m.kind = SurfaceKind::kGlass;
       m.transmission = share;
-      m.base_color *= 1 - 0.8f * share;
     }
   }
   if (const auto coat = GltfExtension(json, "KHR_materials_clearcoat")) {

@@ -11,6 +11,9 @@
 
 namespace airsim360 {
 
+/// One cd/m^2 (or one lx of irradiance) in the units of emission and sky: 20 units are 133.3 klx.
+inline constexpr float kNit = 20.0f / 133300.0f;
+
 using TextureId = int32_t;
 inline constexpr TextureId kNoTexture = -1;
 

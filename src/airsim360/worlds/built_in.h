@@ -16,6 +16,10 @@ namespace airsim360::internal {
 std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions& options);
 WorldInfo BoxRoomInfo();
 
+/// A furnished room of 6 x 5 m with two windows of clear glass, and a garden outside.
+std::shared_ptr<const Scene> BuildSunlitRoom(const WorldOptions& options);
+WorldInfo SunlitRoomInfo();
+
 /// A downtown of nine blocks around a plaza and a park, with backdrop to the horizon.
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options);
 /// The same; `placements` receives every prop that was placed by the rule of free footprints.

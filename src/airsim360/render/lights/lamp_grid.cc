@@ -13,8 +13,9 @@ namespace {
 constexpr float kPi = 3.14159265f;
 // Lamps of one instance closer than this are one (the globes of a post, the two head lights of a car).
 constexpr float kMergeDistance = 1.5f;
+constexpr size_t kMergeAmong = 64;  // of the last ones
 // Dimmer surfaces light so evenly that probes do better; small scenes have room for all.
-constexpr float kBrightLamp = 1000 * kLux;
+constexpr float kBrightLamp = 300 * kLux;
 constexpr size_t kFewLamps = 256;
 // A lamp reaches as far as it brings 0.05 lx, or one part in 10,000 of the daylight; one that brings less
 // than a five-hundredth of the daylight at 2 m is left out.
@@ -32,7 +33,7 @@ struct Packet {
   alignas(64) int valid[16] = {};
 
   Packet() {
-    for (int i = 0; i < 16; ++i) rays.direction_z[i] = 1, rays.mask[i] = UINT32_MAX;
+    for (int i = 0; i < 16; ++i) rays.direction_z[i] = 1, rays.mask[i] = kMaskSolid;
   }
   void Set(int i, Vec3f p, Vec3f d, float t_far) {
     rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
@@ -97,7 +98,7 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
     const Lamp& lamp = lamps[i];
     if (i == 0 || lamps[i - 1].instance != lamp.instance) first_of_instance = merged.size();
     if (lamps.size() > kFewLamps && Luminance(lamp.power) / (kPi * lamp.area) < kBrightLamp) continue;
-    size_t at = first_of_instance;
+    size_t at = std::max(first_of_instance, merged.size() - std::min(merged.size(), kMergeAmong));
     while (at < merged.size() && Norm(merged[at].center - lamp.center) > kMergeDistance) ++at;
     if (at == merged.size()) {
       merged.push_back(lamp);
@@ -262,7 +263,7 @@ std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
 // The lamps that bring most to any corner; those that no corner sees come last.
 void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners,
                          const std::vector<uint32_t>& corner_of) {
-  constexpr float kUnseen = 0.1f;
+  constexpr float kUnseen = 0.1f, kNegligible = 1e-3f;
   std::vector<LampCell> filled(places.size());
   ParallelFor((static_cast<int64_t>(places.size()) + 255) / 256, [&](int64_t run) {
     struct Candidate {
@@ -291,11 +292,12 @@ void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<
           if (seen) at->seen |= 1u << c;
         }
       }
-      const size_t count = std::min<size_t>(found.size(), LampCell::kLamps);
+      size_t count = std::min<size_t>(found.size(), LampCell::kLamps);
       std::partial_sort(found.begin(), found.begin() + static_cast<int64_t>(count), found.end(),
                         [](const Candidate& a, const Candidate& b) {
                           return a.score != b.score ? a.score > b.score : a.lamp < b.lamp;
                         });
+      while (count > 0 && found[count - 1].score < kNegligible * found[0].score) --count;
       LampCell& cell = filled[i];
       cell = LampCell{};
       cell.header = static_cast<uint32_t>(count) | open << 8;

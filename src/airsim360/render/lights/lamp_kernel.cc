@@ -74,6 +74,7 @@ struct alignas(64) Effects {
   alignas(64) float dx[kSlots], dy[kSlots], dz[kSlots], distance[kSlots];
   alignas(64) float front[3][kSlots], back[3][kSlots], shine[3][kSlots];
   alignas(64) float guess[kSlots], rank[kSlots];
+  bool leaf, shiny;  // else back and shine are not filled
 };
 
 KERNEL real3 Same(float x, float y, float z) { return make3(real(x), real(y), real(z)); }
@@ -82,8 +83,8 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
                      Effects& e) {
   const real3 p = Same(s.px[i], s.py[i], s.pz[i]), n = Same(s.nx[i], s.ny[i], s.nz[i]);
   const real3 g = Same(s.gx[i], s.gy[i], s.gz[i]), d = Same(rays.dx[i], rays.dy[i], rays.dz[i]);
-  const bool leaf = s.kind[i] == kFoliage;
-  const bool shiny = s.mirror[i] == 0 && !leaf && (s.roughness[i] < kMatt || s.metallic[i] > 0.2f);
+  const bool leaf = e.leaf = s.kind[i] == kFoliage;
+  const bool shiny = e.shiny = s.mirror[i] == 0 && !leaf && (s.roughness[i] < kMatt || s.metallic[i] > 0.2f);
   const real metallic = real(s.metallic[i]), zero = real(0.0f);
   const real3 f0 = lerp3(Same(0.04f, 0.04f, 0.04f), Same(s.ar[i], s.ag[i], s.ab[i]), metallic);
   const real n_dot_v = rmax(zero - dot3(n, d), real(0.02f));
@@ -101,9 +102,14 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     // Front, back, highlight.
     const real n_dot_l = dot3(n, w), above = dot3(g, w);
     const real lit = leaf ? rmax(n_dot_l, zero) : sel(above > 0.0f, rmax(n_dot_l, zero), zero);
-    const real behind = leaf ? rmax(zero - n_dot_l, zero) : zero;
-    const real3 front = color * lit, back = color * behind;
-    real3 shine = Same(0, 0, 0);
+    const real3 front = color * lit;
+    real brought = luminance(front);
+    store3(e.front[0] + k, e.front[1] + k, e.front[2] + k, front);
+    if (leaf) {
+      const real3 back = color * rmax(zero - n_dot_l, zero);
+      brought = brought + luminance(back);
+      store3(e.back[0] + k, e.back[1] + k, e.back[2] + k, back);
+    }
     if (shiny) {
       const real3 h = normalize3(w - d);
       // A lamp is not a point: its size widens the highlight (Karis 2013).
@@ -111,9 +117,11 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
       const real alpha = rmin(rmax(own, real(0.006f)) + 0.5f * radius / distance, real(1.0f));
       const real3 f = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, rmax(dot3(n, h), zero),
                                     clamp01(dot3(w, h)));
-      shine = f * front;
-      shine = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
-                    rmin(shine.z, real(kBrightest)));
+      const real3 all = f * front;
+      const real3 shine =
+          make3(rmin(all.x, real(kBrightest)), rmin(all.y, real(kBrightest)), rmin(all.z, real(kBrightest)));
+      brought = brought + luminance(shine);
+      store3(e.shine[0] + k, e.shine[1] + k, e.shine[2] + k, shine);
     }
 
     // Share of the cell's corners that see it.
@@ -122,11 +130,8 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     for (int corner = 0; corner < 8; ++corner) guess = guess + to_real((seen >> corner) & 1) * weight[corner];
     store3(e.dx + k, e.dy + k, e.dz + k, w);
     store(e.distance + k, distance - radius * 1.02f);
-    store3(e.front[0] + k, e.front[1] + k, e.front[2] + k, front);
-    store3(e.back[0] + k, e.back[1] + k, e.back[2] + k, back);
-    store3(e.shine[0] + k, e.shine[1] + k, e.shine[2] + k, shine);
     store(e.guess + k, guess);
-    store(e.rank + k, luminance(front + back + shine) * (kUnseen + (1.0f - kUnseen) * guess));
+    store(e.rank + k, brought * (kUnseen + (1.0f - kUnseen) * guess));
   }
 }
 
@@ -176,7 +181,8 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
     ray.distance = e.distance[j];
     ray.guess = e.guess[j];
     for (int q = 0; q < 3; ++q)
-      ray.front[q] = e.front[q][j], ray.back[q] = e.back[q][j], ray.shine[q] = e.shine[q][j];
+      ray.front[q] = e.front[q][j], ray.back[q] = e.leaf ? e.back[q][j] : 0,
+      ray.shine[q] = e.shiny ? e.shine[q][j] : 0;
     if (soft && ray.distance > 0) Soften(key * 4u + static_cast<uint32_t>(k), c.radius[j], ray);
   }
 }
@@ -186,6 +192,7 @@ KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, b
 void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s,
                   LampRays& wanted) {
   CellLanes cell;
+  cell.count = 0;
   uint32_t loaded = 0;
   const int padded = (rays.count + 15) / 16 * 16;
   for (int i = 0; i < padded; ++i) {
@@ -201,11 +208,9 @@ void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool sof
       Evaluate(s, rays, i, cell, weight, e);
       float total = 0;
       for (int k = 0; k < cell.count; ++k) {
-        for (int q = 0; q < 3; ++q) {
-          front[q] += e.front[q][k] * e.guess[k];
-          back[q] += e.back[q][k] * e.guess[k];
-          shine[q] += e.shine[q][k] * e.guess[k];
-        }
+        for (int q = 0; q < 3; ++q) front[q] += e.front[q][k] * e.guess[k];
+        for (int q = 0; q < 3 && e.leaf; ++q) back[q] += e.back[q][k] * e.guess[k];
+        for (int q = 0; q < 3 && e.shiny; ++q) shine[q] += e.shine[q][k] * e.guess[k];
         total += e.rank[k];
       }
       if (count > 0) ChooseRays(cell, e, total, count, soft, rays.key[i], i, wanted);

@@ -11,8 +11,8 @@
 
 namespace airsim360::internal {
 
-/// One lx or one cd/m^2 in units of Sky (docs/rendering.md: 20 units of irradiance are 133.3 klx).
-inline constexpr float kLux = 20.0f / 133300.0f;
+/// One lx.
+inline constexpr float kLux = kNit;
 
 /// A connected emitting part of one instance. Surfaces shine to their front side only (counter-clockwise
 /// triangles face it), with the same radiance in all directions.

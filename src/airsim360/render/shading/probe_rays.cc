@@ -147,15 +147,19 @@ Seen LookAlong(const ProbeLight& world, std::span<const Vec3f> points, Vec3f dir
       irradiance = sky->sun_irradiance() * sun_tint[i] *
                    (Dot(m.normal, sky->to_sun()) * sky->CloudShadow(m.point));
     if (world.lamps) irradiance += world.lamps->NearIrradiance(m.point, m.normal);
-    const bool known = world.earlier != nullptr && world.earlier->Covers(m.point);
-    if (known) irradiance += world.earlier->NearIrradiance(m.point, m.normal);
-    if (sky && world.earlier && !known) irradiance += AmbientGuess(*sky, m.normal);
+    // Rooms that glow by themselves have their bounces in the glow.
+    const bool glows = !sky && interior != Vec3f{};
+    if (world.earlier && !glows) {
+      const bool known = world.earlier->Covers(m.point);
+      irradiance += known ? world.earlier->NearIrradiance(m.point, m.normal)
+                    : sky ? AmbientGuess(*sky, m.normal)
+                          : Vec3f{};
+    }
     seen.light[i] = m.emission + reflectance * irradiance;
     if (sky && !world.earlier) seen.guess[i] = reflectance * AmbientGuess(*sky, m.normal);
-    if (!sky && interior != Vec3f{}) {
+    if (glows) {
       const float t = view.rays.t_far[i];
-      const Vec3f glow = interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
-      seen.light[i] = glow + (known ? m.emission : seen.light[i]);
+      seen.light[i] += interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
     }
   }
 

@@ -21,8 +21,8 @@ static_assert(HitBatch::kCapacity == kBatch);
 constexpr float kPi = 3.14159265f;
 // Input of the tone curve for sunlit ground of reflectance 0.18.
 constexpr float kGreyLevel = 0.38f;
-// Irradiance to which pictures get brighter: a lit path, 1 lx.
-constexpr float kDarkest = internal::kLux;
+// Irradiance to which pictures get brighter: far below a moonless night.
+constexpr float kDarkest = 1e-8f;
 
 float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 

@@ -37,7 +37,8 @@ Model MakeLampPost(uint32_t variant, uint64_t) {
     b.Lathe(cup, 16, at(0.48f, 3.49f));
     globes.push_back(at(0.48f, 3.70f));
   }
-  b.Use(Glow({0.86f, 0.82f, 0.74f}, 0.25f));
+  // 90 cd each: 5 to 10 lx on the path around the post.
+  b.Use(Glow({1.0f, 0.80f, 0.56f}, 800));
   for (Vec3f c : globes) b.mesh().Sphere(c, {0.19f, 0.19f, 0.19f}, 14, 24);
   b.Use(Paint(kGreenBlack, 0.35f));
   for (Vec3f c : globes) {
@@ -77,8 +78,12 @@ Model MakeStreetLight(uint32_t variant, uint64_t) {
   std::vector<Vec2f> crown;
   for (Vec2f p : outline) crown.push_back({p.x * 0.72f, p.y * 0.85f});
   b.Prism(crown, 0.034f, 0.06f);
-  b.Use(Glow({0.9f, 0.9f, 0.85f}, 0.2f));
+  b.Use(Plastic({0.72f, 0.72f, 0.68f}, 0.25f));
   b.BevelBox({-0.10f, -0.30f, -0.045f}, {0.10f, 0.02f, -0.029f}, 0.012f);
+  // The light itself faces the road alone: 1300 cd straight down, 18 lx from 8.6 m.
+  b.Use(Glow({1.0f, 0.80f, 0.56f}, 25000));
+  b.mesh().Quad({-0.085f, -0.285f, -0.046f}, {-0.085f, 0.005f, -0.046f}, {0.085f, 0.005f, -0.046f},
+                {0.085f, -0.285f, -0.046f});
   return b.Finish();
 }
 
