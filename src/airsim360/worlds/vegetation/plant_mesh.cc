@@ -151,7 +151,8 @@ void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const Lea
   const float wide = oval ? 0.43f : 0.5f, narrow = oval ? 0.42f : 0.20f;
   const Vec3f slack = n * (-0.35f * shape.droop * shape.length);
   const auto rim = [&](float along, float out) {
-    return base + direction * (along * shape.length) + side * (out * shape.width) + lift + slack * (along * along);
+    return base + direction * (along * shape.length) + side * (out * shape.width) + lift +
+           slack * (along * along);
   };
   layer.Add(rim(low, wide), shading, {u1, 1 - low});
   layer.Add(rim(high, narrow), shading, {oval ? u1 : 0.3f * u0 + 0.7f * u1, 1 - high});
