@@ -238,7 +238,7 @@ class Grower {
           const Vec3f p = at(static_cast<float>(rng.Uniform(0.3, 1.65)), jitter(), 0.11f);
           if (OnBed(p)) Raw(tufts_, p, rng, 0.3f + 0.6f * static_cast<float>(rng.Uniform()), out);
         }
-        for (int k = 0; k < 4 && away < 95; ++k) {
+        for (int k = 0; k < 6 && away < 95; ++k) {
           const Vec3f p = at(static_cast<float>(rng.Uniform(0.60, 1.35)), jitter(), 0.118f);
           if (OnBed(p)) Raw(chips_, p, rng, 0.8f + 0.3f * static_cast<float>(rng.Uniform()), out, {1, 1, 1});
         }

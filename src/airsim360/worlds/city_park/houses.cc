@@ -1,7 +1,6 @@
 // Houses with gables at the edges of the park, and the café at the lake.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/district.h"
@@ -10,7 +9,6 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kOverhang = 0.55f, kWallStart = -1.2f;
 
 struct House {

@@ -94,15 +94,45 @@ Texture RoadPicture(std::string name, float half) {
   return texture;
 }
 
-// Bark mulch: chips of two sizes with dark gaps; a few weeds.
+// The chip on top at (u, v), of a layer of `cells` chips a tile: flat splinters thrown at random.
+struct Chip {
+  float height = 0;  // 0 = none here
+  float edge = 0;    // 0 on its border … 1 in the middle
+  uint32_t id = 0;
+};
+Chip ChipAt(float u, float v, int cells, int seed) {
+  const float x = u * static_cast<float>(cells), y = v * static_cast<float>(cells);
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  Chip top;
+  for (int b = j - 1; b <= j + 1; ++b) {
+    for (int a = i - 1; a <= i + 1; ++a) {
+      const uint32_t h = HashCell((a + cells) % cells, (b + cells) % cells, seed);
+      const float height = 0.05f + 0.95f * Unit(Scramble(h + 7));
+      if (height < top.height) continue;
+      const float dx = x - static_cast<float>(a) - Unit(h),
+                  dy = y - static_cast<float>(b) - Unit(Scramble(h + 1));
+      const float turn = 6.2832f * Unit(Scramble(h + 2)), c = std::cos(turn), s = std::sin(turn);
+      const float length = 0.45f + 0.45f * Unit(Scramble(h + 3)),
+                  width = 0.14f + 0.20f * Unit(Scramble(h + 4));
+      const float inside =
+          std::min(1 - std::abs(dx * c + dy * s) / length, 1 - std::abs(dy * c - dx * s) / width);
+      if (inside > 0) top = {height, inside, h};
+    }
+  }
+  return top;
+}
+
+// Bark mulch: splinters of two sizes over dark crumbs.
 Texel Mulch(float u, float v) {
-  const WorleyResult chip = TilingWorley(501, u, v * 1.0f, 64), small = TilingWorley(502, u, v, 150);
-  const float r = HashUnit(chip.cell, 1), gap = chip.second - chip.first;
-  Vec3f c = Mix(Vec3f{0.19f, 0.115f, 0.075f}, Vec3f{0.34f, 0.25f, 0.185f}, r * r);
-  if (HashUnit(small.cell, 2) > 0.8f) c = {0.07f, 0.05f, 0.04f};
-  const float lit = 0.25f + 0.95f * Ramp(0.0f, 0.35f, gap);
-  c = c * (lit * (1 + 0.25f * TilingFbm(503, u, v, 4, 4)));
-  return {c, 0.02f * Ramp(0.0f, 0.4f, gap) * (0.4f + r), 0.9f};
+  Chip chip = ChipAt(u, v, 44, 501);
+  const bool large = chip.height > 0.25f;
+  if (!large) chip = ChipAt(u, v, 90, 502);
+  if (chip.height <= 0) return {Vec3f{0.045f, 0.030f, 0.022f}, 0, 0.95f};
+  const float r = Unit(Scramble(chip.id + 11));
+  Vec3f c = Mix(Vec3f{0.17f, 0.100f, 0.062f}, Vec3f{0.36f, 0.26f, 0.185f}, r * r);
+  c = c * ((0.45f + 0.65f * chip.height) * (0.72f + 0.28f * Ramp(0.0f, 0.25f, chip.edge)) *
+           (1 + 0.22f * TilingFbm(503, u, v, 4, 4)));
+  return {c, (large ? 0.010f : 0.004f) * chip.height + 0.003f * Ramp(0.0f, 0.2f, chip.edge), 0.9f};
 }
 
 // Cast slabs of 1.5 x 0.95 m, u along the pavement: joints, stains, gum, dirt.

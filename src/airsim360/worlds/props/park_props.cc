@@ -37,7 +37,7 @@ void AddSlide(PropBuilder& b) {
   b.Use(Metal({0.62f, 0.63f, 0.64f}, 0.25f));
   b.Sheet(6, 14,
           [](float u, float v) {
-            const float x = 0.56f * (u - 0.5f), lip = 4 * (u - 0.5f) * (u - 0.5f);
+            const float x = 0.56f * (0.5f - u), lip = 4 * (u - 0.5f) * (u - 0.5f);
             const float fall = v * v * (3 - 2 * v);
             return Vec3f{x, -0.45f - 2.35f * v, 1.31f - 1.08f * fall + 0.14f * lip * lip};
           },

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -228,6 +229,14 @@ void AddBark(PlantLayer& layer, const std::vector<BranchNode>& nodes, float min_
           k == 0 && parent >= 0 ? std::min(node.radius * 0.8f, nodes[i].radius * 1.3f) : node.radius;
       rings.push_back({node.p, axis, Normalized(s - axis * Dot(s, axis)),
                        k + 1 == chain.size() ? radius * 0.6f : radius, v});
+    }
+    // The pipe model drops at every fork; wood closes such steps.
+    for (int pass = 0; pass < 6; ++pass) {
+      float before = rings.front().radius;
+      for (size_t k = 1; k + 1 < rings.size(); ++k) {
+        const float smooth = 0.25f * before + 0.5f * rings[k].radius + 0.25f * rings[k + 1].radius;
+        before = std::exchange(rings[k].radius, smooth);
+      }
     }
     AddTube(layer, rings, parent < 0 ? flare : 0.0f);
   }
