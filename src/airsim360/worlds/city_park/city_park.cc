@@ -16,7 +16,9 @@ AffineTransform PlaceTilted(Vec3f p, Vec3f up, float yaw, float scale) {
 
 }  // namespace park
 
-std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options) { return BuildCityPark(options, nullptr); }
+std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options) {
+  return BuildCityPark(options, nullptr);
+}
 
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements) {
   using namespace park;
@@ -56,7 +58,51 @@ WorldInfo CityParkInfo() {
   return {"city_park",
           "outdoor",
           std::numbers::pi * park::kParkRadius * park::kParkRadius,
-          {},
+          {"barrier/fence/circle_fence",
+           "construction/building",
+           "construction/building/roof",
+           "furniture/lighting/lamp_post",
+           "furniture/lighting/lamp_post/type_b",
+           "furniture/recreation/playground",
+           "furniture/seating/bench",
+           "furniture/seating/bench/wood",
+           "furniture/seating/chair",
+           "furniture/shade/umbrella",
+           "furniture/table",
+           "furniture/table/cafe_table",
+           "furniture/vending/food_stall",
+           "furniture/waste/trash_can",
+           "ground/crosswalk",
+           "ground/dirt",
+           "ground/kerb",
+           "ground/lane_marking",
+           "ground/manhole",
+           "ground/path/park_walkway",
+           "ground/road",
+           "ground/sidewalk",
+           "ground/sidewalk/pool_edge",
+           "ground/terrain/landscape",
+           "nature/hill",
+           "nature/rock",
+           "signage/traffic_sign",
+           "sky",
+           "traffic/barrier/road_block",
+           "traffic/control/traffic_light",
+           "traffic/temporary/traffic_barrel",
+           "vegetation/climber/ivy",
+           "vegetation/flower",
+           "vegetation/grass_tuft",
+           "vegetation/plant",
+           "vegetation/shrub/bush",
+           "vegetation/tree/broadleaf/amur_cork",
+           "vegetation/tree/broadleaf/elm",
+           "vegetation/tree/broadleaf/maple",
+           "vegetation/tree/broadleaf/narrowleaf",
+           "vegetation/tree/broadleaf/weeping_willow",
+           "vegetation/tree/conifer/pine",
+           "vehicle/car",
+           "vehicle/van",
+           "water/water_plane"},
           "A park of 85 hectares: a road bends past lawns, groves, a lake and hills; woods and houses to the "
           "horizon; no people."};
 }

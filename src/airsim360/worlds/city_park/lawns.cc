@@ -78,7 +78,7 @@ EntityId Lawns::At(Vec2f p) const {
         return entities_[piece_[static_cast<size_t>(cell)]];
     }
   }
-  const float turn = std::atan2(p.y, p.x) / (2 * std::numbers::pi_v<float>) + 0.5f;
+  const float turn = std::atan2(p.y, p.x) / (2 * std::numbers::pi_v<float>)+0.5f;
   const int sector = std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1);
   return country_[static_cast<size_t>(sector + (std::hypot(p.x, p.y) > 1300 ? kSectors : 0))];
 }
@@ -86,7 +86,8 @@ EntityId Lawns::At(Vec2f p) const {
 bool Lawns::IsLawn(Vec2f p) const {
   const int cell = Cell(p);
   if (cell < 0 || piece_[static_cast<size_t>(cell)] == kBlocked) return false;
-  return layout_.BeyondRoad(p) > 0.25f && layout_.PathDistance(p, 2) > kPathHalf + 0.12f && layout_.Lake(p) > 1.05f;
+  return layout_.BeyondRoad(p) > 0.25f && layout_.PathDistance(p, 2) > kPathHalf + 0.12f &&
+         layout_.Lake(p) > 1.05f;
 }
 
 }  // namespace airsim360::internal::park

@@ -11,7 +11,8 @@ namespace airsim360::internal::park {
 
 /// Half width of a carriageway, and what lies beside it, measured outwards from the kerb's face.
 inline constexpr float kMainHalf = 7.0f, kSideHalf = 4.5f;
-inline constexpr float kKerbTop = 0.20f, kBedEnd = 1.75f, kEdgingEnd = 1.90f, kPavementEnd = 3.80f, kVergeEnd = 3.90f;
+inline constexpr float kKerbTop = 0.20f, kBedEnd = 1.75f, kEdgingEnd = 1.90f, kPavementEnd = 3.80f,
+                       kVergeEnd = 3.90f;
 inline constexpr float kPathHalf = 1.25f;
 /// The park that can be walked and flown is the disc of this radius around the spawn.
 inline constexpr float kParkRadius = 520;
@@ -68,11 +69,12 @@ class Layout {
   const std::vector<Junction>& junctions() const { return junctions_; }
   const std::vector<Curve>& paths() const { return paths_; }
 
-  /// Distance beyond the outer edge of the nearest road's pavement; negative on roads and pavements.
+  /// Distance beyond the outer edge of the nearest road's pavement; negative on roads and pavements. From 40
+  /// m on any value of at least 40 and at most the distance.
   float BeyondRoad(Vec2f p) const;
   /// Distance to the middle of the nearest path.
   float PathDistance(Vec2f p, float limit = 1e9f) const;
-  /// 1 on the shore line, less on the water, growing outwards.
+  /// 1 on the shore line, less on the water, growing outwards (roughly, from 2.2 on).
   float Lake(Vec2f p) const;
   /// 1 in the middle of the island, 0 off it.
   float Island(Vec2f p) const;
@@ -98,10 +100,23 @@ class Layout {
   Vec3f Soil(Vec2f p, float fine_detail) const;
 
  private:
+  // Distances at the middles of cells, so that most points need no exact search.
+  struct FarField {
+    static constexpr int kHalf = 128;      // cells
+    static constexpr float kCell = 8;      // metres
+    static constexpr float kReach = 5.7f;  // a point to the middle of its cell
+    std::vector<float> value;
+    /// At most the distance at p; 0 outside.
+    float LowerBound(Vec2f p) const;
+  };
+  void Survey();
+  float ExactBeyondRoad(Vec2f p) const;
+  float ExactPathDistance(Vec2f p, float limit) const;
   float Hills(Vec2f p) const;
   Curve main_;
   std::vector<Curve> sides_, paths_;
   std::vector<Junction> junctions_;
+  FarField roads_far_, paths_far_;
 };
 
 }  // namespace airsim360::internal::park

@@ -37,7 +37,8 @@ Cells Voronoi(float x, float y, int seed) {
   for (int b = j - 1; b <= j + 1; ++b) {
     for (int a = i - 1; a <= i + 1; ++a) {
       const uint32_t h = HashCell(a, b, seed);
-      const float dx = static_cast<float>(a) + Unit(h) - x, dy = static_cast<float>(b) + Unit(Scramble(h + 1)) - y;
+      const float dx = static_cast<float>(a) + Unit(h) - x,
+                  dy = static_cast<float>(b) + Unit(Scramble(h + 1)) - y;
       const float d = dx * dx + dy * dy;
       if (d < first) {
         second = first;

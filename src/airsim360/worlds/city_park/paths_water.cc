@@ -76,7 +76,8 @@ void BuildLanding(Park& park, MeshBuilder& mesh, float a) {
   float top = kLakeZ + 0.35f;
   for (float x : {-kHalfX, 0.0f, kHalfX}) {
     for (float y : {-kHalfY, 0.0f, kHalfY}) {
-      const Vec2f p{middle.x + x * std::cos(yaw) - y * std::sin(yaw), middle.y + x * std::sin(yaw) + y * std::cos(yaw)};
+      const Vec2f p{middle.x + x * std::cos(yaw) - y * std::sin(yaw),
+                    middle.y + x * std::sin(yaw) + y * std::cos(yaw)};
       top = std::max(top, park.layout.Ground(p) + 0.22f);
     }
   }
@@ -90,7 +91,8 @@ void BuildLanding(Park& park, MeshBuilder& mesh, float a) {
   mesh.SetTransform({});
   park.placer.Reserve({middle, {kHalfX + 0.3f, kHalfY + 0.3f}, yaw});
   for (float x : {-2.4f, 2.4f}) {
-    const Vec2f p{middle.x + x * std::cos(yaw) - 1.6f * std::sin(yaw), middle.y + x * std::sin(yaw) + 1.6f * std::cos(yaw)};
+    const Vec2f p{middle.x + x * std::cos(yaw) - 1.6f * std::sin(yaw),
+                  middle.y + x * std::sin(yaw) + 1.6f * std::cos(yaw)};
     const EntityId bench = park.AddEntity("bench", "furniture/seating/bench");
     park.placer.shelf().PlaceAs(bench, "bench_wood", PlaceUpright({p.x, p.y, top}, yaw), 1);
   }

@@ -1,5 +1,5 @@
-// Roads: crowned carriageways, and beside them strips extruded along the kerb lines, which turn round the corners
-// of junctions in one piece.
+// Roads: crowned carriageways, and beside them strips extruded along the kerb lines, which turn round the
+// corners of junctions in one piece.
 #include <algorithm>
 #include <cmath>
 
@@ -75,8 +75,9 @@ std::vector<KerbLine> KerbLines(const Layout& layout) {
     std::vector<size_t> met;
     for (size_t i = 0; i < layout.junctions().size(); ++i)
       if (layout.junctions()[i].left == left) met.push_back(i);
-    std::sort(met.begin(), met.end(),
-              [&](size_t a, size_t b) { return hand * layout.junctions()[a].s < hand * layout.junctions()[b].s; });
+    std::sort(met.begin(), met.end(), [&](size_t a, size_t b) {
+      return hand * layout.junctions()[a].s < hand * layout.junctions()[b].s;
+    });
     std::vector<Vec2f> line;
     float at = left ? 0.0f : main.length();
     for (size_t i : met) {
@@ -88,8 +89,10 @@ std::vector<KerbLine> KerbLines(const Layout& layout) {
       const size_t arc0 = line.size() - 1;
       AppendArc(line, main.At(s_main, hand * kMainHalf), near, side.At(s_side, kSideHalf));
       AppendRun(line, side, s_side, side.length(), kSideHalf);
-      lines.push_back({Curve(line), near, {line.begin() + static_cast<std::ptrdiff_t>(arc0),
-                                           line.begin() + static_cast<std::ptrdiff_t>(arc0) + 13}});
+      lines.push_back({Curve(line),
+                       near,
+                       {line.begin() + static_cast<std::ptrdiff_t>(arc0),
+                        line.begin() + static_cast<std::ptrdiff_t>(arc0) + 13}});
       // … and back along the far one.
       line.clear();
       const Vec2f far = Corner(main, hand * kMainHalf, side, -kSideHalf);
@@ -98,7 +101,8 @@ std::vector<KerbLine> KerbLines(const Layout& layout) {
       const size_t arc1 = line.size() - 1;
       AppendArc(line, side.At(t_side, -kSideHalf), far, main.At(t_main, hand * kMainHalf));
       line.push_back(main.At(t_main, hand * kMainHalf));
-      lines.push_back({Curve(std::vector<Vec2f>(line.begin(), line.end())), far,
+      lines.push_back({Curve(std::vector<Vec2f>(line.begin(), line.end())),
+                       far,
                        {line.begin() + static_cast<std::ptrdiff_t>(arc1), line.end()}});
       // The main road's kerb goes on from here, in a line of its own.
       line = {main.At(t_main, hand * kMainHalf)};
@@ -128,7 +132,8 @@ class RoadMaker {
         const auto corner = [&](float s, float d) {
           // Side roads begin on the edge of the main road, level with it.
           const float start = s_begin > 0 && i == 0 && s == s0 ? Mouth(road, d) : s;
-          return std::pair<Vec3f, Vec2f>(RoadPoint(road, half, start, d, s_begin), Vec2f{start / kRoadPictureLength, 0.5f - 0.5f * d / half});
+          return std::pair<Vec3f, Vec2f>(RoadPoint(road, half, start, d, s_begin),
+                                         Vec2f{start / kRoadPictureLength, 0.5f - 0.5f * d / half});
         };
         const auto [a, ta] = corner(s0, across[k]);
         const auto [b, tb] = corner(s1, across[k]);

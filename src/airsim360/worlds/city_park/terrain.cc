@@ -1,5 +1,5 @@
-// The ground: an adaptive mesh over a quadtree. Every cell is a fan around its middle through all corners that
-// lie on its border, so that cells of any sizes meet without gaps.
+// The ground: an adaptive mesh over a quadtree. Every cell is a fan around its middle through all corners
+// that lie on its border, so that cells of any sizes meet without gaps.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,11 +33,18 @@ uint64_t KeyOf(int x, int y) {
 float WantedSize(const Layout& layout, Vec2f p, float size) {
   const float r = std::hypot(p.x, p.y), half = 0.71f * size;
   const float nearest = std::max(0.0f, r - half);
-  float wanted = nearest < 48 ? 1 : nearest < 150 ? 2 : nearest < 560 ? 4 : nearest < 1500 ? 16 : nearest < 4500 ? 64 : 128;
+  float wanted = nearest < 48     ? 1
+                 : nearest < 150  ? 2
+                 : nearest < 560  ? 4
+                 : nearest < 1500 ? 16
+                 : nearest < 4500 ? 64
+                                  : 128;
   if (nearest > 760) return wanted;
   const float lake = layout.Lake(p);
-  if (std::abs(lake - 1.02f) * kLakeRx < 3.5f + half) wanted = std::min(wanted, 0.5f);
-  else if (lake < 1.6f + half / kLakeRy) wanted = std::min(wanted, 2.0f);
+  if (std::abs(lake - 1.02f) * kLakeRy * 0.8f < 3.5f + half)
+    wanted = std::min(wanted, 0.5f);
+  else if (lake < 1.6f + half / kLakeRy)
+    wanted = std::min(wanted, 2.0f);
   if (size > wanted && std::abs(layout.BeyondRoad(p) - 0.4f) < 1.6f + half)
     wanted = std::min(wanted, nearest < 150 ? 1.0f : nearest < 560 ? 2.0f : 4.0f);
   if (size > wanted && nearest < 560 && layout.PathDistance(p, 3 + half) < kPathHalf + 0.9f + half)
@@ -144,8 +151,9 @@ size_t LayTerrain(Park& park) {
     const float half = kGroundSquares[level];
     for (const auto& [key, triangles] : parts) {
       if (key.first != level) continue;
-      mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(triangles.size()),
-                            park.materials.ground[level], key.second});
+      mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()),
+                            static_cast<uint32_t>(triangles.size()), park.materials.ground[level],
+                            key.second});
       for (Vec3u t : triangles) {
         for (uint32_t* k : {&t.x, &t.y, &t.z}) {
           uint32_t& to = index[*k];

@@ -94,7 +94,8 @@ class Planter {
     const float r = std::hypot(p.x, p.y);
     const TreeDetail detail = r < kMiddleFrom ? TreeDetail::kFull : TreeDetail::kMiddle;
     const EntityId entity = park_.AddEntity(std::string(InfoOf(species).name), InfoOf(species).category);
-    const Vec3f up = Normalized(Vec3f{0.03f * static_cast<float>(rng_.Normal()), 0.03f * static_cast<float>(rng_.Normal()), 1});
+    const Vec3f up = Normalized(
+        Vec3f{0.03f * static_cast<float>(rng_.Normal()), 0.03f * static_cast<float>(rng_.Normal()), 1});
     Place(nursery_.Pick(species, detail, individual), p, up, scale, entity);
     park_.placer.Reserve({p, {0.55f * scale, 0.55f * scale}, 0});
     if (r < 95) near_.push_back(p);
@@ -107,7 +108,10 @@ class Planter {
       const Vec2f p{r * std::cos(a), r * std::sin(a)};
       const float woods = Fractal(p.x / 60, p.y / 60, 3, 81);
       // Two open lawns before the spawn.
-      if (std::hypot((p.x - 2) / 27, (p.y - 33) / 22) < 1 || std::hypot((p.x + 30) / 40, (p.y - 45) / 22) < 1) continue;
+      if (std::hypot((p.x - 2) / 27, (p.y - 33) / 22) < 1 || std::hypot((p.x + 30) / 40, (p.y - 45) / 22) < 1)
+        continue;
+      // No shadow over the spawn: the low sun stands in the south-east.
+      if (r < 36 && p.x > 0 && p.y < 0) continue;
       float wanted = 0.95f * Ramp(0.36f, 0.56f, woods) + 0.07f;
       if (r > 170) wanted = 0.25f + 0.75f * wanted;
       if (Uniform() > wanted || !IsFree(p, 1.8f) || !spacing_.IsFree(p)) continue;
@@ -137,10 +141,12 @@ class Planter {
         if (q < 800 && park_.layout.BeyondRoad(p) < 4) continue;
         if (!park_.occupancy.IsFree({p, {1, 1}, 0})) continue;
         const ParkTree species = Species(p);
-        const auto cell = std::tuple(static_cast<int>(std::floor(p.x / 300)), static_cast<int>(std::floor(p.y / 300)), species);
+        const auto cell = std::tuple(static_cast<int>(std::floor(p.x / 300)),
+                                     static_cast<int>(std::floor(p.y / 300)), species);
         const auto [it, fresh] = patches.try_emplace(cell, kNoEntity);
         if (fresh)
-          it->second = park_.AddEntity("wood of " + std::string(InfoOf(species).name), InfoOf(species).category);
+          it->second =
+              park_.AddEntity("wood of " + std::string(InfoOf(species).name), InfoOf(species).category);
         const float scale = static_cast<float>(rng_.Uniform(0.8, 1.25)) * (1 + 0.00018f * (q - kFarFrom));
         Place(nursery_.Pick(species, TreeDetail::kFar, rng_.Index(12)), p, {0, 0, 1}, scale, it->second);
       }
@@ -202,8 +208,11 @@ class Planter {
     const float kind = Fractal(p.x / 40 + 50, p.y / 40, 2, 83), u = Uniform();
     if (kind > 0.56f) return u < 0.75f ? ParkTree::kPine : u < 0.9f ? ParkTree::kMaple : ParkTree::kPoplar;
     if (kind < 0.42f) return u < 0.62f ? ParkTree::kElm : u < 0.80f ? ParkTree::kMaple : ParkTree::kCork;
-    return u < 0.62f ? ParkTree::kMaple : u < 0.78f ? ParkTree::kElm : u < 0.88f ? ParkTree::kCork
-           : u < 0.95f ? ParkTree::kPine : ParkTree::kPoplar;
+    return u < 0.62f   ? ParkTree::kMaple
+           : u < 0.78f ? ParkTree::kElm
+           : u < 0.88f ? ParkTree::kCork
+           : u < 0.95f ? ParkTree::kPine
+                       : ParkTree::kPoplar;
   }
   void Shrub(Vec2f p, float scale) {
     park_.placer.Try("shrub", park_.OnGround(p, 0.05f), kTau * Uniform(), scale, LeafTint(rng_));
@@ -226,7 +235,8 @@ std::vector<Vec2f> PlantTrees(Park& park) {
   Planter planter(park);
   planter.Solitary(ParkTree::kElm, {4, 19.5f}, 0.95f, 0, 9);
   uint32_t willow = 0;
-  for (Vec2f p : {Vec2f{-88, 70}, Vec2f{-86, 92}, Vec2f{-66, 57}, Vec2f{-8, 114}, Vec2f{6, 90}, Vec2f{-60, 117}, Vec2f{-59, 88}})
+  for (Vec2f p : {Vec2f{-88, 70}, Vec2f{-86, 92}, Vec2f{-66, 57}, Vec2f{-8, 114}, Vec2f{6, 90},
+                  Vec2f{-60, 117}, Vec2f{-59, 88}})
     planter.Solitary(ParkTree::kWillow, p, 0.9f + 0.3f * planter.Uniform(), willow++, 7);
   planter.PlantPark();
   planter.PlantShrubs();

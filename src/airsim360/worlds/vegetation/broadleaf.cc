@@ -21,19 +21,19 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
                                {9.4f, 2.5f, 3.9f, 0.17f, 0.45f},  {7.4f, 2.2f, 2.5f, 0.11f, 0.66f}};
   const Build& b = builds[variant];
   BroadleafSpecies s{"tree_generic",
-            b.height,
-            b.clear,
-            b.radius,
-            b.trunk,
-            b.leader,
-            15,
-            0.40f,
-            5200,
-            {},
-            {0.195f, 0.132f, 0.12f, 0.25f},
-            0,
-            0.75f,
-            {0.17f, 0.14f, 0.11f}};
+                     b.height,
+                     b.clear,
+                     b.radius,
+                     b.trunk,
+                     b.leader,
+                     15,
+                     0.40f,
+                     5200,
+                     {},
+                     {0.195f, 0.132f, 0.12f, 0.25f},
+                     0,
+                     0.75f,
+                     {0.17f, 0.14f, 0.11f}};
   s.growth.step = 0.20f;
   s.growth.influence = 1.7f;
   s.growth.kill = 0.42f * b.radius / 4.0f;
@@ -54,19 +54,19 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
                                {13.2f, 2.3f, 2.7f, 0.20f}};
   const Build& b = builds[variant];
   BroadleafSpecies s{"tree_narrowleaf",
-            b.height,
-            b.clear,
-            b.radius,
-            b.trunk,
-            0.86f,
-            14,
-            0.52f,
-            4600,
-            {},
-            {0.210f, 0.059f, 0.15f, 0.2f},
-            20000,
-            0.6f,
-            {0.20f, 0.18f, 0.15f}};
+                     b.height,
+                     b.clear,
+                     b.radius,
+                     b.trunk,
+                     0.86f,
+                     14,
+                     0.52f,
+                     4600,
+                     {},
+                     {0.210f, 0.059f, 0.15f, 0.2f},
+                     20000,
+                     0.6f,
+                     {0.20f, 0.18f, 0.15f}};
   s.growth.step = 0.20f;
   s.growth.influence = 1.5f;
   s.growth.kill = 0.34f;

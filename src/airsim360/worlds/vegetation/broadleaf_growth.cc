@@ -25,7 +25,8 @@ std::vector<bool> DeadWood(const std::vector<BranchNode>& nodes, float share, Rn
 void AddTwig(const BroadleafSpecies& s, const Crown& crown, Vec3f from, Vec3f axis, Vec3f out, int turn,
              std::vector<PlantLayer>& layers, RngStream& random) {
   constexpr int kPerTwig = 6;
-  const Vec3f along = Normalized(axis * 0.6f + RandomDirection(random) * 0.9f + out * 0.4f + Vec3f{0, 0, 0.1f});
+  const Vec3f along =
+      Normalized(axis * 0.6f + RandomDirection(random) * 0.9f + out * 0.4f + Vec3f{0, 0, 0.1f});
   const float length = s.leaf.length * static_cast<float>(random.Uniform(1.4, 2.8));
   const Vec3f side = Normalized(Cross(along, Vec3f{0.3f, 0.2f, 1})), other = Cross(along, side);
   if (s.min_branch < 0.01f) AddNeedle(layers[0], from, from + along * length, side, 0.010f, other, 0);
@@ -82,8 +83,7 @@ Crown::Crown(const BroadleafSpecies& s, RngStream& random)
     // Low-discrepancy directions with jitter, so that no side stays bare.
     const float z = -0.75f + 1.65f * (static_cast<float>(i) + 0.5f) / static_cast<float>(s.lobes);
     const float a = 2.39996f * static_cast<float>(i) + 0.5f * static_cast<float>(random.Normal());
-    const float ring =
-        std::sqrt(std::max(0.05f, 1 - z * z)) * static_cast<float>(random.Uniform(0.55, 0.85));
+    const float ring = std::sqrt(std::max(0.05f, 1 - z * z)) * static_cast<float>(random.Uniform(0.55, 0.85));
     const float r = s.lobe_radius * static_cast<float>(random.Uniform(0.75, 1.25));
     lobes_.push_back(
         {center + Vec3f{radius_ * ring * std::cos(a), radius_ * ring * std::sin(a), height_ * 0.40f * z}, r});

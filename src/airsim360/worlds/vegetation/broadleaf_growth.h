@@ -22,11 +22,11 @@ struct BroadleafSpecies {
   int leaves;
   float clumping;  ///< 0 even … 1 leaves in clumps with gaps between
   Vec3f bark;
-  float lean = 0.03f;            ///< of the trunk's top, standard deviation in heights
-  float dead = 0;                ///< share of the limbs that carry no leaves any more
-  float min_branch = 0.0075f;    ///< thinnest branch that is drawn
-  float depth = 1;               ///< how much darker the inside of the crown is: 0 not at all, 1 as in PlantLayers
-  float transmission = 0.8f;     ///< of the leaves
+  float lean = 0.03f;          ///< of the trunk's top, standard deviation in heights
+  float dead = 0;              ///< share of the limbs that carry no leaves any more
+  float min_branch = 0.0075f;  ///< thinnest branch that is drawn
+  float depth = 1;  ///< how much darker the inside of the crown is: 0 not at all, 1 as in PlantLayers
+  float transmission = 0.8f;  ///< of the leaves
 };
 
 /// The crown: ellipsoids scattered round its axis, wider below the middle than above.

@@ -12,6 +12,9 @@ namespace {
 
 struct Build {
   float height, clear_trunk, radius, trunk_radius;
+  float whorl = 0.56f;  // metres between whorls at the bottom
+  float taper = 0.8f;   // of the crown's outline: 1 a cone
+  float skirt = 0.72f;  // length of the lowest branches, in radii
 };
 
 // How much of a pine is drawn: 1 every needle; less keeps a share of them, longer and wider.
@@ -69,8 +72,8 @@ void AddNeedles(const std::vector<Branchlet>& branchlets, int total, Sparse spar
     if (sparse.detail >= 1) AddNeedle(layers[0], b.from, b.to, side, 0.012f, other, 0);
     // Two crossed ribbons stand for the inner needles, which are seen only as a dense dark mass.
     for (Vec3f ribbon : {side, other})
-      AddNeedle(LeavesAt(layers, b.openness - 0.35f), b.from, b.to + axis * 0.05f, ribbon, sparse.detail < 1 ? 0.13f : 0.075f,
-                Vec3f{0, 0, 1}, kLeafCells - 2);
+      AddNeedle(LeavesAt(layers, b.openness - 0.35f), b.from, b.to + axis * 0.05f, ribbon,
+                sparse.detail < 1 ? 0.13f : 0.075f, Vec3f{0, 0, 1}, kLeafCells - 2);
     const int count = static_cast<int>(per_metre * (reach + 0.06f) + static_cast<float>(random.Uniform()));
     const int tone = static_cast<int>(random.Index(kLeafCells - 1));
     for (int k = 0; k < count; ++k) {
@@ -83,7 +86,8 @@ void AddNeedles(const std::vector<Branchlet>& branchlets, int total, Sparse spar
           0.14f * std::min(2.5f, sparse.size()) * static_cast<float>(random.Uniform(0.75, 1.2));
       const Vec3f across = Normalized(Cross(d, spoke + RandomDirection(random) * 0.5f));
       AddNeedle(LeavesAt(layers, b.openness + 0.12f * static_cast<float>(random.Normal())), base,
-                base + d * size, across, 0.018f * std::min(6.0f, sparse.size() * sparse.size()), Normalized(spoke + Vec3f{0, 0, 0.7f}),
+                base + d * size, across, 0.018f * std::min(6.0f, sparse.size() * sparse.size()),
+                Normalized(spoke + Vec3f{0, 0, 0.7f}),
                 random.Chance(0.7) ? tone : static_cast<int>(random.Index(kLeafCells - 1)));
     }
   }
@@ -112,14 +116,14 @@ Model BuildPine(const Build& b, Sparse sparse, uint64_t seed) {
       const float azimuth =
           turn + 6.2831853f * (static_cast<float>(i) + static_cast<float>(random.Uniform(-0.25, 0.25))) /
                      static_cast<float>(count);
-      float length = b.radius * std::pow(1 - h, 0.8f) * static_cast<float>(random.Uniform(0.72, 1.1)) *
-                         std::min(1.0f, 0.72f + 1.6f * h) +
+      float length = b.radius * std::pow(1 - h, b.taper) * static_cast<float>(random.Uniform(0.72, 1.1)) *
+                         std::min(1.0f, b.skirt + 1.6f * h) +
                      0.18f;
       if (random.Chance(0.08)) length *= 0.5f;
       AddBranch(nodes, static_cast<int>(from), azimuth, length, -0.05f + 0.75f * h * h, branchlets, random);
     }
     turn += 2.39996f;
-    z += (0.56f - 0.24f * h) * static_cast<float>(random.Uniform(0.85, 1.15));
+    z += (b.whorl - 0.43f * b.whorl * h) * static_cast<float>(random.Uniform(0.85, 1.15));
   }
   branchlets.push_back({nodes[trunk - 1].p, nodes[trunk - 1].p + Vec3f{0, 0, 0.3f}, 1});
   Thicken(nodes, b.trunk_radius, 0.007f);
@@ -145,8 +149,10 @@ Model MakePine(uint32_t variant, uint64_t seed) {
 
 Model GrowPine(int individual, float detail, uint64_t seed) {
   // Taller and slimmer than in streets: they grew up in company.
-  constexpr Build builds[4] = {
-      {17.0f, 2.2f, 3.3f, 0.24f}, {14.0f, 1.6f, 3.0f, 0.20f}, {19.0f, 3.6f, 3.2f, 0.27f}, {10.5f, 0.8f, 2.6f, 0.15f}};
+  constexpr Build builds[4] = {{17.0f, 2.0f, 4.3f, 0.25f, 0.86f, 1.00f, 0.92f},
+                               {14.0f, 1.4f, 3.7f, 0.21f, 0.76f, 1.05f, 0.95f},
+                               {19.0f, 3.4f, 4.1f, 0.28f, 0.92f, 0.95f, 0.80f},
+                               {10.5f, 0.7f, 3.2f, 0.16f, 0.64f, 1.10f, 1.00f}};
   return BuildPine(builds[individual % 4], {detail}, seed);
 }
 

@@ -55,10 +55,10 @@ BroadleafSpecies Elm(int individual) {
 
 // Round crowns with lobed leaves; the last one is young.
 BroadleafSpecies Maple(int individual) {
-  constexpr Build builds[4] = {{13.0f, 3.0f, 5.2f, 0.24f, 0.55f, 0.02f, 0.02f, 30000},
-                               {11.0f, 2.6f, 4.3f, 0.20f, 0.60f, 0.04f, 0.03f, 24000},
-                               {14.5f, 3.4f, 5.0f, 0.27f, 0.62f, 0.03f, 0.10f, 28000},
-                               {8.0f, 2.0f, 2.9f, 0.11f, 0.66f, 0.03f, 0.00f, 14000}};
+  constexpr Build builds[4] = {{13.0f, 3.0f, 5.2f, 0.24f, 0.55f, 0.02f, 0.02f, 34000},
+                               {11.0f, 2.6f, 4.3f, 0.20f, 0.60f, 0.04f, 0.03f, 29000},
+                               {14.5f, 3.4f, 5.0f, 0.27f, 0.62f, 0.03f, 0.10f, 33000},
+                               {8.0f, 2.0f, 2.9f, 0.11f, 0.66f, 0.03f, 0.00f, 17000}};
   const Build& b = builds[individual % 4];
   BroadleafSpecies s{.name = "maple",
                      .height = b.height,
@@ -70,7 +70,7 @@ BroadleafSpecies Maple(int individual) {
                      .lobe_radius = 0.39f,
                      .attractors = 7500,
                      .growth = {},
-                     .leaf = {0.175f, 0.170f, 0.08f, 0.20f},
+                     .leaf = {0.20f, 0.20f, 0.08f, 0.20f},
                      .leaves = b.leaves,
                      .clumping = 0.66f,
                      .bark = {0.19f, 0.165f, 0.14f}};
@@ -134,10 +134,11 @@ BroadleafSpecies Poplar(int individual) {
 
 // Albedo of leaves: published reflectances of the visible range, a fresh and a deep tone and between.
 const Texture& LeavesOf(ParkTree species) {
-  static const Vec3f elm[] = {{0.062f, 0.098f, 0.024f}, {0.073f, 0.108f, 0.028f}, {0.054f, 0.088f, 0.024f}};
-  static const Vec3f maple[] = {{0.078f, 0.118f, 0.028f}, {0.090f, 0.126f, 0.032f}, {0.066f, 0.104f, 0.028f}};
-  static const Vec3f cork[] = {{0.086f, 0.122f, 0.034f}, {0.098f, 0.132f, 0.038f}, {0.074f, 0.110f, 0.032f}};
-  static const Vec3f poplar[] = {{0.074f, 0.112f, 0.040f}, {0.088f, 0.122f, 0.046f}, {0.062f, 0.098f, 0.034f}};
+  static const Vec3f elm[] = {{0.076f, 0.120f, 0.029f}, {0.089f, 0.132f, 0.034f}, {0.066f, 0.107f, 0.029f}};
+  static const Vec3f maple[] = {{0.095f, 0.144f, 0.034f}, {0.110f, 0.154f, 0.039f}, {0.081f, 0.127f, 0.034f}};
+  static const Vec3f cork[] = {{0.105f, 0.149f, 0.041f}, {0.120f, 0.161f, 0.046f}, {0.090f, 0.134f, 0.039f}};
+  static const Vec3f poplar[] = {
+      {0.090f, 0.137f, 0.049f}, {0.107f, 0.149f, 0.056f}, {0.076f, 0.120f, 0.041f}};
   static const Texture atlases[4] = {LeafAtlas("leaves elm", elm), LeafAtlas("leaves maple", maple),
                                      LeafAtlas("leaves cork", cork), LeafAtlas("leaves poplar", poplar)};
   switch (species) {
@@ -163,12 +164,18 @@ const ParkTreeInfo& InfoOf(ParkTree species) { return kInfos[static_cast<size_t>
 Model MakeParkTree(ParkTree species, TreeDetail detail, int individual, uint64_t seed) {
   const uint64_t key = MixBits(seed ^ HashName(InfoOf(species).name)) + static_cast<uint64_t>(individual);
   if (species == ParkTree::kPine)
-    return GrowPine(individual, detail == TreeDetail::kFull ? 1 : detail == TreeDetail::kMiddle ? 0.12f : 0.03f,
+    return GrowPine(individual,
+                    detail == TreeDetail::kFull     ? 1
+                    : detail == TreeDetail::kMiddle ? 0.12f
+                                                    : 0.03f,
                     key);
   if (species == ParkTree::kWillow) {
     constexpr float sizes[3][2] = {{11.0f, 5.0f}, {9.5f, 4.5f}, {12.0f, 5.6f}};
     return GrowWillow(sizes[individual % 3][0], sizes[individual % 3][1],
-                      detail == TreeDetail::kFull ? 1 : detail == TreeDetail::kMiddle ? 0.12f : 0.03f, key);
+                      detail == TreeDetail::kFull     ? 1
+                      : detail == TreeDetail::kMiddle ? 0.12f
+                                                      : 0.03f,
+                      key);
   }
   // The solitary elm is not repeated as a far tree: individuals 1, 2, 3.
   const int i = species == ParkTree::kElm && detail != TreeDetail::kFull ? individual + 1 : individual;
@@ -176,7 +183,8 @@ Model MakeParkTree(ParkTree species, TreeDetail detail, int individual, uint64_t
                        : species == ParkTree::kMaple ? Maple(i)
                        : species == ParkTree::kCork  ? Cork(i)
                                                      : Poplar(i);
-  s.depth = 0.7f;
+  s.transmission = 0.95f;
+  s.depth = 0.45f;
   if (detail == TreeDetail::kMiddle) s = Simplified(s, kMiddleShare);
   if (detail == TreeDetail::kFar) s = Simplified(s, kFarLeaves / static_cast<float>(s.leaves));
   return GrowBroadleaf(s, LeavesOf(species), key);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -151,7 +152,8 @@ void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const Lea
   const float wide = oval ? 0.43f : 0.5f, narrow = oval ? 0.42f : 0.20f;
   const Vec3f slack = n * (-0.35f * shape.droop * shape.length);
   const auto rim = [&](float along, float out) {
-    return base + direction * (along * shape.length) + side * (out * shape.width) + lift + slack * (along * along);
+    return base + direction * (along * shape.length) + side * (out * shape.width) + lift +
+           slack * (along * along);
   };
   layer.Add(rim(low, wide), shading, {u1, 1 - low});
   layer.Add(rim(high, narrow), shading, {oval ? u1 : 0.3f * u0 + 0.7f * u1, 1 - high});
@@ -227,6 +229,14 @@ void AddBark(PlantLayer& layer, const std::vector<BranchNode>& nodes, float min_
           k == 0 && parent >= 0 ? std::min(node.radius * 0.8f, nodes[i].radius * 1.3f) : node.radius;
       rings.push_back({node.p, axis, Normalized(s - axis * Dot(s, axis)),
                        k + 1 == chain.size() ? radius * 0.6f : radius, v});
+    }
+    // The pipe model drops at every fork; wood closes such steps.
+    for (int pass = 0; pass < 6; ++pass) {
+      float before = rings.front().radius;
+      for (size_t k = 1; k + 1 < rings.size(); ++k) {
+        const float smooth = 0.25f * before + 0.5f * rings[k].radius + 0.25f * rings[k + 1].radius;
+        before = std::exchange(rings[k].radius, smooth);
+      }
     }
     AddTube(layer, rings, parent < 0 ? flare : 0.0f);
   }

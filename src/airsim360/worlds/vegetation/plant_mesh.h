@@ -30,7 +30,8 @@ PlantLayer LeafLayer(const Texture& atlas, float transmission = 0.8f);
 /// Layer 0 is bark, layers 1 to 3 are leaves that see little, half and all of the sky: what the plant itself
 /// takes away of the sky's light is in their colour, so that crowns have depth without ambient occlusion.
 /// `depth` scales that: 0 leaves all leaves as bright as the outer ones.
-std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission = 0.8f, float depth = 1);
+std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission = 0.8f,
+                                    float depth = 1);
 /// The leaves of PlantLayers for a place that sees a share `openness` (0 … 1) of the sky.
 PlantLayer& LeavesAt(std::vector<PlantLayer>& layers, float openness);
 

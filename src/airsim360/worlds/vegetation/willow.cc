@@ -17,9 +17,10 @@ const Texture& WillowLeaves() {
 }
 
 // One shoot: leaves in pairs along a ribbon that bends down within a metre and then hangs.
-void HangShoot(Vec3f p, Vec3f direction, float length, float leaf, int per_segment, bool ribbon, float openness,
-               std::vector<PlantLayer>& layers, RngStream& random) {
-  const Vec3f sway{0.03f * static_cast<float>(random.Normal()), 0.03f * static_cast<float>(random.Normal()), 0};
+void HangShoot(Vec3f p, Vec3f direction, float length, float leaf, int per_segment, bool ribbon,
+               float openness, std::vector<PlantLayer>& layers, RngStream& random) {
+  const Vec3f sway{0.03f * static_cast<float>(random.Normal()), 0.03f * static_cast<float>(random.Normal()),
+                   0};
   const int segments = 1 + static_cast<int>(length / kSegment);
   Vec3f from = p;
   for (int k = 0; k < segments; ++k) {
@@ -68,7 +69,7 @@ Model GrowWillow(float height, float radius, float detail, uint64_t seed) {
   RngStream random(seed, s.name);
   const Crown crown(s, random);
   const std::vector<BranchNode> nodes = GrowTree(s, crown, random);
-  std::vector<PlantLayer> layers = PlantLayers(s.bark, WillowLeaves(), 0.85f, 0.7f);
+  std::vector<PlantLayer> layers = PlantLayers(s.bark, WillowLeaves(), 0.95f, 0.45f);
   AddBark(layers[0], nodes, detail < 1 ? 0.03f : 0.009f, 0.5f);
 
   std::vector<size_t> sites;
@@ -85,11 +86,13 @@ Model GrowWillow(float height, float radius, float detail, uint64_t seed) {
     const float curtain = Noise(Vec3f{p.x, p.y, p.z * 0.4f} * 1.1f, seed);
     if (random.Uniform() > 0.15 + 1.0 * std::clamp((curtain - 0.36f) / 0.24f, 0.0f, 1.0f)) continue;
     const double drop = random.Uniform();
-    const float end = 0.5f + 2.2f * static_cast<float>(drop * drop) + 0.6f * static_cast<float>(random.Uniform());
+    const float end =
+        0.5f + 2.2f * static_cast<float>(drop * drop) + 0.6f * static_cast<float>(random.Uniform());
     const float length = std::min(p.z - end, static_cast<float>(random.Uniform(1.2, 7.0)));
     if (length < 0.6f) continue;
     const Vec3f axis = Normalized(p - nodes[static_cast<size_t>(node.parent)].p);
-    const Vec3f out = Normalized(Vec3f{p.x, p.y, 0} * (0.5f / radius) + axis * 0.5f + RandomDirection(random) * 0.4f);
+    const Vec3f out =
+        Normalized(Vec3f{p.x, p.y, 0} * (0.5f / radius) + axis * 0.5f + RandomDirection(random) * 0.4f);
     const float openness = 0.25f + 0.65f * std::hypot(p.x, p.y) / radius;
     HangShoot(p, out, length, leaf, per_segment, detail >= 1, openness, layers, random);
   }
