@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSide = 16;
 constexpr float kSunAngle = 0.0093f;          // width of the disc, radians (0.53 degrees)
-constexpr int kSunRounds = 2, kSunRound = 8;  // rays of a pixel in a penumbra: rounds of so many
+constexpr int kSunRounds = 2, kSunRound = 4;  // rays of a pixel in a penumbra: rounds of so many
 constexpr int kSunSamples = kSunRounds * kSunRound;
 constexpr int kMaxSmoothing = 3;  // pixels
 
@@ -137,13 +137,20 @@ void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, cons
   }
   float away[kBatch] = {};
   int blocked[kBatch] = {};
-  const auto look = [&] {
+  // The first round tells distances, too; whether something is there at all costs half as much.
+  const auto look = [&](bool distances) {
+    bool occluded[16] = {};
     queue.Close();
-    tracer.Intersect16(queue.valid, queue.rays, false);
+    if (distances)
+      tracer.Intersect16(queue.valid, queue.rays, false);
+    else
+      tracer.Occluded16(queue.valid, queue.rays, occluded, false);
     for (int k = 0; k < queue.count; ++k) {
-      if (queue.rays.geometry[k] == kMiss) continue;
-      ++blocked[queue.lane[k]];
-      away[queue.lane[k]] += queue.rays.t_far[k];
+      if (distances && queue.rays.geometry[k] != kMiss) {
+        ++blocked[queue.lane[k]];
+        away[queue.lane[k]] += queue.rays.t_far[k];
+      }
+      blocked[queue.lane[k]] += occluded[k];
     }
     queue.count = 0;
   };
@@ -155,10 +162,10 @@ void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, cons
       for (int k = sent; k < kSunRound * round; ++k) {
         queue.Add(start + WithinPixel(rays, s, i, directions.offset[k][at], sampling.cone_angle),
                   directions.at[k][at], i);
-        if (queue.count == 16) look();
+        if (queue.count == 16) look(round == 1);
       }
     }
-    if (queue.count > 0) look();
+    if (queue.count > 0) look(round == 1);
     sent = kSunRound * round;
     int mixed = 0;
     for (int n = 0; n < count; ++n) {
@@ -166,6 +173,7 @@ void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, cons
       s.sunlit[i] = static_cast<float>(sent - blocked[i]) / static_cast<float>(sent);
       if (blocked[i] == 0 || blocked[i] == sent) continue;
       edge[mixed++] = i;
+      if (round > 1) continue;
       const float width = kSunAngle * away[i] / static_cast<float>(blocked[i]);
       const float pixels = width / std::max(1e-6f, rays.distance[i] * sampling.cone_angle);
       penumbra[rays.slot[i]] =
