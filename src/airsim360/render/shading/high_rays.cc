@@ -90,101 +90,142 @@ Vec3f WithinPixel(const RaySet& rays, const SurfaceSet& s, int i, Vec2f offset, 
   return (beside * stretch - d) * rays.distance[i];
 }
 
+// Rays of a tile's surfaces to the sun's disc.
+class SunTile {
+ public:
+  SunTile(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s)
+      : shader_(shader),
+        to_sun_(shader.sky->to_sun()),
+        sampling_(sampling),
+        rays_(rays),
+        s_(s),
+        directions_(to_sun_, sampling.seed + 0x9e3779b9u * sampling.tile),
+        queue_(kMaskSolid) {
+    for (int i = 0; i < rays.count; ++i) any_ |= (asked_[i] = s.sunlit[i] != 0);
+  }
+  bool any() const { return any_; }
+
+  // One ray each; true if some see the sun and some do not.
+  bool TraceOne() {
+    directions_.Make(0, 1);
+    const auto flush = [&] {
+      float share[16];
+      SeenShare(*shader_.tracer, shader_.tables, queue_, share);
+      for (int k = 0; k < queue_.count; ++k) {
+        s_.sunlit[queue_.lane[k]] = share[k] > 0 ? 1.0f : 0.0f;
+        clear_[queue_.lane[k]] = share[k];
+      }
+      queue_.count = 0;
+    };
+    for (int i = 0; i < rays_.count; ++i) {
+      if (!asked_[i]) continue;
+      queue_.Add(SunStart(rays_, s_, i, to_sun_), directions_.at[0][Phase(i)], i);
+      if (queue_.count == 16) flush();
+    }
+    if (queue_.count > 0) flush();
+    bool lit = false, dark = false;
+    for (int i = 0; i < rays_.count; ++i) {
+      if (asked_[i]) (s_.sunlit[i] != 0 ? lit : dark) = true;
+    }
+    return lit && dark;
+  }
+
+  // More where neighbours disagree, from all over the pixel, in rounds while they differ.
+  void TraceEdges(uint8_t* penumbra) {
+    const SurfaceGrid grid(*sampling_.layout, rays_);
+    int edge[kBatch], count = 0;
+    for (int pixel = 0; pixel < 256; ++pixel) {
+      const int i = grid.at[pixel];
+      if (i >= 0 && asked_[i] && AtShadowEdge(rays_, s_, grid, asked_, pixel)) edge[count++] = i;
+    }
+    for (int round = 0; round < kSunRounds && count > 0; ++round) {
+      TraceRound(edge, count, round);
+      const int sent = kSunRound * (round + 1);
+      int mixed = 0;
+      for (int n = 0; n < count; ++n) {
+        const int i = edge[n];
+        s_.sunlit[i] = static_cast<float>(sent - blocked_[i]) / static_cast<float>(sent);
+        if (blocked_[i] == 0 || blocked_[i] == sent) continue;
+        edge[mixed++] = i;
+        if (round == 0) penumbra[rays_.slot[i]] = Smoothing(i);
+      }
+      count = mixed;
+    }
+  }
+
+  // What clear panes on the way take.
+  void DimByGlass() {
+    if (!shader_.tracer->has_clear_panes()) return;
+    for (int i = 0; i < rays_.count; ++i) {
+      if (asked_[i] && clear_[i] > 0) s_.sunlit[i] *= clear_[i];
+    }
+  }
+
+ private:
+  int Phase(int i) const { return sampling_.layout->phase[rays_.slot[i]]; }
+
+  void TraceRound(const int* edge, int count, int round) {
+    const int first = kSunRound * round, last = first + kSunRound;
+    directions_.Make(first, last);
+    for (int n = 0; n < count; ++n) {
+      const int i = edge[n], phase = Phase(i);
+      const Vec3f start = SunStart(rays_, s_, i, to_sun_);
+      for (int k = first; k < last; ++k) {
+        queue_.Add(start + WithinPixel(rays_, s_, i, directions_.offset[k][phase], sampling_.cone_angle),
+                   directions_.at[k][phase], i);
+        if (queue_.count == 16) Count(round == 0);
+      }
+    }
+    if (queue_.count > 0) Count(round == 0);
+  }
+
+  // Adds up what a full queue meets; without distances, at half the cost, only whether.
+  void Count(bool distances) {
+    bool occluded[16] = {};
+    queue_.Close();
+    if (distances)
+      shader_.tracer->Intersect16(queue_.valid, queue_.rays, false);
+    else
+      shader_.tracer->Occluded16(queue_.valid, queue_.rays, occluded, false);
+    for (int k = 0; k < queue_.count; ++k) {
+      const int i = queue_.lane[k];
+      if (distances) {
+        occluded[k] = queue_.rays.geometry[k] != kMiss;
+        if (occluded[k]) away_[i] += queue_.rays.t_far[k];
+      }
+      blocked_[i] += occluded[k] ? 1 : 0;
+    }
+    queue_.count = 0;
+  }
+
+  // A fifth of the penumbra's width, in pixels: how far the blockers are tells how wide it is.
+  uint8_t Smoothing(int i) const {
+    const float width = kSunAngle * away_[i] / static_cast<float>(blocked_[i]);
+    const float pixels = width / std::max(1e-6f, rays_.distance[i] * sampling_.cone_angle);
+    return static_cast<uint8_t>(std::min(static_cast<float>(kMaxSmoothing), pixels * 0.2f));
+  }
+
+  const Shader::Impl& shader_;
+  const Vec3f to_sun_;
+  const TileSampling& sampling_;
+  const RaySet& rays_;
+  SurfaceSet& s_;
+  SunDirections directions_;
+  RayQueue queue_;
+  bool any_ = false;
+  uint8_t asked_[kBatch];
+  float clear_[kBatch], away_[kBatch] = {};
+  int blocked_[kBatch] = {};
+};
+
 }  // namespace
 
 void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s,
                   uint8_t* penumbra) {
-  const RayTracer& tracer = *shader.tracer;
-  const Vec3f to_sun = shader.sky->to_sun();
-  uint8_t asked[kBatch];
-  bool any = false;
-  for (int i = 0; i < rays.count; ++i) any |= (asked[i] = s.sunlit[i] != 0);
-  if (!any) return;
-  SunDirections directions(to_sun, sampling.seed + 0x9e3779b9u * sampling.tile);
-  directions.Make(0, 1);
-  const uint8_t* phase = sampling.layout->phase;
-
-  // One ray each.
-  RayQueue queue(kMaskSolid);
-  float clear[kBatch];  // what panes on the way leave
-  const auto flush = [&] {
-    float share[16];
-    SeenShare(tracer, shader.tables, queue, share);
-    for (int i = 0; i < queue.count; ++i) {
-      s.sunlit[queue.lane[i]] = share[i] > 0 ? 1.0f : 0.0f;
-      clear[queue.lane[i]] = share[i];
-    }
-    queue.count = 0;
-  };
-  bool lit = false, dark = false;
-  for (int i = 0; i < rays.count; ++i) {
-    if (!asked[i]) continue;
-    queue.Add(SunStart(rays, s, i, to_sun), directions.at[0][phase[rays.slot[i]]], i);
-    if (queue.count == 16) flush();
-  }
-  if (queue.count > 0) flush();
-  for (int i = 0; i < rays.count; ++i) {
-    if (asked[i]) (s.sunlit[i] != 0 ? lit : dark) = true;
-  }
-
-  // More where neighbours disagree, from all over the pixel, in rounds while they differ; how far the
-  // blockers are tells how wide the penumbra is.
-  const SurfaceGrid grid(*sampling.layout, rays);
-  int edge[kBatch], count = 0;
-  for (int pixel = 0; pixel < (lit && dark ? 256 : 0); ++pixel) {
-    const int i = grid.at[pixel];
-    if (i >= 0 && asked[i] && AtShadowEdge(rays, s, grid, asked, pixel)) edge[count++] = i;
-  }
-  float away[kBatch] = {};
-  int blocked[kBatch] = {};
-  // The first round tells distances, too; whether something is there at all costs half as much.
-  const auto look = [&](bool distances) {
-    bool occluded[16] = {};
-    queue.Close();
-    if (distances)
-      tracer.Intersect16(queue.valid, queue.rays, false);
-    else
-      tracer.Occluded16(queue.valid, queue.rays, occluded, false);
-    for (int k = 0; k < queue.count; ++k) {
-      if (distances && queue.rays.geometry[k] != kMiss) {
-        ++blocked[queue.lane[k]];
-        away[queue.lane[k]] += queue.rays.t_far[k];
-      }
-      blocked[queue.lane[k]] += occluded[k];
-    }
-    queue.count = 0;
-  };
-  for (int round = 1, sent = 0; round <= kSunRounds && count > 0; ++round) {
-    directions.Make(sent, kSunRound * round);
-    for (int n = 0; n < count; ++n) {
-      const int i = edge[n], at = phase[rays.slot[i]];
-      const Vec3f start = SunStart(rays, s, i, to_sun);
-      for (int k = sent; k < kSunRound * round; ++k) {
-        queue.Add(start + WithinPixel(rays, s, i, directions.offset[k][at], sampling.cone_angle),
-                  directions.at[k][at], i);
-        if (queue.count == 16) look(round == 1);
-      }
-    }
-    if (queue.count > 0) look(round == 1);
-    sent = kSunRound * round;
-    int mixed = 0;
-    for (int n = 0; n < count; ++n) {
-      const int i = edge[n];
-      s.sunlit[i] = static_cast<float>(sent - blocked[i]) / static_cast<float>(sent);
-      if (blocked[i] == 0 || blocked[i] == sent) continue;
-      edge[mixed++] = i;
-      if (round > 1) continue;
-      const float width = kSunAngle * away[i] / static_cast<float>(blocked[i]);
-      const float pixels = width / std::max(1e-6f, rays.distance[i] * sampling.cone_angle);
-      penumbra[rays.slot[i]] =
-          static_cast<uint8_t>(std::min(static_cast<float>(kMaxSmoothing), pixels * 0.2f));
-    }
-    count = mixed;
-  }
-  if (!tracer.has_clear_panes()) return;
-  for (int i = 0; i < rays.count; ++i) {
-    if (asked[i] && clear[i] > 0) s.sunlit[i] *= clear[i];
-  }
+  SunTile sun(shader, sampling, rays, s);
+  if (!sun.any()) return;
+  if (sun.TraceOne()) sun.TraceEdges(penumbra);
+  sun.DimByGlass();
 }
 
 namespace {
