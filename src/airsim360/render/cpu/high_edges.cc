@@ -105,6 +105,7 @@ class EdgeTile {
         const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 -
                            Dot(n, buffers_.normal(u, v)) +
                            std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) +
+                           (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
                            1e-3f * static_cast<float>(dx * dx + (v - cy) * (v - cy));
         if (cost < best_cost) best_cost = cost, best = int64_t{v} * width + u;
       }
