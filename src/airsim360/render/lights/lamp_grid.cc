@@ -60,6 +60,19 @@ LampRecord Record(const Lamp& lamp) {
   return record;
 }
 
+// Whether a ray met a surface from behind.
+bool MeetsBack(const RayTracer& tracer, const RayHit16& r, int k) {
+  if (r.geometry[k] == kMiss) return false;
+  const SurfaceRef ref = tracer.Resolve(r.geometry[k], r.instance[k], r.primitive[k]);
+  const Instance& instance = tracer.scene().instances[ref.instance];
+  const Mesh& mesh = tracer.scene().meshes[instance.mesh];
+  const Vec3u t = mesh.triangles[ref.triangle];
+  const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y],
+              c = instance.X_WM * mesh.positions[t.z];
+  const Vec3f normal = Cross(b - a, c - a) * (instance.X_WM.A.determinant() < 0 ? -1.0f : 1.0f);
+  return Dot(normal, Vec3f{r.direction_x[k], r.direction_y[k], r.direction_z[k]}) > 0;
+}
+
 // Two lamps seen as one.
 Lamp Join(const Lamp& a, const Lamp& b) {
   Lamp out = a;
@@ -233,28 +246,26 @@ std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
     }
   });
 
-  // A corner from which the surface above or below shows its back is in a solid. Seen from there lamps tell
-  // nothing.
+  // A corner from which the surface above it, or towards its strongest lamp, shows its back is in a solid.
+  // Seen from there lamps tell nothing.
   ParallelFor((static_cast<int64_t>(places.size()) + 15) / 16, [&](int64_t run) {
     const FlushDenormals flush;
     const size_t first = static_cast<size_t>(run) * 16, last = std::min(first + 16, places.size());
-    Packet packet;
-    for (size_t i = first; i < last; ++i)
-      packet.Set(static_cast<int>(i - first), CornerPosition(places[i]), {0.011f, 0.007f, 1}, INFINITY);
-    tracer.Intersect16(packet.valid, packet.rays, false);
-    for (size_t i = first; i < last; ++i) {
-      const size_t k = i - first;
-      const RayHit16& r = packet.rays;
-      if (r.geometry[k] == kMiss || corners[i].seen != 0) continue;
-      const SurfaceRef ref = tracer.Resolve(r.geometry[k], r.instance[k], r.primitive[k]);
-      const Scene& scene = tracer.scene();
-      const Instance& instance = scene.instances[ref.instance];
-      const Mesh& mesh = scene.meshes[instance.mesh];
-      const Vec3u t = mesh.triangles[ref.triangle];
-      const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y],
-                  c = instance.X_WM * mesh.positions[t.z];
-      const float side = Cross(b - a, c - a).z * (instance.X_WM.A.determinant() < 0 ? -1.0f : 1.0f);
-      corners[i].solid = side > 0;
+    for (const bool upwards : {true, false}) {
+      Packet packet;
+      for (size_t i = first; i < last; ++i) {
+        if (corners[i].seen != 0 || corners[i].count == 0) continue;
+        const Vec3f p = CornerPosition(places[i]);
+        const LampRecord& lamp = records_[corners[i].lamp[0]];
+        const Vec3f to = Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p;
+        packet.Set(static_cast<int>(i - first), p, upwards ? Vec3f{0.011f, 0.007f, 1} : Normalized(to),
+                   INFINITY);
+      }
+      tracer.Intersect16(packet.valid, packet.rays, false);
+      for (size_t i = first; i < last; ++i) {
+        const auto k = static_cast<int>(i - first);
+        if (packet.valid[k] != 0) corners[i].solid |= MeetsBack(tracer, packet.rays, k);
+      }
     }
   });
   return corners;
@@ -365,10 +376,14 @@ Vec3f LampGrid::NearIrradiance(Vec3f p, Vec3f n) const {
 float LampGrid::TypicalLight() const {
   std::vector<float> light;
   for (size_t i = 1; i < sides_.size(); ++i) light.push_back(Luminance(sides_[i][4]));
-  if (light.empty()) return 0;
-  const auto quartile = light.begin() + static_cast<int64_t>(light.size() * 3 / 4);
-  std::nth_element(light.begin(), quartile, light.end());
-  return *quartile;
+  std::sort(light.begin(), light.end());
+  double sum = 0, below = 0;
+  for (float e : light) sum += e;
+  for (float e : light) {
+    below += e;
+    if (2 * below >= sum) return e;
+  }
+  return 0;
 }
 
 LampView LampGrid::view() const {

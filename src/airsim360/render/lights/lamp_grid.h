@@ -32,8 +32,8 @@ class LampGrid {
 
   /// Roughly the same, as the nearest cell has it on average; for light that bounces.
   Vec3f NearIrradiance(Vec3f p, Vec3f normal) const;
-  /// Irradiance that lit places have: the upper quartile over cells of what falls on a level surface. 0 if no
-  /// lamp reaches any.
+  /// Irradiance that lit places have: half of all light that level surfaces get falls on brighter ones. 0 if
+  /// no lamp reaches any.
   float TypicalLight() const;
 
  private:

@@ -151,7 +151,8 @@ TEST(LampLight, NoLampLightsThroughAWall) {
   world.Add(Ball({-3, 1, 2}, 0.1f), 0, {1, 1, 1});
   world.Add(Quad({0, -30, 0}, {0, 30, 0}, {0, 30, 20}, {0, -30, 20}), 0.2f);
   world.Build();
-  for (float x : world.Light({{0.3f, 0, 0}, {1, 1, 0}, {3, -1, 0}, {8, 0, 0}})) EXPECT_EQ(x, 0);
+  // What the cells guessed is taken back, up to rounding.
+  for (float x : world.Light({{0.3f, 0, 0}, {1, 1, 0}, {3, -1, 0}, {8, 0, 0}})) EXPECT_NEAR(x, 0, 1e-8f);
   for (float x : world.Light({{-0.3f, 0, 0}, {-1, 1, 0}, {-3, -1, 0}, {-8, 0, 0}})) EXPECT_GT(x, 0);
 }
 
