@@ -9,7 +9,7 @@
 namespace airsim360::internal::park {
 namespace {
 
-constexpr float kOverhang = 0.55f, kWallStart = -1.2f;
+constexpr float kOverhang = 0.55f, kWallStart = -3.5f;
 
 struct House {
   Vec2f at;
