@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 
@@ -18,6 +19,7 @@ struct RenderArguments {
                            out;
   double fov_deg = 0;  // 0: not given
   bool normal = false;
+  EnvironmentFlags environment;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -96,7 +98,8 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  spec.environment = DescribeEnvironment(world.environment);
   if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
@@ -130,6 +133,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  AddEnvironmentFlags(*command, arguments->environment);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }

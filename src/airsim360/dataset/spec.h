@@ -31,6 +31,7 @@ struct DatasetSpec {
   int64_t frames = 1;             ///< of the whole dataset, all shards together
   int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+  std::string environment;        ///< DescribeEnvironment of what was rendered
 };
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube
