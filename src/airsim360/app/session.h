@@ -19,7 +19,7 @@ struct OpenedWorld {
   std::shared_ptr<const RayTracer> tracer;
   std::unique_ptr<Renderer> renderer;
   Environment environment;  ///< the world's own with what the flags say
-  double load_ms = 0;  ///< building or importing the scene and its ray tracing structure
+  double load_ms = 0;       ///< building or importing the scene and its ray tracing structure
 };
 OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags = {});
 

@@ -67,7 +67,8 @@ void ApplySettings(std::string_view text, Environment& environment) {
       continue;
     }
     const auto& fields = EnvironmentFields();
-    const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
     if (field == fields.end()) {
       std::vector<std::string> names = {"lamps"};
       for (const EnvironmentField& f : fields) names.emplace_back(f.name);

@@ -11,8 +11,8 @@
 
 namespace airsim360 {
 
-/// A sky picture: .hdr/.pic (Radiance) or .exr, twice as wide as high, at most 2^26 pixels. Its name holds the
-/// file's name and hash. InputError naming the file otherwise.
+/// A sky picture: .hdr/.pic (Radiance) or .exr, twice as wide as high, at most 2^26 pixels. Its name holds
+/// the file's name and hash. InputError naming the file otherwise.
 std::shared_ptr<const SkyPicture> LoadSkyPicture(const std::filesystem::path& file);
 
 /// Sets the sun's place of a time and place given as texts ("2026-06-21T14:30+02:00", "52.5,13.4"); both or

@@ -1,7 +1,6 @@
 #include "airsim360/sim/world_environment.h"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <filesystem>
@@ -42,8 +41,8 @@ std::string ErrorOf(const std::function<void()>& action) {
 }
 
 TEST_F(WorldEnvironment, AWorldFileSetsWhatItNamesAndKeepsTheRest) {
-  const fs::path file = Write("w.yaml",
-                              "world: box_room\nenvironment:\n  weather: rain\n  rain_mm_h: 12\n  lamps: on\n");
+  const fs::path file =
+      Write("w.yaml", "world: box_room\nenvironment:\n  weather: rain\n  rain_mm_h: 12\n  lamps: on\n");
   const Environment e = LoadWorld({.world = file})->environment;
   EXPECT_EQ(e.rain_mm_h, 12);
   EXPECT_EQ(e.cloud_cover, 1);
@@ -76,7 +75,8 @@ TEST_F(WorldEnvironment, MistakesInAWorldFileAreNamed) {
 TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
   Environment base;
   base.turbidity = 5;
-  const Environment e = ApplyFlags({.weather = "overcast", .sun = "10,20", .settings = "cloud_cover=0.5,lamps=off"}, base);
+  const Environment e =
+      ApplyFlags({.weather = "overcast", .sun = "10,20", .settings = "cloud_cover=0.5,lamps=off"}, base);
   EXPECT_EQ(e.turbidity, 5);
   EXPECT_EQ(e.sun_azimuth_deg, 10);
   EXPECT_EQ(e.cloud_cover, 0.5);

@@ -88,7 +88,8 @@ Vec3f AtHeight(float height) { return {0, 0, kGroundRadius + height}; }
 // Aerosol optical depth at 550 nm from Linke's turbidity, a linear fit over clean to hazy continental air.
 ClearAir::ClearAir(double turbidity)
     : rayleigh(kRayleigh),
-      aerosol(kAngstrom * (static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0))) / kAerosolHeight)) {}
+      aerosol(kAngstrom *
+              (static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0))) / kAerosolHeight)) {}
 
 Atmosphere::Atmosphere(Vec3f to_sun, double turbidity)
     : to_sun_(to_sun),
@@ -171,7 +172,8 @@ Vec3f Atmosphere::SunTransmittance(float height, float mu) const {
   const float seen = std::clamp(0.5f + (mu - horizon) / (2 * kRadius), 0.0f, 1.0f);
   if (seen <= 0) return {};
   const float t = std::sqrt(std::max(0.0f, mu - horizon) / (1 - horizon));
-  return Interpolate(sun_transmittance_, kSuns, kHeights, t * (kSuns - 1), HeightRow(height, kHeights)) * seen;
+  return Interpolate(sun_transmittance_, kSuns, kHeights, t * (kSuns - 1), HeightRow(height, kHeights)) *
+         seen;
 }
 
 Vec3f Atmosphere::MultipleAt(float height, float mu) const {
@@ -218,7 +220,8 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotrop
   if (isotropic && ground > 0) {
     const Vec3f q = p + direction * ground;
     const float sun = Dot(q, to_sun) / Norm(q);
-    light += through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
+    light +=
+        through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
   }
   if (multiple_factor) *multiple_factor = factor;
   return light;

@@ -183,8 +183,8 @@ float Clouds::SunAt(float x, float y) const {
   float depth = 0;
   for (int i = 0; i < kSteps; ++i)
     depth += Density(Vec3f{x, y, 0} + to_sun * (first + (static_cast<float>(i) + 0.5f) * step), 1) * step;
-  // What scatters forwards through the cloud still comes from about the sun: a floor, and a softer fall than of
-  // the direct beam alone.
+  // What scatters forwards through the cloud still comes from about the sun: a floor, and a softer fall than
+  // of the direct beam alone.
   return 0.10f + 0.90f * Exp(-0.4f * kExtinction * depth);
 }
 

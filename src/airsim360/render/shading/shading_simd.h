@@ -77,10 +77,9 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
   store(y, a.y);
   store(z, a.z);
 }
-#include "airsim360/render/shading/shading_shared.h"
-
 #include "airsim360/render/shading/shading_air.h"
 #include "airsim360/render/shading/shading_air_view.h"
+#include "airsim360/render/shading/shading_shared.h"
 #undef SHARED
 #undef INOUT
 

@@ -10,7 +10,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-// Koschmieder: a black object keeps a contrast of 0.05 at the visibility (WMO's meteorological optical range).
+// Koschmieder: a black object keeps a contrast of 0.05 at the visibility (WMO's meteorological optical
+// range).
 constexpr float kKoschmieder = 2.996f;
 constexpr float kFogHeight = 160, kPrecipitationHeight = 1500;  // m; fog layers are 50 to 400 m deep
 // Upward radiance of a deep fog over pi times the level illuminance above it; the rest goes back to space.
@@ -54,7 +55,8 @@ void Sky::BakeAir(const Environment& environment) {
   Vec3f mean{};
   for (int k = 0; k < kAround * kUp; ++k) {
     const float azimuth = (static_cast<float>(k / kUp) + 0.5f) * 2 * kPi / kAround;
-    ring[k / kUp] += table_.At(DirectionOf(azimuth, 0.006f + 0.007f * static_cast<float>(k % kUp))) * (1.0f / kUp);
+    ring[k / kUp] +=
+        table_.At(DirectionOf(azimuth, 0.006f + 0.007f * static_cast<float>(k % kUp))) * (1.0f / kUp);
   }
   for (const Vec3f c : ring) mean += c * (1.0f / kAround);
   Vec3f glow{};
@@ -81,17 +83,20 @@ void Sky::BakeWeather(const Environment& environment) {
   const float falling = PrecipitationExtinction(environment.rain_mm_h, environment.snowfall_mm_h);
   float fog = 0;
   if (environment.visibility_m > 0) {
-    fog = std::max(0.0f, kKoschmieder / static_cast<float>(environment.visibility_m) - extinction_.y - falling);
+    fog =
+        std::max(0.0f, kKoschmieder / static_cast<float>(environment.visibility_m) - extinction_.y - falling);
   }
   air_.weather = fog + falling;
   air_.weather_height = (fog * kFogHeight + falling * kPrecipitationHeight) / std::max(air_.weather, 1e-9f);
-  const Vec3f level = Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
+  const Vec3f level =
+      Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
   const float depth = air_.weather * air_.weather_height / std::max(to_sun_.z, 0.05f);
   sun_irradiance_ *= std::exp(-depth);
   Put(air_.weather_light, level * (kFogShare / kPi));
   // A forward peak passes several times the direct light.
   Put(air_.weather_glow, sun_irradiance_ * (std::exp(0.6f * std::min(depth, 8.0f)) / (4 * kPi)));
-  air_.rain = static_cast<float>(environment.rain_mm_h), air_.snow = static_cast<float>(environment.snowfall_mm_h);
+  air_.rain = static_cast<float>(environment.rain_mm_h),
+  air_.snow = static_cast<float>(environment.snowfall_mm_h);
   Put(air_.drop_light, level * (0.75f / kPi));
 }
 

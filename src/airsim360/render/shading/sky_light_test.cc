@@ -43,12 +43,13 @@ TEST(SkyLight, ClearSkyIlluminanceIsWithinFifteenPerCentOfTheIesModel) {
     const double direct_ies = 127.5 * std::exp(-0.21 / s) * s, diffuse_ies = 0.8 + 15.5 * std::sqrt(s);
     EXPECT_NEAR((direct + diffuse) / (direct_ies + diffuse_ies), 1, 0.15) << degrees;
     EXPECT_NEAR(diffuse / diffuse_ies, 1, 0.15) << degrees;
-    RecordProperty("global_klx_" + std::to_string(static_cast<int>(degrees)), std::to_string(direct + diffuse));
+    RecordProperty("global_klx_" + std::to_string(static_cast<int>(degrees)),
+                   std::to_string(direct + diffuse));
   }
 }
 
-// Illuminance of level ground, Explanatory Supplement to the Astronomical Almanac (Seidelmann 1992): about 760 lx
-// with the sun on the horizon, 3.4 lx at -6 degrees. Air and refraction make a factor of two.
+// Illuminance of level ground, Explanatory Supplement to the Astronomical Almanac (Seidelmann 1992): about
+// 760 lx with the sun on the horizon, 3.4 lx at -6 degrees. Air and refraction make a factor of two.
 TEST(SkyLight, TwilightFallsAsTheAlmanacSays) {
   const auto lux = [](double degrees) {
     return ClearDiffuse(Atmosphere(Direction(0, degrees * kPi / 180), 2.5)) * kLuxPerUnit;
@@ -81,8 +82,8 @@ TEST(SkyLight, OvercastIsThreeTimesBrighterAtTheZenithAndGivesTheIlluminanceAske
   constexpr int kUp = 100, kAround = 100;
   for (int k = 0; k < kUp * kAround; ++k) {
     const double z = std::sqrt((k / kAround + 0.5) / kUp);
-    level += Luminance(deck.Over(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)), {})) * kPi /
-             (kUp * kAround);
+    level += Luminance(deck.Over(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)), {})) *
+             kPi / (kUp * kAround);
   }
   for (int k = 0; k < 400; ++k) {
     zenith += Luminance(deck.Over(Direction(k * 0.7, kPi / 2 - 0.3 * std::sqrt((k + 0.5) / 400)), {})) / 400;
