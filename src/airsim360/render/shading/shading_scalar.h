@@ -33,9 +33,11 @@ SHARED real mantissa_of(real a) {
   return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
 }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-#include "airsim360/render/shading/shading_air.h"
-#include "airsim360/render/shading/shading_air_view.h"
 #include "airsim360/render/shading/shading_shared.h"
+// In this order.
+#include "airsim360/render/shading/shading_air.h"
+// clang-format keeps apart what a comment parts.
+#include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT
 

@@ -77,9 +77,11 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
   store(y, a.y);
   store(z, a.z);
 }
-#include "airsim360/render/shading/shading_air.h"
-#include "airsim360/render/shading/shading_air_view.h"
 #include "airsim360/render/shading/shading_shared.h"
+// In this order.
+#include "airsim360/render/shading/shading_air.h"
+// clang-format keeps apart what a comment parts.
+#include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT
 
