@@ -9,11 +9,13 @@
 namespace airsim360::internal {
 namespace {
 
-// Bruneton & Neyret (2008) for Rayleigh and ozone in the sRGB primaries; the aerosol follows Angstrom's law
+// Bruneton & Neyret (2008) for Rayleigh in the sRGB primaries; the aerosol follows Angstrom's law
 // with exponent 1.3.
 constexpr float kGroundRadius = 6360e3f, kTopRadius = 6440e3f, kEyeHeight = 60.0f;
 constexpr Vec3f kRayleigh{5.802e-6f, 13.558e-6f, 33.1e-6f};
-constexpr Vec3f kOzone{0.650e-6f, 1.881e-6f, 0.085e-6f};
+// Ozone's Chappuis band is strongest at 600 nm: in the broad red of a display it takes a little more than in
+// the green (at 680 nm, as often used, dusk would turn purple).
+constexpr Vec3f kOzone{2.10e-6f, 1.90e-6f, 0.18e-6f};
 constexpr Vec3f kAngstrom{0.78f, 1.0f, 1.30f};
 constexpr float kAerosolAlbedo = 0.94f, kAsymmetry = 0.76f;
 constexpr Vec3f kGroundAlbedo{0.22f, 0.22f, 0.20f};

@@ -22,19 +22,19 @@ KERNEL real Rain(float rate, real3 o, real3 d, real reach, float spread) {
   // In the leaning frame drops fall straight down.
   const real x = o.x - o.z * kLean;
   const real3 s = make3(d.x - d.z * kLean, d.y, d.z);
-  const float keep = Keep(rate, 0.05f, 0.95f);
+  const float keep = Keep(rate, 0.09f, 0.95f);
   const real near =
-      drops_cover(x, o.y, o.z, s, reach, spread, 0.40f, 0.55f, 0.22f, 0.0011f, keep, 5.0f, 3.0f);
-  const real far = drops_cover(x, o.y, o.z, s, reach, spread, 1.3f, 0.9f, 0.34f, 0.0030f, keep, 17.0f, 41.0f);
+      drops_cover(x, o.y, o.z, s, reach, spread, 0.40f, 0.48f, 0.30f, 0.0016f, keep, 5.0f, 3.0f);
+  const real far = drops_cover(x, o.y, o.z, s, reach, spread, 1.1f, 0.8f, 0.45f, 0.0045f, keep, 15.0f, 41.0f);
   return (1.0f - (1.0f - near) * (1.0f - far)) * kDropOpacity;
 }
 
 KERNEL real Snow(float rate, real3 o, real3 d, real reach, float spread) {
   const float keep = Keep(rate, 0.28f, 0.95f);
   const real near =
-      drops_cover(o.x, o.y, o.z, d, reach, spread, 0.34f, 0.40f, 0.0f, 0.0045f, keep, 4.5f, 5.0f);
+      drops_cover(o.x, o.y, o.z, d, reach, spread, 0.30f, 0.13f, 0.0f, 0.0040f, keep, 4.5f, 5.0f);
   const real far =
-      drops_cover(o.x, o.y, o.z, d, reach, spread, 0.85f, 0.60f, 0.0f, 0.0080f, keep, 11.0f, 53.0f);
+      drops_cover(o.x, o.y, o.z, d, reach, spread, 0.75f, 0.24f, 0.0f, 0.0085f, keep, 11.0f, 53.0f);
   return 1.0f - (1.0f - near) * (1.0f - far);
 }
 

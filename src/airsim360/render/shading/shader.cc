@@ -62,7 +62,11 @@ struct Shader::Impl {
     const bool lamps = environment.lamps_on() && std::any_of(scene.materials.begin(), scene.materials.end(),
                                                              [](const Material& m) { return m.lamp; });
     const float light = sky->GroundIlluminance() + (lamps ? kLampLight : 0.0f);
-    return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
+    // A camera meters the sky too, which is far brighter than the ground where the sun gives no shadows.
+    constexpr float kClearShare = 0.15f, kWeight = 0.6f;
+    const float diffuse = luminance(sky->Irradiance({0, 0, 1})) / std::max(light, kDarkest);
+    const float metered = 1 / (1 + kWeight * std::max(0.0f, diffuse - kClearShare));
+    return metered * kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
   }
 
   void ShadeReflections(const RaySet& rays, SurfaceSet& s) const;  // fills reflected_*, traced

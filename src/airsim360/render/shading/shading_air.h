@@ -1,14 +1,14 @@
 // The air: extinction that falls with height, the light it adds, shadows of clouds, rain and snow. In the
 // subset of shading_shared.h, after which it is included; not a normal header.
 
-// Largest part of a scale height that is told apart below the base of a layer, and largest optical exponent.
+// How many scale heights below its base a layer still grows denser, and how many a ray may go down.
 #define AIR_DEEPEST 2.0f
 #define AIR_STEEPEST 60.0f
 
 // Path through a layer whose extinction falls as exp(-height / scale): in metres of its extinction at height
 // 0. `height` of the origin, `slope` = sine of the ray's elevation.
 SHARED real layer_path(real height, real slope, real distance, ufloat scale) {
-  real x = rmin(rmax(slope * distance * (1.0f / scale), real(-AIR_STEEPEST)), real(AIR_STEEPEST));
+  real x = rmax(slope * distance * (1.0f / scale), real(-AIR_STEEPEST));
   // (1 - exp(-x)) / x, by its series where that would cancel.
   real small_x = rmax(rabs(x), real(1e-2f));
   real divided = sel(x < 0.0f, 0.0f - small_x, small_x);
@@ -23,9 +23,13 @@ SHARED real forward_phase(ufloat g, real mu) {
   return (1.0f - g * g) / rmax(d * rroot(d), real(1e-4f));
 }
 
-// A function of azimuth as five harmonics of the horizontal direction.
-SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufloat3 cxy, real3 d) {
-  real3 c = cx * d.x + cy * d.y + cxx * (d.x * d.x - d.y * d.y) + cxy * (2.0f * d.x * d.y);
+// A function of azimuth as seven harmonics of the horizontal direction.
+SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufloat3 cxy, ufloat3 cx3,
+                            ufloat3 cy3, real3 d) {
+  real x2 = d.x * d.x;
+  real y2 = d.y * d.y;
+  real3 c = cx * d.x + cy * d.y + cxx * (x2 - y2) + cxy * (2.0f * d.x * d.y);
+  c = c + cx3 * (d.x * (x2 - 3.0f * y2)) + cy3 * (d.y * (3.0f * x2 - y2));
   c = c + c0;
   return make3(rmax(c.x, real(0.0f)), rmax(c.y, real(0.0f)), rmax(c.z, real(0.0f)));
 }

@@ -219,7 +219,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "leaf_diffuse(n, v[0], v[1]);\n"
            "  v[0] = srgb_encode(luminance(tone_curve(c))) + asin_approx(v[3]) + fresnel_dielectric(1.5, "
            "v[4]) + lost +\n"
-           "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, c).x + shadow_column(v[0], v[1], "
+           "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + shadow_column(v[0], v[1], "
            "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, 5.0, "
            "1.0) + forward_phase(0.7, v[1]); }\n";
   }

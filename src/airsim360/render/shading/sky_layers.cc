@@ -83,7 +83,7 @@ Vec3f CloudDeck::Over(Vec3f direction, Vec3f behind) const {
   const float near = std::exp(-t / 5000);
   const float rolls = FractalNoise(x / 1500 + 3, y / 900, 5, 91) - 0.5f,
               billows = FractalNoise(x / 420, y / 330 + 8, 4, 95) - 0.5f;
-  const float structure = 1 + near * (0.62f * rolls + 0.26f * billows);
+  const float structure = 1 + near * (0.95f * rolls + 0.40f * billows);
   const Vec3f deck =
       Vec3f{0.955f, 1.0f, 1.06f} * (zenith_ * (1 + 2 * std::max(direction.z, 0.0f)) / 3 * structure);
   // Before it closes, holes where the sheet is thin.
