@@ -33,7 +33,7 @@ class CloudDeck {
   float SunLeft() const;
 
  private:
-  float closed_, zenith_;
+  float closed_, zenith_ = 0;
 };
 
 /// Illuminance of level ground under a thick overcast sky, in units: 300 + 21000 sin(elevation) lux
