@@ -45,6 +45,8 @@ TEST(SkyLight, ClearSkyIlluminanceIsWithinFifteenPerCentOfTheIesModel) {
     EXPECT_NEAR(diffuse / diffuse_ies, 1, 0.15) << degrees;
     RecordProperty("global_klx_" + std::to_string(static_cast<int>(degrees)),
                    std::to_string(direct + diffuse));
+    RecordProperty("sun_to_sky_" + std::to_string(static_cast<int>(degrees)),
+                   std::to_string(direct / diffuse));
   }
 }
 
