@@ -66,6 +66,9 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   rig.pano_frame = spec.pano_frame;
   rig.tier = spec.tier;
   rig.products = ProductsOf(spec);
+  rig.samples = spec.samples;
+  rig.seed = spec.seed;
+  rig.denoise = spec.denoise;
   return rig;
 }
 

@@ -32,7 +32,10 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
                               .X_WC = capture.X_WC,
                               .tier = rig.tier,
                               .products = rig.products,
-                              .exposure_ev = rig.exposure_ev};
+                              .exposure_ev = rig.exposure_ev,
+                              .samples = rig.samples,
+                              .denoise = rig.denoise,
+                              .seed = rig.seed};
   capture.stats = renderer.Render(request, capture.frame);
 }
 

@@ -24,6 +24,9 @@ struct PanoramicRig {
   Tier tier = Tier::kFast;
   Products products;
   double exposure_ev = 0;
+  int samples = 0;      ///< as RenderRequest::samples
+  bool denoise = true;  ///< as RenderRequest::denoise
+  uint64_t seed = 0;    ///< as RenderRequest::seed
 };
 
 /// Everything one trigger gave.

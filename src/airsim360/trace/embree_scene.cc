@@ -76,14 +76,21 @@ void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& u
   groups_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     if (uses[m] == 0) return;
-    auto opaque =
-        SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return !NeedsAlphaTest(x); });
+    auto opaque = SelectTriangles(scene.meshes[m], scene,
+                                  [](const Material& x) { return !NeedsAlphaTest(x) && !IsClearPane(x); });
     auto tested =
         SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return NeedsAlphaTest(x); });
+    auto panes = SelectTriangles(scene.meshes[m], scene,
+                                 [](const Material& x) { return !NeedsAlphaTest(x) && IsClearPane(x); });
     if (tested) tested->alpha = MakeAlpha(*tested, scene);
-    if (opaque) groups_[m].push_back(std::move(opaque));
-    if (tested) groups_[m].push_back(std::move(tested));
+    if (panes) panes->mask = kMaskClearPanes;
+    for (auto* group : {&opaque, &tested, &panes}) {
+      if (*group) groups_[m].push_back(std::move(*group));
+    }
   });
+  for (const MeshGroups& groups : groups_) {
+    for (const auto& group : groups) has_clear_panes_ |= group->mask == kMaskClearPanes;
+  }
 }
 
 // Embree reads 16 bytes at every vertex, so the buffer must go on for 4 bytes after the last one.
@@ -108,6 +115,7 @@ void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometr
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(Vec3u),
                              indices.size());
   rtcSetGeometryBuildQuality(g, quality);
+  rtcSetGeometryMask(g, geometry.mask);
   if (geometry.alpha) {
     rtcSetGeometryUserData(g, geometry.alpha.get());
     rtcSetGeometryIntersectFilterFunction(g, FilterAlpha);
@@ -138,6 +146,7 @@ void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTr
   RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   const Vec3f columns[4] = {X_WM.A.column(0), X_WM.A.column(1), X_WM.A.column(2), X_WM.p};
   rtcSetGeometryInstancedScene(g, sub_scene);
+  rtcSetGeometryMask(g, kMaskAll);
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(top_.get(), g, id);

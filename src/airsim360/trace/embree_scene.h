@@ -2,7 +2,8 @@
 //
 // A mesh used once is attached to the top-level scene, its vertices baked into W unless its transform is the
 // identity. A mesh used several times becomes a scene of its own with an instance for each use. The
-// alpha-tested triangles of a mesh are a geometry apart: only they pay for the filter.
+// alpha-tested triangles of a mesh are a geometry apart: only they pay for the filter. So are clear panes:
+// they have a mask bit of their own.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -34,6 +35,7 @@ struct MeshGeometry {
   std::vector<Vec3u> indices;       // own index buffer where `triangles` is not empty
   uint32_t primitive_count = 0;
   std::unique_ptr<AlphaGeometry> alpha;  // set where the triangles are alpha-tested
+  unsigned mask = kMaskSolid;
 };
 
 class EmbreeScene {
@@ -43,6 +45,7 @@ class EmbreeScene {
 
   RTCScene top() const { return top_.get(); }
   bool has_instances() const { return has_instances_; }
+  bool has_clear_panes() const { return has_clear_panes_; }
   const std::vector<HitSlot>& slots() const { return slots_; }
   const std::vector<uint32_t>& first_slots() const { return first_slots_; }
 
@@ -65,7 +68,7 @@ class EmbreeScene {
   std::vector<std::vector<Vec3f>> instance_vertices_;  // by instance: baked or padded copy
   std::vector<SceneHandle> sub_scenes_;                // by mesh; null where not instanced
   SceneHandle top_;
-  bool has_instances_ = false;
+  bool has_instances_ = false, has_clear_panes_ = false;
   std::vector<HitSlot> slots_;
   std::vector<uint32_t> first_slots_;
 };

@@ -84,6 +84,7 @@ RayTracer::RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions&
 
 RayTracer::~RayTracer() = default;
 
+bool RayTracer::has_clear_panes() const { return impl_->embree.has_clear_panes(); }
 const Scene& RayTracer::scene() const { return *impl_->scene; }
 std::span<const HitSlot> RayTracer::slots() const { return impl_->embree.slots(); }
 std::span<const uint32_t> RayTracer::first_slots() const { return impl_->embree.first_slots(); }

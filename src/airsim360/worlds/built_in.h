@@ -16,11 +16,21 @@ namespace airsim360::internal {
 std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions& options);
 WorldInfo BoxRoomInfo();
 
+/// A furnished room of 6 x 5 m with two windows of clear glass, and a garden outside.
+std::shared_ptr<const Scene> BuildSunlitRoom(const WorldOptions& options);
+WorldInfo SunlitRoomInfo();
+
 /// A downtown of nine blocks around a plaza and a park, with backdrop to the horizon.
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options);
 /// The same; `placements` receives every prop that was placed by the rule of free footprints.
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
                                                std::vector<Placement>* placements);
 WorldInfo DowntownWestInfo();
+
+/// A park around the bend of a road, with a lake, groves and lawns, woods to the horizon.
+std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options);
+/// The same; `placements` as above.
+std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements);
+WorldInfo CityParkInfo();
 
 }  // namespace airsim360::internal

@@ -155,11 +155,17 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
       material.metallic_roughness_texture = ids.roughness;
       if (ids.roughness != kNoTexture) material.roughness = 1;
       material.uv_scale = {1 / ids.tile, 1 / ids.tile};
-      // Shops are lit inside, faintly by day.
-      if (row.recipe >= R::kShop0 && row.recipe <= R::kShop2) {
-        material.emission = {0.65f, 0.58f, 0.46f};
+      // Shops and their signs shine in the evening.
+      if (IsPicture(row.recipe)) {
+        material.emission = Vec3f{1.0f, 0.88f, 0.70f} * ((row.recipe == R::kSigns ? 60 : 350) * kNit);
         material.emission_texture = ids.color;
+        material.lamp = true;
       }
+    }
+    // Somebody is at home behind these: warm light, through a curtain less of it.
+    if (row.surface == S::kGlassLit || row.surface == S::kGlassCurtain) {
+      material.emission = row.surface == S::kGlassLit ? Vec3f{110, 78, 44} * kNit : Vec3f{34, 22, 11} * kNit;
+      material.lamp = true;
     }
     surfaces.materials_[static_cast<size_t>(row.surface)] = builder.AddMaterial(std::move(material));
   }

@@ -21,6 +21,7 @@ ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const S
   view.instances = tables.instances.data();
   view.materials = tables.materials.data();
   view.textures = tables.textures.data();
+  view.mean_colors = tables.mean_colors.empty() ? nullptr : &tables.mean_colors[0].x;
   view.macro_texture = 1;
   view.ground_z = scene.bounds.empty() ? 0.0f : scene.bounds.min.z;
   if (probes) view.probes = probes->view();

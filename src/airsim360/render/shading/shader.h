@@ -44,8 +44,11 @@ class Shader {
   void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,
                Rgb8* out) const;
 
- private:
   struct Impl;
+  /// For the other tiers: shader_impl.h.
+  const Impl& impl() const { return *impl_; }
+
+ private:
   std::unique_ptr<const Impl> impl_;
 };
 

@@ -22,7 +22,8 @@ struct alignas(64) ColorLanes {
 KERNEL ufloat3 Uniform(const float* p) { return {p[0], p[1], p[2]}; }
 
 /// Bilinear look-up of a sky table; `full_sphere` as in SkyTable.
-static __attribute__((noinline)) real3 SampleSky(const SkyTableView& table, real3 d, bool full_sphere) {
+static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& table, real3 d,
+                                                         bool full_sphere) {
   real column = atan2_approx(d.y, d.x) * (table.width / (2.0f * SHADE_PI)) - 0.5f;
   column = sel(column < 0.0f, column + table.width, column);
   real e = asin_approx(rmin(rmax(d.z, real(-1.0f)), real(1.0f))) * (2.0f / SHADE_PI);
@@ -109,8 +110,8 @@ KERNEL Ambient UniformAmbient(const ShadeView& view, real3 n, real3 r) {
   return {sky(n), sky(-n), sky(r)};
 }
 
-static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g, real3 n,
-                                                      real3 r) {
+static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g,
+                                                              real3 n, real3 r) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, r);
 

@@ -32,11 +32,14 @@ SHARED real exponent_of(real a) { return static_cast<float>((std::bit_cast<int32
 SHARED real mantissa_of(real a) {
   return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
 }
+SHARED bool any_lane(mask_t m) { return m; }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shading/shading_shared.h"
-// In this order.
+//
+#include "airsim360/render/shading/shading_bsdf.h"
+//
 #include "airsim360/render/shading/shading_air.h"
-// clang-format keeps apart what a comment parts.
+//
 #include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT

@@ -10,10 +10,12 @@ namespace airsim360::internal {
 
 /// Octahedral packing of a unit vector, two times 16 bits (x low); the inverse is octahedral_decode.
 uint32_t PackDirection(Vec3f d);
+Vec3f UnpackDirection(uint32_t packed);
 
 /// Immutable; refers to the texels of the scene, which must outlive it.
 struct SurfaceTables {
-  explicit SurfaceTables(const Scene& scene);
+  /// `lamps_on`: whether materials with `lamp` shine (Environment::lamps_on).
+  explicit SurfaceTables(const Scene& scene, bool lamps_on = true);
 
   std::vector<TriangleRecord> triangles;
   std::vector<InstanceRecord> instances;
@@ -21,6 +23,8 @@ struct SurfaceTables {
   std::vector<TextureRecord> textures;  ///< 0 is white, 1 the macro variation noise, then the scene's
   /// Per material: base colour including the mean of its texture; for light that bounces.
   std::vector<Vec3f> mean_colors;
+  /// Likewise emission; 0 where it is off.
+  std::vector<Vec3f> mean_emissions;
 
  private:
   std::vector<uint32_t> own_texels_;

@@ -50,9 +50,10 @@ Material Glass(Vec3f color) {
   return m;
 }
 
-Material Glow(Vec3f color, float strength) {
-  Material m = Make("lamp", color, 0.3f);
-  m.emission = color * strength;
+Material Glow(Vec3f color, float nits, Burns burns) {
+  Material m = Make(burns == Burns::kAtNight ? "lamp" : "signal lamp", color, 0.3f);
+  m.emission = color * (nits * kNit);
+  m.lamp = burns == Burns::kAtNight;
   return m;
 }
 

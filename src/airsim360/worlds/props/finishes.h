@@ -15,7 +15,9 @@ Material Plastic(Vec3f color, float roughness = 0.45f);
 Material Rubber();
 Material Fabric(Vec3f color);                          ///< cloth: two-sided, lets some light through
 Material Glass(Vec3f color = {0.03f, 0.035f, 0.04f});  ///< pane in front of something dark
-Material Glow(Vec3f color, float strength);            ///< lamp glass, lit
+/// Lamp glass of that luminance, cd/m^2, in the dark hours or always; by day it is white or tinted glass.
+enum class Burns { kAtNight, kAlways };
+Material Glow(Vec3f color, float nits, Burns burns = Burns::kAtNight);
 Material Stone(Vec3f color, float roughness = 0.85f);  ///< concrete, stone, terracotta, soil: matt
 Material Leaf(Vec3f color = {1, 1, 1}, float transmission = 0.8f);
 

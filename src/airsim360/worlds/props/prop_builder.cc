@@ -14,7 +14,7 @@ constexpr float kCreaseCosine = 0.766f;  // corners sharper than 40 degrees stay
 
 auto Fields(const Material& m) {
   return std::tie(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic,
-                  m.roughness, m.emission, m.normal_scale, m.transmission, m.macro_variation,
+                  m.roughness, m.emission, m.lamp, m.normal_scale, m.transmission, m.macro_variation,
                   m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
                   m.uv_scale, m.uv_offset, m.uv_rotation);
 }
