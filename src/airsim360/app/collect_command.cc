@@ -6,6 +6,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
@@ -27,6 +28,7 @@ struct CollectArguments {
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
+  EnvironmentFlags environment;
 };
 
 // "I/N", 0 <= I < N.
@@ -118,7 +120,8 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
   if (arguments.route != "auto") ReadRouteCsv(arguments.route);
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
   const Flight flight = FlyRoute({.tracer = world.tracer}, plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
@@ -152,6 +155,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  AddEnvironmentFlags(*command, arguments->environment);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");

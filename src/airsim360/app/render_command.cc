@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 
@@ -19,6 +20,7 @@ struct RenderArguments {
   double fov_deg = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
+  EnvironmentFlags environment;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -100,7 +102,8 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  spec.environment = DescribeEnvironment(world.environment);
   if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
@@ -137,6 +140,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  AddEnvironmentFlags(*command, arguments->environment);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }

@@ -214,10 +214,18 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
     }
     scene_.bounds.Add(GrowEntityBounds(instance, scene_.meshes[instance.mesh], scene_.entities));
   }
-  auto built = std::make_shared<const Scene>(std::move(scene_));
+  auto built = std::make_shared<Scene>(std::move(scene_));
   scene_ = Scene();
   name_uses_.clear();
   return built;
+}
+
+std::shared_ptr<const Scene> WithEnvironment(std::shared_ptr<const Scene> scene, Environment environment) {
+  // Made by SceneBuilder as a plain Scene, so it may be changed while nobody else looks.
+  const auto own = scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene))
+                                          : std::make_shared<Scene>(*scene);
+  own->environment = std::move(environment);
+  return own;
 }
 
 }  // namespace airsim360

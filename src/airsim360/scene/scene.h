@@ -99,4 +99,7 @@ class SceneBuilder {
   std::map<std::string, int> name_uses_;
 };
 
+/// The same scene under another sky; in place where `scene` is the only reference, else a copy.
+std::shared_ptr<const Scene> WithEnvironment(std::shared_ptr<const Scene> scene, Environment environment);
+
 }  // namespace airsim360

@@ -58,7 +58,12 @@ float Shader::Impl::ChooseExposure(const Scene& scene) const {
   }
   const float light = std::max(Daylight(), of_lamps);
   constexpr float kNoon = 14.0f;
-  return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
+  // A camera meters the sky too, which is far brighter than the ground where neither sun nor lamps throw
+  // shadows.
+  constexpr float kClearShare = 0.15f, kWeight = 0.6f;
+  const float diffuse = Luminance(sky->Irradiance({0, 0, 1})) / std::max(light, kDarkest);
+  const float metered = 1 / (1 + kWeight * std::max(0.0f, diffuse - kClearShare));
+  return metered * kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
 }
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
