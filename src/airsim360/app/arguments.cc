@@ -80,17 +80,18 @@ PoseArgument ParsePose(const std::string& text) {
 }
 
 Tier ParseTierArgument(const std::string& text) {
-  static const std::vector<std::string> kBuilt = {"labels", "fast", "high"};
+  static const std::vector<std::string> kBuilt = {"labels", "fast", "high", "reference"};
   if (std::find(kBuilt.begin(), kBuilt.end(), text) == kBuilt.end()) {
     throw InputError("--tier: " + UnknownChoiceMessage("tier", text, kBuilt));
   }
   return ParseTier(text);
 }
 
-int CheckSamples(int samples) {
-  if (samples < 0 || samples > 256) {
-    throw InputError("--samples: " + std::to_string(samples) + " is not in 1 … 256; did you mean " +
-                     (samples < 0 ? "1" : "256") + "?");
+int CheckSamples(Tier tier, int samples) {
+  const int most = tier == Tier::kReference ? 1 << 20 : 256;
+  if (samples < 0 || samples > most) {
+    throw InputError("--samples: " + std::to_string(samples) + " is not in 1 … " + std::to_string(most) +
+                     "; did you mean " + std::to_string(samples < 0 ? 1 : most) + "?");
   }
   return samples;
 }

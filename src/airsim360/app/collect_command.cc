@@ -6,6 +6,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
@@ -27,6 +28,7 @@ struct CollectArguments {
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
+  EnvironmentFlags environment;
 };
 
 // "I/N", 0 <= I < N.
@@ -61,7 +63,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.width = size.width;
   spec.height = size.height;
   spec.tier = ParseTierArgument(arguments.tier);
-  spec.samples = CheckSamples(arguments.samples);
+  spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   ParseList("--format", arguments.format,
@@ -118,7 +120,8 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
   if (arguments.route != "auto") ReadRouteCsv(arguments.route);
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
   const Flight flight = FlyRoute({.tracer = world.tracer}, plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
@@ -143,15 +146,16 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
   command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");
-  command->add_option("--tier", arguments->tier, "labels, fast or high (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
-                      "tier high: ambient rays of a pixel at the equator, 1 … 256 (default 4)");
+                      "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic)");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  AddEnvironmentFlags(*command, arguments->environment);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");

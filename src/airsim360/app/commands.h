@@ -18,6 +18,7 @@ struct GlobalOptions {
 /// Each adds one subcommand to `app`. The command runs in its callback, after all flags are parsed; `globals`
 /// outlives it. It throws InputError (exit status 2) or RuntimeError (exit status 1).
 void AddWorldsCommand(CLI::App& app, GlobalOptions& globals);
+void AddWorldCommand(CLI::App& app, GlobalOptions& globals);
 void AddRenderCommand(CLI::App& app, GlobalOptions& globals);
 void AddCollectCommand(CLI::App& app, GlobalOptions& globals);
 void AddVerifyCommand(CLI::App& app, GlobalOptions& globals);

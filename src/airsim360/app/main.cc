@@ -112,6 +112,7 @@ int ParseAndRun(int argc, char** argv) {
   GlobalOptions globals;
   std::unique_ptr<ThreadLimit> limit;
   AddWorldsCommand(app, globals);
+  AddWorldCommand(app, globals);
   AddRenderCommand(app, globals);
   AddCollectCommand(app, globals);
   AddVerifyCommand(app, globals);
@@ -119,7 +120,9 @@ int ParseAndRun(int argc, char** argv) {
   AddEvalCommand(app, globals);
   AddDoctorCommand(app, globals);
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    AddGlobalFlags(*command, globals, limit);
+    const auto nested = command->get_subcommands([](const CLI::App*) { return true; });
+    if (nested.empty()) AddGlobalFlags(*command, globals, limit);
+    for (CLI::App* inner : nested) AddGlobalFlags(*inner, globals, limit);
   }
 
   // A wrong command is told here, so that the message can name the nearest one.

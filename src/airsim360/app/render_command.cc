@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 
@@ -19,6 +20,7 @@ struct RenderArguments {
   double fov_deg = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
+  EnvironmentFlags environment;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -66,6 +68,7 @@ PoseArgument DefaultPose(const Scene& scene) {
   const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
   PoseArgument pose;
   pose.p = VecCast<double>(spawn);
+  pose.yaw_deg = scene.spawn_yaw_deg;
   const Vec3d to_middle = VecCast<double>(scene.bounds.center() - spawn);
   if (!scene.bounds.empty() && !scene.bounds.Contains(spawn)) {
     constexpr double kDegrees = 180 / std::numbers::pi;
@@ -83,7 +86,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.seed = globals.seed;
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
-  spec.samples = CheckSamples(arguments.samples);
+  spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
@@ -99,7 +102,8 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  spec.environment = DescribeEnvironment(world.environment);
   if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
@@ -129,13 +133,14 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option(
       "--fov", arguments->fov_deg,
       "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
-  command->add_option("--tier", arguments->tier, "labels, fast or high (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
-                      "tier high: ambient rays of a pixel at the equator, 1 … 256 (default 4)");
+                      "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  AddEnvironmentFlags(*command, arguments->environment);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }

@@ -8,12 +8,14 @@
 
 namespace airsim360 {
 
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier) {
+OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags) {
+  ApplyFlags(flags, {});  // wrong ones are found before the world is loaded
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
   opened.scene = LoadWorld({.world = world, .seed = seed});
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
-  opened.renderer = MakeCpuRenderer(opened.tracer, {.tier = tier});
+  opened.environment = ApplyFlags(flags, opened.scene->environment);
+  opened.renderer = MakeCpuRenderer(opened.tracer, {.tier = tier, .environment = opened.environment});
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;

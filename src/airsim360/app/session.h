@@ -8,6 +8,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/dataset/collector.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/sim/world_environment.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -17,9 +18,10 @@ struct OpenedWorld {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const RayTracer> tracer;
   std::unique_ptr<Renderer> renderer;
-  double load_ms = 0;  ///< building or importing the scene and its ray tracing structure
+  Environment environment;  ///< the world's own with what the flags say
+  double load_ms = 0;       ///< building or importing the scene and its ray tracing structure
 };
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier);
+OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags = {});
 
 /// Prints what a run did: JSON or a few lines of text.
 void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,

@@ -1,9 +1,11 @@
 #include "airsim360/assets/gltf.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
+#include "airsim360/assets/gltf_extras.h"
 #include "airsim360/assets/gltf_parts.h"
 
 namespace airsim360::internal {
@@ -110,6 +112,16 @@ std::vector<uint32_t> GltfReader::SceneRoots() {
   return roots;
 }
 
+// What `world export` wrote of a node beyond glTF.
+void ReadNodeExtras(const JsonRef& json, ImportedNode& node) {
+  const auto extras = json.Find("extras");
+  if (!extras || !extras->IsObject()) return;
+  node.category = extras->TextOr(kExtraCategory, "");
+  node.entity = extras->UintOr(kExtraEntity, 0);
+  const std::vector<double> tint = extras->NumbersOr(kExtraTint, {1, 1, 1});
+  for (int k = 0; k < 3; ++k) node.tint[k] = static_cast<float>(std::clamp(tint[k], 0.0, 1e3));
+}
+
 void GltfReader::AddNode(uint32_t i, int32_t parent) {
   const JsonRef json = root_.At("nodes")[i];
   const std::string name = CleanName(json.TextOr("name", ""));
@@ -127,6 +139,7 @@ void GltfReader::AddNode(uint32_t i, int32_t parent) {
     // A skinned mesh is where its joints are, wherever its node is.
     const bool skinned = mesh >= 0 && json.Has("skin");
     out_.nodes.push_back({name, parent, mesh, skinned ? AffineTransform{} : FromG(X)});
+    ReadNodeExtras(json, out_.nodes.back());
   }
   if (out_.nodes.size() > limits_.max_nodes)
     json.Fail("at most " + std::to_string(limits_.max_nodes) + " nodes and instances allowed");

@@ -25,6 +25,8 @@ void JsonRef::Fail(const std::string& what) const {
                    Describe(*value_) + ")");
 }
 
+bool JsonRef::IsObject() const { return value_->is_object(); }
+
 std::optional<JsonRef> JsonRef::Find(std::string_view key) const {
   if (!value_->is_object()) Fail("an object expected");
   const auto it = value_->find(key);

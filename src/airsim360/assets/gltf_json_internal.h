@@ -21,6 +21,7 @@ class JsonRef {
   const std::string& file() const { return *file_; }
   const std::string& pointer() const { return pointer_; }
 
+  bool IsObject() const;
   /// Members of an object.
   bool Has(std::string_view key) const { return Find(key).has_value(); }
   std::optional<JsonRef> Find(std::string_view key) const;

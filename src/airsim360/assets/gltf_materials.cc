@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/assets/gltf_extras.h"
 #include "airsim360/assets/gltf_parts.h"
 #include "airsim360/assets/words.h"
 
@@ -39,6 +40,22 @@ void GuessKind(Material& m) {
              m.base_color_texture == kNoTexture) {
     m.kind = SurfaceKind::kWater;
   }
+}
+
+// What `world export` wrote beyond glTF wins over guesses.
+void ReadExtras(const JsonRef& json, Material& m) {
+  const auto extras = json.Find("extras");
+  if (!extras || !extras->IsObject()) return;
+  if (const auto kind = extras->Find(kExtraKind)) {
+    const std::string name = kind->Text();
+    const auto* found = std::find(std::begin(kSurfaceKindNames), std::end(kSurfaceKindNames), name);
+    if (found == std::end(kSurfaceKindNames)) kind->Fail("standard, foliage, glass or water expected");
+    m.kind = static_cast<SurfaceKind>(found - std::begin(kSurfaceKindNames));
+    m.transmission = Unit(extras->NumberOr(kExtraTransmission, 0));
+  }
+  m.macro_variation = Unit(extras->NumberOr(kExtraMacroVariation, 0));
+  m.interior = extras->BoolOr(kExtraInterior, false);
+  m.lamp = extras->BoolOr(kExtraLamp, false);
 }
 
 }  // namespace
@@ -135,6 +152,10 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
       m.transmission = share;
     }
   }
+  if (const auto coat = GltfExtension(json, "KHR_materials_clearcoat")) {
+    m.clear_coat = Unit(coat->NumberOr("clearcoatFactor", 0));
+    m.clear_coat_roughness = Unit(coat->NumberOr("clearcoatRoughnessFactor", 0));
+  }
   if (GltfExtension(json, "KHR_materials_unlit")) {
     m.metallic = 0;
     m.roughness = 1;
@@ -142,6 +163,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
   static_cast<void>(
       json.BoolOr("doubleSided", false));  // every surface is seen from both sides here; still must be a bool
   GuessKind(m);
+  ReadExtras(json, m);
   return out;
 }
 

@@ -21,6 +21,11 @@ struct ImportedNode {
   int32_t parent = -1;
   int32_t mesh = -1;
   AffineTransform X_WM;  ///< mesh frame to W, the whole chain of parents included
+
+  // What files written by `world export` say besides (gltf_extras.h).
+  std::string category = {};  ///< path; "" = not said
+  uint64_t entity = 0;        ///< nodes with the same number are one entity; 0 = not said
+  Vec3f tint{1, 1, 1};
 };
 
 /// Mesh parts refer to `materials` by index, materials to `textures` by index. Meshes have normals.

@@ -132,8 +132,9 @@ std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const L
     std::vector<std::string> categories(mesh.parts.size());
     if (rules.keywords) categories = keywords.Label(i);
     for (size_t k = 0; k < mesh.parts.size(); ++k) {
-      // A rule wins; where it names no category the keywords still do.
+      // A rule wins, then what the file itself says, then the keywords.
       PartLabel label{categories[k].empty() ? otherwise : categories[k], -1};
+      if (!file.nodes[i].category.empty()) label.category = file.nodes[i].category;
       label.rule =
           FindRule(rules, file.nodes[i].name, mesh.name, file.materials[mesh.parts[k].material].name);
       if (label.rule >= 0 && !rules.rules[static_cast<size_t>(label.rule)].category.empty()) {

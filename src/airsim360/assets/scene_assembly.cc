@@ -71,6 +71,7 @@ class Assembler {
       instance.mesh = MeshFor(static_cast<uint32_t>(node.mesh), parts);
       instance.X_WM = node.X_WM;
       instance.entity = EntityFor(node, label, parts, groups.size() > 1);
+      instance.tint = node.tint;
       instances_.push_back(instance);
     }
   }
@@ -123,6 +124,11 @@ class Assembler {
     if (is_split && !file_.materials[mesh.parts[parts[0]].material].name.empty())
       name += " " + file_.materials[mesh.parts[parts[0]].material].name;
     if (rule && !rule->name.empty()) name = rule->name;
+    if (!rule && node.entity != 0) {
+      const auto [it, is_new] = numbered_.try_emplace({node.entity, label}, kNoEntity);
+      if (is_new) it->second = builder_.AddEntity(name, CategoryFor(label));
+      return it->second;
+    }
     if (!rule || !rule->merge) return builder_.AddEntity(name, CategoryFor(label));
 
     // Merged: one entity for the rule and category.
@@ -169,6 +175,7 @@ class Assembler {
   std::map<std::pair<uint32_t, std::vector<uint32_t>>, MeshId> mesh_ids_;
   std::map<uint32_t, MeshId> moved_;  // meshes of the file that went over whole
   std::map<PartLabel, EntityId> merged_;
+  std::map<std::pair<uint64_t, PartLabel>, EntityId> numbered_;  // by the file's own entity numbers
   std::map<std::string, CategoryId> categories_;
 };
 

@@ -67,6 +67,7 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   rig.tier = spec.tier;
   rig.products = ProductsOf(spec);
   rig.samples = spec.samples;
+  rig.seed = spec.seed;
   rig.denoise = spec.denoise;
   return rig;
 }

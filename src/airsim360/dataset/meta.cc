@@ -21,6 +21,7 @@ Json ParametersJson(const DatasetSpec& spec) {
                {"shard", spec.shard},
                {"shards", spec.shards},
                {"route", spec.route},
+               {"environment", spec.environment},
                {"normal", spec.normal},
                {"rgb_format", spec.rgb_format == RgbFormat::kJpeg ? "jpg" : "png"},
                {"pano_frame", spec.pano_frame == PanoFrame::kLevel ? "level" : "body"}};

@@ -33,6 +33,7 @@ struct DatasetSpec {
   int samples = 0;                ///< of the tiers high and reference, 0 = their default
   bool denoise = true;            ///< tier high
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+  std::string environment;        ///< DescribeEnvironment of what was rendered
 };
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube

@@ -23,9 +23,10 @@ struct GPano {
   double heading_deg = 0, pitch_deg = 0, roll_deg = 0;
 };
 
-/// PNG, 8 or 16 bit, 1 or 3 channels by pixel type. Fast lossless settings; `gpano` goes into an iTXt XMP
+/// PNG, 8 or 16 bit, 1, 3 or 4 channels by pixel type. Fast lossless settings; `gpano` goes into an iTXt XMP
 /// packet.
 Bytes EncodePng(const Image<Rgb8>& image, const std::optional<GPano>& gpano = std::nullopt);
+Bytes EncodePng(const Image<Rgba8>& image);
 Bytes EncodePng(const Image<Rgb16>& image);
 Bytes EncodePng(const Image<uint8_t>& image);
 Bytes EncodePng(const Image<uint16_t>& image);

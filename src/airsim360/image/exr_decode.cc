@@ -154,7 +154,8 @@ Image<Rgb32f> ReadExrRgb(std::span<const std::byte> bytes) {
   Imf::FrameBuffer frame;
   Rgb32f* first = image.pixels().data();
   const auto insert = [&](const std::string& name, float* to) {
-    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, to, window, sizeof(Rgb32f), sizeof(Rgb32f) * image.width()));
+    frame.insert(name,
+                 Imf::Slice::Make(Imf::FLOAT, to, window, sizeof(Rgb32f), sizeof(Rgb32f) * image.width()));
   };
   insert(color ? "R" : ChannelToRead(channels), &first->r);
   if (color) insert("G", &first->g), insert("B", &first->b);

@@ -129,11 +129,12 @@ Bytes WritePng(const Layout& layout, const FillRow& fill_row,
   const auto signature = AsBytes("\x89PNG\r\n\x1a\n");
   out.assign(signature.begin(), signature.end());
 
-  // IHDR: gray is colour type 0, RGB is 2; deflate, adaptive filters, not interlaced.
+  // IHDR: gray is colour type 0, RGB is 2, RGBA is 6; deflate, adaptive filters, not interlaced.
   Bytes header;
   AppendBigEndian32(header, static_cast<uint32_t>(layout.width));
   AppendBigEndian32(header, static_cast<uint32_t>(layout.height));
-  for (int v : {layout.bit_depth, layout.channels == 1 ? 0 : 2, 0, 0, 0})
+  const int color_type = layout.channels == 1 ? 0 : layout.channels == 4 ? 6 : 2;
+  for (int v : {layout.bit_depth, color_type, 0, 0, 0})
     header.push_back(static_cast<std::byte>(v));
   AppendChunk(out, "IHDR", header);
   if (gpano) AppendXmp(out, internal::GPanoXmp(*gpano, layout.width, layout.height));
@@ -165,6 +166,12 @@ Bytes EncodePng(const Image<Rgb8>& image, const std::optional<GPano>& gpano) {
   const Layout layout{image.width(), image.height(), 8, 3};
   const auto fill = [&](int y, uint8_t* out) { std::memcpy(out, image.row(y).data(), layout.row_bytes()); };
   return WritePng(layout, fill, gpano);
+}
+
+Bytes EncodePng(const Image<Rgba8>& image) {
+  const Layout layout{image.width(), image.height(), 8, 4};
+  const auto fill = [&](int y, uint8_t* out) { std::memcpy(out, image.row(y).data(), layout.row_bytes()); };
+  return WritePng(layout, fill);
 }
 
 Bytes EncodePng(const Image<Rgb16>& image) {

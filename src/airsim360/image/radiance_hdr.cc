@@ -58,7 +58,8 @@ float ReadHeader(HdrReader& reader) {
 void ReadSize(HdrReader& reader, int& width, int& height) {
   const std::string_view line = reader.Line();
   const size_t x = line.find(" +X ");
-  if (!line.starts_with("-Y ") || x == std::string_view::npos) throw InputError("only -Y +X pictures are read");
+  if (!line.starts_with("-Y ") || x == std::string_view::npos)
+    throw InputError("only -Y +X pictures are read");
   std::from_chars(line.data() + 3, line.data() + x, height);
   std::from_chars(line.data() + x + 4, line.data() + line.size(), width);
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) throw InputError("size out of range");
@@ -104,8 +105,8 @@ Image<Rgb32f> ReadHdr(std::span<const std::byte> bytes) {
   int width = 0, height = 0;
   ReadSize(reader, width, height);
   internal::CheckSize(width, height, "size");
-  // A row takes 4 bytes and, packed, at least 2 for every 127 of a channel's pixels; old runs take 4 bytes for up
-  // to 2^24 pixels, so they are bounded by their row alone.
+  // A row takes 4 bytes and, packed, at least 2 for every 127 of a channel's pixels; old runs take 4 bytes
+  // for up to 2^24 pixels, so they are bounded by their row alone.
   if (static_cast<size_t>(height) * 4 > reader.left()) throw InputError("truncated pixels");
   Image<Rgb32f> image(width, height);
   std::vector<uint8_t> row(static_cast<size_t>(width) * 4);

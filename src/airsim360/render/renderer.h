@@ -104,7 +104,7 @@ class Renderer {
   virtual ~Renderer() = default;
   /// Fills `frame`. The same request gives the same bytes with any number of threads. Turning an
   /// equirectangular camera about its own vertical axis by k columns rolls every product by exactly k
-  /// columns. InputError for a tier this renderer does not have or a camera without pixels.
+  /// columns. InputError for a camera without pixels.
   virtual RenderStats Render(const RenderRequest& request, Frame& frame) = 0;
 };
 

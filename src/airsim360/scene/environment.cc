@@ -20,20 +20,13 @@ struct Preset {
   double azimuth, elevation, cloud_cover, cirrus_cover, visibility, wetness, snow_depth, rain, snowfall;
 };
 constexpr Preset kPresets[] = {
-    {"day", 215, 48, 0.35, 0.3, 0, 0, 0, 0, 0},
-    {"clear", 215, 48, 0, 0, 0, 0, 0, 0, 0},
-    {"morning", 105, 22, 0.25, 0.4, 0, 0, 0, 0, 0},
-    {"golden", 262, 9, 0.3, 0.5, 0, 0, 0, 0, 0},
-    {"sunset", 285, 1.5, 0.3, 0.6, 0, 0, 0, 0, 0},
-    {"dusk", 290, -4, 0.2, 0.4, 0, 0, 0, 0, 0},
-    {"night", 330, -25, 0.15, 0.2, 0, 0, 0, 0, 0},
-    {"overcast", 200, 40, 1, 0, 0, 0, 0, 0, 0},
-    {"fog", 150, 28, 0.6, 0, 180, 0.2, 0, 0, 0},
-    {"mist", 110, 16, 0.2, 0.3, 1500, 0.1, 0, 0, 0},
-    {"rain", 200, 32, 1, 0, 4000, 1, 0, 6, 0},
-    {"storm", 200, 25, 1, 0, 1500, 1, 0, 30, 0},
-    {"snow", 190, 24, 1, 0, 0, 0.1, 0.8, 0, 1.5},
-    {"winter", 190, 22, 0.25, 0.4, 0, 0, 0.9, 0, 0},
+    {"day", 215, 48, 0.35, 0.3, 0, 0, 0, 0, 0},     {"clear", 215, 48, 0, 0, 0, 0, 0, 0, 0},
+    {"morning", 105, 22, 0.25, 0.4, 0, 0, 0, 0, 0}, {"golden", 262, 9, 0.3, 0.5, 0, 0, 0, 0, 0},
+    {"sunset", 285, 1.5, 0.3, 0.6, 0, 0, 0, 0, 0},  {"dusk", 290, -4, 0.2, 0.4, 0, 0, 0, 0, 0},
+    {"night", 330, -25, 0.15, 0.2, 0, 0, 0, 0, 0},  {"overcast", 200, 40, 1, 0, 0, 0, 0, 0, 0},
+    {"fog", 150, 28, 0.6, 0, 180, 0.2, 0, 0, 0},    {"mist", 110, 16, 0.2, 0.3, 1500, 0.1, 0, 0, 0},
+    {"rain", 200, 32, 1, 0, 4000, 1, 0, 6, 0},      {"storm", 200, 25, 1, 0, 1500, 1, 0, 30, 0},
+    {"snow", 190, 24, 1, 0, 0, 0.1, 0.8, 0, 1.5},   {"winter", 190, 22, 0.25, 0.4, 0, 0, 0.9, 0, 0},
 };
 
 }  // namespace
@@ -64,7 +57,8 @@ void ValidateEnvironment(const Environment& environment, std::string_view where)
   for (const EnvironmentField& field : EnvironmentFields()) {
     const double value = environment.*field.value;
     if (value >= field.low && value <= field.high) continue;
-    const double nearest = std::isnan(value) ? Environment{}.*field.value : std::clamp(value, field.low, field.high);
+    const double nearest =
+        std::isnan(value) ? Environment{}.*field.value : std::clamp(value, field.low, field.high);
     throw InputError(std::string(where) + ": " + field.name + " is " + Number(value) + ", not in " +
                      Number(field.low) + " … " + Number(field.high) + "; the nearest is " + Number(nearest));
   }

@@ -53,7 +53,7 @@ void ValidateEnvironment(const Environment& environment, std::string_view where)
 struct EnvironmentField {
   const char* name;
   const char* help;
-  double Environment::* value;
+  double Environment::*value;
   double low, high;
 };
 const std::vector<EnvironmentField>& EnvironmentFields();

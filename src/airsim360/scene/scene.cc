@@ -48,6 +48,56 @@ void CheckMesh(const Mesh& mesh, size_t materials) {
   if (next != mesh.triangles.size()) Fail(where, "parts do not cover all triangles");
 }
 
+// The outermost vertices of a mesh, one for each of 1,024 directions from its middle: enough to bound large
+// meshes that are instanced often, to half a percent of their size.
+std::vector<Vec3f> OuterVertices(const Mesh& mesh) {
+  constexpr int kSide = 32;
+  const Vec3f middle = mesh.Bounds().center();
+  std::vector<std::pair<float, Vec3f>> farthest(kSide * kSide, {-1.0f, Vec3f{}});
+  for (Vec3f p : mesh.positions) {
+    const Vec3f d = p - middle;
+    const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    if (sum <= 0) continue;
+    // Octahedral cells of direction; the halves of z are told apart by mirroring x.
+    const auto cell = [&](float x) {
+      return std::min(kSide - 1, static_cast<int>((0.5f + 0.5f * x / sum) * kSide));
+    };
+    const float x = d.z < 0 ? (d.x < 0 ? -1.0f : 1.0f) * (sum - std::abs(d.y)) : d.x;
+    const float y = d.z < 0 ? (d.y < 0 ? -1.0f : 1.0f) * (sum - std::abs(d.x)) : d.y;
+    auto& best = farthest[static_cast<size_t>(cell(y) * kSide + cell(x))];
+    if (const float r = Dot(d, d); r > best.first) best = {r, p};
+  }
+  std::vector<Vec3f> outer;
+  for (const auto& [r, p] : farthest)
+    if (r > 0) outer.push_back(p);
+  return outer;
+}
+
+// Meshes worth that: large ones without entities of their own parts, with many instances.
+std::vector<std::vector<Vec3f>> OutlinesOf(const Scene& scene) {
+  std::vector<int> uses(scene.meshes.size(), 0);
+  for (const Instance& instance : scene.instances)
+    if (instance.mesh < uses.size()) ++uses[instance.mesh];
+  std::vector<std::vector<Vec3f>> outlines(scene.meshes.size());
+  for (size_t i = 0; i < outlines.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    const bool plain = std::all_of(mesh.parts.begin(), mesh.parts.end(),
+                                   [](const MeshPart& part) { return part.entity == kNoEntity; });
+    if (plain && uses[i] >= 16 && mesh.positions.size() > 1500) outlines[i] = OuterVertices(mesh);
+  }
+  return outlines;
+}
+
+// Bounds of an instance from those vertices, a little too large rather than too small.
+Box3f BoundsFrom(const Instance& instance, const std::vector<Vec3f>& outline) {
+  Box3f box;
+  for (Vec3f p : outline) box.Add(instance.X_WM * p);
+  const Vec3f margin = box.size() * 0.005f;
+  box.min = box.min - margin;
+  box.max = box.max + margin;
+  return box;
+}
+
 // Grows the bounds of the entities that an instance shows, and returns the bounds of the whole instance.
 Box3f GrowEntityBounds(const Instance& instance, const Mesh& mesh, std::vector<Entity>& entities) {
   Box3f whole;
@@ -147,6 +197,7 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   for (const Entity& entity : scene_.entities) static_cast<void>(scene_.tree[entity.category]);
 
   // Instances: indices, entities of every part, bounds.
+  const std::vector<std::vector<Vec3f>> outlines = OutlinesOf(scene_);
   for (const Instance& instance : scene_.instances) {
     if (instance.mesh >= scene_.meshes.size())
       Fail("instance", "mesh index " + std::to_string(instance.mesh));
@@ -154,12 +205,27 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
         !IsFinite(instance.X_WM.A.row(1)) || !IsFinite(instance.X_WM.A.row(2))) {
       Fail("instance of mesh '" + scene_.meshes[instance.mesh].name + "'", "transform is not finite");
     }
+    const std::vector<Vec3f>& outline = outlines[instance.mesh];
+    if (!outline.empty() && instance.entity != kNoEntity && instance.entity <= scene_.entities.size()) {
+      const Box3f box = BoundsFrom(instance, outline);
+      scene_.entities[instance.entity - 1].bounds.Add(box);
+      scene_.bounds.Add(box);
+      continue;
+    }
     scene_.bounds.Add(GrowEntityBounds(instance, scene_.meshes[instance.mesh], scene_.entities));
   }
-  auto built = std::make_shared<const Scene>(std::move(scene_));
+  auto built = std::make_shared<Scene>(std::move(scene_));
   scene_ = Scene();
   name_uses_.clear();
   return built;
+}
+
+std::shared_ptr<const Scene> WithEnvironment(std::shared_ptr<const Scene> scene, Environment environment) {
+  // Made by SceneBuilder as a plain Scene, so it may be changed while nobody else looks.
+  const auto own = scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene))
+                                          : std::make_shared<Scene>(*scene);
+  own->environment = std::move(environment);
+  return own;
 }
 
 }  // namespace airsim360

@@ -26,7 +26,8 @@ class TimeReader {
     int value = 0;
     const char* end = rest_.data() + std::min(count, rest_.size());
     const auto [at, error] = std::from_chars(rest_.data(), end, value);
-    if (rest_.size() < count || error != std::errc() || at != end || rest_[0] == '-' || value < low || value > high)
+    if (rest_.size() < count || error != std::errc() || at != end || rest_[0] == '-' || value < low ||
+        value > high)
       Fail();
     rest_.remove_prefix(count);
     return value;
@@ -61,7 +62,9 @@ double JulianDay(const UtcTime& time) {
 }
 
 // Seconds that Earth's turning has lost (Espenak & Meeus 2006, piecewise; a minute matters 0.0007 degrees).
-double DeltaT(double year) { return year < 1900 ? 10 : year < 1990 ? 0.6 * (year - 1900) : 60 + 0.4 * (year - 1995); }
+double DeltaT(double year) {
+  return year < 1900 ? 10 : year < 1990 ? 0.6 * (year - 1900) : 60 + 0.4 * (year - 1995);
+}
 
 // Degrees by which the air lifts what stands at this true elevation: Saemundsson (Meeus 16.4); below the
 // horizon the curve of NOAA's solar calculator, which meets it.
@@ -124,7 +127,8 @@ SunAngles SunPosition(const UtcTime& time, const GeoPlace& place) {
                         (0.019993 - 0.000101 * t) * std::sin(2 * anomaly) + 0.000289 * std::sin(3 * anomaly);
   const double node = (125.04 - 1934.136 * t) * kDegrees;
   const double longitude =
-      (280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * std::sin(node)) * kDegrees;
+      (280.46646 + t * (36000.76983 + 0.0003032 * t) + center - 0.00569 - 0.00478 * std::sin(node)) *
+      kDegrees;
   const double tilt = (23.4392911 - 0.0130042 * t + 0.00256 * std::cos(node)) * kDegrees;
   const double ascension = std::atan2(std::cos(tilt) * std::sin(longitude), std::cos(longitude));
   const double declination = std::asin(std::sin(tilt) * std::sin(longitude));
@@ -136,8 +140,8 @@ SunAngles SunPosition(const UtcTime& time, const GeoPlace& place) {
   const double latitude = place.latitude_deg * kDegrees;
 
   // Horizontal coordinates, parallax, refraction.
-  const double azimuth = std::atan2(std::sin(hour), std::cos(hour) * std::sin(latitude) -
-                                                        std::tan(declination) * std::cos(latitude));
+  const double azimuth = std::atan2(
+      std::sin(hour), std::cos(hour) * std::sin(latitude) - std::tan(declination) * std::cos(latitude));
   double elevation = std::asin(std::sin(latitude) * std::sin(declination) +
                                std::cos(latitude) * std::cos(declination) * std::cos(hour)) /
                      kDegrees;

@@ -34,7 +34,8 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
                               .products = rig.products,
                               .exposure_ev = rig.exposure_ev,
                               .samples = rig.samples,
-                              .denoise = rig.denoise};
+                              .denoise = rig.denoise,
+                              .seed = rig.seed};
   capture.stats = renderer.Render(request, capture.frame);
 }
 

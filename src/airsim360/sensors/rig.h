@@ -26,6 +26,7 @@ struct PanoramicRig {
   double exposure_ev = 0;
   int samples = 0;      ///< as RenderRequest::samples
   bool denoise = true;  ///< as RenderRequest::denoise
+  uint64_t seed = 0;    ///< as RenderRequest::seed
 };
 
 /// Everything one trigger gave.

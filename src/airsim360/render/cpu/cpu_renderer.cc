@@ -12,6 +12,7 @@
 #include "airsim360/render/cpu/high_frame.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/reference/path_tracer.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
@@ -50,6 +51,7 @@ class CpuRenderer : public Renderer {
         tables_(*tracer_),
         labels_(tables_.view()) {
     if (options.tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_, environment_);
+    if (options.tier == Tier::kHigh) high_.Prepare(*tracer_, *shader_);
   }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;
@@ -57,6 +59,7 @@ class CpuRenderer : public Renderer {
  private:
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
+  uint64_t RenderPaths(const RenderRequest& request, Frame& frame);
   void Display(const RenderRequest& request, Frame& frame) const;
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
@@ -75,7 +78,7 @@ class CpuRenderer : public Renderer {
   std::unique_ptr<const Shader> shader_;  // made when first needed
   Antialiaser antialiaser_;
   HighFrame high_;
-  Image<Rgb32f> radiance_;  // of tier high
+  Image<Rgb32f> radiance_;  // of tiers high and reference
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
 };
@@ -94,16 +97,14 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
 }
 
 RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
-  if (request.tier == Tier::kReference) {
-    throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
-                     "' is not in the CPU renderer (choices: labels, fast, high)");
-  }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = request.products.rgb && request.tier != Tier::kLabels;
   if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
-  const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
+  // Paths come after the labels, which are the same as those of the other tiers.
+  const bool paths = color && request.tier == Tier::kReference;
+  const int samples = paths ? 1 : std::clamp(request.aa_samples, 1, kMaxSamples);
   const bool high = color && request.tier == Tier::kHigh;
   ResizeFrame(request, color, color && samples > 1 && !high, frame);
   if (high) {
@@ -125,10 +126,12 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
     const FlushDenormals flush_denormals;
     const int first = static_cast<int>(task) * kTilesPerTask;
     for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile)
-      RenderTile(request, color, tile, frame);
+      RenderTile(request, color && !paths, tile, frame);
   });
   RenderStats stats;
   stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
+
+  if (paths) stats.rays += RenderPaths(request, frame);
 
   // More colour samples on edges.
   if (color && samples > 1) {
@@ -142,6 +145,21 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   stats.render_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return stats;
+}
+
+// Colour of tier `reference`; returns the number of paths.
+uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Frame& frame) {
+  const int samples = request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
+  TracePaths(*tracer_, *shader_, rays_, VecCast<float>(request.X_WC.p),
+             {.samples = samples, .seed = request.seed}, radiance_);
+  Display(request, frame);
+  const RayField& field = rays_.field();
+  for (int y = 0; y < field.height && !field.separable; ++y)
+    for (int x = 0; x < field.width; ++x)
+      if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) frame.rgb(x, y) = {};
+  if (request.products.radiance) frame.radiance = radiance_;
+  return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height) *
+         static_cast<uint64_t>(samples);
 }
 
 void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame) {

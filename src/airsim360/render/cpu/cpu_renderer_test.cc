@@ -346,10 +346,9 @@ TEST(CpuRenderer, ImagesKeepTheirMemoryBetweenCaptures) {
   EXPECT_EQ(frame.range.pixels().data(), before);
 }
 
-TEST(CpuRenderer, ATierItLacksAndACameraWithoutPixelsAreInputErrors) {
+TEST(CpuRenderer, ACameraWithoutPixelsOrPlaceIsAnInputError) {
   const auto renderer = Room();
   Frame frame;
-  EXPECT_THROW(renderer->Render({Equirectangular{64, 32}, {}, Tier::kReference, {}}, frame), InputError);
   EXPECT_THROW(renderer->Render({Equirectangular{0, 0}, {}, Tier::kLabels, {}}, frame), InputError);
   EXPECT_THROW(
       renderer->Render({Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels, {}}, frame),

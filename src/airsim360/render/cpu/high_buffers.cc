@@ -22,6 +22,7 @@ void HighBuffers::Resize(int width, int height) {
   Fit(light, width, height);
   Fit(light_samples, width, height);
   Fit(sun_seen, width, height);
+  Fit(sun_smooth, width, height);
   Fit(penumbra, width, height);
   Fit(radiance, width, height);
   Fit(luma, width, height);

@@ -15,11 +15,11 @@ namespace airsim360::internal {
 struct HighBuffers {
   Image<float> range;  ///< 0 = nothing hit
   Image<EntityId> entity;
-  Image<Vec3f> normal;          ///< shading normal
-  Image<Rgb32f> light;          ///< irradiance, of the samples and then filtered
+  Image<Vec3f> normal;  ///< shading normal
+  Image<Rgb32f> light;  ///< irradiance, of the samples and then filtered
   Image<uint8_t> light_samples;
-  Image<float> sun_seen;
-  Image<uint8_t> penumbra;  ///< as HighTile::penumbra
+  Image<float> sun_seen, sun_smooth;  ///< share of the disc: of the rays; smoothed in penumbrae
+  Image<uint8_t> penumbra;            ///< as HighTile::penumbra
   Image<Rgb32f> radiance;
   Image<uint8_t> luma, edges;
   std::vector<LightTerms> terms;  ///< of each tile

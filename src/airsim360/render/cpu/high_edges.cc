@@ -82,45 +82,59 @@ class EdgeTile {
     TracePacket(*task_.tracer, task_.labels.sky_entity != kNoEntity, valid, packet_);
     const int p = hits_.count / 16;
     kernels_.append_hits(task_.labels, packet_, valid, p, hits_);
-    kernels_.resolve(task_.labels, packet_, valid, p, false, labels_);
+    kernels_.resolve(task_.labels, packet_, valid, p, true, labels_);
     hits_.count += lanes_;
     lanes_ = 0;
     if (hits_.count > HitBatch::kCapacity - 16) Shade();
   }
 
-  // Irradiance of the pixel around whose surface is most like that of sample i.
-  Rgb32f LightAround(int i, const HighTile& tile) const {
+  // The pixel around whose surface is most like what sample i met, and how unlike that is; -1 = none.
+  int64_t MostAlike(int i, float& best_cost) const {
     const int cx = x(owner_[i]), cy = y(owner_[i]), width = buffers_.range.width();
     const bool wraps = task_.rays->field().separable;
-    const Vec3f n{tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]};
+    const Vec3f n{labels_.normal_x[i], labels_.normal_y[i], labels_.normal_z[i]};
     const float range = labels_.range[i];
-    Rgb32f best;
-    float best_cost = INFINITY;
+    int64_t best = -1;
+    best_cost = INFINITY;
     for (int v = std::max(0, cy - 1); v <= std::min(buffers_.range.height() - 1, cy + 1); ++v) {
       for (int dx = -1; dx <= 1; ++dx) {
         int u = cx + dx;
         if (!wraps && (u < 0 || u >= width)) continue;
         u = u < 0 ? u + width : u >= width ? u - width : u;
-        if (buffers_.light_samples(u, v) == 0) continue;
+        if (buffers_.range(u, v) == 0) continue;
         const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 -
                            Dot(n, buffers_.normal(u, v)) +
                            std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) +
+                           (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
                            1e-3f * static_cast<float>(dx * dx + (v - cy) * (v - cy));
-        if (cost < best_cost) best_cost = cost, best = buffers_.light(u, v);
+        if (cost < best_cost) best_cost = cost, best = int64_t{v} * width + u;
       }
     }
-    return best_cost < INFINITY ? best : buffers_.light(cx, cy);
+    return best;
   }
 
+  // Light of the pixels around; the sun too, where the surface is the same, for there it is known better than
+  // by one ray.
   void Shade() {
-    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, shaded_);
+    constexpr float kSameSurface = 0.1f;
+    Rgb32f around[HitBatch::kCapacity];
+    alignas(64) float sun_known[HitBatch::kCapacity];
+    for (int i = 0; i < hits_.count; ++i) {
+      sun_known[i] = -1;
+      if (hits_.instance[i] == kMiss) continue;
+      float cost;
+      const int64_t pixel = MostAlike(i, cost);
+      if (pixel < 0) continue;
+      around[i] = buffers_.light.pixels()[static_cast<size_t>(pixel)];
+      if (cost < kSameSurface) sun_known[i] = buffers_.sun_smooth.pixels()[static_cast<size_t>(pixel)];
+    }
+    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, shaded_);
     const LightTerms& t = shaded_.terms;
     for (int i = 0; i < hits_.count; ++i) {
-      const Rgb32f around = hits_.instance[i] != kMiss ? LightAround(i, shaded_) : Rgb32f{};
       const float sun = shaded_.sun_seen[i];
-      AddColor(owner_[i], {t.ambient_r[i] * around.r + t.sun_r[i] * sun + t.rest_r[i],
-                           t.ambient_g[i] * around.g + t.sun_g[i] * sun + t.rest_g[i],
-                           t.ambient_b[i] * around.b + t.sun_b[i] * sun + t.rest_b[i]});
+      AddColor(owner_[i], {t.ambient_r[i] * around[i].r + t.sun_r[i] * sun + t.rest_r[i],
+                           t.ambient_g[i] * around[i].g + t.sun_g[i] * sun + t.rest_g[i],
+                           t.ambient_b[i] * around[i].b + t.sun_b[i] * sun + t.rest_b[i]});
     }
     hits_.count = 0;
   }

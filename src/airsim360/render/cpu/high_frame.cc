@@ -40,10 +40,12 @@ TileLayout MakeLayout(PacketShape shape) {
   for (int y = 0; y < kTileSize; ++y) {
     for (int x = 0; x < kTileSize; ++x) {
       const int slot = PacketIndex(shape, x, y);
-      const uint32_t phase = Morton(x, y);
+      // Any 4 x 4 pixels whose rows start at a multiple of 4 have all sixteen; and so that filters that skip
+      // pixels do not meet the same phase again and again, four rows further it is another.
+      const int phase = (x + 4 * y + (y >> 2)) & 15;
       layout.slot_of[y * kTileSize + x] = static_cast<uint8_t>(slot);
       layout.phase[slot] = static_cast<uint8_t>(phase);
-      layout.members[phase][(y >> 2) * 4 + (x >> 2)] = static_cast<uint8_t>(slot);
+      layout.members[phase][y] = static_cast<uint8_t>(slot);
     }
   }
   return layout;
@@ -71,7 +73,6 @@ struct HighFrame::Impl {
   uint64_t tile_order = 0;
 
   SunMapView SunView() const { return sun_map ? sun_map->view() : SunMapView{}; }
-  void MakeSunMap();
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
     const RayField& field = rays->field();
@@ -102,7 +103,7 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   impl.origin = VecCast<float>(request.X_WC.p);
   impl.exposure = shader.Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
   impl.buffers.Resize(field.width, field.height);
-  impl.MakeSunMap();
+  Prepare(tracer, shader);
   impl.frames = request.temporal ? impl.frames + 1 : 0;
 
   impl.TraceTiles();
@@ -122,13 +123,13 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   return count;
 }
 
-void HighFrame::Impl::MakeSunMap() {
-  if (sun_map_of == shader) return;
-  sun_map_of = shader;
-  sun_map.reset();
-  const auto& sky = shader->impl().sky;
-  if (sky && sky->to_sun().z > 0 && !tracer->scene().instances.empty())
-    sun_map.emplace(*tracer, sky->to_sun());
+void HighFrame::Prepare(const RayTracer& tracer, const Shader& shader) {
+  if (impl_->sun_map_of == &shader) return;
+  impl_->sun_map_of = &shader;
+  impl_->sun_map.reset();
+  const auto& sky = shader.impl().sky;
+  if (sky && sky->to_sun().z > 0 && !tracer.scene().instances.empty())
+    impl_->sun_map.emplace(tracer, sky->to_sun());
 }
 
 // Rows of a panorama are shorter towards the poles, and so are the pixels' shares of the sphere.
@@ -188,7 +189,7 @@ void HighFrame::Impl::TraceTile(int tile) {
   const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
                               Morton(across, down), AmbientRays(row), hits.cone_angle};
   HighTile shaded;
-  ShadeHigh(*shader, SunView(), hits, &sampling, shaded);
+  ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, shaded);
   StoreTile(shaded, tile_labels, target, tile);
 }
 
@@ -254,6 +255,7 @@ void HighFrame::Impl::CombineTile(int tile) {
       const Rgb32f light = buffers.light(x, y);
       const float sun =
           smooth && buffers.penumbra(x, y) != 0 ? SmoothSun(buffers, field, x, y) : buffers.sun_seen(x, y);
+      buffers.sun_smooth(x, y) = sun;
       Rgb32f c{t.ambient_r[k] * light.r + t.sun_r[k] * sun + t.rest_r[k],
                t.ambient_g[k] * light.g + t.sun_g[k] * sun + t.rest_g[k],
                t.ambient_b[k] * light.b + t.sun_b[k] * sun + t.rest_b[k]};

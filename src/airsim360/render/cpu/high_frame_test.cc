@@ -115,7 +115,8 @@ TEST(HighFrame, EveryPixelIsANumberForAllCamerasAndSampleCounts) {
       for (const bool denoise : {false, true}) {
         RenderRequest request = Request(64);
         request.camera = camera, request.samples = samples, request.denoise = denoise;
-        for (const Rgb32f c : Render(request).radiance.pixels()) {
+        const Frame frame = Render(request);
+        for (const Rgb32f c : frame.radiance.pixels()) {
           ASSERT_TRUE(std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b));
           ASSERT_TRUE(c.r >= 0 && c.g >= 0 && c.b >= 0);
         }
@@ -172,8 +173,9 @@ TEST(HighFrame, TheSeamHasTheContrastOfAnyOtherColumn) {
   constexpr int kWidth = 64;
   double seam = 0, inside = 0;
   for (int k = 0; k < kWidth; ++k) {
-    RenderRequest request =
-        Request(kWidth, 2 * std::numbers::pi * (k + static_cast<double>(k) / kWidth) / kWidth);
+    const double yaw = 2 * std::numbers::pi * (k + static_cast<double>(k) / kWidth) / kWidth;
+    RenderRequest request = Request(kWidth);
+    request.X_WC = BodyPose({0.3, 0.2, 1.7}, yaw, 0, 0) * CameraInBody();
     const Image<Rgb8> image = Render(request).rgb;
     for (int y = 0; y < image.height(); ++y) {
       for (int x = 0; x < kWidth; ++x) {

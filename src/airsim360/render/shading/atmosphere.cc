@@ -9,11 +9,13 @@
 namespace airsim360::internal {
 namespace {
 
-// Bruneton & Neyret (2008) for Rayleigh and ozone in the sRGB primaries; the aerosol follows Angstrom's law
+// Bruneton & Neyret (2008) for Rayleigh in the sRGB primaries; the aerosol follows Angstrom's law
 // with exponent 1.3.
 constexpr float kGroundRadius = 6360e3f, kTopRadius = 6440e3f, kEyeHeight = 60.0f;
 constexpr Vec3f kRayleigh{5.802e-6f, 13.558e-6f, 33.1e-6f};
-constexpr Vec3f kOzone{0.650e-6f, 1.881e-6f, 0.085e-6f};
+// Ozone's Chappuis band is strongest at 600 nm: in the broad red of a display it takes a little more than in
+// the green (at 680 nm, as often used, dusk would turn purple).
+constexpr Vec3f kOzone{2.10e-6f, 1.90e-6f, 0.18e-6f};
 constexpr Vec3f kAngstrom{0.78f, 1.0f, 1.30f};
 constexpr float kAerosolAlbedo = 0.94f, kAsymmetry = 0.76f;
 constexpr Vec3f kGroundAlbedo{0.22f, 0.22f, 0.20f};
@@ -88,7 +90,8 @@ Vec3f AtHeight(float height) { return {0, 0, kGroundRadius + height}; }
 // Aerosol optical depth at 550 nm from Linke's turbidity, a linear fit over clean to hazy continental air.
 ClearAir::ClearAir(double turbidity)
     : rayleigh(kRayleigh),
-      aerosol(kAngstrom * (static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0))) / kAerosolHeight)) {}
+      aerosol(kAngstrom *
+              (static_cast<float>(std::max(0.02, 0.035 + 0.075 * (turbidity - 2.0))) / kAerosolHeight)) {}
 
 Atmosphere::Atmosphere(Vec3f to_sun, double turbidity)
     : to_sun_(to_sun),
@@ -171,7 +174,8 @@ Vec3f Atmosphere::SunTransmittance(float height, float mu) const {
   const float seen = std::clamp(0.5f + (mu - horizon) / (2 * kRadius), 0.0f, 1.0f);
   if (seen <= 0) return {};
   const float t = std::sqrt(std::max(0.0f, mu - horizon) / (1 - horizon));
-  return Interpolate(sun_transmittance_, kSuns, kHeights, t * (kSuns - 1), HeightRow(height, kHeights)) * seen;
+  return Interpolate(sun_transmittance_, kSuns, kHeights, t * (kSuns - 1), HeightRow(height, kHeights)) *
+         seen;
 }
 
 Vec3f Atmosphere::MultipleAt(float height, float mu) const {
@@ -218,7 +222,8 @@ Vec3f Atmosphere::Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotrop
   if (isotropic && ground > 0) {
     const Vec3f q = p + direction * ground;
     const float sun = Dot(q, to_sun) / Norm(q);
-    light += through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
+    light +=
+        through * kGroundAlbedo * SunTransmittance(0, sun) * kSolarIrradiance * (std::max(0.0f, sun) / kPi);
   }
   if (multiple_factor) *multiple_factor = factor;
   return light;

@@ -21,8 +21,9 @@ CloudShadowMap::CloudShadowMap(Vec3f place, Vec3f to_sun, const std::function<fl
   slant_x_ = to_sun.x / z, slant_y_ = to_sun.y / z;
   ParallelFor(kSize, [&](int64_t j) {
     for (int i = 0; i < kSize; ++i) {
-      texels_[static_cast<size_t>(j) * kSize + i] = light_at((static_cast<float>(i) + 0.5f - kSize / 2) * kCell,
-                                                             (static_cast<float>(j) + 0.5f - kSize / 2) * kCell);
+      texels_[static_cast<size_t>(j) * kSize + i] =
+          light_at((static_cast<float>(i) + 0.5f - kSize / 2) * kCell,
+                   (static_cast<float>(j) + 0.5f - kSize / 2) * kCell);
     }
   });
   mean_ = static_cast<float>(std::accumulate(texels_.begin(), texels_.end(), 0.0) /

@@ -9,8 +9,8 @@
 
 namespace airsim360::internal {
 
-/// Immutable. Texels lie on the horizontal plane through `place`; another point is moved there along the sun's
-/// rays.
+/// Immutable. Texels lie on the horizontal plane through `place`; another point is moved there along the
+/// sun's rays.
 class CloudShadowMap {
  public:
   static constexpr int kSize = 384;

@@ -49,8 +49,8 @@ float Clouds::Coverage(float x, float y) const {
   const float qx = x + offset_x_, qy = y + offset_y_;
   const float c = 0.58f * ValueNoise(qx / 2600, qy / 2600, 3) + 0.30f * ValueNoise(qx / 950, qy / 950, 4) +
                   0.12f * ValueNoise(qx / 420, qy / 420, 5);
-  const float far = SmoothStep(2500, 12000, std::sqrt(x * x + y * y));
-  const float threshold = Mix(0.71f, 0.40f, far) - (cover_ - 0.35f) * 0.75f;
+  const float far = SmoothStep(2000, 9500, std::sqrt(x * x + y * y));
+  const float threshold = Mix(0.70f, 0.40f, far) - (cover_ - 0.35f) * 0.75f;
   return Clamp01((c - threshold) / 0.28f);
 }
 
@@ -104,7 +104,7 @@ float Clouds::Density(Vec3f p, int detail) const {
   float erosion =
       0.60f * noise_.At(q * (1 / 430.0f) + Vec3f{0.3f, 0.1f, h}) + 0.28f * noise_.At(q * (1 / 130.0f));
   erosion += 0.12f * (detail == 2 ? noise_.At(q * (1 / 47.0f)) : 0.5f);
-  return Clamp01((d - (0.60f - erosion) * 0.80f * (1 - d)) * 1.5f);
+  return Clamp01((d - (0.60f - erosion) * 0.80f * (1 - d)) * 2.2f);
 }
 
 float Clouds::DepthTowardsSun(Vec3f p, float dither) const {
@@ -159,7 +159,9 @@ float Clouds::PuffAlpha(float x, float y) const {
 
 // Lit on the sun's side: the sheet is thicker behind where it grows away from the sun.
 Vec3f Clouds::AddPuffs(Vec3f direction, Vec3f behind) const {
-  const float fade = SmoothStep(0.10f, 0.30f, direction.z) * SmoothStep(0.1f, 0.3f, cover_);
+  // None overhead, where a panorama would draw them across its whole width.
+  const float fade = SmoothStep(0.10f, 0.30f, direction.z) * (1 - SmoothStep(0.80f, 0.95f, direction.z)) *
+                     SmoothStep(0.1f, 0.3f, cover_);
   if (fade <= 0) return behind;
   const float t = 4300 / (direction.z + 0.03f), x = direction.x * t, y = direction.y * t;
   const float here = PuffAlpha(x, y);
@@ -181,8 +183,8 @@ float Clouds::SunAt(float x, float y) const {
   float depth = 0;
   for (int i = 0; i < kSteps; ++i)
     depth += Density(Vec3f{x, y, 0} + to_sun * (first + (static_cast<float>(i) + 0.5f) * step), 1) * step;
-  // What scatters forwards through the cloud still comes from about the sun: a floor, and a softer fall than of
-  // the direct beam alone.
+  // What scatters forwards through the cloud still comes from about the sun: a floor, and a softer fall than
+  // of the direct beam alone.
   return 0.10f + 0.90f * Exp(-0.4f * kExtinction * depth);
 }
 

@@ -1,5 +1,5 @@
-// Fair-weather clouds: a volume of cumulus, altocumulus and cirrus as sheets above it. Own composition; lighting after Wrenninge
-// et al. (2013).
+// Fair-weather clouds: a volume of cumulus, altocumulus and cirrus as sheets above it. Own composition;
+// lighting after Wrenninge et al. (2013).
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace airsim360::internal {
 
 /// What a cloud needs to know of the light.
 struct CloudLight {
-  Vec3f to_sun;   ///< unit, W
-  Vec3f sun;      ///< irradiance facing the sun, at the height of cumulus
+  Vec3f to_sun;    ///< unit, W
+  Vec3f sun;       ///< irradiance facing the sun, at the height of cumulus
   Vec3f sun_high;  ///< the same at the height of cirrus
-  Vec3f ambient;  ///< mean radiance of the clear sky
+  Vec3f ambient;   ///< mean radiance of the clear sky
 };
 
 /// Immutable. Coverage grows with distance, so that a bank stands low around the horizon and only puffs hang

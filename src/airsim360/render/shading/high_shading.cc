@@ -56,6 +56,19 @@ void PutSurfaces(const RaySet& rays, const SurfaceSet& s, const LightTerms& term
   }
 }
 
+// Sun on scattered surfaces: where it can matter and is not known.
+void TraceUnknownSun(const Shader::Impl& impl, const RaySet& rays, const float* known, SurfaceSet& s) {
+  bool asked[kBatch];
+  for (int i = 0; i < rays.count; ++i) {
+    asked[i] = s.sunlit[i] != 0;
+    if (known[rays.slot[i]] >= 0) s.sunlit[i] = 0;
+  }
+  TraceSun(*impl.tracer, impl.tables, rays, s);
+  for (int i = 0; i < rays.count; ++i) {
+    if (asked[i] && known[rays.slot[i]] >= 0) s.sunlit[i] = known[rays.slot[i]];
+  }
+}
+
 // Drops and flakes before a surface hide a share of every term and add their own light.
 void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_angle, LightTerms& terms) {
   LightSet black{}, own;
@@ -76,7 +89,7 @@ void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_
 }  // namespace
 
 void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, HighTile& tile) {
+               const TileSampling* sampling, const float* sun_known, HighTile& tile) {
   const Shader::Impl& impl = shader.impl();
   const bool falling = impl.view.air.rain + impl.view.air.snow > 0;
   RaySet rays, sky;
@@ -96,7 +109,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
     if (sampling != nullptr)
       TraceSunDisc(impl, *sampling, rays, surfaces, tile.penumbra);
     else
-      TraceSun(*impl.tracer, impl.tables, rays, surfaces);
+      TraceUnknownSun(impl, rays, sun_known, surfaces);
   }
   impl.LightByLamps(rays, kLampRays, surfaces);
   alignas(64) float u[kBatch], v[kBatch];

@@ -8,10 +8,10 @@
 
 namespace airsim360::internal {
 
-/// How the pixels of a tile share random directions. A tile's pixels are of sixteen phases, as the 4 x 4
-/// pixels of a block; all pixels of one phase send parallel rays (which trace fast), and the 16 phases of any
-/// 4 x 4 pixels, aligned or not, have different ones that are stratified together (interleaved sampling,
-/// Keller & Heidrich 2001): a mean over 4 x 4 pixels is as good as one pixel with 16 times the samples.
+/// How the pixels of a tile share random directions. A tile's pixels are of sixteen phases, one of each in
+/// every row and in about every 4 x 4 pixels; all pixels of one phase send parallel rays (which trace fast),
+/// and the phases' directions are stratified together (interleaved sampling, Keller & Heidrich 2001): a mean
+/// over 4 x 4 pixels is as good as one pixel with 16 times the samples.
 struct TileLayout {
   uint8_t slot_of[256];     ///< index in the batch of pixel 16 y + x
   uint8_t members[16][16];  ///< slots of the pixels of a phase
@@ -38,9 +38,9 @@ struct alignas(64) HighTile {
   uint8_t penumbra[kBatch];  ///< radius in pixels over which `sun_seen` may be smoothed; 0 = exact
 };
 
-/// Shades a tile. Without `sampling` the hits are scattered rays: the sun is sampled once by each ray's key
-/// and no ambient rays are sent.
+/// Shades a tile. Without `sampling` the hits are scattered rays: no ambient rays are sent, and the sun is
+/// looked for by one ray, or is as `sun_known` says for each hit where that is not negative.
 void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, HighTile& tile);
+               const TileSampling* sampling, const float* sun_known, HighTile& tile);
 
 }  // namespace airsim360::internal

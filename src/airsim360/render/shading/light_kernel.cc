@@ -177,11 +177,12 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
         }
         c = sel3(down, below, c);
       }
-      if (sun_disc) c = c + SunDisc(view, d);
       if (view.air.weather > 0.0f) {
         const AirEffect air = air_to_sky(view.air, z, up, real(kFarAir));
         c = sel3(down, c, c * air.kept + air.added);
       }
+      // The sun's radiance is what the weather leaves of it.
+      if (sun_disc) c = c + SunDisc(view, d);
     }
     store3(light.r + i, light.g + i, light.b + i, c);
   }

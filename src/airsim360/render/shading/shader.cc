@@ -58,7 +58,12 @@ float Shader::Impl::ChooseExposure(const Scene& scene) const {
   }
   const float light = std::max(Daylight(), of_lamps);
   constexpr float kNoon = 14.0f;
-  return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
+  // A camera meters the sky too, which is far brighter than the ground where neither sun nor lamps throw
+  // shadows.
+  constexpr float kClearShare = 0.15f, kWeight = 0.6f;
+  const float diffuse = Luminance(sky->Irradiance({0, 0, 1})) / std::max(light, kDarkest);
+  const float metered = 1 / (1 + kWeight * std::max(0.0f, diffuse - kClearShare));
+  return metered * kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
 }
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
@@ -114,20 +119,33 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) cons
 void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
   surfaces.count = sky.count = 0;
   for (int k = 0; k < hits.count; ++k) {
-    const bool miss = hits.instance[k] == kMiss;
-    RaySet& set = miss ? sky : surfaces;
-    const int i = set.count++;
-    set.ox[i] = hits.origin.x, set.oy[i] = hits.origin.y, set.oz[i] = hits.origin.z;
-    set.dx[i] = hits.direction_x[k], set.dy[i] = hits.direction_y[k], set.dz[i] = hits.direction_z[k];
-    set.slot[i] = static_cast<uint32_t>(k);
-    set.key[i] = hits.sample_key[k];
-    set.distance[i] = miss ? 0 : hits.distance[k];
-    set.width[i] = set.distance[i] * hits.cone_angle;
-    set.u[i] = hits.u[k], set.v[i] = hits.v[k];
-    set.instance[i] = hits.instance[k], set.triangle[i] = hits.triangle[k];
+    RaySet& set = hits.instance[k] == kMiss ? sky : surfaces;
+    set.slot[set.count++] = static_cast<uint32_t>(k);
   }
-  Pad(surfaces);
-  Pad(sky);
+  // Array by array, which compilers make vectors of; the sky needs directions alone.
+  for (RaySet* set : {&surfaces, &sky}) {
+    const int count = set->count;
+    const uint32_t* slot = set->slot;
+    const auto take = [&](const auto* from, auto* to) {
+      for (int i = 0; i < count; ++i) to[i] = from[slot[i]];
+    };
+    take(hits.direction_x, set->dx), take(hits.direction_y, set->dy), take(hits.direction_z, set->dz);
+    std::fill_n(set->ox, count, hits.origin.x), std::fill_n(set->oy, count, hits.origin.y);
+    std::fill_n(set->oz, count, hits.origin.z);
+    take(hits.sample_key, set->key);
+    if (set == &sky) {
+      std::fill_n(set->distance, count, 0.0f);
+      std::fill_n(set->width, count, 0.0f);
+      std::fill_n(set->u, count, 0.0f), std::fill_n(set->v, count, 0.0f);
+      std::fill_n(set->instance, count, kMiss), std::fill_n(set->triangle, count, 0u);
+    } else {
+      take(hits.distance, set->distance);
+      for (int i = 0; i < count; ++i) set->width[i] = set->distance[i] * hits.cone_angle;
+      take(hits.u, set->u), take(hits.v, set->v);
+      take(hits.instance, set->instance), take(hits.triangle, set->triangle);
+    }
+    Pad(*set);
+  }
 }
 
 void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {

@@ -1,18 +1,19 @@
 // The air: extinction that falls with height, the light it adds, shadows of clouds, rain and snow. In the
 // subset of shading_shared.h, after which it is included; not a normal header.
 
-// Largest part of a scale height that is told apart below the base of a layer, and largest optical exponent.
+// How many scale heights below its base a layer still grows denser, and how many a ray may go down.
 #define AIR_DEEPEST 2.0f
 #define AIR_STEEPEST 60.0f
 
 // Path through a layer whose extinction falls as exp(-height / scale): in metres of its extinction at height
 // 0. `height` of the origin, `slope` = sine of the ray's elevation.
 SHARED real layer_path(real height, real slope, real distance, ufloat scale) {
-  real x = rmin(rmax(slope * distance * (1.0f / scale), real(-AIR_STEEPEST)), real(AIR_STEEPEST));
+  real x = rmax(slope * distance * (1.0f / scale), real(-AIR_STEEPEST));
   // (1 - exp(-x)) / x, by its series where that would cancel.
   real small_x = rmax(rabs(x), real(1e-2f));
   real divided = sel(x < 0.0f, 0.0f - small_x, small_x);
-  real mean = sel(rabs(x) < 1e-2f, 1.0f - x * (0.5f - x * 0.16666667f), (1.0f - exp_approx(0.0f - divided)) / divided);
+  real mean = sel(rabs(x) < 1e-2f, 1.0f - x * (0.5f - x * 0.16666667f),
+                  (1.0f - exp_approx(0.0f - divided)) / divided);
   return exp_approx(0.0f - rmax(height * (1.0f / scale), real(-AIR_DEEPEST))) * distance * mean;
 }
 
@@ -22,15 +23,19 @@ SHARED real forward_phase(ufloat g, real mu) {
   return (1.0f - g * g) / rmax(d * rroot(d), real(1e-4f));
 }
 
-// A function of azimuth as five harmonics of the horizontal direction.
-SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufloat3 cxy, real3 d) {
-  real3 c = cx * d.x + cy * d.y + cxx * (d.x * d.x - d.y * d.y) + cxy * (2.0f * d.x * d.y);
+// A function of azimuth as seven harmonics of the horizontal direction.
+SHARED real3 around_horizon(ufloat3 c0, ufloat3 cx, ufloat3 cy, ufloat3 cxx, ufloat3 cxy, ufloat3 cx3,
+                            ufloat3 cy3, real3 d) {
+  real x2 = d.x * d.x;
+  real y2 = d.y * d.y;
+  real3 c = cx * d.x + cy * d.y + cxx * (x2 - y2) + cxy * (2.0f * d.x * d.y);
+  c = c + cx3 * (d.x * (x2 - 3.0f * y2)) + cy3 * (d.y * (3.0f * x2 - y2));
   c = c + c0;
   return make3(rmax(c.x, real(0.0f)), rmax(c.y, real(0.0f)), rmax(c.z, real(0.0f)));
 }
 
-// Where a point's shadow coordinate lies in the cloud shadow map, in texels of [0, size - 1): `along` the axis,
-// moved to the map's plane along the sun's ray.
+// Where a point's shadow coordinate lies in the cloud shadow map, in texels of [0, size - 1): `along` the
+// axis, moved to the map's plane along the sun's ray.
 SHARED real shadow_column(real along, real above, ufloat slant, ufloat origin, ufloat cells_per_metre,
                           ufloat size) {
   real x = (along - above * slant) * cells_per_metre + origin;
@@ -38,8 +43,8 @@ SHARED real shadow_column(real along, real above, ufloat slant, ufloat origin, u
 }
 
 // ---- rain and snow
-// Drops fall along lines, one in each column of a square lattice of the world; a ray walks the columns that it
-// crosses (Amanatides & Woo 1987) and meets the line in each.
+// Drops fall along lines, one in each column of a square lattice of the world; a ray walks the columns that
+// it crosses (Amanatides & Woo 1987) and meets the line in each.
 
 SHARED real fract1(real x) { return x - rfloor(x); }
 
@@ -56,8 +61,8 @@ SHARED real3 hash3(real x, real y, real z) {
 }
 
 // Share of a ray's light that drops of one lattice hide. Lengths in metres: `cell` of the lattice, `period`
-// between drops of a line, `streak` their blurred length (0: a round flake), `radius` of a drop; `keep` is the
-// share of places with a drop; `spread` the ray's width per metre.
+// between drops of a line, `streak` their blurred length (0: a round flake), `radius` of a drop; `keep` is
+// the share of places with a drop; `spread` the ray's width per metre.
 SHARED real drops_cover(real ox, real oy, real oz, real3 d, real reach, ufloat spread, ufloat cell,
                         ufloat period, ufloat streak, ufloat radius, ufloat keep, ufloat range, ufloat seed) {
   real px = ox * (1.0f / cell);

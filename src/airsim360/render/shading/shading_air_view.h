@@ -23,8 +23,10 @@ SHARED AirEffect air_to_surface(const AirView& air, real z, real3 d, real distan
                 ufloat3_of(air.aerosol) * layer_path(height, d.z, distance, air.aerosol_height);
   real mu = dot3(d, ufloat3_of(air.to_sun));
   real3 glow = ufloat3_of(air.glow) * forward_phase(kAirAsymmetry, mu);
-  real3 source = around_horizon(ufloat3_of(air.horizon[0]), ufloat3_of(air.horizon[1]), ufloat3_of(air.horizon[2]),
-                                ufloat3_of(air.horizon[3]), ufloat3_of(air.horizon[4]), d);
+  real3 source =
+      around_horizon(ufloat3_of(air.horizon[0]), ufloat3_of(air.horizon[1]), ufloat3_of(air.horizon[2]),
+                     ufloat3_of(air.horizon[3]), ufloat3_of(air.horizon[4]), ufloat3_of(air.horizon[5]),
+                     ufloat3_of(air.horizon[6]), d);
   source = source * make3(glow.x + 1.0f, glow.y + 1.0f, glow.z + 1.0f);
   if (air.weather > 0.0f) {
     // Both media are taken as evenly mixed along the way.

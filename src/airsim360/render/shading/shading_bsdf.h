@@ -67,15 +67,15 @@ SHARED real3 bsdf_fresnel(Bsdf b, real cos_i) {
 }
 
 // Fits to numerical integration over roughness 0.03 ... 1 and mu 0.02 ... 1: the directional albedo of GGX
-// without Fresnel (within 0.008, rms 0.0015), and the cosine whose Fresnel is the lobe's mean (Schlick's
+// without Fresnel (within 0.007, rms 0.0016), and the cosine whose Fresnel is the lobe's mean (Schlick's
 // fifth power times the albedo within 0.012, rms 0.0023).
 SHARED Bsdf bsdf_fit(Bsdf b, real r) {
   b.fit_alpha = r * r;
-  b.e0 = 0.6350846f + r * (1.5454366f + r * (-2.3439089f + r * (1.4608023f + r * -0.32534611f)));
-  b.e1 = 2.8130325f + r * (-9.3090398f + r * (8.0628295f + r * (-1.3093308f + r * -3.0964722f)));
-  b.e2 = -7.9411935f + r * (5.1769623f + r * (47.7691f + r * (-82.128918f + r * 43.649634f)));
-  b.e3 = 8.8553768f + r * (14.806402f + r * (-117.32434f + r * (153.51679f + r * -69.872993f)));
-  b.e4 = -3.3674165f + r * (-12.001443f + r * (61.040282f + r * (-62.666607f + r * 22.873313f)));
+  b.e0 = 0.60863316f + r * (1.6753603f + r * (-2.5555156f + r * (1.5865004f + r * -0.34242176f)));
+  b.e1 = 2.9266576f + r * (-9.3568579f + r * (6.6014322f + r * (1.6755584f + r * -4.6960715f)));
+  b.e2 = -7.9474615f + r * (2.3569421f + r * (60.737196f + r * (-101.22153f + r * 52.622006f)));
+  b.e3 = 8.6148752f + r * (20.117658f + r * (-137.42343f + r * (180.66032f + r * -81.964198f)));
+  b.e4 = -3.2085931f + r * (-14.547473f + r * (69.701002f + r * (-73.701447f + r * 27.635937f)));
   b.k00 = -0.0030851831f + r * (0.014339855f + r * (1.103342f + r * -2.1714225f));
   b.k01 = -2.1204149f + r * (9.4264499f + r * -9.2537457f);
   b.k02 = -4.0520481f + r * 1.0919378f;

@@ -113,7 +113,7 @@ struct LampView {
 struct AirView {
   float rayleigh[3], aerosol[3], weather;  ///< weather: fog, rain and snow, grey
   float rayleigh_height, aerosol_height, weather_height, base_z;
-  float horizon[5][3];  ///< light of much clear air, as around_horizon, without the glow about the sun
+  float horizon[7][3];  ///< light of much clear air, as around_horizon, without the glow about the sun
   float glow[3];        ///< times forward_phase of kAirAsymmetry: what the glow adds to 1
   float weather_light[3], weather_glow[3];  ///< the same of much fog; the glow is added
   float to_sun[3];

@@ -190,6 +190,8 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(0.02, 1, fresnel_dielectric(a + 1.0f, b) + fresnel_schlick(b, c));
   SAME(-1, 1, leaf_diffuse(make3(a, b, c), b, c).x);
   SAME(-1, 1, dot3(octahedral_decode(a, b), make3(a, b, c)));
+  SAME(-1, 1, layer_path(a * 100.0f, b, c * 1000.0f, 160.0f) + forward_phase(0.76f, a));
+  SAME(-1, 1, drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
 #undef SAME
 }
@@ -204,7 +206,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
     text << file.rdbuf();
     return text.str();
   };
-  const std::string shared = read("shading_shared.h");
+  const std::string shared = read("shading_shared.h") + read("shading_air.h");
   if (shared.empty()) GTEST_SKIP() << "not run from the repository's root";
   const std::string stem =
       (std::filesystem::temp_directory_path() / ("airsim360_glsl_" + std::to_string(getpid()))).string();
@@ -216,7 +218,10 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
            "  v[0] = srgb_encode(luminance(tone_curve(c))) + asin_approx(v[3]) + fresnel_dielectric(1.5, "
-           "v[4]) + lost; }\n";
+           "v[4]) + lost +\n"
+           "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + shadow_column(v[0], v[1], "
+           "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, 5.0, "
+           "1.0) + forward_phase(0.7, v[1]); }\n";
   }
   const int status = std::system(
       ("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());

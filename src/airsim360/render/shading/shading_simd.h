@@ -81,7 +81,9 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
 #include "airsim360/render/shading/shading_shared.h"
 //
 #include "airsim360/render/shading/shading_bsdf.h"
+//
 #include "airsim360/render/shading/shading_air.h"
+//
 #include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT

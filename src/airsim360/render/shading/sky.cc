@@ -24,7 +24,8 @@ float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 Vec3f FromCompass(double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * (M_PI / 180), elevation = elevation_deg * (M_PI / 180);
   return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
-          static_cast<float>(std::cos(azimuth) * std::cos(elevation)), static_cast<float>(std::sin(elevation))};
+          static_cast<float>(std::cos(azimuth) * std::cos(elevation)),
+          static_cast<float>(std::sin(elevation))};
 }
 
 // Irradiance of level ground by an upper-hemisphere table.
@@ -85,7 +86,8 @@ void Sky::BakeSky(const Environment& environment) {
   const Atmosphere atmosphere(sun, environment.turbidity), moonlit = atmosphere.WithSun(moon.direction);
 
   // The brighter of both throws the shadows.
-  const bool by_moon = Luminance(atmosphere.SunIrradiance()) < moon.share * Luminance(moonlit.SunIrradiance());
+  const bool by_moon =
+      Luminance(atmosphere.SunIrradiance()) < moon.share * Luminance(moonlit.SunIrradiance());
   to_sun_ = by_moon ? moon.direction : sun;
   const auto light_at = [&](float height) {
     return by_moon ? moonlit.SunIrradiance(height) * moon.share : atmosphere.SunIrradiance(height);
@@ -117,8 +119,9 @@ void Sky::BakeSky(const Environment& environment) {
     for (int x = 0; x < table_.width; ++x) {
       const Vec3f d = DirectionOfTexel(table_, x, y), behind = clear.At(d) + table_.Texel(x, y);
       const Vec3f haze = clear.At(Normalized(Vec3f{d.x, d.y, std::max(d.z, 0.02f)}));
-      table_.SetTexel(x, y, deck.closed() ? deck.Over(d, behind)
-                                          : deck.Over(d, clouds.Over(d, behind, haze, HashUnit(x, y, 5))));
+      table_.SetTexel(x, y,
+                      deck.closed() ? deck.Over(d, behind)
+                                    : deck.Over(d, clouds.Over(d, behind, haze, HashUnit(x, y, 5))));
     }
   });
   sun_irradiance_ *= deck.SunLeft();

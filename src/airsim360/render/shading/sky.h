@@ -68,8 +68,8 @@ class Sky {
   // ---- the air
   /// For the kernels and shading_air.h.
   const AirView& air() const { return air_; }
-  /// `light` that starts at `origin + direction * distance`, seen from `origin`: less what the air takes, plus
-  /// what it adds. INFINITY: light of the sky, which fog and rain alone still change.
+  /// `light` that starts at `origin + direction * distance`, seen from `origin`: less what the air takes,
+  /// plus what it adds. INFINITY: light of the sky, which fog and rain alone still change.
   Vec3f ThroughAir(Vec3f origin, Vec3f direction, float distance, Vec3f light) const;
   /// Extinction of clear air at the ground, 1 / m.
   Vec3f extinction() const { return extinction_; }

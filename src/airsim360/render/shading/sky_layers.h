@@ -10,9 +10,9 @@ namespace airsim360::internal {
 /// magnitudes -26.74 and -12.74; a half moon gives a twelfth of a full one (Allen, Astrophysical Quantities).
 float MoonShare(double phase);
 
-/// Radiance of the moonless night sky: airglow, zodiacal light and faint stars (22 mag/arcsec^2 at the zenith,
-/// 1.7e-4 cd/m^2, brighter towards the horizon after van Rhijn), and with `lamps` the glow of a town (19.5
-/// mag/arcsec^2).
+/// Radiance of the moonless night sky: airglow, zodiacal light and faint stars (22 mag/arcsec^2 at the
+/// zenith, 1.7e-4 cd/m^2, brighter towards the horizon after van Rhijn), and with `lamps` the glow of a town
+/// (19.5 mag/arcsec^2).
 Vec3f NightGlow(Vec3f direction, bool lamps);
 
 /// Adds the stars of the upper hemisphere down to magnitude 6.5: about 4,500 at invented places, their number
@@ -23,8 +23,8 @@ void AddStars(SkyTable& table);
 /// Immutable.
 class CloudDeck {
  public:
-  /// `cover` as Environment::cloud_cover: nothing below 0.7, broken up to 1. `illuminance` is what a closed deck
-  /// gives level ground, in units.
+  /// `cover` as Environment::cloud_cover: nothing below 0.7, broken up to 1. `illuminance` is what a closed
+  /// deck gives level ground, in units.
   CloudDeck(double cover, float illuminance);
   /// The deck before `behind`.
   Vec3f Over(Vec3f direction, Vec3f behind) const;
@@ -33,7 +33,7 @@ class CloudDeck {
   float SunLeft() const;
 
  private:
-  float closed_, zenith_;
+  float closed_, zenith_ = 0;
 };
 
 /// Illuminance of level ground under a thick overcast sky, in units: 300 + 21000 sin(elevation) lux

@@ -32,8 +32,10 @@ class Picture {
   }
   void Set(int x, int y, Vec3f c) { pixels_(x, y) = {c.x, c.y, c.z}; }
   Vec3f Direction(int x, int y) const {
-    const float compass = 2 * kPi * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width()) - 0.5f) + turn_;
-    return DirectionOf(kPi / 2 - compass, kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height())));
+    const float compass =
+        2 * kPi * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width()) - 0.5f) + turn_;
+    return DirectionOf(kPi / 2 - compass,
+                       kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height())));
   }
   float SolidAngle(int y) const {
     const float step = kPi / static_cast<float>(height()), top = kPi / 2 - static_cast<float>(y) * step;
@@ -49,7 +51,8 @@ class Picture {
     const int x0 = std::min(static_cast<int>(x), width() - 1), x1 = (x0 + 1) % width();
     const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, height() - 1);
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    return (At(x0, y0) * (1 - fx) + At(x1, y0) * fx) * (1 - fy) + (At(x0, y1) * (1 - fx) + At(x1, y1) * fx) * fy;
+    return (At(x0, y0) * (1 - fx) + At(x1, y0) * fx) * (1 - fy) +
+           (At(x0, y1) * (1 - fx) + At(x1, y1) * fx) * fy;
   }
 
  private:
@@ -62,7 +65,8 @@ template <class Visit>
 void Around(const Picture& picture, Vec3f center, float radius, const Visit& visit) {
   const float least = std::cos(radius);
   for (int y = 0; y < picture.height(); ++y) {
-    const float elevation = kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height()));
+    const float elevation =
+        kPi * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(picture.height()));
     if (std::fabs(elevation - std::asin(std::clamp(center.z, -1.0f, 1.0f))) > radius) continue;
     for (int x = 0; x < picture.width(); ++x) {
       const Vec3f d = picture.Direction(x, y);
@@ -72,7 +76,7 @@ void Around(const Picture& picture, Vec3f center, float radius, const Visit& vis
 }
 
 struct Overview {
-  Vec3f peak;                   // direction of the brightest pixel above the horizon
+  Vec3f peak;                    // direction of the brightest pixel above the horizon
   float brightest = 0, all = 0;  // its luminance; light of the upper hemisphere
   float mean = 0;
 };

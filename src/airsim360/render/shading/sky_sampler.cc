@@ -25,8 +25,8 @@ struct Found {
   float inside;
 };
 Found Find(const float* cumulative, int count, float u) {
-  const int i = std::min(static_cast<int>(std::upper_bound(cumulative, cumulative + count, u) - cumulative),
-                         count - 1);
+  const int i =
+      std::min(static_cast<int>(std::upper_bound(cumulative, cumulative + count, u) - cumulative), count - 1);
   const float below = i > 0 ? cumulative[i - 1] : 0;
   return {i, std::clamp((u - below) / std::max(cumulative[i] - below, 1e-12f), 0.0f, 0.9999999f)};
 }

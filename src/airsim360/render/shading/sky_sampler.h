@@ -29,9 +29,9 @@ class SkySampler {
   float Pdf(Vec3f direction) const;
 
  private:
-  std::vector<float> density_;      // per solid angle, of each cell
-  std::vector<float> cumulative_;   // of the cells of a row, up to 1
-  std::vector<float> row_;          // of the rows
+  std::vector<float> density_;     // per solid angle, of each cell
+  std::vector<float> cumulative_;  // of the cells of a row, up to 1
+  std::vector<float> row_;         // of the rows
 };
 
 }  // namespace airsim360::internal

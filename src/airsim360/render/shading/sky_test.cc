@@ -110,6 +110,7 @@ TEST(Sky, CloudsCoverMoreWhenAskedAndLeaveTheSunFree) {
   for (double cover : {0.0, 0.35, 0.8}) {
     Environment environment;
     environment.cloud_cover = cover;
+    environment.cirrus_cover = 0;
     const Sky sky(environment);
     int white = 0, all = 0;
     for (int i = 0; i < 8000; ++i) {

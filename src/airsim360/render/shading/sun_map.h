@@ -14,7 +14,7 @@ namespace airsim360::internal {
 class SunMap {
  public:
   /// `size` texels a side, a multiple of 4, but none smaller than 5 cm.
-  SunMap(const RayTracer& tracer, Vec3f to_sun, int size = 2048);
+  SunMap(const RayTracer& tracer, Vec3f to_sun, int size = 1024);
 
   SunMapView view() const;
   /// Whether the map says that the sun is seen from p (for tests: the kernel's formula).

@@ -14,6 +14,7 @@ std::vector<PropKind> CarKinds();  // cars and vans
 std::vector<PropKind> CycleKinds();
 std::vector<PropKind> FountainKinds();
 std::vector<PropKind> LampKinds();
+std::vector<PropKind> ParkKinds();  // playground, picnic tables, road works, ivy
 std::vector<PropKind> RockKinds();
 std::vector<PropKind> RooftopKinds();
 std::vector<PropKind> SeatingKinds();  // chairs, tables, benches

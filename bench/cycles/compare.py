@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""Side by side with Cycles (Debian's Blender 3.4) on the CPU: the same exported world, camera, threads and machine.
+
+    python3 bench/cycles/compare.py [--world downtown_west] [--size 2048x1024] [--threads 2] [--rounds 7]
+                                    [--quality-size 512x256] [--reference-spp 4096] [--skip-quality]
+
+Needs blender, python3-numpy, python3-pil and build/bin/{airsim360,frame_server}. Both renderers stay in memory and
+take turns; seconds are those of a frame, without starting, loading or building acceleration structures. Two
+figures of Cycles are given: the whole call, in which Blender also walks through all its objects, and the sampling
+alone, as its own log has it. Ratios use the smaller one.
+"""
+import argparse
+import json
+import pathlib
+import re
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+
+import numpy
+from exr import read_exr
+from labels import compare, near_edges, read_entities
+
+HERE = pathlib.Path(__file__).resolve().parent
+BIN = HERE.parents[1] / "build/bin"
+
+
+class Server:
+    """A renderer that answers one line of JSON with another."""
+
+    def __init__(self, command, prefix="", log=None):
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE if log is not None else subprocess.DEVNULL, text=True)
+        self.prefix, self.log = prefix, log
+        if log is not None:
+            threading.Thread(target=lambda: log.extend(self.process.stderr), daemon=True).start()
+        self.ready = self.read()
+
+    def read(self):
+        for line in self.process.stdout:
+            if line.startswith(self.prefix):
+                return json.loads(line[len(self.prefix):])
+        raise RuntimeError(f"{self.process.args[0]} ended")
+
+    def ask(self, **request):
+        self.process.stdin.write(json.dumps(request) + "\n")
+        self.process.stdin.flush()
+        return self.read()
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+class Cycles(Server):
+    def __init__(self, glb, threads):
+        super().__init__(["blender", "-b", "--factory-startup", "-P", str(HERE / "cycles_server.py"), "--", str(glb),
+                          str(threads)], "CYCLES ", [])
+
+    def ask(self, **request):
+        """Adds `sampling`: from the first sample to the end, as Blender's log says to 0.01 s."""
+        del self.log[:]
+        answer = super().ask(**request)
+        times = [(int(m[1]) * 60 + float(m[2]), m[3]) for m in
+                 (re.search(r"Time:(\d+):([\d.]+) .*\| (Sample 0/|Finished)", line) for line in list(self.log)) if m]
+        if len(times) >= 2:
+            answer["sampling"] = times[-1][0] - times[0][0]
+        return answer
+
+
+def write_exr(path, image):
+    """Uncompressed float32 channels B G R."""
+    height, width, _ = image.shape
+
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
+    channels = b"".join(name + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    head = (b"\x76\x2f\x31\x01\x02\0\0\0" + attribute(b"channels", b"chlist", channels) + attribute(b"compression", b"compression", b"\0") +
+            attribute(b"dataWindow", b"box2i", window) + attribute(b"displayWindow", b"box2i", window) +
+            attribute(b"lineOrder", b"lineOrder", b"\0") + attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) +
+            attribute(b"screenWindowCenter", b"v2f", struct.pack("<ff", 0, 0)) +
+            attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0")
+    line = 8 + 12 * width
+    rows = image[..., ::-1].transpose(0, 2, 1).astype("<f4")
+    with open(path, "wb") as file:
+        file.write(head + struct.pack(f"<{height}Q", *(len(head) + 8 * height + y * line for y in range(height))))
+        for y in range(height):
+            file.write(struct.pack("<ii", y, 12 * width) + rows[y].tobytes())
+
+
+def colors(path):
+    layers = read_exr(path)
+    pick = lambda c: next(v for k, v in layers.items() if k == c or k.endswith("Combined." + c)).astype(numpy.float64)
+    return numpy.stack([pick("R"), pick("G"), pick("B")], -1)
+
+
+def shown(image, reference):
+    """Display values in [0, 1]: mean luminance of the reference to 0.18, then the sRGB curve."""
+    weight = numpy.cos((0.5 - (numpy.arange(len(reference)) + 0.5) / len(reference)) * numpy.pi)[:, None]
+    mean = (numpy.minimum(reference.mean(-1), 50) * weight).sum() / (weight.sum() * reference.shape[1])
+    x = numpy.clip(image * (0.18 / mean), 0, 1)
+    return numpy.where(x < 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+
+
+def ws_psnr(a, b):
+    weight = numpy.cos((0.5 - (numpy.arange(len(a)) + 0.5) / len(a)) * numpy.pi)[:, None, None]
+    error = ((a - b) ** 2 * weight).sum() / (weight.sum() * a.shape[1] * 3)
+    return -10 * numpy.log10(max(error, 1e-12))
+
+
+def parse_size(text):
+    return [int(v) for v in text.split("x")]
+
+
+def label_agreement(program, cycles, world, pose, size, threads, folder):
+    """Ids of one frame; range of the mean over frames with other jitters, which Cycles cannot switch off."""
+    out = folder / "labels"
+    subprocess.run([program, "render", "--world", world, f"--pose={pose}", "--size", "x".join(map(str, size)), "--tier", "labels",
+                    "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
+    frame = json.loads((out / "frames.jsonl").read_text().splitlines()[0])
+    names = json.loads((out / "entities.json").read_text())
+    sky = next((int(key) for key, value in names.items() if value["category_path"] == "sky"), 0)
+    exr = folder / "labels.exr"
+    ask = dict(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=frame["X_WC"], out=str(exr))
+    cycles.ask(**ask)
+    result = compare(out, exr, sky)
+    ids = read_entities(out / "entity/000000.png")
+    ranges = read_exr(out / "range/000000.exr")["Y"].astype(numpy.float64)
+    total, count = numpy.zeros(ids.shape), numpy.zeros(ids.shape)
+    for seed in range(16):
+        cycles.ask(**{**ask, "seed": seed})
+        layers = read_exr(exr)
+        distance = next(v for k, v in layers.items() if k.endswith("Depth.Z")).astype(numpy.float64)
+        theirs = numpy.rint(next(v for k, v in layers.items() if k.endswith("IndexOB.X")))
+        same = (theirs == ids) & (distance < 1e9)
+        total[same] += distance[same]
+        count[same] += 1
+    good = (count == 16) & ~near_edges(ids) & (ranges > 0)
+    error = numpy.abs(total[good] / 16 - ranges[good]) / ranges[good]
+    result["range_p999_mean_of_16"] = float(numpy.quantile(error, 0.999))
+    for name, value in result.items():
+        print(f"  {name:26} {value:.3g}" if isinstance(value, float) else f"  {name:26} {value}")
+    return frame["X_WC"]
+
+
+def paired_speed(name, ours, cycles, our_ask, their_ask, rounds):
+    """Alternating rounds after one to warm up; medians."""
+    times = []
+    for round_ in range(rounds + 1):
+        a, b = cycles.ask(**their_ask), ours.ask(**our_ask)
+        if round_ > 0:
+            times.append((b["seconds"], a["seconds"], a.get("sampling", a["seconds"])))
+    own, call, sampling = (statistics.median(column) for column in zip(*times))
+    ratios = sorted(min(c, s) / o for o, c, s in times)
+    print(f"  {name}: ours {own:.3f} s, Cycles {sampling:.3f} s sampling ({call:.3f} s the whole call), "
+          f"ratio {statistics.median(ratios):.2f} [{ratios[0]:.2f} … {ratios[-1]:.2f}]")
+
+
+def quality(ours, cycles, pose, size, sky, sun, spp, folder):
+    """Error against each renderer's own reference, in display values, weighted by solid angle."""
+    path = folder / "radiance.exr"
+
+    def mine(tier, samples, seed):
+        answer = ours.ask(size=size, tier=tier, samples=samples, seed=seed, labels=False, X_WC=pose, radiance=str(path))
+        return colors(path), answer["seconds"]
+
+    def theirs(samples, seed):
+        answer = cycles.ask(size=size, samples=samples, bounces=4, X_WC=pose, seed=seed, out=str(path), sky=sky, sun_strength=sun)
+        return colors(path), min(answer["seconds"], answer.get("sampling", answer["seconds"]))
+
+    own_reference, _ = mine("reference", spp, 7)
+    high, high_seconds = mine("high", 0, 1)
+    print(f"  high: WS-PSNR {ws_psnr(shown(high, own_reference), shown(own_reference, own_reference)):.2f} dB against "
+          f"our reference of {spp} paths a pixel, {high_seconds:.3f} s at {size[0]}x{size[1]}")
+    their_reference, _ = theirs(spp, 7)
+    for samples in (4, 16, 64):
+        picture, seconds = theirs(samples, 1)
+        print(f"  Cycles {samples:3} spp: WS-PSNR {ws_psnr(shown(picture, their_reference), shown(their_reference, their_reference)):.2f} dB "
+              f"against its own reference of {spp} spp, {seconds:.3f} s")
+    a, b = shown(own_reference, own_reference), shown(their_reference, own_reference)
+    print(f"  our reference against Cycles' reference: WS-PSNR {ws_psnr(a, b):.2f} dB")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--world", default="downtown_west")
+    parser.add_argument("--pose", default="-19,-7,8,40")
+    parser.add_argument("--size", type=parse_size, default=[2048, 1024])
+    parser.add_argument("--quality-size", type=parse_size, default=[512, 256])
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--reference-spp", type=int, default=4096)
+    parser.add_argument("--skip-quality", action="store_true")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="airsim360_cycles_") as name:
+        folder = pathlib.Path(name)
+        for world, pose in (("box_room", "0.3,-0.2,1.6,20"), (arguments.world, arguments.pose)):
+            glb = folder / f"{world}.glb"
+            subprocess.run([BIN / "airsim360", "world", "export", world, "--out", glb], check=True)
+            cycles = Cycles(glb, arguments.threads)
+            print(f"{world}, {arguments.size[0]}x{arguments.size[1]}, {arguments.threads} threads; Blender took "
+                  f"{cycles.ready['import_seconds']:.0f} s to open it\n labels and range:")
+            X_WC = label_agreement(BIN / "airsim360", cycles, world, pose, arguments.size, arguments.threads, folder)
+            if world == "box_room":
+                cycles.close()
+        ours = Server([BIN / "frame_server", arguments.world, str(arguments.threads), "high"])
+        sky = folder / "sky.exr"
+        (folder / "dot.obj").write_text("v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nf 1 2 3\n")
+        picture = Server([BIN / "frame_server", str(folder / "dot.obj"), str(arguments.threads), "fast", arguments.world])
+        picture.ask(size=[2048, 1024], tier="fast", aa_samples=1, labels=False, radiance=str(sky),
+                    X_WC={"p": [0, 0, 30], "q_wxyz": [0.5, -0.5, 0.5, -0.5]})
+        sun = picture.ready["sun_irradiance"]
+        picture.close()
+        light = colors(sky)
+        write_exr(sky, numpy.minimum(light, 30))  # the disc is the sun lamp's
+        print(" speed:")
+        size = arguments.size
+        paired_speed("fast, all labels, no antialiasing / Cycles 1 spp, direct light, Z, index, normal", ours, cycles,
+                     dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
+                     dict(size=size, samples=1, bounces=0, X_WC=X_WC, sky=str(sky), sun_strength=sun), arguments.rounds)
+        paired_speed("high, all labels, antialiased / Cycles 16 spp, 4 bounces", ours, cycles,
+                     dict(size=size, tier="high", X_WC=X_WC),
+                     dict(size=size, samples=16, bounces=4, X_WC=X_WC), max(3, arguments.rounds // 2))
+        if not arguments.skip_quality:
+            print(" quality:")
+            quality(ours, cycles, X_WC, arguments.quality_size, str(sky), sun, arguments.reference_spp, folder)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,51 @@
+"""Agreement of ids, range and normals between a frame of ours and one of Cycles of the same view."""
+import sys
+
+import numpy
+from exr import read_exr
+from PIL import Image
+
+
+def read_entities(path):
+    rgb = numpy.asarray(Image.open(path).convert("RGB")).astype(numpy.int64)
+    return rgb[..., 0] + 256 * rgb[..., 1] + 65536 * rgb[..., 2]
+
+
+def near_edges(ids, radius=1):
+    """Pixels within `radius` of another id; columns wrap."""
+    edge = numpy.zeros(ids.shape, bool)
+    for dy in range(-radius, radius + 1):
+        rows = numpy.clip(numpy.arange(ids.shape[0]) + dy, 0, ids.shape[0] - 1)
+        for dx in range(-radius, radius + 1):
+            edge |= numpy.roll(ids[rows], dx, axis=1) != ids
+    return edge
+
+
+def compare(ours, cycles, sky_id):
+    """`ours`: folder of a dataset of one frame; `cycles`: multilayer EXR. Returns figures by name."""
+    layers = read_exr(cycles)
+    channel = lambda end: next(v for k, v in layers.items() if k.endswith(end))
+    ids = read_entities(f"{ours}/entity/000000.png")
+    ranges = read_exr(f"{ours}/range/000000.exr")["Y"].astype(numpy.float64)
+    theirs = numpy.rint(channel("IndexOB.X")).astype(numpy.int64)
+    theirs[theirs == 0] = sky_id
+    distance = channel("Depth.Z").astype(numpy.float64)
+
+    edge = near_edges(ids) | near_edges(theirs)
+    differs = ids != theirs
+    both = (ranges > 0) & (distance < 1e9) & ~edge & ~differs
+    error = numpy.abs(ranges - distance)[both] / ranges[both]
+    return {
+        "pixels": ids.size,
+        "id_mismatches": int(differs.sum()),
+        "id_mismatch_share": float(differs.mean()),
+        "id_mismatches_off_edges": int((differs & ~edge).sum()),
+        "range_p50": float(numpy.quantile(error, 0.5)),
+        "range_p999": float(numpy.quantile(error, 0.999)),
+        "range_max": float(error.max()),
+    }
+
+
+if __name__ == "__main__":
+    for name, value in compare(sys.argv[1], sys.argv[2], int(sys.argv[3])).items():
+        print(f"{name:26} {value}")

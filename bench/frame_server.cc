@@ -1,0 +1,67 @@
+// Renders frames on request and says how long each took: our side of comparisons with other renderers
+// (bench/cycles). Usage: frame_server WORLD THREADS [TIER [SKY_WORLD]]; SKY_WORLD lends its sun and weather.
+// Says {"ready": true, "sun_irradiance": [r, g, b]}, then reads one JSON object a line:
+//   {"size": [W, H], "tier": "fast", "X_WC": {"p": [...], "q_wxyz": [...]}, "labels": true, "samples": N,
+//    "aa_samples": N, "seed": N, "radiance": FILE.exr or absent}
+// and answers each with {"seconds": ..., "rays": ...}.
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "airsim360/base/file.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/image/codecs.h"
+#include "airsim360/render/renderer.h"
+#include "airsim360/render/shading/sky.h"
+#include "airsim360/sim/world_loader.h"
+
+namespace {
+
+using namespace airsim360;
+using nlohmann::json;
+
+RenderRequest ReadRequest(const json& line) {
+  RenderRequest request;
+  request.camera = Equirectangular{line.at("size")[0], line.at("size")[1]};
+  const json &p = line.at("X_WC").at("p"), &q = line.at("X_WC").at("q_wxyz");
+  request.X_WC = {ToMatrix(Quaternion{q[0], q[1], q[2], q[3]}), {p[0], p[1], p[2]}};
+  request.tier = ParseTier(line.at("tier").get<std::string>());
+  const bool labels = line.value("labels", true);
+  request.products = {.rgb = true, .range = labels, .semantic = labels, .entity = labels, .normal = labels};
+  request.products.radiance = line.contains("radiance");
+  request.samples = line.value("samples", 0);
+  request.aa_samples = line.value("aa_samples", request.aa_samples);
+  request.seed = line.value("seed", uint64_t{0});
+  return request;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: frame_server WORLD THREADS [TIER]\n");
+    return 2;
+  }
+  const ThreadLimit limit(std::stoi(argv[2]));
+  const auto tracer = std::make_shared<const RayTracer>(LoadWorld({.world = argv[1]}));
+  Environment environment = tracer->scene().environment;
+  if (argc > 4) environment = LoadWorld({.world = argv[4]})->environment;
+  const auto renderer =
+      MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast"), .environment = environment});
+  const Vec3f sun = internal::Sky(environment).sun_irradiance();
+  std::printf("{\"ready\": true, \"sun_irradiance\": [%g, %g, %g]}\n", static_cast<double>(sun.x),
+              static_cast<double>(sun.y), static_cast<double>(sun.z));
+  std::fflush(stdout);
+  Frame frame;
+  for (std::string line; std::getline(std::cin, line);) {
+    const json request = json::parse(line);
+    const RenderStats stats = renderer->Render(ReadRequest(request), frame);
+    if (request.contains("radiance"))
+      WriteFileAtomically(request["radiance"].get<std::string>(), EncodeExr(frame.radiance));
+    std::printf("{\"seconds\": %.6f, \"rays\": %llu}\n", stats.render_ms / 1000,
+                static_cast<unsigned long long>(stats.rays));
+    std::fflush(stdout);
+  }
+}

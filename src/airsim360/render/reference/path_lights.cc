@@ -1,0 +1,67 @@
+#include "airsim360/render/reference/path_lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kTau = 6.28318531f;
+constexpr float kSunRadius = 0.004625f;  // radians; as in light_kernel.cc
+
+}  // namespace
+
+PathLights::PathLights(const Shader::Impl& parts)
+    : sky_(parts.sky ? &*parts.sky : nullptr), lamps_(parts.lights) {
+  if (sky_ == nullptr) return;
+  to_sun_ = sky_->to_sun();
+  sun_radiance_ = sky_->sun_radiance();
+  // As in surface_kernel.cc, a sun just below the horizon shines, a lower one does not.
+  has_sun_ = to_sun_.z > -0.02f && sun_radiance_.y > 0;
+  const Vec3f reference = std::fabs(to_sun_.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
+  sun_right_ = Normalized(Cross(reference, to_sun_));
+  sun_up_ = Cross(to_sun_, sun_right_);
+}
+
+LightRay PathLights::SampleSun(Vec3f p, Vec2f u) const {
+  // The chord to the disc's centre squared is even over solid angle.
+  const float chord = kSunRadius * std::sqrt(u.x), turn = kTau * u.y;
+  const float side = chord * std::sqrt(1 - 0.25f * chord * chord);
+  const Vec3f d = Normalized(to_sun_ * (1 - 0.5f * chord * chord) + sun_right_ * (side * std::cos(turn)) +
+                             sun_up_ * (side * std::sin(turn)));
+  return {d, SunRadiance(p, d), SunPdf(d), INFINITY};
+}
+
+float PathLights::SunPdf(Vec3f d) const {
+  const Vec3f off = d - to_sun_;
+  return has_sun_ && Dot(off, off) < kSunRadius * kSunRadius ? 2 / (kTau * kSunRadius * kSunRadius) : 0.0f;
+}
+
+Vec3f PathLights::SunRadiance(Vec3f p, Vec3f d) const {
+  const Vec3f off = d - to_sun_;
+  const float x2 = Dot(off, off) / (kSunRadius * kSunRadius);
+  if (!has_sun_ || x2 >= 1) return {};
+  return sun_radiance_ * (1.25f * (0.4f + 0.6f * std::sqrt(1 - x2)) * sky_->CloudShadow(p));
+}
+
+LightRay PathLights::SampleSky(Vec2f u) const {
+  const SkySample sample = sky_->Sample(u);
+  return {sample.direction, {1, 1, 1}, sample.pdf, INFINITY};
+}
+
+LightRay PathLights::SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const {
+  const LightSample sample = lamps_.Sample(p, normal, u);
+  const Vec3f way = sample.p - p;
+  const float distance = Norm(way);
+  const Vec3f d = way * (1 / std::max(distance, 1e-6f));
+  const float cosine = -Dot(sample.normal, d);
+  if (!(sample.pdf > 0) || cosine < 1e-5f) return {{0, 0, 1}, {}, 0, 0};
+  return {d, sample.radiance, sample.pdf * distance * distance / cosine, distance};
+}
+
+float PathLights::LampPdf(Vec3f p, Vec3f normal, uint32_t instance, uint32_t triangle, float distance,
+                          float cos_lamp) const {
+  return lamps_.Pdf(p, normal, instance, triangle) * distance * distance / std::max(cos_lamp, 1e-5f);
+}
+
+}  // namespace airsim360::internal

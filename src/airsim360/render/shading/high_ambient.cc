@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/render/shading/high_rays.h"
+#include "airsim360/render/shading/sampling.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kFoliage = 1;  // SurfaceKind
+
+// The ambient rays of one tile.
+class AmbientTile {
+ public:
+  AmbientTile(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
+              const RaySet& rays, const SurfaceSet& s, HighTile& tile)
+      : shader_(shader), sun_map_(sun_map), sampling_(sampling), rays_(rays), s_(s), tile_(tile) {
+    for (int i = 0; i < 16; ++i) {
+      packet_.mask[i] = kMaskSolid;  // clear panes let light pass
+      hits_.shines[i] = 1;
+      hits_.lamp_r[i] = hits_.lamp_g[i] = hits_.lamp_b[i] = 0;
+    }
+  }
+
+  // All rays of up to sixteen surfaces of one phase.
+  void GatherPhase(int phase, const int* surfaces, int count) {
+    for (int i = 0; i < 16; ++i) {
+      index_[i] = surfaces[i < count ? i : 0];
+      valid_[i] = i < count ? -1 : 0;
+      leaf_[i] = s_.kind[index_[i]] == kFoliage && s_.transmission[index_[i]] > 0;
+    }
+    // A whole number of rays, right on average over the sixteen phases.
+    const float turn = static_cast<float>(ReverseBits(static_cast<uint32_t>(phase)) >> 28) / 16 +
+                       static_cast<float>((sampling_.seed + sampling_.tile * 0x9e3779b9u) >> 8) * 0x1p-24f;
+    const int samples = std::max(1, static_cast<int>(sampling_.ambient_rays + turn - std::floor(turn)));
+    const auto most = static_cast<uint32_t>(std::ceil(sampling_.ambient_rays));
+    const uint32_t first = (sampling_.tile * 16 + static_cast<uint32_t>(phase)) * most;
+    for (int k = 0; k < samples; ++k) {
+      const Vec3f sphere = SpherePoint(SobolPoint(first + static_cast<uint32_t>(k), sampling_.seed));
+      // Leaves look to both sides in turn.
+      const bool behind = ((k + phase + static_cast<int>(sampling_.tile)) & 1) != 0;
+      Trace(sphere, behind);
+      // Each side stands for the rays that were not sent to the other, too.
+      const int alike = (samples + 1 - (k & 1)) / 2;
+      AddLight(count, behind, samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
+    }
+    constexpr float kPi = 3.14159265f;
+    const float scale = kPi / static_cast<float>(samples);
+    for (int i = 0; i < count; ++i) {
+      const uint32_t slot = rays_.slot[index_[i]];
+      tile_.light_samples[slot] = static_cast<uint8_t>(std::min(samples, 255));
+      tile_.light_r[slot] *= scale, tile_.light_g[slot] *= scale, tile_.light_b[slot] *= scale;
+    }
+  }
+
+ private:
+  void Trace(Vec3f sphere, bool behind) {
+    for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
+    shader_.kernels.ambient_rays(rays_, s_, index_, side_, &sphere.x, packet_);
+    for (int i = 0; i < 16; ++i) packet_.t_far[i] = INFINITY;
+    shader_.tracer->Intersect16(valid_, packet_, false);
+    for (int i = 0; i < 16; ++i) {
+      hits_.instance[i] = kMiss;
+      if (valid_[i] == 0 || packet_.geometry[i] == kMiss) continue;
+      const SurfaceRef ref =
+          shader_.tracer->Resolve(packet_.geometry[i], packet_.instance[i], packet_.primitive[i]);
+      hits_.instance[i] = ref.instance, hits_.triangle[i] = ref.triangle;
+      __builtin_prefetch(
+          &shader_.view.triangles[shader_.view.instances[ref.instance].first_triangle + ref.triangle]);
+      if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref);
+    }
+    shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, hits_, r_, g_, b_);
+  }
+
+  // Light of lamps on what was met.
+  void AddLamps(int i, const SurfaceRef& ref) {
+    const uint32_t lamp = shader_.lights.LampOf(ref.instance, ref.triangle);
+    hits_.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
+    const Vec3f d{packet_.direction_x[i], packet_.direction_y[i], packet_.direction_z[i]};
+    const Vec3f p =
+        Vec3f{packet_.origin_x[i], packet_.origin_y[i], packet_.origin_z[i]} + d * packet_.t_far[i];
+    // By the side that the ray came from: the grid's means are too coarse for normals to matter more.
+    const Vec3f light = shader_.lamps->NearIrradiance(p, -d);
+    hits_.lamp_r[i] = light.x, hits_.lamp_g[i] = light.y, hits_.lamp_b[i] = light.z;
+  }
+
+  void AddLight(int count, bool behind, float leaf_share) {
+    constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
+    for (int i = 0; i < count; ++i) {
+      const int k = index_[i];
+      const uint32_t slot = rays_.slot[k];
+      Vec3f weight{1, 1, 1};
+      if (leaf_[i]) weight = weight * leaf_share;
+      if (leaf_[i] && behind)
+        weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[k];
+      tile_.light_r[slot] += r_[i] * weight.x;
+      tile_.light_g[slot] += g_[i] * weight.y;
+      tile_.light_b[slot] += b_[i] * weight.z;
+    }
+  }
+
+  const Shader::Impl& shader_;
+  const SunMapView& sun_map_;
+  const TileSampling& sampling_;
+  const RaySet& rays_;
+  const SurfaceSet& s_;
+  HighTile& tile_;
+  RayHit16 packet_{};
+  alignas(64) int valid_[16];
+  alignas(64) float side_[16], r_[16], g_[16], b_[16];
+  AmbientHits hits_{};
+  int index_[16];
+  bool leaf_[16];
+};
+
+}  // namespace
+
+void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
+                   const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, HighTile& tile) {
+  constexpr float kVisible = 1e-3f;  // radiance per irradiance that matters
+  int16_t of_slot[256];
+  std::fill(std::begin(of_slot), std::end(of_slot), int16_t{-1});
+  for (int i = 0; i < rays.count; ++i) {
+    const uint32_t slot = rays.slot[i];
+    tile.light_r[slot] = tile.light_g[slot] = tile.light_b[slot] = 0;
+    tile.light_samples[slot] = 0;
+    if (terms.ambient_r[i] + terms.ambient_g[i] + terms.ambient_b[i] > kVisible)
+      of_slot[slot] = static_cast<int16_t>(i);
+  }
+  AmbientTile ambient(shader, sun_map, sampling, rays, s, tile);
+  for (int phase = 0; phase < 16; ++phase) {
+    int surfaces[16], count = 0;
+    for (const uint8_t slot : sampling.layout->members[phase]) {
+      if (of_slot[slot] >= 0) surfaces[count++] = of_slot[slot];
+    }
+    if (count > 0) ambient.GatherPhase(phase, surfaces, count);
+  }
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,231 @@
+#include "airsim360/render/shading/high_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/render/shading/ray_queue.h"
+#include "airsim360/render/shading/sampling.h"
+#include "airsim360/render/shading/secondary_rays.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kSide = 16;
+constexpr float kSunAngle = 0.0093f;          // width of the disc, radians (0.53 degrees)
+constexpr int kSunRounds = 2, kSunRound = 4;  // rays of a pixel in a penumbra: rounds of so many
+constexpr int kSunSamples = kSunRounds * kSunRound;
+constexpr int kMaxSmoothing = 3;  // pixels
+
+// Index of the surface of each pixel of a tile, -1 = none.
+struct SurfaceGrid {
+  int16_t at[256];
+
+  SurfaceGrid(const TileLayout& layout, const RaySet& rays) {
+    int16_t of_slot[256];
+    std::fill(std::begin(of_slot), std::end(of_slot), int16_t{-1});
+    for (int i = 0; i < rays.count; ++i) of_slot[rays.slot[i]] = static_cast<int16_t>(i);
+    for (int k = 0; k < 256; ++k) at[k] = of_slot[layout.slot_of[k]];
+  }
+};
+
+// Whether two surfaces are about the same plane.
+bool SamePlane(const RaySet& rays, const SurfaceSet& s, int i, int k) {
+  const float facing = s.gx[i] * s.gx[k] + s.gy[i] * s.gy[k] + s.gz[i] * s.gz[k];
+  const float apart =
+      s.gx[i] * (s.px[k] - s.px[i]) + s.gy[i] * (s.py[k] - s.py[i]) + s.gz[i] * (s.pz[k] - s.pz[i]);
+  return facing > 0.9f && std::fabs(apart) < 0.01f + 0.002f * rays.distance[i];
+}
+
+// Whether a pixel within two of this one, on the same plane, sees the sun otherwise.
+bool AtShadowEdge(const RaySet& rays, const SurfaceSet& s, const SurfaceGrid& grid, const uint8_t* asked,
+                  int pixel) {
+  const int x = pixel % kSide, y = pixel / kSide, i = grid.at[pixel];
+  for (int v = std::max(0, y - 2); v <= std::min(kSide - 1, y + 2); ++v) {
+    for (int u = std::max(0, x - 2); u <= std::min(kSide - 1, x + 2); ++u) {
+      const int k = grid.at[v * kSide + u];
+      if (k >= 0 && asked[k] && s.sunlit[k] != s.sunlit[i] && SamePlane(rays, s, i, k)) return true;
+    }
+  }
+  return false;
+}
+
+Vec3f PointOf(const SurfaceSet& s, int i) { return {s.px[i], s.py[i], s.pz[i]}; }
+
+// Where rays towards the sun start: on the sun's side of the surface.
+Vec3f SunStart(const RaySet& rays, const SurfaceSet& s, int i, Vec3f to_sun) {
+  const Vec3f p = PointOf(s, i), g{s.gx[i], s.gy[i], s.gz[i]};
+  return p + g * ((Dot(g, to_sun) < 0 ? -1.0f : 1.0f) * RayOffset(p, rays.distance[i]));
+}
+
+// The shared directions to the sun's disc, and points of a pixel in units of it, [sample][phase].
+struct SunDirections {
+  Vec3f at[kSunSamples][16];
+  Vec2f offset[kSunSamples][16];
+
+  SunDirections(Vec3f to_sun, uint32_t seed) : disc_(to_sun), seed_(seed) {}
+  void Make(int first, int last) {
+    for (int k = first; k < last; ++k) {
+      for (int phase = 0; phase < 16; ++phase) {
+        const auto index = static_cast<uint32_t>(16 * k + phase);
+        at[k][phase] = disc_.At(SobolPoint(index, seed_ ^ 0x68bc21ebu));
+        const Vec2f u = SobolPoint(index, seed_ ^ 0x02e5be93u);
+        offset[k][phase] = {u.x - 0.5f, u.y - 0.5f};
+      }
+    }
+  }
+
+ private:
+  SunDisc disc_;
+  uint32_t seed_;
+};
+
+// Moves the start of a ray over the part of the surface's plane that the pixel shows.
+Vec3f WithinPixel(const RaySet& rays, const SurfaceSet& s, int i, Vec2f offset, float cone_angle) {
+  const Vec3f d{rays.dx[i], rays.dy[i], rays.dz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
+  const Vec3f across = Normalized(std::fabs(d.z) < 0.9f ? Vec3f{-d.y, d.x, 0} : Vec3f{0, -d.z, d.y});
+  const Vec3f up = Cross(across, d);
+  const Vec3f beside = d + across * (offset.x * cone_angle) + up * (offset.y * cone_angle);
+  const float slant = Dot(g, d), there = Dot(g, beside);
+  const float stretch = there < 0.3f * slant ? std::clamp(slant / there, 0.5f, 2.0f) : 1.0f;
+  return (beside * stretch - d) * rays.distance[i];
+}
+
+// Rays of a tile's surfaces to the sun's disc.
+class SunTile {
+ public:
+  SunTile(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s)
+      : shader_(shader),
+        to_sun_(shader.sky->to_sun()),
+        sampling_(sampling),
+        rays_(rays),
+        s_(s),
+        directions_(to_sun_, sampling.seed + 0x9e3779b9u * sampling.tile),
+        queue_(kMaskSolid) {
+    for (int i = 0; i < rays.count; ++i) any_ |= (asked_[i] = s.sunlit[i] != 0);
+  }
+  bool any() const { return any_; }
+
+  // One ray each; true if some see the sun and some do not.
+  bool TraceOne() {
+    directions_.Make(0, 1);
+    const auto flush = [&] {
+      float share[16];
+      SeenShare(*shader_.tracer, shader_.tables, queue_, share);
+      for (int k = 0; k < queue_.count; ++k) {
+        s_.sunlit[queue_.lane[k]] = share[k] > 0 ? 1.0f : 0.0f;
+        clear_[queue_.lane[k]] = share[k];
+      }
+      queue_.count = 0;
+    };
+    for (int i = 0; i < rays_.count; ++i) {
+      if (!asked_[i]) continue;
+      queue_.Add(SunStart(rays_, s_, i, to_sun_), directions_.at[0][Phase(i)], i);
+      if (queue_.count == 16) flush();
+    }
+    if (queue_.count > 0) flush();
+    bool lit = false, dark = false;
+    for (int i = 0; i < rays_.count; ++i) {
+      if (asked_[i]) (s_.sunlit[i] != 0 ? lit : dark) = true;
+    }
+    return lit && dark;
+  }
+
+  // More where neighbours disagree, from all over the pixel, in rounds while they differ.
+  void TraceEdges(uint8_t* penumbra) {
+    const SurfaceGrid grid(*sampling_.layout, rays_);
+    int edge[kBatch], count = 0;
+    for (int pixel = 0; pixel < 256; ++pixel) {
+      const int i = grid.at[pixel];
+      if (i >= 0 && asked_[i] && AtShadowEdge(rays_, s_, grid, asked_, pixel)) edge[count++] = i;
+    }
+    for (int round = 0; round < kSunRounds && count > 0; ++round) {
+      TraceRound(edge, count, round);
+      const int sent = kSunRound * (round + 1);
+      int mixed = 0;
+      for (int n = 0; n < count; ++n) {
+        const int i = edge[n];
+        s_.sunlit[i] = static_cast<float>(sent - blocked_[i]) / static_cast<float>(sent);
+        if (blocked_[i] == 0 || blocked_[i] == sent) continue;
+        edge[mixed++] = i;
+        if (round == 0) penumbra[rays_.slot[i]] = Smoothing(i);
+      }
+      count = mixed;
+    }
+  }
+
+  // What clear panes on the way take.
+  void DimByGlass() {
+    if (!shader_.tracer->has_clear_panes()) return;
+    for (int i = 0; i < rays_.count; ++i) {
+      if (asked_[i] && clear_[i] > 0) s_.sunlit[i] *= clear_[i];
+    }
+  }
+
+ private:
+  int Phase(int i) const { return sampling_.layout->phase[rays_.slot[i]]; }
+
+  void TraceRound(const int* edge, int count, int round) {
+    const int first = kSunRound * round, last = first + kSunRound;
+    directions_.Make(first, last);
+    for (int n = 0; n < count; ++n) {
+      const int i = edge[n], phase = Phase(i);
+      const Vec3f start = SunStart(rays_, s_, i, to_sun_);
+      for (int k = first; k < last; ++k) {
+        queue_.Add(start + WithinPixel(rays_, s_, i, directions_.offset[k][phase], sampling_.cone_angle),
+                   directions_.at[k][phase], i);
+        if (queue_.count == 16) Count(round == 0);
+      }
+    }
+    if (queue_.count > 0) Count(round == 0);
+  }
+
+  // Adds up what a full queue meets; without distances, at half the cost, only whether.
+  void Count(bool distances) {
+    bool occluded[16] = {};
+    queue_.Close();
+    if (distances)
+      shader_.tracer->Intersect16(queue_.valid, queue_.rays, false);
+    else
+      shader_.tracer->Occluded16(queue_.valid, queue_.rays, occluded, false);
+    for (int k = 0; k < queue_.count; ++k) {
+      const int i = queue_.lane[k];
+      if (distances) {
+        occluded[k] = queue_.rays.geometry[k] != kMiss;
+        if (occluded[k]) away_[i] += queue_.rays.t_far[k];
+      }
+      blocked_[i] += occluded[k] ? 1 : 0;
+    }
+    queue_.count = 0;
+  }
+
+  // A fifth of the penumbra's width, in pixels: how far the blockers are tells how wide it is.
+  uint8_t Smoothing(int i) const {
+    const float width = kSunAngle * away_[i] / static_cast<float>(blocked_[i]);
+    const float pixels = width / std::max(1e-6f, rays_.distance[i] * sampling_.cone_angle);
+    return static_cast<uint8_t>(std::min(static_cast<float>(kMaxSmoothing), pixels * 0.2f));
+  }
+
+  const Shader::Impl& shader_;
+  const Vec3f to_sun_;
+  const TileSampling& sampling_;
+  const RaySet& rays_;
+  SurfaceSet& s_;
+  SunDirections directions_;
+  RayQueue queue_;
+  bool any_ = false;
+  uint8_t asked_[kBatch];
+  float clear_[kBatch], away_[kBatch] = {};
+  int blocked_[kBatch] = {};
+};
+
+}  // namespace
+
+void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, SurfaceSet& s,
+                  uint8_t* penumbra) {
+  SunTile sun(shader, sampling, rays, s);
+  if (!sun.any()) return;
+  if (sun.TraceOne()) sun.TraceEdges(penumbra);
+  sun.DimByGlass();
+}
+
+}  // namespace airsim360::internal

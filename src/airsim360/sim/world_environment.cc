@@ -1,0 +1,146 @@
+#include "airsim360/sim/world_environment.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
+#include "airsim360/image/codecs.h"
+#include "airsim360/scene/sun_position.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t kMaxPictureFile = uint64_t{1} << 30;
+constexpr int64_t kMaxPicturePixels = int64_t{1} << 26;
+
+// Adds to an InputError where it came from.
+template <class Action>
+void Naming(const std::string& where, const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    throw InputError(where + ": " + error.what());
+  }
+}
+
+bool ParseWholeNumber(std::string_view text, double& value) {
+  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && at == text.data() + text.size();
+}
+
+Lamps ParseLamps(const std::string& text) {
+  const std::vector<std::string> names(std::begin(kLampsNames), std::end(kLampsNames));
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) throw InputError(UnknownChoiceMessage("lamps", text, names));
+  return static_cast<Lamps>(found - names.begin());
+}
+
+// "AZ,EL" in degrees.
+void SetSun(const std::string& text, Environment& environment) {
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos ||
+      !ParseWholeNumber(std::string_view(text).substr(0, comma), environment.sun_azimuth_deg) ||
+      !ParseWholeNumber(std::string_view(text).substr(comma + 1), environment.sun_elevation_deg)) {
+    throw InputError("'" + text + "' is not azimuth,elevation in degrees, for example 215,48");
+  }
+}
+
+// "name=value,name=value".
+void ApplySettings(std::string_view text, Environment& environment) {
+  while (!text.empty()) {
+    const size_t comma = std::min(text.find(','), text.size());
+    const std::string_view item = text.substr(0, comma);
+    text.remove_prefix(std::min(comma + 1, text.size()));
+    const size_t equals = item.find('=');
+    if (equals == std::string_view::npos) throw InputError("'" + std::string(item) + "' is not name=value");
+    const std::string name(item.substr(0, equals)), value(item.substr(equals + 1));
+    if (name == "lamps") {
+      environment.lamps = ParseLamps(value);
+      continue;
+    }
+    const auto& fields = EnvironmentFields();
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
+    if (field == fields.end()) {
+      std::vector<std::string> names = {"lamps"};
+      for (const EnvironmentField& f : fields) names.emplace_back(f.name);
+      throw InputError(UnknownChoiceMessage("setting", name, names));
+    }
+    if (!ParseWholeNumber(value, environment.*field->value))
+      throw InputError(name + ": '" + value + "' is not a number");
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const SkyPicture> LoadSkyPicture(const fs::path& file) {
+  std::string extension = file.extension();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool radiance = extension == ".hdr" || extension == ".pic";
+  if (!radiance && extension != ".exr")
+    throw InputError(file.string() + ": a sky picture is a .hdr, .pic or .exr file");
+  const Bytes bytes = ReadFile(file, kMaxPictureFile);
+  auto picture = std::make_shared<SkyPicture>();
+  picture->name = file.filename().string() + " sha256:" + Sha256Hex(bytes);
+  picture->pixels = radiance ? DecodeRadianceHdr(bytes, file.string()) : DecodeExrRgb(bytes, file.string());
+  const int64_t width = picture->pixels.width(), height = picture->pixels.height();
+  if (width != 2 * height || width < 8 || width * height > kMaxPicturePixels) {
+    throw InputError(file.string() + ": " + std::to_string(width) + "x" + std::to_string(height) +
+                     " is not a whole sky, twice as wide as high, of at most 2^26 pixels");
+  }
+  return picture;
+}
+
+void SetSunByTime(std::string_view time, std::string_view place, Environment& environment) {
+  if (time.empty() && place.empty()) return;
+  if (time.empty() || place.empty()) throw InputError("a time needs a place, and a place a time");
+  const SunAngles sun = SunPosition(ParseTime(time), ParsePlace(place));
+  environment.sun_azimuth_deg = sun.azimuth_deg;
+  environment.sun_elevation_deg = sun.elevation_deg;
+}
+
+void VisitEnvironment(ConfigVisitor& v, const fs::path& folder, Environment& environment) {
+  std::string weather, date, time, hdri, lamps = kLampsNames[static_cast<int>(environment.lamps)];
+  v.Field("weather", "a preset: day, sunset, overcast, fog, night, rain, snow, …", weather);
+  if (!weather.empty()) environment = ParseEnvironmentPreset(weather, environment);
+  // Date and place give the sun, unless its angles follow.
+  double latitude = 0, longitude = 0;
+  v.Field("date", "2026-06-21", date);
+  v.Field("time", "14:30+02:00", time);
+  v.Field("latitude", "degrees north", latitude, -90, 90);
+  v.Field("longitude", "degrees east", longitude, -180, 180);
+  if (date.empty() != time.empty()) throw InputError("environment: date and time belong together");
+  if (!date.empty()) {
+    SetSunByTime(date + "T" + time, std::to_string(latitude) + "," + std::to_string(longitude), environment);
+  }
+  for (const EnvironmentField& field : EnvironmentFields())
+    v.Field(field.name, field.help, environment.*field.value, field.low, field.high);
+  v.Field("lamps", "auto, on or off", lamps);
+  environment.lamps = ParseLamps(lamps);
+  v.Field("hdri", "a sky picture, .hdr or .exr", hdri);
+  if (!hdri.empty()) environment.hdri = LoadSkyPicture(folder / hdri);
+  ValidateEnvironment(environment, "environment");
+}
+
+Environment ApplyFlags(const EnvironmentFlags& flags, const Environment& base) {
+  Environment environment = base;
+  if (!flags.weather.empty())
+    Naming("--weather", [&] { environment = ParseEnvironmentPreset(flags.weather, base); });
+  Naming("--time, --place", [&] { SetSunByTime(flags.time, flags.place, environment); });
+  if (!flags.sun.empty()) Naming("--sun", [&] { SetSun(flags.sun, environment); });
+  if (!flags.hdri.empty()) Naming("--hdri", [&] { environment.hdri = LoadSkyPicture(flags.hdri); });
+  Naming("--environment", [&] { ApplySettings(flags.settings, environment); });
+  ValidateEnvironment(environment, "environment");
+  return environment;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,106 @@
+#include "airsim360/sim/world_environment.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/image/codecs.h"
+#include "airsim360/sim/world_loader.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WorldEnvironment : public testing::Test {
+ protected:
+  WorldEnvironment() : folder_(fs::temp_directory_path() / ("airsim360_env_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~WorldEnvironment() override { fs::remove_all(folder_); }
+
+  fs::path Write(const std::string& name, const std::string& text) {
+    WriteFileAtomically(folder_ / name, std::string_view(text));
+    return folder_ / name;
+  }
+  fs::path folder_;
+};
+
+std::string ErrorOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(WorldEnvironment, AWorldFileSetsWhatItNamesAndKeepsTheRest) {
+  const fs::path file =
+      Write("w.yaml", "world: box_room\nenvironment:\n  weather: rain\n  rain_mm_h: 12\n  lamps: on\n");
+  const Environment e = LoadWorld({.world = file})->environment;
+  EXPECT_EQ(e.rain_mm_h, 12);
+  EXPECT_EQ(e.cloud_cover, 1);
+  EXPECT_EQ(e.wetness, 1);
+  EXPECT_EQ(e.lamps, Lamps::kOn);
+  EXPECT_EQ(e.turbidity, LoadWorld({.world = "box_room"})->environment.turbidity);
+}
+
+TEST_F(WorldEnvironment, AWorldFileCanTellTimeAndPlace) {
+  const fs::path file = Write("w.yaml",
+                              "world: box_room\nenvironment:\n  date: 2003-10-17\n  time: '12:30:30-07:00'\n"
+                              "  latitude: 39.742476\n  longitude: -105.1786\n");
+  const Environment e = LoadWorld({.world = file})->environment;
+  EXPECT_NEAR(e.sun_azimuth_deg, 194.340, 0.05);
+  EXPECT_NEAR(e.sun_elevation_deg, 39.888, 0.05);
+}
+
+TEST_F(WorldEnvironment, MistakesInAWorldFileAreNamed) {
+  const auto error = [&](const std::string& lines) {
+    const fs::path file = Write("bad.yaml", "world: box_room\nenvironment:\n" + lines);
+    return ErrorOf([&] { LoadWorld({.world = file}); });
+  };
+  EXPECT_NE(error("  cloud_cove: 1\n").find("cloud_cover"), std::string::npos);
+  EXPECT_NE(error("  cloud_cover: 2\n").find("bad.yaml:3"), std::string::npos);
+  EXPECT_NE(error("  weather: rainy\n").find("'rain'"), std::string::npos);
+  EXPECT_NE(error("  date: 2026-01-01\n").find("belong together"), std::string::npos);
+  EXPECT_NE(error("  hdri: none.exr\n").find("none.exr"), std::string::npos);
+}
+
+TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
+  Environment base;
+  base.turbidity = 5;
+  const Environment e =
+      ApplyFlags({.weather = "overcast", .sun = "10,20", .settings = "cloud_cover=0.5,lamps=off"}, base);
+  EXPECT_EQ(e.turbidity, 5);
+  EXPECT_EQ(e.sun_azimuth_deg, 10);
+  EXPECT_EQ(e.cloud_cover, 0.5);
+  EXPECT_EQ(e.lamps, Lamps::kOff);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.weather = "dey"}, {}); }).find("--weather"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10"}, {}); }).find("--sun"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.sun = "10,95"}, {}); }).find("90"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.time = "2026-01-01T10:00"}, {}); }).find("--place"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "clouds=1"}, {}); }).find("cloud_cover"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.hdri = "a.png"}, {}); }).find("--hdri"), std::string::npos);
+}
+
+TEST_F(WorldEnvironment, ASkyPictureIsReadAndMustBeAWholeSky) {
+  const auto write = [&](const char* name, int width, int height) {
+    WriteFileAtomically(folder_ / name, EncodeExr(Image<Rgb32f>(width, height, {1, 2, 3})));
+    return folder_ / name;
+  };
+  const auto picture = LoadSkyPicture(write("a.exr", 64, 32));
+  EXPECT_EQ(picture->pixels(5, 5).g, 2);
+  EXPECT_EQ(picture->name.rfind("a.exr sha256:", 0), 0u);
+  EXPECT_THROW(LoadSkyPicture(write("b.exr", 64, 48)), InputError);
+  EXPECT_NE(DescribeEnvironment(ApplyFlags({.hdri = (folder_ / "a.exr").string()}, {})).find("hdri=a.exr"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace airsim360
