@@ -181,9 +181,12 @@ TEST(LampLight, AClearPaneDimsAndASolidOneHides) {
 TEST(LampLight, ProbesInAClosedBoxHaveTheSeriesOfAllBounces) {
   for (const float albedo : {0.3f, 0.6f}) {
     World world;
-    const float radius = 0.15f, side = 5;
+    const float half = 0.12f, side = 5;
     world.Add(Room({-side / 2, -side / 2, 0}, {side / 2, side / 2, side}), albedo);
-    world.Add(Ball({0, 0, side / 2}, radius), 0, {1, 1, 1});
+    // The lamp is a cube: with as few triangles as the room, so that probes stand in all of it.
+    Mesh lamp = Room({-half, -half, side / 2 - half}, {half, half, side / 2 + half});
+    for (Vec3u& t : lamp.triangles) std::swap(t.y, t.z);
+    world.Add(lamp, 0, {1, 1, 1});
     world.Build();
     const LightProbes probes({*world.tracer, *world.tables, nullptr, world.lights.get(), world.grid.get()},
                              {.max_probes = 6000});
@@ -203,7 +206,7 @@ TEST(LampLight, ProbesInAClosedBoxHaveTheSeriesOfAllBounces) {
         ++count;
       }
     }
-    const double power = kPi * 4 * kPi * radius * radius, area = 6 * side * side;
+    const double power = kPi * 6 * 4 * half * half, area = 6 * side * side;
     EXPECT_NEAR(direct / count / (power / area), 1, 0.03) << albedo;
     EXPECT_NEAR((direct + bounced) / count / (power / area / (1 - albedo)), 1, 0.06) << albedo;
   }
