@@ -124,12 +124,12 @@ Chip ChipAt(float u, float v, int cells, int seed) {
 
 // Bark mulch: splinters of two sizes over dark crumbs.
 Texel Mulch(float u, float v) {
-  Chip chip = ChipAt(u, v, 44, 501);
+  Chip chip = ChipAt(u, v, 30, 501);
   const bool large = chip.height > 0.25f;
-  if (!large) chip = ChipAt(u, v, 90, 502);
+  if (!large) chip = ChipAt(u, v, 64, 502);
   if (chip.height <= 0) return {Vec3f{0.045f, 0.030f, 0.022f}, 0, 0.95f};
   const float r = Unit(Scramble(chip.id + 11));
-  Vec3f c = Mix(Vec3f{0.17f, 0.100f, 0.062f}, Vec3f{0.36f, 0.26f, 0.185f}, r * r);
+  Vec3f c = Mix(Vec3f{0.13f, 0.068f, 0.040f}, Vec3f{0.42f, 0.29f, 0.20f}, r * r);
   c = c * ((0.45f + 0.65f * chip.height) * (0.72f + 0.28f * Ramp(0.0f, 0.25f, chip.edge)) *
            (1 + 0.22f * TilingFbm(503, u, v, 4, 4)));
   return {c, (large ? 0.010f : 0.004f) * chip.height + 0.003f * Ramp(0.0f, 0.2f, chip.edge), 0.9f};

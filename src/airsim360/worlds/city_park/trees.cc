@@ -160,9 +160,9 @@ class Planter {
       const Vec2f p{r * std::cos(a), r * std::sin(a)};
       const float thicket = Fractal(p.x / 17 + 3, p.y / 17, 3, 88);
       const bool lawn = std::hypot((p.x - 2) / 24, (p.y - 30) / 18) < 1;
-      if (thicket < (lawn ? 0.70f : 0.55f) && Uniform() > 0.02f) continue;
+      if (thicket < (lawn ? 0.68f : 0.53f) && Uniform() > 0.02f) continue;
       if (r > 170 && Uniform() < 0.55f) continue;
-      if (IsFree(p, 1.4f)) Shrub(p, static_cast<float>(rng_.Uniform(0.55, 1.25)));
+      if (IsFree(p, 1.4f)) Shrub(p, static_cast<float>(rng_.Uniform(0.65, 1.6)));
     }
     // Around the foot of the solitary elm.
     for (int k = 0; k < 9; ++k) {
