@@ -6,6 +6,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
@@ -26,6 +27,7 @@ struct CollectArguments {
   std::string pano_frame = "body", shard = "0/1", out;
   int64_t frames = 0;  // 0: not given
   bool normal = false;
+  PictureArguments picture;
 };
 
 // "I/N", 0 <= I < N.
@@ -61,6 +63,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.height = size.height;
   spec.tier = ParseTierArgument(arguments.tier);
   spec.normal = arguments.normal;
+  arguments.picture.Apply(spec);
   ParseList("--format", arguments.format,
             {"native", "coco"});  // the native layout holds panoptic.json in any case
   spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
@@ -146,6 +149,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  arguments->picture.AddTo(*command);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");

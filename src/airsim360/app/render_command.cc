@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 
@@ -18,6 +19,7 @@ struct RenderArguments {
                            out;
   double fov_deg = 0;  // 0: not given
   bool normal = false;
+  PictureArguments picture;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -83,6 +85,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
   spec.normal = arguments.normal;
+  arguments.picture.Apply(spec);
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
     throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
                                                              std::vector<std::string>{"png", "jpg"}));
@@ -130,6 +133,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  arguments->picture.AddTo(*command);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }

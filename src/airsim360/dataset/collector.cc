@@ -66,6 +66,11 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   rig.pano_frame = spec.pano_frame;
   rig.tier = spec.tier;
   rig.products = ProductsOf(spec);
+  rig.exposure_ev = spec.exposure_ev;
+  rig.tone = spec.tone;
+  rig.auto_exposure = spec.auto_exposure;
+  rig.seed = spec.seed;
+  rig.lens = spec.lens;
   return rig;
 }
 

@@ -31,6 +31,11 @@ struct DatasetSpec {
   int64_t frames = 1;             ///< of the whole dataset, all shards together
   int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+  ToneCurve tone = ToneCurve::kFilmic;
+  double exposure_ev = 0;      ///< stops added to the fixed daylight exposure
+  bool auto_exposure = false;  ///< of every picture its own
+  bool radiance = false;       ///< linear light, radiance/STEM.exr
+  LensModel lens = LensModel::kIdeal;
 };
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube

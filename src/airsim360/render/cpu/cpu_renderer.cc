@@ -11,6 +11,8 @@
 #include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/filter/exposure.h"
+#include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
@@ -57,6 +59,12 @@ class CpuRenderer : public Renderer {
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
+  void KeepRadiance(const RadianceBatch& radiance, const TileTarget& target, Image<Rgb32f>& image) const;
+  void Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame);
+  float ExposureOf(const RenderRequest& request) const {
+    return shader_->Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
+  }
+  Image<Rgb32f>& RadianceOf(Frame& frame) { return radiance_.empty() ? frame.radiance : radiance_; }
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
     const RayField& field = rays_.field();
@@ -74,6 +82,7 @@ class CpuRenderer : public Renderer {
   Antialiaser antialiaser_;
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
+  Image<Rgb32f> radiance_;  // where the frame does not want it but the exposure needs it
 };
 
 void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame) {
@@ -87,20 +96,25 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(entity_, width, height, edges && !products.entity);
   Resize(luma_, width, height, color);
   Resize(edges_, width, height, edges);
+  Resize(frame.radiance, width, height, color && products.radiance);
+  Resize(radiance_, width, height, color && request.auto_exposure && !products.radiance);
 }
 
-RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
+RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
+  RenderRequest request = asked;
   if (request.tier != Tier::kLabels && request.tier != Tier::kFast) {
     throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
                      "' is not in the CPU renderer (choices: labels, fast)");
   }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
-  const bool color = request.products.rgb && request.tier != Tier::kLabels;
+  const bool color = (request.products.rgb || request.products.radiance) && request.tier != Tier::kLabels;
   if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
-  const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
+  const int samples = request.products.rgb ? std::clamp(request.aa_samples, 1, kMaxSamples) : 1;
   ResizeFrame(request, color, color && samples > 1, frame);
+
+  frame.exposure = color ? ExposureOf(request) : 1;
 
   // Centre rays: labels and colours of every pixel.
   const RayField& field = rays_.field();
@@ -116,15 +130,23 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   RenderStats stats;
   stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
 
+  // The picture's own exposure.
+  if (color && request.auto_exposure) {
+    request.exposure_ev += AutoExposureEv(RadianceOf(frame), request.camera, shader_->Exposure());
+    frame.exposure = ExposureOf(request);
+    Develop(request.tone, RadianceOf(frame), frame);
+  }
+
   // More colour samples on edges.
   if (color && samples > 1) {
     const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
     antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
     const int64_t rays =
         antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, samples, &edges_, &frame.rgb});
+                          request.exposure_ev, samples, &edges_, &frame.rgb, request.tone});
     stats.rays += static_cast<uint64_t>(rays);
   }
+  if (!request.products.rgb) frame.rgb = {};
   stats.render_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return stats;
@@ -177,7 +199,9 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   Rgb8 colors[kTilePixels];
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
   shader_->Shade(hits, radiance);
-  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors);
+  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors,
+                   request.tone);
+  if (Image<Rgb32f>& kept = RadianceOf(frame); !kept.empty()) KeepRadiance(radiance, target, kept);
   if (!rays_.field().separable) {
     // Pixels without a ray are black.
     const RayField& field = rays_.field();
@@ -190,6 +214,27 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
     }
   }
   kernels_.store_colors(colors, target, frame.rgb.pixels().data(), luma_.pixels().data());
+}
+
+void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& target,
+                               Image<Rgb32f>& image) const {
+  const RayField& field = rays_.field();
+  for (int y = 0; y < std::min(kTileSize, field.height - target.row); ++y) {
+    for (int x = 0; x < std::min(kTileSize, field.width - target.column); ++x) {
+      const int c = target.column + x, row = target.row + y;
+      const bool seen = field.separable || field.has_ray[static_cast<int64_t>(row) * field.stride + c] != 0;
+      const int i = PacketIndex(target.shape, x, y);
+      image((c - target.column_shift + field.width) % field.width, row) =
+          seen ? Rgb32f{radiance.r[i], radiance.g[i], radiance.b[i]} : Rgb32f{};
+    }
+  }
+}
+
+// Display colours of all pixels again, from their radiance.
+void CpuRenderer::Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame) {
+  ToneMapImage(radiance, frame.exposure, tone, frame.rgb);
+  std::transform(frame.rgb.pixels().begin(), frame.rgb.pixels().end(), luma_.pixels().begin(),
+                 [](Rgb8 c) { return Luma(c.r, c.g, c.b); });
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ constexpr float kAgreement = 0.5f / 9;
 // A harmonic mean of variances of nine values is too small by (9 - 1 - 2) / (9 - 1).
 constexpr float kHarmonicBias = 8.0f / 6.0f;
 // The noise is never taken for less than this part of the mean variance around.
-constexpr float kLeastShare = 1.0f / 32;
+constexpr float kLeastShare = 1.0f / 64;
 
 using uids = stdx::rebind_simd_t<uint32_t, real>;
 

@@ -15,6 +15,6 @@ AIRSIM360_DECLARE_KERNEL(void LightSurfaces(const ShadeView& view, const RaySet&
 /// Radiance of rays that met nothing; `sun_disc`: also the sun itself.
 AIRSIM360_DECLARE_KERNEL(void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc,
                                         LightSet& light))
-/// Display colours: times `exposure`, tone curve, sRGB.
+/// Display colours: times `exposure`, tone curve (ToneCurve as a number), sRGB.
 AIRSIM360_DECLARE_KERNEL(void ToneMapRow(const float* r, const float* g, const float* b, int count,
-                                         float exposure, Rgb8* out))
+                                         float exposure, int curve, Rgb8* out))

@@ -33,6 +33,8 @@ SHARED real mantissa_of(real a) {
 }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shading/shading_shared.h"
+// Needs the words of shading_shared.h, so it comes after it.
+#include "airsim360/render/shading/shading_tone.h"
 #undef SHARED
 #undef INOUT
 

@@ -76,6 +76,8 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
   store(z, a.z);
 }
 #include "airsim360/render/shading/shading_shared.h"
+// Needs the words of shading_shared.h, so it comes after it.
+#include "airsim360/render/shading/shading_tone.h"
 #undef SHARED
 #undef INOUT
 
