@@ -12,8 +12,8 @@ namespace airsim360::internal {
 /// Rolling a panorama or the number of threads does not change it.
 double AutoExposureEv(const Image<Rgb32f>& radiance, const Camera& camera, float exposure);
 
-/// What the input of the tone curve is in the mean. By day downtown_west comes out within half a stop of its
-/// fixed exposure.
-inline constexpr double kAutoGrey = 0.28;
+/// What the input of the tone curve is in the mean. By day downtown_west comes out within a quarter of a stop
+/// of its fixed exposure.
+inline constexpr double kAutoGrey = 0.20;
 
 }  // namespace airsim360::internal
