@@ -244,6 +244,54 @@ TEST(DenoiserTest, InstructionSetsAgreeBitForBit) {
   }
 }
 
+TEST(DenoiserTest, InstructionSetsLoadTheSamePlanes) {
+  const View view = MakeRoomView(96);
+  Image<Rgb32f> noise = Noise(view, 1, 0.3f);
+  const auto run = [&](auto load) {
+    FilterBuffers buffers;
+    buffers.Load(view.guides(), {&noise, nullptr, 4}, 4);
+    const FilterPlanes& f = buffers.planes();
+    const RayField& field = buffers.rays().field();
+    std::vector<float> values;
+    for (int y = 0; y < f.height; ++y) {
+      const int64_t row = int64_t{y} * f.stride;
+      for (float* plane : {f.p[0], f.p[1], f.p[2], f.g[2], f.light[0][1]})
+        std::fill_n(plane + row, f.width, 0.0f);
+      const FilterSource source{view.range.row(y).data(),
+                                view.entity.row(y).data(),
+                                &view.normal.row(y).data()->x,
+                                &view.normal.row(y).data()->x,
+                                &noise.row(y).data()->r,
+                                nullptr,
+                                17,
+                                field.column_x,
+                                field.column_y,
+                                field.column_z,
+                                field.row_scale[y],
+                                field.row_x[y],
+                                field.row_y[y],
+                                field.row_z[y]};
+      load(f, y, source);
+      for (const float* plane : {f.p[0], f.p[1], f.p[2], f.g[2], f.light[0][1]})
+        values.insert(values.end(), plane + row, plane + row + f.width);
+      for (int x = 0; x < f.width; ++x) {
+        // Canonical column x is image column x - 17.
+        const int from = (x - 17 + f.width) % f.width;
+        EXPECT_EQ(f.light[0][1][row + x], noise(from, y).g);
+        EXPECT_EQ(f.id[row + x], view.entity(from, y));
+      }
+    }
+    return values;
+  };
+  const auto sse = run(isa_sse42::LoadFilterRow);
+  if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
+    EXPECT_TRUE(run(isa_avx2::LoadFilterRow) == sse);
+  }
+  if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
+    EXPECT_TRUE(run(isa_avx512::LoadFilterRow) == sse);
+  }
+}
+
 TEST(DenoiserTest, PixelsWithoutSamplesTakeTheLightOfTheirSurface) {
   const View view = MakeRoomView(256);
   Image<uint8_t> samples(view.width(), view.height(), 0);
