@@ -7,6 +7,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
@@ -29,6 +30,7 @@ struct CollectArguments {
   int samples = 0;
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
+  PictureArguments picture;
 };
 
 // "I/N", 0 <= I < N.
@@ -66,6 +68,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
+  arguments.picture.Apply(spec);
   ParseList("--format", arguments.format,
             {"native", "coco"});  // the native layout holds panoptic.json in any case
   spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
@@ -156,6 +159,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
   AddEnvironmentFlags(*command, arguments->environment);
+  arguments->picture.AddTo(*command);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");

@@ -8,6 +8,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 
@@ -21,6 +22,7 @@ struct RenderArguments {
   int samples = 0;
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
+  PictureArguments picture;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -89,6 +91,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
+  arguments.picture.Apply(spec);
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
     throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
                                                              std::vector<std::string>{"png", "jpg"}));
@@ -141,6 +144,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
   AddEnvironmentFlags(*command, arguments->environment);
+  arguments->picture.AddTo(*command);
   command->add_flag("--normal", arguments->normal, "write world normals too");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }

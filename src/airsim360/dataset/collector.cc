@@ -67,8 +67,12 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   rig.tier = spec.tier;
   rig.products = ProductsOf(spec);
   rig.samples = spec.samples;
-  rig.seed = spec.seed;
   rig.denoise = spec.denoise;
+  rig.exposure_ev = spec.exposure_ev;
+  rig.tone = spec.tone;
+  rig.auto_exposure = spec.auto_exposure;
+  rig.seed = spec.seed;
+  rig.lens = spec.lens;
   return rig;
 }
 

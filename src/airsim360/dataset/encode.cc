@@ -57,6 +57,7 @@ Bytes EncodeProduct(const std::string& product, const Capture& capture, const En
   if (product == "range") return EncodeExr(capture.frame.range);
   if (product == "semantic") return EncodeSemantic(capture.frame.semantic, NeedsWideSemantics(context.scene));
   if (product == "entity") return EncodeIdPng(capture.frame.entity);
+  if (product == "radiance") return EncodeHalfExr(capture.frame.radiance);
   return EncodeNormal(capture.frame.normal);
 }
 

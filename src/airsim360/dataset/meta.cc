@@ -29,6 +29,10 @@ Json ParametersJson(const DatasetSpec& spec) {
     json["fov_deg"] = spec.fov_deg;
   if (spec.samples != 0) json["samples"] = spec.samples;
   if (!spec.denoise) json["denoise"] = false;
+  json["tone"] = kToneCurveNames[static_cast<int>(spec.tone)];
+  json["exposure"] = spec.auto_exposure ? Json("auto") : Json(spec.exposure_ev);
+  json["radiance"] = spec.radiance;
+  json["lens"] = kLensModelNames[static_cast<int>(spec.lens)];
   return json;
 }
 
@@ -65,6 +69,12 @@ Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
     json["normal"] =
         "16-bit RGB PNG, unit world normal towards the camera: n = value / 32767 - 1; (0, 0, 0) = nothing "
         "hit";
+  }
+  if (spec.radiance && spec.tier != Tier::kLabels) {
+    json["radiance"] =
+        "OpenEXR half float, channels R G B: linear light before exposure and tone curve (sunlight outside "
+        "the "
+        "atmosphere has irradiance 20), at most 65504; ideal lens";
   }
   return json;
 }

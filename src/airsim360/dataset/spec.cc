@@ -34,7 +34,8 @@ Products ProductsOf(const DatasetSpec& spec) {
           .range = true,
           .semantic = true,
           .entity = true,
-          .normal = spec.normal};
+          .normal = spec.normal,
+          .radiance = spec.radiance && spec.tier != Tier::kLabels};
 }
 
 std::string Stem(int64_t index) {
@@ -51,6 +52,7 @@ std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
   folders.push_back({"semantic", ".png"});
   folders.push_back({"entity", ".png"});
   if (spec.normal) folders.push_back({"normal", ".png"});
+  if (spec.radiance && spec.tier != Tier::kLabels) folders.push_back({"radiance", ".exr"});
   return folders;
 }
 

@@ -34,6 +34,11 @@ struct DatasetSpec {
   bool denoise = true;            ///< tier high
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
   std::string environment;        ///< DescribeEnvironment of what was rendered
+  ToneCurve tone = ToneCurve::kFilmic;
+  double exposure_ev = 0;      ///< stops added to the fixed daylight exposure
+  bool auto_exposure = false;  ///< of every picture its own
+  bool radiance = false;       ///< linear light, radiance/STEM.exr
+  LensModel lens = LensModel::kIdeal;
 };
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube

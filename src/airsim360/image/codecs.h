@@ -41,6 +41,8 @@ Bytes EncodeJpeg(const Image<Rgb8>& image, int quality = 95,
 Bytes EncodeExr(const Image<float>& image);
 /// OpenEXR, float32, channels R G B (linear light).
 Bytes EncodeExr(const Image<Rgb32f>& image);
+/// The same as half floats; beyond 65504 held there.
+Bytes EncodeHalfExr(const Image<Rgb32f>& image);
 
 /// Any PNG/JPEG/WebP, converted to 8-bit RGBA. The format is told by its first bytes.
 Image<Rgba8> DecodeRgba8(std::span<const std::byte> bytes, std::string_view name);

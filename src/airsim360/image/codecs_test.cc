@@ -190,6 +190,10 @@ TEST(Exr, KeepsEveryBitOfAFloat) {
 
 TEST(Exr, OfAColourFileTheRedChannelIsRead) {
   EXPECT_EQ(DecodeExr(EncodeExr(Image<Rgb32f>(3, 2, {0.25f, 2, 3})), "rgb"), Image<float>(3, 2, 0.25f));
+  // Halves: eleven bits of mantissa, held at the largest.
+  EXPECT_EQ(DecodeExr(EncodeHalfExr(Image<Rgb32f>(3, 2, {0.25f, 2, 3})), "rgb"), Image<float>(3, 2, 0.25f));
+  EXPECT_NEAR(DecodeExr(EncodeHalfExr(Image<Rgb32f>(3, 2, {0.1f, 2, 3})), "rgb")(1, 1), 0.1f, 0.1f / 2048);
+  EXPECT_EQ(DecodeExr(EncodeHalfExr(Image<Rgb32f>(3, 2, {1e9f, 2, 3})), "rgb")(1, 1), 65504.0f);
 }
 
 // One small file of every kind, with the decoder that reads it.

@@ -4,8 +4,12 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <half.h>
 
+#include <algorithm>
 #include <cstring>
+#include <type_traits>
+#include <vector>
 
 #include "airsim360/image/codecs_internal.h"
 
@@ -29,8 +33,10 @@ class MemoryWriter : public Imf::OStream {
   size_t at_ = 0;
 };
 
-// Writes `channels` floats a pixel, interleaved in memory.
-Bytes WriteExr(const float* data, int width, int height, std::span<const char* const> channels) {
+// Writes `channels` floats (or halves) a pixel, interleaved in memory.
+template <class Value>
+Bytes WriteExr(const Value* data, int width, int height, std::span<const char* const> channels) {
+  constexpr Imf::PixelType kType = std::is_same_v<Value, half> ? Imf::HALF : Imf::FLOAT;
   internal::CheckSize(width, height, "EXR");
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -38,11 +44,11 @@ Bytes WriteExr(const float* data, int width, int height, std::span<const char* c
   // MB, 9 81 ms 1.544 MB.
   header.zipCompressionLevel() = 2;
   Imf::FrameBuffer frame;
-  const size_t pixel = sizeof(float) * channels.size();
+  const size_t pixel = sizeof(Value) * channels.size();
   for (size_t c = 0; c < channels.size(); ++c) {
-    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
+    header.channels().insert(channels[c], Imf::Channel(kType));
     auto* base = const_cast<char*>(reinterpret_cast<const char*>(data + c));
-    frame.insert(channels[c], Imf::Slice(Imf::FLOAT, base, pixel, pixel * width));
+    frame.insert(channels[c], Imf::Slice(kType, base, pixel, pixel * width));
   }
   MemoryWriter writer;
   {
@@ -64,6 +70,17 @@ Bytes EncodeExr(const Image<Rgb32f>& image) {
   constexpr const char* kChannels[] = {"R", "G", "B"};
   return WriteExr(reinterpret_cast<const float*>(image.pixels().data()), image.width(), image.height(),
                   kChannels);
+}
+
+Bytes EncodeHalfExr(const Image<Rgb32f>& image) {
+  constexpr const char* kChannels[] = {"R", "G", "B"};
+  constexpr float kMost = 65504;  // the largest half float
+  std::vector<half> halves;
+  halves.reserve(3 * image.size());
+  for (const Rgb32f& c : image.pixels()) {
+    for (const float v : {c.r, c.g, c.b}) halves.emplace_back(std::clamp(v, -kMost, kMost));
+  }
+  return WriteExr(halves.data(), image.width(), image.height(), kChannels);
 }
 
 }  // namespace airsim360

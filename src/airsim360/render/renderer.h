@@ -91,6 +91,7 @@ struct Frame {
   Image<FlowPixel> flow;          ///< to the next instant
   Image<CoveragePixel> coverage;  ///< soft edges
   Image<Rgb32f> radiance;         ///< linear light, units of Sky
+  float exposure = 1;             ///< radiance times this is what the tone curve was given
 };
 
 /// Counters of the last capture.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "airsim360/base/error.h"
+
 namespace airsim360 {
 namespace {
 
@@ -22,21 +24,57 @@ RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
   return {level.R * rig.X_BC.R, level.p};
 }
 
+namespace {
+
+// Where a body that moves on as it does is a little later or earlier.
+RigidTransform MovedBy(const Kinematics& body, double t) {
+  const Vec3d turn = body.w_WB_B * t;
+  const double angle = Norm(turn);
+  Mat3d R = body.X_WB.R;
+  if (angle > 0) {
+    const Vec3d axis = turn * (std::sin(0.5 * angle) / angle);
+    R = R * ToMatrix({std::cos(0.5 * angle), axis.x, axis.y, axis.z});
+  }
+  return {R, body.X_WB.p + body.v_WB * t};
+}
+
+// Replaces the colour picture by that of a real camera.
+void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer& renderer,
+                 Capture& capture) {
+  const auto* target = std::get_if<Equirectangular>(&rig.camera);
+  if (target == nullptr) throw InputError("lens real360 makes equirectangular pictures only");
+  const Kinematics& body = capture.body;
+  const RenderStats stats = RenderReal360(
+      rig.real360, request, [&](double t) { return CameraPose(rig, MovedBy(body, t)); },
+      Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0, rig.auto_exposure ? capture.frame.exposure : 0,
+      static_cast<uint64_t>(capture.t_ns), *target, renderer, capture.frame.rgb);
+  capture.stats.rays += stats.rays;
+  capture.stats.render_ms += stats.render_ms;
+}
+
+}  // namespace
+
 void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
                 Capture& capture) {
   capture.t_ns = t_ns;
   capture.X_WC = CameraPose(rig, body.X_WB);
   capture.body = body;
   capture.pano_frame = rig.pano_frame;
-  const RenderRequest request{.camera = rig.camera,
-                              .X_WC = capture.X_WC,
-                              .tier = rig.tier,
-                              .products = rig.products,
-                              .exposure_ev = rig.exposure_ev,
-                              .samples = rig.samples,
-                              .denoise = rig.denoise,
-                              .seed = rig.seed};
+  RenderRequest request{.camera = rig.camera,
+                        .X_WC = capture.X_WC,
+                        .tier = rig.tier,
+                        .products = rig.products,
+                        .exposure_ev = rig.exposure_ev,
+                        .samples = rig.samples,
+                        .denoise = rig.denoise,
+                        .seed = rig.seed,
+                        .tone = rig.tone,
+                        .auto_exposure = rig.auto_exposure};
+  const bool lens = rig.lens == LensModel::kReal360 && rig.products.rgb && rig.tier != Tier::kLabels;
+  // The ideal colours serve its exposure at most.
+  if (lens) request.products.rgb = rig.auto_exposure;
   capture.stats = renderer.Render(request, capture.frame);
+  if (lens) CaptureLens(rig, request, renderer, capture);
 }
 
 }  // namespace airsim360

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/sensors/lens.h"
 
 namespace airsim360 {
 
@@ -24,9 +25,15 @@ struct PanoramicRig {
   Tier tier = Tier::kFast;
   Products products;
   double exposure_ev = 0;
+  ToneCurve tone = ToneCurve::kFilmic;
+  bool auto_exposure = false;
   int samples = 0;      ///< as RenderRequest::samples
   bool denoise = true;  ///< as RenderRequest::denoise
-  uint64_t seed = 0;    ///< as RenderRequest::seed
+  uint64_t seed = 0;    ///< of samples and noise
+  /// kReal360: the colour picture of a panorama is that of two stitched fisheyes; everything else stays
+  /// ideal.
+  LensModel lens = LensModel::kIdeal;
+  Real360 real360;
 };
 
 /// Everything one trigger gave.

@@ -107,7 +107,8 @@ class EdgeTile {
     RadianceBatch radiance;
     Rgb8 colors[HitBatch::kCapacity];
     task_.shader->Shade(hits_, radiance);
-    task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors);
+    task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors,
+                          task_.tone);
     for (int i = 0; i < hits_.count; ++i) AddColor(owner_[i], colors[i]);
     hits_.count = 0;
   }

@@ -21,6 +21,7 @@ struct AntialiasTask {
   int samples;  ///< of a pixel on a silhouette, the centre ray included
   const Image<uint8_t>* edges;
   Image<Rgb8>* colors;  ///< in: of the centre rays
+  ToneCurve tone = ToneCurve::kFilmic;
 };
 
 class Antialiaser {

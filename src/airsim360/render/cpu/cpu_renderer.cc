@@ -12,6 +12,8 @@
 #include "airsim360/render/cpu/high_frame.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/filter/exposure.h"
+#include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/reference/path_tracer.h"
 #include "airsim360/render/renderer.h"
 
@@ -59,9 +61,15 @@ class CpuRenderer : public Renderer {
  private:
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
-  uint64_t RenderPaths(const RenderRequest& request, Frame& frame);
-  void Display(const RenderRequest& request, Frame& frame) const;
+  uint64_t RenderTiles(const RenderRequest& request, bool color, Frame& frame);
+  uint64_t RenderPaths(const RenderRequest& request, Image<Rgb32f>& radiance);
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
+  void KeepRadiance(const RadianceBatch& radiance, const TileTarget& target, Image<Rgb32f>& image) const;
+  void Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame);
+  float ExposureOf(const RenderRequest& request) const {
+    return shader_->Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
+  }
+  Image<Rgb32f>& RadianceOf(Frame& frame) { return radiance_.empty() ? frame.radiance : radiance_; }
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
     const RayField& field = rays_.field();
@@ -78,9 +86,9 @@ class CpuRenderer : public Renderer {
   std::unique_ptr<const Shader> shader_;  // made when first needed
   Antialiaser antialiaser_;
   HighFrame high_;
-  Image<Rgb32f> radiance_;  // of tiers high and reference
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
+  Image<Rgb32f> radiance_;  // where the frame does not want it but tier or exposure need it
 };
 
 void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame) {
@@ -94,30 +102,55 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(entity_, width, height, edges && !products.entity);
   Resize(luma_, width, height, color);
   Resize(edges_, width, height, edges);
+  Resize(frame.radiance, width, height, color && products.radiance);
+  const bool linear =
+      request.auto_exposure || request.tier == Tier::kHigh || request.tier == Tier::kReference;
+  Resize(radiance_, width, height, color && linear && !products.radiance);
 }
 
-RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
+RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
+  RenderRequest request = asked;
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
-  const bool color = request.products.rgb && request.tier != Tier::kLabels;
+  const bool color = (request.products.rgb || request.products.radiance) && request.tier != Tier::kLabels;
   if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
-  // Paths come after the labels, which are the same as those of the other tiers.
-  const bool paths = color && request.tier == Tier::kReference;
-  const int samples = paths ? 1 : std::clamp(request.aa_samples, 1, kMaxSamples);
-  const bool high = color && request.tier == Tier::kHigh;
+  const bool paths = color && request.tier == Tier::kReference, high = color && request.tier == Tier::kHigh;
+  const int samples = request.products.rgb && !paths ? std::clamp(request.aa_samples, 1, kMaxSamples) : 1;
   ResizeFrame(request, color, color && samples > 1 && !high, frame);
-  if (high) {
-    RenderStats stats;
-    stats.rays = high_.Render(*tracer_, *shader_, rays_, labels_, request, radiance_, frame);
-    Display(request, frame);
-    if (request.products.radiance) frame.radiance = radiance_;
-    stats.render_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return stats;
-  }
 
-  // Centre rays: labels and colours of every pixel.
+  frame.exposure = color ? ExposureOf(request) : 1;
+  RenderStats stats;
+  if (high)
+    stats.rays += high_.Render(*tracer_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
+  else
+    stats.rays += RenderTiles(request, color && !paths, frame);
+  if (paths) stats.rays += RenderPaths(request, RadianceOf(frame));
+
+  // Linear light to display colours, at the picture's own exposure if asked.
+  if (color && request.auto_exposure) {
+    request.exposure_ev += AutoExposureEv(RadianceOf(frame), request.camera, shader_->Exposure());
+    frame.exposure = ExposureOf(request);
+  }
+  if (high || paths || (color && request.auto_exposure)) Develop(request.tone, RadianceOf(frame), frame);
+
+  // More colour samples on edges.
+  if (color && !high && samples > 1) {
+    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
+    antialiaser_.FindEdges(entity, luma_, rays_.field().separable, edges_);
+    const int64_t rays =
+        antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+                          request.exposure_ev, samples, &edges_, &frame.rgb, request.tone});
+    stats.rays += static_cast<uint64_t>(rays);
+  }
+  if (!request.products.rgb) frame.rgb = {};
+  stats.render_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return stats;
+}
+
+// Centre rays: labels and, with `color`, colours of every pixel. Returns their number.
+uint64_t CpuRenderer::RenderTiles(const RenderRequest& request, bool color, Frame& frame) {
   const RayField& field = rays_.field();
   const int across = (field.width + kTileSize - 1) / kTileSize,
             down = (field.height + kTileSize - 1) / kTileSize;
@@ -126,38 +159,20 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
     const FlushDenormals flush_denormals;
     const int first = static_cast<int>(task) * kTilesPerTask;
     for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile)
-      RenderTile(request, color && !paths, tile, frame);
+      RenderTile(request, color, tile, frame);
   });
-  RenderStats stats;
-  stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
-
-  if (paths) stats.rays += RenderPaths(request, frame);
-
-  // More colour samples on edges.
-  if (color && samples > 1) {
-    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
-    antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
-    const int64_t rays =
-        antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, samples, &edges_, &frame.rgb});
-    stats.rays += static_cast<uint64_t>(rays);
-  }
-  stats.render_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return stats;
+  return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
 }
 
-// Colour of tier `reference`; returns the number of paths.
-uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Frame& frame) {
+// Light of tier `reference`; returns the number of paths.
+uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Image<Rgb32f>& radiance) {
   const int samples = request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
   TracePaths(*tracer_, *shader_, rays_, VecCast<float>(request.X_WC.p),
-             {.samples = samples, .seed = request.seed}, radiance_);
-  Display(request, frame);
+             {.samples = samples, .seed = request.seed}, radiance);
   const RayField& field = rays_.field();
   for (int y = 0; y < field.height && !field.separable; ++y)
     for (int x = 0; x < field.width; ++x)
-      if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) frame.rgb(x, y) = {};
-  if (request.products.radiance) frame.radiance = radiance_;
+      if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) radiance(x, y) = {};
   return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height) *
          static_cast<uint64_t>(samples);
 }
@@ -209,7 +224,9 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   Rgb8 colors[kTilePixels];
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
   shader_->Shade(hits, radiance);
-  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors);
+  shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors,
+                   request.tone);
+  if (Image<Rgb32f>& kept = RadianceOf(frame); !kept.empty()) KeepRadiance(radiance, target, kept);
   if (!rays_.field().separable) {
     // Pixels without a ray are black.
     const RayField& field = rays_.field();
@@ -224,22 +241,25 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   kernels_.store_colors(colors, target, frame.rgb.pixels().data(), luma_.pixels().data());
 }
 
-// From linear radiance to what a screen shows.
-void CpuRenderer::Display(const RenderRequest& request, Frame& frame) const {
-  ParallelFor(radiance_.height(), [&](int64_t y) {
-    alignas(64) float channels[3][kTilePixels];
-    const auto row = radiance_.row(static_cast<int>(y));
-    const auto out = frame.rgb.row(static_cast<int>(y));
-    for (size_t first = 0; first < row.size(); first += kTilePixels) {
-      const size_t count = std::min<size_t>(kTilePixels, row.size() - first);
-      for (size_t i = 0; i < count; ++i) {
-        const Rgb32f c = row[first + i];
-        channels[0][i] = c.r, channels[1][i] = c.g, channels[2][i] = c.b;
-      }
-      shader_->ToneMap(channels[0], channels[1], channels[2], static_cast<int>(count), request.exposure_ev,
-                       &out[first]);
+void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& target,
+                               Image<Rgb32f>& image) const {
+  const RayField& field = rays_.field();
+  for (int y = 0; y < std::min(kTileSize, field.height - target.row); ++y) {
+    for (int x = 0; x < std::min(kTileSize, field.width - target.column); ++x) {
+      const int c = target.column + x, row = target.row + y;
+      const bool seen = field.separable || field.has_ray[static_cast<int64_t>(row) * field.stride + c] != 0;
+      const int i = PacketIndex(target.shape, x, y);
+      image((c - target.column_shift + field.width) % field.width, row) =
+          seen ? Rgb32f{radiance.r[i], radiance.g[i], radiance.b[i]} : Rgb32f{};
     }
-  });
+  }
+}
+
+// Display colours of all pixels from their radiance.
+void CpuRenderer::Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame) {
+  ToneMapImage(radiance, frame.exposure, tone, frame.rgb);
+  std::transform(frame.rgb.pixels().begin(), frame.rgb.pixels().end(), luma_.pixels().begin(),
+                 [](Rgb8 c) { return Luma(c.r, c.g, c.b); });
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ struct Denoiser::Impl {
 };
 
 Denoiser::Denoiser() : impl_(std::make_unique<Impl>()) {}
+Denoiser::Denoiser(Denoiser&&) noexcept = default;
 Denoiser::~Denoiser() = default;
 
 void Denoiser::Reset() { impl_->histories.clear(); }

@@ -44,6 +44,7 @@ struct LightSignal {
 class Denoiser {
  public:
   Denoiser();
+  Denoiser(Denoiser&&) noexcept;
   ~Denoiser();
   /// Filters one signal. `slot` names the history (0, 1, …: one for each kind of light).
   void Run(const FilterGuides& guides, const LightSignal& signal, bool temporal, int slot = 0);

@@ -4,93 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/base/random.h"
-#include "airsim360/render/cpu/test_room.h"
 #include "airsim360/render/filter/filter_buffers.h"
 #include "airsim360/render/filter/filter_kernels.h"
+#include "airsim360/render/filter/test_view.h"
 
 namespace airsim360::internal {
 namespace {
 
-using test::Look;
 using test::Truth;
-
-/// Guides of a scene in closed form.
-struct View {
-  Camera camera;
-  RigidTransform X_WC;
-  Image<float> range;
-  Image<uint32_t> entity;
-  Image<Vec3f> normal;
-
-  int width() const { return range.width(); }
-  int height() const { return range.height(); }
-  FilterGuides guides() const { return {&camera, X_WC, &range, &entity, &normal, &normal}; }
-};
-
-View MakeView(int width, Vec3d p, const std::function<Truth(Vec3d, Vec3d)>& look, Mat3d R = {}) {
-  const RigidTransform X_WC{R * CameraInBody().R, p};
-  const Equirectangular erp{width, width / 2};
-  View view{erp, X_WC, Image<float>(width, width / 2), Image<uint32_t>(width, width / 2),
-            Image<Vec3f>(width, width / 2)};
-  for (int y = 0; y < width / 2; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const Truth truth = look(p, X_WC.R * *PixelToRay(erp, {x + 0.5, y + 0.5}));
-      view.range(x, y) = truth.range < 1e29 ? static_cast<float>(truth.range) : 0;
-      view.entity(x, y) = truth.entity;
-      view.normal(x, y) = VecCast<float>(truth.normal);
-    }
-  }
-  return view;
-}
-
-/// A sphere of 10 m about the camera, one entity: every pixel is like every other.
-View MakeBall(int width) {
-  return MakeView(width, {}, [](Vec3d, Vec3d d) { return Truth{10, 1, -d}; });
-}
-
-View MakeRoomView(int width, Vec3d p = {0.3, -0.4, 2}) { return MakeView(width, p, Look); }
-
-/// Uniform noise of standard deviation `sigma` about `mean`, by pixel.
-Image<Rgb32f> Noise(const View& view, float mean, float sigma, uint64_t seed = 1) {
-  Image<Rgb32f> light(view.width(), view.height());
-  RngStream rng(seed, "noise");
-  for (Rgb32f& c : light.pixels()) {
-    const float v = mean + sigma * static_cast<float>(rng.Uniform(-std::sqrt(3.0), std::sqrt(3.0)));
-    c = {v, v, v};
-  }
-  return light;
-}
-
-Image<Rgb32f> Filter(const View& view, Image<Rgb32f> light, const Image<uint8_t>* samples = nullptr,
-                     float radius_px = 16) {
-  Denoiser().Run(view.guides(), {&light, samples, radius_px}, false);
-  return light;
-}
-
-/// Mean squared difference from `mean` over pixels chosen, weighted by solid angle.
-double Variance(const View& view, const Image<Rgb32f>& light, float mean,
-                const std::function<bool(int, int)>& use) {
-  double sum = 0, weight = 0;
-  for (int y = 0; y < view.height(); ++y) {
-    const double w = std::cos(std::numbers::pi * (0.5 - (y + 0.5) / view.height()));
-    for (int x = 0; x < view.width(); ++x) {
-      if (!use(x, y)) continue;
-      const double d = light(x, y).g - mean;
-      sum += w * d * d;
-      weight += w;
-    }
-  }
-  return sum / weight;
-}
-
-bool Anywhere(int, int) { return true; }
 
 TEST(DenoiserTest, ConstantLightIsReturnedBitForBit) {
   const View view = MakeRoomView(256);
@@ -318,6 +244,54 @@ TEST(DenoiserTest, InstructionSetsAgreeBitForBit) {
   }
 }
 
+TEST(DenoiserTest, InstructionSetsLoadTheSamePlanes) {
+  const View view = MakeRoomView(96);
+  Image<Rgb32f> noise = Noise(view, 1, 0.3f);
+  const auto run = [&](auto load) {
+    FilterBuffers buffers;
+    buffers.Load(view.guides(), {&noise, nullptr, 4}, 4);
+    const FilterPlanes& f = buffers.planes();
+    const RayField& field = buffers.rays().field();
+    std::vector<float> values;
+    for (int y = 0; y < f.height; ++y) {
+      const int64_t row = int64_t{y} * f.stride;
+      for (float* plane : {f.p[0], f.p[1], f.p[2], f.g[2], f.light[0][1]})
+        std::fill_n(plane + row, f.width, 0.0f);
+      const FilterSource source{view.range.row(y).data(),
+                                view.entity.row(y).data(),
+                                &view.normal.row(y).data()->x,
+                                &view.normal.row(y).data()->x,
+                                &noise.row(y).data()->r,
+                                nullptr,
+                                17,
+                                field.column_x,
+                                field.column_y,
+                                field.column_z,
+                                field.row_scale[y],
+                                field.row_x[y],
+                                field.row_y[y],
+                                field.row_z[y]};
+      load(f, y, source);
+      for (const float* plane : {f.p[0], f.p[1], f.p[2], f.g[2], f.light[0][1]})
+        values.insert(values.end(), plane + row, plane + row + f.width);
+      for (int x = 0; x < f.width; ++x) {
+        // Canonical column x is image column x - 17.
+        const int from = (x - 17 + f.width) % f.width;
+        EXPECT_EQ(f.light[0][1][row + x], noise(from, y).g);
+        EXPECT_EQ(f.id[row + x], view.entity(from, y));
+      }
+    }
+    return values;
+  };
+  const auto sse = run(isa_sse42::LoadFilterRow);
+  if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
+    EXPECT_TRUE(run(isa_avx2::LoadFilterRow) == sse);
+  }
+  if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
+    EXPECT_TRUE(run(isa_avx512::LoadFilterRow) == sse);
+  }
+}
+
 TEST(DenoiserTest, PixelsWithoutSamplesTakeTheLightOfTheirSurface) {
   const View view = MakeRoomView(256);
   Image<uint8_t> samples(view.width(), view.height(), 0);
@@ -414,88 +388,6 @@ TEST(DenoiserTest, ImagesOfAnotherSizeAreRefused) {
   Image<Rgb32f> light(64, 31);
   EXPECT_THROW(Denoiser().Run(view.guides(), {&light, nullptr, 16}, false), InputError);
   EXPECT_THROW(Denoiser().Run({}, {&light, nullptr, 16}, false), InputError);
-}
-
-TEST(TemporalTest, FramesOfAStandingCameraAddUp) {
-  const View view = MakeBall(256);
-  Denoiser denoiser;
-  double first = 0, last = 0;
-  for (int frame = 0; frame < 8; ++frame) {
-    Image<Rgb32f> light = Noise(view, 1, 0.2f, static_cast<uint64_t>(frame));
-    denoiser.Run(view.guides(), {&light, nullptr, 2}, true);
-    last = Variance(view, light, 1, Anywhere);
-    if (frame == 0) first = last;
-  }
-  EXPECT_LT(last, first / 5);
-}
-
-TEST(TemporalTest, AMovingCameraDragsNoLightFromOneThingToAnother) {
-  Denoiser denoiser;
-  for (int frame = 0; frame < 6; ++frame) {
-    const View view = MakeRoomView(256, {0.3 + 0.05 * frame, -0.4 + 0.2 * frame, 2});
-    Image<Rgb32f> light(view.width(), view.height());
-    for (size_t i = 0; i < light.size(); ++i) {
-      const float v = 0.1f * static_cast<float>(view.entity.pixels()[i]);
-      light.pixels()[i] = {v, v, v};
-    }
-    const Image<Rgb32f> expected = light;
-    denoiser.Run(view.guides(), {&light, nullptr, 16}, true);
-    double worst = 0;
-    for (size_t i = 0; i < light.size(); ++i)
-      worst = std::max(worst, std::abs(static_cast<double>(light.pixels()[i].g) - expected.pixels()[i].g));
-    EXPECT_LT(worst, 1e-6) << frame;
-  }
-}
-
-TEST(TemporalTest, AMovingCameraStillGathersSamples) {
-  Denoiser denoiser;
-  double still = 0, moved = 0;
-  for (int frame = 0; frame < 6; ++frame) {
-    const View view = MakeRoomView(256, {0.3, -0.4 + 0.1 * frame, 2});
-    Image<Rgb32f> light = Noise(view, 1, 0.2f, static_cast<uint64_t>(frame)), single = light;
-    denoiser.Run(view.guides(), {&light, nullptr, 1}, true);
-    moved = Variance(view, light, 1, Anywhere);
-    still = Variance(view, Filter(view, single, nullptr, 1), 1, Anywhere);
-  }
-  EXPECT_LT(moved, still / 3);
-}
-
-TEST(TemporalTest, ResetForgets) {
-  const View view = MakeBall(128);
-  Denoiser denoiser;
-  Image<Rgb32f> first = Noise(view, 1, 0.2f, 1);
-  const Image<Rgb32f> second = Noise(view, 1, 0.2f, 2);
-  denoiser.Run(view.guides(), {&first, nullptr, 4}, true);
-  denoiser.Reset();
-  Image<Rgb32f> light = second;
-  denoiser.Run(view.guides(), {&light, nullptr, 4}, true);
-  EXPECT_TRUE(light == Filter(view, second, nullptr, 4));
-}
-
-TEST(TemporalTest, TurningTheCameraByColumnsChangesNothingInTheWorld) {
-  // A standing camera and one that turns by whole columns see the same light at the same places.
-  const View view = MakeRoomView(128);
-  Denoiser standing, turning;
-  for (int frame = 0; frame < 3; ++frame) {
-    const int k = 5 * frame;
-    Image<Rgb32f> light = Noise(view, 1, 0.2f, static_cast<uint64_t>(frame)), rolled = light;
-    View turned = view;
-    turned.X_WC.R = view.X_WC.R * RotationY(2 * std::numbers::pi * k / view.width());
-    for (int y = 0; y < view.height(); ++y) {
-      for (int x = 0; x < view.width(); ++x) {
-        const int from = (x + k) % view.width();
-        turned.range(x, y) = view.range(from, y);
-        turned.entity(x, y) = view.entity(from, y);
-        turned.normal(x, y) = view.normal(from, y);
-        rolled(x, y) = light(from, y);
-      }
-    }
-    standing.Run(view.guides(), {&light, nullptr, 8}, true);
-    turning.Run(turned.guides(), {&rolled, nullptr, 8}, true);
-    for (int y = 0; y < view.height(); ++y) {
-      for (int x = 0; x < view.width(); ++x) ASSERT_EQ(rolled(x, y), light((x + k) % view.width(), y));
-    }
-  }
 }
 
 }  // namespace

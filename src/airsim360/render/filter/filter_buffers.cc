@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/render/filter/filter_kernels.h"
 
 namespace airsim360::internal {
 namespace {
@@ -74,39 +75,47 @@ int FilterBuffers::ImageColumn(int canonical) const {
   return x < 0 ? x + planes_.width : x;
 }
 
+// Positions of a camera whose rays are a table.
+void FilterBuffers::LoadPositions(const Image<float>& range, int y) {
+  const FilterPlanes& f = planes_;
+  const RayField& field = rays_.field();
+  const double* R = field.R;
+  for (int c = 0; c < f.width; ++c) {
+    const size_t i = static_cast<size_t>(y) * f.stride + c, j = static_cast<size_t>(y) * field.stride + c;
+    const double t = range(c, y), x = field.ray_x[j] * t, v = field.ray_y[j] * t, z = field.ray_z[j] * t;
+    for (int k = 0; k < 3; ++k)
+      f.p[k][i] = static_cast<float>(R[3 * k] * x + R[3 * k + 1] * v + R[3 * k + 2] * z);
+  }
+}
+
 void FilterBuffers::LoadRow(const FilterGuides& guides, const LightSignal& signal, int y) {
   const FilterPlanes& f = planes_;
   const RayField& field = rays_.field();
-  const auto direction = [&](int c) -> Vec3d {
-    if (field.separable) {
-      return Vec3d{field.column_x[c], field.column_y[c], field.column_z[c]} * field.row_scale[y] +
-             Vec3d{field.row_x[y], field.row_y[y], field.row_z[y]};
-    }
-    const size_t i = static_cast<size_t>(y) * field.stride + c;
-    const Vec3d d{field.ray_x[i], field.ray_y[i], field.ray_z[i]};
-    return {field.R[0] * d.x + field.R[1] * d.y + field.R[2] * d.z,
-            field.R[3] * d.x + field.R[4] * d.y + field.R[5] * d.z,
-            field.R[6] * d.x + field.R[7] * d.y + field.R[8] * d.z};
-  };
-  const size_t row = static_cast<size_t>(y) * f.stride;
-  const auto put = [](float* const* planes, size_t i, Vec3f v) {
-    planes[0][i] = v.x, planes[1][i] = v.y, planes[2][i] = v.z;
-  };
-  for (int c = 0; c < f.width; ++c) {
-    const int x = ImageColumn(c);
-    const size_t i = row + c;
-    const float range = (*guides.range)(x, y);
-    const bool surface = range > 0;
-    const uint8_t samples = signal.samples == nullptr ? 1 : (*signal.samples)(x, y);
-    f.id[i] = surface ? (*guides.entity)(x, y) : kNoSurface;
-    f.data_id[0][i] = surface && samples > 0 ? f.id[i] : 0;
-    put(f.p, i, surface ? VecCast<float>(direction(c) * static_cast<double>(range)) : Vec3f{});
-    put(f.n, i, (*guides.normal)(x, y));
-    if (guides.geometric_normal != nullptr) put(f.g, i, (*guides.geometric_normal)(x, y));
-    const Rgb32f light = (*signal.light)(x, y);
-    put(f.light[0], i, {light.r, light.g, light.b});
-    f.samples[i] = samples;
+  const auto* geometric = guides.geometric_normal;
+  FilterSource source{guides.range->row(y).data(),
+                      guides.entity->row(y).data(),
+                      &guides.normal->row(y).data()->x,
+                      geometric != nullptr ? &geometric->row(y).data()->x : nullptr,
+                      &signal.light->row(y).data()->r,
+                      signal.samples != nullptr ? signal.samples->row(y).data() : nullptr,
+                      rays_.column_shift(),
+                      nullptr,
+                      nullptr,
+                      nullptr,
+                      0,
+                      0,
+                      0,
+                      0};
+  if (field.separable) {
+    source.column_x = field.column_x, source.column_y = field.column_y, source.column_z = field.column_z;
+    source.row_scale = field.row_scale[y];
+    source.row_x = field.row_x[y], source.row_y = field.row_y[y], source.row_z = field.row_z[y];
+  } else {
+    LoadPositions(*guides.range, y);
   }
+  AIRSIM360_SELECT_KERNEL(LoadFilterRow)(f, y, source);
+
+  const size_t row = static_cast<size_t>(y) * f.stride;
   for (int c = f.width; c < f.wrap; ++c) {
     f.id[row + c] = kNoSurface;
     f.data_id[0][row + c] = 0;
@@ -189,12 +198,14 @@ void FilterBuffers::Store(int set, Image<Rgb32f>& light) const {
   const FilterPlanes& f = planes_;
   ParallelFor(f.height, [&](int64_t row) {
     const int y = static_cast<int>(row);
-    for (int c = 0; c < f.width; ++c) {
-      const size_t i = static_cast<size_t>(y) * f.stride + c;
-      if (f.id[i] == kNoSurface) continue;
-      light(ImageColumn(c), y) = f.data_id[set][i] == 0
-                                     ? FillHole(set, c, y)
-                                     : Rgb32f{f.light[set][0][i], f.light[set][1][i], f.light[set][2][i]};
+    const size_t first = static_cast<size_t>(y) * f.stride;
+    const uint32_t *id = f.id + first, *data_id = f.data_id[set] + first;
+    const float *r = f.light[set][0] + first, *g = f.light[set][1] + first, *b = f.light[set][2] + first;
+    Rgb32f* out = light.row(y).data();
+    for (int c = 0, x = ImageColumn(0); c < f.width; ++c, ++x) {
+      if (x == f.width) x = 0;
+      if (id[c] == kNoSurface) continue;
+      out[x] = data_id[c] == 0 ? FillHole(set, c, y) : Rgb32f{r[c], g[c], b[c]};
     }
   });
 }

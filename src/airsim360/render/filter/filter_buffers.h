@@ -33,6 +33,7 @@ class FilterBuffers {
  private:
   void Resize(bool own_planes);
   void LoadRow(const FilterGuides& guides, const LightSignal& signal, int y);
+  void LoadPositions(const Image<float>& range, int y);
   Rgb32f FillHole(int set, int x, int y) const;
   int ImageColumn(int canonical) const;
 

@@ -4,6 +4,8 @@
 #include "airsim360/render/filter/filter_planes.h"
 #include "airsim360/render/kernel_isa.h"
 
+/// Fills row y of the planes, all but the columns after `width`; light and data_id of set 0.
+AIRSIM360_DECLARE_KERNEL(void LoadFilterRow(const FilterPlanes& planes, int y, const FilterSource& source))
 /// Averages light of set 0 along the row over `columns` columns about each pixel, weighted by samples, where
 /// pixels are narrower than they are high.
 AIRSIM360_DECLARE_KERNEL(void GatherRow(const FilterPlanes& planes, int y, int columns))

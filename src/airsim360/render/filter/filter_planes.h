@@ -30,6 +30,19 @@ struct FilterPlanes {
 inline constexpr uint32_t kNoSurface = 0xffffffffu;
 inline constexpr int kFilterPad = 16;
 
+/// One row of the images that the planes are filled from, in image columns; triples are interleaved.
+struct FilterSource {
+  const float* range;
+  const uint32_t* entity;
+  const float *normal, *geometric_normal;  ///< the second may be null
+  const float* light;
+  const uint8_t* samples;  ///< null = one each
+  int column_shift;        ///< canonical column c is image column (c - column_shift) mod width
+  /// Directions in W as in RayField: row_scale * column[c] + row; null = positions are filled in elsewhere.
+  const double *column_x, *column_y, *column_z;
+  double row_scale, row_x, row_y, row_z;
+};
+
 /// Where the points of one row were in the last frame's picture (a panorama).
 struct ReprojectedRow {
   float R[9];       ///< row-major, W to the last frame's canonical axes

@@ -30,6 +30,8 @@ class NullRenderer : public Renderer {
     fill(frame.semantic, products.semantic, category);
     fill(frame.entity, products.entity, sky);
     fill(frame.normal, products.normal, Vec3f{});
+    fill(frame.radiance, products.radiance && request.tier != Tier::kLabels, Rgb32f{1, 1, 1});
+    frame.exposure = 1;
     return {};
   }
 

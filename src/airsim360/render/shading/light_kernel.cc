@@ -6,8 +6,9 @@ namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
 constexpr float kFoliage = BSDF_FOLIAGE;
-constexpr float kBrightest = 400;    // radiance of a sun glint that still averages well over few samples
-constexpr float kSunAlpha = 0.006f;  // about the sine of the sun's diameter of 0.53 degrees, less its limb
+constexpr int kAgx = 1, kLinear = 2;  // ToneCurve
+constexpr float kBrightest = 400;     // radiance of a sun glint that still averages well over few samples
+constexpr float kSunAlpha = 0.006f;   // about the sine of the sun's diameter of 0.53 degrees, less its limb
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
@@ -188,10 +189,14 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
   }
 }
 
-void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, Rgb8* out) {
+void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, int curve,
+                Rgb8* out) {
   alignas(64) int32_t shown[3][kLanes];
   const auto map = [&](real3 light, Rgb8 * to, int n) __attribute__((always_inline)) {
-    const real3 c = tone_curve(light * real(exposure));
+    const real3 exposed = light * real(exposure);
+    const real3 c = curve == kAgx      ? agx_curve(exposed)
+                    : curve == kLinear ? linear_curve(exposed)
+                                       : tone_curve(exposed);
     to_int(srgb_encode(c.x) * 255.0f + 0.5f).copy_to(shown[0], stdx::vector_aligned);
     to_int(srgb_encode(c.y) * 255.0f + 0.5f).copy_to(shown[1], stdx::vector_aligned);
     to_int(srgb_encode(c.z) * 255.0f + 0.5f).copy_to(shown[2], stdx::vector_aligned);

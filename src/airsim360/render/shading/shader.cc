@@ -172,9 +172,10 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
   }
 }
 
-void Shader::ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,
-                     Rgb8* out) const {
-  impl_->kernels.tone(r, g, b, count, Exposure() * static_cast<float>(std::exp2(exposure_ev)), out);
+void Shader::ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out,
+                     ToneCurve tone) const {
+  impl_->kernels.tone(r, g, b, count, Exposure() * static_cast<float>(std::exp2(exposure_ev)),
+                      static_cast<int>(tone), out);
 }
 
 }  // namespace airsim360

@@ -6,6 +6,7 @@
 
 #include "airsim360/image/image.h"
 #include "airsim360/math/vector.h"
+#include "airsim360/render/renderer.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -40,9 +41,9 @@ class Shader {
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
   float Exposure() const;
-  /// Display colours of `count` radiances: exposure * 2^exposure_ev, filmic curve, sRGB.
-  void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,
-               Rgb8* out) const;
+  /// Display colours of `count` radiances: exposure * 2^exposure_ev, tone curve, sRGB.
+  void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out,
+               ToneCurve tone = ToneCurve::kFilmic) const;
 
   struct Impl;
   /// For the other tiers: shader_impl.h.

@@ -308,7 +308,7 @@ TEST(Shader, AllInstructionSetsAgreeToTheBit) {
     prepare(view, rays, result->surfaces);
     shade(view, rays, result->surfaces, result->light);
     look_up(view, rays, true, result->sky);
-    tone(result->light.r, result->light.g, result->light.b, internal::kBatch - 3, 0.4f, result->shown);
+    tone(result->light.r, result->light.g, result->light.b, internal::kBatch - 3, 0.4f, 1, result->shown);
     return result;
   };
   using namespace internal;

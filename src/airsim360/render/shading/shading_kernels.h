@@ -42,6 +42,6 @@ AIRSIM360_DECLARE_KERNEL(void LookUpSky(const ShadeView& view, const RaySet& ray
 /// angle between neighbouring pixels.
 AIRSIM360_DECLARE_KERNEL(void AddPrecipitation(const ShadeView& view, const RaySet& rays, bool sky,
                                                float cone_angle, LightSet& light))
-/// Display colours: times `exposure`, tone curve, sRGB.
+/// Display colours: times `exposure`, tone curve (ToneCurve as a number), sRGB.
 AIRSIM360_DECLARE_KERNEL(void ToneMapRow(const float* r, const float* g, const float* b, int count,
-                                         float exposure, Rgb8* out))
+                                         float exposure, int curve, Rgb8* out))

@@ -41,6 +41,8 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shading/shading_air.h"
 //
 #include "airsim360/render/shading/shading_air_view.h"
+//
+#include "airsim360/render/shading/shading_tone.h"
 #undef SHARED
 #undef INOUT
 

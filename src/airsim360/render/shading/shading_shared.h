@@ -101,26 +101,6 @@ SHARED real srgb_decode_approx(real s) {
   return sel(s < 0.04045f, s * 0.0773993808f, p);
 }
 
-// Film-like response of one channel: a logistic curve in log exposure, 0 at 0, about 0.3 at 0.18 * 3, 1 at
-// infinity.
-SHARED real film_curve(real x) {
-  real p = pow_approx(x * 1.35f, real(1.17f));
-  return p / (p + 1.0f) * 1.02f;
-}
-
-// Scene radiance times exposure to display-linear colour. A little of each channel reaches the others, as in
-// film, so that very bright colours turn white instead of clipping; saturation is given back after the curve,
-// but not in the shadows, where the eye sees little of it.
-SHARED real3 tone_curve(real3 c) {
-  real mean = (c.x + c.y + c.z) * 0.333333333f;
-  real3 mixed = lerp3(c, make3(mean, mean, mean), real(0.05f));
-  real3 shown = make3(film_curve(mixed.x), film_curve(mixed.y), film_curve(mixed.z));
-  real grey = luminance(shown);
-  real saturation = 0.90f + 0.34f * clamp01(grey * 5.0f);
-  real3 vivid = lerp3(make3(grey, grey, grey), shown, saturation);
-  return make3(clamp01(vivid.x), clamp01(vivid.y), clamp01(vivid.z));
-}
-
 // ---- reflectance
 // ------------------------------------------------------------------------------------------------
 

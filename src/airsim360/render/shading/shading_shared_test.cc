@@ -120,6 +120,43 @@ TEST(ShadingShared, ToneCurveGrowsWithLightAndKeepsGreyGrey) {
   EXPECT_LT(scalar::tone_curve({1e-4f, 1e-4f, 1e-4f}).y, 1e-3f);
 }
 
+TEST(ShadingShared, AgxGrowsWithLightKeepsGreyGreyAndMiddleGreyInPlace) {
+  float last = -1;
+  for (double x = 1e-5; x < 1e3; x *= 1.02) {
+    const auto v = static_cast<float>(x);
+    const Vec3f c = scalar::agx_curve({v, v, v});
+    EXPECT_GE(c.y, last) << x;
+    EXPECT_NEAR(c.x, c.y, 2e-4f) << x;
+    EXPECT_NEAR(c.z, c.y, 2e-4f) << x;
+    last = c.y;
+  }
+  EXPECT_NEAR(last, 1, 1e-3f);
+  EXPECT_NEAR(scalar::agx_curve({0.18f, 0.18f, 0.18f}).y, 0.18f, 1e-3f);
+  EXPECT_LT(scalar::agx_curve({1e-6f, 1e-6f, 1e-6f}).y, 1e-5f);
+}
+
+TEST(ShadingShared, AgxContrastHasItsSlopeAtMiddleGreyAndEndsInTheCorners) {
+  EXPECT_NEAR((scalar::agx_contrast(0.607f) - scalar::agx_contrast(0.605f)) / 0.002f, 2.4f, 0.01f);
+  EXPECT_NEAR(scalar::agx_contrast(0), 0, 1e-4f);
+  EXPECT_NEAR(scalar::agx_contrast(1), 1, 1e-4f);
+}
+
+TEST(ShadingShared, AgxFadesBrightColoursToWhite) {
+  // Pure red keeps its hue in the middle and loses saturation towards the top.
+  const auto saturation = [](float v) {
+    const Vec3f c = scalar::agx_curve({v, 0.02f * v, 0.02f * v});
+    EXPECT_GE(c.x, c.y);
+    return (c.x - c.y) / c.x;
+  };
+  EXPECT_GT(saturation(0.3f), 0.7f);
+  EXPECT_LT(saturation(300), 0.1f);
+}
+
+TEST(ShadingShared, TheLinearCurveIsInvertible) {
+  const Vec3f c = scalar::linear_curve({0.25f, 1.5f, -1});
+  EXPECT_EQ(c, (Vec3f{0.25f, 1, 0}));
+}
+
 TEST(ShadingShared, OwnTranscendentalsAgreeWithTheLibrary) {
   for (double x = -30; x < 30; x += 0.01) {
     const auto f = static_cast<float>(x);
@@ -185,13 +222,15 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(0.001, 50, log2_approx(a) + pow_approx(b, c * 0.1f));
   SAME(0.001, 1, srgb_encode(a) + srgb_decode_approx(b) + asin_approx(c));
   SAME(0, 4, luminance(tone_curve(make3(a, b, c))));
+  SAME(0, 20, luminance(agx_curve(make3(a, b, c))) + linear_curve(make3(a, b, c)).x);
   SAME(0.02, 1, luminance(specular_brdf(make3(a, b, c), a, b, c, a, b)));
   SAME(0.02, 1, luminance(environment_brdf(make3(a, b, c), b, c)));
   SAME(0.02, 1, fresnel_dielectric(a + 1.0f, b) + fresnel_schlick(b, c));
   SAME(-1, 1, leaf_diffuse(make3(a, b, c), b, c).x);
   SAME(-1, 1, dot3(octahedral_decode(a, b), make3(a, b, c)));
   SAME(-1, 1, layer_path(a * 100.0f, b, c * 1000.0f, 160.0f) + forward_phase(0.76f, a));
-  SAME(-1, 1, drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
+  SAME(-1, 1,
+       drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
 #undef SAME
 }
@@ -213,14 +252,16 @@ TEST(ShadingShared, CompilesAsGlsl) {
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
-        << read("shading_glsl.h") << shared
+        << read("shading_glsl.h") << shared << read("shading_tone.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
-           "  v[0] = srgb_encode(luminance(tone_curve(c))) + asin_approx(v[3]) + fresnel_dielectric(1.5, "
-           "v[4]) + lost +\n"
-           "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + shadow_column(v[0], v[1], "
-           "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, 5.0, "
+           "  v[0] = srgb_encode(luminance(tone_curve(c) + agx_curve(c))) + asin_approx(v[3]) + "
+           "fresnel_dielectric(1.5, v[4]) + lost +\n"
+           "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + "
+           "shadow_column(v[0], v[1], "
+           "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
+           "5.0, "
            "1.0) + forward_phase(0.7, v[1]); }\n";
   }
   const int status = std::system(

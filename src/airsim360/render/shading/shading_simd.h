@@ -85,6 +85,8 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
 #include "airsim360/render/shading/shading_air.h"
 //
 #include "airsim360/render/shading/shading_air_view.h"
+//
+#include "airsim360/render/shading/shading_tone.h"
 #undef SHARED
 #undef INOUT
 

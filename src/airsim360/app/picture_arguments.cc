@@ -1,0 +1,60 @@
+#include "airsim360/app/picture_arguments.h"
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "airsim360/base/error.h"
+#include "airsim360/render/filter/tone_map.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kMostStops = 20;
+
+// A number of stops.
+double ParseStops(const std::string& text) {
+  double stops = 0;
+  const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(first, text.data() + text.size(), stops);
+  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(stops) <= kMostStops)) {
+    throw InputError("--exposure: '" + text + "' is neither 'auto' nor a number of stops from -20 to 20");
+  }
+  return stops;
+}
+
+}  // namespace
+
+void PictureArguments::AddTo(CLI::App& command) {
+  command.add_option("--tone", tone, "tone curve: filmic, agx or linear (default filmic)");
+  command.add_option(
+      "--exposure", exposure,
+      "stops added to the fixed daylight exposure, or auto: of every picture its own (default 0)");
+  command.add_option("--lens", lens,
+                     "ideal, or real360: colour as of two stitched fisheyes with parallax, noise, rolling "
+                     "shutter and JPEG; labels stay ideal (default ideal)");
+  command.add_flag("--radiance", radiance, "write linear light too: radiance/STEM.exr, half float");
+}
+
+void PictureArguments::Apply(DatasetSpec& spec) const {
+  const auto named = [](const char* flag, const auto& parse) {
+    try {
+      return parse();
+    } catch (const InputError& error) {
+      throw InputError(std::string(flag) + ": " + error.what());
+    }
+  };
+  spec.tone = named("--tone", [&] { return ParseToneCurve(tone); });
+  spec.lens = named("--lens", [&] { return ParseLensModel(lens); });
+  spec.auto_exposure = exposure == "auto";
+  spec.exposure_ev = spec.auto_exposure ? 0 : ParseStops(exposure);
+  spec.radiance = radiance;
+  if (spec.lens == LensModel::kReal360 && spec.projection != Projection::kErp)
+    throw InputError("--lens: 'real360' makes equirectangular pictures; use --projection erp");
+  if (spec.auto_exposure && spec.projection == Projection::kCube)
+    throw InputError("--exposure: 'auto' would differ between the faces of a cube; use --projection erp");
+  if (spec.radiance && spec.tier == Tier::kLabels)
+    throw InputError("--radiance: tier 'labels' has no light; use --tier fast");
+}
+
+}  // namespace airsim360

@@ -1,0 +1,21 @@
+// Flags of `render` and `collect` that say how colour pictures are made: tone, exposure, lens, radiance.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "airsim360/dataset/spec.h"
+
+namespace airsim360 {
+
+struct PictureArguments {
+  std::string tone = "filmic", exposure = "0", lens = "ideal";
+  bool radiance = false;
+
+  /// Adds the flags; this object must outlive the parsing.
+  void AddTo(CLI::App& command);
+  /// Fills the spec, whose projection and tier are set. InputError naming the flag and the value.
+  void Apply(DatasetSpec& spec) const;
+};
+
+}  // namespace airsim360

@@ -1,0 +1,69 @@
+// Kernel: the levels of the wavelet, and where points were in the last frame.
+#include "airsim360/render/filter/filter_kernels.h"
+#include "airsim360/render/filter/filter_simd.h"
+
+namespace airsim360::internal::AIRSIM360_ISA {
+namespace {
+
+// x_light = difference^2 / (2 (kSigmas sigma)^2).
+constexpr float kSigmas = 3;
+
+KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step,
+                         int step_x, int in) {
+  const uids own_id = Ids(f.data_id[in], i);
+  const Center c = MakeCenter(f, i, At(f.loose, i), static_cast<float>(step));
+  const mask_t known = SameId(own_id, c.id);
+  const real3 base = At3(f.light[in], i);
+  const real l = luminance(base), variance = At(f.variance, i);
+  const real sharpness = If(known, 1.0f / (variance * (16 * kSigmas * kSigmas) + 1e-20f));
+  // Means of more samples count for more; after the first level all are mixed.
+  const bool by_samples = step == 1;
+  real weight = If(known, real(0.25f) * (by_samples ? At(f.samples, i) : real(1.0f)));
+  real squares = weight * weight;
+  real3 sum = make3(real(0.0f), real(0.0f), real(0.0f));
+  ForNeighbours(
+      f, rows, x, step_x, [&](int64_t j, bool corner) __attribute__((always_inline)) {
+        const mask_t same = SameId(Ids(f.data_id[in], j), c.id);
+        if (stdx::none_of(same)) return;
+        const real3 light = At3(f.light[in], j);
+        const real d = luminance(light) - l;
+        real w = If(same, Power8(Likeness(f, c, j) - d * d * sharpness) * (corner ? 0.0625f : 0.125f));
+        if (by_samples) w = w * At(f.samples, j);
+        sum = sum + (light - base) * w;
+        weight = weight + w;
+        squares = squares + w * w;
+      });
+  const real inverse = 1.0f / rmax(weight, real(1e-10f));
+  const real3 mean = base + sum * inverse;
+  Put(f.light[1 - in][0], i, mean.x);
+  Put(f.light[1 - in][1], i, mean.y);
+  Put(f.light[1 - in][2], i, mean.z);
+  Put(f.variance, i, variance * rmin(squares * (inverse * inverse), real(1.0f)));
+  DataIds(weight > 1e-3f, c.id, own_id).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
+}
+
+}  // namespace
+
+void AtrousRow(const FilterPlanes& f, int y, int step, int step_x, int in) {
+  RowPlace rows[3];
+  FindRows(f, y, step, rows);
+  for (int x = 0; x < f.width; x += kLanes) AtrousVector(f, rows, rows[1].first + x, x, step, step_x, in);
+}
+
+void ReprojectRow(const FilterPlanes& f, int y, const ReprojectedRow& then) {
+  const int64_t row = int64_t{y} * f.stride;
+  const float* R = then.R;
+  for (int x = 0; x < f.width; x += kLanes) {
+    real3 v = At3(f.p, row + x);
+    v = make3(v.x + then.offset[0], v.y + then.offset[1], v.z + then.offset[2]);
+    const real3 c = make3(v.x * R[0] + v.y * R[1] + v.z * R[2], v.x * R[3] + v.y * R[4] + v.z * R[5],
+                          v.x * R[6] + v.y * R[7] + v.z * R[8]);
+    const real theta = atan2_approx(c.x, c.z);
+    const real phi = atan2_approx(real(0.0f) - c.y, rroot(c.x * c.x + c.z * c.z));
+    const float per_radian = 0.5f * SHADE_INV_PI * static_cast<float>(f.width);
+    Put(then.x, x, theta * per_radian + 0.5f * static_cast<float>(f.width));
+    Put(then.y, x, 0.5f * static_cast<float>(f.height) - phi * per_radian);
+  }
+}
+
+}  // namespace airsim360::internal::AIRSIM360_ISA

@@ -1,0 +1,73 @@
+#include "airsim360/render/filter/tone_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "airsim360/base/error.h"
+#include "airsim360/image/color.h"
+#include "airsim360/render/cpu/test_room.h"
+
+namespace airsim360 {
+namespace {
+
+TEST(ToneMapTest, TheLinearCurveIsSrgbOfTheExposedLight) {
+  Image<Rgb32f> light(300, 2);
+  for (int x = 0; x < 300; ++x) light(x, 1) = {0.004f * static_cast<float>(x), 0.01f, 0};
+  Image<Rgb8> shown;
+  ToneMapImage(light, 2, ToneCurve::kLinear, shown);
+  for (int x = 0; x < 300; ++x) {
+    EXPECT_NEAR(shown(x, 1).r, LinearToSrgb8(2 * light(x, 1).r), 1);
+    EXPECT_NEAR(shown(x, 1).g, LinearToSrgb8(0.02f), 1);
+  }
+}
+
+TEST(ToneMapTest, CurvesHaveNames) {
+  EXPECT_EQ(ParseToneCurve("agx"), ToneCurve::kAgx);
+  EXPECT_THROW(ParseToneCurve("aces"), InputError);
+}
+
+/// Frames of the test square.
+class ExposedFrameTest : public testing::Test {
+ protected:
+  Frame Render(RenderRequest request) {
+    request.camera = Equirectangular{128, 64};
+    request.X_WC = BodyPose({0, 0, 2}, 0.5, 0, 0) * CameraInBody();
+    Frame frame;
+    renderer_->Render(request, frame);
+    return frame;
+  }
+  std::unique_ptr<Renderer> renderer_ =
+      MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()), {.tier = Tier::kFast});
+};
+
+TEST_F(ExposedFrameTest, PixelsAreTheToneCurveOfRadianceTimesExposure) {
+  for (const ToneCurve tone : {ToneCurve::kFilmic, ToneCurve::kAgx, ToneCurve::kLinear}) {
+    RenderRequest request{.exposure_ev = -1, .aa_samples = 1, .tone = tone};
+    request.products.radiance = true;
+    const Frame frame = Render(request);
+    Image<Rgb8> shown;
+    ToneMapImage(frame.radiance, frame.exposure, tone, shown);
+    EXPECT_TRUE(shown == frame.rgb);
+  }
+}
+
+TEST_F(ExposedFrameTest, AutoExposureUndoesAFixedOne) {
+  RenderRequest request{.auto_exposure = true};
+  const Frame automatic = Render(request);
+  EXPECT_FALSE(automatic.rgb == Render({}).rgb);
+  // Stops asked for are added to what the picture says.
+  request.exposure_ev = 1;
+  EXPECT_FLOAT_EQ(Render(request).exposure, 2 * automatic.exposure);
+  // A fixed exposure of the same size gives the same picture.
+  const float fixed = Render({}).exposure;
+  const Frame same = Render({.exposure_ev = std::log2(automatic.exposure / fixed)});
+  size_t off = 0;
+  for (size_t i = 0; i < same.rgb.size(); ++i)
+    off += std::abs(same.rgb.pixels()[i].g - automatic.rgb.pixels()[i].g) > 1;
+  EXPECT_EQ(off, 0u);
+}
+
+}  // namespace
+}  // namespace airsim360

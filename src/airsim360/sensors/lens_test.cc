@@ -1,0 +1,247 @@
+#include "airsim360/sensors/lens.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "airsim360/base/error.h"
+#include "airsim360/image/color.h"
+#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/sensors/rig.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+
+/// Renders the test room.
+class LensTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    renderer_ = MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()), {.tier = Tier::kFast});
+  }
+  static void TearDownTestSuite() { renderer_.reset(); }
+
+  static Image<Rgb8> Take(const Real360* lens, Kinematics body, int width, int64_t t_ns = 0) {
+    PanoramicRig rig;
+    rig.camera = Equirectangular{width, width / 2};
+    rig.tone = ToneCurve::kLinear;
+    rig.exposure_ev = -1.5;
+    if (lens != nullptr) rig.lens = LensModel::kReal360, rig.real360 = *lens;
+    Capture capture;
+    CaptureRig(rig, body, t_ns, *renderer_, capture);
+    return capture.frame.rgb;
+  }
+
+  static std::unique_ptr<Renderer> renderer_;
+};
+std::unique_ptr<Renderer> LensTest::renderer_;
+
+double MeanDifference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += std::abs(a.pixels()[i].g - b.pixels()[i].g);
+  return sum / static_cast<double>(a.size());
+}
+
+/// Column, in pixels, where green crosses the middle between two columns of a row.
+double EdgeBetween(const Image<Rgb8>& image, int row, int first, int last) {
+  const auto at = [&](int x) { return static_cast<double>(image(x, row).g); };
+  const double middle = 0.5 * (at(first) + at(last));
+  for (int x = first; x < last; ++x) {
+    if ((at(x) - middle) * (at(x + 1) - middle) <= 0 && at(x) != at(x + 1)) {
+      return x + 0.5 + (middle - at(x)) / (at(x + 1) - at(x));
+    }
+  }
+  return -1;
+}
+
+TEST_F(LensTest, WithoutFaultsThePictureIsTheIdealPanoramaResampled) {
+  const Real360 perfect = Real360::Perfect();
+  const Kinematics body{BodyPose({0.3, -0.4, 2}, 0.3, 0.1, 0), {}, {}};
+  const Image<Rgb8> ideal = Take(nullptr, body, 512), real = Take(&perfect, body, 512);
+  EXPECT_LT(MeanDifference(ideal, real), 1.0);
+  // Away from edges within two steps: the room's walls are plain.
+  size_t off = 0;
+  for (size_t i = 0; i < ideal.size(); ++i) off += std::abs(ideal.pixels()[i].g - real.pixels()[i].g) > 2;
+  EXPECT_LT(static_cast<double>(off) / static_cast<double>(ideal.size()), 0.03);
+}
+
+TEST_F(LensTest, NearThingsAreShiftedAtTheSeamByTheParallaxOfTheLenses) {
+  // From the room's centre the edge between two walls is 5 sqrt(2) m away; the camera turns so that it lies
+  // `angle` from the front axis, on either side of the seam at 90 degrees.
+  Real360 lens = Real360::Perfect();
+  lens.baseline = 0.6;
+  lens.blend_deg = 1;
+  const double r = 5 * std::sqrt(2.0);
+  const int width = 1024, row = 250;
+  for (const double angle_deg : {80.0, 87.0, 93.0, 100.0}) {
+    // The wall edge (5, -5) is at azimuth -45 degrees; image angles grow to the right, so yaw + angle.
+    const double angle = angle_deg * kDegree;
+    const Kinematics body{BodyPose({0, 0, 3}, -45 * kDegree + angle, 0, 0), {}, {}};
+    const auto column = [&](double theta) { return (theta / (2 * kPi) + 0.5) * width; };
+    const int first = static_cast<int>(column(angle)) - 25, last = first + 50;
+    EXPECT_NEAR(EdgeBetween(Take(nullptr, body, width), row, first, last), column(angle), 0.6) << angle_deg;
+    // Seen from a centre half a baseline ahead or behind.
+    const double half = angle_deg < 90 ? 0.3 : -0.3;
+    const double seen = std::atan2(r * std::sin(angle), r * std::cos(angle) - half);
+    EXPECT_NEAR(EdgeBetween(Take(&lens, body, width), row, first, last), column(seen), 0.8) << angle_deg;
+  }
+}
+
+TEST_F(LensTest, LabelsStayIdeal) {
+  PanoramicRig rig;
+  rig.camera = Equirectangular{128, 64};
+  const Kinematics body{BodyPose({0.3, -0.4, 2}, 0.3, 0.1, 0), {1, 0, 0}, {0, 0, 1}};
+  Capture ideal, real;
+  CaptureRig(rig, body, 0, *renderer_, ideal);
+  rig.lens = LensModel::kReal360;
+  CaptureRig(rig, body, 0, *renderer_, real);
+  EXPECT_TRUE(ideal.frame.range == real.frame.range);
+  EXPECT_TRUE(ideal.frame.entity == real.frame.entity);
+  EXPECT_EQ(real.frame.rgb.width(), 128);
+  EXPECT_FALSE(ideal.frame.rgb == real.frame.rgb);
+}
+
+TEST_F(LensTest, ARollingShutterTurnsRowsByTheirTime) {
+  // The body turns to the left by w; a row at elevation e of the front picture is read e / fov of the readout
+  // before the middle, so that what it shows is turned to where the camera looked then.
+  Real360 lens = Real360::Perfect();
+  lens.readout = 0.1;
+  const double w = 0.8;
+  const int width = 1024;
+  const Kinematics still{BodyPose({0, 0, 3}, -45 * kDegree, 0, 0), {}, {}};
+  Kinematics turning = still;
+  turning.w_WB_B = {0, 0, w};
+  const Image<Rgb8> sharp = Take(&lens, still, width), skewed = Take(&lens, turning, width);
+  for (const int row : {200, 256, 310}) {
+    const double elevation = kPi * (0.5 - (row + 0.5) / 512);
+    const double t = -elevation / (lens.fov_deg * kDegree) * lens.readout;
+    const double expected = w * t / (2 * kPi) * width;  // turned left, things move right
+    const double shift = EdgeBetween(skewed, row, 480, 544) - EdgeBetween(sharp, row, 480, 544);
+    EXPECT_NEAR(shift, expected, 0.35) << row;
+  }
+}
+
+TEST_F(LensTest, TheSameSeedAndTimeGiveTheSamePicture) {
+  const Real360 lens;
+  const Kinematics body{BodyPose({0.3, -0.4, 2}, 0.3, 0.1, 0), {}, {}};
+  const Image<Rgb8> a = Take(&lens, body, 128, 5);
+  EXPECT_TRUE(Take(&lens, body, 128, 5) == a);
+  EXPECT_FALSE(Take(&lens, body, 128, 6) == a);
+}
+
+TEST(SensorNoise, VarianceIsSignalPerFullWellPlusReadNoiseSquared) {
+  Real360 lens = Real360::Perfect();
+  lens.full_well = 2000;
+  lens.read_noise = 20;
+  const Equirectangular target{512, 256};
+  const Fisheye camera = internal::SensorCamera(lens, target);
+  for (const float signal : {0.0f, 0.1f, 0.5f, 1.0f}) {
+    Image<Rgb32f> light(camera.width, camera.height, {signal, signal, signal});
+    internal::ExposeSensor(lens, camera, false, 3, 4, light);
+    double sum = 0, squares = 0, n = 0;
+    for (int y = 60; y < 200; ++y) {
+      for (int x = 60; x < 200; ++x) {
+        for (const float v : {light(x, y).r, light(x, y).g, light(x, y).b}) {
+          sum += v - signal;
+          squares += (v - signal) * (v - signal);
+          ++n;
+        }
+      }
+    }
+    const double variance = NoiseVariance(lens, signal);
+    EXPECT_DOUBLE_EQ(variance, static_cast<double>(signal) / 2000 + 1e-4);
+    // Four standard errors.
+    EXPECT_NEAR(sum / n, 0, 4 * std::sqrt(variance / n));
+    EXPECT_NEAR(squares / n, variance, 4 * variance * std::sqrt(2 / n));
+  }
+}
+
+TEST(SensorNoise, SensorsFramesPixelsAndColoursAreIndependent) {
+  const Real360 lens;
+  const Fisheye camera = internal::SensorCamera(lens, {256, 128});
+  const auto noise = [&](bool rear, uint64_t seed, uint64_t frame) {
+    Image<Rgb32f> light(camera.width, camera.height, {0.5f, 0.5f, 0.5f});
+    internal::ExposeSensor(lens, camera, rear, seed, frame, light);
+    return light;
+  };
+  const Image<Rgb32f> a = noise(false, 1, 1);
+  EXPECT_TRUE(a == noise(false, 1, 1));
+  EXPECT_FALSE(a == noise(false, 2, 1));
+  EXPECT_FALSE(a == noise(false, 1, 2));
+  EXPECT_FALSE(a == noise(true, 1, 1));
+  // Neighbours and colours: correlation below four standard errors.
+  double self = 0, neighbour = 0, colour = 0, n = 0;
+  for (int y = 50; y < 90; ++y) {
+    for (int x = 50; x < 90; ++x) {
+      const double d = a(x, y).g - 0.5 * 0.99, e = a(x + 1, y).g - 0.5 * 0.99, f = a(x, y).r - 0.5 * 0.99;
+      self += d * d, neighbour += d * e, colour += d * f, ++n;
+    }
+  }
+  EXPECT_LT(std::abs(neighbour / self), 4 / std::sqrt(n) + 0.1);
+  EXPECT_LT(std::abs(colour / self), 4 / std::sqrt(n) + 0.1);
+}
+
+TEST(SensorLight, FallsOffTowardsTheRimAndTheRearIsBrighter) {
+  Real360 lens = Real360::Perfect();
+  lens.vignetting = 0.3;
+  lens.mismatch_ev = 1;
+  const Fisheye camera = internal::SensorCamera(lens, {512, 256});
+  Image<Rgb32f> front(camera.width, camera.height, {1, 1, 1}), rear = front;
+  internal::ExposeSensor(lens, camera, false, 0, 0, front);
+  internal::ExposeSensor(lens, camera, true, 0, 0, rear);
+  const int c = camera.width / 2;
+  EXPECT_NEAR(front(c, c).g, 1, 1e-3);
+  EXPECT_NEAR(front(camera.width - 1, c).g, 0.7, 5e-3);
+  EXPECT_NEAR(front(c + c / 2, c).g, 1 - 0.3 / 4, 5e-3);
+  EXPECT_NEAR(rear(c, c).g, 2, 2e-3);
+}
+
+TEST(SensorSeam, MixesSmoothlyAndCoversTheSphere) {
+  const Real360 lens = Real360::Perfect();
+  const Equirectangular target{512, 256};
+  const Fisheye camera = internal::SensorCamera(lens, target);
+  const Image<Rgb32f> one(camera.width, camera.height, {1, 1, 1}),
+      two(camera.width, camera.height, {2, 2, 2});
+  const Image<Rgb32f> both = internal::StitchSensors(lens, camera, one, two, target);
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 512; ++x) {
+      const Vec3d d = *PixelToRay(target, {x + 0.5, y + 0.5});
+      const double off = std::acos(d.z) / kDegree - 90;
+      if (off < -2.01) {
+        ASSERT_NEAR(both(x, y).g, 1, 1e-6);
+      } else if (off > 2.01) {
+        ASSERT_NEAR(both(x, y).g, 2, 1e-6);
+      } else {
+        ASSERT_NEAR(both(x, y).g, 1.5 + 0.5 * std::sin(off / 2 * kPi / 2), 0.02);
+      }
+    }
+  }
+}
+
+TEST(Real360Test, NonsenseIsRefused) {
+  Real360 lens;
+  lens.fov_deg = 181;
+  EXPECT_THROW(CheckReal360(lens), InputError);
+  EXPECT_THROW(ParseLensModel("real36"), InputError);
+  PanoramicRig rig;
+  rig.camera = Pinhole{};
+  rig.lens = LensModel::kReal360;
+  SceneBuilder builder("empty");
+  builder.AddSky();
+  Capture capture;
+  EXPECT_THROW(CaptureRig(rig, {}, 0, *MakeNullRenderer(builder.Build()), capture), InputError);
+}
+
+TEST(Real360Test, ReadsYaml) {
+  Real360 lens;
+  ReadYaml("baseline: 0.05\njpeg_quality: 70\n", "lens.yaml", [&](ConfigVisitor& v) { lens.Visit(v); });
+  EXPECT_EQ(lens.baseline, 0.05);
+  EXPECT_EQ(lens.jpeg_quality, 70);
+}
+
+}  // namespace
+}  // namespace airsim360
