@@ -11,6 +11,8 @@ namespace {
 // Spatial splits trace faster but take several times longer to build.
 constexpr uint64_t kMaxHighQualityTriangles = 6'000'000;
 
+constexpr uint32_t kLastGeneration = 31;  // bits of a ray mask, less that of the scene as built
+
 // Robust: rays do not slip between neighbouring triangles, which would write a wrong label.
 SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
   SceneHandle scene(rtcNewScene(device));
@@ -19,14 +21,26 @@ SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
   return scene;
 }
 
-// The triangles of the parts for which `wanted(material)` holds; null if there are none.
-template <class Wanted>
-std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const Scene& scene, Wanted wanted) {
+// Opacity of every triangle of a mesh.
+std::vector<Opacity> Classify(const Mesh& mesh, const Scene& scene) {
+  std::vector<Opacity> out(mesh.triangles.size(), Opacity::kOpaque);
+  for (const MeshPart& part : mesh.parts) {
+    const Material& material = scene.materials[part.material];
+    if (!NeedsAlphaTest(material)) continue;
+    const AlphaTest test(material, scene.textures);
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+      out[t] = test.Classify(mesh, t);
+  }
+  return out;
+}
+
+// The triangles of one opacity; null if there are none.
+std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Opacity>& opacity,
+                                              Opacity wanted) {
   auto out = std::make_unique<MeshGeometry>();
   out->mesh = &mesh;
-  for (const MeshPart& part : mesh.parts) {
-    if (!wanted(scene.materials[part.material])) continue;
-    for (uint32_t i = 0; i < part.triangle_count; ++i) out->triangles.push_back(part.first_triangle + i);
+  for (uint32_t t = 0; t < opacity.size(); ++t) {
+    if (opacity[t] == wanted) out->triangles.push_back(t);
   }
   out->primitive_count = static_cast<uint32_t>(out->triangles.size());
   if (out->primitive_count == 0) return nullptr;
@@ -45,12 +59,18 @@ std::unique_ptr<AlphaGeometry> MakeAlpha(const MeshGeometry& geometry, const Sce
   auto alpha = std::make_unique<AlphaGeometry>();
   alpha->mesh = geometry.mesh;
   alpha->triangles = geometry.triangles;
+  // The primitives are in the order of the triangles, and so of the parts.
+  const auto triangle = [&](uint32_t primitive) {
+    return geometry.triangles.empty() ? primitive : geometry.triangles[primitive];
+  };
+  uint32_t primitive = 0;
   for (const MeshPart& part : geometry.mesh->parts) {
-    const Material& material = scene.materials[part.material];
-    if (!NeedsAlphaTest(material)) continue;
-    alpha->primitive_test.insert(alpha->primitive_test.end(), part.triangle_count,
+    const uint32_t first = primitive, end = part.first_triangle + part.triangle_count;
+    while (primitive < geometry.primitive_count && triangle(primitive) < end) ++primitive;
+    if (primitive == first) continue;
+    alpha->primitive_test.insert(alpha->primitive_test.end(), primitive - first,
                                  static_cast<uint32_t>(alpha->tests.size()));
-    alpha->tests.emplace_back(material, scene.textures);
+    alpha->tests.emplace_back(scene.materials[part.material], scene.textures);
   }
   return alpha;
 }
@@ -76,10 +96,9 @@ void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& u
   groups_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     if (uses[m] == 0) return;
-    auto opaque =
-        SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return !NeedsAlphaTest(x); });
-    auto tested =
-        SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return NeedsAlphaTest(x); });
+    const std::vector<Opacity> opacity = Classify(scene.meshes[m], scene);
+    auto opaque = SelectTriangles(scene.meshes[m], opacity, Opacity::kOpaque);
+    auto tested = SelectTriangles(scene.meshes[m], opacity, Opacity::kMixed);
     if (tested) tested->alpha = MakeAlpha(*tested, scene);
     if (opaque) groups_[m].push_back(std::move(opaque));
     if (tested) groups_[m].push_back(std::move(tested));
@@ -122,16 +141,65 @@ void EmbreeScene::BuildSubScenes(const Scene& scene, const std::vector<uint32_t>
   sub_scenes_.resize(scene.meshes.size());
   mesh_vertices_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
-    if (uses[m] < 2 || groups_[m].empty()) return;
-    const Mesh& mesh = scene.meshes[m];
-    const Vec3f* vertices = PaddedVertices(mesh, nullptr, mesh_vertices_[m]);
-    sub_scenes_[m] = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
-    for (unsigned i = 0; i < groups_[m].size(); ++i) {
-      AttachGeometry(sub_scenes_[m].get(), i, *groups_[m][i], vertices, mesh.positions.size(),
-                     RTC_BUILD_QUALITY_HIGH);
-    }
-    rtcCommitScene(sub_scenes_[m].get());
+    if (uses[m] >= 2 && !groups_[m].empty()) BuildSubScene(scene.meshes[m], static_cast<MeshId>(m));
   });
+}
+
+void EmbreeScene::BuildSubScene(const Mesh& mesh, MeshId id) {
+  const Vec3f* vertices = PaddedVertices(mesh, nullptr, mesh_vertices_[id]);
+  SceneHandle sub_scene = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
+  for (unsigned i = 0; i < groups_[id].size(); ++i) {
+    AttachGeometry(sub_scene.get(), i, *groups_[id][i], vertices, mesh.positions.size(),
+                   RTC_BUILD_QUALITY_HIGH);
+  }
+  rtcCommitScene(sub_scene.get());
+  sub_scenes_[id] = std::move(sub_scene);
+}
+
+RTCScene EmbreeScene::SubScene(const Mesh& mesh, MeshId id) {
+  const std::lock_guard lock(mutex_);
+  if (sub_scenes_[id] == nullptr) BuildSubScene(mesh, id);
+  return sub_scenes_[id].get();
+}
+
+SceneHandle EmbreeScene::MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const {
+  // Quality "low" of a scene is Embree's way to say: the structures of its geometries are kept and updated.
+  SceneHandle scene = NewScene(device_.get(), RTC_BUILD_QUALITY_LOW);
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+  for (unsigned i = 0; i < groups_[id].size(); ++i)
+    AttachGeometry(scene.get(), i, *groups_[id][i], vertices, count, RTC_BUILD_QUALITY_REFIT);
+  return scene;
+}
+
+Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
+  const std::lock_guard lock(mutex_);
+  std::vector<uint32_t> added;
+  for (uint32_t i : instances) {
+    if (top_ids_[i] != kMiss && !std::binary_search(movers_.instances.begin(), movers_.instances.end(), i))
+      added.push_back(i);
+  }
+  if (added.empty()) return movers_;
+  if (++generation_ > kLastGeneration) {
+    // Out of mask bits: from now on everything counts as moving.
+    movers_ = {{}, 0};
+    for (uint32_t i = 0; i < top_ids_.size(); ++i) {
+      if (top_ids_[i] != kMiss) movers_.instances.push_back(i);
+    }
+    return movers_;
+  }
+  for (uint32_t i : added) {
+    const uint32_t first = top_ids_[i];
+    const HitSlot& slot = slots_[first_slots_[first]];
+    // A baked instance has an id for each of its geometries.
+    for (uint32_t id = first; id < first_slots_.size() && slots_[first_slots_[id]].instance == slot.instance;
+         ++id) {
+      rtcSetGeometryMask(rtcGetGeometry(top_.get(), id), (1u << generation_) - 1);
+    }
+  }
+  movers_.instances.insert(movers_.instances.end(), added.begin(), added.end());
+  std::sort(movers_.instances.begin(), movers_.instances.end());
+  movers_.ray_mask = 1u << generation_;
+  return movers_;
 }
 
 void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM) {
@@ -162,6 +230,7 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
   const auto quality =
       direct_triangles <= kMaxHighQualityTriangles ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
   top_ = NewScene(device_.get(), quality);
+  top_ids_.assign(scene.instances.size(), kMiss);
 
   // One geometry id after another, in the order of the instances.
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -169,6 +238,7 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
     const MeshGroups& groups = groups_[instance.mesh];
     const bool direct = uses[instance.mesh] == 1;
     if (groups.empty()) continue;
+    top_ids_[i] = static_cast<uint32_t>(first_slots_.size());
     if (!direct) {
       AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(),
                      instance.X_WM);

@@ -2,12 +2,19 @@
 //
 // A mesh used once is attached to the top-level scene, its vertices baked into W unless its transform is the
 // identity. A mesh used several times becomes a scene of its own with an instance for each use. The
-// alpha-tested triangles of a mesh are a geometry apart: only they pay for the filter.
+// alpha-tested triangles of a mesh are a geometry apart: only they pay for the filter. Triangles on which the
+// texture is all solid count as opaque, those on which it is all hole are left out.
+//
+// What moves is hidden from the rays of dynamic tracers by ray masks, so that nothing is built again: bit g
+// of a geometry's mask says that tracers of generation g see it. A new generation begins when something moves
+// for the first time; rays of the scene as built have all bits.
 #pragma once
 
 #include <embree3/rtcore.h>
 
 #include <memory>
+#include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +43,12 @@ struct MeshGeometry {
   std::unique_ptr<AlphaGeometry> alpha;  // set where the triangles are alpha-tested
 };
 
+/// Everything that has ever moved, and how rays of tracers that show it must be marked.
+struct Movers {
+  std::vector<uint32_t> instances;  // ascending
+  uint32_t ray_mask = ~0u;          // 0: the static scene is not traced at all, every instance is a mover
+};
+
 class EmbreeScene {
  public:
   /// Builds everything, in parallel. RuntimeError if Embree refuses (no memory, unknown isa).
@@ -45,6 +58,20 @@ class EmbreeScene {
   bool has_instances() const { return has_instances_; }
   const std::vector<HitSlot>& slots() const { return slots_; }
   const std::vector<uint32_t>& first_slots() const { return first_slots_; }
+
+  /// Adds instances to what has ever moved; they are hidden from the rays of later tracers, not from those of
+  /// earlier ones. May be called while others trace.
+  Movers Move(std::span<const uint32_t> instances);
+  /// Id of an instance in the top-level scene (of its first geometry, if it is baked); kMiss = it has no
+  /// triangles.
+  uint32_t TopId(uint32_t instance) const { return top_ids_[instance]; }
+  /// A scene of one mesh, in its own frame; made when first needed. May be called while others trace.
+  RTCScene SubScene(const Mesh& mesh, MeshId id);
+  /// A scene of one mesh with other vertices, of one more element than the mesh has; for refitting.
+  SceneHandle MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const;
+  unsigned GroupCount(MeshId id) const { return static_cast<unsigned>(groups_[id].size()); }
+  RTCDevice device() const { return device_.get(); }
+  void ThrowOnError() const;
 
  private:
   // Groups of one mesh, opaque first, in the order of their Embree geometry ids in a scene of their own.
@@ -56,8 +83,8 @@ class EmbreeScene {
   void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM);
   void AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices,
                       size_t count, RTCBuildQuality quality) const;
+  void BuildSubScene(const Mesh& mesh, MeshId id);
   const Vec3f* PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM, std::vector<Vec3f>& own) const;
-  void ThrowOnError() const;
 
   DeviceHandle device_;
   std::vector<MeshGroups> groups_;                     // by mesh
@@ -68,6 +95,11 @@ class EmbreeScene {
   bool has_instances_ = false;
   std::vector<HitSlot> slots_;
   std::vector<uint32_t> first_slots_;
+  std::vector<uint32_t> top_ids_;  // by instance
+
+  std::mutex mutex_;  // of the following and of sub-scenes made late
+  Movers movers_;
+  uint32_t generation_ = 0;
 };
 
 }  // namespace airsim360::internal

@@ -9,8 +9,10 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/cpu/antialias.h"
 #include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/cpu/coverage.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/cpu/surface_products.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
@@ -19,7 +21,6 @@ namespace {
 using namespace internal;
 
 constexpr int kTilesPerTask = 4;
-constexpr int kMaxSamples = 64;
 
 template <class Pixel>
 void Resize(Image<Pixel>& image, int width, int height, bool wanted) {
@@ -45,15 +46,23 @@ class CpuRenderer : public Renderer {
  public:
   CpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options)
       : tracer_(std::move(tracer)),
+        dynamic_(tracer_),
+        applied_(tracer_),
         environment_(options.environment.value_or(tracer_->scene().environment)),
         tables_(*tracer_),
-        labels_(tables_.view()) {
-    if (options.tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_, environment_);
+        labels_(tables_.view()),
+        products_(SceneOf(tracer_)) {
+    if (options.tier != Tier::kLabels) shader_ = std::make_unique<Shader>(tracer_, environment_);
   }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;
 
  private:
+  // The scene lives as long as its tracer.
+  static std::shared_ptr<const Scene> SceneOf(const std::shared_ptr<const RayTracer>& tracer) {
+    return {tracer, &tracer->scene()};
+  }
+  void SetState(const std::shared_ptr<const SceneState>& state);
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
@@ -64,14 +73,18 @@ class CpuRenderer : public Renderer {
     return field.separable && std::abs(latitude) > 1.0 / 3 ? PacketShape::kRow : PacketShape::kBlock;
   }
 
-  std::shared_ptr<const RayTracer> tracer_;
+  std::shared_ptr<const RayTracer> tracer_;  // of the scene as built
+  DynamicTracer dynamic_;
+  std::shared_ptr<const RayTracer> applied_;  // of the instant that all tables show
   Environment environment_;
   LabelTables tables_;
   LabelView labels_;
   TileKernels kernels_;
   CameraRays rays_;
-  std::unique_ptr<const Shader> shader_;  // made when first needed
+  std::unique_ptr<Shader> shader_;  // made when first needed
   Antialiaser antialiaser_;
+  CoveragePass coverage_;
+  SurfaceProducts products_;
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
 };
@@ -84,9 +97,22 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(frame.semantic, width, height, products.semantic);
   Resize(frame.entity, width, height, products.entity);
   Resize(frame.normal, width, height, products.normal);
-  Resize(entity_, width, height, edges && !products.entity);
+  Resize(frame.position, width, height, products.position);
+  Resize(frame.albedo, width, height, products.albedo);
+  Resize(frame.material, width, height, products.material);
+  Resize(frame.flow, width, height, products.flow);
+  Resize(frame.coverage, width, height, products.coverage);
+  Resize(entity_, width, height, (edges || products.coverage) && !products.entity);
   Resize(luma_, width, height, color);
   Resize(edges_, width, height, edges);
+}
+
+void CpuRenderer::SetState(const std::shared_ptr<const SceneState>& state) {
+  std::shared_ptr<const RayTracer> tracer = dynamic_.At(state);
+  if (tracer == applied_) return;
+  tables_.Apply(*tracer);
+  if (shader_ != nullptr) shader_->Apply(tracer);
+  applied_ = std::move(tracer);
 }
 
 RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
@@ -96,9 +122,18 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = request.products.rgb && request.tier != Tier::kLabels;
-  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
+  if (color && shader_ == nullptr) {
+    shader_ = std::make_unique<Shader>(tracer_, environment_);
+    shader_->Apply(applied_);
+  }
+  SetState(request.state);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
+  if (SurfaceProducts::Wanted(request.products)) {
+    const bool moves_on = request.products.flow && request.next_state != nullptr;
+    products_.Update(request, rays_, shader_.get(), applied_,
+                     moves_on ? dynamic_.At(request.next_state) : applied_);
+  }
   const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
   ResizeFrame(request, color, color && samples > 1, frame);
 
@@ -116,12 +151,18 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
   RenderStats stats;
   stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
 
+  if (request.products.coverage) {
+    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
+    stats.rays += static_cast<uint64_t>(coverage_.Run(
+        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), samples, &entity}, frame.coverage));
+  }
+
   // More colour samples on edges.
   if (color && samples > 1) {
     const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
     antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
     const int64_t rays =
-        antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+        antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
                           request.exposure_ev, samples, &edges_, &frame.rgb});
     stats.rays += static_cast<uint64_t>(rays);
   }
@@ -136,7 +177,7 @@ void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile,
   const int column = tile % across * kTileSize, row = tile / across * kTileSize;
   const PacketShape shape = Shape(row);
   const Vec3f origin = VecCast<float>(request.X_WC.p);
-  const bool normals = request.products.normal;
+  const bool normals = request.products.normal, products = SurfaceProducts::Wanted(request.products);
 
   const TileTarget target{column,
                           row,
@@ -158,17 +199,17 @@ void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile,
   kernels_.init(origin.x, origin.y, origin.z, packet);
   for (int p = 0; p < kPackets; ++p) {
     kernels_.fill(field, column, row, p, shape, packet, valid);
-    TracePacket(*tracer_, labels_.sky_entity != kNoEntity, valid, packet);
+    TracePacket(*applied_, labels_.sky_entity != kNoEntity, valid, packet);
     kernels_.resolve(labels_, packet, valid, p, normals, labels);
-    if (color) kernels_.append_hits(labels_, packet, valid, p, hits);
+    if (color || products) kernels_.append_hits(labels_, packet, valid, p, hits);
   }
 
   kernels_.store_labels(labels, target);
-  if (!color) return;
   hits.count = kTilePixels;
   hits.origin = origin;
   hits.cone_angle = static_cast<float>(rays_.cone_angle());
-  ShadeTile(request, hits, target, frame);
+  if (products) products_.Fill(hits, labels, target, frame);
+  if (color) ShadeTile(request, hits, target, frame);
 }
 
 void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target,

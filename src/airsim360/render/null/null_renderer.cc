@@ -30,6 +30,11 @@ class NullRenderer : public Renderer {
     fill(frame.semantic, products.semantic, category);
     fill(frame.entity, products.entity, sky);
     fill(frame.normal, products.normal, Vec3f{});
+    fill(frame.position, products.position, Vec3f{});
+    fill(frame.albedo, products.albedo, Rgb32f{});
+    fill(frame.material, products.material, uint16_t{0});
+    fill(frame.flow, products.flow, FlowPixel{});
+    fill(frame.coverage, products.coverage, CoveragePixel{{sky}, {1.0f}});
     return {};
   }
 

@@ -74,8 +74,15 @@ struct Shader::Impl {
 };
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
-    : impl_(std::make_unique<const Impl>(std::move(tracer), environment)) {}
+    : impl_(std::make_unique<Impl>(std::move(tracer), environment)) {}
 Shader::~Shader() = default;
+
+void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
+  impl_->tables.Apply(tracer->scene(), tracer->moved(), tracer->deformed());
+  impl_->tracer = std::move(tracer);
+}
+
+const internal::ShadeView& Shader::view() const { return impl_->view; }
 
 float Shader::Exposure() const { return impl_->exposure; }
 

@@ -29,12 +29,22 @@ struct alignas(64) RadianceBatch {
   float r[HitBatch::kCapacity], g[HitBatch::kCapacity], b[HitBatch::kCapacity];
 };
 
-/// Immutable after construction; Shade may run concurrently and does not depend on the order of hits in a
+namespace internal {
+struct ShadeView;
+}
+
+/// Immutable but for Apply; Shade may run concurrently and does not depend on the order of hits in a
 /// batch.
 class Shader {
  public:
   Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
   ~Shader();
+
+  /// Follows what moves, between frames: `tracer` is the one of construction or one that a DynamicTracer made
+  /// of it. Light probes and lamps stay as built.
+  void Apply(std::shared_ptr<const RayTracer> tracer);
+  /// The tables that the kernels read; valid as long as the shader.
+  const internal::ShadeView& view() const;
 
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
@@ -46,7 +56,7 @@ class Shader {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace airsim360
