@@ -15,7 +15,7 @@ namespace {
 
 struct RenderArguments {
   std::string world, pose, projection = "erp", size, tier = "fast", rgb_format = "png", pano_frame = "body",
-                           out;
+                           out, products;
   double fov_deg = 0;  // 0: not given
   bool normal = false;
 };
@@ -83,6 +83,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
   spec.normal = arguments.normal;
+  if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
     throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
                                                              std::vector<std::string>{"png", "jpg"}));
@@ -130,7 +131,9 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
-  command->add_flag("--normal", arguments->normal, "write world normals too");
+  command->add_option("--products", arguments->products,
+                      "beside rgb,range,semantic,entity: normal,position,albedo,material,sky,flow,coverage");
+  command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }
 

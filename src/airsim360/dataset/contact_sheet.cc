@@ -65,7 +65,10 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
     std::filesystem::path file;
   };
   std::vector<ProductFolder> products = ProductFolders(spec);
-  std::erase_if(products, [](const ProductFolder& product) { return product.name == "normal"; });
+  std::erase_if(products, [](const ProductFolder& product) {
+    return std::none_of(std::begin(kFixedProducts), std::end(kFixedProducts),
+                        [&](const char* fixed) { return product.name == fixed; });
+  });
   const std::vector<int64_t> frames = index.Frames();
   const std::vector<View> views = Views(spec);
   const auto pictures = static_cast<int64_t>(frames.size() * views.size());

@@ -34,7 +34,12 @@ Products ProductsOf(const DatasetSpec& spec) {
           .range = true,
           .semantic = true,
           .entity = true,
-          .normal = spec.normal};
+          .normal = spec.normal,
+          .position = spec.position,
+          .albedo = spec.albedo,
+          .material = spec.material,
+          .coverage = spec.coverage,
+          .flow = spec.flow};
 }
 
 std::string Stem(int64_t index) {
@@ -50,7 +55,9 @@ std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
   folders.push_back({"range", ".exr"});
   folders.push_back({"semantic", ".png"});
   folders.push_back({"entity", ".png"});
-  if (spec.normal) folders.push_back({"normal", ".png"});
+  for (const OptionalProduct& product : kOptionalProducts) {
+    if (spec.*product.wanted) folders.push_back({product.name, product.extension});
+  }
   return folders;
 }
 

@@ -31,7 +31,23 @@ struct DatasetSpec {
   int64_t frames = 1;             ///< of the whole dataset, all shards together
   int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+  bool position = false, albedo = false, material = false, sky = false, flow = false, coverage = false;
 };
+
+/// A product that a dataset holds only if it is asked for.
+struct OptionalProduct {
+  const char* name;
+  const char* extension;
+  bool DatasetSpec::*wanted;
+};
+inline constexpr OptionalProduct kOptionalProducts[] = {
+    {"normal", ".png", &DatasetSpec::normal},     {"position", ".exr", &DatasetSpec::position},
+    {"albedo", ".png", &DatasetSpec::albedo},     {"material", ".png", &DatasetSpec::material},
+    {"sky", ".png", &DatasetSpec::sky},           {"flow", ".exr", &DatasetSpec::flow},
+    {"coverage", ".exr", &DatasetSpec::coverage},
+};
+/// Products that every dataset holds (rgb unless the tier is labels).
+inline constexpr const char* kFixedProducts[] = {"rgb", "range", "semantic", "entity"};
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube
 /// six with

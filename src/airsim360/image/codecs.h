@@ -40,6 +40,8 @@ Bytes EncodeJpeg(const Image<Rgb8>& image, int quality = 95,
 Bytes EncodeExr(const Image<float>& image);
 /// OpenEXR, float32, channels R G B (linear light).
 Bytes EncodeExr(const Image<Rgb32f>& image);
+/// OpenEXR, float32, any channels, given pixel by pixel: pixels.size() == width * height * channels.size().
+Bytes EncodeExr(std::span<const float> pixels, int width, int height, std::span<const char* const> channels);
 
 /// Any PNG/JPEG/WebP, converted to 8-bit RGBA. The format is told by its first bytes.
 Image<Rgba8> DecodeRgba8(std::span<const std::byte> bytes, std::string_view name);
@@ -55,7 +57,9 @@ Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view
 Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view name);
 /// Entity ids of a PNG written by EncodeIdPng.
 Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view name);
-/// One channel of an EXR as float32: `Y`, else `R`, else the first.
-Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name);
+/// One channel of an EXR as float32: the one named, InputError if there is none; "" = `Y`, else `R`, else the
+/// first.
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name,
+                       std::string_view channel = {});
 
 }  // namespace airsim360

@@ -111,14 +111,19 @@ void CheckHeader(std::span<const std::byte> bytes) {
   }
 }
 
-std::string ChannelToRead(const Imf::ChannelList& channels) {
+std::string ChannelToRead(const Imf::ChannelList& channels, std::string_view wanted) {
+  if (!wanted.empty()) {
+    if (channels.findChannel(std::string(wanted)) == nullptr)
+      throw InputError("no channel '" + std::string(wanted) + "'");
+    return std::string(wanted);
+  }
   for (const char* name : {"Y", "R"}) {
     if (channels.findChannel(name)) return name;
   }
   return channels.begin().name();
 }
 
-Image<float> ReadExr(std::span<const std::byte> bytes) {
+Image<float> ReadExr(std::span<const std::byte> bytes, std::string_view channel) {
   CheckHeader(bytes);
   MemoryReader reader(bytes);
   Imf::InputFile file(reader, 0);
@@ -126,7 +131,7 @@ Image<float> ReadExr(std::span<const std::byte> bytes) {
   const Imath::Box2i window = file.header().dataWindow();
   Image<float> image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
   Imf::FrameBuffer frame;
-  frame.insert(ChannelToRead(file.header().channels()),
+  frame.insert(ChannelToRead(file.header().channels(), channel),
                Imf::Slice::Make(Imf::FLOAT, image.pixels().data(), window, sizeof(float),
                                 sizeof(float) * image.width()));
   file.setFrameBuffer(frame);
@@ -136,10 +141,10 @@ Image<float> ReadExr(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) {
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name, std::string_view channel) {
   // OpenEXR reports everything by exceptions derived from std::exception.
   try {
-    return ReadExr(bytes);
+    return ReadExr(bytes, channel);
   } catch (const std::exception& error) {
     internal::ThrowDamaged(name, error.what());
   }

@@ -66,4 +66,8 @@ Bytes EncodeExr(const Image<Rgb32f>& image) {
                   kChannels);
 }
 
+Bytes EncodeExr(std::span<const float> pixels, int width, int height, std::span<const char* const> channels) {
+  return WriteExr(pixels.data(), width, height, channels);
+}
+
 }  // namespace airsim360

@@ -70,6 +70,7 @@ struct FlowPixel {
   uint8_t occluded = 0;  ///< 1: something else hides it then, it vanishes or leaves the picture; always 1 in
                          ///< pixels without a ray
   Vec3f motion;          ///< scene flow: displacement of the point in W, metres
+  friend bool operator==(const FlowPixel&, const FlowPixel&) = default;
 };
 
 /// The entities in a pixel by the share of its area, largest first, of equal ones the lower id; entity
@@ -79,6 +80,7 @@ struct CoveragePixel {
   static constexpr int kEntities = 4;
   EntityId entity[kEntities] = {};
   float share[kEntities] = {};  ///< sums to 1 with what is left out
+  friend bool operator==(const CoveragePixel&, const CoveragePixel&) = default;
 };
 
 /// The products asked for; the others are empty, and so is rgb of tier labels. Images keep their memory

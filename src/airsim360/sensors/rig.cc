@@ -22,17 +22,30 @@ RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
   return {level.R * rig.X_BC.R, level.p};
 }
 
+RigidTransform Extrapolate(const Kinematics& body, double dt) {
+  // The turn about the axis of w by |w| dt, as a quaternion.
+  const double rate = Norm(body.w_WB_B), half = 0.5 * rate * dt;
+  const Vec3d axis = rate > 0 ? body.w_WB_B * (std::sin(half) / rate) : Vec3d{};
+  const Mat3d turn = ToMatrix({std::cos(half), axis.x, axis.y, axis.z});
+  return {body.X_WB.R * turn, body.X_WB.p + body.v_WB * dt};
+}
+
 void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
-                Capture& capture) {
+                Capture& capture, const NextTrigger* next) {
   capture.t_ns = t_ns;
   capture.X_WC = CameraPose(rig, body.X_WB);
   capture.body = body;
   capture.pano_frame = rig.pano_frame;
-  const RenderRequest request{.camera = rig.camera,
-                              .X_WC = capture.X_WC,
-                              .tier = rig.tier,
-                              .products = rig.products,
-                              .exposure_ev = rig.exposure_ev};
+  capture.X_WC_next.reset();
+  if (next != nullptr && rig.products.flow) capture.X_WC_next = CameraPose(rig, next->X_WB);
+  RenderRequest request{.camera = rig.camera,
+                        .X_WC = capture.X_WC,
+                        .tier = rig.tier,
+                        .products = rig.products,
+                        .exposure_ev = rig.exposure_ev};
+  request.state = rig.state;
+  request.X_WC_next = capture.X_WC_next;
+  if (next != nullptr) request.next_state = next->state;
   capture.stats = renderer.Render(request, capture.frame);
 }
 

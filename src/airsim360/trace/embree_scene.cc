@@ -22,14 +22,14 @@ SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
 }
 
 // Opacity of every triangle of a mesh.
-std::vector<Opacity> Classify(const Mesh& mesh, const Scene& scene) {
+std::vector<Opacity> Classify(const Mesh& mesh, const Scene& scene, bool sort_alpha) {
   std::vector<Opacity> out(mesh.triangles.size(), Opacity::kOpaque);
   for (const MeshPart& part : mesh.parts) {
     const Material& material = scene.materials[part.material];
     if (!NeedsAlphaTest(material)) continue;
     const AlphaTest test(material, scene.textures);
     for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
-      out[t] = test.Classify(mesh, t);
+      out[t] = sort_alpha ? test.Classify(mesh, t) : Opacity::kMixed;
   }
   return out;
 }
@@ -79,24 +79,25 @@ bool IsIdentity(const AffineTransform& X) { return X == AffineTransform(); }
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene, const std::string& isa) {
+EmbreeScene::EmbreeScene(const Scene& scene, const RayTracerOptions& options) {
+  const std::string& isa = options.isa;
   device_.reset(rtcNewDevice(isa.empty() ? nullptr : ("isa=" + isa).c_str()));
   if (device_ == nullptr) throw RuntimeError("ray tracer: Embree refuses a device (isa '" + isa + "')");
   std::vector<uint32_t> uses(scene.meshes.size());
   for (const Instance& instance : scene.instances) ++uses[instance.mesh];
 
-  SplitMeshes(scene, uses);
+  SplitMeshes(scene, uses, options.sort_alpha);
   BuildSubScenes(scene, uses);
   AttachInstances(scene, uses);
   rtcCommitScene(top_.get());
   ThrowOnError();
 }
 
-void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses) {
+void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses, bool sort_alpha) {
   groups_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     if (uses[m] == 0) return;
-    const std::vector<Opacity> opacity = Classify(scene.meshes[m], scene);
+    const std::vector<Opacity> opacity = Classify(scene.meshes[m], scene, sort_alpha);
     auto opaque = SelectTriangles(scene.meshes[m], opacity, Opacity::kOpaque);
     auto tested = SelectTriangles(scene.meshes[m], opacity, Opacity::kMixed);
     if (tested) tested->alpha = MakeAlpha(*tested, scene);

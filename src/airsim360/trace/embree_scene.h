@@ -52,7 +52,7 @@ struct Movers {
 class EmbreeScene {
  public:
   /// Builds everything, in parallel. RuntimeError if Embree refuses (no memory, unknown isa).
-  EmbreeScene(const Scene& scene, const std::string& isa);
+  EmbreeScene(const Scene& scene, const RayTracerOptions& options);
 
   RTCScene top() const { return top_.get(); }
   bool has_instances() const { return has_instances_; }
@@ -77,7 +77,7 @@ class EmbreeScene {
   // Groups of one mesh, opaque first, in the order of their Embree geometry ids in a scene of their own.
   using MeshGroups = std::vector<std::unique_ptr<MeshGeometry>>;
 
-  void SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses);
+  void SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses, bool sort_alpha);
   void BuildSubScenes(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM);

@@ -90,7 +90,7 @@ struct RayTracer::Impl {
 };
 
 RayTracer::RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions& options)
-    : impl_(new Impl{scene, std::make_shared<internal::EmbreeScene>(*scene, options.isa)}) {}
+    : impl_(new Impl{scene, std::make_shared<internal::EmbreeScene>(*scene, options)}) {}
 RayTracer::RayTracer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 RayTracer::~RayTracer() = default;
 

@@ -56,6 +56,7 @@ struct SurfaceHit {
 
 struct RayTracerOptions {
   std::string isa;  ///< Embree instruction set, e.g. "avx2" to pin goldens; empty = best of this machine
+  bool sort_alpha = true;  ///< false: every alpha-tested triangle pays for the test, for measuring
 };
 
 /// While it lives, this thread treats denormal numbers as zero (MXCSR FTZ and DAZ): what traversal is fastest
