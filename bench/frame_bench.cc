@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const auto route = std::make_shared<const Route>(PlanSurvey(*tracer, {}));
   const Flight flight = FlyRoute({.tracer = tracer}, route, EvenTimes(*route, frames));
-  const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kFast});
+  const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
 
   // All rows take turns at every pose, so that a busy moment of the machine hits all of them.
   std::vector<Row> rows;
@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     rows.push_back({"labels", Tier::kLabels, 1, threads});
     rows.push_back({"fast, 1 sample", Tier::kFast, 1, threads});
     rows.push_back({"fast, 4 samples", Tier::kFast, 4, threads});
+    rows.push_back({"high, 4 samples", Tier::kHigh, 4, threads});
   }
   std::vector<std::vector<double>> times(rows.size());
   std::vector<double> rays(rows.size());

@@ -80,11 +80,19 @@ PoseArgument ParsePose(const std::string& text) {
 }
 
 Tier ParseTierArgument(const std::string& text) {
-  static const std::vector<std::string> kBuilt = {"labels", "fast"};
+  static const std::vector<std::string> kBuilt = {"labels", "fast", "high"};
   if (std::find(kBuilt.begin(), kBuilt.end(), text) == kBuilt.end()) {
     throw InputError("--tier: " + UnknownChoiceMessage("tier", text, kBuilt));
   }
   return ParseTier(text);
+}
+
+int CheckSamples(int samples) {
+  if (samples < 0 || samples > 256) {
+    throw InputError("--samples: " + std::to_string(samples) + " is not in 1 … 256; did you mean " +
+                     (samples < 0 ? "1" : "256") + "?");
+  }
+  return samples;
 }
 
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,

@@ -32,6 +32,9 @@ PoseArgument ParsePose(const std::string& text);
 /// A tier that can be rendered today; InputError naming `--tier` otherwise.
 Tier ParseTierArgument(const std::string& text);
 
+/// --samples: 0 (not given) … 256; InputError otherwise.
+int CheckSamples(int samples);
+
 /// "a,b,c" split; InputError naming `flag` for an entry that is not among `choices`.
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
                                    const std::vector<std::string>& choices);

@@ -25,7 +25,8 @@ struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
   std::string pano_frame = "body", shard = "0/1", out, products;
   int64_t frames = 0;  // 0: not given
-  bool normal = false;
+  int samples = 0;
+  bool normal = false, no_denoise = false;
 };
 
 // "I/N", 0 <= I < N.
@@ -60,6 +61,8 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.width = size.width;
   spec.height = size.height;
   spec.tier = ParseTierArgument(arguments.tier);
+  spec.samples = CheckSamples(arguments.samples);
+  spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
   ParseList("--format", arguments.format,
@@ -141,7 +144,10 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
   command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");
-  command->add_option("--tier", arguments->tier, "labels or fast (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast or high (default fast)");
+  command->add_option("--samples", arguments->samples,
+                      "tier high: ambient rays of a pixel at the equator, 1 … 256 (default 4)");
+  command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic)");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");

@@ -116,6 +116,7 @@ int ParseAndRun(int argc, char** argv) {
   AddCollectCommand(app, globals);
   AddVerifyCommand(app, globals);
   AddStitchCommand(app, globals);
+  AddEvalCommand(app, globals);
   AddDoctorCommand(app, globals);
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     AddGlobalFlags(*command, globals, limit);

@@ -17,7 +17,8 @@ struct RenderArguments {
   std::string world, pose, projection = "erp", size, tier = "fast", rgb_format = "png", pano_frame = "body",
                            out, products;
   double fov_deg = 0;  // 0: not given
-  bool normal = false;
+  int samples = 0;
+  bool normal = false, no_denoise = false;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -65,6 +66,7 @@ PoseArgument DefaultPose(const Scene& scene) {
   const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
   PoseArgument pose;
   pose.p = VecCast<double>(spawn);
+  pose.yaw_deg = scene.spawn_yaw_deg;
   const Vec3d to_middle = VecCast<double>(scene.bounds.center() - spawn);
   if (!scene.bounds.empty() && !scene.bounds.Contains(spawn)) {
     constexpr double kDegrees = 180 / std::numbers::pi;
@@ -82,6 +84,8 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.seed = globals.seed;
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
+  spec.samples = CheckSamples(arguments.samples);
+  spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
@@ -127,7 +131,10 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option(
       "--fov", arguments->fov_deg,
       "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
-  command->add_option("--tier", arguments->tier, "labels or fast (default fast)");
+  command->add_option("--tier", arguments->tier, "labels, fast or high (default fast)");
+  command->add_option("--samples", arguments->samples,
+                      "tier high: ambient rays of a pixel at the equator, 1 … 256 (default 4)");
+  command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");

@@ -67,6 +67,8 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   rig.pano_frame = spec.pano_frame;
   rig.tier = spec.tier;
   rig.products = ProductsOf(spec);
+  rig.samples = spec.samples;
+  rig.denoise = spec.denoise;
   return rig;
 }
 

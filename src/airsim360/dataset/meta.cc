@@ -29,6 +29,8 @@ Json ParametersJson(const DatasetSpec& spec) {
   json["products"] = products;
   if (spec.projection == Projection::kPinhole || spec.projection == Projection::kFisheye)
     json["fov_deg"] = spec.fov_deg;
+  if (spec.samples != 0) json["samples"] = spec.samples;
+  if (!spec.denoise) json["denoise"] = false;
   return json;
 }
 

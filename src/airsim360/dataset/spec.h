@@ -30,6 +30,8 @@ struct DatasetSpec {
   PanoFrame pano_frame = PanoFrame::kBody;
   int64_t frames = 1;             ///< of the whole dataset, all shards together
   int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
+  int samples = 0;                ///< of the tiers high and reference, 0 = their default
+  bool denoise = true;            ///< tier high
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
   bool position = false, albedo = false, material = false, sky = false, flow = false, coverage = false;
 };

@@ -61,5 +61,10 @@ Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view n
 /// first.
 Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name,
                        std::string_view channel = {});
+/// Linear colour of an EXR: R, G, B, or one channel thrice; lossy compressions too.
+Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view name);
+/// Radiance picture (.hdr, .pic) with RGBE pixels, top row first: linear colour, EXPOSURE lines undone
+/// (Ward, "Real Pixels", Graphics Gems II, 1991).
+Image<Rgb32f> DecodeRadianceHdr(std::span<const std::byte> bytes, std::string_view name);
 
 }  // namespace airsim360

@@ -52,5 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   Try([](auto... a) { DecodeRgba8(a...); }, bytes);
   Try([](auto... a) { DecodeExr(a...); }, bytes);
+  Try([](auto... a) { DecodeExrRgb(a...); }, bytes);
+  Try([](auto... a) { DecodeRadianceHdr(a...); }, bytes);
   return 0;
 }

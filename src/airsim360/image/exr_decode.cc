@@ -34,9 +34,9 @@ class MemoryReader : public Imf::IStream {
   uint64_t at_ = 0;
 };
 
-// Lines of pixels that a compression packs together; 0 for those we do not read (lossy ones: a range must be
-// exact).
-int LinesPerChunk(Imf::Compression compression) {
+// Lines of pixels that a compression packs together; 0 for those we do not read. Lossy ones are for colours
+// alone: a range must be exact.
+int LinesPerChunk(Imf::Compression compression, bool lossy) {
   switch (compression) {
     case Imf::NO_COMPRESSION:
     case Imf::RLE_COMPRESSION:
@@ -46,6 +46,14 @@ int LinesPerChunk(Imf::Compression compression) {
       return 16;
     case Imf::PIZ_COMPRESSION:
       return 32;
+    case Imf::PXR24_COMPRESSION:
+      return lossy ? 16 : 0;
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return lossy ? 32 : 0;
+    case Imf::DWAB_COMPRESSION:
+      return lossy ? 256 : 0;
     default:
       return 0;
   }
@@ -70,7 +78,7 @@ void CheckAttributes(std::string_view header) {
 }
 
 // Looks at the header alone, so that a hostile one is refused before OpenEXR takes memory for it.
-void CheckHeader(std::span<const std::byte> bytes) {
+void CheckHeader(std::span<const std::byte> bytes, bool lossy) {
   MemoryReader reader(bytes);
   int magic = 0, version = 0;
   Imf::Xdr::read<Imf::StreamIO>(reader, magic);
@@ -91,7 +99,7 @@ void CheckHeader(std::span<const std::byte> bytes) {
     throw InputError("data window out of range");
   }
   internal::CheckSize(width, height, "size");
-  const int lines = LinesPerChunk(header.compression());
+  const int lines = LinesPerChunk(header.compression(), lossy);
   if (lines == 0) throw InputError("lossy EXR compression; write it with none, RLE, ZIPS, ZIP or PIZ");
 
   // The table of offsets and the head of each chunk take 16 bytes a chunk at least, and no compression we
@@ -124,7 +132,7 @@ std::string ChannelToRead(const Imf::ChannelList& channels, std::string_view wan
 }
 
 Image<float> ReadExr(std::span<const std::byte> bytes, std::string_view channel) {
-  CheckHeader(bytes);
+  CheckHeader(bytes, false);
   MemoryReader reader(bytes);
   Imf::InputFile file(reader, 0);
   if (!file.isComplete()) throw InputError("truncated EXR");
@@ -139,7 +147,40 @@ Image<float> ReadExr(std::span<const std::byte> bytes, std::string_view channel)
   return image;
 }
 
+Image<Rgb32f> ReadExrRgb(std::span<const std::byte> bytes) {
+  CheckHeader(bytes, true);
+  MemoryReader reader(bytes);
+  Imf::InputFile file(reader, 0);
+  if (!file.isComplete()) throw InputError("truncated EXR");
+  const Imath::Box2i window = file.header().dataWindow();
+  const Imf::ChannelList& channels = file.header().channels();
+  const bool color = channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B");
+  Image<Rgb32f> image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+  Imf::FrameBuffer frame;
+  Rgb32f* first = image.pixels().data();
+  const auto insert = [&](const std::string& name, float* to) {
+    frame.insert(name,
+                 Imf::Slice::Make(Imf::FLOAT, to, window, sizeof(Rgb32f), sizeof(Rgb32f) * image.width()));
+  };
+  insert(color ? "R" : ChannelToRead(channels, {}), &first->r);
+  if (color) insert("G", &first->g), insert("B", &first->b);
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  if (!color) {
+    for (Rgb32f& pixel : image.pixels()) pixel.g = pixel.b = pixel.r;
+  }
+  return image;
+}
+
 }  // namespace
+
+Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view name) {
+  try {
+    return ReadExrRgb(bytes);
+  } catch (const std::exception& error) {
+    internal::ThrowDamaged(name, error.what());
+  }
+}
 
 Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name, std::string_view channel) {
   // OpenEXR reports everything by exceptions derived from std::exception.

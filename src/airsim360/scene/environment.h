@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "airsim360/image/image.h"
 
@@ -35,11 +36,34 @@ struct Environment {
   double rain_mm_h = 0;           ///< drops in the air; does not set wetness by itself
   double snowfall_mm_h = 0;       ///< flakes in the air (water equivalent)
   Lamps lamps = Lamps::kAuto;
-  std::shared_ptr<const SkyPicture> hdri;  ///< replaces sky, clouds and sun where set
+  std::shared_ptr<const SkyPicture> hdri = nullptr;  ///< replaces sky, clouds and sun where set
   double hdri_yaw_deg = 0;
   double hdri_scale = 1;  ///< from the picture's units to ours
+  double moon_azimuth_deg = 130, moon_elevation_deg = 38;
+  double moon_phase = 1;  ///< lit share of its disc, 0 new … 1 full; matters once the sun is down
 
   bool lamps_on() const { return lamps == Lamps::kOn || (lamps == Lamps::kAuto && sun_elevation_deg < 3); }
 };
+
+/// InputError "`name` is 120, not in 0 … 1; the nearest is 1" for the first value out of its range; `where`
+/// (a flag, or file:line) starts the message.
+void ValidateEnvironment(const Environment& environment, std::string_view where);
+
+/// One number of an environment: what files, flags and checks call it, and what it may be.
+struct EnvironmentField {
+  const char* name;
+  const char* help;
+  double Environment::* value;
+  double low, high;
+};
+const std::vector<EnvironmentField>& EnvironmentFields();
+
+/// A named state of sun, sky and weather ("day", "sunset", "fog", "rain", …), laid over `base`: sets all of
+/// light and weather but keeps the base's turbidity, moon and picture. InputError naming the nearest.
+Environment ParseEnvironmentPreset(std::string_view name, const Environment& base = {});
+std::vector<std::string> EnvironmentPresetNames();
+
+/// "name=value,…" of everything that differs from the default, for meta.json; "" = the default.
+std::string DescribeEnvironment(const Environment& environment);
 
 }  // namespace airsim360

@@ -34,8 +34,8 @@ enum class AlphaMode : uint8_t { kOpaque, kMask };
 enum class SurfaceKind : uint8_t {
   kStandard,  ///< metallic-roughness
   kFoliage,   ///< two-sided, transmits light: `transmission` times base colour
-  kGlass,     ///< thin pane: reflects by Fresnel; behind it a room (`interior`), else `base_color` as the
-              ///< colour of what lies behind
+  kGlass,     ///< thin pane: reflects by Fresnel; clear where transmission > 0 (IsClearPane), else behind it a
+              ///< room (`interior`) or `base_color` as the colour of what lies behind
   kWater,     ///< dielectric with procedural waves
 };
 
@@ -49,7 +49,7 @@ struct Material {
   float base_alpha = 1;
   float metallic = 0;
   float roughness = 0.9f;
-  Vec3f emission{};  ///< W/(m^2 sr) relative to the sky's units, times emission texture
+  Vec3f emission{};  ///< W/(m^2 sr) relative to the sky's units, times emission texture; front side only
   float normal_scale = 1;
   float transmission = 0;
   float clear_coat = 0;  ///< 0 … 1: a smooth dielectric layer (n = 1.5) over everything, as on car paint
@@ -65,6 +65,11 @@ struct Material {
   Vec2f uv_scale{1, 1}, uv_offset{};  ///< KHR_texture_transform of mesh uv: scale, then rotate, then offset
   float uv_rotation = 0;              ///< radians, counter-clockwise seen with v downwards; see UvTransform
 };
+
+/// A thin clear pane: light passes through it, tinted by base_color and weakened by `transmission`.
+inline bool IsClearPane(const Material& material) {
+  return material.kind == SurfaceKind::kGlass && material.transmission > 0;
+}
 
 /// From mesh uv to texture uv: u' = m00 u + m01 v + t.x, v' = m10 u + m11 v + t.y (KHR_texture_transform).
 struct UvTransform {

@@ -57,6 +57,7 @@ struct Scene {
   Box3f bounds;                           ///< of all instances, in W
   std::optional<Vec3f> spawn;             ///< a good first viewpoint
   std::vector<std::string> attributions;  ///< one line per third-party model used: title, author, licence
+  float spawn_yaw_deg = 0;                ///< where to look from `spawn`: 0 = +X, counter-clockwise
 
   const Entity& entity(EntityId id) const { return entities[id - 1]; }
   SceneCounts Count() const;
@@ -79,7 +80,10 @@ class SceneBuilder {
   /// Gives the scene a sky (an entity of category "sky").
   void AddSky();
   void SetInteriorLight(Vec3f radiance) { scene_.interior_light = radiance; }
-  void SetSpawn(Vec3f p_W) { scene_.spawn = p_W; }
+  void SetSpawn(Vec3f p_W, float yaw_deg = 0) {
+    scene_.spawn = p_W;
+    scene_.spawn_yaw_deg = yaw_deg;
+  }
   void AddAttribution(std::string line);
 
   const Mesh& mesh(MeshId id) const { return scene_.meshes[id]; }

@@ -42,7 +42,9 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
                         .X_WC = capture.X_WC,
                         .tier = rig.tier,
                         .products = rig.products,
-                        .exposure_ev = rig.exposure_ev};
+                        .exposure_ev = rig.exposure_ev,
+                        .samples = rig.samples,
+                        .denoise = rig.denoise};
   request.state = rig.state;
   request.X_WC_next = capture.X_WC_next;
   if (next != nullptr) request.next_state = next->state;

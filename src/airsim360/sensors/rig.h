@@ -26,6 +26,8 @@ struct PanoramicRig {
   Tier tier = Tier::kFast;
   Products products;
   double exposure_ev = 0;
+  int samples = 0;                          ///< as RenderRequest::samples
+  bool denoise = true;                      ///< as RenderRequest::denoise
   std::shared_ptr<const SceneState> state;  ///< what has moved; nullptr = nothing
 };
 

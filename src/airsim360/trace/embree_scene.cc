@@ -11,7 +11,8 @@ namespace {
 // Spatial splits trace faster but take several times longer to build.
 constexpr uint64_t kMaxHighQualityTriangles = 6'000'000;
 
-constexpr uint32_t kLastGeneration = 31;  // bits of a ray mask, less that of the scene as built
+constexpr uint32_t kLastGeneration = 15;          // two bits of a ray mask each, from 0 on
+constexpr uint32_t kAllGenerations = 0x55555555;  // times kMaskSolid or kMaskClearPanes
 
 // Robust: rays do not slip between neighbouring triangles, which would write a wrong label.
 SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
@@ -21,26 +22,39 @@ SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
   return scene;
 }
 
-// Opacity of every triangle of a mesh.
-std::vector<Opacity> Classify(const Mesh& mesh, const Scene& scene, bool sort_alpha) {
-  std::vector<Opacity> out(mesh.triangles.size(), Opacity::kOpaque);
+// The geometries that a mesh is divided into.
+enum class Group : uint8_t { kOpaque, kTested, kPane, kLeftOut };
+
+Group GroupOf(Opacity opacity) {
+  return opacity == Opacity::kOpaque  ? Group::kOpaque
+         : opacity == Opacity::kClear ? Group::kLeftOut
+                                      : Group::kTested;
+}
+
+// Group of every triangle of a mesh.
+std::vector<Group> Classify(const Mesh& mesh, const Scene& scene, bool sort_alpha) {
+  std::vector<Group> out(mesh.triangles.size(), Group::kOpaque);
   for (const MeshPart& part : mesh.parts) {
     const Material& material = scene.materials[part.material];
-    if (!NeedsAlphaTest(material)) continue;
+    const auto begin = out.begin() + part.first_triangle;
+    if (!NeedsAlphaTest(material)) {
+      if (IsClearPane(material)) std::fill(begin, begin + part.triangle_count, Group::kPane);
+      continue;
+    }
     const AlphaTest test(material, scene.textures);
     for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
-      out[t] = sort_alpha ? test.Classify(mesh, t) : Opacity::kMixed;
+      out[t] = sort_alpha ? GroupOf(test.Classify(mesh, t)) : Group::kTested;
   }
   return out;
 }
 
-// The triangles of one opacity; null if there are none.
-std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Opacity>& opacity,
-                                              Opacity wanted) {
+// The triangles of one group; null if there are none.
+std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Group>& groups,
+                                              Group wanted) {
   auto out = std::make_unique<MeshGeometry>();
   out->mesh = &mesh;
-  for (uint32_t t = 0; t < opacity.size(); ++t) {
-    if (opacity[t] == wanted) out->triangles.push_back(t);
+  for (uint32_t t = 0; t < groups.size(); ++t) {
+    if (groups[t] == wanted) out->triangles.push_back(t);
   }
   out->primitive_count = static_cast<uint32_t>(out->triangles.size());
   if (out->primitive_count == 0) return nullptr;
@@ -97,13 +111,19 @@ void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& u
   groups_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     if (uses[m] == 0) return;
-    const std::vector<Opacity> opacity = Classify(scene.meshes[m], scene, sort_alpha);
-    auto opaque = SelectTriangles(scene.meshes[m], opacity, Opacity::kOpaque);
-    auto tested = SelectTriangles(scene.meshes[m], opacity, Opacity::kMixed);
+    const std::vector<Group> all = Classify(scene.meshes[m], scene, sort_alpha);
+    auto opaque = SelectTriangles(scene.meshes[m], all, Group::kOpaque);
+    auto tested = SelectTriangles(scene.meshes[m], all, Group::kTested);
+    auto panes = SelectTriangles(scene.meshes[m], all, Group::kPane);
     if (tested) tested->alpha = MakeAlpha(*tested, scene);
-    if (opaque) groups_[m].push_back(std::move(opaque));
-    if (tested) groups_[m].push_back(std::move(tested));
+    if (panes) panes->mask = kMaskClearPanes;
+    for (auto* group : {&opaque, &tested, &panes}) {
+      if (*group) groups_[m].push_back(std::move(*group));
+    }
   });
+  for (const MeshGroups& groups : groups_) {
+    for (const auto& group : groups) has_clear_panes_ |= group->mask == kMaskClearPanes;
+  }
 }
 
 // Embree reads 16 bytes at every vertex, so the buffer must go on for 4 bytes after the last one.
@@ -128,6 +148,7 @@ void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometr
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(Vec3u),
                              indices.size());
   rtcSetGeometryBuildQuality(g, quality);
+  rtcSetGeometryMask(g, geometry.mask * kAllGenerations);
   if (geometry.alpha) {
     rtcSetGeometryUserData(g, geometry.alpha.get());
     rtcSetGeometryIntersectFilterFunction(g, FilterAlpha);
@@ -180,26 +201,26 @@ Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
       added.push_back(i);
   }
   if (added.empty()) return movers_;
-  if (++generation_ > kLastGeneration) {
+  if (movers_.generation == kLastGeneration) {
     // Out of mask bits: from now on everything counts as moving.
-    movers_ = {{}, 0};
+    movers_ = {{}, kLastGeneration, true};
     for (uint32_t i = 0; i < top_ids_.size(); ++i) {
       if (top_ids_[i] != kMiss) movers_.instances.push_back(i);
     }
     return movers_;
   }
+  const uint32_t earlier = (1u << (2 * ++movers_.generation)) - 1;
   for (uint32_t i : added) {
     const uint32_t first = top_ids_[i];
     const HitSlot& slot = slots_[first_slots_[first]];
     // A baked instance has an id for each of its geometries.
     for (uint32_t id = first; id < first_slots_.size() && slots_[first_slots_[id]].instance == slot.instance;
          ++id) {
-      rtcSetGeometryMask(rtcGetGeometry(top_.get(), id), (1u << generation_) - 1);
+      rtcSetGeometryMask(rtcGetGeometry(top_.get(), id), top_masks_[id] & earlier);
     }
   }
   movers_.instances.insert(movers_.instances.end(), added.begin(), added.end());
   std::sort(movers_.instances.begin(), movers_.instances.end());
-  movers_.ray_mask = 1u << generation_;
   return movers_;
 }
 
@@ -207,6 +228,7 @@ void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTr
   RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   const Vec3f columns[4] = {X_WM.A.column(0), X_WM.A.column(1), X_WM.A.column(2), X_WM.p};
   rtcSetGeometryInstancedScene(g, sub_scene);
+  rtcSetGeometryMask(g, kMaskAll);
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(top_.get(), g, id);
@@ -244,12 +266,14 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
       AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(),
                      instance.X_WM);
       first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
+      top_masks_.push_back(kMaskAll);
     }
     for (const auto& group : groups) {
       if (direct) {
         AttachGeometry(top_.get(), static_cast<unsigned>(first_slots_.size()), *group, vertices[i],
                        scene.meshes[instance.mesh].positions.size(), quality);
         first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
+        top_masks_.push_back(group->mask * kAllGenerations);
       }
       slots_.push_back(
           {i, group->primitive_count, group->triangles.empty() ? nullptr : group->triangles.data(), direct});

@@ -3,11 +3,13 @@
 // A mesh used once is attached to the top-level scene, its vertices baked into W unless its transform is the
 // identity. A mesh used several times becomes a scene of its own with an instance for each use. The
 // alpha-tested triangles of a mesh are a geometry apart: only they pay for the filter. Triangles on which the
-// texture is all solid count as opaque, those on which it is all hole are left out.
+// texture is all solid count as opaque, those on which it is all hole are left out. Clear panes are a
+// geometry apart too: they have mask bits of their own.
 //
-// What moves is hidden from the rays of dynamic tracers by ray masks, so that nothing is built again: bit g
-// of a geometry's mask says that tracers of generation g see it. A new generation begins when something moves
-// for the first time; rays of the scene as built have all bits.
+// What moves is hidden from the rays of dynamic tracers by ray masks, so that nothing is built again. A mask
+// has two bits for each generation of tracers, kMaskSolid and kMaskClearPanes shifted by twice its number; a
+// geometry holds those of the generations that see it. A new generation begins when something moves for the
+// first time; 0 is the scene as built.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -41,12 +43,14 @@ struct MeshGeometry {
   std::vector<Vec3u> indices;       // own index buffer where `triangles` is not empty
   uint32_t primitive_count = 0;
   std::unique_ptr<AlphaGeometry> alpha;  // set where the triangles are alpha-tested
+  unsigned mask = kMaskSolid;            // of generation 0
 };
 
 /// Everything that has ever moved, and how rays of tracers that show it must be marked.
 struct Movers {
   std::vector<uint32_t> instances;  // ascending
-  uint32_t ray_mask = ~0u;          // 0: the static scene is not traced at all, every instance is a mover
+  uint32_t generation = 0;
+  bool all = false;  // every instance is a mover: the static scene is not traced at all
 };
 
 class EmbreeScene {
@@ -56,6 +60,7 @@ class EmbreeScene {
 
   RTCScene top() const { return top_.get(); }
   bool has_instances() const { return has_instances_; }
+  bool has_clear_panes() const { return has_clear_panes_; }
   const std::vector<HitSlot>& slots() const { return slots_; }
   const std::vector<uint32_t>& first_slots() const { return first_slots_; }
 
@@ -92,14 +97,14 @@ class EmbreeScene {
   std::vector<std::vector<Vec3f>> instance_vertices_;  // by instance: baked or padded copy
   std::vector<SceneHandle> sub_scenes_;                // by mesh; null where not instanced
   SceneHandle top_;
-  bool has_instances_ = false;
+  bool has_instances_ = false, has_clear_panes_ = false;
   std::vector<HitSlot> slots_;
   std::vector<uint32_t> first_slots_;
-  std::vector<uint32_t> top_ids_;  // by instance
+  std::vector<uint32_t> top_ids_;    // by instance
+  std::vector<uint32_t> top_masks_;  // by id in the top-level scene, before anything moves
 
   std::mutex mutex_;  // of the following and of sub-scenes made late
   Movers movers_;
-  uint32_t generation_ = 0;
 };
 
 }  // namespace airsim360::internal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
 #include "airsim360/base/error.h"
@@ -79,14 +80,18 @@ struct RayTracer::Impl {
   // What has moved, traced after the static scene: nothing in a tracer of the scene as built.
   std::unique_ptr<internal::DynamicScene> dynamic = nullptr;
   std::shared_ptr<const SceneState> state = nullptr;
-  uint32_t ray_mask = ~0u;  // see Movers
+  uint32_t generation = 0;  // see EmbreeScene
+  bool traces_static = true;
 
   const std::vector<HitSlot>& Slots() const { return dynamic ? dynamic->slots() : embree->slots(); }
   const HitSlot& Slot(uint32_t geometry, uint32_t instance) const {
     const auto& first = embree->first_slots();
     return Slots()[instance == kMiss ? first[geometry] : first[instance] + geometry];
   }
-  bool TracesStatic() const { return ray_mask != 0; }
+  // Mask for the static scene of a ray that asks for kMaskSolid, kMaskClearPanes or both.
+  uint32_t StaticMask(uint32_t kinds) const {
+    return (kinds & (kMaskSolid | kMaskClearPanes)) << (2 * generation);
+  }
 };
 
 RayTracer::RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions& options)
@@ -94,6 +99,7 @@ RayTracer::RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions&
 RayTracer::RayTracer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 RayTracer::~RayTracer() = default;
 
+bool RayTracer::has_clear_panes() const { return impl_->embree->has_clear_panes(); }
 const Scene& RayTracer::scene() const { return *impl_->scene; }
 std::span<const HitSlot> RayTracer::slots() const { return impl_->Slots(); }
 std::span<const uint32_t> RayTracer::first_slots() const { return impl_->embree->first_slots(); }
@@ -132,9 +138,13 @@ void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) con
     rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
     return;
   }
-  for (uint32_t& mask : rays.mask) mask = impl_->ray_mask;
-  if (impl_->TracesStatic()) rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
-  for (uint32_t& mask : rays.mask) mask = ~0u;
+  if (impl_->traces_static) {
+    uint32_t kinds[16];
+    std::memcpy(kinds, rays.mask, sizeof kinds);
+    for (uint32_t& mask : rays.mask) mask = impl_->StaticMask(mask);
+    rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
+    std::memcpy(rays.mask, kinds, sizeof kinds);
+  }
   rtcIntersect16(lanes, impl_->dynamic->top(), &context, packet);
 }
 
@@ -145,12 +155,14 @@ void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, boo
   RTCIntersectContext context = Context(coherent && !impl_->embree->has_instances());
   const int* lanes = FiniteLanes(valid, rays, fixed);
   auto* packet = reinterpret_cast<RTCRay16*>(&rays);
+  uint32_t kinds[16];
+  std::memcpy(kinds, rays.mask, sizeof kinds);
   if (impl_->dynamic != nullptr) {
-    for (uint32_t& mask : rays.mask) mask = impl_->ray_mask;
+    for (uint32_t& mask : rays.mask) mask = impl_->StaticMask(mask);
   }
-  if (impl_->TracesStatic()) rtcOccluded16(lanes, impl_->embree->top(), &context, packet);
+  if (impl_->traces_static) rtcOccluded16(lanes, impl_->embree->top(), &context, packet);
   if (impl_->dynamic != nullptr) {
-    for (uint32_t& mask : rays.mask) mask = ~0u;
+    std::memcpy(rays.mask, kinds, sizeof kinds);
     for (int i = 0; i < 16; ++i) open[i] = rays.t_far[i] < 0 ? 0 : lanes[i];
     context = Context(false);
     rtcOccluded16(open, impl_->dynamic->top(), &context, packet);
@@ -171,9 +183,9 @@ std::optional<SurfaceHit> RayTracer::Intersect(Vec3f origin, Vec3f direction, fl
   RTCRayHit ray{SingleRay(origin, direction, t_far), {}};
   ray.hit.geomID = ray.hit.instID[0] = kMiss;
   RTCIntersectContext context = Context(false);
-  ray.ray.mask = impl_->ray_mask;
-  if (impl_->TracesStatic()) rtcIntersect1(impl_->embree->top(), &context, &ray);
-  ray.ray.mask = ~0u;
+  ray.ray.mask = impl_->StaticMask(kMaskAll);
+  if (impl_->traces_static) rtcIntersect1(impl_->embree->top(), &context, &ray);
+  ray.ray.mask = kMaskAll;
   if (impl_->dynamic != nullptr) rtcIntersect1(impl_->dynamic->top(), &context, &ray);
   if (ray.hit.geomID == kMiss) return std::nullopt;
 
@@ -192,9 +204,9 @@ bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
   const FlushDenormals flush;
   RTCRay ray = SingleRay(from, to - from, 1);
   RTCIntersectContext context = Context(false);
-  ray.mask = impl_->ray_mask;
-  if (impl_->TracesStatic()) rtcOccluded1(impl_->embree->top(), &context, &ray);
-  ray.mask = ~0u;
+  ray.mask = impl_->StaticMask(kMaskAll);
+  if (impl_->traces_static) rtcOccluded1(impl_->embree->top(), &context, &ray);
+  ray.mask = kMaskAll;
   if (impl_->dynamic != nullptr && !(ray.tfar < 0)) rtcOccluded1(impl_->dynamic->top(), &context, &ray);
   return ray.tfar < 0;
 }
@@ -202,7 +214,7 @@ bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
 float RayTracer::Clearance(Vec3f p_W, float max_distance) const {
   const bool moves = impl_->dynamic != nullptr;
   float distance = max_distance;
-  if (impl_->TracesStatic())
+  if (impl_->traces_static)
     distance = internal::ClosestSurfaceDistance(*this, impl_->embree->top(), moves, p_W, distance);
   if (moves) distance = internal::ClosestSurfaceDistance(*this, impl_->dynamic->top(), false, p_W, distance);
   return distance;
@@ -263,7 +275,8 @@ std::shared_ptr<const RayTracer> DynamicTracer::At(const std::shared_ptr<const S
   size_t place = pool_.size();
   for (size_t k = 0; k < pool_.size(); ++k) {
     const RayTracer::Impl& impl = *pool_[k]->impl_;
-    if (impl.state == state && impl.ray_mask == movers.ray_mask) return pool_[k];
+    if (impl.state == state && impl.generation == movers.generation && impl.traces_static == !movers.all)
+      return pool_[k];
     if (pool_[k].use_count() == 1) place = k;
   }
   if (place == pool_.size()) {
@@ -274,7 +287,8 @@ std::shared_ptr<const RayTracer> DynamicTracer::At(const std::shared_ptr<const S
   }
   RayTracer::Impl& impl = *pool_[place]->impl_;
   impl.state = state;
-  impl.ray_mask = movers.ray_mask;
+  impl.generation = movers.generation;
+  impl.traces_static = !movers.all;
   impl.dynamic->Update(*base.embree, *base.scene, *state, movers);
   return pool_[place];
 }

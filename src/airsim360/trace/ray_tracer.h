@@ -31,6 +31,10 @@ struct alignas(64) RayHit16 {
 };
 inline constexpr uint32_t kMiss = UINT32_MAX;
 
+/// Values of RayHit16::mask. Camera rays meet everything; rays of light may leave clear panes out
+/// (IsClearPane) and ask for them apart.
+inline constexpr uint32_t kMaskAll = UINT32_MAX, kMaskSolid = 1, kMaskClearPanes = 2;
+
 /// What a hit is in terms of the scene.
 struct SurfaceRef {
   uint32_t instance;  ///< index into Scene::instances
@@ -89,6 +93,7 @@ class RayTracer {
   /// Sets occluded[i] for active lanes: whether [t_near, t_far] meets a surface (t_far is then minus
   /// infinity).
   void Occluded16(const int* valid, RayHit16& rays, bool* occluded, bool coherent) const;
+  bool has_clear_panes() const;
   SurfaceRef Resolve(uint32_t geometry, uint32_t instance, uint32_t primitive) const;
 
   /// The slot of a hit is slots()[first_slots()[instance] + geometry], or slots()[first_slots()[geometry]]

@@ -23,4 +23,10 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
                                                std::vector<Placement>* placements);
 WorldInfo DowntownWestInfo();
 
+/// A park around the bend of a road, with a lake, groves and lawns, woods to the horizon.
+std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options);
+/// The same; `placements` as above.
+std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements);
+WorldInfo CityParkInfo();
+
 }  // namespace airsim360::internal

@@ -56,10 +56,11 @@ class PropShelf {
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
   void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0,
                Vec3f tint = {1, 1, 1});
+  /// Adds a model that is no kind of prop, with its materials and textures, for instances of the caller's own.
+  MeshId Add(Model model);
 
  private:
   MeshId Get(const PropKind& kind, uint32_t variant);
-  MeshId Add(Model model);
   TextureId AddTexture(Texture texture);
   MaterialId AddMaterial(const Material& material);
 

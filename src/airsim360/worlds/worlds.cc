@@ -14,6 +14,7 @@ struct BuiltIn {
 
 constexpr BuiltIn kBuiltIn[] = {
     {"box_room", internal::BoxRoomInfo, internal::BuildBoxRoom},
+    {"city_park", internal::CityParkInfo, internal::BuildCityPark},
     {"downtown_west", internal::DowntownWestInfo, internal::BuildDowntownWest},
 };
 

@@ -10,6 +10,7 @@
 #include "airsim360/render/cpu/antialias.h"
 #include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/cpu/coverage.h"
+#include "airsim360/render/cpu/high_frame.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
 #include "airsim360/render/cpu/surface_products.h"
@@ -64,7 +65,9 @@ class CpuRenderer : public Renderer {
   }
   void SetState(const std::shared_ptr<const SceneState>& state);
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
+  uint64_t RenderTiles(const RenderRequest& request, bool color, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
+  void Display(const RenderRequest& request, Frame& frame) const;
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
@@ -85,6 +88,8 @@ class CpuRenderer : public Renderer {
   Antialiaser antialiaser_;
   CoveragePass coverage_;
   SurfaceProducts products_;
+  HighFrame high_;
+  Image<Rgb32f> radiance_;  // of tier high
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
 };
@@ -116,9 +121,9 @@ void CpuRenderer::SetState(const std::shared_ptr<const SceneState>& state) {
 }
 
 RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
-  if (request.tier != Tier::kLabels && request.tier != Tier::kFast) {
+  if (request.tier == Tier::kReference) {
     throw InputError(std::string("tier '") + kTierNames[static_cast<int>(request.tier)] +
-                     "' is not in the CPU renderer (choices: labels, fast)");
+                     "' is not in the CPU renderer (choices: labels, fast, high)");
   }
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = request.products.rgb && request.tier != Tier::kLabels;
@@ -135,9 +140,39 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
                      moves_on ? dynamic_.At(request.next_state) : applied_);
   }
   const int samples = std::clamp(request.aa_samples, 1, kMaxSamples);
-  ResizeFrame(request, color, color && samples > 1, frame);
+  const bool high = color && request.tier == Tier::kHigh;
+  ResizeFrame(request, color, color && samples > 1 && !high, frame);
+  RenderStats stats;
+  if (high) {
+    stats.rays += high_.Render(*applied_, *shader_, rays_, labels_, request, radiance_, frame);
+    Display(request, frame);
+    if (request.products.radiance) frame.radiance = radiance_;
+  }
+  // Tier high fills the labels alone: what else comes from the centre rays is traced as in tier labels.
+  const bool more = SurfaceProducts::Wanted(request.products) || request.products.coverage;
+  if (!high || more) stats.rays += RenderTiles(request, color && !high, frame);
+  if (request.products.coverage) {
+    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
+    stats.rays += static_cast<uint64_t>(coverage_.Run(
+        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), samples, &entity}, frame.coverage));
+  }
 
-  // Centre rays: labels and colours of every pixel.
+  // More colour samples on edges.
+  if (color && !high && samples > 1) {
+    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
+    antialiaser_.FindEdges(entity, luma_, rays_.field().separable, edges_);
+    const int64_t rays =
+        antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+                          request.exposure_ev, samples, &edges_, &frame.rgb});
+    stats.rays += static_cast<uint64_t>(rays);
+  }
+  stats.render_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return stats;
+}
+
+// Centre rays: labels and, with `color`, colours of every pixel. Returns their number.
+uint64_t CpuRenderer::RenderTiles(const RenderRequest& request, bool color, Frame& frame) {
   const RayField& field = rays_.field();
   const int across = (field.width + kTileSize - 1) / kTileSize,
             down = (field.height + kTileSize - 1) / kTileSize;
@@ -148,27 +183,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& request, Frame& frame) {
     for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile)
       RenderTile(request, color, tile, frame);
   });
-  RenderStats stats;
-  stats.rays = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
-
-  if (request.products.coverage) {
-    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
-    stats.rays += static_cast<uint64_t>(coverage_.Run(
-        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), samples, &entity}, frame.coverage));
-  }
-
-  // More colour samples on edges.
-  if (color && samples > 1) {
-    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
-    antialiaser_.FindEdges(entity, luma_, field.separable, edges_);
-    const int64_t rays =
-        antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, samples, &edges_, &frame.rgb});
-    stats.rays += static_cast<uint64_t>(rays);
-  }
-  stats.render_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return stats;
+  return static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
 }
 
 void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame) {
@@ -231,6 +246,24 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
     }
   }
   kernels_.store_colors(colors, target, frame.rgb.pixels().data(), luma_.pixels().data());
+}
+
+// From linear radiance to what a screen shows.
+void CpuRenderer::Display(const RenderRequest& request, Frame& frame) const {
+  ParallelFor(radiance_.height(), [&](int64_t y) {
+    alignas(64) float channels[3][kTilePixels];
+    const auto row = radiance_.row(static_cast<int>(y));
+    const auto out = frame.rgb.row(static_cast<int>(y));
+    for (size_t first = 0; first < row.size(); first += kTilePixels) {
+      const size_t count = std::min<size_t>(kTilePixels, row.size() - first);
+      for (size_t i = 0; i < count; ++i) {
+        const Rgb32f c = row[first + i];
+        channels[0][i] = c.r, channels[1][i] = c.g, channels[2][i] = c.b;
+      }
+      shader_->ToneMap(channels[0], channels[1], channels[2], static_cast<int>(count), request.exposure_ev,
+                       &out[first]);
+    }
+  });
 }
 
 }  // namespace

@@ -349,7 +349,7 @@ TEST(CpuRenderer, ImagesKeepTheirMemoryBetweenCaptures) {
 TEST(CpuRenderer, ATierItLacksAndACameraWithoutPixelsAreInputErrors) {
   const auto renderer = Room();
   Frame frame;
-  EXPECT_THROW(renderer->Render({Equirectangular{64, 32}, {}, Tier::kHigh, {}}, frame), InputError);
+  EXPECT_THROW(renderer->Render({Equirectangular{64, 32}, {}, Tier::kReference, {}}, frame), InputError);
   EXPECT_THROW(renderer->Render({Equirectangular{0, 0}, {}, Tier::kLabels, {}}, frame), InputError);
   EXPECT_THROW(
       renderer->Render({Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels, {}}, frame),

@@ -19,6 +19,8 @@ class HighFrame {
   uint64_t Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays,
                   const LabelView& labels, const RenderRequest& request, Image<Rgb32f>& radiance,
                   Frame& frame);
+  /// For tests: takes the tiles of the next frames in another order, which must not change a byte.
+  void ShuffleTiles(uint64_t order);
 
  private:
   struct Impl;

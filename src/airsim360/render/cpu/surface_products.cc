@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/shading/secondary_rays.h"
+#include "airsim360/render/shading/shader_impl.h"
 #include "airsim360/render/shading/shading_kernels.h"
 
 namespace airsim360::internal {
@@ -41,7 +42,7 @@ void SurfaceProducts::Update(const RenderRequest& request, const CameraRays& ray
       own_view_ = MakeShadeView(*scene_, *tables_, nullptr, nullptr);
     }
     if (tables_ != nullptr) tables_->Apply(*scene_, now->moved(), now->deformed());
-    view_ = shader != nullptr ? &shader->view() : &own_view_;
+    view_ = shader != nullptr ? &shader->impl().view : &own_view_;
   }
   if (request.products.flow) flow_.Update(request, rays, std::move(now), std::move(next));
 }

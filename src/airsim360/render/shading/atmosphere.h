@@ -1,7 +1,7 @@
 // Light of the clear sky and of the sun through the air.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "airsim360/math/vector.h"
 
@@ -12,22 +12,32 @@ namespace airsim360::internal {
 /// photometric terms 20 units of luminance are 133.3 klx.
 inline constexpr Vec3f kSolarIrradiance{19.1f, 20.0f, 21.2f};
 inline constexpr float kLuxPerUnit = 133300.0f / 20.0f;
+inline constexpr float kRayleighHeight = 8000, kAerosolHeight = 1400;  ///< scale heights, m
+
+/// Extinction of clear air at the ground, 1 / m.
+struct ClearAir {
+  Vec3f rayleigh, aerosol;
+  /// `turbidity` is Linke's, 2 very clear … 10 hazy.
+  explicit ClearAir(double turbidity);
+};
 
 /// Rayleigh, aerosol and ozone atmosphere over a sphere with one sun position, seen from near the ground.
-/// Single scattering is integrated along each ray; all higher orders are the isotropic closed-form series of
-/// Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique" (2020), tabulated over
-/// height.
+/// Single scattering is integrated along each ray, with the sun's height over the horizon of each place (so
+/// that dusk is right); all higher orders are the isotropic closed-form series of Hillaire, "A Scalable and
+/// Production Ready Sky and Atmosphere Rendering Technique" (2020), tabulated over height and sun.
 class Atmosphere {
  public:
   /// `to_sun` is a unit vector of W; `turbidity` is Linke's, 2 very clear … 10 hazy.
   Atmosphere(Vec3f to_sun, double turbidity);
+  /// The same air with the sun elsewhere; cheap.
+  Atmosphere WithSun(Vec3f to_sun) const;
 
   /// Radiance of the clear sky in a unit direction; below the horizon that of the horizon.
   Vec3f Radiance(Vec3f direction) const;
-  /// Irradiance of the sun at the ground, on a plane facing it.
-  Vec3f SunIrradiance() const { return sun_irradiance_; }
+  /// Irradiance of the sun near the ground, on a plane facing it; `height` in metres above it.
+  Vec3f SunIrradiance(float height = 60) const;
   /// Extinction of the air at the ground, 1 / m.
-  Vec3f GroundExtinction() const;
+  Vec3f GroundExtinction() const { return air_.rayleigh + air_.aerosol; }
 
  private:
   struct Medium {
@@ -37,16 +47,16 @@ class Atmosphere {
   };
   Medium At(float height) const;
   Vec3f OpticalDepth(Vec3f p, Vec3f direction) const;
-  Vec3f SunTransmittance(float height) const;
-  Vec3f Scattered(Vec3f p, Vec3f direction, bool isotropic, Vec3f* multiple_factor) const;
-  Vec3f MultipleAt(float height) const;
+  void TabulateSun();
+  void TabulateMultiple();
+  Vec3f SunTransmittance(float height, float mu) const;
+  Vec3f MultipleAt(float height, float mu) const;
+  Vec3f Scattered(Vec3f p, Vec3f direction, Vec3f to_sun, bool isotropic, Vec3f* multiple_factor) const;
 
-  static constexpr int kHeights = 48;
   Vec3f to_sun_;
-  Vec3f aerosol_scattering_, aerosol_extinction_;  // at the ground
-  Vec3f sun_irradiance_;
-  std::array<Vec3f, kHeights> sun_transmittance_{};
-  std::array<Vec3f, kHeights> multiple_{};  // radiance of all orders above the first, isotropic
+  ClearAir air_;
+  std::vector<Vec3f> sun_transmittance_;  // rows of heights, columns of the sun's cosine
+  std::vector<Vec3f> multiple_;           // radiance of all orders above the first, isotropic
 };
 
 }  // namespace airsim360::internal

@@ -35,8 +35,10 @@ float Altitude(Vec3f p) { return p.z + (p.x * p.x + p.y * p.y) * (0.5f / kEarth)
 
 }  // namespace
 
-Clouds::Clouds(double cover, const CloudLight& light)
-    : light_(light), cover_(static_cast<float>(std::clamp(cover, 0.0, 1.0))) {
+Clouds::Clouds(double cover, double cirrus, const CloudLight& light)
+    : light_(light),
+      cover_(static_cast<float>(std::clamp(cover, 0.0, 1.0))),
+      cirrus_(static_cast<float>(std::clamp(cirrus, 0.0, 1.0))) {
   if (cover_ <= 0) return;
   FreeTheSun();
   BakeCoverage();
@@ -116,33 +118,77 @@ float Clouds::DepthTowardsSun(Vec3f p, float dither) const {
   return sum * kExtinction;
 }
 
-// Streaks of a thin sheet; coordinates in units of its cells.
+// Fall streaks of ice, drawn out along the wind (x); coordinates in units of 5 km.
 float Clouds::CirrusAlpha(float x, float y) const {
-  const float mask = SmoothStep(0.50f, 0.72f, FractalNoise(x * 0.62f + 3, y * 0.62f, 4, 72));
+  const float mask = SmoothStep(Mix(0.66f, 0.30f, cirrus_), Mix(0.86f, 0.62f, cirrus_),
+                                FractalNoise(x * 0.55f + 3, y * 0.75f, 4, 72));
   if (mask <= 0) return 0;
-  const float wx = FractalNoise(x * 0.9f + 9, y * 0.9f, 3, 51) - 0.5f,
-              wy = FractalNoise(x * 0.9f, y * 0.9f + 5, 3, 57) - 0.5f;
-  const float body = FractalNoise(x * 1.5f + wx * 2.6f + y * 0.5f, y * 2.9f + wy * 2.8f, 7, 61);
-  const float ridge = 1 - std::fabs(2 * FractalNoise(x * 4.1f + wx * 5, y * 9.0f + wy * 6, 4, 65) - 1);
-  return Clamp01(SmoothStep(0.44f, 0.86f, 0.72f * body + 0.24f * ridge) * mask * 1.25f);
+  const float bend = FractalNoise(x * 0.5f + 9, y * 0.5f, 3, 51) - 0.5f,
+              curl = FractalNoise(x * 1.3f, y * 1.3f + 5, 3, 57) - 0.5f;
+  const float u = x + 0.5f * bend, v = y + 1.1f * bend + 0.22f * curl;
+  const float fibre = FractalNoise(u * 1.0f, v * 7.5f, 6, 61);
+  const float hair = FractalNoise(u * 2.6f + 4, v * 24.0f + 2.5f * curl, 4, 65);
+  const float veil = FractalNoise(u * 0.9f + 1, v * 1.6f, 4, 68);
+  const float body = SmoothStep(0.40f, 0.80f, 0.62f * fibre + 0.24f * hair + 0.2f * veil);
+  return mask * (0.12f * veil + body * body);
 }
 
-Vec3f Clouds::AddSheets(Vec3f direction, Vec3f behind) const {
-  const float fade = SmoothStep(0.06f, 0.28f, direction.z) * SmoothStep(0.0f, 0.3f, cover_);
+// Ice forward-scatters strongly: bright about the sun, thin elsewhere.
+Vec3f Clouds::AddCirrus(Vec3f direction, Vec3f behind) const {
+  const float fade = SmoothStep(0.04f, 0.22f, direction.z) * SmoothStep(0.0f, 0.1f, cirrus_);
   if (fade <= 0) return behind;
-  // Two layers; the distance is bounded so that nothing streaks into the horizon.
   const float mu = Dot(direction, light_.to_sun);
-  const float scatter = 0.055f + 0.16f * std::pow(std::max(0.0f, mu), 6.0f);
+  const float scatter = 0.06f + 0.16f * std::pow(std::max(0.0f, mu), 6.0f);
+  // The distance is bounded so that nothing streaks into the horizon.
   const float t = 7600 / (direction.z + 0.05f);
   const float x = direction.x * t * 0.92f + direction.y * t * 0.39f,
               y = direction.y * t * 0.92f - direction.x * t * 0.39f;
-  const float alpha = (1 - Exp(-0.8f * CirrusAlpha(x / 5200 + 7, y / 5200))) * fade;
-  return Mix(behind, light_.sun * scatter + light_.ambient * 0.55f + behind * 0.25f, alpha);
+  const float alpha = (1 - Exp(-1.1f * CirrusAlpha(x / 5200 + 7, y / 5200))) * fade;
+  return Mix(behind, light_.sun_high * scatter + light_.ambient * 0.55f + behind * 0.3f, alpha);
+}
+
+// Fleecy rows: cells of about 350 m in patches of some kilometres; metres.
+float Clouds::PuffAlpha(float x, float y) const {
+  const float mask = SmoothStep(Mix(0.80f, 0.52f, cover_), Mix(0.92f, 0.74f, cover_),
+                                FractalNoise(x / 6500 + 21, y / 5200, 3, 80));
+  if (mask <= 0) return 0;
+  const float wave = 0.08f * std::sin(x / 210 + 3 * FractalNoise(x / 1500, y / 1500, 2, 84));
+  const float cells = FractalNoise(x / 420, y / 300, 5, 86) + wave;
+  return SmoothStep(0.62f - 0.26f * mask, 0.86f - 0.22f * mask, cells) * mask;
+}
+
+// Lit on the sun's side: the sheet is thicker behind where it grows away from the sun.
+Vec3f Clouds::AddPuffs(Vec3f direction, Vec3f behind) const {
+  const float fade = SmoothStep(0.10f, 0.30f, direction.z) * SmoothStep(0.1f, 0.3f, cover_);
+  if (fade <= 0) return behind;
+  const float t = 4300 / (direction.z + 0.03f), x = direction.x * t, y = direction.y * t;
+  const float here = PuffAlpha(x, y);
+  if (here <= 0.003f) return behind;
+  const float towards = PuffAlpha(x + light_.to_sun.x * 150, y + light_.to_sun.y * 150);
+  const float side = Clamp01(0.72f + 0.9f * (here - towards) - 0.30f * here);
+  const float mu = Dot(direction, light_.to_sun);
+  const float scatter = side * (0.085f + 0.16f * std::pow(std::max(0.0f, mu), 5.0f));
+  const float alpha = (1 - Exp(-2.4f * here)) * fade * 0.9f;
+  return Mix(behind, Mix(light_.sun, light_.sun_high, 0.4f) * scatter + light_.ambient * 0.75f, alpha);
+}
+
+float Clouds::SunAt(float x, float y) const {
+  if (cover_ <= 0 || light_.to_sun.z < 0.03f) return 1;
+  constexpr int kSteps = 20;
+  const float z = std::max(light_.to_sun.z, 0.17f);
+  const float first = kBase / z, step = (kTop - kBase) / z / kSteps;
+  const Vec3f to_sun{light_.to_sun.x, light_.to_sun.y, z};
+  float depth = 0;
+  for (int i = 0; i < kSteps; ++i)
+    depth += Density(Vec3f{x, y, 0} + to_sun * (first + (static_cast<float>(i) + 0.5f) * step), 1) * step;
+  // What scatters forwards through the cloud still comes from about the sun: a floor, and a softer fall than of
+  // the direct beam alone.
+  return 0.10f + 0.90f * Exp(-0.4f * kExtinction * depth);
 }
 
 Vec3f Clouds::Over(Vec3f direction, Vec3f behind, Vec3f haze, float dither) const {
-  if (cover_ <= 0) return behind;
-  const Vec3f background = AddSheets(direction, behind);
+  const Vec3f background = AddPuffs(direction, AddCirrus(direction, behind));
+  if (cover_ <= 0) return background;
   const float first = DistanceToLayer(direction.z, kBase),
               last = std::min(DistanceToLayer(direction.z, kTop), kFarthest);
   if (first >= last) return background;

@@ -5,8 +5,9 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kFoliage = 1, kGlass = 2, kWater = 3;  // SurfaceKind
-constexpr float kBrightest = 400;  // radiance of a sun glint that still averages well over few samples
+constexpr float kFoliage = BSDF_FOLIAGE;
+constexpr float kBrightest = 400;    // radiance of a sun glint that still averages well over few samples
+constexpr float kSunAlpha = 0.006f;  // about the sine of the sun's diameter of 0.53 degrees, less its limb
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
@@ -26,17 +27,67 @@ KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3
   return sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i), light);
 }
 
-/// Reflectance of the surface's skin towards the viewer.
-KERNEL real3 Skin(real3 f0, real roughness, real kind, real n_dot_v) {
-  const real3 rough = environment_brdf(f0, roughness, n_dot_v);
-  const mask_t glass = kind == kGlass, water = kind == kWater;
-  if (!stdx::any_of(glass || water)) return rough;
-  // A pane has two faces, and a coating.
-  const real one = fresnel_dielectric(real(1.5f), n_dot_v), both = 2.0f * one / (1.0f + one);
-  const real pane = both + (1.0f - both) * 0.07f;
-  const real wet = fresnel_dielectric(real(1.33f), n_dot_v);
-  real3 skin = sel3(glass, make3(pane, pane, pane), rough);
-  return sel3(water, make3(wet, wet, wet), skin);
+/// What a surface does with light, before it is known how much ambient light there is.
+struct Response {
+  real3 skin;      ///< reflectance of skin and coat
+  real3 coat;      ///< of the coat alone
+  real3 body;      ///< share of ambient light that the body gives back …
+  real3 leaf;      ///< … and of light on the back of a leaf
+  real3 straight;  ///< share of what lies behind a clear pane
+  real3 sun;       ///< radiance by the sun if it is seen
+};
+
+KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d) {
+  const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
+  const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
+  const real kind = load(s.kind + i);
+  // A pane behind which nothing was traced shows its body alone.
+  const real transmission =
+      sel((kind == kFoliage) || (load(s.clear + i) > 0.5f), load(s.transmission + i), real(0.0f));
+  const Bsdf bsdf = bsdf_make(kind, base, load(s.metallic + i), load(s.roughness + i), transmission,
+                              load(s.coat + i), load(s.coat_roughness + i));
+  const BsdfSide seen = bsdf_side(bsdf, rmax(real(0.0f) - dot3(n, d), real(0.02f)));
+  const real3 through = bsdf_entering(seen);
+
+  Response out;
+  out.skin = bsdf_reflected(seen);
+  out.coat = make3(seen.coat, seen.coat, seen.coat);
+  out.body = bsdf.body * through;
+  out.leaf = bsdf.through * through;
+  out.straight = bsdf_straight(bsdf, seen);
+
+  // The sun as a point, so lobes narrower than its disc take the disc's width.
+  real pdf = real(0.0f);
+  const real3 shine =
+      bsdf_evaluate(bsdf_widen(bsdf, real(kSunAlpha)), seen, bsdf_lobes(bsdf, seen), n, -d, l, pdf) *
+      Uniform(view.sun_irradiance) * CloudShadow(view.cloud_shadow, load3(s.px + i, s.py + i, s.pz + i));
+  out.sun = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
+                  rmin(shine.z, real(kBrightest)));
+  return out;
+}
+
+/// What is seen behind a clear pane.
+KERNEL real3 Behind(const SurfaceSet& s, int i, real3 straight) {
+  const mask_t clear = load(s.clear + i) > 0.5f;
+  if (!stdx::any_of(clear)) return Grey(0);
+  return sel3(clear, load3(s.behind_r + i, s.behind_g + i, s.behind_b + i) * straight, Grey(0));
+}
+
+/// Emission, and the light of lamps.
+KERNEL real3 OwnAndLamps(const ShadeView& view, const SurfaceSet& s, int i, const Response& surface) {
+  real3 light = load3(s.er + i, s.eg + i, s.eb + i);
+  if (view.lamps.lamps == nullptr) return light;
+  const real3 front = load3(s.lamp_r + i, s.lamp_g + i, s.lamp_b + i);
+  const real3 back = load3(s.lamp_back_r + i, s.lamp_back_g + i, s.lamp_back_b + i);
+  light = light + (surface.body * front + surface.leaf * back) * real(SHADE_INV_PI);
+  return light + load3(s.lamp_shine_r + i, s.lamp_shine_g + i, s.lamp_shine_b + i);
+}
+
+/// Share of light left after the way, and what the air adds.
+KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3& kept, real3& added) {
+  const AirEffect air = air_to_surface(view.air, load(rays.oz + i), d, load(rays.distance + i));
+  kept = air.kept;
+  added = air.added;
 }
 
 KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
@@ -44,51 +95,46 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const real3 p = load3(s.px + i, s.py + i, s.pz + i);
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
-  const real3 r = load3(s.rx + i, s.ry + i, s.rz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
-  const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
-  const real metallic = load(s.metallic + i), roughness = load(s.roughness + i), kind = load(s.kind + i);
-  const real transmission = load(s.transmission + i);
-  const mask_t leaf = kind == kFoliage;
-  const real n_dot_v = rmax(real(0.0f) - dot3(n, d), real(0.02f));
+  const real3 r = load3(s.rx + i, s.ry + i, s.rz + i);
+  const Response surface = RespondTo(view, s, i, d);
 
-  const real dielectric = sel(leaf, real(0.028f), real(0.04f));
-  const real3 f0 = lerp3(make3(dielectric, dielectric, dielectric), base, metallic);
-  const real3 skin = Skin(f0, roughness, kind, n_dot_v);
-  const real3 inside = base * (1.0f - metallic);
-  const real3 through = make3(1.0f - skin.x, 1.0f - skin.y, 1.0f - skin.z);
-
-  // Sky and bounced light.
   const Ambient ambient = SampleProbes(view, p, g, n, r);
-  const real3 yellow = make3(real(1.10f), real(1.15f), real(0.55f)) * transmission;
-  real3 body =
-      diffuse(inside, ambient.front * load(s.contact + i) + sel3(leaf, ambient.back * yellow, Grey(0)));
-
-  // Sun.
-  const real3 sun = Uniform(view.sun_irradiance) * load(s.sunlit + i);
-  const real n_dot_l = dot3(n, l);
-  const real lambert = rmax(n_dot_l, real(0.0f));
-  const real3 lit =
-      sel3(leaf, leaf_diffuse(inside, transmission, n_dot_l), inside * (lambert * SHADE_INV_PI));
-  body = body + sun * lit;
-  const real3 h = normalize3(l - d);
-  const real alpha = rmax(roughness * roughness, real(0.006f));
-  const real3 glint = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v,
-                                    rmax(dot3(n, h), real(0.0f)), clamp01(dot3(l, h)));
-  const real3 shine = sun * glint * lambert;
-  const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
-                              rmin(shine.z, real(kBrightest)));
-
-  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * skin;
-  real3 light = body * through + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
-
-  // Air between.
+  const real3 body =
+      (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) * real(SHADE_INV_PI);
+  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;
+  real3 light = body + Behind(s, i, surface.straight) + surface.sun * load(s.sunlit + i) + mirrored +
+                OwnAndLamps(view, s, i, surface);
   if (view.has_sky > 0.5f) {
-    const real3 kept = transmittance(Uniform(view.extinction), load(rays.distance + i));
-    const real3 haze =
-        Uniform(view.horizon_x) * d.x + Uniform(view.horizon_y) * d.y + Uniform(view.horizon_mean);
-    light = light * kept + haze * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z);
+    real3 kept, added;
+    Air(view, rays, i, d, kept, added);
+    light = light * kept + added;
   }
   store3(out.r + i, out.g + i, out.b + i, light);
+}
+
+KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
+                        LightTerms& out) {
+  const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
+  const Response surface = RespondTo(view, s, i, d);
+  // The traced ray is what the coat mirrors where there is one, else what the skin does. What no ray was sent
+  // for mirrors the same light that the body gets.
+  const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > 0.05f;
+  const real3 sharp = sel3(traced, sel3(coated, surface.coat, surface.skin), Grey(0));
+  const real3 reflected =
+      sel3(traced, load3(s.reflected_r + i, s.reflected_g + i, s.reflected_b + i) * sharp, Grey(0));
+  real3 ambient = (surface.body + surface.skin - sharp) * real(SHADE_INV_PI);
+  real3 sun = surface.sun;
+  real3 rest = reflected + Behind(s, i, surface.straight) + OwnAndLamps(view, s, i, surface);
+  if (view.has_sky > 0.5f) {
+    real3 kept, added;
+    Air(view, rays, i, d, kept, added);
+    ambient = ambient * kept;
+    sun = sun * kept;
+    rest = rest * kept + added;
+  }
+  store3(out.ambient_r + i, out.ambient_g + i, out.ambient_b + i, ambient);
+  store3(out.sun_r + i, out.sun_g + i, out.sun_b + i, sun);
+  store3(out.rest_r + i, out.rest_g + i, out.rest_b + i, rest);
 }
 
 /// The sun's disc of 0.53 degrees, darker towards its limb: 1 - 0.6 (1 - mu) (Hestroffer & Magnan 1998,
@@ -106,21 +152,36 @@ void LightSurfaces(const ShadeView& view, const RaySet& rays, const SurfaceSet& 
   for (int i = 0; i < rays.count; i += kLanes) LightVector(view, rays, surfaces, i, light);
 }
 
+void SplitLight(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightTerms& terms) {
+  for (int i = 0; i < rays.count; i += kLanes) TermsVector(view, rays, surfaces, i, terms);
+}
+
 void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSet& light) {
   for (int i = 0; i < rays.count; i += kLanes) {
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     real3 c = Grey(0);
     if (view.has_sky > 0.5f) {
-      c = SampleSky(view.sky, d, false);
+      const real z = load(rays.oz + i);
       const mask_t down = d.z < 0.0f;
+      const real3 up = make3(d.x, d.y, rabs(d.z));
+      c = SampleSky(view.sky, d, false);
       if (stdx::any_of(down)) {
-        // Far ground in haze.
-        const real height = rmax(load(rays.oz + i) - view.ground_z, real(2.0f));
-        const real3 kept = transmittance(Uniform(view.extinction), height / rmax(0.0f - d.z, real(1e-4f)));
-        const real3 ground = Uniform(view.ground) * real(1.0f);
-        c = sel3(down, ground * kept + c * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z), c);
+        // Far ground in haze, or the lower half of a picture.
+        const real distance = rmax(z - view.ground_z, real(2.0f)) / rmax(0.0f - d.z, real(1e-4f));
+        real3 below = Grey(0);
+        if (view.sky_below.texels) {
+          below = SampleSky(view.sky_below, up, false);
+        } else {
+          const AirEffect air = air_to_surface(view.air, z, d, distance);
+          below = Uniform(view.ground) * air.kept + air.added;
+        }
+        c = sel3(down, below, c);
       }
       if (sun_disc) c = c + SunDisc(view, d);
+      if (view.air.weather > 0.0f) {
+        const AirEffect air = air_to_sky(view.air, z, up, real(kFarAir));
+        c = sel3(down, c, c * air.kept + air.added);
+      }
     }
     store3(light.r + i, light.g + i, light.b + i, c);
   }

@@ -14,6 +14,8 @@ namespace {
 constexpr int kDirections = 64;
 constexpr float kPi = 3.14159265f, kInvalidWeight = 1e-4f;
 constexpr int kFloats = 16;
+constexpr int kPasses = 2, kPassesOfSmall = 6;
+constexpr size_t kSmall = 4000;  // probes of a coarse pass
 
 // Spherical Fibonacci points: even and the same for all probes, so that neighbours differ only by what they
 // see.
@@ -58,14 +60,28 @@ void StoreTerms(const Cube& e, float weight, float* probe) {
 
 }  // namespace
 
-LightProbes::LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky,
-                         const Options& options) {
-  Place(tracer.scene(), options);
+LightProbes::LightProbes(const ProbeLight& world, const Options& options) {
+  ProbeLight light = world;
+  light.earlier = nullptr;
+  // Every pass adds a bounce. Small scenes, rooms above all, have more that matter, and time for them.
+  std::unique_ptr<LightProbes> coarse;
+  for (int pass = 0; pass < (coarse && coarse->size() < kSmall ? kPassesOfSmall : kPasses); ++pass) {
+    auto next = std::unique_ptr<LightProbes>(new LightProbes);
+    next->Place(world.tracer.scene(), {options.max_probes / 8, options.cell * 2});
+    next->Bake(light);
+    coarse = std::move(next);
+    light.earlier = coarse.get();
+  }
+  Place(world.tracer.scene(), options);
+  Bake(light);
+}
+
+void LightProbes::Bake(const ProbeLight& world) {
   probes_.assign(static_cast<size_t>(nx_) * ny_ * nz_ * kFloats, 0.0f);
   valid_.assign(static_cast<size_t>(nx_) * ny_ * nz_, 0);
   ParallelFor(static_cast<int64_t>(ny_) * nz_, [&](int64_t row) {
     const FlushDenormals flush;
-    BakeRow(tracer, tables, sky, static_cast<int>(row % ny_), static_cast<int>(row / ny_));
+    BakeRow(world, static_cast<int>(row % ny_), static_cast<int>(row / ny_));
   });
   FillInvalid();
 }
@@ -105,8 +121,7 @@ Vec3f LightProbes::Position(int x, int y, int z) const {
 }
 
 // Sixteen neighbours look the same way at the same time; metres apart, so not as a coherent packet.
-void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y,
-                          int z) {
+void LightProbes::BakeRow(const ProbeLight& world, int y, int z) {
   static const std::array<Vec3f, kDirections> directions = EvenDirections();
   static const auto weights = CubeWeights(directions);
   for (int first = 0; first < nx_; first += 16) {
@@ -117,8 +132,7 @@ void LightProbes::BakeRow(const RayTracer& tracer, const SurfaceTables& tables, 
     std::array<Vec3f, 16> points;
     for (int i = 0; i < count; ++i) points[i] = Position(first + i, y, z);
     for (int k = 0; k < kDirections; ++k) {
-      const Seen seen =
-          LookAlong(tracer, tables, sky, {points.data(), static_cast<size_t>(count)}, directions[k]);
+      const Seen seen = LookAlong(world, {points.data(), static_cast<size_t>(count)}, directions[k]);
       for (int i = 0; i < count; ++i) {
         behind[i] += seen.behind[i];
         open[i] += seen.open[i] && directions[k].z > 0;
@@ -192,6 +206,27 @@ Vec3f LightProbes::Irradiance(Vec3f p, Vec3f n) const {
     e[c] = std::max(0.0f, (sum[c] + sum[4 + c] * n.x + sum[8 + c] * n.y + sum[12 + c] * n.z +
                            sum[4 * c + 7] * n.z * n.z) /
                               sum[3]);
+  return e;
+}
+
+bool LightProbes::Covers(Vec3f p) const {
+  const Vec3f q = (p - origin_) / cell_;
+  return q.x >= -1 && q.y >= -1 && q.x <= static_cast<float>(nx_) && q.y <= static_cast<float>(ny_) &&
+         p.z < layers_.back() + cell_;
+}
+
+Vec3f LightProbes::NearIrradiance(Vec3f p, Vec3f n) const {
+  const Vec3f q = (p + n * (0.45f * cell_) - origin_) / cell_;
+  const int x = std::clamp(static_cast<int>(q.x + 0.5f), 0, nx_ - 1),
+            y = std::clamp(static_cast<int>(q.y + 0.5f), 0, ny_ - 1);
+  const float h =
+      std::clamp(q.z * cell_ / height_step_, 0.0f, static_cast<float>(layer_of_height_.size() - 1));
+  const int z = static_cast<int>(layer_of_height_[static_cast<size_t>(h + 0.5f)] + 0.5f);
+  const float* t = &probes_[((static_cast<size_t>(z) * ny_ + y) * nx_ + x) * kFloats];
+  Vec3f e;
+  for (int c = 0; c < 3; ++c)
+    e[c] = std::max(
+        0.0f, (t[c] + t[4 + c] * n.x + t[8 + c] * n.y + t[12 + c] * n.z + t[4 * c + 7] * n.z * n.z) / t[3]);
   return e;
 }
 

@@ -1,10 +1,11 @@
-// Ambient light by place: sky seen past the buildings and one bounce of sun and sky, baked into a grid of
-// probes.
+// Ambient light by place: sky seen past the buildings and the bounces of sun, sky and lamps, baked into a
+// grid of probes.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "airsim360/render/shading/probe_rays.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/render/shading/sky.h"
 #include "airsim360/render/shading/surface_tables.h"
@@ -23,18 +24,23 @@ class LightProbes {
     float cell = 2.0f;  ///< distance of columns, m; less in small rooms, more where max_probes is reached
   };
 
-  /// `sky` is nullptr in closed rooms: then surfaces glow with `interior_light`, less where something is
-  /// near.
-  LightProbes(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, const Options& options);
+  /// Light after many bounces: probes twice as far apart are baked first, each time with the result of the
+  /// time before. `world.earlier` is ignored.
+  LightProbes(const ProbeLight& world, const Options& options);
 
   ProbeView view() const;
   /// Irradiance at a point for a unit normal, as the shader sees it without normal bias (scalar; for tests).
   Vec3f Irradiance(Vec3f p, Vec3f normal) const;
+  /// The same from the nearest probe alone, half a cell in front of the surface; for light that bounces.
+  Vec3f NearIrradiance(Vec3f p, Vec3f normal) const;
+  bool Covers(Vec3f p) const;
   size_t size() const { return valid_.size(); }
 
  private:
+  LightProbes() = default;
   void Place(const Scene& scene, const Options& options);
-  void BakeRow(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky, int y, int z);
+  void Bake(const ProbeLight& world);
+  void BakeRow(const ProbeLight& world, int y, int z);
   void FillInvalid();
   Vec3f Position(int x, int y, int z) const;
 

@@ -56,7 +56,8 @@ struct World {
     tracer = std::make_shared<const RayTracer>(builder.Build());
     tables = std::make_unique<SurfaceTables>(tracer->scene());
     if (open) sky = std::make_unique<Sky>(tracer->scene().environment);
-    probes = std::make_unique<LightProbes>(*tracer, *tables, sky.get(), LightProbes::Options{20000, 2.0f});
+    probes = std::make_unique<LightProbes>(ProbeLight{*tracer, *tables, sky.get()},
+                                           LightProbes::Options{20000, 2.0f});
   }
 };
 

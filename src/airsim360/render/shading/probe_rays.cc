@@ -4,18 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/lights/clear_panes.h"
+#include "airsim360/render/lights/lamp_grid.h"
+#include "airsim360/render/shading/light_probes.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-
-Vec3f UnpackDirection(uint32_t packed) {
-  constexpr float scale = 2.0f / 65534.0f;
-  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1,
-                                   static_cast<float>(packed >> 16) * scale - 1);
-}
 
 float Percentile(std::vector<float>& values, double share) {
   const auto k = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
@@ -29,12 +25,12 @@ struct Packet {
   alignas(64) int valid[16];
 
   Packet() : rays{}, valid{} {
-    for (int i = 0; i < 16; ++i) rays.direction_z[i] = 1, rays.mask[i] = UINT32_MAX;
+    for (int i = 0; i < 16; ++i) rays.direction_z[i] = 1, rays.mask[i] = kMaskSolid;
   }
   void Set(int i, Vec3f p, Vec3f d, float t_near, float t_far) {
     rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
     rays.direction_x[i] = d.x, rays.direction_y[i] = d.y, rays.direction_z[i] = d.z;
-    rays.t_near[i] = t_near, rays.t_far[i] = t_far, rays.time[i] = 0, rays.mask[i] = UINT32_MAX;
+    rays.t_near[i] = t_near, rays.t_far[i] = t_far, rays.time[i] = 0, rays.mask[i] = kMaskSolid;
     rays.id[i] = rays.flags[i] = 0;
     rays.geometry[i] = rays.instance[i] = kMiss;
     valid[i] = -1;
@@ -43,11 +39,12 @@ struct Packet {
 
 // What a probe ray met.
 struct Met {
-  Vec3f point, normal, albedo;
+  Vec3f point, normal, albedo, emission;
   bool back, open;  //< seen from behind; foliage or glass, which has no inside
 };
 
-Met ResolveMet(const SurfaceTables& tables, const SurfaceRef& ref, Vec3f point, Vec3f direction) {
+Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3f direction) {
+  const SurfaceTables& tables = world.tables;
   const InstanceRecord& instance = tables.instances[ref.instance];
   const TriangleRecord& triangle = tables.triangles[instance.first_triangle + ref.triangle];
   const uint32_t material = triangle.material & ~kMirroredUv;
@@ -59,8 +56,14 @@ Met ResolveMet(const SurfaceTables& tables, const SurfaceRef& ref, Vec3f point, 
   if (back) normal = -normal;
   const auto kind = static_cast<SurfaceKind>(static_cast<int>(tables.materials[material].kind));
   const Vec3f tint{instance.tint[0], instance.tint[1], instance.tint[2]};
-  return {point, normal, Min(tables.mean_colors[material] * tint, Vec3f{0.9f, 0.9f, 0.9f}), back,
-          kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
+  // Emission, unless the grid of lamps brings it.
+  Vec3f emission = back ? Vec3f{} : tables.mean_emissions[material];
+  if (emission != Vec3f{} && world.lamps != nullptr) {
+    const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
+    if (lamp != LightTable::kNoLamp && world.lamps->Holds(lamp)) emission = {};
+  }
+  return {point,    normal, Min(tables.mean_colors[material] * tint, Vec3f{0.9f, 0.9f, 0.9f}),
+          emission, back,   kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
 }
 
 // Light of the sky on a surface in a street, half of it hidden; and of ground like that of the scene.
@@ -92,8 +95,10 @@ Box3f DetailBounds(const Scene& scene) {
   return {Max(box.min - margin, scene.bounds.min), Min(box.max + margin, scene.bounds.max)};
 }
 
-Seen LookAlong(const RayTracer& tracer, const SurfaceTables& tables, const Sky* sky,
-               std::span<const Vec3f> points, Vec3f direction) {
+Seen LookAlong(const ProbeLight& world, std::span<const Vec3f> points, Vec3f direction) {
+  const RayTracer& tracer = world.tracer;
+  const Sky* sky = world.sky;
+  const bool panes = tracer.has_clear_panes();
   Packet view;
   for (size_t i = 0; i < points.size(); ++i) view.Set(static_cast<int>(i), points[i], direction, 0, INFINITY);
   tracer.Intersect16(view.valid, view.rays, false);
@@ -109,7 +114,7 @@ Seen LookAlong(const RayTracer& tracer, const SurfaceTables& tables, const Sky* 
     if (seen.open[i]) continue;
     const SurfaceRef ref =
         tracer.Resolve(view.rays.geometry[i], view.rays.instance[i], view.rays.primitive[i]);
-    met[i] = ResolveMet(tables, ref, points[i] + direction * view.rays.t_far[i], direction);
+    met[i] = ResolveMet(world, ref, points[i] + direction * view.rays.t_far[i], direction);
     seen.behind[i] = met[i].back && !met[i].open;
     if (sky == nullptr || sky->to_sun().z < 0 || Dot(met[i].normal, sky->to_sun()) <= 0) continue;
     shadow.Set(static_cast<int>(i), met[i].point + met[i].normal * 0.01f, sky->to_sun(), 0, INFINITY);
@@ -117,19 +122,52 @@ Seen LookAlong(const RayTracer& tracer, const SurfaceTables& tables, const Sky* 
   }
   if (any_lit) tracer.Occluded16(shadow.valid, shadow.rays, occluded, false);
 
+  // Glass on the way of the sun.
+  std::array<Vec3f, 16> sun_tint, view_tint;
+  sun_tint.fill({1, 1, 1});
+  view_tint.fill({1, 1, 1});
+  if (panes && any_lit) {
+    for (int i = 0; i < 16; ++i) {
+      if (occluded[i]) shadow.valid[i] = 0;
+      if (shadow.valid[i] != 0) shadow.rays.t_far[i] = INFINITY;
+    }
+    DimByPanes(tracer, world.tables, shadow.valid, shadow.rays, sun_tint);
+  }
+
   const Vec3f interior = tracer.scene().interior_light;
   for (size_t i = 0; i < points.size(); ++i) {
     if (seen.open[i]) {
       seen.light[i] = sky ? sky->blurred(0).At(direction) : interior;
-    } else if (sky) {
-      const Vec3f reflectance = met[i].albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
-      seen.guess[i] = reflectance * AmbientGuess(*sky, met[i].normal);
-      if (shadow.valid[i] && !occluded[i]) {
-        seen.light[i] = reflectance * sky->sun_irradiance() * Dot(met[i].normal, sky->to_sun());
-      }
-    } else {
+      continue;
+    }
+    const Met& m = met[i];
+    const Vec3f reflectance = m.albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
+    Vec3f irradiance;
+    if (shadow.valid[i] && !occluded[i])
+      irradiance = sky->sun_irradiance() * sun_tint[i] *
+                   (Dot(m.normal, sky->to_sun()) * sky->CloudShadow(m.point));
+    if (world.lamps) irradiance += world.lamps->NearIrradiance(m.point, m.normal);
+    const bool known = world.earlier != nullptr && world.earlier->Covers(m.point);
+    if (known) irradiance += world.earlier->NearIrradiance(m.point, m.normal);
+    if (sky && world.earlier && !known) irradiance += AmbientGuess(*sky, m.normal);
+    seen.light[i] = m.emission + reflectance * irradiance;
+    if (sky && !world.earlier) seen.guess[i] = reflectance * AmbientGuess(*sky, m.normal);
+    if (!sky && interior != Vec3f{}) {
       const float t = view.rays.t_far[i];
-      seen.light[i] = interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+      const Vec3f glow = interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+      seen.light[i] = glow + (known ? m.emission : seen.light[i]);
+    }
+  }
+
+  // Glass on the way of the view.
+  if (panes) {
+    Packet through;
+    for (size_t i = 0; i < points.size(); ++i)
+      through.Set(static_cast<int>(i), points[i], direction, 0, view.rays.t_far[i]);
+    DimByPanes(tracer, world.tables, through.valid, through.rays, view_tint);
+    for (size_t i = 0; i < points.size(); ++i) {
+      seen.light[i] = seen.light[i] * view_tint[i];
+      seen.guess[i] = seen.guess[i] * view_tint[i];
     }
   }
   return seen;

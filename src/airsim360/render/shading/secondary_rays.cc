@@ -3,43 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/render/lights/clear_panes.h"
+#include "airsim360/render/shading/ray_queue.h"
+
 namespace airsim360::internal {
-namespace {
 
-// Offset of secondary rays: above the rounding errors of hit points.
-float OffsetAt(Vec3f p, float distance) {
-  return 1e-3f + 4e-6f * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) + distance);
+void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share) {
+  bool occluded[16] = {};
+  float reach[16];
+  std::copy(queue.rays.t_far, queue.rays.t_far + 16, reach);
+  queue.Close();
+  // Faster without COHERENT, and Embree 3.13 hung on coherent ones.
+  tracer.Occluded16(queue.valid, queue.rays, occluded, false);
+  for (int i = 0; i < queue.count; ++i) share[i] = occluded[i] ? 0.0f : 1.0f;
+  if (!tracer.has_clear_panes()) return;
+  for (int i = 0; i < queue.count; ++i) {
+    queue.valid[i] = occluded[i] ? 0 : -1;
+    queue.rays.t_far[i] = reach[i];
+  }
+  std::array<Vec3f, 16> tint;
+  tint.fill({1, 1, 1});
+  DimByPanes(tracer, tables, queue.valid, queue.rays, tint);
+  for (int i = 0; i < queue.count; ++i) share[i] *= (tint[i].x + tint[i].y + tint[i].z) / 3;
 }
-
-// Sixteen rays collected one by one, with the place where each answer goes.
-struct RayQueue {
-  RayHit16 rays{};
-  alignas(64) int valid[16] = {};
-  int lane[16] = {};
-  int count = 0;
-
-  void Add(Vec3f p, Vec3f d, int index, float reach = INFINITY) {
-    const int i = count++;
-    rays.origin_x[i] = p.x, rays.origin_y[i] = p.y, rays.origin_z[i] = p.z;
-    rays.direction_x[i] = d.x, rays.direction_y[i] = d.y, rays.direction_z[i] = d.z;
-    rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = UINT32_MAX;
-    lane[i] = index;
-  }
-  // Marks the lanes in use; the others repeat the last ray.
-  void Close() {
-    for (int i = 0; i < 16; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      if (i < count) continue;
-      rays.origin_x[i] = rays.origin_x[0], rays.origin_y[i] = rays.origin_y[0],
-      rays.origin_z[i] = rays.origin_z[0];
-      rays.direction_x[i] = rays.direction_x[0], rays.direction_y[i] = rays.direction_y[0],
-      rays.direction_z[i] = rays.direction_z[0];
-      rays.t_near[i] = 0, rays.t_far[i] = INFINITY, rays.mask[i] = UINT32_MAX;
-    }
-  }
-};
-
-}  // namespace
 
 void Pad(RaySet& set) {
   if (set.count == 0) return;
@@ -53,21 +39,19 @@ void Pad(RaySet& set) {
   }
 }
 
-void TraceSun(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
-  RayQueue queue;
+void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, SurfaceSet& s) {
+  RayQueue queue(kMaskSolid);
   const auto flush = [&] {
-    bool occluded[16] = {};
-    queue.Close();
-    tracer.Occluded16(queue.valid, queue.rays, occluded,
-                      false);  // faster so, and Embree 3.13 hung on coherent ones
-    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = occluded[i] ? 0.0f : 1.0f;
+    float share[16];
+    SeenShare(tracer, tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = share[i];
     queue.count = 0;
   };
   for (int i = 0; i < rays.count; ++i) {
     if (s.sunlit[i] == 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, l{s.lx[i], s.ly[i], s.lz[i]};
     const float side = Dot(g, l) < 0 ? -1.0f : 1.0f;
-    queue.Add(p + g * (side * OffsetAt(p, rays.distance[i])), l, i);
+    queue.Add(p + g * (side * RayOffset(p, rays.distance[i])), l, i);
     if (queue.count == 16) flush();
   }
   if (queue.count > 0) flush();
@@ -89,45 +73,102 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
   for (int i = 0; i < rays.count; ++i) {
     if (s.gz[i] < 0.7f || rays.distance[i] > kFarthest || s.kind[i] != 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-    queue.Add(p + g * OffsetAt(p, rays.distance[i]), {0.0123f, 0.0071f, 1}, i, kReach);
+    queue.Add(p + g * RayOffset(p, rays.distance[i]), {0.0123f, 0.0071f, 1}, i, kReach);
     if (queue.count == 16) flush();
   }
   if (queue.count > 0) flush();
 }
 
+void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
+                const LampRays& wanted, int count, SurfaceSet& s) {
+  RayQueue queue(kMaskSolid);
+  const LampRays::Ray* asked[16];
+  const auto learn = [&](int i, const LampRays::Ray& ray, float seen) {
+    const float more = (seen - ray.guess) * ray.share;
+    s.lamp_r[i] += ray.front[0] * more, s.lamp_g[i] += ray.front[1] * more,
+        s.lamp_b[i] += ray.front[2] * more;
+    s.lamp_back_r[i] += ray.back[0] * more, s.lamp_back_g[i] += ray.back[1] * more;
+    s.lamp_back_b[i] += ray.back[2] * more;
+    s.lamp_shine_r[i] += ray.shine[0] * more, s.lamp_shine_g[i] += ray.shine[1] * more;
+    s.lamp_shine_b[i] += ray.shine[2] * more;
+  };
+  const auto flush = [&] {
+    float share[16];
+    SeenShare(tracer, tables, queue, share);
+    for (int i = 0; i < queue.count; ++i) learn(queue.lane[i], *asked[i], share[i]);
+    queue.count = 0;
+  };
+  for (int k = 0; k < count; ++k) {
+    for (int i = 0; i < rays.count; ++i) {
+      const LampRays::Ray& ray = wanted.ray[k][i];
+      if (ray.share == 0) continue;
+      const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, d{ray.dx, ray.dy, ray.dz};
+      const float offset = RayOffset(p, rays.distance[i]);
+      if (ray.distance <= offset) {
+        learn(i, ray, 1);
+        continue;
+      }
+      asked[queue.count] = &ray;
+      queue.Add(p + g * (Dot(g, d) < 0 ? -offset : offset), d, i, ray.distance);
+      if (queue.count == 16) flush();
+    }
+  }
+  if (queue.count > 0) flush();
+}
+
+namespace {
+
+// Sorts what the rays of a queue met into hits and misses.
+void TakeHits(const RayTracer& tracer, const RaySet& from, RayQueue& queue, RaySet& hits, RaySet& misses) {
+  queue.Close();
+  tracer.Intersect16(queue.valid, queue.rays, false);
+  for (int k = 0; k < queue.count; ++k) {
+    const RayHit16& r = queue.rays;
+    const int source = queue.lane[k];
+    const bool miss = r.geometry[k] == kMiss;
+    RaySet& set = miss ? misses : hits;
+    const int i = set.count++;
+    set.ox[i] = r.origin_x[k], set.oy[i] = r.origin_y[k], set.oz[i] = r.origin_z[k];
+    set.dx[i] = r.direction_x[k], set.dy[i] = r.direction_y[k], set.dz[i] = r.direction_z[k];
+    set.slot[i] = static_cast<uint32_t>(source);
+    set.key[i] = 0;
+    if (miss) continue;
+    const SurfaceRef ref = tracer.Resolve(r.geometry[k], r.instance[k], r.primitive[k]);
+    set.distance[i] = r.t_far[k];
+    set.width[i] = from.width[source] * (1 + r.t_far[k] / std::max(from.distance[source], 0.01f));
+    set.u[i] = r.u[k], set.v[i] = r.v[k];
+    set.instance[i] = ref.instance, set.triangle[i] = ref.triangle;
+  }
+  queue.count = 0;
+}
+
+}  // namespace
+
 void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
                       RaySet& misses) {
   hits.count = misses.count = 0;
   RayQueue queue;
-  const auto flush = [&] {
-    queue.Close();
-    tracer.Intersect16(queue.valid, queue.rays, false);
-    for (int k = 0; k < queue.count; ++k) {
-      const RayHit16& r = queue.rays;
-      const int from = queue.lane[k];
-      const bool miss = r.geometry[k] == kMiss;
-      RaySet& set = miss ? misses : hits;
-      const int i = set.count++;
-      set.ox[i] = r.origin_x[k], set.oy[i] = r.origin_y[k], set.oz[i] = r.origin_z[k];
-      set.dx[i] = r.direction_x[k], set.dy[i] = r.direction_y[k], set.dz[i] = r.direction_z[k];
-      set.slot[i] = static_cast<uint32_t>(from);
-      set.key[i] = 0;
-      if (miss) continue;
-      const SurfaceRef ref = tracer.Resolve(r.geometry[k], r.instance[k], r.primitive[k]);
-      set.distance[i] = r.t_far[k];
-      set.width[i] = rays.width[from] * (1 + r.t_far[k] / std::max(rays.distance[from], 0.01f));
-      set.u[i] = r.u[k], set.v[i] = r.v[k];
-      set.instance[i] = ref.instance, set.triangle[i] = ref.triangle;
-    }
-    queue.count = 0;
-  };
   for (int i = 0; i < rays.count; ++i) {
     if (s.mirror[i] == 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-    queue.Add(p + g * OffsetAt(p, rays.distance[i]), {s.rx[i], s.ry[i], s.rz[i]}, i);
-    if (queue.count == 16) flush();
+    queue.Add(p + g * RayOffset(p, rays.distance[i]), {s.rx[i], s.ry[i], s.rz[i]}, i);
+    if (queue.count == 16) TakeHits(tracer, rays, queue, hits, misses);
   }
-  if (queue.count > 0) flush();
+  if (queue.count > 0) TakeHits(tracer, rays, queue, hits, misses);
+}
+
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+                RaySet& misses) {
+  constexpr float kGlass = 2;  // SurfaceKind
+  hits.count = misses.count = 0;
+  RayQueue queue;
+  for (int i = 0; i < rays.count; ++i) {
+    if (s.kind[i] != kGlass || s.transmission[i] <= 0) continue;
+    const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
+    queue.Add(p - g * RayOffset(p, rays.distance[i]), {rays.dx[i], rays.dy[i], rays.dz[i]}, i);
+    if (queue.count == 16) TakeHits(tracer, rays, queue, hits, misses);
+  }
+  if (queue.count > 0) TakeHits(tracer, rays, queue, hits, misses);
 }
 
 }  // namespace airsim360::internal

@@ -1,21 +1,32 @@
 // The rays that surfaces send: to the sun, upwards, along reflections. All trace sixteen at a time.
 #pragma once
 
+#include "airsim360/render/shading/ray_queue.h"
 #include "airsim360/render/shading/shading_data.h"
+#include "airsim360/render/shading/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
 
+/// Share of light that gets to each ray's origin: 0 behind something solid, less than 1 behind clear panes
+/// (their colour is averaged).
+void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share);
 /// Repeats the last ray of a set up to a full vector, so that kernels read sane values.
 void Pad(RaySet& set);
-/// Turns `sunlit` from "may matter" to "is seen".
-void TraceSun(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s);
+/// Turns `sunlit` from "may matter" to "is seen": 1, less behind clear panes.
+void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, SurfaceSet& s);
 /// Ground close under something (a car, a bench) gets less light than the probes, metres apart, can tell: one
 /// ray upwards sets `contact`.
 void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s);
+/// Traces the rays of LightByLamps and corrects lamp_* by what they find.
+void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
+                const LampRays& wanted, int count, SurfaceSet& s);
 /// Follows the reflections of panes, water and mirrors: what they meet, and those that meet nothing; `slot`
 /// is the index of the surface.
 void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
                       RaySet& misses);
+/// Follows the view through clear panes (glass with transmission), one each, to what stands behind.
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+                RaySet& misses);
 
 }  // namespace airsim360::internal

@@ -21,6 +21,7 @@ ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const S
   view.instances = tables.instances.data();
   view.materials = tables.materials.data();
   view.textures = tables.textures.data();
+  view.mean_colors = tables.mean_colors.empty() ? nullptr : &tables.mean_colors[0].x;
   view.macro_texture = 1;
   view.ground_z = scene.bounds.empty() ? 0.0f : scene.bounds.min.z;
   if (probes) view.probes = probes->view();
@@ -34,10 +35,9 @@ ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const S
   Put(view.to_sun, sky->to_sun());
   Put(view.sun_irradiance, sky->sun_irradiance());
   Put(view.sun_radiance, sky->sun_radiance());
-  Put(view.extinction, sky->extinction());
-  Put(view.horizon_mean, sky->horizon_mean());
-  Put(view.horizon_x, sky->horizon_x());
-  Put(view.horizon_y, sky->horizon_y());
+  view.air = sky->air();
+  view.cloud_shadow = sky->cloud_shadow().view();
+  if (sky->below().height > 0) view.sky_below = ViewOf(sky->below());
   Put(view.ground, sky->ground_radiance());
   for (int k = 0; k < 27; ++k) view.sky_irradiance[k] = sky->irradiance_sh()[k / 3][k % 3];
   return view;

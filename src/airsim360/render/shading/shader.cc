@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
-#include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
-#include "airsim360/render/shading/shading_kernels.h"
-#include "airsim360/render/shading/sky.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/shading/shader_impl.h"
 
 namespace airsim360 {
 namespace {
@@ -19,59 +15,51 @@ using internal::kBatch;
 using internal::LightSet;
 using internal::Pad;
 using internal::RaySet;
-using internal::ShadeView;
 using internal::SurfaceSet;
 static_assert(HitBatch::kCapacity == kBatch);
 
 constexpr float kPi = 3.14159265f;
 // Input of the tone curve for sunlit ground of reflectance 0.18.
 constexpr float kGreyLevel = 0.38f;
+// Irradiance to which pictures get brighter: a lit path, 1 lx.
+constexpr float kDarkest = internal::kLux;
 
-struct Kernels {
-  decltype(&internal::isa_sse42::PrepareSurfaces) prepare = AIRSIM360_SELECT_KERNEL(PrepareSurfaces);
-  decltype(&internal::isa_sse42::LightSurfaces) light = AIRSIM360_SELECT_KERNEL(LightSurfaces);
-  decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
-  decltype(&internal::isa_sse42::ToneMapRow) tone = AIRSIM360_SELECT_KERNEL(ToneMapRow);
-};
+float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 }  // namespace
 
-struct Shader::Impl {
-  Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
-      : tracer(std::move(t)), tables(tracer->scene()) {
-    const Scene& scene = tracer->scene();
-    if (scene.sky_entity != kNoEntity) sky.emplace(environment);
-    if (!scene.instances.empty())
-      probes.emplace(*tracer, tables, sky ? &*sky : nullptr, internal::LightProbes::Options{});
-    view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
-    exposure = ChooseExposure(scene);
+Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
+    : tracer(std::move(t)),
+      tables(tracer->scene(), environment.lamps_on()),
+      lights(tracer->scene(), tables, environment) {
+  const Scene& scene = tracer->scene();
+  if (scene.sky_entity != kNoEntity) sky.emplace(environment, scene.spawn.value_or(Vec3f{}));
+  lamps.emplace(*tracer, lights, Daylight());
+  if (!scene.instances.empty())
+    probes.emplace(internal::ProbeLight{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps},
+                   internal::LightProbes::Options{});
+  view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
+  view.lamps = lamps->view();
+  exposure = ChooseExposure(scene);
+}
+
+float Shader::Impl::Daylight() const {
+  if (!sky) return 0;
+  return sky->GroundIlluminance();
+}
+
+// Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
+// fast as the light. Where lamps bring more than the sky the eye is used to their light.
+float Shader::Impl::ChooseExposure(const Scene& scene) const {
+  const float of_lamps = lamps->TypicalLight();
+  if (!sky) {
+    const float light = Luminance(scene.interior_light) + of_lamps / kPi;
+    return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
   }
-
-  // Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
-  // fast as the light.
-  float ChooseExposure(const Scene& scene) const {
-    const auto luminance = [](Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
-    if (!sky) {
-      const float light = luminance(scene.interior_light);
-      return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
-    }
-    const float light =
-        luminance(sky->Irradiance({0, 0, 1}) + sky->sun_irradiance() * std::max(0.0f, sky->to_sun().z));
-    constexpr float kNoon = 14.0f;
-    return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, 1e-3f), 0.9f);
-  }
-
-  void ShadeReflections(const RaySet& rays, SurfaceSet& s) const;  // fills reflected_*, traced
-  void ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) const;
-
-  std::shared_ptr<const RayTracer> tracer;
-  internal::SurfaceTables tables;
-  std::optional<internal::Sky> sky;
-  std::optional<internal::LightProbes> probes;
-  ShadeView view{};
-  Kernels kernels;
-  float exposure = 1;
-};
+  const float light = std::max(Daylight(), of_lamps);
+  constexpr float kNoon = 14.0f;
+  return kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
+}
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
     : impl_(std::make_unique<Impl>(std::move(tracer), environment)) {}
@@ -82,47 +70,53 @@ void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
   impl_->tracer = std::move(tracer);
 }
 
-const internal::ShadeView& Shader::view() const { return impl_->view; }
-
 float Shader::Exposure() const { return impl_->exposure; }
 
-void Shader::Impl::ShadeReflections(const RaySet& rays, SurfaceSet& s) const {
+void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s) const {
   RaySet hits, misses;
-  internal::TraceReflections(*tracer, rays, s, hits, misses);
-  const auto put = [&](const RaySet& set, const LightSet& light) {
-    for (int i = 0; i < set.count; ++i) {
-      const uint32_t slot = set.slot[i];
-      s.reflected_r[slot] = light.r[i], s.reflected_g[slot] = light.g[i], s.reflected_b[slot] = light.b[i];
-      s.traced[slot] = 1;
-    }
-  };
   LightSet light;
-  if (hits.count > 0) {
-    ShadeSurfaces(hits, 1, light);
-    put(hits, light);
-  }
-  if (misses.count > 0) {
+  // Radiance of the rays just traced, handed to `put` with the surface that sent each.
+  const auto shade = [&](auto put) {
+    if (hits.count > 0) ShadeSurfaces(hits, 1, light);
+    for (int i = 0; i < hits.count; ++i) put(hits.slot[i], light.r[i], light.g[i], light.b[i]);
     Pad(misses);
-    kernels.sky(view, misses, false, light);
-    put(misses, light);
-  }
+    if (misses.count > 0) kernels.sky(view, misses, false, light);
+    for (int i = 0; i < misses.count; ++i) put(misses.slot[i], light.r[i], light.g[i], light.b[i]);
+  };
+  internal::TraceReflections(*tracer, rays, s, hits, misses);
+  shade([&](uint32_t slot, float r, float g, float b) {
+    s.reflected_r[slot] = r, s.reflected_g[slot] = g, s.reflected_b[slot] = b;
+    s.traced[slot] = 1;
+  });
+  internal::TraceClear(*tracer, rays, s, hits, misses);
+  shade([&](uint32_t slot, float r, float g, float b) {
+    s.behind_r[slot] = r, s.behind_g[slot] = g, s.behind_b[slot] = b;
+    s.clear[slot] = 1;
+  });
+}
+
+void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) const {
+  if (view.lamps.lamps == nullptr) return;
+  internal::LampRays wanted;
+  kernels.lamps(view, rays, count, false, s, wanted);
+  internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
 }
 
 void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) const {
   SurfaceSet surfaces;
-  Pad(rays);
+  Pad(rays);  // sets that come from tracing are not yet
   kernels.prepare(view, rays, surfaces);
-  if (sky) internal::TraceSun(*tracer, rays, surfaces);
+  if (sky) internal::TraceSun(*tracer, tables, rays, surfaces);
+  // What is seen in a mirror does without rays to lamps.
+  LightByLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
-    ShadeReflections(rays, surfaces);
+    FollowRays(rays, surfaces);
   }
   kernels.light(view, rays, surfaces, light);
 }
 
-void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
-  // Surfaces and sky apart.
-  RaySet surfaces, sky;
+void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
   surfaces.count = sky.count = 0;
   for (int k = 0; k < hits.count; ++k) {
     const bool miss = hits.instance[k] == kMiss;
@@ -137,7 +131,13 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
     set.u[i] = hits.u[k], set.v[i] = hits.v[k];
     set.instance[i] = hits.instance[k], set.triangle[i] = hits.triangle[k];
   }
+  Pad(surfaces);
+  Pad(sky);
+}
 
+void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
+  RaySet surfaces, sky;
+  internal::SplitHits(hits, surfaces, sky);
   const auto put = [&](const RaySet& set, const LightSet& light) {
     for (int i = 0; i < set.count; ++i) {
       const uint32_t slot = set.slot[i];
@@ -145,13 +145,16 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
     }
   };
   LightSet light;
+  const internal::ShadeView& view = impl_->view;
+  const bool falling = view.air.rain + view.air.snow > 0;
   if (surfaces.count > 0) {
     impl_->ShadeSurfaces(surfaces, 0, light);
+    if (falling) impl_->kernels.precipitation(view, surfaces, false, hits.cone_angle, light);
     put(surfaces, light);
   }
   if (sky.count > 0) {
-    Pad(sky);
-    impl_->kernels.sky(impl_->view, sky, true, light);
+    impl_->kernels.sky(view, sky, true, light);
+    if (falling) impl_->kernels.precipitation(view, sky, true, hits.cone_angle, light);
     put(sky, light);
   }
 }

@@ -29,10 +29,6 @@ struct alignas(64) RadianceBatch {
   float r[HitBatch::kCapacity], g[HitBatch::kCapacity], b[HitBatch::kCapacity];
 };
 
-namespace internal {
-struct ShadeView;
-}
-
 /// Immutable but for Apply; Shade may run concurrently and does not depend on the order of hits in a
 /// batch.
 class Shader {
@@ -43,9 +39,6 @@ class Shader {
   /// Follows what moves, between frames: `tracer` is the one of construction or one that a DynamicTracer made
   /// of it. Light probes and lamps stay as built.
   void Apply(std::shared_ptr<const RayTracer> tracer);
-  /// The tables that the kernels read; valid as long as the shader.
-  const internal::ShadeView& view() const;
-
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
@@ -54,8 +47,11 @@ class Shader {
   void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev,
                Rgb8* out) const;
 
- private:
   struct Impl;
+  /// For the other tiers: shader_impl.h.
+  const Impl& impl() const { return *impl_; }
+
+ private:
   std::unique_ptr<Impl> impl_;
 };
 

@@ -22,7 +22,8 @@ struct alignas(64) ColorLanes {
 KERNEL ufloat3 Uniform(const float* p) { return {p[0], p[1], p[2]}; }
 
 /// Bilinear look-up of a sky table; `full_sphere` as in SkyTable.
-static __attribute__((noinline)) real3 SampleSky(const SkyTableView& table, real3 d, bool full_sphere) {
+static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& table, real3 d,
+                                                         bool full_sphere) {
   real column = atan2_approx(d.y, d.x) * (table.width / (2.0f * SHADE_PI)) - 0.5f;
   column = sel(column < 0.0f, column + table.width, column);
   real e = asin_approx(rmin(rmax(d.z, real(-1.0f)), real(1.0f))) * (2.0f / SHADE_PI);
@@ -50,6 +51,27 @@ static __attribute__((noinline)) real3 SampleSky(const SkyTableView& table, real
     colors.Set(i, lower + (upper - lower) * fy[i]);
   }
   return colors.Get();
+}
+
+/// Share of the sun's light that clouds leave at p; CloudShadowMap::At for lanes.
+KERNEL real CloudShadow(const CloudShadowView& map, real3 p) {
+  if (map.texels == nullptr) return real(1.0f);
+  const auto size = static_cast<float>(map.size);
+  const real above = p.z - map.plane_z;
+  const real x = shadow_column(p.x, above, map.slant_x, map.origin_x, map.cells_per_metre, size);
+  const real y = shadow_column(p.y, above, map.slant_y, map.origin_y, map.cells_per_metre, size);
+  const real x0 = rfloor(x), y0 = rfloor(y);
+  alignas(64) int32_t index[kLanes];
+  (to_int(y0) * map.size + to_int(x0)).copy_to(index, stdx::vector_aligned);
+  alignas(64) float t[4][kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    const float* q = map.texels + index[i];
+    t[0][i] = q[0], t[1][i] = q[1], t[2][i] = q[map.size], t[3][i] = q[map.size + 1];
+  }
+  const real fx = x - x0, fy = y - y0;
+  const real low = load(t[0]) + (load(t[1]) - load(t[0])) * fx,
+             high = load(t[2]) + (load(t[3]) - load(t[2])) * fx;
+  return low + (high - low) * fy;
 }
 
 /// Sky, and ground below the horizon, blurred as by a surface of this roughness.
@@ -88,8 +110,8 @@ KERNEL Ambient UniformAmbient(const ShadeView& view, real3 n, real3 r) {
   return {sky(n), sky(-n), sky(r)};
 }
 
-static __attribute__((noinline)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g, real3 n,
-                                                      real3 r) {
+static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g,
+                                                              real3 n, real3 r) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, r);
 

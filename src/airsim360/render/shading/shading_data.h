@@ -44,6 +44,7 @@ struct alignas(64) MaterialRecord {
   float transmission, macro_variation, normal_scale;
   float kind;                                                                 ///< SurfaceKind as a number
   int32_t base_texture, roughness_texture, normal_texture, emission_texture;  ///< index; 0 = plain white
+  float clear_coat, clear_coat_roughness;
 };
 
 /// One level of a mip chain.
@@ -79,6 +80,57 @@ struct ProbeView {
   float height_origin, height_scale, height_last;
 };
 
+/// A small lamp, or several close together, as fast shading sees it. It sends `color` times
+/// max(0, body + facing . w) (candela per unit of radiance) into direction w.
+struct alignas(64) LampRecord {
+  float center[3];
+  float radius;     ///< about the centre, m
+  float facing[3];  ///< m^2
+  float body;       ///< m^2
+  float color[3];   ///< radiance
+  float soft;       ///< m^2 added to squared distances: a disc of that area over pi is then exact on its axis
+  float reach;      ///< m; beyond it the lamp is left out, from 3/4 of it on it fades
+};
+
+/// The strongest lamps of one cell of space: one cache line.
+struct alignas(64) LampCell {
+  static constexpr int kLamps = 15;
+  uint32_t header;  ///< number of lamps; from bit 8 on, which of the eight corners are not inside solids
+  uint32_t
+      lamp[kLamps];  ///< index; from bit 24 on, the corners that see it (bit 0 x, 1 y, 2 z of the corner)
+};
+
+/// Lamps near every place; see lights/lamp_grid.h.
+struct LampView {
+  const LampRecord* lamps;  ///< nullptr = none shines
+  const LampCell* cells;
+  const uint32_t* cell_of;  ///< by place, x fastest; 0 is a cell without lamps
+  float origin_x, origin_y, origin_z, cells_per_metre;
+  int32_t nx, ny, nz;
+};
+
+/// The air over a scene; see shading_air.h. Extinctions are in 1 / m at height `base_z`.
+struct AirView {
+  float rayleigh[3], aerosol[3], weather;  ///< weather: fog, rain and snow, grey
+  float rayleigh_height, aerosol_height, weather_height, base_z;
+  float horizon[5][3];  ///< light of much clear air, as around_horizon, without the glow about the sun
+  float glow[3];        ///< times forward_phase of kAirAsymmetry: what the glow adds to 1
+  float weather_light[3], weather_glow[3];  ///< the same of much fog; the glow is added
+  float to_sun[3];
+  float rain, snow;     ///< drops and flakes in the air, mm/h
+  float drop_light[3];  ///< radiance of a drop or flake
+};
+inline constexpr float kAirAsymmetry = 0.76f, kFogAsymmetry = 0.80f;
+/// Length of a way through the whole air.
+inline constexpr float kFarAir = 2e5f;
+
+/// See CloudShadowMap.
+struct CloudShadowView {
+  const float* texels;  ///< nullptr = no shadows
+  int32_t size;
+  float slant_x, slant_y, origin_x, origin_y, cells_per_metre, plane_z;
+};
+
 /// The constant part of a scene for the kernels.
 struct ShadeView {
   const TriangleRecord* triangles;
@@ -90,11 +142,15 @@ struct ShadeView {
   SkyTableView sky, blurred[3];
   ProbeView probes;
   float to_sun[3], sun_irradiance[3], sun_radiance[3];
-  float extinction[3], horizon_mean[3], horizon_x[3], horizon_y[3];
   float ground[3];  ///< radiance of the far ground below the horizon
   float ground_z;   ///< where it lies
   float sky_irradiance[27];
-  float mean_ambient[3];  ///< radiance where there are no probes
+  float mean_ambient[3];     ///< radiance where there are no probes
+  const float* mean_colors;  ///< of a material: base colour with the mean of its texture, r g b
+  LampView lamps;
+  AirView air;
+  CloudShadowView cloud_shadow;
+  SkyTableView sky_below;  ///< Sky::below; texels nullptr = far ground
 };
 
 inline constexpr int kBatch = 256;
@@ -125,6 +181,50 @@ struct alignas(64) SurfaceSet {
   float contact[kBatch];                     ///< share of ambient light that things close above leave
   float traced[kBatch];  ///< 1 if reflected_* is the radiance along the reflected direction
   float reflected_r[kBatch], reflected_g[kBatch], reflected_b[kBatch];
+  float coat[kBatch], coat_roughness[kBatch];  ///< clear coat: share, roughness
+  float clear[kBatch];                         ///< 1 if behind_* is the radiance behind a clear pane
+  float behind_r[kBatch], behind_g[kBatch], behind_b[kBatch];
+  // Only where ShadeView::lamps has some: irradiance of lamps on the front and on the back, and what the skin
+  // reflects of them (radiance).
+  float lamp_r[kBatch], lamp_g[kBatch], lamp_b[kBatch];
+  float lamp_back_r[kBatch], lamp_back_g[kBatch], lamp_back_b[kBatch];
+  float lamp_shine_r[kBatch], lamp_shine_g[kBatch], lamp_shine_b[kBatch];
+};
+
+/// Rays from surfaces to their strongest lamps, and what each decides.
+struct alignas(64) LampRays {
+  static constexpr int kMost = 4;
+  struct Ray {
+    float dx, dy, dz;                   ///< unit
+    float distance;                     ///< to the near side of the lamp; <= 0: inside it
+    float share;                        ///< how far the ray replaces what the cell's corners saw; 0 = no ray
+    float guess;                        ///< share of corners that see the lamp
+    float front[3], back[3], shine[3];  ///< what it brings where it is seen
+  };
+  Ray ray[kMost][kBatch];
+};
+
+/// Radiance in the order of a RaySet, while light that needs neighbours to be known well is not known yet:
+/// ambient * (irradiance around) + sun * (share of the sun's disc seen) + rest. Haze is in all of them.
+struct alignas(64) LightTerms {
+  float ambient_r[kBatch], ambient_g[kBatch], ambient_b[kBatch];
+  float sun_r[kBatch], sun_g[kBatch], sun_b[kBatch];
+  float rest_r[kBatch], rest_g[kBatch], rest_b[kBatch];
+};
+
+/// What sixteen ambient rays met.
+struct alignas(64) AmbientHits {
+  uint32_t instance[16], triangle[16];       ///< kMiss = sky
+  float lamp_r[16], lamp_g[16], lamp_b[16];  ///< irradiance by the lamps of ShadeView::lamps
+  float shines[16];  ///< 1, or 0 where the surface is one of those lamps and so is accounted for already
+};
+
+/// Heights along the sun's direction of the first surface that the sun meets, on a square lattice.
+struct SunMapView {
+  const float* heights;  ///< nullptr = no sun; [row * size + column]
+  int32_t size;
+  float column[4], row[4], height[4];  ///< of p: x p.x + y p.y + z p.z + w; columns and rows in texels
+  float bias;                          ///< metres
 };
 
 /// Radiance in the order of a RaySet.

@@ -13,6 +13,7 @@
 #define rfloor floor
 #define rabs abs
 #define dot3 dot
+#define any_lane(m) (m)
 float sel(bool m, float a, float b) { return m ? a : b; }
 vec3 sel3(bool m, vec3 a, vec3 b) { return m ? a : b; }
 float rsqrt_exact(float a) { return 1.0 / sqrt(a); }

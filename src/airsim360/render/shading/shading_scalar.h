@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "airsim360/math/vector.h"
+#include "airsim360/render/shading/shading_data.h"
 
 namespace airsim360::internal::scalar {
 
@@ -31,8 +32,13 @@ SHARED real exponent_of(real a) { return static_cast<float>((std::bit_cast<int32
 SHARED real mantissa_of(real a) {
   return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
 }
+SHARED bool any_lane(mask_t m) { return m; }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shading/shading_shared.h"
+//
+#include "airsim360/render/shading/shading_bsdf.h"
+#include "airsim360/render/shading/shading_air.h"
+#include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT
 

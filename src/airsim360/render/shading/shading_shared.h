@@ -3,7 +3,7 @@
 // pasted into a shader after shading_glsl.h; no include guard, no types of its own. The one who includes it
 // provides
 //   real real3 (per lane), ufloat ufloat3 (same for all lanes), mask_t, SHARED, INOUT, sel sel3 make3 rmin
-//   rmax rroot rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3.
+//   rmax rroot rsqrt_exact rfloor rabs pow2_int exponent_of mantissa_of dot3 any_lane.
 // Only + - * / sqrt floor and bit moves are used, so every compiler and lane width gives the same bits
 // (without contraction). Directions are unit vectors pointing away from the surface; cosines are clamped by
 // the caller.
@@ -207,6 +207,20 @@ SHARED real3 sh9_irradiance(ufloat3 c0, ufloat3 c1, ufloat3 c2, ufloat3 c3, uflo
 SHARED real3 transmittance(ufloat3 beta, real distance) {
   return make3(exp_approx(0.0f - beta.x * distance), exp_approx(0.0f - beta.y * distance),
                exp_approx(0.0f - beta.z * distance));
+}
+
+// ---- lamps
+// ------------------------------------------------------------------------------------------------------
+
+// Part of a lamp's light that still counts at `distance`: all of it up to 3/4 of its reach.
+SHARED real lamp_fade(real distance, real reach) { return smooth01(clamp01(4.0f - 4.0f * distance / reach)); }
+
+// Irradiance on a surface that faces a lamp, per unit of its radiance: projected area over squared distance.
+// `towards` is facing . w for the direction w from the lamp.
+SHARED real lamp_irradiance(real body, real towards, real soft, real radius, real distance, real reach) {
+  real near_side = 0.5f * radius;
+  real d2 = rmax(distance * distance, near_side * near_side) + soft;
+  return rmax(body + towards, real(0.0f)) * lamp_fade(distance, reach) / rmax(d2, real(1e-8f));
 }
 
 // ---- geometry

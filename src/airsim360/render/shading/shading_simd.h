@@ -13,6 +13,8 @@
 
 #include <cstdint>
 
+#include "airsim360/render/shading/shading_data.h"
+
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace stdx = std::experimental;
 
@@ -50,6 +52,7 @@ SHARED real sel(mask_t m, real a, real b) {
 SHARED real3 sel3(mask_t m, real3 a, real3 b) {
   return {sel(m, a.x, b.x), sel(m, a.y, b.y), sel(m, a.z, b.z)};
 }
+SHARED bool any_lane(mask_t m) { return stdx::any_of(m); }
 SHARED real3 make3(real x, real y, real z) { return {x, y, z}; }
 SHARED real rmin(real a, real b) { return sel(b < a, b, a); }
 SHARED real rmax(real a, real b) { return sel(a < b, b, a); }
@@ -76,6 +79,10 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
   store(z, a.z);
 }
 #include "airsim360/render/shading/shading_shared.h"
+//
+#include "airsim360/render/shading/shading_bsdf.h"
+#include "airsim360/render/shading/shading_air.h"
+#include "airsim360/render/shading/shading_air_view.h"
 #undef SHARED
 #undef INOUT
 

@@ -2,75 +2,152 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/shading/atmosphere.h"
 #include "airsim360/render/shading/clouds.h"
 #include "airsim360/render/shading/noise.h"
 #include "airsim360/render/shading/shading_scalar.h"
-#include "airsim360/render/shading/sky_table.h"
+#include "airsim360/render/shading/sky_layers.h"
+#include "airsim360/render/shading/sky_picture.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kPi = 3.14159265f;
 constexpr float kSunSolidAngle = 6.72e-5f;  // disc of 0.53 degrees
+constexpr float kSunRadius = 0.004625f;
+
+float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+Vec3f FromCompass(double azimuth_deg, double elevation_deg) {
+  const double azimuth = azimuth_deg * (M_PI / 180), elevation = elevation_deg * (M_PI / 180);
+  return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
+          static_cast<float>(std::cos(azimuth) * std::cos(elevation)), static_cast<float>(std::sin(elevation))};
+}
+
+// Irradiance of level ground by an upper-hemisphere table.
+Vec3f LevelIrradiance(const SkyTable& table) {
+  Vec3f sum{};
+  for (int y = 0; y < table.height; ++y) {
+    const float weight = RowSolidAngle(table, y) * std::sin(table.ElevationOfRow(y));
+    for (int x = 0; x < table.width; ++x) sum += table.Texel(x, y) * weight;
+  }
+  return sum;
+}
+
+// What shines by night beside the sun's afterglow.
+struct Moon {
+  Vec3f direction;
+  float share = 0;  // of the sun's light; 0 = not up, or lost in daylight
+};
+
+Moon MoonOf(const Environment& environment) {
+  constexpr double kDaylight = 5, kSet = -1;  // degrees
+  Moon moon{FromCompass(environment.moon_azimuth_deg, environment.moon_elevation_deg)};
+  if (environment.sun_elevation_deg < kDaylight && environment.moon_elevation_deg > kSet)
+    moon.share = MoonShare(environment.moon_phase);
+  return moon;
+}
 
 }  // namespace
 
-Sky::Sky(const Environment& environment) {
-  const double azimuth = environment.sun_azimuth_deg * (kPi / 180.0),
-               elevation = environment.sun_elevation_deg * (kPi / 180.0);
-  to_sun_ = {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
-             static_cast<float>(std::cos(azimuth) * std::cos(elevation)),
-             static_cast<float>(std::sin(elevation))};
-  BakeTable(environment);
+Sky::Sky(const Environment& environment, Vec3f place) : place_(place), sun_radius_(kSunRadius) {
+  if (environment.hdri) {
+    BakePicture(environment);
+  } else {
+    BakeSky(environment);
+  }
   BakeIrradiance();
-  BakeHorizon();
+  BakeAir(environment);
+  if (air_.weather > 0) BakeIrradiance();
   BakeBlurred();
+  BakeSampler();
 }
 
 Vec3f Sky::sun_radiance() const { return sun_irradiance_ * (1 / kSunSolidAngle); }
 
-void Sky::BakeTable(const Environment& environment) {
-  const Atmosphere atmosphere(to_sun_, environment.turbidity);
-  sun_irradiance_ = atmosphere.SunIrradiance();
-  extinction_ = atmosphere.GroundExtinction();
+SunLight Sky::sun() const { return {to_sun_, sun_radius_, sun_radiance(), sun_irradiance_}; }
+
+SkySample Sky::Sample(Vec2f u) const {
+  const Vec3f d = sampler_.Direction(u);
+  return {d, Radiance(d), sampler_.Pdf(d)};
+}
+
+void Sky::BakeSampler() {
+  sampler_ = SkySampler([this](Vec3f d) { return Luminance(Radiance(d)); });
+}
+
+void Sky::BakeSky(const Environment& environment) {
+  const Vec3f sun = FromCompass(environment.sun_azimuth_deg, environment.sun_elevation_deg);
+  const Moon moon = MoonOf(environment);
+  const Atmosphere atmosphere(sun, environment.turbidity), moonlit = atmosphere.WithSun(moon.direction);
+
+  // The brighter of both throws the shadows.
+  const bool by_moon = Luminance(atmosphere.SunIrradiance()) < moon.share * Luminance(moonlit.SunIrradiance());
+  to_sun_ = by_moon ? moon.direction : sun;
+  const auto light_at = [&](float height) {
+    return by_moon ? moonlit.SunIrradiance(height) * moon.share : atmosphere.SunIrradiance(height);
+  };
+  sun_irradiance_ = light_at(60);
 
   // Clear sky first, coarse: it is smooth.
   SkyTable clear = MakeTable(256, 96, false);
-  ParallelFor(clear.height, [&](int64_t y) {
-    for (int x = 0; x < clear.width; ++x)
-      clear.SetTexel(x, static_cast<int>(y),
-                     atmosphere.Radiance(DirectionOfTexel(clear, x, static_cast<int>(y))));
+  ParallelFor(clear.height, [&](int64_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < clear.width; ++x) {
+      const Vec3f d = DirectionOfTexel(clear, x, y);
+      Vec3f light = atmosphere.Radiance(d) + NightGlow(d, environment.lamps_on());
+      if (moon.share > 0) light += moonlit.Radiance(d) * moon.share;
+      clear.SetTexel(x, y, light);
+    }
   });
-  Vec3f ambient{};
-  for (int y = 0; y < clear.height; ++y) {
-    for (int x = 0; x < clear.width; ++x)
-      ambient += clear.Texel(x, y) * (RowSolidAngle(clear, y) * std::sin(clear.ElevationOfRow(y)) / kPi);
-  }
 
-  // Then clouds before it.
-  const Clouds clouds(environment.cloud_cover, {to_sun_, sun_irradiance_, ambient});
+  // Then clouds before it, and stars behind them.
+  const Vec3f level = LevelIrradiance(clear);
+  const Clouds clouds(environment.cloud_cover, environment.cirrus_cover,
+                      {to_sun_, light_at(2000), light_at(8000), level * (1 / kPi)});
+  const float open = Luminance(level + sun_irradiance_ * std::max(0.0f, to_sun_.z));
+  const CloudDeck deck(environment.cloud_cover, OvercastIlluminance(sun.z, open));
   table_ = MakeTable(2048, 512, false);
+  if (sun.z < 0) AddStars(table_);
   ParallelFor(table_.height, [&](int64_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < table_.width; ++x) {
-      const Vec3f d = DirectionOfTexel(table_, x, y);
+      const Vec3f d = DirectionOfTexel(table_, x, y), behind = clear.At(d) + table_.Texel(x, y);
       const Vec3f haze = clear.At(Normalized(Vec3f{d.x, d.y, std::max(d.z, 0.02f)}));
-      table_.SetTexel(x, y, clouds.Over(d, clear.At(d), haze, HashUnit(x, y, 5)));
+      table_.SetTexel(x, y, deck.closed() ? deck.Over(d, behind)
+                                          : deck.Over(d, clouds.Over(d, behind, haze, HashUnit(x, y, 5))));
     }
   });
+  sun_irradiance_ *= deck.SunLeft();
+  if (environment.cloud_cover > 0 && Luminance(sun_irradiance_) > 0) {
+    cloud_shadow_ = CloudShadowMap(place_, to_sun_, [&](float x, float y) { return clouds.SunAt(x, y); });
+  }
+}
+
+void Sky::BakePicture(const Environment& environment) {
+  SplitPicture split = SplitSkyPicture(environment);
+  table_ = std::move(split.above);
+  below_ = std::move(split.below);
+  // Without a sun its direction does not matter; its irradiance is zero.
+  const bool found = Luminance(split.sun.irradiance) > 0;
+  to_sun_ = found ? split.sun.direction : Vec3f{0, 0, 1};
+  sun_irradiance_ = split.sun.irradiance;
 }
 
 // Projects irradiance, not radiance: E_lm = A_l L_lm with A = pi, 2 pi / 3, pi / 4.
 void Sky::BakeIrradiance() {
+  sh_ = {};
   std::array<Vec3d, 9> sum{};
   for (int y = 0; y < table_.height; ++y) {
     const double weight = RowSolidAngle(table_, y);
     for (int x = 0; x < table_.width; ++x) {
-      const Vec3d d = VecCast<double>(DirectionOfTexel(table_, x, y)),
-                  light = VecCast<double>(table_.Texel(x, y)) * weight;
+      const Vec3f direction = DirectionOfTexel(table_, x, y);
+      Vec3f seen = table_.Texel(x, y);
+      if (air_.weather > 0) seen = ThroughAir(place_, direction, INFINITY, seen);
+      const Vec3d d = VecCast<double>(direction), light = VecCast<double>(seen) * weight;
       const double basis[9] = {
           1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
       for (int k = 0; k < 9; ++k) sum[k] += light * basis[k];
@@ -84,7 +161,8 @@ void Sky::BakeIrradiance() {
     const double lobe = k == 0 ? M_PI : k < 4 ? 2 * M_PI / 3 : M_PI / 4;
     sh_[k] = VecCast<float>(sum[k] * (scale[k] * lobe));
   }
-  const Vec3f up = Irradiance({0, 0, 1}) + sun_irradiance_ * std::max(0.0f, to_sun_.z);
+  const Vec3f up =
+      Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
   ground_radiance_ = up * Vec3f{0.21f, 0.20f, 0.17f} * (1 / kPi);
 }
 
@@ -94,26 +172,16 @@ Vec3f Sky::Irradiance(Vec3f n) const {
   return Max(e, Vec3f{});
 }
 
-// Mean and first harmonic in azimuth of a band low over the horizon.
-void Sky::BakeHorizon() {
-  constexpr int kAround = 64, kUp = 6;
-  for (int k = 0; k < kAround * kUp; ++k) {
-    const float azimuth = (static_cast<float>(k % kAround) + 0.5f) * 2 * kPi / kAround;
-    const Vec3f d = DirectionOf(azimuth, 0.01f + 0.012f * static_cast<float>(k / kAround));
-    const Vec3f c = table_.At(d) * (1.0f / (kAround * kUp));
-    horizon_mean_ += c;
-    horizon_x_ += c * (2 * std::cos(azimuth));
-    horizon_y_ += c * (2 * std::sin(azimuth));
-  }
+float Sky::GroundIlluminance() const {
+  return Luminance(Irradiance({0, 0, 1}) + sun_irradiance_ * std::max(0.0f, to_sun_.z));
 }
 
 Vec3f Sky::Radiance(Vec3f d) const {
-  if (d.z >= 0) return table_.At(d);
+  if (d.z >= 0) return ThroughAir(place_, d, INFINITY, table_.At(d));
+  if (below_.height > 0) return ThroughAir(place_, d, INFINITY, below_.At({d.x, d.y, -d.z}));
   // Ground 30 m below, seen through the air.
-  const float distance = 30.0f / std::max(-d.z, 1e-4f);
-  const Vec3f kept = scalar::transmittance(extinction_, distance);
-  const Vec3f horizon = table_.At({d.x, d.y, 0});
-  return ground_radiance_ * kept + horizon * (Vec3f{1, 1, 1} - kept);
+  const Vec3f eye = place_ + Vec3f{0, 0, 30};
+  return ThroughAir(eye, d, 30.0f / std::max(-d.z, 1e-4f), ground_radiance_);
 }
 
 }  // namespace airsim360::internal

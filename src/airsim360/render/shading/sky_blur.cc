@@ -12,18 +12,18 @@ namespace {
 constexpr float kPi = 3.14159265f;
 
 // One direction of a coarse sky with its radiance and solid angle.
-struct SkySample {
+struct CoarseSample {
   Vec3f direction, radiance;
   float solid_angle;
 };
 
-std::vector<SkySample> CoarseSky(const Sky& sky, int width, int height) {
+std::vector<CoarseSample> CoarseSky(const Sky& sky, int width, int height) {
   const SkyTable grid{width, height, true, {}};
-  std::vector<SkySample> samples(static_cast<size_t>(width) * height);
+  std::vector<CoarseSample> samples(static_cast<size_t>(width) * height);
   ParallelFor(height, [&](int64_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
-      SkySample& sample = samples[static_cast<size_t>(y) * width + x];
+      CoarseSample& sample = samples[static_cast<size_t>(y) * width + x];
       sample = {DirectionOfTexel(grid, x, y), {}, std::max(RowSolidAngle(grid, y), 1e-7f)};
       for (int k = 0; k < 16; ++k) {
         const float azimuth = (static_cast<float>(x) + (static_cast<float>(k % 4) + 0.5f) / 4) * 2 * kPi /
@@ -39,11 +39,11 @@ std::vector<SkySample> CoarseSky(const Sky& sky, int width, int height) {
 }
 
 // Mean of the sky over a cosine-power lobe about d.
-Vec3f LobeMean(const std::vector<SkySample>& sky, Vec3f d, float exponent) {
+Vec3f LobeMean(const std::vector<CoarseSample>& sky, Vec3f d, float exponent) {
   Vec3f sum{};
   float total = 0;
   const float least = std::exp2(-12.0f / exponent);  // the rest of the lobe is below 2^-12 of its peak
-  for (const SkySample& sample : sky) {
+  for (const CoarseSample& sample : sky) {
     const float mu = Dot(sample.direction, d);
     if (mu < least) continue;
     const float weight = scalar::pow_approx(mu, exponent) * sample.solid_angle;
@@ -60,7 +60,7 @@ Vec3f LobeMean(const std::vector<SkySample>& sky, Vec3f d, float exponent) {
 void Sky::BakeBlurred() {
   for (int level = 0; level < kBlurLevels; ++level) {
     const int width = level == 0 ? 128 : 64, height = width / 2 + 1;
-    const std::vector<SkySample> source = CoarseSky(*this, width, height);
+    const std::vector<CoarseSample> source = CoarseSky(*this, width, height);
     const float alpha = kBlurRoughness[level] * kBlurRoughness[level];
     const float exponent = std::max(1.0f, (2 / (alpha * alpha) - 2) * 0.25f);
     SkyTable& table = blurred_[level] = MakeTable(width, height, true);

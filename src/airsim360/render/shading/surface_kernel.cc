@@ -15,7 +15,7 @@ struct alignas(64) Fetched {
       emission_id[kLanes], macro_id[kLanes];
   alignas(64) Lanes uv[6], texels_log2, mirrored, pane, area;
   alignas(64) Lanes matrix[9], color[3], emission[3];
-  alignas(64) Lanes metallic, roughness, transmission, macro, normal_scale, kind;
+  alignas(64) Lanes metallic, roughness, transmission, macro, normal_scale, kind, coat, coat_roughness;
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base;
 };
 
@@ -52,6 +52,8 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
     f.macro[i] = material.macro_variation;
     f.normal_scale[i] = material.normal_scale;
     f.kind[i] = material.kind;
+    f.coat[i] = material.clear_coat;
+    f.coat_roughness[i] = material.clear_coat_roughness;
     f.base_id[i] = material.base_texture;
     f.roughness_id[i] = material.roughness_texture;
     f.normal_id[i] = material.normal_texture;
@@ -225,10 +227,12 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store3(out.nx + i, out.ny + i, out.nz + i, n);
   store3(out.gx + i, out.gy + i, out.gz + i, facing);
   store3(out.ar + i, out.ag + i, out.ab + i, color);
-  store3(out.er + i, out.eg + i, out.eb + i, emission);
+  store3(out.er + i, out.eg + i, out.eb + i, sel3(front > 0.0f, emission, emission * real(0.0f)));
   store(out.metallic + i, metallic);
   store(out.roughness + i, roughness);
-  store(out.transmission + i, sel(kind == kFoliage, load(f.transmission), real(0.0f)));
+  store(out.transmission + i, load(f.transmission));
+  store(out.coat + i, load(f.coat));
+  store(out.coat_roughness + i, load(f.coat_roughness));
   store(out.kind + i, kind);
 
   // Reflection: above the surface itself.
@@ -248,6 +252,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
   store(out.traced + i, real(0.0f));
   store(out.contact + i, real(1.0f));
+  store(out.clear + i, real(0.0f));
 }
 
 }  // namespace

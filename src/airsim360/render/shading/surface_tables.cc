@@ -8,6 +8,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
 #include "airsim360/render/shading/noise.h"
+#include "airsim360/render/shading/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {
@@ -114,6 +115,8 @@ MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   record.macro_variation = m.macro_variation;
   record.normal_scale = m.normal_scale;
   record.kind = static_cast<float>(m.kind);
+  record.clear_coat = m.clear_coat;
+  record.clear_coat_roughness = m.clear_coat_roughness;
   record.base_texture = TextureIndex(m.base_color_texture, scene);
   record.roughness_texture = TextureIndex(m.metallic_roughness_texture, scene);
   record.normal_texture = TextureIndex(m.normal_texture, scene);
@@ -161,14 +164,14 @@ TextureRecord PlainTexture(const uint32_t* texels, int size) {
   return record;
 }
 
-Vec3f MeanColor(const Material& m, const Scene& scene) {
-  if (TextureIndex(m.base_color_texture, scene) == 0) return m.base_color;
-  const Texture& texture = scene.textures[m.base_color_texture];
+Vec3f MeanTexel(TextureId id, const Scene& scene) {
+  if (TextureIndex(id, scene) == 0) return {1, 1, 1};
+  const Texture& texture = scene.textures[id];
   const Rgba8 p = texture.levels.back()(0, 0);
   const auto decode = [&](uint8_t v) {
     return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
   };
-  return m.base_color * Vec3f{decode(p.r), decode(p.g), decode(p.b)};
+  return {decode(p.r), decode(p.g), decode(p.b)};
 }
 
 }  // namespace
@@ -185,7 +188,13 @@ uint32_t PackDirection(Vec3f d) {
   return Pack16(x, y);
 }
 
-SurfaceTables::SurfaceTables(const Scene& scene) {
+Vec3f UnpackDirection(uint32_t packed) {
+  constexpr float scale = 2.0f / 65534.0f;
+  return scalar::octahedral_decode(static_cast<float>(packed & 0xffff) * scale - 1,
+                                   static_cast<float>(packed >> 16) * scale - 1);
+}
+
+SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   // Our own textures, then the scene's.
   own_texels_.assign(1 + static_cast<size_t>(kNoiseSize) * kNoiseSize, 0xffffffffu);
   ParallelFor(kNoiseSize, [&](int64_t y) {
@@ -198,8 +207,12 @@ SurfaceTables::SurfaceTables(const Scene& scene) {
 
   std::vector<UvTransform> transforms;
   for (const Material& material : scene.materials) {
-    materials.push_back(MakeMaterial(material, scene));
-    mean_colors.push_back(MeanColor(material, scene));
+    MaterialRecord record = MakeMaterial(material, scene);
+    if (material.lamp && !lamps_on) std::fill(std::begin(record.emission), std::end(record.emission), 0.0f);
+    materials.push_back(record);
+    mean_colors.push_back(material.base_color * MeanTexel(material.base_color_texture, scene));
+    mean_emissions.push_back(Vec3f{record.emission[0], record.emission[1], record.emission[2]} *
+                             MeanTexel(material.emission_texture, scene));
     transforms.emplace_back(material);
   }
 

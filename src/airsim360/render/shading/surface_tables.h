@@ -13,10 +13,12 @@ namespace airsim360::internal {
 
 /// Octahedral packing of a unit vector, two times 16 bits (x low); the inverse is octahedral_decode.
 uint32_t PackDirection(Vec3f d);
+Vec3f UnpackDirection(uint32_t packed);
 
 /// Refers to the texels of the scene, which must outlive it.
 struct SurfaceTables {
-  explicit SurfaceTables(const Scene& scene);
+  /// `lamps_on`: whether materials with `lamp` shine (Environment::lamps_on).
+  explicit SurfaceTables(const Scene& scene, bool lamps_on = true);
   /// Follows what moves, as listed by RayTracer::moved and deformed; what was listed before and is no more is
   /// as built again. Vertex normals of a deformed mesh are the means of the faces around, weighted by area,
   /// over vertices that share place and normal in the mesh as built. Pointers to the elements stay valid.
@@ -29,6 +31,8 @@ struct SurfaceTables {
   std::vector<TextureRecord> textures;  ///< 0 is white, 1 the macro variation noise, then the scene's
   /// Per material: base colour including the mean of its texture; for light that bounces.
   std::vector<Vec3f> mean_colors;
+  /// Likewise emission; 0 where it is off.
+  std::vector<Vec3f> mean_emissions;
 
  private:
   void SetTriangles(const Scene& scene, MeshId id, const Mesh& shape);

@@ -82,10 +82,60 @@ Model MakeStreetLight(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
+// Park lamp: a slender post that ends in a crook, from which a bell-shaped shade hangs towards -Y.
+Model MakeCrookLamp(uint32_t variant, uint64_t) {
+  PropBuilder b("crook_lamp");
+  const Material iron = Paint({0.018f, 0.019f, 0.021f}, 0.38f);
+  b.Use(iron);
+  const Vec2f post[] = {{0.15f, -0.2f},  {0.15f, 0.03f},  {0.125f, 0.06f}, {0.115f, 0.50f}, {0.135f, 0.53f},
+                        {0.135f, 0.56f}, {0.085f, 0.60f}, {0.066f, 0.80f}, {0.060f, 2.2f},  {0.072f, 2.22f},
+                        {0.072f, 2.26f}, {0.056f, 2.29f}, {0.046f, 5.55f}, {0, 5.56f}};
+  b.Lathe(post, 18);
+  const float reach = variant == 0 ? 0.46f : 0.38f;
+  std::vector<Vec3f> crook;
+  for (int i = 0; i <= 14; ++i) {
+    const float a = kTau / 2 * static_cast<float>(i) / 14;
+    crook.push_back({0, -reach * (1 - std::cos(a)), 5.50f + 0.95f * reach * std::sin(a)});
+  }
+  const Vec3f tip{0, -2 * reach, 5.26f};
+  crook.push_back(tip);
+  b.Bar(crook, 0.034f, 12);
+  const Vec2f shade[] = {{0.24f, -0.42f}, {0.235f, -0.36f}, {0.21f, -0.26f}, {0.165f, -0.16f},
+                         {0.10f, -0.09f}, {0.07f, -0.05f},  {0.06f, 0.0f},   {0.045f, 0.06f}, {0, 0.07f}};
+  b.Lathe(shade, 24, tip);
+  b.Use(Glow({0.86f, 0.84f, 0.78f}, 0.2f));
+  const Vec2f lens[] = {{0, -0.47f}, {0.10f, -0.455f}, {0.17f, -0.43f}, {0.20f, -0.405f}, {0, -0.40f}};
+  b.Lathe(lens, 18, tip);
+  return b.Finish();
+}
+
+// Knee-high path light: a post, a lantern of opal glass and a flat cap.
+Model MakeBollardLamp(uint32_t variant, uint64_t) {
+  PropBuilder b("bollard_lamp");
+  const Material iron = Paint({0.020f, 0.021f, 0.023f}, 0.40f);
+  b.Use(iron);
+  const float neck = variant == 0 ? 0.92f : 0.84f;
+  const Vec2f post[] = {{0.085f, -0.15f}, {0.085f, 0.02f}, {0.055f, 0.05f}, {0.048f, neck},
+                        {0.09f, neck + 0.05f}, {0.095f, neck + 0.07f}, {0, neck + 0.07f}};
+  b.Lathe(post, 16);
+  const Vec2f cap[] = {{0.125f, 0}, {0.125f, 0.025f}, {0.09f, 0.055f}, {0.03f, 0.075f}, {0, 0.078f}};
+  b.Lathe(cap, 18, {0, 0, neck + 0.29f});
+  for (int i = 0; i < 4; ++i) {
+    const float a = kTau * (static_cast<float>(i) + 0.5f) / 4;
+    const Vec3f d{0.088f * std::cos(a), 0.088f * std::sin(a), 0};
+    b.mesh().Tube(d + Vec3f{0, 0, neck + 0.06f}, d + Vec3f{0, 0, neck + 0.30f}, 0.006f, 0.006f, 6);
+  }
+  b.Use(Glow({0.88f, 0.86f, 0.80f}, 0.22f));
+  b.mesh().Tube({0, 0, neck + 0.07f}, {0, 0, neck + 0.29f}, 0.066f, 0.078f, 16);
+  return b.Finish();
+}
+
 }  // namespace
 
 std::vector<PropKind> LampKinds() {
   return {
+      {"bollard_lamp", "furniture/lighting/lamp_post/type_b", 2, MakeBollardLamp, 0.2f, 1.1f, 1.4f, 1500},
+      {"crook_lamp", "furniture/lighting/lamp_post", 2, MakeCrookLamp, 0.3f, 5.6f, 6.2f, 3000},
       {"lamp_post", "furniture/lighting/lamp_post", 3, MakeLampPost, 0.4f, 4.0f, 4.5f, 6000},
       {"street_light", "furniture/lighting/street_light", 2, MakeStreetLight, 0.3f, 8.0f, 9.5f, 2000},
   };

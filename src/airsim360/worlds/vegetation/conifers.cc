@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/worlds/props/families.h"
+#include "airsim360/worlds/vegetation/park_trees.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
 
 namespace airsim360::internal {
@@ -11,6 +12,12 @@ namespace {
 
 struct Build {
   float height, clear_trunk, radius, trunk_radius;
+};
+
+// How much of a pine is drawn: 1 every needle; less keeps a share of them, longer and wider.
+struct Sparse {
+  float detail = 1;
+  float size() const { return detail < 1 ? 0.55f / std::sqrt(detail) : 1; }
 };
 
 // A twig that carries needles.
@@ -49,19 +56,20 @@ void AddBranch(std::vector<BranchNode>& nodes, int from, float azimuth, float le
 }
 
 // Needles all around the outer part of every branchlet, pointing forwards.
-void AddNeedles(const std::vector<Branchlet>& branchlets, int total, std::vector<PlantLayer>& layers,
-                RngStream& random) {
+void AddNeedles(const std::vector<Branchlet>& branchlets, int total, Sparse sparse,
+                std::vector<PlantLayer>& layers, RngStream& random) {
   float length = 0;
   for (const Branchlet& b : branchlets) length += Norm(b.to - b.from) + 0.06f;
-  const float per_metre = static_cast<float>(total) / length;
+  const float per_metre = static_cast<float>(total) * sparse.detail / length;
   for (const Branchlet& b : branchlets) {
+    if (sparse.detail < 0.1f && random.Chance(0.6)) continue;
     const Vec3f axis = Normalized(b.to - b.from), side = Normalized(Cross(axis, Vec3f{0.2f, 0.1f, 1})),
                 other = Cross(axis, side);
     const float reach = Norm(b.to - b.from);
-    AddNeedle(layers[0], b.from, b.to, side, 0.012f, other, 0);
+    if (sparse.detail >= 1) AddNeedle(layers[0], b.from, b.to, side, 0.012f, other, 0);
     // Two crossed ribbons stand for the inner needles, which are seen only as a dense dark mass.
     for (Vec3f ribbon : {side, other})
-      AddNeedle(LeavesAt(layers, b.openness - 0.35f), b.from, b.to + axis * 0.05f, ribbon, 0.075f,
+      AddNeedle(LeavesAt(layers, b.openness - 0.35f), b.from, b.to + axis * 0.05f, ribbon, sparse.detail < 1 ? 0.13f : 0.075f,
                 Vec3f{0, 0, 1}, kLeafCells - 2);
     const int count = static_cast<int>(per_metre * (reach + 0.06f) + static_cast<float>(random.Uniform()));
     const int tone = static_cast<int>(random.Index(kLeafCells - 1));
@@ -71,23 +79,19 @@ void AddNeedles(const std::vector<Branchlet>& branchlets, int total, std::vector
       const Vec3f spoke = side * std::cos(a) + other * std::sin(a);
       const Vec3f d = Normalized(spoke + axis * static_cast<float>(random.Uniform(0.45, 1.1)));
       const Vec3f base = b.from + axis * (reach * t);
-      const float size = 0.14f * static_cast<float>(random.Uniform(0.75, 1.2));
+      const float size =
+          0.14f * std::min(2.5f, sparse.size()) * static_cast<float>(random.Uniform(0.75, 1.2));
       const Vec3f across = Normalized(Cross(d, spoke + RandomDirection(random) * 0.5f));
       AddNeedle(LeavesAt(layers, b.openness + 0.12f * static_cast<float>(random.Normal())), base,
-                base + d * size, across, 0.018f, Normalized(spoke + Vec3f{0, 0, 0.7f}),
+                base + d * size, across, 0.018f * std::min(6.0f, sparse.size() * sparse.size()), Normalized(spoke + Vec3f{0, 0, 0.7f}),
                 random.Chance(0.7) ? tone : static_cast<int>(random.Index(kLeafCells - 1)));
     }
   }
 }
 
-Model MakePine(uint32_t variant, uint64_t seed) {
+Model BuildPine(const Build& b, Sparse sparse, uint64_t seed) {
   static const Vec3f tones[] = {{0.036f, 0.066f, 0.028f}, {0.044f, 0.076f, 0.030f}, {0.030f, 0.058f, 0.030f}};
   static const Texture atlas = LeafAtlas("needles", tones);
-  constexpr Build builds[4] = {{12.5f, 1.4f, 2.9f, 0.18f},
-                               {15.5f, 2.4f, 3.3f, 0.23f},
-                               {9.2f, 0.7f, 2.4f, 0.13f},
-                               {13.8f, 3.4f, 3.0f, 0.20f}};
-  const Build& b = builds[variant];
   RngStream random(seed, "pine");
   std::vector<BranchNode> nodes;
   std::vector<Branchlet> branchlets;
@@ -124,12 +128,27 @@ Model MakePine(uint32_t variant, uint64_t seed) {
     nodes[i].radius =
         std::min(nodes[i].radius, 0.012f + b.trunk_radius * (1 - std::max(0.0f, nodes[i].p.z) / b.height));
   std::vector<PlantLayer> layers = PlantLayers({0.20f, 0.13f, 0.09f}, atlas, 0.35f);
-  AddBark(layers[0], nodes, 0.0072f, 0.4f);
-  AddNeedles(branchlets, 76000, layers, random);
+  AddBark(layers[0], nodes, sparse.detail >= 1 ? 0.0072f : sparse.detail > 0.1f ? 0.02f : 0.05f, 0.4f);
+  AddNeedles(branchlets, 76000, sparse, layers, random);
   return JoinLayers("tree_pine", layers);
 }
 
+Model MakePine(uint32_t variant, uint64_t seed) {
+  constexpr Build builds[4] = {{12.5f, 1.4f, 2.9f, 0.18f},
+                               {15.5f, 2.4f, 3.3f, 0.23f},
+                               {9.2f, 0.7f, 2.4f, 0.13f},
+                               {13.8f, 3.4f, 3.0f, 0.20f}};
+  return BuildPine(builds[variant], {}, seed);
+}
+
 }  // namespace
+
+Model GrowPine(int individual, float detail, uint64_t seed) {
+  // Taller and slimmer than in streets: they grew up in company.
+  constexpr Build builds[4] = {
+      {17.0f, 2.2f, 3.3f, 0.24f}, {14.0f, 1.6f, 3.0f, 0.20f}, {19.0f, 3.6f, 3.2f, 0.27f}, {10.5f, 0.8f, 2.6f, 0.15f}};
+  return BuildPine(builds[individual % 4], {detail}, seed);
+}
 
 std::vector<PropKind> ConiferKinds() {
   return {{"tree_pine", "vegetation/tree/conifer/pine", 4, MakePine, 0.8f, 8.5f, 17.0f, 110000}};

@@ -94,9 +94,10 @@ PlantLayer LeafLayer(const Texture& atlas, float transmission) {
   return layer;
 }
 
-std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission) {
+std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission, float depth) {
   std::vector<PlantLayer> layers = {BarkLayer(bark)};
-  for (float light : {0.46f, 0.72f, 1.0f}) {
+  for (float full : {0.46f, 0.72f, 1.0f}) {
+    const float light = 1 - (1 - full) * depth;
     layers.push_back(LeafLayer(atlas, transmission));
     layers.back().material.base_color = {light, light, light * 0.97f};
   }
@@ -134,12 +135,36 @@ void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const Lea
   const Vec3f middle = base + direction * (0.42f * shape.length) + lift, across = side * (shape.width / 2);
   const Vec3f tip = base + direction * shape.length - n * (shape.droop * shape.length);
   const auto [u0, u1] = CellRange(cell);
-  const uint32_t a = layer.Add(base, shading, {(u0 + u1) / 2, 1});
-  layer.Add(middle + across, shading, {u1, 0.58f});
-  layer.Add(tip, shading, {(u0 + u1) / 2, 0});
-  layer.Add(middle - across, shading, {u0, 0.58f});
-  layer.triangles.push_back({a, a + 1, a + 2});
-  layer.triangles.push_back({a, a + 2, a + 3});
+  const float u = (u0 + u1) / 2;
+  const uint32_t a = layer.Add(base, shading, {u, 1});
+  if (shape.form == LeafForm::kKite) {
+    layer.Add(middle + across, shading, {u1, 0.58f});
+    layer.Add(tip, shading, {u, 0});
+    layer.Add(middle - across, shading, {u0, 0.58f});
+    layer.triangles.push_back({a, a + 1, a + 2});
+    layer.triangles.push_back({a, a + 2, a + 3});
+    return;
+  }
+  // Two points a side: the belly and the shoulder of an oval, or the side lobe and the notch of a lobed leaf.
+  const bool oval = shape.form == LeafForm::kOval;
+  const float low = oval ? 0.26f : 0.52f, high = oval ? 0.64f : 0.56f;
+  const float wide = oval ? 0.43f : 0.5f, narrow = oval ? 0.42f : 0.20f;
+  const Vec3f slack = n * (-0.35f * shape.droop * shape.length);
+  const auto rim = [&](float along, float out) {
+    return base + direction * (along * shape.length) + side * (out * shape.width) + lift + slack * (along * along);
+  };
+  layer.Add(rim(low, wide), shading, {u1, 1 - low});
+  layer.Add(rim(high, narrow), shading, {oval ? u1 : 0.3f * u0 + 0.7f * u1, 1 - high});
+  layer.Add(tip, shading, {u, 0});
+  layer.Add(rim(high, -narrow), shading, {oval ? u0 : 0.7f * u0 + 0.3f * u1, 1 - high});
+  layer.Add(rim(low, -wide), shading, {u0, 1 - low});
+  if (oval) {
+    layer.triangles.insert(layer.triangles.end(),
+                           {{a, a + 1, a + 2}, {a, a + 2, a + 3}, {a, a + 3, a + 4}, {a, a + 4, a + 5}});
+  } else {
+    layer.triangles.insert(layer.triangles.end(),
+                           {{a, a + 1, a + 2}, {a, a + 2, a + 4}, {a + 2, a + 3, a + 4}, {a, a + 4, a + 5}});
+  }
 }
 
 void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f lean, float turn, int cell) {

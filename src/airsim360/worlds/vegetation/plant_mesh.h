@@ -29,7 +29,8 @@ PlantLayer LeafLayer(const Texture& atlas, float transmission = 0.8f);
 
 /// Layer 0 is bark, layers 1 to 3 are leaves that see little, half and all of the sky: what the plant itself
 /// takes away of the sky's light is in their colour, so that crowns have depth without ambient occlusion.
-std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission = 0.8f);
+/// `depth` scales that: 0 leaves all leaves as bright as the outer ones.
+std::vector<PlantLayer> PlantLayers(Vec3f bark, const Texture& atlas, float transmission = 0.8f, float depth = 1);
 /// The leaves of PlantLayers for a place that sees a share `openness` (0 … 1) of the sky.
 PlantLayer& LeavesAt(std::vector<PlantLayer>& layers, float openness);
 
@@ -39,12 +40,19 @@ inline constexpr int kLeafCells = 8;
 /// `tones`, and the last one is yellowed.
 Texture LeafAtlas(std::string name, std::span<const Vec3f> tones);
 
+enum class LeafForm {
+  kKite,   ///< two triangles that meet at the rib
+  kOval,   ///< four triangles
+  kLobed,  ///< four triangles: three lobes, as maple
+};
+
 struct LeafShape {
   float length = 0.15f, width = 0.10f;
   float fold = 0.12f;  ///< height of the edges above the rib, in widths
   float droop = 0.2f;  ///< how far the tip hangs below the straight rib, in lengths
+  LeafForm form = LeafForm::kKite;
 };
-/// Leaf of two triangles that meet at the rib: from `base` along `direction`, its upper face to `up`.
+/// Leaf: from `base` along `direction`, its upper face to `up`.
 /// `soften` is mixed into the shading normal (the direction out of the crown). `cell` in 0 … kLeafCells - 1.
 void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const LeafShape& shape, int cell,
              Vec3f soften = {});

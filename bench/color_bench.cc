@@ -1,0 +1,201 @@
+// How close frames in colour come to the limit: bare Embree traversal of exactly their rays.
+//
+// The rays of one frame are recorded as the frame is rendered (ray_recorder.h): camera rays, sun, contact,
+// reflections, ambient. They are then traced again, same packets, same order, same scene objects, same flags,
+// with nothing else done; the time to read the records from memory is measured too and taken off. Frame and
+// replay take turns; the table shows medians and their ratios, on one thread and on all.
+//   fast     antialiasing off: edges would add camera rays chosen by what was shaded
+//   high     4 ambient rays, antialiasing off
+//   high aa  the same with 4 samples on edges
+// With --latitude: what fewer rays towards the poles save at equal error (WS-PSNR against 64 rays).
+// Compare ratios, not milliseconds.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/renderer.h"
+#include "airsim360/sensors/rig.h"
+#include "airsim360/sim/world_loader.h"
+#include "ray_recorder.h"
+#include "scenes.h"
+
+namespace {
+
+using namespace airsim360;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  int width = 2048, rounds = 7;
+  std::string scene;  // one of the names below, or a world; empty = the four
+  bool latitude = false, json = false;
+};
+
+struct World {
+  std::string name;
+  std::shared_ptr<const Scene> scene;
+  Vec3d eye;
+};
+
+World MakeWorld(const std::string& name) {
+  if (name == "box") return {name, test::MakeOpenSquare(), {0.3, 0.2, 1.7}};
+  if (name == "city") return {name, bench::BuildCity({.triangles = 2'000'000}), {0, 0, 30}};
+  if (name == "forest") return {name, bench::BuildForest(1500), {0, 0, 3}};
+  if (name == "instances")
+    return {name, bench::BuildCity({.triangles = 2'000'000, .trees = 4000}), {0, 0, 30}};
+  const auto scene = LoadWorld({.world = name});
+  return {name, scene, VecCast<double>(scene->spawn.value_or(scene->bounds.center()))};
+}
+
+double Milliseconds(const std::function<void()>& job) {
+  const auto start = Clock::now();
+  job();
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double Median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v[v.size() / 2];
+}
+
+RenderRequest MakeRequest(const Options& options, const World& world, Tier tier, int aa_samples) {
+  return {.camera = Equirectangular{options.width, options.width / 2},
+          .X_WC = RigidTransform{{}, world.eye} * CameraInBody(),
+          .tier = tier,
+          .aa_samples = aa_samples};
+}
+
+void MeasureRatios(const Options& options, const World& world, Renderer& renderer) {
+  struct Kind {
+    const char* name;
+    Tier tier;
+    int aa_samples;
+  };
+  for (const Kind kind :
+       {Kind{"fast", Tier::kFast, 1}, Kind{"high", Tier::kHigh, 1}, Kind{"high aa", Tier::kHigh, 4}}) {
+    const RenderRequest request = MakeRequest(options, world, kind.tier, kind.aa_samples);
+    Frame frame;
+    renderer.Render(request, frame);  // warms up
+    std::vector<bench::RecordedPacket> packets;
+    bench::RayCounts rays;
+    {
+      const ThreadLimit one(1);
+      const bench::RayRecorder recorder;
+      renderer.Render(request, frame);
+      packets = recorder.packets();
+      rays = recorder.Count();
+    }
+    double one_thread = 0;
+    for (const int threads : {1, 0}) {
+      const ThreadLimit limit(threads);
+      std::vector<double> whole, raw, read;
+      double sum = 0;
+      for (int round = 0; round < options.rounds; ++round) {
+        whole.push_back(Milliseconds([&] { renderer.Render(request, frame); }));
+        raw.push_back(Milliseconds([&] { sum += bench::Replay(packets, true); }));
+        read.push_back(Milliseconds([&] { sum += bench::Replay(packets, false); }));
+      }
+      const double frame_ms = Median(whole), raw_ms = Median(raw) - Median(read);
+      if (threads == 1) one_thread = frame_ms;
+      std::printf(options.json
+                      ? "{\"scene\": \"%s\", \"kind\": \"%s\", \"threads\": %d, \"frame_ms\": %.2f, "
+                        "\"raw_ms\": %.2f, \"ratio\": %.3f, \"mrays_nearest\": %.3f, "
+                        "\"mrays_occlusion\": %.3f, \"speedup\": %.3f}\n"
+                      : "%-14s %-8s %3d  frame %8.1f ms  rays %8.1f ms  ratio %5.2f  nearest %6.2f M, "
+                        "occlusion %6.2f M  x%.2f threads\n",
+                  world.name.c_str(), kind.name, ThreadCount(), frame_ms, raw_ms, frame_ms / raw_ms,
+                  rays.nearest / 1e6, rays.occlusion / 1e6, one_thread / frame_ms);
+      std::fflush(stdout);
+      if (!std::isfinite(sum)) std::exit(1);
+    }
+  }
+}
+
+// Mean square error of display values weighted by solid angle.
+double WsMse(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  double sum = 0, weights = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    const double w = std::sin(std::numbers::pi * (y + 0.5) / a.height());
+    for (int x = 0; x < a.width(); ++x) {
+      const Rgb8 p = a(x, y), q = b(x, y);
+      sum += w * ((p.r - q.r) * (p.r - q.r) + (p.g - q.g) * (p.g - q.g) + (p.b - q.b) * (p.b - q.b)) / 3.0;
+      weights += w;
+    }
+  }
+  return sum / weights;
+}
+
+void MeasureLatitude(const Options& options, const World& world, Renderer& renderer) {
+  RenderRequest request = MakeRequest(options, world, Tier::kHigh, 1);
+  request.denoise = false;
+  const auto render = [&](int samples, bool latitude, uint64_t seed, Frame& frame) {
+    request.samples = samples, request.latitude_sampling = latitude, request.seed = seed;
+    renderer.Render(request, frame);
+  };
+  Frame truth, frame;
+  render(64, false, 1, truth);
+  // Time and error with all rows alike, for a few numbers of rays: error against time is a power law.
+  const auto measure = [&](int samples, bool latitude, double& ms, double& mse) {
+    std::vector<double> times;
+    for (int i = 0; i < options.rounds; ++i)
+      times.push_back(Milliseconds([&] { render(samples, latitude, 2, frame); }));
+    ms = Median(times), mse = WsMse(frame.rgb, truth.rgb);
+    std::printf("%-14s latitude %-3s %2d rays: %8.1f ms, WS-PSNR %.2f dB\n", world.name.c_str(),
+                latitude ? "on" : "off", samples, ms, 10 * std::log10(255 * 255 / mse));
+  };
+  double ms_on, mse_on, ms_low, mse_low, ms_high, mse_high;
+  measure(8, true, ms_on, mse_on);
+  measure(6, false, ms_low, mse_low);
+  measure(8, false, ms_high, mse_high);
+  const double t = (std::log(mse_on) - std::log(mse_low)) / (std::log(mse_high) - std::log(mse_low));
+  const double ms_equal = ms_low * std::pow(ms_high / ms_low, t);
+  std::printf("%-14s latitude on / off at equal WS-PSNR: %.3f\n", world.name.c_str(), ms_on / ms_equal);
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string flag = argv[i];
+    if (flag == "--json")
+      options.json = true;
+    else if (flag == "--latitude")
+      options.latitude = true;
+    else if (flag == "--width" && i + 1 < argc)
+      options.width = std::atoi(argv[++i]) / 64 * 64;
+    else if (flag == "--rounds" && i + 1 < argc)
+      options.rounds = std::atoi(argv[++i]);
+    else if (flag == "--scene" && i + 1 < argc)
+      options.scene = argv[++i];
+    else {
+      std::fprintf(stderr,
+                   "color_bench [--json] [--latitude] [--scene box|city|forest|instances|WORLD] [--width N] "
+                   "[--rounds N]\n");
+      std::exit(2);
+    }
+  }
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Options options = Parse(argc, argv);
+  std::vector<std::string> names = {"box", "city", "forest", "instances"};
+  if (!options.scene.empty()) names = {options.scene};
+  for (const std::string& name : names) {
+    const World world = MakeWorld(name);
+    const auto renderer =
+        MakeCpuRenderer(std::make_shared<const RayTracer>(world.scene), {.tier = Tier::kHigh});
+    if (options.latitude)
+      MeasureLatitude(options, world, *renderer);
+    else
+      MeasureRatios(options, world, *renderer);
+  }
+}

@@ -1,0 +1,218 @@
+#include "airsim360/render/cpu/high_edges.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kSymmetries = 8;
+constexpr float kContrast = 7;  // of 255, between a pixel's centre and its first other sample
+
+float Luminance(Rgb32f c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+// One tile's edge pixels and their rays on the way through tracing (16) and shading (256 at a time).
+class EdgeTile {
+ public:
+  EdgeTile(const HighEdgeTask& task, const TileKernels& kernels, HighBuffers& buffers, int column, int row)
+      : task_(task), kernels_(kernels), buffers_(buffers), column_(column), row_(row) {
+    hits_.origin = task.origin;
+    hits_.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
+    kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
+  }
+
+  void AddPixel(int x, int y, uint8_t edge) {
+    x_[pixel_count_] = static_cast<uint8_t>(x), y_[pixel_count_] = static_cast<uint8_t>(y);
+    edge_[pixel_count_] = edge;
+    low_[pixel_count_] = 256;
+    AddColor(pixel_count_++, buffers_.radiance(column_ + x, row_ + y));
+  }
+  int pixel_count() const { return pixel_count_; }
+  int ray_count() const { return ray_count_; }
+  int x(int pixel) const { return column_ + x_[pixel]; }
+  int y(int pixel) const { return row_ + y_[pixel]; }
+  bool on_silhouette(int pixel) const { return (edge_[pixel] & kSilhouette) != 0; }
+  float contrast(int pixel) const { return high_[pixel] - low_[pixel]; }
+
+  void AddRay(int pixel, Vec3d direction, uint32_t key) {
+    packet_.direction_x[lanes_] = static_cast<float>(direction.x);
+    packet_.direction_y[lanes_] = static_cast<float>(direction.y);
+    packet_.direction_z[lanes_] = static_cast<float>(direction.z);
+    hits_.sample_key[hits_.count + lanes_] = key;
+    owner_[hits_.count + lanes_] = pixel;
+    ++ray_count_;
+    if (++lanes_ == 16) Trace();
+  }
+  void Finish() {
+    if (lanes_ > 0) Trace();
+    if (hits_.count > 0) Shade();
+  }
+
+  void StoreMeans() {
+    for (int i = 0; i < pixel_count_; ++i) {
+      const float scale = 1 / weight_[i];
+      buffers_.radiance(x(i), y(i)) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
+    }
+  }
+
+ private:
+  void AddColor(int pixel, Rgb32f c) {
+    const float exposed = Luminance(c) * task_.exposure, w = 1 / (1 + exposed);
+    r_[pixel] += c.r * w, g_[pixel] += c.g * w, b_[pixel] += c.b * w;
+    weight_[pixel] += w;
+    const float shown = 255 * std::sqrt(exposed / (1 + exposed));
+    low_[pixel] = std::min(low_[pixel], shown);
+    high_[pixel] = std::max(high_[pixel], shown);
+  }
+
+  void Trace() {
+    alignas(64) int valid[16];
+    for (int i = 0; i < 16; ++i) {
+      valid[i] = i < lanes_ ? -1 : 0;
+      packet_.t_far[i] = std::numeric_limits<float>::infinity();
+      if (i < lanes_) continue;
+      packet_.direction_x[i] = packet_.direction_x[0];
+      packet_.direction_y[i] = packet_.direction_y[0];
+      packet_.direction_z[i] = packet_.direction_z[0];
+    }
+    TracePacket(*task_.tracer, task_.labels.sky_entity != kNoEntity, valid, packet_);
+    const int p = hits_.count / 16;
+    kernels_.append_hits(task_.labels, packet_, valid, p, hits_);
+    kernels_.resolve(task_.labels, packet_, valid, p, false, labels_);
+    hits_.count += lanes_;
+    lanes_ = 0;
+    if (hits_.count > HitBatch::kCapacity - 16) Shade();
+  }
+
+  // Irradiance of the pixel around whose surface is most like that of sample i.
+  Rgb32f LightAround(int i, const HighTile& tile) const {
+    const int cx = x(owner_[i]), cy = y(owner_[i]), width = buffers_.range.width();
+    const bool wraps = task_.rays->field().separable;
+    const Vec3f n{tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]};
+    const float range = labels_.range[i];
+    Rgb32f best;
+    float best_cost = INFINITY;
+    for (int v = std::max(0, cy - 1); v <= std::min(buffers_.range.height() - 1, cy + 1); ++v) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        int u = cx + dx;
+        if (!wraps && (u < 0 || u >= width)) continue;
+        u = u < 0 ? u + width : u >= width ? u - width : u;
+        if (buffers_.light_samples(u, v) == 0) continue;
+        const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 -
+                           Dot(n, buffers_.normal(u, v)) +
+                           std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) +
+                           1e-3f * static_cast<float>(dx * dx + (v - cy) * (v - cy));
+        if (cost < best_cost) best_cost = cost, best = buffers_.light(u, v);
+      }
+    }
+    return best_cost < INFINITY ? best : buffers_.light(cx, cy);
+  }
+
+  void Shade() {
+    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, shaded_);
+    const LightTerms& t = shaded_.terms;
+    for (int i = 0; i < hits_.count; ++i) {
+      const Rgb32f around = hits_.instance[i] != kMiss ? LightAround(i, shaded_) : Rgb32f{};
+      const float sun = shaded_.sun_seen[i];
+      AddColor(owner_[i], {t.ambient_r[i] * around.r + t.sun_r[i] * sun + t.rest_r[i],
+                           t.ambient_g[i] * around.g + t.sun_g[i] * sun + t.rest_g[i],
+                           t.ambient_b[i] * around.b + t.sun_b[i] * sun + t.rest_b[i]});
+    }
+    hits_.count = 0;
+  }
+
+  const HighEdgeTask& task_;
+  const TileKernels& kernels_;
+  HighBuffers& buffers_;
+  int column_, row_;
+  int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
+  uint8_t x_[kTilePixels], y_[kTilePixels], edge_[kTilePixels];
+  float low_[kTilePixels], high_[kTilePixels] = {};
+  float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {}, weight_[kTilePixels] = {};
+  RayHit16 packet_;
+  HitBatch hits_;
+  LabelTile labels_;
+  HighTile shaded_;
+  int owner_[HitBatch::kCapacity];  // pixel of each ray
+};
+
+int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::vector<PixelOffset>& offsets,
+               HighBuffers& buffers, int column, int row) {
+  const RayField& field = task.rays->field();
+  bool any = false;
+  const int columns = std::min(kTileSize, field.width - column),
+            rows = std::min(kTileSize, field.height - row);
+  for (int y = 0; y < rows; ++y) {
+    const uint8_t* edges = &buffers.edges(column, row + y);
+    for (int x = 0; x < columns; ++x) any |= edges[x] != 0;
+  }
+  if (!any) return 0;
+
+  // Edge pixels, block by block so that neighbours stay together.
+  const FlushDenormals flush;
+  EdgeTile tile(task, kernels, buffers, column, row);
+  for (int i = 0; i < kTilePixels; ++i) {
+    const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
+    if (x >= columns || y >= rows) continue;
+    const uint8_t edge = buffers.edges(column + x, row + y);
+    if (edge != 0) tile.AddPixel(x, y, edge);
+  }
+
+  // Rays first … last - 1 of a pixel; everything random depends on the canonical pixel alone.
+  const auto add_rays = [&](int i, int first, int last) {
+    const uint64_t key = MixBits(static_cast<uint64_t>(tile.y(i)) * static_cast<uint64_t>(field.width) +
+                                 static_cast<uint64_t>(tile.x(i)) + (task.seed << 40));
+    const PixelOffset* of_pixel = &offsets[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
+    for (int s = first; s < last; ++s) {
+      Vec3d direction;
+      if (!task.rays->Direction(tile.x(i), tile.y(i), of_pixel[s - 1], direction)) continue;
+      tile.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
+    }
+  };
+  for (int i = 0; i < tile.pixel_count(); ++i) add_rays(i, 1, tile.on_silhouette(i) ? task.samples : 2);
+  tile.Finish();
+  for (int i = 0; i < tile.pixel_count(); ++i) {
+    if (!tile.on_silhouette(i) && tile.contrast(i) > kContrast) add_rays(i, 2, task.samples);
+  }
+  tile.Finish();
+  tile.StoreMeans();
+  return tile.ray_count();
+}
+
+}  // namespace
+
+std::vector<PixelOffset> MakeEdgeOffsets(const CameraRays& rays, int samples) {
+  // R2 low-discrepancy sequence (Roberts 2018) shifted so that sample 0 is the centre; its eight mirror
+  // images and rotations keep the centre and break up patterns between pixels.
+  constexpr double kPlastic = 1.32471795724474602596;
+  std::vector<PixelOffset> offsets;
+  for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
+    for (int s = 1; s < samples; ++s) {
+      double dx = 0.5 + s / kPlastic, dy = 0.5 + s / (kPlastic * kPlastic);
+      dx -= std::floor(dx) + 0.5;
+      dy -= std::floor(dy) + 0.5;
+      if (symmetry & 1) dx = -dx;
+      if (symmetry & 2) dy = -dy;
+      if (symmetry & 4) std::swap(dx, dy);
+      offsets.push_back(rays.MakeOffset(dx, dy));
+    }
+  }
+  return offsets;
+}
+
+int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers) {
+  const TileKernels kernels;
+  const int across = buffers.across();
+  std::atomic<int64_t> ray_count = 0;
+  ParallelFor(int64_t{across} * buffers.down(), [&](int64_t tile) {
+    ray_count += RefineTile(task, kernels, offsets, buffers, static_cast<int>(tile % across) * kTileSize,
+                            static_cast<int>(tile / across) * kTileSize);
+  });
+  return ray_count;
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,34 @@
+// Antialiasing of tier `high`: more rays on edges, lit by the light already gathered around them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "airsim360/render/cpu/high_buffers.h"
+#include "airsim360/render/cpu/packet_tracer.h"
+
+namespace airsim360::internal {
+
+struct HighEdgeTask {
+  const RayTracer* tracer;
+  const Shader* shader;
+  const CameraRays* rays;
+  LabelView labels;
+  SunMapView sun_map;
+  Vec3f origin;
+  float exposure;  ///< factor from radiance to the input of the tone curve
+  int samples;     ///< of a pixel on a silhouette, the centre ray included
+  uint64_t seed;
+};
+
+/// Replaces the radiance of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the pixel;
+/// a pixel that only contrasts with a neighbour of the same entity gets one ray more at first, and the rest if
+/// that one looks different. The mean weights each ray by 1 / (1 + its exposed luminance), close to a mean
+/// after the tone curve, so that edges of highlights stay smooth. A ray takes its ambient light from the most
+/// alike of the nine pixels around. `offsets` are MakeEdgeOffsets. Returns the number of rays.
+int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers);
+
+/// Points of a pixel besides its centre, in eight mirrored versions: [version][sample - 1].
+std::vector<PixelOffset> MakeEdgeOffsets(const CameraRays& rays, int samples);
+
+}  // namespace airsim360::internal

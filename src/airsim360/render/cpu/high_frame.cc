@@ -1,0 +1,282 @@
+#include "airsim360/render/cpu/high_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+#include "airsim360/render/cpu/antialias.h"
+#include "airsim360/render/cpu/high_buffers.h"
+#include "airsim360/render/cpu/high_edges.h"
+#include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/filter/denoiser.h"
+#include "airsim360/render/shading/shader_impl.h"
+#include "airsim360/render/shading/sun_map.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kTilesPerTask = 4;
+constexpr int kDefaultRays = 4, kMaxRays = 256;  // ambient rays of a pixel
+constexpr int kMaxEdgeSamples = 64;
+
+template <class Pixel>
+Pixel* DataOrNull(Image<Pixel>& image) {
+  return image.empty() ? nullptr : image.pixels().data();
+}
+
+// Number 0 … 15 of the place (x, y) in its 4 x 4 block: any aligned 2 x 2 are four in a row.
+uint32_t Morton(int x, int y) {
+  return static_cast<uint32_t>((x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2);
+}
+
+// Pixels of a tile by phase (see TileLayout) for either shape of packets.
+TileLayout MakeLayout(PacketShape shape) {
+  TileLayout layout{};
+  for (int y = 0; y < kTileSize; ++y) {
+    for (int x = 0; x < kTileSize; ++x) {
+      const int slot = PacketIndex(shape, x, y);
+      const uint32_t phase = Morton(x, y);
+      layout.slot_of[y * kTileSize + x] = static_cast<uint8_t>(slot);
+      layout.phase[slot] = static_cast<uint8_t>(phase);
+      layout.members[phase][(y >> 2) * 4 + (x >> 2)] = static_cast<uint8_t>(slot);
+    }
+  }
+  return layout;
+}
+
+}  // namespace
+
+struct HighFrame::Impl {
+  const RayTracer* tracer;
+  const Shader* shader;
+  const CameraRays* rays;
+  LabelView labels;
+  const RenderRequest* request;
+  Frame* frame;
+  Vec3f origin;
+  float exposure;
+
+  TileKernels kernels;
+  TileLayout layouts[2] = {MakeLayout(PacketShape::kBlock), MakeLayout(PacketShape::kRow)};
+  HighBuffers buffers;
+  Denoiser denoiser;
+  std::optional<SunMap> sun_map;
+  const Shader* sun_map_of = nullptr;
+  uint64_t frames = 0;  // for the random choices of frames that are added up
+  uint64_t tile_order = 0;
+
+  SunMapView SunView() const { return sun_map ? sun_map->view() : SunMapView{}; }
+  void MakeSunMap();
+  // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
+  PacketShape Shape(int row) const {
+    const RayField& field = rays->field();
+    const double latitude = 0.5 - (row + 0.5 * kTileSize) / field.height;
+    return field.separable && std::abs(latitude) > 1.0 / 3 ? PacketShape::kRow : PacketShape::kBlock;
+  }
+  float AmbientRays(int row) const;
+  void TraceTiles();
+  void TraceTile(int tile);
+  void StoreTile(const HighTile& shaded, LabelTile& labels, TileTarget target, int tile);
+  void Denoise();
+  void Combine();
+  void CombineTile(int tile);
+  void Output(Image<Rgb32f>& radiance) const;
+};
+
+HighFrame::HighFrame() : impl_(std::make_unique<Impl>()) {}
+HighFrame::~HighFrame() = default;
+void HighFrame::ShuffleTiles(uint64_t order) { impl_->tile_order = order; }
+
+uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const CameraRays& rays,
+                           const LabelView& labels, const RenderRequest& request, Image<Rgb32f>& radiance,
+                           Frame& frame) {
+  Impl& impl = *impl_;
+  const RayField& field = rays.field();
+  impl.tracer = &tracer, impl.shader = &shader, impl.rays = &rays, impl.labels = labels;
+  impl.request = &request, impl.frame = &frame;
+  impl.origin = VecCast<float>(request.X_WC.p);
+  impl.exposure = shader.Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
+  impl.buffers.Resize(field.width, field.height);
+  impl.MakeSunMap();
+  impl.frames = request.temporal ? impl.frames + 1 : 0;
+
+  impl.TraceTiles();
+  if (request.denoise) impl.Denoise();
+  impl.Combine();
+
+  uint64_t count = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
+  const int samples = std::clamp(request.aa_samples, 1, kMaxEdgeSamples);
+  if (samples > 1) {
+    HighBuffers& buffers = impl.buffers;
+    Antialiaser().FindEdges(buffers.entity, buffers.luma, field.separable, buffers.edges);
+    const HighEdgeTask task{&tracer,     &shader,       &rays,   labels,      impl.SunView(),
+                            impl.origin, impl.exposure, samples, request.seed};
+    count += static_cast<uint64_t>(RefineEdges(task, MakeEdgeOffsets(rays, samples), buffers));
+  }
+  impl.Output(radiance);
+  return count;
+}
+
+void HighFrame::Impl::MakeSunMap() {
+  if (sun_map_of == shader) return;
+  sun_map_of = shader;
+  sun_map.reset();
+  const auto& sky = shader->impl().sky;
+  if (sky && sky->to_sun().z > 0 && !tracer->scene().instances.empty())
+    sun_map.emplace(*tracer, sky->to_sun());
+}
+
+// Rows of a panorama are shorter towards the poles, and so are the pixels' shares of the sphere.
+float HighFrame::Impl::AmbientRays(int row) const {
+  const int wanted = std::clamp(request->samples > 0 ? request->samples : kDefaultRays, 1, kMaxRays);
+  if (!request->latitude_sampling || !rays->field().separable) return static_cast<float>(wanted);
+  const double middle = std::min(row + 0.5 * kTileSize, rays->field().height - 0.5);
+  return static_cast<float>(wanted * std::sin(std::numbers::pi * middle / rays->field().height));
+}
+
+void HighFrame::Impl::TraceTiles() {
+  const int tiles = buffers.across() * buffers.down(), tasks = (tiles + kTilesPerTask - 1) / kTilesPerTask;
+  ParallelFor(tasks, [&](int64_t task) {
+    const FlushDenormals flush;
+    // Any order will do: tests choose one.
+    if (tile_order != 0) task = static_cast<int64_t>((static_cast<uint64_t>(task) + tile_order) % tasks);
+    const int first = static_cast<int>(task) * kTilesPerTask;
+    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile) TraceTile(tile);
+  });
+}
+
+void HighFrame::Impl::TraceTile(int tile) {
+  const RayField& field = rays->field();
+  const int column = tile % buffers.across() * kTileSize, row = tile / buffers.across() * kTileSize;
+  const PacketShape shape = Shape(row);
+  const TileTarget target{column,
+                          row,
+                          rays->column_shift(),
+                          field.width,
+                          field.height,
+                          shape,
+                          DataOrNull(frame->range),
+                          DataOrNull(frame->semantic),
+                          DataOrNull(frame->entity),
+                          DataOrNull(frame->normal)};
+
+  LabelTile tile_labels;
+  HitBatch hits;
+  RayHit16 packet;
+  alignas(64) int valid[16];
+  kernels.init(origin.x, origin.y, origin.z, packet);
+  for (int p = 0; p < kPackets; ++p) {
+    kernels.fill(field, column, row, p, shape, packet, valid);
+    TracePacket(*tracer, labels.sky_entity != kNoEntity, valid, packet);
+    kernels.resolve(labels, packet, valid, p, request->products.normal, tile_labels);
+    kernels.append_hits(labels, packet, valid, p, hits);
+  }
+  kernels.store_labels(tile_labels, target);
+
+  hits.count = kTilePixels;
+  hits.origin = origin;
+  hits.cone_angle = static_cast<float>(rays->cone_angle());
+  std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
+  const int across = column / kTileSize, down = row / kTileSize;
+  const uint64_t key = MixBits(MixBits(request->seed + frames * 0x9e3779b97f4a7c15ull) +
+                               static_cast<uint64_t>(down / 4 * buffers.across() + across / 4));
+  const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
+                              Morton(across, down), AmbientRays(row), hits.cone_angle};
+  HighTile shaded;
+  ShadeHigh(*shader, SunView(), hits, &sampling, shaded);
+  StoreTile(shaded, tile_labels, target, tile);
+}
+
+// Into the images that other pixels will read, in canonical columns.
+void HighFrame::Impl::StoreTile(const HighTile& shaded, LabelTile& tile_labels, TileTarget target, int tile) {
+  std::memcpy(tile_labels.normal_x, shaded.normal_x, sizeof shaded.normal_x);
+  std::memcpy(tile_labels.normal_y, shaded.normal_y, sizeof shaded.normal_y);
+  std::memcpy(tile_labels.normal_z, shaded.normal_z, sizeof shaded.normal_z);
+  target.column_shift = 0;
+  target.range = buffers.range.pixels().data();
+  target.category = nullptr;
+  target.entity = buffers.entity.pixels().data();
+  target.normal = buffers.normal.pixels().data();
+  kernels.store_labels(tile_labels, target);
+
+  buffers.terms[static_cast<size_t>(tile)] = shaded.terms;
+  const TileLayout& layout = layouts[target.shape == PacketShape::kRow];
+  const int columns = std::min(kTileSize, target.width - target.column);
+  const int rows = std::min(kTileSize, target.height - target.row);
+  uint8_t smooth = 0;
+  for (int y = 0; y < rows; ++y) {
+    const int64_t first = static_cast<int64_t>(target.row + y) * target.width + target.column;
+    Rgb32f* light = buffers.light.pixels().data() + first;
+    for (int x = 0; x < columns; ++x) {
+      const int slot = layout.slot_of[y * kTileSize + x];
+      light[x] = {shaded.light_r[slot], shaded.light_g[slot], shaded.light_b[slot]};
+      buffers.light_samples.pixels()[static_cast<size_t>(first + x)] = shaded.light_samples[slot];
+      buffers.sun_seen.pixels()[static_cast<size_t>(first + x)] = shaded.sun_seen[slot];
+      buffers.penumbra.pixels()[static_cast<size_t>(first + x)] = shaded.penumbra[slot];
+      smooth |= shaded.penumbra[slot];
+    }
+  }
+  buffers.smooth[static_cast<size_t>(tile)] = smooth;
+}
+
+void HighFrame::Impl::Denoise() {
+  // The camera of canonical columns.
+  RigidTransform X_WC;
+  for (int i = 0; i < 9; ++i) X_WC.R.m[i / 3][i % 3] = rays->field().R[i];
+  X_WC.p = request->X_WC.p;
+  const FilterGuides guides{&request->camera, X_WC, &buffers.range, &buffers.entity, &buffers.normal};
+  denoiser.Run(guides, {&buffers.light, &buffers.light_samples}, request->temporal);
+}
+
+void HighFrame::Impl::Combine() {
+  const int tiles = buffers.across() * buffers.down();
+  ParallelFor((tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int64_t task) {
+    const int first = static_cast<int>(task) * kTilesPerTask;
+    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile) CombineTile(tile);
+  });
+}
+
+// Radiance of the pixels' centres, and how light they will look.
+void HighFrame::Impl::CombineTile(int tile) {
+  const RayField& field = rays->field();
+  const int column = tile % buffers.across() * kTileSize, row = tile / buffers.across() * kTileSize;
+  const TileLayout& layout = layouts[Shape(row) == PacketShape::kRow];
+  const LightTerms& t = buffers.terms[static_cast<size_t>(tile)];
+  const bool smooth = buffers.smooth[static_cast<size_t>(tile)] != 0;
+  for (int y = row; y < std::min(row + kTileSize, field.height); ++y) {
+    for (int x = column; x < std::min(column + kTileSize, field.width); ++x) {
+      const int k = layout.slot_of[(y - row) * kTileSize + x - column];
+      const Rgb32f light = buffers.light(x, y);
+      const float sun =
+          smooth && buffers.penumbra(x, y) != 0 ? SmoothSun(buffers, field, x, y) : buffers.sun_seen(x, y);
+      Rgb32f c{t.ambient_r[k] * light.r + t.sun_r[k] * sun + t.rest_r[k],
+               t.ambient_g[k] * light.g + t.sun_g[k] * sun + t.rest_g[k],
+               t.ambient_b[k] * light.b + t.sun_b[k] * sun + t.rest_b[k]};
+      // Pixels without a ray are black.
+      if (!field.separable && field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) c = {};
+      buffers.radiance(x, y) = c;
+      const float exposed = exposure * (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b);
+      buffers.luma(x, y) = static_cast<uint8_t>(255 * std::sqrt(exposed / (1 + exposed)));
+    }
+  }
+}
+
+// From canonical columns to those of the image.
+void HighFrame::Impl::Output(Image<Rgb32f>& radiance) const {
+  const int width = buffers.radiance.width(), height = buffers.radiance.height();
+  if (radiance.width() != width || radiance.height() != height) radiance = Image<Rgb32f>(width, height);
+  const int shift = rays->column_shift();
+  ParallelFor(height, [&](int64_t y) {
+    const auto from = buffers.radiance.row(static_cast<int>(y));
+    const auto to = radiance.row(static_cast<int>(y));
+    std::copy(from.begin() + shift, from.end(), to.begin());
+    std::copy(from.begin(), from.begin() + shift, to.end() - shift);
+  });
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,202 @@
+#include "airsim360/render/filter/filter_buffers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "airsim360/base/parallel.h"
+
+namespace airsim360::internal {
+namespace {
+
+// Tolerances of the plane test, in pixel widths a pixel of step: flat surfaces need none, a shading normal
+// leans away from its plane.
+constexpr float kGeometricSlope = 0.05f, kShadingSlope = 0.15f;
+constexpr int kFillRadius = 24;
+
+template <class T>
+void Repeat(T* row, int wrap) {
+  for (int k = 0; k < kFilterPad; ++k) row[wrap + k] = row[k % wrap];
+}
+
+}  // namespace
+
+int FilterBuffers::StepX(int y, int step) const {
+  if (!planes_.sphere) return step;
+  const int most = std::max(1, planes_.width / 8);
+  return std::min(most, static_cast<int>(std::lround(std::min(1e6f, static_cast<float>(step) * across_[y]))));
+}
+
+int FilterBuffers::PixelsAcross(int y) const {
+  if (!planes_.sphere) return 1;
+  const int half = static_cast<int>(std::lround((across_[y] - 1) / 2));
+  return 2 * std::min(half, planes_.width / 8) + 1;
+}
+
+void FilterBuffers::Resize(bool own_planes) {
+  FilterPlanes& f = planes_;
+  const size_t plane = static_cast<size_t>(f.stride) * f.height;
+  ids_.resize(3 * plane);
+  floats_.resize((own_planes ? 20 : 17) * plane);
+  uint32_t** ids[] = {&f.id, &f.data_id[0], &f.data_id[1]};
+  for (size_t k = 0; k < 3; ++k) *ids[k] = ids_.data() + k * plane;
+  float** floats[] = {&f.p[0],        &f.p[1],        &f.p[2],        &f.n[0],        &f.n[1],
+                      &f.n[2],        &f.light[0][0], &f.light[0][1], &f.light[0][2], &f.light[1][0],
+                      &f.light[1][1], &f.light[1][2], &f.samples,     &f.window,      &f.own,
+                      &f.loose,       &f.variance,    &f.g[0],        &f.g[1],        &f.g[2]};
+  for (size_t k = 0; k < 20; ++k)
+    *floats[k] = k >= 17 && !own_planes ? f.n[k - 17] : floats_.data() + k * plane;
+}
+
+void FilterBuffers::Load(const FilterGuides& guides, const LightSignal& signal, int max_step) {
+  rays_.Update(*guides.camera, guides.X_WC.R);
+  FilterPlanes& f = planes_;
+  const RayField& field = rays_.field();
+  f.width = field.width;
+  f.height = field.height;
+  f.sphere = field.separable;
+  f.wrap = f.sphere ? f.width : f.width + std::max(max_step, kFilterPad);
+  f.stride = (f.wrap + kFilterPad + 15) / 16 * 16;
+  f.cone_angle = static_cast<float>(rays_.cone_angle());
+  f.plane_slope = guides.geometric_normal != nullptr ? kGeometricSlope : kShadingSlope;
+  Resize(guides.geometric_normal != nullptr);
+  across_.resize(f.height);
+  for (int y = 0; y < f.height; ++y) {
+    across_[y] =
+        f.sphere ? static_cast<float>(1 / std::cos(std::numbers::pi * (0.5 - (y + 0.5) / f.height))) : 1.0f;
+  }
+  ParallelFor(f.height, [&](int64_t y) { LoadRow(guides, signal, static_cast<int>(y)); });
+}
+
+int FilterBuffers::ImageColumn(int canonical) const {
+  const int x = canonical - rays_.column_shift();
+  return x < 0 ? x + planes_.width : x;
+}
+
+void FilterBuffers::LoadRow(const FilterGuides& guides, const LightSignal& signal, int y) {
+  const FilterPlanes& f = planes_;
+  const RayField& field = rays_.field();
+  const auto direction = [&](int c) -> Vec3d {
+    if (field.separable) {
+      return Vec3d{field.column_x[c], field.column_y[c], field.column_z[c]} * field.row_scale[y] +
+             Vec3d{field.row_x[y], field.row_y[y], field.row_z[y]};
+    }
+    const size_t i = static_cast<size_t>(y) * field.stride + c;
+    const Vec3d d{field.ray_x[i], field.ray_y[i], field.ray_z[i]};
+    return {field.R[0] * d.x + field.R[1] * d.y + field.R[2] * d.z,
+            field.R[3] * d.x + field.R[4] * d.y + field.R[5] * d.z,
+            field.R[6] * d.x + field.R[7] * d.y + field.R[8] * d.z};
+  };
+  const size_t row = static_cast<size_t>(y) * f.stride;
+  const auto put = [](float* const* planes, size_t i, Vec3f v) {
+    planes[0][i] = v.x, planes[1][i] = v.y, planes[2][i] = v.z;
+  };
+  for (int c = 0; c < f.width; ++c) {
+    const int x = ImageColumn(c);
+    const size_t i = row + c;
+    const float range = (*guides.range)(x, y);
+    const bool surface = range > 0;
+    const uint8_t samples = signal.samples == nullptr ? 1 : (*signal.samples)(x, y);
+    f.id[i] = surface ? (*guides.entity)(x, y) : kNoSurface;
+    f.data_id[0][i] = surface && samples > 0 ? f.id[i] : 0;
+    put(f.p, i, surface ? VecCast<float>(direction(c) * static_cast<double>(range)) : Vec3f{});
+    put(f.n, i, (*guides.normal)(x, y));
+    if (guides.geometric_normal != nullptr) put(f.g, i, (*guides.geometric_normal)(x, y));
+    const Rgb32f light = (*signal.light)(x, y);
+    put(f.light[0], i, {light.r, light.g, light.b});
+    f.samples[i] = samples;
+  }
+  for (int c = f.width; c < f.wrap; ++c) {
+    f.id[row + c] = kNoSurface;
+    f.data_id[0][row + c] = 0;
+  }
+  Repeat(f.id + row, f.wrap);
+  Repeat(f.samples + row, f.wrap);
+  for (float* const* planes : {f.p, f.n, f.g}) {
+    for (int k = 0; k < 3; ++k) Repeat(planes[k] + row, f.wrap);
+  }
+  RepeatLight(y, 0);
+}
+
+void FilterBuffers::RepeatLight(int y, int set) {
+  const FilterPlanes& f = planes_;
+  const size_t row = static_cast<size_t>(y) * f.stride;
+  // A pass may have written beyond the last column of a picture that is no panorama.
+  for (int c = f.width; c < f.wrap; ++c) f.data_id[set][row + c] = 0;
+  Repeat(f.data_id[set] + row, f.wrap);
+  for (int k = 0; k < 3; ++k) Repeat(f.light[set][k] + row, f.wrap);
+}
+
+void FilterBuffers::RepeatSamples(int y) {
+  Repeat(planes_.samples + static_cast<size_t>(y) * planes_.stride, planes_.wrap);
+}
+
+void FilterBuffers::TakeGathered(int y) {
+  const FilterPlanes& f = planes_;
+  const size_t row = static_cast<size_t>(y) * f.stride;
+  for (int k = 0; k < 3; ++k) std::copy_n(f.light[1][k] + row, f.width, f.light[0][k] + row);
+  std::copy_n(f.data_id[1] + row, f.width, f.data_id[0] + row);
+  std::copy_n(f.window + row, f.width, f.samples + row);
+  RepeatLight(y, 0);
+  RepeatSamples(y);
+}
+
+void FilterBuffers::RepeatStatistics(int y) {
+  const FilterPlanes& f = planes_;
+  const size_t row = static_cast<size_t>(y) * f.stride;
+  for (float* plane : {f.window, f.own, f.loose}) Repeat(plane + row, f.wrap);
+}
+
+Rgb32f FilterBuffers::FillHole(int set, int x, int y) const {
+  const FilterPlanes& f = planes_;
+  const uint32_t id = f.id[static_cast<size_t>(y) * f.stride + x];
+  for (const bool any_surface : {false, true}) {
+    for (int r = 1; r <= kFillRadius; ++r) {
+      Vec3d sum;
+      int count = 0;
+      const int step_x = StepX(y, r);
+      for (int dy = -r; dy <= r; ++dy) {
+        const bool whole = std::abs(dy) == r;
+        int row = y + dy, column = x;
+        if (row < 0 || row >= f.height) {
+          if (!f.sphere) continue;
+          row = row < 0 ? -1 - row : 2 * f.height - 1 - row;
+          if (row < 0 || row >= f.height) continue;
+          column += f.width / 2;
+        }
+        for (int k = -r; k <= r; k += whole ? 1 : 2 * r) {
+          int c = column + k * step_x / r;
+          if (!f.sphere && (c < 0 || c >= f.width)) continue;
+          c = (c % f.wrap + f.wrap) % f.wrap;
+          const size_t i = static_cast<size_t>(row) * f.stride + c;
+          const uint32_t there = f.data_id[set][i];
+          if (there == 0 || (!any_surface && there != id)) continue;
+          sum += {f.light[set][0][i], f.light[set][1][i], f.light[set][2][i]};
+          ++count;
+        }
+      }
+      if (count == 0) continue;
+      const Vec3f mean = VecCast<float>(sum / static_cast<double>(count));
+      return {mean.x, mean.y, mean.z};
+    }
+  }
+  const size_t i = static_cast<size_t>(y) * f.stride + x;
+  return {f.light[set][0][i], f.light[set][1][i], f.light[set][2][i]};
+}
+
+void FilterBuffers::Store(int set, Image<Rgb32f>& light) const {
+  const FilterPlanes& f = planes_;
+  ParallelFor(f.height, [&](int64_t row) {
+    const int y = static_cast<int>(row);
+    for (int c = 0; c < f.width; ++c) {
+      const size_t i = static_cast<size_t>(y) * f.stride + c;
+      if (f.id[i] == kNoSurface) continue;
+      light(ImageColumn(c), y) = f.data_id[set][i] == 0
+                                     ? FillHole(set, c, y)
+                                     : Rgb32f{f.light[set][0][i], f.light[set][1][i], f.light[set][2][i]};
+    }
+  });
+}
+
+}  // namespace airsim360::internal

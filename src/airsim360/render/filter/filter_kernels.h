@@ -1,0 +1,18 @@
+// The passes of the denoiser, row by row: one copy per instruction set, bit for bit the same results.
+#pragma once
+
+#include "airsim360/render/filter/filter_planes.h"
+#include "airsim360/render/kernel_isa.h"
+
+/// Averages light of set 0 along the row over `columns` columns about each pixel, weighted by samples, where
+/// pixels are narrower than they are high.
+AIRSIM360_DECLARE_KERNEL(void GatherRow(const FilterPlanes& planes, int y, int columns))
+/// Statistics of the 3 x 3 neighbourhood: window, own, loose.
+AIRSIM360_DECLARE_KERNEL(void WindowRow(const FilterPlanes& planes, int y, int step_x))
+/// Variance of noise from the windows three pixels around.
+AIRSIM360_DECLARE_KERNEL(void VarianceRow(const FilterPlanes& planes, int y, int step_x))
+/// One level: light and data_id of set `in` to the other set, with nine taps `step` pixels apart. Does not
+/// write the padding.
+AIRSIM360_DECLARE_KERNEL(void AtrousRow(const FilterPlanes& planes, int y, int step, int step_x, int in))
+/// Where the points of row y were seen before.
+AIRSIM360_DECLARE_KERNEL(void ReprojectRow(const FilterPlanes& planes, int y, const ReprojectedRow& then))

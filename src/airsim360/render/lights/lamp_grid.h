@@ -1,0 +1,62 @@
+// Which lamps matter where: for shading without noise.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "airsim360/render/lights/light_table.h"
+#include "airsim360/render/shading/shading_data.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360::internal {
+
+/// Immutable. Lamps that stand close together on one instance are merged; each keeps its power, its place and
+/// the direction it shines to. Cells of space near surfaces know the fifteen lamps that bring most light and
+/// which of their corners see each; shading weighs all of them and sends rays to the strongest alone. Wide
+/// and dim lamps (windows, signs) are not in here: light probes gather them. The same bytes with any number
+/// of threads.
+class LampGrid {
+ public:
+  /// `daylight`: irradiance of sun and sky on the ground; lamps that are nothing beside it are left out.
+  LampGrid(const RayTracer& tracer, const LightTable& table, float daylight);
+
+  /// lamps == nullptr if none is left.
+  LampView view() const;
+  /// Whether a lamp (index into LightTable::lamps) is in the grid, or its light is for the probes to gather.
+  bool Holds(uint32_t lamp) const { return record_of_[lamp] != LightTable::kNoLamp; }
+  size_t lamps() const { return records_.size(); }
+  size_t cells() const { return cells_.size() - 1; }
+  /// Irradiance at a point for a unit normal with the visibility that the corners know (scalar; for probes
+  /// and tests).
+  Vec3f Irradiance(Vec3f p, Vec3f normal) const;
+
+  /// Roughly the same, as the nearest cell has it on average; for light that bounces.
+  Vec3f NearIrradiance(Vec3f p, Vec3f normal) const;
+  /// Irradiance that lit places have: the upper quartile over cells of what falls on a level surface. 0 if no
+  /// lamp reaches any.
+  float TypicalLight() const;
+
+ private:
+  struct Corner;
+
+  void Merge(const LightTable& table, float daylight);
+  void PlaceCells(const RayTracer& tracer);
+  std::vector<Corner> SeeFromCorners(const RayTracer& tracer, const std::vector<uint32_t>& places) const;
+  void FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners,
+                 const std::vector<uint32_t>& corner_of);
+  Vec3f CornerPosition(uint32_t corner) const;
+  float Strength(const LampRecord& lamp, Vec3f p) const;
+  void AverageCells();
+  Vec3f CellOrigin(size_t place) const;
+
+  std::vector<LampRecord> records_;
+  std::vector<uint32_t> record_of_;  ///< by lamp of the table
+  std::vector<LampCell> cells_;      ///< 0: none
+  std::vector<uint32_t> cell_of_;
+  std::vector<std::array<Vec3f, 6>> sides_;  ///< by cell: mean irradiance on surfaces that face +x, -x, +y …
+  Vec3f origin_;
+  float cell_ = 2.5f;
+  int nx_ = 0, ny_ = 0, nz_ = 0;
+};
+
+}  // namespace airsim360::internal

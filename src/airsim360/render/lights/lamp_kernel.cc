@@ -1,0 +1,219 @@
+// Kernel: light of the lamps around each surface, all lamps of its cell at once.
+#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shading/shading_simd.h"
+
+namespace airsim360::internal::AIRSIM360_ISA {
+namespace {
+
+#define KERNEL static inline __attribute__((always_inline, unused))
+
+constexpr int kSlots = 16;         // lamps of a cell, one spare
+constexpr float kFoliage = 1;      // SurfaceKind
+constexpr float kMatt = 0.6f;      // rougher surfaces show no highlight of a lamp
+constexpr float kBrightest = 400;  // as for the sun's glint
+constexpr float kUnseen = 0.15f;   // rank of a lamp that no corner of the cell sees, against one that all see
+constexpr float kTooLittle = 0.01f;  // of all light: not worth a ray
+static_assert(kSlots % kLanes == 0 && LampCell::kLamps < kSlots);
+
+/// The lamps of one cell as lanes. Unused slots send nothing.
+struct alignas(64) CellLanes {
+  alignas(64) float x[kSlots], y[kSlots], z[kSlots], radius[kSlots];
+  alignas(64) float fx[kSlots], fy[kSlots], fz[kSlots], body[kSlots];
+  alignas(64) float r[kSlots], g[kSlots], b[kSlots], soft[kSlots], reach[kSlots];
+  alignas(64) int32_t seen[kSlots];
+  int count;
+};
+
+KERNEL void LoadCell(const LampView& view, const LampCell& cell, CellLanes& c) {
+  c.count = static_cast<int>(cell.header & 255);
+  for (int k = 0; k < kSlots; ++k) {
+    const bool used = k < c.count;
+    const LampRecord& lamp = view.lamps[used ? cell.lamp[k] & 0xffffffu : 0];
+    c.x[k] = lamp.center[0], c.y[k] = lamp.center[1], c.z[k] = lamp.center[2];
+    c.radius[k] = lamp.radius;
+    c.fx[k] = lamp.facing[0], c.fy[k] = lamp.facing[1], c.fz[k] = lamp.facing[2];
+    c.body[k] = lamp.body;
+    c.r[k] = used ? lamp.color[0] : 0, c.g[k] = used ? lamp.color[1] : 0, c.b[k] = used ? lamp.color[2] : 0;
+    c.soft[k] = lamp.soft;
+    c.reach[k] = lamp.reach;
+    c.seen[k] = used ? static_cast<int32_t>(cell.lamp[k] >> 24) : 0;
+  }
+}
+
+/// Where a point lies in the grid.
+struct Place {
+  uint32_t cell;     // 0 = no lamps
+  float fx, fy, fz;  // in the cell
+};
+KERNEL Place Locate(const LampView& view, float x, float y, float z) {
+  const float gx = (x - view.origin_x) * view.cells_per_metre,
+              gy = (y - view.origin_y) * view.cells_per_metre,
+              gz = (z - view.origin_z) * view.cells_per_metre;
+  if (!(gx >= 0 && gy >= 0 && gz >= 0 && gx < static_cast<float>(view.nx) &&
+        gy < static_cast<float>(view.ny) && gz < static_cast<float>(view.nz)))
+    return {0, 0, 0, 0};
+  const int ix = static_cast<int>(gx), iy = static_cast<int>(gy), iz = static_cast<int>(gz);
+  return {view.cell_of[(static_cast<int64_t>(iz) * view.ny + iy) * view.nx + ix], gx - static_cast<float>(ix),
+          gy - static_cast<float>(iy), gz - static_cast<float>(iz)};
+}
+
+/// Weights of the corners that are not in solids; 0 where all are.
+KERNEL void CornerWeights(uint32_t header, const Place& at, float* weight) {
+  float sum = 0;
+  for (int k = 0; k < 8; ++k) {
+    const float w = (k & 1 ? at.fx : 1 - at.fx) * (k & 2 ? at.fy : 1 - at.fy) * (k & 4 ? at.fz : 1 - at.fz);
+    weight[k] = (header >> (8 + k) & 1) != 0 ? w + 1e-4f : 0;
+    sum += weight[k];
+  }
+  const float scale = sum > 0 ? 1 / sum : 0;
+  for (int k = 0; k < 8; ++k) weight[k] *= scale;
+}
+
+/// What each lamp of the cell does to one surface.
+struct alignas(64) Effects {
+  alignas(64) float dx[kSlots], dy[kSlots], dz[kSlots], distance[kSlots];
+  alignas(64) float front[3][kSlots], back[3][kSlots], shine[3][kSlots];
+  alignas(64) float guess[kSlots], rank[kSlots];
+};
+
+KERNEL real3 Same(float x, float y, float z) { return make3(real(x), real(y), real(z)); }
+
+KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellLanes& c, const float* weight,
+                     Effects& e) {
+  const real3 p = Same(s.px[i], s.py[i], s.pz[i]), n = Same(s.nx[i], s.ny[i], s.nz[i]);
+  const real3 g = Same(s.gx[i], s.gy[i], s.gz[i]), d = Same(rays.dx[i], rays.dy[i], rays.dz[i]);
+  const bool leaf = s.kind[i] == kFoliage;
+  const bool shiny = s.mirror[i] == 0 && !leaf && (s.roughness[i] < kMatt || s.metallic[i] > 0.2f);
+  const real metallic = real(s.metallic[i]), zero = real(0.0f);
+  const real3 f0 = lerp3(Same(0.04f, 0.04f, 0.04f), Same(s.ar[i], s.ag[i], s.ab[i]), metallic);
+  const real n_dot_v = rmax(zero - dot3(n, d), real(0.02f));
+  for (int k = 0; k < kSlots && k < c.count; k += kLanes) {
+    // Direction and what comes along it.
+    const real3 to = load3(c.x + k, c.y + k, c.z + k) - p;
+    const real distance = rroot(rmax(dot3(to, to), real(1e-8f)));
+    const real3 w = to * (1.0f / distance);
+    const real radius = load(c.radius + k);
+    const real towards = zero - dot3(load3(c.fx + k, c.fy + k, c.fz + k), w);
+    const real light =
+        lamp_irradiance(load(c.body + k), towards, load(c.soft + k), radius, distance, load(c.reach + k));
+    const real3 color = load3(c.r + k, c.g + k, c.b + k) * light;
+
+    // Front, back, highlight.
+    const real n_dot_l = dot3(n, w), above = dot3(g, w);
+    const real lit = leaf ? rmax(n_dot_l, zero) : sel(above > 0.0f, rmax(n_dot_l, zero), zero);
+    const real behind = leaf ? rmax(zero - n_dot_l, zero) : zero;
+    const real3 front = color * lit, back = color * behind;
+    real3 shine = Same(0, 0, 0);
+    if (shiny) {
+      const real3 h = normalize3(w - d);
+      // A lamp is not a point: its size widens the highlight (Karis 2013).
+      const real own = real(s.roughness[i] * s.roughness[i]);
+      const real alpha = rmin(rmax(own, real(0.006f)) + 0.5f * radius / distance, real(1.0f));
+      const real3 f = specular_brdf(f0, alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v, rmax(dot3(n, h), zero),
+                                    clamp01(dot3(w, h)));
+      shine = f * front;
+      shine = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
+                    rmin(shine.z, real(kBrightest)));
+    }
+
+    // Share of the cell's corners that see it.
+    const ireal seen(c.seen + k, stdx::vector_aligned);
+    real guess = zero;
+    for (int corner = 0; corner < 8; ++corner) guess = guess + to_real((seen >> corner) & 1) * weight[corner];
+    store3(e.dx + k, e.dy + k, e.dz + k, w);
+    store(e.distance + k, distance - radius * 1.02f);
+    store3(e.front[0] + k, e.front[1] + k, e.front[2] + k, front);
+    store3(e.back[0] + k, e.back[1] + k, e.back[2] + k, back);
+    store3(e.shine[0] + k, e.shine[1] + k, e.shine[2] + k, shine);
+    store(e.guess + k, guess);
+    store(e.rank + k, luminance(front + back + shine) * (kUnseen + (1.0f - kUnseen) * guess));
+  }
+}
+
+/// A point of the lamp's sphere instead of its centre.
+KERNEL void Soften(uint32_t key, float radius, LampRays::Ray& ray) {
+  key = (key ^ (key >> 16)) * 0x7feb352du;
+  key = (key ^ (key >> 15)) * 0x846ca68bu;
+  key ^= key >> 16;
+  const float z = 2 * static_cast<float>(key & 0xffff) * (1.0f / 65536) - 1;
+  const float turn = static_cast<float>(key >> 16) * (1.0f / 65536);
+  const float whole = ray.distance + radius * 1.02f;
+  // A point of the square around the circle is near enough: sine and cosine would cost more than they give.
+  const float a = 4 * turn, side = __builtin_sqrtf(1 - z * z);
+  const float c = a < 1 ? 1 - 2 * a : a < 2 ? -1 : a < 3 ? 2 * a - 5 : 1;
+  const float q = a < 1 ? 1 : a < 2 ? 3 - 2 * a : a < 3 ? -1 : 2 * a - 7;
+  const float scale = 0.85f * radius * side / __builtin_sqrtf(c * c + q * q);
+  const float x = ray.dx * whole + c * scale, y = ray.dy * whole + q * scale,
+              h = ray.dz * whole + 0.85f * radius * z;
+  const float length = __builtin_sqrtf(x * x + y * y + h * h);
+  const float inverse = 1 / (length > 1e-6f ? length : 1e-6f);
+  ray.dx = x * inverse, ray.dy = y * inverse, ray.dz = h * inverse;
+}
+
+/// Takes the strongest lamps out for rays. The less a lamp stands out from the first one left behind, the
+/// less its ray counts: so nothing jumps where the order changes.
+KERNEL void ChooseRays(const CellLanes& c, Effects& e, float total, int count, bool soft, uint32_t key, int i,
+                       LampRays& wanted) {
+  int chosen[LampRays::kMost + 1];
+  float rank[LampRays::kMost + 1];
+  for (int k = 0; k <= count; ++k) {
+    int best = -1;
+    for (int j = 0; j < c.count; ++j) {
+      if (e.rank[j] > kTooLittle * total && (best < 0 || e.rank[j] > e.rank[best])) best = j;
+    }
+    chosen[k] = best;
+    rank[k] = best < 0 ? 0 : e.rank[best];
+    if (best >= 0) e.rank[best] = 0;
+  }
+  for (int k = 0; k < count; ++k) {
+    LampRays::Ray& ray = wanted.ray[k][i];
+    ray.share = 0;
+    const int j = chosen[k];
+    if (j < 0) continue;
+    const float lead = 2 * (rank[k] - rank[count]) / rank[k];
+    ray.share = lead < 1 ? lead : 1;
+    ray.dx = e.dx[j], ray.dy = e.dy[j], ray.dz = e.dz[j];
+    ray.distance = e.distance[j];
+    ray.guess = e.guess[j];
+    for (int q = 0; q < 3; ++q)
+      ray.front[q] = e.front[q][j], ray.back[q] = e.back[q][j], ray.shine[q] = e.shine[q][j];
+    if (soft && ray.distance > 0) Soften(key * 4u + static_cast<uint32_t>(k), c.radius[j], ray);
+  }
+}
+
+}  // namespace
+
+void LightByLamps(const ShadeView& view, const RaySet& rays, int count, bool soft, SurfaceSet& s,
+                  LampRays& wanted) {
+  CellLanes cell;
+  uint32_t loaded = 0;
+  const int padded = (rays.count + 15) / 16 * 16;
+  for (int i = 0; i < padded; ++i) {
+    float front[3] = {}, back[3] = {}, shine[3] = {};
+    for (int k = 0; k < count; ++k) wanted.ray[k][i].share = 0;
+    const Place at = i < rays.count ? Locate(view.lamps, s.px[i], s.py[i], s.pz[i]) : Place{0, 0, 0, 0};
+    if (at.cell != 0) {
+      if (at.cell != loaded) LoadCell(view.lamps, view.lamps.cells[at.cell], cell);
+      loaded = at.cell;
+      float weight[8];
+      CornerWeights(view.lamps.cells[at.cell].header, at, weight);
+      Effects e;
+      Evaluate(s, rays, i, cell, weight, e);
+      float total = 0;
+      for (int k = 0; k < cell.count; ++k) {
+        for (int q = 0; q < 3; ++q) {
+          front[q] += e.front[q][k] * e.guess[k];
+          back[q] += e.back[q][k] * e.guess[k];
+          shine[q] += e.shine[q][k] * e.guess[k];
+        }
+        total += e.rank[k];
+      }
+      if (count > 0) ChooseRays(cell, e, total, count, soft, rays.key[i], i, wanted);
+    }
+    s.lamp_r[i] = front[0], s.lamp_g[i] = front[1], s.lamp_b[i] = front[2];
+    s.lamp_back_r[i] = back[0], s.lamp_back_g[i] = back[1], s.lamp_back_b[i] = back[2];
+    s.lamp_shine_r[i] = shine[0], s.lamp_shine_g[i] = shine[1], s.lamp_shine_b[i] = shine[2];
+  }
+}
+
+}  // namespace airsim360::internal::AIRSIM360_ISA

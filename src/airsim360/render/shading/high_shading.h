@@ -1,0 +1,46 @@
+// The light of one tile for tier `high`, in terms that are put together when the whole image is known.
+#pragma once
+
+#include <cstdint>
+
+#include "airsim360/render/shading/shader.h"
+#include "airsim360/render/shading/shading_data.h"
+
+namespace airsim360::internal {
+
+/// How the pixels of a tile share random directions. A tile's pixels are of sixteen phases, as the 4 x 4
+/// pixels of a block; all pixels of one phase send parallel rays (which trace fast), and the 16 phases of any
+/// 4 x 4 pixels, aligned or not, have different ones that are stratified together (interleaved sampling,
+/// Keller & Heidrich 2001): a mean over 4 x 4 pixels is as good as one pixel with 16 times the samples.
+struct TileLayout {
+  uint8_t slot_of[256];     ///< index in the batch of pixel 16 y + x
+  uint8_t members[16][16];  ///< slots of the pixels of a phase
+  uint8_t phase[256];       ///< of a slot
+};
+
+/// Of one tile.
+struct TileSampling {
+  const TileLayout* layout;
+  uint32_t seed;       ///< of all random choices in 4 x 4 tiles
+  uint32_t tile;       ///< which of these, 0 … 15 in Morton order: together they are stratified, too
+  float ambient_rays;  ///< wanted for a pixel, on average; at least one is sent
+  float cone_angle;    ///< of a pixel, radians
+};
+
+/// In the order of a HitBatch. What met nothing has its radiance in `rest` and zeros elsewhere.
+struct alignas(64) HighTile {
+  LightTerms terms;
+  float sun_seen[kBatch];                                      ///< share of the disc
+  float normal_x[kBatch], normal_y[kBatch], normal_z[kBatch];  ///< shading normal
+  /// Irradiance found, times 1 / albedo where the albedo differs between front and back of leaves.
+  float light_r[kBatch], light_g[kBatch], light_b[kBatch];
+  uint8_t light_samples[kBatch];
+  uint8_t penumbra[kBatch];  ///< radius in pixels over which `sun_seen` may be smoothed; 0 = exact
+};
+
+/// Shades a tile. Without `sampling` the hits are scattered rays: the sun is sampled once by each ray's key
+/// and no ambient rays are sent.
+void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
+               const TileSampling* sampling, HighTile& tile);
+
+}  // namespace airsim360::internal

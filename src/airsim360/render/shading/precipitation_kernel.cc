@@ -1,0 +1,52 @@
+// Kernel: rain and snow in the air before the picture.
+#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shading/shading_simd.h"
+
+namespace airsim360::internal::AIRSIM360_ISA {
+namespace {
+
+#define KERNEL static inline __attribute__((always_inline))
+
+// Rain leans with the wind: metres east for each metre of height.
+constexpr float kLean = 0.12f;
+// A drop refracts light from all around and hides little; a flake is opaque.
+constexpr float kDropOpacity = 0.55f;
+
+/// Share of places that hold a drop, for a rate in mm/h: the number of drops grows with a power of the rate
+/// (Marshall & Palmer 1948: N ~ R^0.21 times their size; drawn are those large enough to see).
+KERNEL float Keep(float rate, float per_place, float most) {
+  return rate * per_place < most ? rate * per_place : most;
+}
+
+KERNEL real Rain(float rate, real3 o, real3 d, real reach, float spread) {
+  // In the leaning frame drops fall straight down.
+  const real x = o.x - o.z * kLean;
+  const real3 s = make3(d.x - d.z * kLean, d.y, d.z);
+  const float keep = Keep(rate, 0.05f, 0.95f);
+  const real near = drops_cover(x, o.y, o.z, s, reach, spread, 0.40f, 0.55f, 0.22f, 0.0011f, keep, 5.0f, 3.0f);
+  const real far = drops_cover(x, o.y, o.z, s, reach, spread, 1.3f, 0.9f, 0.34f, 0.0030f, keep, 17.0f, 41.0f);
+  return (1.0f - (1.0f - near) * (1.0f - far)) * kDropOpacity;
+}
+
+KERNEL real Snow(float rate, real3 o, real3 d, real reach, float spread) {
+  const float keep = Keep(rate, 0.28f, 0.95f);
+  const real near = drops_cover(o.x, o.y, o.z, d, reach, spread, 0.34f, 0.40f, 0.0f, 0.0045f, keep, 4.5f, 5.0f);
+  const real far = drops_cover(o.x, o.y, o.z, d, reach, spread, 0.85f, 0.60f, 0.0f, 0.0080f, keep, 11.0f, 53.0f);
+  return 1.0f - (1.0f - near) * (1.0f - far);
+}
+
+}  // namespace
+
+void AddPrecipitation(const ShadeView& view, const RaySet& rays, bool sky, float cone_angle, LightSet& light) {
+  for (int i = 0; i < rays.count; i += kLanes) {
+    const real3 o = load3(rays.ox + i, rays.oy + i, rays.oz + i), d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
+    const real reach = sky ? real(kFarAir) : load(rays.distance + i);
+    real hidden = real(0.0f);
+    if (view.air.rain > 0.0f) hidden = Rain(view.air.rain, o, d, reach, cone_angle);
+    if (view.air.snow > 0.0f) hidden = hidden + (1.0f - hidden) * Snow(view.air.snow, o, d, reach, cone_angle);
+    const real3 before = load3(light.r + i, light.g + i, light.b + i);
+    store3(light.r + i, light.g + i, light.b + i, before * (1.0f - hidden) + ufloat3_of(view.air.drop_light) * hidden);
+  }
+}
+
+}  // namespace airsim360::internal::AIRSIM360_ISA

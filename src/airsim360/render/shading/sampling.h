@@ -1,0 +1,69 @@
+// Even random points: Sobol's first two dimensions, Owen-scrambled.
+#pragma once
+
+#include <cstdint>
+
+#include "airsim360/math/vector.h"
+#include "airsim360/render/shading/shading_scalar.h"
+
+namespace airsim360::internal {
+
+inline uint32_t ReverseBits(uint32_t x) {
+  x = (x >> 16) | (x << 16);
+  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+
+/// Nested uniform scramble of a number's bits, most significant first (Laine & Karras 2011, as improved by
+/// Burley, JCGT 9(4), 2020).
+inline uint32_t OwenScramble(uint32_t x, uint32_t seed) {
+  x = ReverseBits(x);
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return ReverseBits(x);
+}
+
+/// Point `index` of the (0, 2)-sequence scrambled by `seed`: any 2^k points from a multiple of 2^k on are
+/// stratified in [0, 1)^2 in every way.
+inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
+  uint32_t y = 0;
+  for (uint32_t i = index, v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1) {
+    if (i & 1) y ^= v;
+  }
+  const uint32_t x = OwenScramble(ReverseBits(index), seed);
+  y = OwenScramble(y, seed * 0x9e3779b1u + 0x7f4a7c15u);
+  return {static_cast<float>(x >> 8) * 0x1p-24f, static_cast<float>(y >> 8) * 0x1p-24f};
+}
+
+/// Unit vector of a point of the unit square, areas kept.
+inline Vec3f SpherePoint(Vec2f u) {
+  const float z = 1 - 2 * u.x, s = std::sqrt(std::max(0.0f, 1 - z * z)), angle = 6.28318531f * u.y;
+  return {s * scalar::sin_approx(angle + 1.57079633f), s * scalar::sin_approx(angle), z};
+}
+
+/// Directions to points of the sun's disc of 0.53 degrees.
+class SunDisc {
+ public:
+  explicit SunDisc(Vec3f to_sun) : to_sun_(to_sun) {
+    const Vec3f reference = std::fabs(to_sun.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
+    right_ = Normalized(Cross(reference, to_sun)) * kRadius;
+    up_ = Cross(to_sun, right_);
+  }
+  /// Even over the disc for u even over the unit square.
+  Vec3f At(Vec2f u) const {
+    const float radius = std::sqrt(u.x), angle = 6.28318531f * u.y;
+    return Normalized(to_sun_ + right_ * (radius * scalar::sin_approx(angle + 1.57079633f)) +
+                      up_ * (radius * scalar::sin_approx(angle)));
+  }
+
+ private:
+  static constexpr float kRadius = 0.00462f;  // radians
+  Vec3f to_sun_, right_, up_;
+};
+
+}  // namespace airsim360::internal

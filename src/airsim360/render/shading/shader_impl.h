@@ -1,0 +1,66 @@
+// The inside of a Shader, for the tiers that are made of the same parts.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "airsim360/render/lights/lamp_grid.h"
+#include "airsim360/render/lights/light_table.h"
+#include "airsim360/render/shading/light_probes.h"
+#include "airsim360/render/shading/shader.h"
+#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shading/sky.h"
+#include "airsim360/render/shading/surface_tables.h"
+
+namespace airsim360 {
+
+struct Shader::Impl {
+  /// The kernels of shading_kernels.h for this machine.
+  struct Kernels {
+    decltype(&internal::isa_sse42::PrepareSurfaces) prepare = AIRSIM360_SELECT_KERNEL(PrepareSurfaces);
+    decltype(&internal::isa_sse42::LightSurfaces) light = AIRSIM360_SELECT_KERNEL(LightSurfaces);
+    decltype(&internal::isa_sse42::SplitLight) split = AIRSIM360_SELECT_KERNEL(SplitLight);
+    decltype(&internal::isa_sse42::ScatterReflections) scatter = AIRSIM360_SELECT_KERNEL(ScatterReflections);
+    decltype(&internal::isa_sse42::AmbientRays) ambient_rays = AIRSIM360_SELECT_KERNEL(AmbientRays);
+    decltype(&internal::isa_sse42::ShadeAmbient) shade_ambient = AIRSIM360_SELECT_KERNEL(ShadeAmbient);
+    decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
+    decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
+    decltype(&internal::isa_sse42::AddPrecipitation) precipitation =
+        AIRSIM360_SELECT_KERNEL(AddPrecipitation);
+    decltype(&internal::isa_sse42::ToneMapRow) tone = AIRSIM360_SELECT_KERNEL(ToneMapRow);
+  };
+
+  Impl(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
+
+  float ChooseExposure(const Scene& scene) const;
+  /// Irradiance of sun and sky on level ground.
+  float Daylight() const;
+  /// Fills lamp_* of surfaces, with `count` rays each.
+  void LightByLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
+  /// Traces the rays that mirrors and clear panes send on (where the surfaces say so) and shades what they
+  /// meet in the same way, once.
+  void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces) const;
+  /// Radiance of surfaces; `bounce` 0 = seen by the camera, 1 = seen in another surface.
+  void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light) const;
+
+  std::shared_ptr<const RayTracer> tracer;
+  internal::SurfaceTables tables;
+  internal::LightTable lights;
+  std::optional<internal::Sky> sky;
+  std::optional<internal::LampGrid> lamps;
+  std::optional<internal::LightProbes> probes;
+  internal::ShadeView view{};
+  Kernels kernels;
+  float exposure = 1;
+};
+
+namespace internal {
+/// Rays from a surface to its strongest lamps.
+inline constexpr int kLampRays = 2;
+
+/// Splits a batch into rays that met a surface and rays that met nothing, packed and padded; `slot` is the
+/// index in the batch.
+void SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky);
+}  // namespace internal
+
+}  // namespace airsim360

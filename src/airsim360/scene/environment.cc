@@ -1,0 +1,111 @@
+#include "airsim360/scene/environment.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+std::string Number(double value) {
+  char buffer[32];
+  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+/// Light and weather of a preset.
+struct Preset {
+  const char* name;
+  double azimuth, elevation, cloud_cover, cirrus_cover, visibility, wetness, snow_depth, rain, snowfall;
+};
+constexpr Preset kPresets[] = {
+    {"day", 215, 48, 0.35, 0.3, 0, 0, 0, 0, 0},
+    {"clear", 215, 48, 0, 0, 0, 0, 0, 0, 0},
+    {"morning", 105, 22, 0.25, 0.4, 0, 0, 0, 0, 0},
+    {"golden", 262, 9, 0.3, 0.5, 0, 0, 0, 0, 0},
+    {"sunset", 285, 1.5, 0.3, 0.6, 0, 0, 0, 0, 0},
+    {"dusk", 290, -4, 0.2, 0.4, 0, 0, 0, 0, 0},
+    {"night", 330, -25, 0.15, 0.2, 0, 0, 0, 0, 0},
+    {"overcast", 200, 40, 1, 0, 0, 0, 0, 0, 0},
+    {"fog", 150, 28, 0.6, 0, 180, 0.2, 0, 0, 0},
+    {"mist", 110, 16, 0.2, 0.3, 1500, 0.1, 0, 0, 0},
+    {"rain", 200, 32, 1, 0, 4000, 1, 0, 6, 0},
+    {"storm", 200, 25, 1, 0, 1500, 1, 0, 30, 0},
+    {"snow", 190, 24, 1, 0, 0, 0.1, 0.8, 0, 1.5},
+    {"winter", 190, 22, 0.25, 0.4, 0, 0, 0.9, 0, 0},
+};
+
+}  // namespace
+
+const std::vector<EnvironmentField>& EnvironmentFields() {
+  using E = Environment;
+  static const std::vector<EnvironmentField> fields = {
+      {"sun_azimuth_deg", "of the sun, compass, clockwise from north", &E::sun_azimuth_deg, -360, 360},
+      {"sun_elevation_deg", "of the sun over the horizon", &E::sun_elevation_deg, -90, 90},
+      {"turbidity", "Linke's: 2 very clear, 10 hazy", &E::turbidity, 1.8, 10},
+      {"cloud_cover", "cumulus and stratus: 0 none, 1 overcast", &E::cloud_cover, 0, 1},
+      {"cirrus_cover", "thin high cloud, 0 to 1", &E::cirrus_cover, 0, 1},
+      {"visibility_m", "range at which fog leaves a contrast of 0.05; 0 = clear", &E::visibility_m, 0, 1e6},
+      {"wetness", "of upward surfaces: 0 dry, 1 wet with puddles", &E::wetness, 0, 1},
+      {"snow_depth", "lying snow: 0 none, 1 everything that faces up", &E::snow_depth, 0, 1},
+      {"rain_mm_h", "drops in the air", &E::rain_mm_h, 0, 150},
+      {"snowfall_mm_h", "flakes in the air, as water", &E::snowfall_mm_h, 0, 15},
+      {"hdri_yaw_deg", "turns the sky picture clockwise", &E::hdri_yaw_deg, -360, 360},
+      {"hdri_scale", "from the sky picture's units to ours", &E::hdri_scale, 1e-6, 1e6},
+      {"moon_azimuth_deg", "of the moon, compass", &E::moon_azimuth_deg, -360, 360},
+      {"moon_elevation_deg", "of the moon over the horizon", &E::moon_elevation_deg, -90, 90},
+      {"moon_phase", "lit share of the moon: 0 new, 1 full", &E::moon_phase, 0, 1},
+  };
+  return fields;
+}
+
+void ValidateEnvironment(const Environment& environment, std::string_view where) {
+  for (const EnvironmentField& field : EnvironmentFields()) {
+    const double value = environment.*field.value;
+    if (value >= field.low && value <= field.high) continue;
+    const double nearest = std::isnan(value) ? Environment{}.*field.value : std::clamp(value, field.low, field.high);
+    throw InputError(std::string(where) + ": " + field.name + " is " + Number(value) + ", not in " +
+                     Number(field.low) + " … " + Number(field.high) + "; the nearest is " + Number(nearest));
+  }
+  constexpr double kThickest = 20;  // metres; a ray would see nothing else
+  if (environment.visibility_m > 0 && environment.visibility_m < kThickest) {
+    throw InputError(std::string(where) + ": visibility_m is " + Number(environment.visibility_m) +
+                     ", neither 0 (clear) nor at least 20; the nearest is 20");
+  }
+}
+
+Environment ParseEnvironmentPreset(std::string_view name, const Environment& base) {
+  for (const Preset& preset : kPresets) {
+    if (preset.name != name) continue;
+    Environment e = base;
+    e.sun_azimuth_deg = preset.azimuth, e.sun_elevation_deg = preset.elevation;
+    e.cloud_cover = preset.cloud_cover, e.cirrus_cover = preset.cirrus_cover;
+    e.visibility_m = preset.visibility, e.wetness = preset.wetness, e.snow_depth = preset.snow_depth;
+    e.rain_mm_h = preset.rain, e.snowfall_mm_h = preset.snowfall;
+    return e;
+  }
+  throw InputError(UnknownChoiceMessage("weather", std::string(name), EnvironmentPresetNames()));
+}
+
+std::vector<std::string> EnvironmentPresetNames() {
+  std::vector<std::string> names;
+  for (const Preset& preset : kPresets) names.emplace_back(preset.name);
+  return names;
+}
+
+std::string DescribeEnvironment(const Environment& environment) {
+  const Environment usual;
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += (text.empty() ? "" : ",") + name + "=" + value;
+  };
+  for (const EnvironmentField& field : EnvironmentFields()) {
+    if (environment.*field.value != usual.*field.value) add(field.name, Number(environment.*field.value));
+  }
+  if (environment.lamps != usual.lamps) add("lamps", kLampsNames[static_cast<int>(environment.lamps)]);
+  if (environment.hdri) add("hdri", environment.hdri->name);
+  return text;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,174 @@
+#include "airsim360/worlds/vegetation/broadleaf_growth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace airsim360::internal {
+namespace {
+
+// True for the joints of limbs that have died: they and all that grows on them carry no leaves.
+std::vector<bool> DeadWood(const std::vector<BranchNode>& nodes, float share, RngStream& random) {
+  std::vector<bool> dead(nodes.size(), false);
+  if (share <= 0) return dead;
+  const int whole = nodes[0].tips;
+  for (size_t i = 1; i < nodes.size(); ++i) {
+    const auto parent = static_cast<size_t>(nodes[i].parent);
+    const bool forks = nodes[parent].main != static_cast<int>(i);
+    // Limbs, not twigs: what carries between a hundredth and a fifteenth of all tips.
+    const bool limb = forks && nodes[i].tips * 100 > whole && nodes[i].tips * 15 < whole;
+    dead[i] = dead[parent] || (limb && random.Chance(share));
+  }
+  return dead;
+}
+
+// A twig with six leaves in a spiral.
+void AddTwig(const BroadleafSpecies& s, const Crown& crown, Vec3f from, Vec3f axis, Vec3f out, int turn,
+             std::vector<PlantLayer>& layers, RngStream& random) {
+  constexpr int kPerTwig = 6;
+  const Vec3f along = Normalized(axis * 0.6f + RandomDirection(random) * 0.9f + out * 0.4f + Vec3f{0, 0, 0.1f});
+  const float length = s.leaf.length * static_cast<float>(random.Uniform(1.4, 2.8));
+  const Vec3f side = Normalized(Cross(along, Vec3f{0.3f, 0.2f, 1})), other = Cross(along, side);
+  if (s.min_branch < 0.01f) AddNeedle(layers[0], from, from + along * length, side, 0.010f, other, 0);
+  for (int k = 0; k < kPerTwig; ++k) {
+    const float a = 2.39996f * static_cast<float>(k) + static_cast<float>(turn);
+    const Vec3f spoke = side * std::cos(a) + other * std::sin(a);
+    const Vec3f direction =
+        Normalized(spoke * 0.9f + along * 0.55f + Vec3f{0, 0, -0.25f} + RandomDirection(random) * 0.25f);
+    const Vec3f up = Vec3f{0, 0, 1} + out * 0.55f + RandomDirection(random) * 0.55f;
+    LeafShape shape = s.leaf;
+    const float size = static_cast<float>(random.Uniform(0.7, 1.2));
+    shape.length *= size;
+    shape.width *= size;
+    shape.droop *= static_cast<float>(random.Uniform(0.3, 1.6));
+    const bool yellow = random.Chance(0.03);
+    const int cell = yellow ? kLeafCells - 1 : static_cast<int>(random.Index(kLeafCells - 1));
+    const Vec3f base = from + along * (length * (static_cast<float>(k) + 0.6f) / kPerTwig);
+    const float openness = crown.Openness(base) + 0.12f * static_cast<float>(random.Normal());
+    AddLeaf(LeavesAt(layers, openness), base, direction, up, shape, cell, out * 0.35f);
+  }
+}
+
+// Leaves in spirals on short twigs at the thin ends of branches.
+void AddLeaves(const BroadleafSpecies& s, const Crown& crown, const std::vector<BranchNode>& nodes,
+               std::vector<PlantLayer>& layers, uint64_t seed, RngStream& random) {
+  const std::vector<bool> dead = DeadWood(nodes, s.dead, random);
+  std::vector<size_t> sites;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].parent >= 0 && nodes[i].tips <= 4 && nodes[i].radius < 0.03f && !dead[i] &&
+        nodes[i].p.z > s.clear_trunk * 0.6f)
+      sites.push_back(i);
+  }
+  const float per_site =
+      static_cast<float>(s.leaves) / static_cast<float>(std::max<size_t>(1, sites.size())) / 6;
+  for (size_t site : sites) {
+    const BranchNode& node = nodes[site];
+    const Vec3f axis = Normalized(node.p - nodes[static_cast<size_t>(node.parent)].p),
+                out = Normalized(node.p - crown.center());
+    const float density =
+        1 - s.clumping +
+        s.clumping * 2.2f * std::clamp((Noise(node.p * 1.1f, seed) - 0.25f) / 0.4f, 0.0f, 1.0f);
+    const int twigs = static_cast<int>(per_site * density + static_cast<float>(random.Uniform()));
+    for (int t = 0; t < twigs; ++t) AddTwig(s, crown, node.p, axis, out, t, layers, random);
+  }
+}
+
+}  // namespace
+
+Crown::Crown(const BroadleafSpecies& s, RngStream& random)
+    : height_(s.height - s.clear_trunk), radius_(s.crown_radius) {
+  const Vec3f center{0, 0, s.clear_trunk + height_ * 0.48f};
+  lobes_.push_back({center, 0.55f});
+  for (int i = 0; i < s.lobes; ++i) {
+    // Low-discrepancy directions with jitter, so that no side stays bare.
+    const float z = -0.75f + 1.65f * (static_cast<float>(i) + 0.5f) / static_cast<float>(s.lobes);
+    const float a = 2.39996f * static_cast<float>(i) + 0.5f * static_cast<float>(random.Normal());
+    const float ring =
+        std::sqrt(std::max(0.05f, 1 - z * z)) * static_cast<float>(random.Uniform(0.55, 0.85));
+    const float r = s.lobe_radius * static_cast<float>(random.Uniform(0.75, 1.25));
+    lobes_.push_back(
+        {center + Vec3f{radius_ * ring * std::cos(a), radius_ * ring * std::sin(a), height_ * 0.40f * z}, r});
+  }
+}
+
+bool Crown::Contains(Vec3f p) const {
+  for (const auto& [c, r] : lobes_) {
+    const Vec3f d = p - c;
+    const float flat = std::min(1.0f, 2 * radius_ / height_);
+    if (d.x * d.x + d.y * d.y + d.z * d.z * flat * flat < r * r * radius_ * radius_) return true;
+  }
+  return false;
+}
+
+float Crown::Openness(Vec3f p) const {
+  const Vec3f d{(p.x - center().x) / radius_, (p.y - center().y) / radius_,
+                (p.z - center().z) / (0.5f * height_)};
+  return 0.05f + 0.72f * std::pow(Norm(d), 1.5f) + 0.22f * d.z;
+}
+
+std::vector<BranchNode> GrowTree(const BroadleafSpecies& s, const Crown& crown, RngStream& random) {
+  const float crown_height = s.height - s.clear_trunk;
+  // Attractors: more of them near the outside, where the twigs are.
+  const Vec3f c = crown.center();
+  const auto wanted = [&](Vec3f p) {
+    if (p.z < s.clear_trunk * 0.8f || !crown.Contains(p)) return false;
+    const Vec3f d{(p.x - c.x) / s.crown_radius, (p.y - c.y) / s.crown_radius,
+                  (p.z - c.z) / (crown_height / 2)};
+    return random.Uniform() < 0.25 + 0.75 * std::clamp(Norm(d), 0.0f, 1.0f);
+  };
+  const float reach = s.crown_radius * 1.3f;
+  const auto attractors = ScatterInside({-reach, -reach, s.clear_trunk * 0.8f}, {reach, reach, s.height},
+                                        s.attractors, wanted, random);
+
+  // Trunk: slightly bent, leaning a little; it ends inside the crown.
+  std::vector<BranchNode> nodes;
+  const float lean = s.lean * s.height;
+  const Vec3f top{lean * static_cast<float>(random.Normal()), lean * static_cast<float>(random.Normal()),
+                  s.clear_trunk + crown_height * s.leader};
+  AddStem(nodes, -1, {0, 0, -0.25f}, top, s.growth.step, 0.22f, random);
+  // Limbs that leave it at different heights and rise.
+  const size_t trunk_nodes = nodes.size();
+  const int limbs = 5 + static_cast<int>(random.Index(3));
+  for (int i = 0; i < limbs; ++i) {
+    const float t =
+        (static_cast<float>(i) + static_cast<float>(random.Uniform(0.1, 0.9))) / static_cast<float>(limbs);
+    const float z = s.clear_trunk * 0.92f + t * (top.z - s.clear_trunk) * 0.8f;
+    size_t from = 0;
+    while (from + 1 < trunk_nodes && nodes[from].p.z < z) ++from;
+    const float a = 2.39996f * static_cast<float>(i) + static_cast<float>(random.Uniform(-0.4, 0.4));
+    const float length = s.crown_radius * static_cast<float>(random.Uniform(0.40, 0.62)) * (1 - 0.45f * t);
+    const float rise = 0.75f + s.growth.tropism.z * 3;
+    const Vec3f to = nodes[from].p + Vec3f{std::cos(a), std::sin(a), rise} * length;
+    AddStem(nodes, static_cast<int>(from), nodes[from].p, to, s.growth.step, 0.5f, random);
+  }
+  Colonise(nodes, attractors, s.growth, random);
+  Thicken(nodes, s.trunk_radius, 0.006f);
+  return nodes;
+}
+
+Model GrowBroadleaf(const BroadleafSpecies& s, const Texture& atlas, uint64_t seed) {
+  RngStream random(seed, s.name);
+  const Crown crown(s, random);
+  const std::vector<BranchNode> nodes = GrowTree(s, crown, random);
+  std::vector<PlantLayer> layers = PlantLayers(s.bark, atlas, s.transmission, s.depth);
+  AddBark(layers[0], nodes, s.min_branch, 0.45f);
+  AddLeaves(s, crown, nodes, layers, seed, random);
+  return JoinLayers(std::string(s.name), layers);
+}
+
+BroadleafSpecies Simplified(BroadleafSpecies s, float detail) {
+  const float grow = 1 / std::sqrt(detail);
+  s.leaves = static_cast<int>(static_cast<float>(s.leaves) * detail);
+  s.leaf.length *= grow;
+  s.leaf.width *= grow;
+  s.leaf.form = LeafForm::kKite;
+  // Fewer, longer steps fill the same crown.
+  const float coarse = std::min(2.2f, std::sqrt(grow));
+  s.attractors = static_cast<int>(static_cast<float>(s.attractors) / (coarse * coarse));
+  s.growth.step *= coarse;
+  s.growth.kill *= coarse;
+  s.growth.influence *= coarse;
+  s.min_branch = detail < 0.08f ? 0.035f : 0.014f;
+  return s;
+}
+
+}  // namespace airsim360::internal
