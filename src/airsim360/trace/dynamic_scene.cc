@@ -38,6 +38,7 @@ void DynamicScene::SetMovers(EmbreeScene& statics, const Movers& movers) {
   for (uint32_t i : movers.instances) {
     moved_.push_back({i, {}, false});
     instances_.emplace_back(rtcNewGeometry(statics.device(), RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryMask(instances_.back().get(), kMaskAll);
     rtcAttachGeometryByID(top_.get(), instances_.back().get(), statics.TopId(i));
     for (uint32_t s = statics.first_slots()[statics.TopId(i)]; s < slots_.size() && slots_[s].instance == i;
          ++s) {
