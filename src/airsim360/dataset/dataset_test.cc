@@ -279,15 +279,15 @@ TEST(EncodeExtra, FlowAndCoverageReadBackExactly) {
   SceneBuilder builder("empty");
   const auto scene = builder.Build();
   const Bytes flow = internal::EncodeExtra("flow", frame, *scene);
-  EXPECT_EQ(DecodeExr(flow, "flow", "dx")(2, 1), -1.5f);
-  EXPECT_EQ(DecodeExr(flow, "flow", "dy")(2, 1), 0.25f);
-  EXPECT_EQ(DecodeExr(flow, "flow", "range")(2, 1), 17.125f);
-  EXPECT_EQ(DecodeExr(flow, "flow", "occluded")(2, 1), 1.0f);
-  EXPECT_EQ(DecodeExr(flow, "flow", "motion.Z")(2, 1), 0.3f);
-  EXPECT_THROW(DecodeExr(flow, "flow", "dz"), InputError);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "dx")(2, 1), -1.5f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "dy")(2, 1), 0.25f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "range")(2, 1), 17.125f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "occluded")(2, 1), 1.0f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "motion.Z")(2, 1), 0.3f);
+  EXPECT_THROW(DecodeExrChannel(flow, "flow", "dz"), InputError);
   const Bytes coverage = internal::EncodeExtra("coverage", frame, *scene);
-  EXPECT_EQ(DecodeExr(coverage, "coverage", "id.0")(1, 0), 16777215.0f);
-  EXPECT_EQ(DecodeExr(coverage, "coverage", "share.1")(1, 0), 0.25f);
+  EXPECT_EQ(DecodeExrChannel(coverage, "coverage", "id.0")(1, 0), 16777215.0f);
+  EXPECT_EQ(DecodeExrChannel(coverage, "coverage", "share.1")(1, 0), 0.25f);
 }
 
 TEST(Version, IsThatOfTheProject) {

@@ -57,10 +57,11 @@ Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view
 Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view name);
 /// Entity ids of a PNG written by EncodeIdPng.
 Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view name);
-/// One channel of an EXR as float32: the one named, InputError if there is none; "" = `Y`, else `R`, else the
-/// first.
-Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name,
-                       std::string_view channel = {});
+/// One channel of an EXR as float32: `Y`, else `R`, else the first.
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name);
+/// The channel of that name; InputError if there is none.
+Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name,
+                              std::string_view channel);
 /// Linear colour of an EXR: R, G, B, or one channel thrice; lossy compressions too.
 Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view name);
 /// Radiance picture (.hdr, .pic) with RGBE pixels, top row first: linear colour, EXPOSURE lines undone

@@ -182,13 +182,18 @@ Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view na
   }
 }
 
-Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name, std::string_view channel) {
+Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name,
+                              std::string_view channel) {
   // OpenEXR reports everything by exceptions derived from std::exception.
   try {
     return ReadExr(bytes, channel);
   } catch (const std::exception& error) {
     internal::ThrowDamaged(name, error.what());
   }
+}
+
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) {
+  return DecodeExrChannel(bytes, name, {});
 }
 
 }  // namespace airsim360

@@ -18,12 +18,11 @@ float Distance2(Vec3f a, Vec3f b) { return Dot(a - b, a - b); }
 struct Query {
   const RayTracer* tracer;
   bool skip_moved;
-  float nearest;
 };
 
 // Shrinks the query to a nearer triangle. Works in W whatever the instance transform is.
 bool VisitTriangle(RTCPointQueryFunctionArguments* args) {
-  auto& user = *static_cast<Query*>(args->userPtr);
+  const auto& user = *static_cast<const Query*>(args->userPtr);
   const RayTracer& tracer = *user.tracer;
   const uint32_t instance_id = args->context->instStackSize > 0 ? args->context->instID[0] : kMiss;
   const SurfaceRef surface = tracer.Resolve(args->geomID, instance_id, args->primID);
@@ -38,13 +37,8 @@ bool VisitTriangle(RTCPointQueryFunctionArguments* args) {
   const Vec3f q =
       ClosestPointOnTriangle(p, X_WM * positions[t.x], X_WM * positions[t.y], X_WM * positions[t.z]);
   const float distance = Norm(p - q);
-  user.nearest = std::min(user.nearest, distance);
-  // Embree 3.13.5 misses surfaces once the radius shrinks within an instance of uniform scale other than one
-  // (0: not a similarity, handled in another way, rightly).
-  const float scale = args->similarityScale;
-  if (scale != 0 && std::abs(scale - 1) > 1e-5f) return false;
-  if (!(user.nearest < args->query->radius)) return false;
-  args->query->radius = user.nearest;
+  if (!(distance < args->query->radius)) return false;
+  args->query->radius = distance;
   return true;
 }
 
@@ -70,9 +64,9 @@ float ClosestSurfaceDistance(const RayTracer& tracer, RTCScene top, bool skip_mo
   RTCPointQuery query{p_W.x, p_W.y, p_W.z, 0, max_distance};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  Query user{&tracer, skip_moved, max_distance};
+  Query user{&tracer, skip_moved};
   rtcPointQuery(top, &query, &context, VisitTriangle, &user);
-  return user.nearest;
+  return query.radius;
 }
 
 }  // namespace airsim360::internal

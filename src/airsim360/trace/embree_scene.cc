@@ -201,6 +201,8 @@ Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
       added.push_back(i);
   }
   if (added.empty()) return movers_;
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
   if (movers_.generation == kLastGeneration) {
     // Out of mask bits: from now on everything counts as moving.
     movers_ = {{}, kLastGeneration, true};

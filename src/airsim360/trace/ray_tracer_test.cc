@@ -320,39 +320,6 @@ TEST(Clearance, EqualsTheSmallestDistanceOverAllTriangles) {
   }
 }
 
-TEST(Clearance, IsRightForInstancesOfAnyUniformScale) {
-  RngStream rng(11, "scaled");
-  Mesh mesh{"splinters", {}, {}, {}, {}, {}};
-  for (uint32_t i = 0; i < 100; ++i) {
-    for (int k = 0; k < 3; ++k) mesh.positions.push_back(RandomDirection(rng));
-    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    mesh.positions[3 * i + 1] =
-        mesh.positions[3 * i] + (mesh.positions[3 * i + 1] - mesh.positions[3 * i]) * 0.2f;
-    mesh.positions[3 * i + 2] =
-        mesh.positions[3 * i] + (mesh.positions[3 * i + 2] - mesh.positions[3 * i]) * 0.2f;
-  }
-  std::vector<AffineTransform> places;
-  for (int i = 0; i < 30; ++i) {
-    places.push_back(
-        PlaceUpright({}, static_cast<float>(rng.Uniform(0, 6)), static_cast<float>(rng.Uniform(0.4, 2))));
-    for (int k = 0; k < 3; ++k) places.back().p[k] = static_cast<float>(rng.Uniform(-12, 12));
-  }
-  const RayTracer tracer(SceneOf(mesh, places));
-  for (int i = 0; i < 300; ++i) {
-    Vec3f p;
-    for (int k = 0; k < 3; ++k) p[k] = static_cast<float>(rng.Uniform(-14, 14));
-    float nearest = 20;
-    for (const AffineTransform& X : places) {
-      for (Vec3u t : mesh.triangles) {
-        const Vec3f q = internal::ClosestPointOnTriangle(p, X * mesh.positions[t.x], X * mesh.positions[t.y],
-                                                         X * mesh.positions[t.z]);
-        nearest = std::min(nearest, Norm(p - q));
-      }
-    }
-    EXPECT_NEAR(tracer.Clearance(p, 20), nearest, 1e-4f * (1 + nearest));
-  }
-}
-
 TEST(Clearance, ClosestPointIsNoFartherThanAnyPointOfTheTriangle) {
   RngStream rng(7, "test");
   for (int i = 0; i < 200; ++i) {
