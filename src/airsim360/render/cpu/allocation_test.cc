@@ -40,7 +40,7 @@ namespace airsim360 {
 namespace {
 
 TEST(Allocation, TheSecondFrameOfASizeTakesNoMemory) {
-  const auto renderer = MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeOpenSquare()));
+  const auto renderer = MakeCpuRenderer(std::make_shared<const RayTracer>(test::MakeRoom()));
   const RigidTransform poses[] = {BodyPose({0, 0, 1.5}, 0.3, 0, 0) * CameraInBody(),
                                   BodyPose({0.3, 0.2, 1.7}, 0.5, 0.1, 0) * CameraInBody()};
   for (Tier tier : {Tier::kLabels, Tier::kFast}) {
