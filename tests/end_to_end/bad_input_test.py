@@ -22,6 +22,8 @@ class BadFlags(ProgramTest):
             (["collect", *ROOM, "--tier", "fats", "--out", out], ["--tier", "did you mean 'fast'"]),
             (["collect", *ROOM, "--format", "native,koko", "--out", out], ["koko", "did you mean 'coco'"]),
             (["render", *ROOM, "--projection", "rep", "--out", out], ["did you mean 'erp'"]),
+            (["render", *ROOM, "--products", "rgb,flwo", "--out", out], ["--products", "flwo", "did you mean 'flow'"]),
+            (["collect", *ROOM, "--products", "albeda", "--out", out], ["albeda", "did you mean 'albedo'"]),
             (["worlds", "--device", "cup"], ["--device", "did you mean 'cpu'"]),
             (["worlds", "--device", "vulkan"], ["vulkan", "not built yet"]),
         ]:

@@ -107,6 +107,16 @@ std::vector<std::string> ParseList(std::string_view flag, const std::string& tex
   return parts;
 }
 
+void ParseProducts(const std::string& text, DatasetSpec& spec) {
+  std::vector<std::string> names(std::begin(kFixedProducts), std::end(kFixedProducts));
+  for (const OptionalProduct& product : kOptionalProducts) names.push_back(product.name);
+  for (const std::string& name : ParseList("--products", text, names)) {
+    for (const OptionalProduct& product : kOptionalProducts) {
+      if (name == product.name) spec.*product.wanted = true;
+    }
+  }
+}
+
 void PrintJson(const nlohmann::ordered_json& value) {
   std::puts(value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "airsim360/dataset/spec.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/renderer.h"
 
@@ -37,6 +38,10 @@ int CheckSamples(Tier tier, int samples);
 /// "a,b,c" split; InputError naming `flag` for an entry that is not among `choices`.
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
                                    const std::vector<std::string>& choices);
+
+/// "rgb,range,flow": sets the optional products of `spec`; those that every dataset holds may be named too.
+/// InputError naming `--products` and the nearest name for one that does not exist.
+void ParseProducts(const std::string& text, DatasetSpec& spec);
 
 /// Prints one JSON object on stdout.
 void PrintJson(const nlohmann::ordered_json& value);

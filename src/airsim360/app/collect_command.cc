@@ -25,7 +25,7 @@ constexpr double kTouching = 0.05;     // metres: a route closer to a surface is
 
 struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out;
+  std::string pano_frame = "body", shard = "0/1", out, products;
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
@@ -69,6 +69,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
+  if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
   ParseList("--format", arguments.format,
             {"native", "coco"});  // the native layout holds panoptic.json in any case
   spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
@@ -160,7 +161,9 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "body or level: turn with the body or only with its heading");
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
-  command->add_flag("--normal", arguments->normal, "write world normals too");
+  command->add_option("--products", arguments->products,
+                      "beside rgb,range,semantic,entity: normal,position,albedo,material,sky,flow,coverage");
+  command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");
   command->callback([arguments, &globals] { RunCollect(*arguments, globals); });

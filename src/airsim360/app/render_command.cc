@@ -17,7 +17,7 @@ namespace {
 
 struct RenderArguments {
   std::string world, pose, projection = "erp", size, tier = "fast", rgb_format = "png", pano_frame = "body",
-                           out;
+                           out, products;
   double fov_deg = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
@@ -92,6 +92,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.denoise = !arguments.no_denoise;
   spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
+  if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
   if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
     throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
                                                              std::vector<std::string>{"png", "jpg"}));
@@ -145,7 +146,9 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
                       "body or level: turn with the body or only with its heading");
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
-  command->add_flag("--normal", arguments->normal, "write world normals too");
+  command->add_option("--products", arguments->products,
+                      "beside rgb,range,semantic,entity: normal,position,albedo,material,sky,flow,coverage");
+  command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }
 

@@ -7,11 +7,11 @@
 
 namespace airsim360 {
 
-void ParallelFor(int64_t n, const std::function<void(int64_t)>& body) {
+void internal::RunParallel(int64_t n, void (*call)(const void* body, int64_t i), const void* body) {
   tbb::parallel_for(
       tbb::blocked_range<int64_t>(0, n, 1),
       [&](const tbb::blocked_range<int64_t>& range) {
-        for (int64_t i = range.begin(); i != range.end(); ++i) body(i);
+        for (int64_t i = range.begin(); i != range.end(); ++i) call(body, i);
       },
       tbb::simple_partitioner());
 }

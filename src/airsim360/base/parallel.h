@@ -2,14 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 namespace airsim360 {
 
+namespace internal {
+/// Calls call(body, i) for every i in [0, n).
+void RunParallel(int64_t n, void (*call)(const void* body, int64_t i), const void* body);
+}  // namespace internal
+
 /// Calls body(i) for every i in [0, n), each exactly once, on the worker threads; returns when all are done.
 /// The body must write only to places owned by i. Each i is one task: make it big enough (a tile, a row, a
-/// file). The first exception thrown by a body is rethrown here.
-void ParallelFor(int64_t n, const std::function<void(int64_t)>& body);
+/// file). The first exception thrown by a body is rethrown here. Takes no memory of its own.
+template <class Body>
+void ParallelFor(int64_t n, const Body& body) {
+  internal::RunParallel(
+      n, [](const void* pointer, int64_t i) { (*static_cast<const Body*>(pointer))(i); }, &body);
+}
 
 /// Limits every ParallelFor of the process to `threads` (0 = all cores) while the object lives.
 class ThreadLimit {

@@ -52,7 +52,8 @@ std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& inde
 }
 
 // True if all frames and all files that describe them are there: SHA256SUMS is the last file written.
-bool IsFinished(const fs::path& folder) {
+bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
+  if (spec.material && !fs::exists(folder / "materials.json")) return false;
   for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "trajectory.csv",
                            "README.md", "contact_sheet.png"}) {
     if (!fs::exists(folder / name)) return false;
@@ -76,6 +77,16 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
   return rig;
 }
 
+// Where flow leads to: the next frame of the whole flight; from the last one on, as the body moves there, for
+// as long as the frame before took.
+RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
+  constexpr double kLoneFrameSeconds = 0.1;  // a single frame has no interval of its own
+  if (frame + 1 < shots.size()) return shots[frame + 1].body.X_WB;
+  const double dt =
+      frame > 0 ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
+  return Extrapolate(shots[frame].body, dt);
+}
+
 // Renders and writes the missing frames.
 void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, Renderer& renderer,
                  DatasetIndex& index, CollectResult& result) {
@@ -84,9 +95,10 @@ void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, 
   ProgressBar progress("collect", static_cast<int64_t>(frames.size()));
   for (int64_t frame : frames) {
     const Shot& shot = input.flight.shots.at(static_cast<size_t>(frame));
+    const NextTrigger next{NextPose(input.flight.shots, static_cast<size_t>(frame)), nullptr};
     std::vector<Capture> captures = writer.Acquire();
     for (size_t v = 0; v < captures.size(); ++v) {
-      CaptureRig(MakeRig(input.spec, context.views[v]), shot.body, shot.t_ns, renderer, captures[v]);
+      CaptureRig(MakeRig(input.spec, context.views[v]), shot.body, shot.t_ns, renderer, captures[v], &next);
       result.render_ms += captures[v].stats.render_ms;
       result.rays += captures[v].stats.rays;
     }
@@ -108,6 +120,7 @@ void WriteSummaries(const CollectInput& input) {
   };
   write("frames.jsonl", AsBytes(FramesJsonl(index)));
   write("entities.json", AsBytes(EntitiesJson(index, input.scene)));
+  if (input.spec.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
   write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
   write("contact_sheet.png", ContactSheetPng(index, input.spec, input.out));
@@ -141,7 +154,7 @@ CollectResult Collect(const CollectInput& input, Renderer& renderer) {
   {
     DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
     const std::vector<int64_t> missing = MissingFrames(input, index);
-    if (missing.empty() && IsFinished(input.out)) {
+    if (missing.empty() && IsFinished(input.out, input.spec)) {
       result.already_complete = true;
       return result;
     }

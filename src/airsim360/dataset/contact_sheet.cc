@@ -66,7 +66,8 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
   };
   std::vector<ProductFolder> products = ProductFolders(spec);
   std::erase_if(products, [](const ProductFolder& product) {
-    return product.name == "normal" || product.name == "radiance";
+    return std::none_of(std::begin(kFixedProducts), std::end(kFixedProducts),
+                        [&](const char* fixed) { return product.name == fixed; });
   });
   const std::vector<int64_t> frames = index.Frames();
   const std::vector<View> views = Views(spec);

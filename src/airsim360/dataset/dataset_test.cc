@@ -8,10 +8,12 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/collector.h"
+#include "airsim360/dataset/encode_extra.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/index.h"
 #include "airsim360/dataset/verify.h"
 #include "airsim360/dataset/version.h"
+#include "airsim360/image/codecs.h"
 
 namespace airsim360 {
 namespace {
@@ -245,6 +247,47 @@ TEST_F(DatasetTest, CubeCapturesAreSixPicturesOfOneFrame) {
   EXPECT_TRUE(fs::exists(folder_ / "cube/range/000000_-z.exr"));
   EXPECT_EQ(Json::parse(ReadTextFile(folder_ / "cube/panoptic.json"))["images"].size(), 6u);
   EXPECT_EQ(VerifyDataset(folder_ / "cube").Damages(), 0);
+}
+
+TEST_F(DatasetTest, ProductsOnRequestHaveTheirFilesAndFlowNamesThePoseItLeadsTo) {
+  for (const OptionalProduct& product : kOptionalProducts) spec_.*product.wanted = true;
+  Collected("a");
+  for (const OptionalProduct& product : kOptionalProducts) {
+    for (const char* stem : {"000000", "000003"}) {
+      EXPECT_TRUE(fs::exists(folder_ / "a" / product.name / (stem + std::string(product.extension))))
+          << product.name;
+    }
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "a" / "materials.json"));
+  EXPECT_EQ(VerifyDataset(folder_ / "a").findings.size(), 0u);
+
+  // The pose that flow leads to is that of the next frame; after the last one the body flies on.
+  std::vector<Json> lines;
+  std::ifstream file(folder_ / "a" / "frames.jsonl");
+  for (std::string line; std::getline(file, line);) lines.push_back(Json::parse(line));
+  ASSERT_EQ(lines.size(), 4u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(lines[i]["X_WC_next"], lines[i + 1]["X_WC"]);
+  EXPECT_EQ(lines[3]["X_WC_next"]["p"], Json({4.0, 0.0, 2.0}));
+}
+
+TEST(EncodeExtra, FlowAndCoverageReadBackExactly) {
+  Frame frame;
+  frame.flow = Image<FlowPixel>(3, 2);
+  frame.flow(2, 1) = {-1.5f, 0.25f, 17.125f, 1, {0.1f, -0.2f, 0.3f}};
+  frame.coverage = Image<CoveragePixel>(3, 2);
+  frame.coverage(1, 0) = {{16777215, 4, 0, 0}, {0.75f, 0.25f, 0, 0}};
+  SceneBuilder builder("empty");
+  const auto scene = builder.Build();
+  const Bytes flow = internal::EncodeExtra("flow", frame, *scene);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "dx")(2, 1), -1.5f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "dy")(2, 1), 0.25f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "range")(2, 1), 17.125f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "occluded")(2, 1), 1.0f);
+  EXPECT_EQ(DecodeExrChannel(flow, "flow", "motion.Z")(2, 1), 0.3f);
+  EXPECT_THROW(DecodeExrChannel(flow, "flow", "dz"), InputError);
+  const Bytes coverage = internal::EncodeExtra("coverage", frame, *scene);
+  EXPECT_EQ(DecodeExrChannel(coverage, "coverage", "id.0")(1, 0), 16777215.0f);
+  EXPECT_EQ(DecodeExrChannel(coverage, "coverage", "share.1")(1, 0), 0.25f);
 }
 
 TEST(Version, IsThatOfTheProject) {

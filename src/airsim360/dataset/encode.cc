@@ -7,6 +7,7 @@
 
 #include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/dataset/encode_extra.h"
 #include "airsim360/image/codecs.h"
 
 namespace airsim360 {
@@ -58,7 +59,8 @@ Bytes EncodeProduct(const std::string& product, const Capture& capture, const En
   if (product == "semantic") return EncodeSemantic(capture.frame.semantic, NeedsWideSemantics(context.scene));
   if (product == "entity") return EncodeIdPng(capture.frame.entity);
   if (product == "radiance") return EncodeHalfExr(capture.frame.radiance);
-  return EncodeNormal(capture.frame.normal);
+  if (product == "normal") return EncodeNormal(capture.frame.normal);
+  return internal::EncodeExtra(product, capture.frame, context.scene);
 }
 
 // Smallest and median range over the pixels of all views that hit something.
@@ -91,6 +93,7 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
   frame.record.t_ns = captures[0].t_ns;
   frame.record.X_WC = captures[0].X_WC;
   frame.record.body = captures[0].body;
+  frame.record.X_WC_next = captures[0].X_WC_next;
   frame.record.views.resize(views);
   frame.files.resize(folders.size() * views);
 

@@ -25,6 +25,9 @@ Json ParametersJson(const DatasetSpec& spec) {
                {"normal", spec.normal},
                {"rgb_format", spec.rgb_format == RgbFormat::kJpeg ? "jpg" : "png"},
                {"pano_frame", spec.pano_frame == PanoFrame::kLevel ? "level" : "body"}};
+  Json products = Json::array();
+  for (const ProductFolder& folder : ProductFolders(spec)) products.push_back(folder.name);
+  json["products"] = products;
   if (spec.projection == Projection::kPinhole || spec.projection == Projection::kFisheye)
     json["fov_deg"] = spec.fov_deg;
   if (spec.samples != 0) json["samples"] = spec.samples;
@@ -73,8 +76,26 @@ Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
   if (spec.radiance && spec.tier != Tier::kLabels) {
     json["radiance"] =
         "OpenEXR half float, channels R G B: linear light before exposure and tone curve (sunlight outside "
-        "the "
-        "atmosphere has irradiance 20), at most 65504; ideal lens";
+        "the atmosphere has irradiance 20), at most 65504; ideal lens";
+  }
+  if (spec.position)
+    json["position"] =
+        "OpenEXR float32, channels X, Y, Z: the point hit, in W, metres; (0, 0, 0) = nothing hit";
+  if (spec.albedo)
+    json["albedo"] = "8-bit sRGB PNG: base colour of the surface without any light; black = nothing hit";
+  if (spec.material) json["material"] = "16-bit PNG: key of materials.json; 0 = nothing hit";
+  if (spec.sky) json["sky"] = "8-bit PNG: 255 = the ray through the pixel centre meets the sky, else 0";
+  if (spec.flow) {
+    json["flow"] =
+        "OpenEXR float32: dx, dy pixels to where the point is in the next frame (X_WC_next of frames.jsonl), "
+        "x wraps the short way in panoramas; range metres to it then, 0 = sky; occluded 1 = hidden then or "
+        "outside the picture (dx = dy = 0 there); motion.X, motion.Y, motion.Z its own displacement in W. "
+        "The last frame leads to the pose extrapolated from its velocities";
+  }
+  if (spec.coverage) {
+    json["coverage"] =
+        "OpenEXR float32: id.0 … id.3 entities of the pixel by area, largest first, 0 = no more; share.0 … "
+        "share.3 their shares of it";
   }
   return json;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct FrameRecord {
   double range_median = 0;  ///< lower median
   std::vector<FileRecord> files;
   std::vector<ViewRecord> views;
+  std::optional<RigidTransform> X_WC_next;  ///< where the flow leads to, if the dataset has flow
 };
 
 /// One line of frames.jsonl, without the line feed.

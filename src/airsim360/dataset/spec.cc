@@ -35,6 +35,11 @@ Products ProductsOf(const DatasetSpec& spec) {
           .semantic = true,
           .entity = true,
           .normal = spec.normal,
+          .position = spec.position,
+          .albedo = spec.albedo,
+          .material = spec.material,
+          .coverage = spec.coverage,
+          .flow = spec.flow,
           .radiance = spec.radiance && spec.tier != Tier::kLabels};
 }
 
@@ -51,7 +56,9 @@ std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
   folders.push_back({"range", ".exr"});
   folders.push_back({"semantic", ".png"});
   folders.push_back({"entity", ".png"});
-  if (spec.normal) folders.push_back({"normal", ".png"});
+  for (const OptionalProduct& product : kOptionalProducts) {
+    if (spec.*product.wanted) folders.push_back({product.name, product.extension});
+  }
   if (spec.radiance && spec.tier != Tier::kLabels) folders.push_back({"radiance", ".exr"});
   return folders;
 }

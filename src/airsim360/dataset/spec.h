@@ -39,7 +39,23 @@ struct DatasetSpec {
   bool auto_exposure = false;  ///< of every picture its own
   bool radiance = false;       ///< linear light, radiance/STEM.exr
   LensModel lens = LensModel::kIdeal;
+  bool position = false, albedo = false, material = false, sky = false, flow = false, coverage = false;
 };
+
+/// A product that a dataset holds only if it is asked for.
+struct OptionalProduct {
+  const char* name;
+  const char* extension;
+  bool DatasetSpec::*wanted;
+};
+inline constexpr OptionalProduct kOptionalProducts[] = {
+    {"normal", ".png", &DatasetSpec::normal},     {"position", ".exr", &DatasetSpec::position},
+    {"albedo", ".png", &DatasetSpec::albedo},     {"material", ".png", &DatasetSpec::material},
+    {"sky", ".png", &DatasetSpec::sky},           {"flow", ".exr", &DatasetSpec::flow},
+    {"coverage", ".exr", &DatasetSpec::coverage},
+};
+/// Products that every dataset holds (rgb unless the tier is labels).
+inline constexpr const char* kFixedProducts[] = {"rgb", "range", "semantic", "entity"};
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube
 /// six with

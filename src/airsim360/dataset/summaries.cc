@@ -59,6 +59,21 @@ std::string EntitiesJson(const DatasetIndex& index, const Scene& scene) {
   return text + "\n}\n";
 }
 
+std::string MaterialsJson(const Scene& scene) {
+  static constexpr const char* kKinds[] = {"standard", "foliage", "glass", "water"};
+  std::string text = "{";
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& m = scene.materials[i];
+    const Json json = {{"name", m.name},
+                       {"kind", kKinds[static_cast<int>(m.kind)]},
+                       {"base_color", {m.base_color.x, m.base_color.y, m.base_color.z}},
+                       {"metallic", m.metallic},
+                       {"roughness", m.roughness}};
+    text += (i > 0 ? ",\n\"" : "\n\"") + std::to_string(i + 1) + "\": " + Dump(json);
+  }
+  return text + "\n}\n";
+}
+
 std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene) {
   const std::vector<View> views = Views(spec);
   const std::string extension =

@@ -15,6 +15,8 @@ std::string FramesJsonl(const DatasetIndex& index);
 std::string EntitiesJson(const DatasetIndex& index, const Scene& scene);
 /// panoptic.json: COCO panoptic over entity/*.png, with bbox_wrap and solid_angle beside the standard keys.
 std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
+/// materials.json: value in material/*.png -> name and appearance of every material of the scene.
+std::string MaterialsJson(const Scene& scene);
 /// README.md: the dataset card.
 std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
 /// contact_sheet.png: colour | range | semantic | entity, one row for each of up to kContactRows frames

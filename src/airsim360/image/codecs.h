@@ -43,6 +43,8 @@ Bytes EncodeExr(const Image<float>& image);
 Bytes EncodeExr(const Image<Rgb32f>& image);
 /// The same as half floats; beyond 65504 held there.
 Bytes EncodeHalfExr(const Image<Rgb32f>& image);
+/// OpenEXR, float32, any channels, given pixel by pixel: pixels.size() == width * height * channels.size().
+Bytes EncodeExr(std::span<const float> pixels, int width, int height, std::span<const char* const> channels);
 
 /// Any PNG/JPEG/WebP, converted to 8-bit RGBA. The format is told by its first bytes.
 Image<Rgba8> DecodeRgba8(std::span<const std::byte> bytes, std::string_view name);
@@ -60,6 +62,9 @@ Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view n
 Image<uint32_t> DecodeIdPng(std::span<const std::byte> bytes, std::string_view name);
 /// One channel of an EXR as float32: `Y`, else `R`, else the first.
 Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name);
+/// The channel of that name; InputError if there is none.
+Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name,
+                              std::string_view channel);
 /// Linear colour of an EXR: R, G, B, or one channel thrice; lossy compressions too.
 Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view name);
 /// Radiance picture (.hdr, .pic) with RGBE pixels, top row first: linear colour, EXPOSURE lines undone

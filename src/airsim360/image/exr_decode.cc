@@ -119,14 +119,19 @@ void CheckHeader(std::span<const std::byte> bytes, bool lossy) {
   }
 }
 
-std::string ChannelToRead(const Imf::ChannelList& channels) {
+std::string ChannelToRead(const Imf::ChannelList& channels, std::string_view wanted) {
+  if (!wanted.empty()) {
+    if (channels.findChannel(std::string(wanted)) == nullptr)
+      throw InputError("no channel '" + std::string(wanted) + "'");
+    return std::string(wanted);
+  }
   for (const char* name : {"Y", "R"}) {
     if (channels.findChannel(name)) return name;
   }
   return channels.begin().name();
 }
 
-Image<float> ReadExr(std::span<const std::byte> bytes) {
+Image<float> ReadExr(std::span<const std::byte> bytes, std::string_view channel) {
   CheckHeader(bytes, false);
   MemoryReader reader(bytes);
   Imf::InputFile file(reader, 0);
@@ -134,7 +139,7 @@ Image<float> ReadExr(std::span<const std::byte> bytes) {
   const Imath::Box2i window = file.header().dataWindow();
   Image<float> image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
   Imf::FrameBuffer frame;
-  frame.insert(ChannelToRead(file.header().channels()),
+  frame.insert(ChannelToRead(file.header().channels(), channel),
                Imf::Slice::Make(Imf::FLOAT, image.pixels().data(), window, sizeof(float),
                                 sizeof(float) * image.width()));
   file.setFrameBuffer(frame);
@@ -157,7 +162,7 @@ Image<Rgb32f> ReadExrRgb(std::span<const std::byte> bytes) {
     frame.insert(name,
                  Imf::Slice::Make(Imf::FLOAT, to, window, sizeof(Rgb32f), sizeof(Rgb32f) * image.width()));
   };
-  insert(color ? "R" : ChannelToRead(channels), &first->r);
+  insert(color ? "R" : ChannelToRead(channels, {}), &first->r);
   if (color) insert("G", &first->g), insert("B", &first->b);
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
@@ -177,13 +182,18 @@ Image<Rgb32f> DecodeExrRgb(std::span<const std::byte> bytes, std::string_view na
   }
 }
 
-Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) {
+Image<float> DecodeExrChannel(std::span<const std::byte> bytes, std::string_view name,
+                              std::string_view channel) {
   // OpenEXR reports everything by exceptions derived from std::exception.
   try {
-    return ReadExr(bytes);
+    return ReadExr(bytes, channel);
   } catch (const std::exception& error) {
     internal::ThrowDamaged(name, error.what());
   }
+}
+
+Image<float> DecodeExr(std::span<const std::byte> bytes, std::string_view name) {
+  return DecodeExrChannel(bytes, name, {});
 }
 
 }  // namespace airsim360

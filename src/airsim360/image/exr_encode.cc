@@ -83,4 +83,8 @@ Bytes EncodeHalfExr(const Image<Rgb32f>& image) {
   return WriteExr(halves.data(), image.width(), image.height(), kChannels);
 }
 
+Bytes EncodeExr(std::span<const float> pixels, int width, int height, std::span<const char* const> channels) {
+  return WriteExr(pixels.data(), width, height, channels);
+}
+
 }  // namespace airsim360

@@ -45,7 +45,8 @@ struct RenderRequest {
 
   /// What has moved; nullptr = nothing. Shared with the flow's second instant below.
   std::shared_ptr<const SceneState> state = nullptr;
-  /// The instant that flow leads to: pose of the camera and what has moved by then.
+  /// The instant that flow leads to: pose of the camera and what has moved by then; next_state nullptr = as
+  /// `state`, only the camera moves.
   std::optional<RigidTransform> X_WC_next = {};
   std::shared_ptr<const SceneState> next_state = nullptr;
 
@@ -61,19 +62,25 @@ struct RenderRequest {
   bool auto_exposure = false;  ///< from the picture's own solid-angle-weighted histogram
 };
 
-/// Where the surface point of a pixel is at the next instant.
+/// Where the surface point of a pixel is at the next instant. The sky is infinitely far away: it only turns.
 struct FlowPixel {
-  float dx = 0, dy = 0;  ///< pixels; across the seam of a panorama the short way, so |dx| <= W / 2
+  float dx = 0, dy = 0;  ///< pixels; across the seam of a panorama the short way, so |dx| <= W / 2; 0 where
+                         ///< the next picture has no pixel for it
   float range = 0;       ///< to that point then, metres; 0 = sky
-  uint8_t occluded = 0;  ///< 1: something else hides it then, or it leaves the picture
+  uint8_t occluded = 0;  ///< 1: something else hides it then, it vanishes or leaves the picture; always 1 in
+                         ///< pixels without a ray
   Vec3f motion;          ///< scene flow: displacement of the point in W, metres
+  friend bool operator==(const FlowPixel&, const FlowPixel&) = default;
 };
 
-/// The entities in a pixel by the share of its area, largest first; entity kNoEntity = no more.
+/// The entities in a pixel by the share of its area, largest first, of equal ones the lower id; entity
+/// kNoEntity = no more. Shares are multiples of 1 / aa_samples on silhouettes (fewer where the pixel has
+/// points without a ray), 1 elsewhere.
 struct CoveragePixel {
   static constexpr int kEntities = 4;
   EntityId entity[kEntities] = {};
   float share[kEntities] = {};  ///< sums to 1 with what is left out
+  friend bool operator==(const CoveragePixel&, const CoveragePixel&) = default;
 };
 
 /// The products asked for; the others are empty, and so is rgb of tier labels. Images keep their memory

@@ -26,18 +26,6 @@ RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
 
 namespace {
 
-// Where a body that moves on as it does is a little later or earlier.
-RigidTransform MovedBy(const Kinematics& body, double t) {
-  const Vec3d turn = body.w_WB_B * t;
-  const double angle = Norm(turn);
-  Mat3d R = body.X_WB.R;
-  if (angle > 0) {
-    const Vec3d axis = turn * (std::sin(0.5 * angle) / angle);
-    R = R * ToMatrix({std::cos(0.5 * angle), axis.x, axis.y, axis.z});
-  }
-  return {R, body.X_WB.p + body.v_WB * t};
-}
-
 // Replaces the colour picture by that of a real camera.
 void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer& renderer,
                  Capture& capture) {
@@ -45,7 +33,7 @@ void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer
   if (target == nullptr) throw InputError("lens real360 makes equirectangular pictures only");
   const Kinematics& body = capture.body;
   const RenderStats stats = RenderReal360(
-      rig.real360, request, [&](double t) { return CameraPose(rig, MovedBy(body, t)); },
+      rig.real360, request, [&](double t) { return CameraPose(rig, Extrapolate(body, t)); },
       Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0, rig.auto_exposure ? capture.frame.exposure : 0,
       static_cast<uint64_t>(capture.t_ns), *target, renderer, capture.frame.rgb);
   capture.stats.rays += stats.rays;
@@ -54,12 +42,22 @@ void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer
 
 }  // namespace
 
+RigidTransform Extrapolate(const Kinematics& body, double dt) {
+  // The turn about the axis of w by |w| dt, as a quaternion.
+  const double rate = Norm(body.w_WB_B), half = 0.5 * rate * dt;
+  const Vec3d axis = rate > 0 ? body.w_WB_B * (std::sin(half) / rate) : Vec3d{};
+  const Mat3d turn = ToMatrix({std::cos(half), axis.x, axis.y, axis.z});
+  return {body.X_WB.R * turn, body.X_WB.p + body.v_WB * dt};
+}
+
 void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
-                Capture& capture) {
+                Capture& capture, const NextTrigger* next) {
   capture.t_ns = t_ns;
   capture.X_WC = CameraPose(rig, body.X_WB);
   capture.body = body;
   capture.pano_frame = rig.pano_frame;
+  capture.X_WC_next.reset();
+  if (next != nullptr && rig.products.flow) capture.X_WC_next = CameraPose(rig, next->X_WB);
   RenderRequest request{.camera = rig.camera,
                         .X_WC = capture.X_WC,
                         .tier = rig.tier,
@@ -70,6 +68,9 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
                         .seed = rig.seed,
                         .tone = rig.tone,
                         .auto_exposure = rig.auto_exposure};
+  request.state = rig.state;
+  request.X_WC_next = capture.X_WC_next;
+  if (next != nullptr) request.next_state = next->state;
   const bool lens = rig.lens == LensModel::kReal360 && rig.products.rgb && rig.tier != Tier::kLabels;
   // The ideal colours serve its exposure at most.
   if (lens) request.products.rgb = rig.auto_exposure;

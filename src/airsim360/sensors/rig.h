@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 
 #include "airsim360/render/renderer.h"
 #include "airsim360/sensors/lens.h"
@@ -34,6 +36,13 @@ struct PanoramicRig {
   /// ideal.
   LensModel lens = LensModel::kIdeal;
   Real360 real360;
+  std::shared_ptr<const SceneState> state;  ///< what has moved; nullptr = nothing
+};
+
+/// The next trigger of a rig, which optical flow leads to.
+struct NextTrigger {
+  RigidTransform X_WB;                      ///< the body then
+  std::shared_ptr<const SceneState> state;  ///< what has moved by then; nullptr = as at the capture
 };
 
 /// Everything one trigger gave.
@@ -44,13 +53,17 @@ struct Capture {
   PanoFrame pano_frame = PanoFrame::kBody;
   Frame frame;
   RenderStats stats;
+  std::optional<RigidTransform> X_WC_next;  ///< pose that the flow leads to, where flow was asked for
 };
 
 /// Pose of the rig's camera for a body pose.
 RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB);
 
-/// Takes one capture into `capture`, reusing its images.
+/// Where a body is `dt` seconds later if neither velocity changes (v in W, w in B): p + v dt, R exp(w dt).
+RigidTransform Extrapolate(const Kinematics& body, double dt);
+
+/// Takes one capture into `capture`, reusing its images. `next` is needed for the product flow alone.
 void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, Renderer& renderer,
-                Capture& capture);
+                Capture& capture, const NextTrigger* next = nullptr);
 
 }  // namespace airsim360

@@ -49,6 +49,16 @@ TEST(CameraPose, LevelFrameHasAHeadingWhenTheBodyPointsStraightUp) {
   ExpectNear(X_WC.R.column(2), {std::cos(0.9), std::sin(0.9), 0}, 1e-6);
 }
 
+TEST(Extrapolate, FliesOnAndKeepsTurningAboutTheBodysAxes) {
+  // Half a radian a second to the left while flying east.
+  const Kinematics body{BodyPose({1, 2, 3}, 0.4, 0, 0), {5, 0, 0}, {0, 0, 0.5}};
+  const RigidTransform X = Extrapolate(body, 0.6), expected = BodyPose({4, 2, 3}, 0.7, 0, 0);
+  ExpectNear(X.p, expected.p);
+  for (int j = 0; j < 3; ++j) ExpectNear(X.R.column(j), expected.R.column(j));
+  const Kinematics still{BodyPose({1, 2, 3}, 0.4, 0.1, 0.2), {}, {}};
+  for (int j = 0; j < 3; ++j) ExpectNear(Extrapolate(still, 1).R.column(j), still.X_WB.R.column(j));
+}
+
 TEST(CaptureRig, CarriesTimeAndExactPoseOfTheTrigger) {
   SceneBuilder builder("empty");
   builder.AddSky();

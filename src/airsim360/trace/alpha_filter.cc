@@ -45,6 +45,54 @@ float BilinearAlpha(const Texture& texture, Vec2f uv) {
   return (top + (bottom - top) * (y - fy)) * (1.0f / 255.0f);
 }
 
+constexpr float kMaxRepeats = 1000;     // of a texture under one triangle
+constexpr int64_t kMaxCells = 1 << 16;  // looked at for one triangle
+constexpr float kAlphaMargin = 0.01f;   // of 255: more than bilinear weights lose by rounding
+
+struct AlphaRange {
+  int lowest = 255, highest = 0;
+};
+
+// Alpha of all texels that a bilinear look-up at any point of a triangle reads, its corners in texels counted
+// from the centre of the first; false if they are too many.
+// `reach`: the largest number, in texels, that takes part in computing them.
+bool AlphaUnder(const Texture& texture, const Vec2d (&corners)[3], double reach, AlphaRange& out) {
+  const Image<Rgba8>& image = texture.levels[0];
+  const double low_y = std::min({corners[0].y, corners[1].y, corners[2].y}),
+               high_y = std::max({corners[0].y, corners[1].y, corners[2].y});
+  // Interpolated coordinates are off by some units in the last place.
+  const double margin = 1e-3 + 2e-6 * reach;
+  int64_t cells = 0;
+  for (auto y = static_cast<int>(std::floor(low_y - margin)); y <= high_y + margin; ++y) {
+    // The part of the triangle within this row of cells: its corners there and the cuts of its edges.
+    double left = 1e30, right = -1e30;
+    const double bottom = y - margin, top = y + 1 + margin;
+    for (int i = 0; i < 3; ++i) {
+      const Vec2d a = corners[i], b = corners[(i + 1) % 3];
+      if (a.y >= bottom && a.y <= top) left = std::min(left, a.x), right = std::max(right, a.x);
+      for (const double cut : {bottom, top}) {
+        if ((a.y < cut) == (b.y < cut)) continue;
+        const double x = a.x + (b.x - a.x) * ((cut - a.y) / (b.y - a.y));
+        left = std::min(left, x), right = std::max(right, x);
+      }
+    }
+    if (left > right) continue;
+    const auto first = static_cast<int>(std::floor(left - margin)),
+               last = static_cast<int>(std::floor(right + margin));
+    cells += last - first + 1;
+    if (cells > kMaxCells) return false;
+    for (const int row : {y, y + 1}) {
+      const int wrapped = WrapTexel(row, image.height(), texture.wrap_v);
+      for (int x = first; x <= last + 1; ++x) {
+        const int alpha = image(WrapTexel(x, image.width(), texture.wrap_u), wrapped).a;
+        out.lowest = std::min(out.lowest, alpha);
+        out.highest = std::max(out.highest, alpha);
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 AlphaTest::AlphaTest(const Material& material, std::span<const Texture> textures)
@@ -60,6 +108,38 @@ AlphaTest::AlphaTest(const Material& material, std::span<const Texture> textures
 bool AlphaTest::Solid(Vec2f uv) const {
   const float alpha = texture_ != nullptr ? BilinearAlpha(*texture_, transform_ * uv) : 1.0f;
   return scale_ * alpha >= cutoff_;
+}
+
+Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
+  AlphaRange range;
+  if (texture_ == nullptr) {
+    range = {255, 255};
+  } else {
+    const Vec3u t = mesh.triangles[triangle];
+    const bool plain = mesh.uvs.empty();
+    const Vec2f uv[3] = {plain ? Vec2f{} : mesh.uvs[t.x], plain ? Vec2f{} : mesh.uvs[t.y],
+                         plain ? Vec2f{} : mesh.uvs[t.z]};
+    Vec2d corners[3];
+    float reach = 0;
+    const Image<Rgba8>& image = texture_->levels[0];
+    for (int i = 0; i < 3; ++i) {
+      const Vec2f p = transform_ * uv[i];
+      // Beyond this, coordinates are cut off, or have too few bits to know the texel.
+      const UvTransform& m = transform_;
+      const float sum = std::fabs(m.m00 * uv[i].x) + std::fabs(m.m01 * uv[i].y) + std::fabs(m.t.x) +
+                        std::fabs(m.m10 * uv[i].x) + std::fabs(m.m11 * uv[i].y) + std::fabs(m.t.y);
+      if (!(sum < kMaxRepeats)) return Opacity::kMixed;
+      reach = std::max(reach, sum);
+      corners[i] = {static_cast<double>(p.x) * image.width() - 0.5,
+                    static_cast<double>(p.y) * image.height() - 0.5};
+    }
+    const double texels = std::max(image.width(), image.height());
+    if (!AlphaUnder(*texture_, corners, static_cast<double>(reach) * texels, range)) return Opacity::kMixed;
+  }
+  const auto solid = [&](float alpha) { return scale_ * (alpha * (1.0f / 255.0f)) >= cutoff_; };
+  if (solid(static_cast<float>(range.lowest) - kAlphaMargin)) return Opacity::kOpaque;
+  if (!solid(static_cast<float>(range.highest) + kAlphaMargin)) return Opacity::kClear;
+  return Opacity::kMixed;
 }
 
 bool NeedsAlphaTest(const Material& material) {

@@ -11,6 +11,9 @@
 
 namespace airsim360::internal {
 
+/// What a triangle shows of its alpha texture.
+enum class Opacity : uint8_t { kOpaque, kClear, kMixed };
+
 /// Opacity of one material: where it is a hole. Pointers stay valid as long as the scene.
 class AlphaTest {
  public:
@@ -18,6 +21,10 @@ class AlphaTest {
   /// Whether a ray that meets the surface at mesh coordinates `uv` hits it: base alpha * texture alpha >=
   /// cutoff, the texture read bilinearly at full size.
   bool Solid(Vec2f uv) const;
+  /// kOpaque only where Solid is true at every point of the triangle, kClear only where it is nowhere.
+  /// Conservative: a triangle that comes within rounding of the other kind, or that spans more texels than
+  /// are worth looking at, is kMixed.
+  Opacity Classify(const Mesh& mesh, uint32_t triangle) const;
 
  private:
   const Texture* texture_;  // nullptr = alpha 1 everywhere

@@ -11,6 +11,9 @@ namespace {
 // Spatial splits trace faster but take several times longer to build.
 constexpr uint64_t kMaxHighQualityTriangles = 6'000'000;
 
+constexpr uint32_t kLastGeneration = 15;          // two bits of a ray mask each, from 0 on
+constexpr uint32_t kAllGenerations = 0x55555555;  // times kMaskSolid or kMaskClearPanes
+
 // Robust: rays do not slip between neighbouring triangles, which would write a wrong label.
 SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
   SceneHandle scene(rtcNewScene(device));
@@ -19,14 +22,39 @@ SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
   return scene;
 }
 
-// The triangles of the parts for which `wanted(material)` holds; null if there are none.
-template <class Wanted>
-std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const Scene& scene, Wanted wanted) {
+// The geometries that a mesh is divided into.
+enum class Group : uint8_t { kOpaque, kTested, kPane, kLeftOut };
+
+Group GroupOf(Opacity opacity) {
+  return opacity == Opacity::kOpaque  ? Group::kOpaque
+         : opacity == Opacity::kClear ? Group::kLeftOut
+                                      : Group::kTested;
+}
+
+// Group of every triangle of a mesh.
+std::vector<Group> Classify(const Mesh& mesh, const Scene& scene, bool sort_alpha) {
+  std::vector<Group> out(mesh.triangles.size(), Group::kOpaque);
+  for (const MeshPart& part : mesh.parts) {
+    const Material& material = scene.materials[part.material];
+    const auto begin = out.begin() + part.first_triangle;
+    if (!NeedsAlphaTest(material)) {
+      if (IsClearPane(material)) std::fill(begin, begin + part.triangle_count, Group::kPane);
+      continue;
+    }
+    const AlphaTest test(material, scene.textures);
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+      out[t] = sort_alpha ? GroupOf(test.Classify(mesh, t)) : Group::kTested;
+  }
+  return out;
+}
+
+// The triangles of one group; null if there are none.
+std::unique_ptr<MeshGeometry> SelectTriangles(const Mesh& mesh, const std::vector<Group>& groups,
+                                              Group wanted) {
   auto out = std::make_unique<MeshGeometry>();
   out->mesh = &mesh;
-  for (const MeshPart& part : mesh.parts) {
-    if (!wanted(scene.materials[part.material])) continue;
-    for (uint32_t i = 0; i < part.triangle_count; ++i) out->triangles.push_back(part.first_triangle + i);
+  for (uint32_t t = 0; t < groups.size(); ++t) {
+    if (groups[t] == wanted) out->triangles.push_back(t);
   }
   out->primitive_count = static_cast<uint32_t>(out->triangles.size());
   if (out->primitive_count == 0) return nullptr;
@@ -45,12 +73,18 @@ std::unique_ptr<AlphaGeometry> MakeAlpha(const MeshGeometry& geometry, const Sce
   auto alpha = std::make_unique<AlphaGeometry>();
   alpha->mesh = geometry.mesh;
   alpha->triangles = geometry.triangles;
+  // The primitives are in the order of the triangles, and so of the parts.
+  const auto triangle = [&](uint32_t primitive) {
+    return geometry.triangles.empty() ? primitive : geometry.triangles[primitive];
+  };
+  uint32_t primitive = 0;
   for (const MeshPart& part : geometry.mesh->parts) {
-    const Material& material = scene.materials[part.material];
-    if (!NeedsAlphaTest(material)) continue;
-    alpha->primitive_test.insert(alpha->primitive_test.end(), part.triangle_count,
+    const uint32_t first = primitive, end = part.first_triangle + part.triangle_count;
+    while (primitive < geometry.primitive_count && triangle(primitive) < end) ++primitive;
+    if (primitive == first) continue;
+    alpha->primitive_test.insert(alpha->primitive_test.end(), primitive - first,
                                  static_cast<uint32_t>(alpha->tests.size()));
-    alpha->tests.emplace_back(material, scene.textures);
+    alpha->tests.emplace_back(scene.materials[part.material], scene.textures);
   }
   return alpha;
 }
@@ -59,29 +93,28 @@ bool IsIdentity(const AffineTransform& X) { return X == AffineTransform(); }
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene, const std::string& isa) {
+EmbreeScene::EmbreeScene(const Scene& scene, const RayTracerOptions& options) {
+  const std::string& isa = options.isa;
   device_.reset(rtcNewDevice(isa.empty() ? nullptr : ("isa=" + isa).c_str()));
   if (device_ == nullptr) throw RuntimeError("ray tracer: Embree refuses a device (isa '" + isa + "')");
   std::vector<uint32_t> uses(scene.meshes.size());
   for (const Instance& instance : scene.instances) ++uses[instance.mesh];
 
-  SplitMeshes(scene, uses);
+  SplitMeshes(scene, uses, options.sort_alpha);
   BuildSubScenes(scene, uses);
   AttachInstances(scene, uses);
   rtcCommitScene(top_.get());
   ThrowOnError();
 }
 
-void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses) {
+void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses, bool sort_alpha) {
   groups_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     if (uses[m] == 0) return;
-    auto opaque = SelectTriangles(scene.meshes[m], scene,
-                                  [](const Material& x) { return !NeedsAlphaTest(x) && !IsClearPane(x); });
-    auto tested =
-        SelectTriangles(scene.meshes[m], scene, [](const Material& x) { return NeedsAlphaTest(x); });
-    auto panes = SelectTriangles(scene.meshes[m], scene,
-                                 [](const Material& x) { return !NeedsAlphaTest(x) && IsClearPane(x); });
+    const std::vector<Group> all = Classify(scene.meshes[m], scene, sort_alpha);
+    auto opaque = SelectTriangles(scene.meshes[m], all, Group::kOpaque);
+    auto tested = SelectTriangles(scene.meshes[m], all, Group::kTested);
+    auto panes = SelectTriangles(scene.meshes[m], all, Group::kPane);
     if (tested) tested->alpha = MakeAlpha(*tested, scene);
     if (panes) panes->mask = kMaskClearPanes;
     for (auto* group : {&opaque, &tested, &panes}) {
@@ -115,7 +148,7 @@ void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometr
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0, sizeof(Vec3u),
                              indices.size());
   rtcSetGeometryBuildQuality(g, quality);
-  rtcSetGeometryMask(g, geometry.mask);
+  rtcSetGeometryMask(g, geometry.mask * kAllGenerations);
   if (geometry.alpha) {
     rtcSetGeometryUserData(g, geometry.alpha.get());
     rtcSetGeometryIntersectFilterFunction(g, FilterAlpha);
@@ -130,16 +163,67 @@ void EmbreeScene::BuildSubScenes(const Scene& scene, const std::vector<uint32_t>
   sub_scenes_.resize(scene.meshes.size());
   mesh_vertices_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
-    if (uses[m] < 2 || groups_[m].empty()) return;
-    const Mesh& mesh = scene.meshes[m];
-    const Vec3f* vertices = PaddedVertices(mesh, nullptr, mesh_vertices_[m]);
-    sub_scenes_[m] = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
-    for (unsigned i = 0; i < groups_[m].size(); ++i) {
-      AttachGeometry(sub_scenes_[m].get(), i, *groups_[m][i], vertices, mesh.positions.size(),
-                     RTC_BUILD_QUALITY_HIGH);
-    }
-    rtcCommitScene(sub_scenes_[m].get());
+    if (uses[m] >= 2 && !groups_[m].empty()) BuildSubScene(scene.meshes[m], static_cast<MeshId>(m));
   });
+}
+
+void EmbreeScene::BuildSubScene(const Mesh& mesh, MeshId id) {
+  const Vec3f* vertices = PaddedVertices(mesh, nullptr, mesh_vertices_[id]);
+  SceneHandle sub_scene = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
+  for (unsigned i = 0; i < groups_[id].size(); ++i) {
+    AttachGeometry(sub_scene.get(), i, *groups_[id][i], vertices, mesh.positions.size(),
+                   RTC_BUILD_QUALITY_HIGH);
+  }
+  rtcCommitScene(sub_scene.get());
+  sub_scenes_[id] = std::move(sub_scene);
+}
+
+RTCScene EmbreeScene::SubScene(const Mesh& mesh, MeshId id) {
+  const std::lock_guard lock(mutex_);
+  if (sub_scenes_[id] == nullptr) BuildSubScene(mesh, id);
+  return sub_scenes_[id].get();
+}
+
+SceneHandle EmbreeScene::MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const {
+  // Quality "low" of a scene is Embree's way to say: the structures of its geometries are kept and updated.
+  SceneHandle scene = NewScene(device_.get(), RTC_BUILD_QUALITY_LOW);
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+  for (unsigned i = 0; i < groups_[id].size(); ++i)
+    AttachGeometry(scene.get(), i, *groups_[id][i], vertices, count, RTC_BUILD_QUALITY_REFIT);
+  return scene;
+}
+
+Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
+  const std::lock_guard lock(mutex_);
+  std::vector<uint32_t> added;
+  for (uint32_t i : instances) {
+    if (top_ids_[i] != kMiss && !std::binary_search(movers_.instances.begin(), movers_.instances.end(), i))
+      added.push_back(i);
+  }
+  if (added.empty()) return movers_;
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
+  if (movers_.generation == kLastGeneration) {
+    // Out of mask bits: from now on everything counts as moving.
+    movers_ = {{}, kLastGeneration, true};
+    for (uint32_t i = 0; i < top_ids_.size(); ++i) {
+      if (top_ids_[i] != kMiss) movers_.instances.push_back(i);
+    }
+    return movers_;
+  }
+  const uint32_t earlier = (1u << (2 * ++movers_.generation)) - 1;
+  for (uint32_t i : added) {
+    const uint32_t first = top_ids_[i];
+    const HitSlot& slot = slots_[first_slots_[first]];
+    // A baked instance has an id for each of its geometries.
+    for (uint32_t id = first; id < first_slots_.size() && slots_[first_slots_[id]].instance == slot.instance;
+         ++id) {
+      rtcSetGeometryMask(rtcGetGeometry(top_.get(), id), top_masks_[id] & earlier);
+    }
+  }
+  movers_.instances.insert(movers_.instances.end(), added.begin(), added.end());
+  std::sort(movers_.instances.begin(), movers_.instances.end());
+  return movers_;
 }
 
 void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM) {
@@ -171,6 +255,7 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
   const auto quality =
       direct_triangles <= kMaxHighQualityTriangles ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
   top_ = NewScene(device_.get(), quality);
+  top_ids_.assign(scene.instances.size(), kMiss);
 
   // One geometry id after another, in the order of the instances.
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -178,16 +263,19 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
     const MeshGroups& groups = groups_[instance.mesh];
     const bool direct = uses[instance.mesh] == 1;
     if (groups.empty()) continue;
+    top_ids_[i] = static_cast<uint32_t>(first_slots_.size());
     if (!direct) {
       AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(),
                      instance.X_WM);
       first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
+      top_masks_.push_back(kMaskAll);
     }
     for (const auto& group : groups) {
       if (direct) {
         AttachGeometry(top_.get(), static_cast<unsigned>(first_slots_.size()), *group, vertices[i],
                        scene.meshes[instance.mesh].positions.size(), quality);
         first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
+        top_masks_.push_back(group->mask * kAllGenerations);
       }
       slots_.push_back(
           {i, group->primitive_count, group->triangles.empty() ? nullptr : group->triangles.data(), direct});

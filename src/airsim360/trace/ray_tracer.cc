@@ -2,10 +2,15 @@
 
 #include <xmmintrin.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
+#include "airsim360/base/error.h"
 #include "airsim360/trace/closest_point.h"
+#include "airsim360/trace/dynamic_scene.h"
 #include "airsim360/trace/embree_scene.h"
 
 namespace airsim360 {
@@ -71,23 +76,55 @@ FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
 
 struct RayTracer::Impl {
   std::shared_ptr<const Scene> scene;
-  internal::EmbreeScene embree;
+  std::shared_ptr<internal::EmbreeScene> embree;
+  // What has moved, traced after the static scene: nothing in a tracer of the scene as built.
+  std::unique_ptr<internal::DynamicScene> dynamic = nullptr;
+  std::shared_ptr<const SceneState> state = nullptr;
+  uint32_t generation = 0;  // see EmbreeScene
+  bool traces_static = true;
 
+  const std::vector<HitSlot>& Slots() const { return dynamic ? dynamic->slots() : embree->slots(); }
   const HitSlot& Slot(uint32_t geometry, uint32_t instance) const {
-    const auto& first = embree.first_slots();
-    return embree.slots()[instance == kMiss ? first[geometry] : first[instance] + geometry];
+    const auto& first = embree->first_slots();
+    return Slots()[instance == kMiss ? first[geometry] : first[instance] + geometry];
+  }
+  // Mask for the static scene of a ray that asks for kMaskSolid, kMaskClearPanes or both.
+  uint32_t StaticMask(uint32_t kinds) const {
+    return (kinds & (kMaskSolid | kMaskClearPanes)) << (2 * generation);
   }
 };
 
 RayTracer::RayTracer(std::shared_ptr<const Scene> scene, const RayTracerOptions& options)
-    : impl_(new Impl{scene, internal::EmbreeScene(*scene, options.isa)}) {}
-
+    : impl_(new Impl{scene, std::make_shared<internal::EmbreeScene>(*scene, options)}) {}
+RayTracer::RayTracer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 RayTracer::~RayTracer() = default;
 
-bool RayTracer::has_clear_panes() const { return impl_->embree.has_clear_panes(); }
+bool RayTracer::has_clear_panes() const { return impl_->embree->has_clear_panes(); }
 const Scene& RayTracer::scene() const { return *impl_->scene; }
-std::span<const HitSlot> RayTracer::slots() const { return impl_->embree.slots(); }
-std::span<const uint32_t> RayTracer::first_slots() const { return impl_->embree.first_slots(); }
+std::span<const HitSlot> RayTracer::slots() const { return impl_->Slots(); }
+std::span<const uint32_t> RayTracer::first_slots() const { return impl_->embree->first_slots(); }
+
+std::span<const MovedInstance> RayTracer::moved() const {
+  return impl_->dynamic ? std::span<const MovedInstance>(impl_->dynamic->moved())
+                        : std::span<const MovedInstance>();
+}
+
+std::span<const DeformedMesh> RayTracer::deformed() const {
+  return impl_->dynamic ? std::span<const DeformedMesh>(impl_->dynamic->deformed())
+                        : std::span<const DeformedMesh>();
+}
+
+const AffineTransform& RayTracer::Place(uint32_t instance) const {
+  const auto found = std::ranges::lower_bound(moved(), instance, {}, &MovedInstance::instance);
+  return found != moved().end() && found->instance == instance ? found->X_WM
+                                                               : scene().instances[instance].X_WM;
+}
+
+std::span<const Vec3f> RayTracer::Positions(MeshId mesh) const {
+  const auto found = std::ranges::lower_bound(deformed(), mesh, {}, &DeformedMesh::mesh);
+  return found != deformed().end() && found->mesh == mesh ? *found->positions
+                                                          : scene().meshes[mesh].positions;
+}
 
 void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) const {
   // valid is -1 in active lanes, so that "or" marks them as missed and leaves the others alone.
@@ -95,17 +132,41 @@ void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) con
   for (int i = 0; i < 16; ++i) rays.instance[i] |= static_cast<uint32_t>(valid[i]);
   alignas(64) int fixed[16];
   RTCIntersectContext context = Context(coherent);
-  rtcIntersect16(FiniteLanes(valid, rays, fixed), impl_->embree.top(), &context,
-                 reinterpret_cast<RTCRayHit16*>(&rays));
+  const int* lanes = FiniteLanes(valid, rays, fixed);
+  auto* packet = reinterpret_cast<RTCRayHit16*>(&rays);
+  if (impl_->dynamic == nullptr) {
+    rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
+    return;
+  }
+  if (impl_->traces_static) {
+    uint32_t kinds[16];
+    std::memcpy(kinds, rays.mask, sizeof kinds);
+    for (uint32_t& mask : rays.mask) mask = impl_->StaticMask(mask);
+    rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
+    std::memcpy(rays.mask, kinds, sizeof kinds);
+  }
+  rtcIntersect16(lanes, impl_->dynamic->top(), &context, packet);
 }
 
 void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, bool coherent) const {
   // rtcOccluded16 with COHERENT may loop for ever in scenes with instances (Embree 3.13.5: it depends on what
   // the stack held before; seen with and without ROBUST, with any rays). rtcIntersect16 is not affected.
-  alignas(64) int fixed[16];
-  RTCIntersectContext context = Context(coherent && !impl_->embree.has_instances());
-  rtcOccluded16(FiniteLanes(valid, rays, fixed), impl_->embree.top(), &context,
-                reinterpret_cast<RTCRay16*>(&rays));
+  alignas(64) int fixed[16], open[16];
+  RTCIntersectContext context = Context(coherent && !impl_->embree->has_instances());
+  const int* lanes = FiniteLanes(valid, rays, fixed);
+  auto* packet = reinterpret_cast<RTCRay16*>(&rays);
+  uint32_t kinds[16];
+  std::memcpy(kinds, rays.mask, sizeof kinds);
+  if (impl_->dynamic != nullptr) {
+    for (uint32_t& mask : rays.mask) mask = impl_->StaticMask(mask);
+  }
+  if (impl_->traces_static) rtcOccluded16(lanes, impl_->embree->top(), &context, packet);
+  if (impl_->dynamic != nullptr) {
+    std::memcpy(rays.mask, kinds, sizeof kinds);
+    for (int i = 0; i < 16; ++i) open[i] = rays.t_far[i] < 0 ? 0 : lanes[i];
+    context = Context(false);
+    rtcOccluded16(open, impl_->dynamic->top(), &context, packet);
+  }
   for (int i = 0; i < 16; ++i) {
     if (valid[i] != 0) occluded[i] = rays.t_far[i] < 0;
   }
@@ -122,14 +183,17 @@ std::optional<SurfaceHit> RayTracer::Intersect(Vec3f origin, Vec3f direction, fl
   RTCRayHit ray{SingleRay(origin, direction, t_far), {}};
   ray.hit.geomID = ray.hit.instID[0] = kMiss;
   RTCIntersectContext context = Context(false);
-  rtcIntersect1(impl_->embree.top(), &context, &ray);
+  ray.ray.mask = impl_->StaticMask(kMaskAll);
+  if (impl_->traces_static) rtcIntersect1(impl_->embree->top(), &context, &ray);
+  ray.ray.mask = kMaskAll;
+  if (impl_->dynamic != nullptr) rtcIntersect1(impl_->dynamic->top(), &context, &ray);
   if (ray.hit.geomID == kMiss) return std::nullopt;
 
   // The normal to W, towards the origin.
   const HitSlot& slot = impl_->Slot(ray.hit.geomID, ray.hit.instID[0]);
   const SurfaceRef surface = Resolve(ray.hit.geomID, ray.hit.instID[0], ray.hit.primID);
   Vec3f normal{ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z};
-  if (!slot.normal_in_world) normal = NormalToWorld(scene().instances[surface.instance].X_WM.A, normal);
+  if (!slot.normal_in_world) normal = NormalToWorld(Place(surface.instance).A, normal);
   normal = Normalized(normal);
   if (Dot(normal, direction) > 0) normal = -normal;
   return SurfaceHit{ray.ray.tfar, surface, ray.hit.u, ray.hit.v, normal};
@@ -140,12 +204,93 @@ bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
   const FlushDenormals flush;
   RTCRay ray = SingleRay(from, to - from, 1);
   RTCIntersectContext context = Context(false);
-  rtcOccluded1(impl_->embree.top(), &context, &ray);
+  ray.mask = impl_->StaticMask(kMaskAll);
+  if (impl_->traces_static) rtcOccluded1(impl_->embree->top(), &context, &ray);
+  ray.mask = kMaskAll;
+  if (impl_->dynamic != nullptr && !(ray.tfar < 0)) rtcOccluded1(impl_->dynamic->top(), &context, &ray);
   return ray.tfar < 0;
 }
 
 float RayTracer::Clearance(Vec3f p_W, float max_distance) const {
-  return internal::ClosestSurfaceDistance(*this, impl_->embree.top(), p_W, max_distance);
+  const bool moves = impl_->dynamic != nullptr;
+  float distance = max_distance;
+  if (impl_->traces_static)
+    distance = internal::ClosestSurfaceDistance(*this, impl_->embree->top(), moves, p_W, distance);
+  if (moves) distance = internal::ClosestSurfaceDistance(*this, impl_->dynamic->top(), false, p_W, distance);
+  return distance;
+}
+
+namespace {
+
+[[noreturn]] void ThrowBadState(const std::string& what) { throw InputError("scene state: " + what); }
+
+// Instances that stand elsewhere or have another shape; throws on a state that does not fit the scene.
+std::vector<uint32_t> CheckedMovers(const Scene& scene, const SceneState& state) {
+  std::vector<uint32_t> movers;
+  for (size_t k = 0; k < state.moved.size(); ++k) {
+    const MovedInstance& m = state.moved[k];
+    const std::string name = "instance " + std::to_string(m.instance);
+    if (m.instance >= scene.instances.size()) {
+      ThrowBadState(name + " is not in the scene, which has " + std::to_string(scene.instances.size()));
+    }
+    if (k > 0 && m.instance <= state.moved[k - 1].instance) ThrowBadState(name + " is out of order");
+    if (!IsFinite(m.X_WM.p) || !IsFinite(m.X_WM.A.row(0)) || !IsFinite(m.X_WM.A.row(1)) ||
+        !IsFinite(m.X_WM.A.row(2))) {
+      ThrowBadState("the place of " + name + " is not finite");
+    }
+    movers.push_back(m.instance);
+  }
+  std::vector<bool> deformed(state.deformed.empty() ? 0 : scene.meshes.size());
+  for (size_t k = 0; k < state.deformed.size(); ++k) {
+    const DeformedMesh& d = state.deformed[k];
+    const std::string name = "mesh " + std::to_string(d.mesh);
+    if (d.mesh >= scene.meshes.size()) {
+      ThrowBadState(name + " is not in the scene, which has " + std::to_string(scene.meshes.size()));
+    }
+    if (k > 0 && d.mesh <= state.deformed[k - 1].mesh) ThrowBadState(name + " is out of order");
+    const size_t vertices = scene.meshes[d.mesh].positions.size();
+    if (d.positions == nullptr || d.positions->size() != vertices)
+      ThrowBadState(name + " needs " + std::to_string(vertices) + " positions");
+    if (!std::all_of(d.positions->begin(), d.positions->end(), IsFinite))
+      ThrowBadState("a position of " + name + " is not finite");
+    deformed[d.mesh] = true;
+  }
+  for (uint32_t i = 0; !deformed.empty() && i < scene.instances.size(); ++i) {
+    if (deformed[scene.instances[i].mesh]) movers.push_back(i);
+  }
+  return movers;
+}
+
+}  // namespace
+
+DynamicTracer::DynamicTracer(std::shared_ptr<const RayTracer> base) : base_(std::move(base)) {}
+DynamicTracer::~DynamicTracer() = default;
+
+std::shared_ptr<const RayTracer> DynamicTracer::At(const std::shared_ptr<const SceneState>& state) {
+  if (state == nullptr) return base_;
+  const RayTracer::Impl& base = *base_->impl_;
+  const internal::Movers movers = base.embree->Move(CheckedMovers(*base.scene, *state));
+
+  // A tracer of this very state, or one that nobody uses, or a new one.
+  size_t place = pool_.size();
+  for (size_t k = 0; k < pool_.size(); ++k) {
+    const RayTracer::Impl& impl = *pool_[k]->impl_;
+    if (impl.state == state && impl.generation == movers.generation && impl.traces_static == !movers.all)
+      return pool_[k];
+    if (pool_[k].use_count() == 1) place = k;
+  }
+  if (place == pool_.size()) {
+    pool_.push_back(std::shared_ptr<RayTracer>(new RayTracer(std::make_unique<RayTracer::Impl>())));
+    pool_.back()->impl_->scene = base.scene;
+    pool_.back()->impl_->embree = base.embree;
+    pool_.back()->impl_->dynamic = std::make_unique<internal::DynamicScene>();
+  }
+  RayTracer::Impl& impl = *pool_[place]->impl_;
+  impl.state = state;
+  impl.generation = movers.generation;
+  impl.traces_static = !movers.all;
+  impl.dynamic->Update(*base.embree, *base.scene, *state, movers);
+  return pool_[place];
 }
 
 }  // namespace airsim360

@@ -7,8 +7,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "airsim360/scene/scene.h"
+#include "airsim360/scene/scene_state.h"
 
 namespace airsim360 {
 
@@ -58,6 +60,7 @@ struct SurfaceHit {
 
 struct RayTracerOptions {
   std::string isa;  ///< Embree instruction set, e.g. "avx2" to pin goldens; empty = best of this machine
+  bool sort_alpha = true;  ///< false: every alpha-tested triangle pays for the test, for measuring
 };
 
 /// While it lives, this thread treats denormal numbers as zero (MXCSR FTZ and DAZ): what traversal is fastest
@@ -106,9 +109,38 @@ class RayTracer {
   /// `max_distance`.
   float Clearance(Vec3f p_W, float max_distance) const;
 
+  /// Instances that need not stand where the scene has them, by index, with their places now: empty unless a
+  /// DynamicTracer made this tracer. Holds what has ever moved, so also what is back in its old place.
+  std::span<const MovedInstance> moved() const;
+  /// Meshes whose vertices are not those of the scene, by index.
+  std::span<const DeformedMesh> deformed() const;
+  /// Mesh frame to W of an instance now, and the vertices of a mesh now.
+  const AffineTransform& Place(uint32_t instance) const;
+  std::span<const Vec3f> Positions(MeshId mesh) const;
+
  private:
+  friend class DynamicTracer;
   struct Impl;
+  explicit RayTracer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
+};
+
+/// Tracers of one scene at many instants. The static scene is built once and shared; what has ever moved is
+/// traced apart, so that a new instant costs O(moved) and not O(scene). Not for use by several threads at
+/// once; the tracers it gives are as immutable as any.
+class DynamicTracer {
+ public:
+  explicit DynamicTracer(std::shared_ptr<const RayTracer> base);
+  ~DynamicTracer();
+  /// The scene at `state` (nullptr: as built, the base itself). Memory of earlier results that nobody holds
+  /// any more is used again: transforms are set, deformed meshes refitted, every 30th time built anew.
+  /// InputError for an index that the scene lacks, lists out of order, vertices that are too few, too many or
+  /// not finite.
+  std::shared_ptr<const RayTracer> At(const std::shared_ptr<const SceneState>& state);
+
+ private:
+  std::shared_ptr<const RayTracer> base_;
+  std::vector<std::shared_ptr<RayTracer>> pool_;
 };
 
 }  // namespace airsim360

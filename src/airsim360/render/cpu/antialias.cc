@@ -141,11 +141,15 @@ void Antialiaser::FindEdges(const Image<EntityId>& entity, const Image<uint8_t>&
   });
 }
 
-void Antialiaser::MakeOffsets(const CameraRays& rays, int samples) {
+const PixelOffset* SampleOffsets(const std::vector<PixelOffset>& offsets, uint64_t pixel_key, int samples) {
+  return &offsets[(pixel_key & (kSymmetries - 1)) * static_cast<size_t>(samples - 1)];
+}
+
+void MakeSampleOffsets(const CameraRays& rays, int samples, std::vector<PixelOffset>& out) {
   // R2 low-discrepancy sequence (Roberts 2018) shifted so that sample 0 is the centre; its eight mirror
   // images and rotations keep the centre and break up patterns between pixels.
   constexpr double kPlastic = 1.32471795724474602596;
-  offsets_.clear();
+  out.clear();
   for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
     for (int s = 1; s < samples; ++s) {
       double dx = 0.5 + s / kPlastic, dy = 0.5 + s / (kPlastic * kPlastic);
@@ -154,13 +158,13 @@ void Antialiaser::MakeOffsets(const CameraRays& rays, int samples) {
       if (symmetry & 1) dx = -dx;
       if (symmetry & 2) dy = -dy;
       if (symmetry & 4) std::swap(dx, dy);
-      offsets_.push_back(rays.MakeOffset(dx, dy));
+      out.push_back(rays.MakeOffset(dx, dy));
     }
   }
 }
 
 int64_t Antialiaser::Run(const AntialiasTask& task) {
-  MakeOffsets(*task.rays, task.samples);
+  MakeSampleOffsets(*task.rays, task.samples, offsets_);
   const RayField& field = task.rays->field();
   const int across = (field.width + kTileSize - 1) / kTileSize,
             down = (field.height + kTileSize - 1) / kTileSize;
@@ -193,9 +197,8 @@ int Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
   const FlushDenormals flush_denormals;
   const auto add_rays = [&](int i, int first, int last) {
     const int x = column + tile.x(i), y = row + tile.y(i);
-    const uint64_t key =
-        MixBits(static_cast<uint64_t>(y) * static_cast<uint64_t>(field.width) + static_cast<uint64_t>(x));
-    const PixelOffset* offsets = &offsets_[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
+    const uint64_t key = PixelKey(x, y, field.width);
+    const PixelOffset* offsets = SampleOffsets(offsets_, key, task.samples);
     for (int s = first; s < last; ++s) {
       Vec3d direction;
       if (!task.rays->Direction(x, y, offsets[s - 1], direction)) continue;

@@ -5,10 +5,22 @@
 #include <memory>
 #include <vector>
 
+#include "airsim360/base/random.h"
 #include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/cpu/packet_tracer.h"
 
 namespace airsim360::internal {
+
+inline constexpr int kMaxSamples = 64;  ///< of a pixel
+
+/// Number that everything random of a canonical pixel depends on.
+inline uint64_t PixelKey(int column, int row, int width) {
+  return MixBits(static_cast<uint64_t>(row) * static_cast<uint64_t>(width) + static_cast<uint64_t>(column));
+}
+/// Points of a pixel for samples 1 … samples - 1 (0 is the centre) in several mirror images, into `out`.
+void MakeSampleOffsets(const CameraRays& rays, int samples, std::vector<PixelOffset>& out);
+/// The points of one pixel among those; the first is that of sample 1.
+const PixelOffset* SampleOffsets(const std::vector<PixelOffset>& offsets, uint64_t pixel_key, int samples);
 
 /// What the antialiasing pass reads and writes.
 struct AntialiasTask {
@@ -36,7 +48,6 @@ class Antialiaser {
   int64_t Run(const AntialiasTask& task);
 
  private:
-  void MakeOffsets(const CameraRays& rays, int samples);
   int RunTile(const AntialiasTask& task, int column, int row) const;
 
   TileKernels kernels_;

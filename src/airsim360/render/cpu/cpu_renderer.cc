@@ -9,9 +9,11 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/cpu/antialias.h"
 #include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/cpu/coverage.h"
 #include "airsim360/render/cpu/high_frame.h"
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/cpu/surface_products.h"
 #include "airsim360/render/filter/exposure.h"
 #include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/reference/path_tracer.h"
@@ -23,7 +25,6 @@ namespace {
 using namespace internal;
 
 constexpr int kTilesPerTask = 4;
-constexpr int kMaxSamples = 64;
 
 template <class Pixel>
 void Resize(Image<Pixel>& image, int width, int height, bool wanted) {
@@ -49,19 +50,27 @@ class CpuRenderer : public Renderer {
  public:
   CpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options)
       : tracer_(std::move(tracer)),
+        dynamic_(tracer_),
+        applied_(tracer_),
         environment_(options.environment.value_or(tracer_->scene().environment)),
         tables_(*tracer_),
-        labels_(tables_.view()) {
-    if (options.tier != Tier::kLabels) shader_ = std::make_unique<const Shader>(tracer_, environment_);
+        labels_(tables_.view()),
+        products_(SceneOf(tracer_)) {
+    if (options.tier != Tier::kLabels) shader_ = std::make_unique<Shader>(tracer_, environment_);
     if (options.tier == Tier::kHigh) high_.Prepare(*tracer_, *shader_);
   }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;
 
  private:
+  // The scene lives as long as its tracer.
+  static std::shared_ptr<const Scene> SceneOf(const std::shared_ptr<const RayTracer>& tracer) {
+    return {tracer, &tracer->scene()};
+  }
+  void SetState(const std::shared_ptr<const SceneState>& state);
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
-  void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
   uint64_t RenderTiles(const RenderRequest& request, bool color, Frame& frame);
+  void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
   uint64_t RenderPaths(const RenderRequest& request, Image<Rgb32f>& radiance);
   void ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target, Frame& frame);
   void KeepRadiance(const RadianceBatch& radiance, const TileTarget& target, Image<Rgb32f>& image) const;
@@ -77,14 +86,18 @@ class CpuRenderer : public Renderer {
     return field.separable && std::abs(latitude) > 1.0 / 3 ? PacketShape::kRow : PacketShape::kBlock;
   }
 
-  std::shared_ptr<const RayTracer> tracer_;
+  std::shared_ptr<const RayTracer> tracer_;  // of the scene as built
+  DynamicTracer dynamic_;
+  std::shared_ptr<const RayTracer> applied_;  // of the instant that all tables show
   Environment environment_;
   LabelTables tables_;
   LabelView labels_;
   TileKernels kernels_;
   CameraRays rays_;
-  std::unique_ptr<const Shader> shader_;  // made when first needed
+  std::unique_ptr<Shader> shader_;  // made when first needed
   Antialiaser antialiaser_;
+  CoveragePass coverage_;
+  SurfaceProducts products_;
   HighFrame high_;
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
@@ -99,7 +112,12 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(frame.semantic, width, height, products.semantic);
   Resize(frame.entity, width, height, products.entity);
   Resize(frame.normal, width, height, products.normal);
-  Resize(entity_, width, height, edges && !products.entity);
+  Resize(frame.position, width, height, products.position);
+  Resize(frame.albedo, width, height, products.albedo);
+  Resize(frame.material, width, height, products.material);
+  Resize(frame.flow, width, height, products.flow);
+  Resize(frame.coverage, width, height, products.coverage);
+  Resize(entity_, width, height, (edges || products.coverage) && !products.entity);
   Resize(luma_, width, height, color);
   Resize(edges_, width, height, edges);
   Resize(frame.radiance, width, height, color && products.radiance);
@@ -108,24 +126,49 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(radiance_, width, height, color && linear && !products.radiance);
 }
 
+void CpuRenderer::SetState(const std::shared_ptr<const SceneState>& state) {
+  std::shared_ptr<const RayTracer> tracer = dynamic_.At(state);
+  if (tracer == applied_) return;
+  tables_.Apply(*tracer);
+  if (shader_ != nullptr) shader_->Apply(tracer);
+  applied_ = std::move(tracer);
+}
+
 RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   RenderRequest request = asked;
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const bool color = (request.products.rgb || request.products.radiance) && request.tier != Tier::kLabels;
-  if (color && shader_ == nullptr) shader_ = std::make_unique<const Shader>(tracer_, environment_);
+  if (color && shader_ == nullptr) {
+    shader_ = std::make_unique<Shader>(tracer_, environment_);
+    shader_->Apply(applied_);
+  }
+  SetState(request.state);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
+  if (SurfaceProducts::Wanted(request.products)) {
+    const bool moves_on = request.products.flow && request.next_state != nullptr;
+    products_.Update(request, rays_, shader_.get(), applied_,
+                     moves_on ? dynamic_.At(request.next_state) : applied_);
+  }
   const bool paths = color && request.tier == Tier::kReference, high = color && request.tier == Tier::kHigh;
-  const int samples = request.products.rgb && !paths ? std::clamp(request.aa_samples, 1, kMaxSamples) : 1;
-  ResizeFrame(request, color, color && samples > 1 && !high, frame);
-
+  const int edge_samples = std::clamp(request.aa_samples, 1, kMaxSamples);
+  const bool antialias = color && request.products.rgb && !paths && !high && edge_samples > 1;
+  ResizeFrame(request, color, antialias, frame);
   frame.exposure = color ? ExposureOf(request) : 1;
+
+  // Tier high fills the labels alone: what else comes from the centre rays is traced as in tier labels.
   RenderStats stats;
   if (high)
-    stats.rays += high_.Render(*tracer_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
-  else
-    stats.rays += RenderTiles(request, color && !paths, frame);
+    stats.rays += high_.Render(*applied_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
+  const bool more = SurfaceProducts::Wanted(request.products) || request.products.coverage;
+  if (!high || more) stats.rays += RenderTiles(request, color && !paths && !high, frame);
   if (paths) stats.rays += RenderPaths(request, RadianceOf(frame));
+  if (request.products.coverage) {
+    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
+    stats.rays += static_cast<uint64_t>(coverage_.Run(
+        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), edge_samples, &entity},
+        frame.coverage));
+  }
 
   // Linear light to display colours, at the picture's own exposure if asked.
   if (color && request.auto_exposure) {
@@ -135,12 +178,12 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   if (high || paths || (color && request.auto_exposure)) Develop(request.tone, RadianceOf(frame), frame);
 
   // More colour samples on edges.
-  if (color && !high && samples > 1) {
+  if (antialias) {
     const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
     antialiaser_.FindEdges(entity, luma_, rays_.field().separable, edges_);
     const int64_t rays =
-        antialiaser_.Run({tracer_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, samples, &edges_, &frame.rgb, request.tone});
+        antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+                          request.exposure_ev, edge_samples, &edges_, &frame.rgb, request.tone});
     stats.rays += static_cast<uint64_t>(rays);
   }
   if (!request.products.rgb) frame.rgb = {};
@@ -167,7 +210,7 @@ uint64_t CpuRenderer::RenderTiles(const RenderRequest& request, bool color, Fram
 // Light of tier `reference`; returns the number of paths.
 uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Image<Rgb32f>& radiance) {
   const int samples = request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
-  TracePaths(*tracer_, *shader_, rays_, VecCast<float>(request.X_WC.p),
+  TracePaths(*applied_, *shader_, rays_, VecCast<float>(request.X_WC.p),
              {.samples = samples, .seed = request.seed}, radiance);
   const RayField& field = rays_.field();
   for (int y = 0; y < field.height && !field.separable; ++y)
@@ -183,7 +226,7 @@ void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile,
   const int column = tile % across * kTileSize, row = tile / across * kTileSize;
   const PacketShape shape = Shape(row);
   const Vec3f origin = VecCast<float>(request.X_WC.p);
-  const bool normals = request.products.normal;
+  const bool normals = request.products.normal, products = SurfaceProducts::Wanted(request.products);
 
   const TileTarget target{column,
                           row,
@@ -205,17 +248,17 @@ void CpuRenderer::RenderTile(const RenderRequest& request, bool color, int tile,
   kernels_.init(origin.x, origin.y, origin.z, packet);
   for (int p = 0; p < kPackets; ++p) {
     kernels_.fill(field, column, row, p, shape, packet, valid);
-    TracePacket(*tracer_, labels_.sky_entity != kNoEntity, valid, packet);
+    TracePacket(*applied_, labels_.sky_entity != kNoEntity, valid, packet);
     kernels_.resolve(labels_, packet, valid, p, normals, labels);
-    if (color) kernels_.append_hits(labels_, packet, valid, p, hits);
+    if (color || products) kernels_.append_hits(labels_, packet, valid, p, hits);
   }
 
   kernels_.store_labels(labels, target);
-  if (!color) return;
   hits.count = kTilePixels;
   hits.origin = origin;
   hits.cone_angle = static_cast<float>(rays_.cone_angle());
-  ShadeTile(request, hits, target, frame);
+  if (products) products_.Fill(hits, labels, target, frame);
+  if (color) ShadeTile(request, hits, target, frame);
 }
 
 void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const TileTarget& target,

@@ -71,6 +71,26 @@ LabelTables::LabelTables(const RayTracer& tracer)
   if (triangles_.empty()) triangles_.push_back(0);
 }
 
+void LabelTables::Place(uint32_t instance, const Mat3f& normal_frame) {
+  // Slots are in the order of their instances.
+  auto slot = std::ranges::lower_bound(slots_, instance, {}, &SlotLabels::instance);
+  for (; slot != slots_.end() && slot->instance == instance; ++slot)
+    SetNormalMatrix(normal_frame, slot->normal_matrix);
+}
+
+void LabelTables::Apply(const RayTracer& tracer) {
+  const Scene& scene = tracer.scene();
+  for (uint32_t i : moved_) {
+    auto slot = std::ranges::lower_bound(tracer.slots(), i, {}, &HitSlot::instance);
+    Place(i, slot->normal_in_world ? Mat3f() : scene.instances[i].X_WM.A);
+  }
+  moved_.clear();
+  for (const MovedInstance& m : tracer.moved()) {
+    Place(m.instance, m.X_WM.A);
+    moved_.push_back(m.instance);
+  }
+}
+
 LabelView LabelTables::view() const {
   return {first_slot_.data(), slots_.data(),    entities_.data(),
           triangles_.data(),  category_.data(), sky_entity_};

@@ -32,11 +32,16 @@ class LabelTables {
  public:
   explicit LabelTables(const RayTracer& tracer);
   LabelView view() const;
+  /// Follows what moves: `tracer` is the one of construction or one that a DynamicTracer made of it. Views
+  /// stay valid.
+  void Apply(const RayTracer& tracer);
 
  private:
+  void Place(uint32_t instance, const Mat3f& normal_frame);
+
+  std::vector<uint32_t> moved_;  // instances whose slots are not as built
   std::vector<uint32_t> first_slot_, entities_, triangles_, category_;
   std::vector<SlotLabels> slots_;
-
   uint32_t sky_entity_;
 };
 

@@ -32,6 +32,11 @@ class NullRenderer : public Renderer {
     fill(frame.normal, products.normal, Vec3f{});
     fill(frame.radiance, products.radiance && request.tier != Tier::kLabels, Rgb32f{1, 1, 1});
     frame.exposure = 1;
+    fill(frame.position, products.position, Vec3f{});
+    fill(frame.albedo, products.albedo, Rgb32f{});
+    fill(frame.material, products.material, uint16_t{0});
+    fill(frame.flow, products.flow, FlowPixel{});
+    fill(frame.coverage, products.coverage, CoveragePixel{{sky}, {1.0f}});
     return {};
   }
 

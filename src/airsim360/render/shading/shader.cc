@@ -67,8 +67,13 @@ float Shader::Impl::ChooseExposure(const Scene& scene) const {
 }
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
-    : impl_(std::make_unique<const Impl>(std::move(tracer), environment)) {}
+    : impl_(std::make_unique<Impl>(std::move(tracer), environment)) {}
 Shader::~Shader() = default;
+
+void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
+  impl_->tables.Apply(tracer->scene(), tracer->moved(), tracer->deformed());
+  impl_->tracer = std::move(tracer);
+}
 
 float Shader::Exposure() const { return impl_->exposure; }
 

@@ -30,13 +30,16 @@ struct alignas(64) RadianceBatch {
   float r[HitBatch::kCapacity], g[HitBatch::kCapacity], b[HitBatch::kCapacity];
 };
 
-/// Immutable after construction; Shade may run concurrently and does not depend on the order of hits in a
+/// Immutable but for Apply; Shade may run concurrently and does not depend on the order of hits in a
 /// batch.
 class Shader {
  public:
   Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
   ~Shader();
 
+  /// Follows what moves, between frames: `tracer` is the one of construction or one that a DynamicTracer made
+  /// of it. Light probes and lamps stay as built.
+  void Apply(std::shared_ptr<const RayTracer> tracer);
   void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
@@ -50,7 +53,7 @@ class Shader {
   const Impl& impl() const { return *impl_; }
 
  private:
-  std::unique_ptr<const Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace airsim360

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
@@ -76,9 +78,10 @@ TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
   return record;
 }
 
-InstanceRecord MakeInstance(const Instance& instance, uint32_t first_triangle, uint32_t index) {
+InstanceRecord MakeInstance(const Instance& instance, const AffineTransform& X_WM, uint32_t first_triangle,
+                            uint32_t index) {
   // Cofactors: the inverse transpose times the determinant, whose sign is taken back.
-  const Mat3f& A = instance.X_WM.A;
+  const Mat3f& A = X_WM.A;
   const float det = A.determinant();
   const Vec3f rows[3] = {Cross(A.row(1), A.row(2)), Cross(A.row(2), A.row(0)), Cross(A.row(0), A.row(1))};
   const float scale = std::cbrt(std::max(std::fabs(det), 1e-30f));
@@ -214,24 +217,98 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   }
 
   // Triangles of all meshes in a row.
-  std::vector<uint32_t> first;
   size_t count = 0;
   for (const Mesh& mesh : scene.meshes) {
-    first.push_back(static_cast<uint32_t>(count));
+    first_.push_back(static_cast<uint32_t>(count));
     count += mesh.triangles.size();
   }
   triangles.resize(count);
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     for (const MeshPart& part : scene.meshes[m].parts) {
       for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
-        triangles[first[m] + k] = MakeTriangle(scene.meshes[m], k, part.material, transforms[part.material]);
+        triangles[first_[m] + k] = MakeTriangle(scene.meshes[m], k, part.material, transforms[part.material]);
       }
     }
   });
   for (size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
     instances.push_back(
-        MakeInstance(scene.instances[i], first[scene.instances[i].mesh], static_cast<uint32_t>(i)));
+        MakeInstance(instance, instance.X_WM, first_[instance.mesh], static_cast<uint32_t>(i)));
   }
+}
+
+const std::vector<uint32_t>& SurfaceTables::Welds(const Mesh& mesh, MeshId id) {
+  const auto [entry, is_new] = welds_.try_emplace(id);
+  std::vector<uint32_t>& weld = entry->second;
+  if (!is_new) return weld;
+  const auto less = [](Vec3f a, Vec3f b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  const auto same_order = [&](uint32_t a, uint32_t b) {
+    if (!(mesh.positions[a] == mesh.positions[b])) return less(mesh.positions[a], mesh.positions[b]);
+    if (!(mesh.normals[a] == mesh.normals[b])) return less(mesh.normals[a], mesh.normals[b]);
+    return a < b;
+  };
+  std::vector<uint32_t> order(mesh.positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), same_order);
+  weld.resize(order.size());
+  for (size_t k = 0; k < order.size(); ++k) {
+    const bool joined = k > 0 && mesh.positions[order[k]] == mesh.positions[order[k - 1]] &&
+                        mesh.normals[order[k]] == mesh.normals[order[k - 1]];
+    weld[order[k]] = joined ? weld[order[k - 1]] : order[k];
+  }
+  return weld;
+}
+
+void SurfaceTables::SetTriangles(const Scene& scene, MeshId id, const Mesh& shape) {
+  for (const MeshPart& part : shape.parts) {
+    const UvTransform transform(scene.materials[part.material]);
+    for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+      TriangleRecord& record = triangles[first_[id] + k];
+      const uint32_t pane = record.pane;  // of the mesh as built, so that panes do not flicker
+      record = MakeTriangle(shape, k, part.material, transform);
+      record.pane = pane;
+    }
+  }
+}
+
+void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> moved,
+                          std::span<const DeformedMesh> deformed) {
+  const auto place = [&](uint32_t i, const AffineTransform& X_WM) {
+    const Instance& instance = scene.instances[i];
+    instances[i] = MakeInstance(instance, X_WM, first_[instance.mesh], i);
+  };
+  for (uint32_t i : moved_) place(i, scene.instances[i].X_WM);
+  moved_.clear();
+  for (const MovedInstance& m : moved) {
+    place(m.instance, m.X_WM);
+    moved_.push_back(m.instance);
+  }
+
+  for (MeshId id : deformed_) {
+    if (!std::ranges::binary_search(deformed, id, {}, &DeformedMesh::mesh))
+      SetTriangles(scene, id, scene.meshes[id]);
+  }
+  deformed_.clear();
+  for (const DeformedMesh& d : deformed) {
+    deformed_.push_back(d.mesh);
+    if (!scene.meshes[d.mesh].normals.empty()) Welds(scene.meshes[d.mesh], d.mesh);
+  }
+  ParallelFor(static_cast<int64_t>(deformed.size()), [&](int64_t k) {
+    const DeformedMesh& d = deformed[static_cast<size_t>(k)];
+    Mesh shape = scene.meshes[d.mesh];
+    shape.positions = *d.positions;
+    if (!shape.normals.empty()) {
+      const std::vector<uint32_t>& weld = welds_.at(d.mesh);
+      std::fill(shape.normals.begin(), shape.normals.end(), Vec3f{});
+      for (Vec3u t : shape.triangles) {
+        const Vec3f p = shape.positions[t.x];
+        const Vec3f area = Cross(shape.positions[t.y] - p, shape.positions[t.z] - p);
+        for (uint32_t v : {t.x, t.y, t.z}) shape.normals[weld[v]] = shape.normals[weld[v]] + area;
+      }
+      for (size_t v = 0; v < weld.size(); ++v) shape.normals[v] = shape.normals[weld[v]];
+    }
+    SetTriangles(scene, d.mesh, shape);
+  });
 }
 
 }  // namespace airsim360::internal

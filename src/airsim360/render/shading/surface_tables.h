@@ -1,10 +1,13 @@
 // The scene rewritten for shading: one cache line a triangle, an instance, a material.
 #pragma once
 
+#include <map>
+#include <span>
 #include <vector>
 
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/scene/scene_state.h"
 
 namespace airsim360::internal {
 
@@ -12,10 +15,15 @@ namespace airsim360::internal {
 uint32_t PackDirection(Vec3f d);
 Vec3f UnpackDirection(uint32_t packed);
 
-/// Immutable; refers to the texels of the scene, which must outlive it.
+/// Refers to the texels of the scene, which must outlive it.
 struct SurfaceTables {
   /// `lamps_on`: whether materials with `lamp` shine (Environment::lamps_on).
   explicit SurfaceTables(const Scene& scene, bool lamps_on = true);
+  /// Follows what moves, as listed by RayTracer::moved and deformed; what was listed before and is no more is
+  /// as built again. Vertex normals of a deformed mesh are the means of the faces around, weighted by area,
+  /// over vertices that share place and normal in the mesh as built. Pointers to the elements stay valid.
+  void Apply(const Scene& scene, std::span<const MovedInstance> moved,
+             std::span<const DeformedMesh> deformed);
 
   std::vector<TriangleRecord> triangles;
   std::vector<InstanceRecord> instances;
@@ -27,7 +35,14 @@ struct SurfaceTables {
   std::vector<Vec3f> mean_emissions;
 
  private:
+  void SetTriangles(const Scene& scene, MeshId id, const Mesh& shape);
+  const std::vector<uint32_t>& Welds(const Mesh& mesh, MeshId id);
+
   std::vector<uint32_t> own_texels_;
+  std::vector<uint32_t> first_;  // by mesh: its first triangle
+  std::vector<uint32_t> moved_;
+  std::vector<MeshId> deformed_;
+  std::map<MeshId, std::vector<uint32_t>> welds_;  // vertex -> the first one that moves as one with it
 };
 
 }  // namespace airsim360::internal

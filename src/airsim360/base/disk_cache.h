@@ -1,0 +1,63 @@
+// Results that take long to compute, kept on disk under a hash of everything they depend on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "airsim360/base/file.h"
+
+namespace airsim360 {
+
+/// Name of an entry: SHA-256 over everything that went in. Change the version whenever the code that computes
+/// the result changes.
+class CacheKey {
+ public:
+  /// `kind` is for people ("light_probes"), `version` of the code.
+  CacheKey(std::string_view kind, int version);
+  CacheKey& Add(std::span<const std::byte> bytes);
+  CacheKey& Add(std::string_view text) { return Add(AsBytes(text)); }
+  /// Numbers and arrays of numbers; types without padding, whose bytes are their value.
+  template <class T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T> CacheKey& Add(T value) {
+    return Add(std::as_bytes(std::span(&value, 1)));
+  }
+  /// "light_probes-0123…": a file name.
+  std::string Name() const;
+
+ private:
+  std::string kind_;
+  std::string text_;  // hash of every part, in order: boundaries count
+};
+
+/// A folder of entries, safe to delete at any time, also while programs use it. Several programs may share
+/// it: entries appear whole or not at all, and one that is damaged, cut off or of another format counts as
+/// missing. Everything that goes wrong on the disk is silent: the result is computed again.
+class DiskCache {
+ public:
+  static constexpr uint64_t kDefaultLimit = uint64_t{2} << 30;
+
+  /// An empty folder name: keeps nothing. `limit`: bytes of all entries together; the ones not used for the
+  /// longest time go first.
+  explicit DiskCache(std::filesystem::path folder, uint64_t limit = kDefaultLimit);
+  /// $AIRSIM360_CACHE, else $XDG_CACHE_HOME/airsim360, else ~/.cache/airsim360; keeps nothing where there is
+  /// no home or AIRSIM360_CACHE is empty.
+  static DiskCache OfUser();
+
+  std::optional<Bytes> Load(const CacheKey& key) const;
+  void Store(const CacheKey& key, std::span<const std::byte> content) const;
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void Shrink() const;
+
+  std::filesystem::path folder_;
+  uint64_t limit_;
+};
+
+}  // namespace airsim360
