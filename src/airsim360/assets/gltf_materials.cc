@@ -136,6 +136,10 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
       m.base_color *= 1 - 0.8f * share;
     }
   }
+  if (const auto coat = GltfExtension(json, "KHR_materials_clearcoat")) {
+    m.clear_coat = Unit(coat->NumberOr("clearcoatFactor", 0));
+    m.clear_coat_roughness = Unit(coat->NumberOr("clearcoatRoughnessFactor", 0));
+  }
   if (GltfExtension(json, "KHR_materials_unlit")) {
     m.metallic = 0;
     m.roughness = 1;

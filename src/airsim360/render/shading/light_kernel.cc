@@ -10,11 +10,11 @@ constexpr float kBrightest = 400;  // radiance of a sun glint that still average
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
-/// What is seen in the surface: the traced reflection, else sky and ground dimmed as the probes say.
-KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3 r, real3 around) {
-  const real roughness = load(s.roughness + i);
+/// What is seen in a skin of this roughness: the traced reflection, else sky and ground dimmed as the probes
+/// say.
+KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3 r, real3 around,
+                        real roughness, mask_t traced) {
   const real3 rough = around * real(SHADE_INV_PI);
-  const mask_t traced = load(s.traced + i) > 0.5f;
   const mask_t shiny = ((roughness < 0.5f) || (load(s.metallic + i) > 0.2f)) && !traced;
   real3 light = rough;
   if (view.has_sky > 0.5f && stdx::any_of(shiny)) {
@@ -78,8 +78,25 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real3 bounded = make3(rmin(shine.x, real(kBrightest)), rmin(shine.y, real(kBrightest)),
                               rmin(shine.z, real(kBrightest)));
 
-  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * skin;
+  // Under a coat the traced reflection is the coat's.
+  const real coat = load(s.clear_coat + i);
+  const mask_t traced = load(s.traced + i) > 0.5f, coated = coat > 0.0f;
+  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected, roughness, traced && !coated) * skin;
   real3 light = body * through + mirrored + bounded + load3(s.er + i, s.eg + i, s.eb + i);
+  if (stdx::any_of(coated)) {
+    // Clear lacquer or water: reflects by its own Fresnel term, what is below gets the rest.
+    const real coat_roughness = load(s.clear_coat_roughness + i);
+    const real3 film = environment_brdf(Grey(0.04f), coat_roughness, n_dot_v) * coat;
+    const real coat_alpha = rmax(coat_roughness * coat_roughness, real(0.006f));
+    const real3 flash = specular_brdf(Grey(0.04f), coat_alpha, rmax(n_dot_l, real(1e-3f)), n_dot_v,
+                                      rmax(dot3(n, h), real(0.0f)), clamp01(dot3(l, h))) *
+                        (sun * (lambert * coat));
+    const real3 seen = Reflection(view, s, i, r, ambient.reflected, coat_roughness, traced) * film;
+    const real3 over = light * (1.0f - film.x) + seen +
+                       make3(rmin(flash.x, real(kBrightest)), rmin(flash.y, real(kBrightest)),
+                             rmin(flash.z, real(kBrightest)));
+    light = sel3(coated, over, light);
+  }
 
   // Air between.
   if (view.has_sky > 0.5f) {

@@ -43,7 +43,8 @@ struct Shader::Impl {
     if (scene.sky_entity != kNoEntity) sky.emplace(environment);
     if (!scene.instances.empty())
       probes.emplace(*tracer, tables, sky ? &*sky : nullptr, internal::LightProbes::Options{});
-    view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
+    view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr,
+                                   &environment);
     exposure = ChooseExposure(scene);
   }
 

@@ -32,7 +32,13 @@ SHARED real mantissa_of(real a) {
   return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
 }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+// Each uses what the one before defines.
+// clang-format off
 #include "airsim360/render/shading/shading_shared.h"
+#include "airsim360/render/shading/shading_interior.h"
+#include "airsim360/render/shading/shading_weather.h"
+#include "airsim360/render/shading/shading_ground.h"
+// clang-format on
 #undef SHARED
 #undef INOUT
 

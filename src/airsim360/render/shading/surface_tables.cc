@@ -34,6 +34,42 @@ Vec2f Sane(Vec2f uv) {
   return {sane(uv.x), sane(uv.y)};
 }
 
+// The rectangle that a right-angled triangle is half of, as a pane; false for other triangles.
+bool MakePane(const Vec3f (&p)[3], const float (&uv)[6], Vec3f normal, PaneRecord& pane) {
+  // The corner opposite the longest edge has the right angle.
+  int corner = 0;
+  for (int k = 1; k < 3; ++k) {
+    const auto opposite = [&](int i) { return Norm(p[(i + 1) % 3] - p[(i + 2) % 3]); };
+    if (opposite(k) > opposite(corner)) corner = k;
+  }
+  const Vec3f c = p[corner], one = p[(corner + 1) % 3], two = p[(corner + 2) % 3];
+  const Vec3f e1 = one - c, e2 = two - c;
+  const float l1 = Norm(e1), l2 = Norm(e2);
+  if (!(l1 > 1e-3f) || !(l2 > 1e-3f) || std::fabs(Dot(e1, e2)) > 0.01f * l1 * l2) return false;
+
+  // Upright is the side that climbs more; right follows from the face, so both halves agree.
+  const bool first_up = std::fabs(e1.z) * l2 > std::fabs(e2.z) * l1;
+  Vec3f up = first_up ? e1 * (1 / l1) : e2 * (1 / l2);
+  if (up.z < 0 || (up.z == 0 && up.y < 0)) up = up * -1.0f;
+  const Vec3f right = Normalized(Cross(up, normal));
+  const Vec3f centre = (one + two) * 0.5f;
+  pane.half_a = 0.5f * (first_up ? l2 : l1);
+  pane.half_b = 0.5f * (first_up ? l1 : l2);
+  for (int k = 0; k < 3; ++k) {
+    pane.a[k] = Dot(p[k] - centre, right);
+    pane.b[k] = Dot(p[k] - centre, up);
+  }
+  pane.right = PackDirection(right);
+  pane.up = PackDirection(up);
+
+  // Texture coordinates along a and b.
+  const float a1 = pane.a[1] - pane.a[0], b1 = pane.b[1] - pane.b[0], a2 = pane.a[2] - pane.a[0],
+              b2 = pane.b[2] - pane.b[0], det = a1 * b2 - a2 * b1;
+  pane.u_per_a = ((uv[2] - uv[0]) * b2 - (uv[4] - uv[0]) * b1) / det;
+  pane.v_per_b = ((uv[5] - uv[1]) * a1 - (uv[3] - uv[1]) * a2) / det;
+  return std::isfinite(pane.u_per_a) && std::isfinite(pane.v_per_b);
+}
+
 TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
                             const UvTransform& transform) {
   const Vec3u t = mesh.triangles[index];
@@ -99,6 +135,17 @@ int32_t TextureIndex(TextureId id, const Scene& scene) {
              : id + kOwnTextures;
 }
 
+// Mean of the base texture, linear; white without one.
+Vec3f MeanTexel(const Material& m, const Scene& scene) {
+  if (TextureIndex(m.base_color_texture, scene) == 0) return {1, 1, 1};
+  const Texture& texture = scene.textures[m.base_color_texture];
+  const Rgba8 p = texture.levels.back()(0, 0);
+  const auto decode = [&](uint8_t v) {
+    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
+  };
+  return {decode(p.r), decode(p.g), decode(p.b)};
+}
+
 MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   MaterialRecord record{};
   for (int i = 0; i < 3; ++i) {
@@ -115,6 +162,16 @@ MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   record.roughness_texture = TextureIndex(m.metallic_roughness_texture, scene);
   record.normal_texture = TextureIndex(m.normal_texture, scene);
   record.emission_texture = TextureIndex(m.emission_texture, scene);
+  record.clear_coat = m.clear_coat;
+  record.clear_coat_roughness = m.clear_coat_roughness;
+  const Vec3f mean = MeanTexel(m, scene);
+  for (int i = 0; i < 3; ++i) record.mean[i] = mean[i];
+  record.tile = 1 / std::max(std::fabs(m.uv_scale.x), 1e-6f);
+  record.blend = m.blend_tiles ? 1.0f : 0.0f;
+  record.unit_columns = m.units.x;
+  record.unit_rows = m.units.y;
+  record.ground = static_cast<float>(m.ground);
+  record.interior = m.interior && m.kind == SurfaceKind::kGlass ? 1.0f : 0.0f;
   return record;
 }
 
@@ -158,16 +215,6 @@ TextureRecord PlainTexture(const uint32_t* texels, int size) {
   return record;
 }
 
-Vec3f MeanColor(const Material& m, const Scene& scene) {
-  if (TextureIndex(m.base_color_texture, scene) == 0) return m.base_color;
-  const Texture& texture = scene.textures[m.base_color_texture];
-  const Rgba8 p = texture.levels.back()(0, 0);
-  const auto decode = [&](uint8_t v) {
-    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
-  };
-  return m.base_color * Vec3f{decode(p.r), decode(p.g), decode(p.b)};
-}
-
 }  // namespace
 
 uint32_t PackDirection(Vec3f d) {
@@ -196,7 +243,7 @@ SurfaceTables::SurfaceTables(const Scene& scene) {
   std::vector<UvTransform> transforms;
   for (const Material& material : scene.materials) {
     materials.push_back(MakeMaterial(material, scene));
-    mean_colors.push_back(MeanColor(material, scene));
+    mean_colors.push_back(material.base_color * MeanTexel(material, scene));
     transforms.emplace_back(material);
   }
 
@@ -215,9 +262,29 @@ SurfaceTables::SurfaceTables(const Scene& scene) {
       }
     }
   });
+  AddPanes(scene, first);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     instances.push_back(
         MakeInstance(scene.instances[i], first[scene.instances[i].mesh], static_cast<uint32_t>(i)));
+  }
+}
+
+void SurfaceTables::AddPanes(const Scene& scene, const std::vector<uint32_t>& first) {
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    for (const MeshPart& part : mesh.parts) {
+      if (materials[part.material].interior == 0) continue;
+      for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+        TriangleRecord& triangle = triangles[first[m] + k];
+        const Vec3u t = mesh.triangles[k];
+        const Vec3f p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+        PaneRecord pane{};
+        if (!MakePane(p, triangle.uv, Normalized(Cross(p[1] - p[0], p[2] - p[0])), pane)) continue;
+        pane.hash = triangle.pane;
+        panes.push_back(pane);
+        triangle.window = static_cast<uint32_t>(panes.size());
+      }
+    }
   }
 }
 

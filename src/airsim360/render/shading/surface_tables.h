@@ -18,11 +18,15 @@ struct SurfaceTables {
   std::vector<TriangleRecord> triangles;
   std::vector<InstanceRecord> instances;
   std::vector<MaterialRecord> materials;
+  std::vector<PaneRecord> panes;
   std::vector<TextureRecord> textures;  ///< 0 is white, 1 the macro variation noise, then the scene's
   /// Per material: base colour including the mean of its texture; for light that bounces.
   std::vector<Vec3f> mean_colors;
 
  private:
+  /// Panes of materials with rooms behind; `first` triangle of every mesh.
+  void AddPanes(const Scene& scene, const std::vector<uint32_t>& first);
+
   std::vector<uint32_t> own_texels_;
 };
 
