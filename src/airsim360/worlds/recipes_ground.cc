@@ -95,6 +95,8 @@ void PaintTurf(SurfaceMaps& m, const Turf& turf) {
       });
     }
   }
+  // Blades stand far steeper than a normal map can hold: what it shows is their sway.
+  for (float& h : m.height.values) h *= 0.11f;
   Flatten(m, 0.18f);
 }
 

@@ -12,7 +12,8 @@ void RoofTile(SurfaceMaps& m) {
   const Field grain = m.Noise(141, 0.015f, 4, 0.7f), soft = m.Noise(142, 0.3f, 5, 0.6f),
               wobble = m.Noise(143, 0.2f, 3, 0.5f);
   m.ForEach([&](size_t i, float u, float v) {
-    const Unit tile = Bond(u + 0.0012f * wobble[i], v + 0.0015f * wobble[i] + 1, m.tile, 12, 8, 0);
+    const auto wrap = [](float x) { return x - std::floor(x); };
+    const Unit tile = Bond(wrap(u + 0.0012f * wobble[i]), wrap(v + 0.0015f * wobble[i]), m.tile, 12, 8, 0);
     const float tone = HashUnit(tile.id, 5), x = 2 * tile.x - 1;
     // A cover in the middle, pans to both sides.
     const float arch = std::sqrt(std::max(0.0f, 1 - x * x * 1.9f)), pan = 0.35f * x * x;

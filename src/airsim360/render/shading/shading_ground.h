@@ -108,8 +108,7 @@ SHARED real3 loose_ground(real3 color, real3 wide, real3 mid, real3 fine, real d
 }
 
 // Flat roofs: rings of dried puddles, ponding dirt, the seams of 1 m rolls where `seams` is 1.
-SHARED real roof_wear(real px, real3 wide, real3 mid, real3 fine, real detail, real width,
-                      real seams) {
+SHARED real roof_wear(real px, real3 wide, real3 mid, real3 fine, real detail, real width, real seams) {
   real f = (fine.x - 0.5f) * detail;
   real level = mid.y + 0.6f * (wide.y - 0.5f) + 0.12f * (fine.y - 0.5f) * detail;
   real pond = smooth01(clamp01((level - 0.58f) * 9.0f));

@@ -191,6 +191,8 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(-1, 1, leaf_diffuse(make3(a, b, c), b, c).x);
   SAME(-1, 1, dot3(octahedral_decode(a, b), make3(a, b, c)));
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
+  SAME(0, 1, hash_cell(a * 1000.0f, b * 1000.0f) + wet_albedo(c));
+  SAME(-1, 1, snow_cover(a, b, c, a) + puddle_cover(b, c));
 #undef SAME
 }
 
@@ -211,12 +213,18 @@ TEST(ShadingShared, CompilesAsGlsl) {
   {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
-        << read("shading_glsl.h") << shared
+        << read("shading_glsl.h") << shared << read("shading_interior.h") << read("shading_weather.h") << read("shading_ground.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
            "  v[0] = srgb_encode(luminance(tone_curve(c))) + asin_approx(v[3]) + fresnel_dielectric(1.5, "
-           "v[4]) + lost; }\n";
+           "v[4]) + lost;\n"
+           "  vec3 day, lamp; float front, a, b;\n"
+           "  interior_room(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], day, lamp, front, a, b);\n"
+           "  float sx, sy, tar, polish, gain; drop_rings(v[0], v[1], v[2], sx, sy);\n"
+           "  asphalt_wear(v[0], v[1], v[2], v[3], n, c, day, v[4], v[5], gain, tar, polish);\n"
+           "  v[1] = lawn_life(day, a, b, n, c, lamp, v[2], v[3]).x + puddle_cover(v[0], v[1]) + sx + gain + "
+           "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]); }\n";
   }
   const int status = std::system(
       ("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());

@@ -10,7 +10,7 @@ namespace airsim360::internal::AIRSIM360_ISA {
 // ---- Tiles mixed from patches (after Heitz & Neyret 2018 and Mikkelsen 2022)
 // --------------------------------------
 
-/// Where a texture is read: up to three shifted copies with weights that add up to 1, strongest first.
+/// Where a texture is read: up to three shifted copies with weights that add up to 1.
 struct TileCorners {
   real u[3], v[3], weight[3];
   real gain;  ///< restores the contrast that mixing takes: 1 / sqrt(sum of squared weights)
@@ -55,9 +55,10 @@ KERNEL TileCorners ChooseCorners(const Fetched& f, real u, real v, real footprin
   return c;
 }
 
-/// Mix of the copies of one texture, contrast kept about its `mean` in every channel.
+/// Mix of the copies of one texture; `gain` (TileCorners::gain or 1) spreads it about `mean` in every
+/// channel.
 KERNEL real3 SampleTiles(const ShadeView& view, const Fetched& f, const int32_t* id, const TileCorners& c,
-                         real footprint, bool trilinear, real3 mean) {
+                         real footprint, bool trilinear, real3 mean, real gain) {
   const real3 first = SampleTexture(view.textures, id, c.u[0], c.v[0], footprint, trilinear).rgb;
   if (!f.any_blend) return first;
   real3 sum = (first - mean) * c.weight[0];
@@ -67,7 +68,7 @@ KERNEL real3 SampleTiles(const ShadeView& view, const Fetched& f, const int32_t*
       sum = sum +
             (SampleTexture(view.textures, id, c.u[k], c.v[k], footprint, trilinear).rgb - mean) * c.weight[k];
   }
-  const real3 mixed = mean + sum * c.gain;
+  const real3 mixed = mean + sum * gain;
   return sel3(load(f.blend) > 0.5f, make3(clamp01(mixed.x), clamp01(mixed.y), clamp01(mixed.z)), first);
 }
 
@@ -152,11 +153,13 @@ KERNEL void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real 
   const mask_t lawn = GroundIs(ground, GroundWear::kLawn);
   if (stdx::any_of(lawn))
     color = sel3(lawn, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
-  const mask_t gravel = GroundIs(ground, GroundWear::kGravel), loose = gravel || GroundIs(ground, GroundWear::kSoil);
+  const mask_t gravel = GroundIs(ground, GroundWear::kGravel),
+               loose = gravel || GroundIs(ground, GroundWear::kSoil);
   if (stdx::any_of(loose))
     color = sel3(loose, loose_ground(color, s.wide, s.mid, s.fine, s.detail, sel(gravel, real(0.35f), one)),
                  color);
-  const mask_t rolls = GroundIs(ground, GroundWear::kRoofRolls), roof = rolls || GroundIs(ground, GroundWear::kRoof);
+  const mask_t rolls = GroundIs(ground, GroundWear::kRoofRolls),
+               roof = rolls || GroundIs(ground, GroundWear::kRoof);
   if (stdx::any_of(roof)) {
     const real tint = roof_wear(p.x, s.wide, s.mid, s.fine, s.detail, width, sel(rolls, one, zero));
     color = sel3(roof, color * tint, color);

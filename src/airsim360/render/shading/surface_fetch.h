@@ -19,7 +19,7 @@ struct alignas(64) Fetched {
   alignas(64) Lanes corner_a[3], corner_b[3], half_a, half_b, u_per_a, v_per_b, room;
   alignas(64) int32_t right[kLanes], up[kLanes];
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
-      any_unit, any_ground, any_window, any_leaf, any_coat;
+      any_unit, any_ground, any_window, any_leaf;
 };
 
 /// Brings the records of the next vector into the cache while this one is worked on.
@@ -52,7 +52,7 @@ KERNEL void FetchPane(const ShadeView& view, const TriangleRecord& triangle, con
 
 KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
   f.any_normal = f.any_roughness = f.any_emission = f.any_macro = f.any_glass = f.any_water = f.any_base =
-      f.any_blend = f.any_unit = f.any_ground = f.any_window = f.any_leaf = f.any_coat = false;
+      f.any_blend = f.any_unit = f.any_ground = f.any_window = f.any_leaf = false;
   for (int i = 0; i < kLanes; ++i) {
     const InstanceRecord& instance = view.instances[rays.instance[begin + i]];
     const TriangleRecord& triangle = view.triangles[instance.first_triangle + rays.triangle[begin + i]];
@@ -98,7 +98,6 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
     f.any_unit |= material.unit_columns != 0;
     f.any_ground |= material.ground != 0;
     f.any_leaf |= material.kind == kFoliage;
-    f.any_coat |= material.clear_coat != 0;
     FetchPane(view, triangle, instance, i, f);
   }
 }

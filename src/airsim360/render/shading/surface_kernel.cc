@@ -15,8 +15,8 @@ KERNEL real3 Facing(real3 n, real3 direction) {
 /// A part of the normal map's slope; what mipmapping shortened becomes roughness (Toksvig 2005).
 KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, const TileCorners& corners, real3 n,
                        real footprint, real& roughness) {
-  const real3 c =
-      SampleTiles(view, f, f.normal_id, corners, footprint, false, make3(real(0.5f), real(0.5f), real(0.9f)));
+  const real3 c = SampleTiles(view, f, f.normal_id, corners, footprint, false,
+                              make3(real(0.5f), real(0.5f), real(0.9f)), corners.gain);
   const real3 m = c * real(2.0f) - make3(real(1.0f), real(1.0f), real(1.0f));
   const real length = rmin(rroot(dot3(m, m)), real(1.0f));
   const real scale = load(f.normal_scale);
@@ -109,12 +109,12 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
   const TileCorners corners = ChooseCorners(f, tu, tv, footprint);
   if (f.any_base) {
-    color = color *
-            SampleTiles(view, f, f.base_id, corners, footprint, true, load3(f.mean[0], f.mean[1], f.mean[2]));
+    color = color * SampleTiles(view, f, f.base_id, corners, footprint, true,
+                                load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
   }
   if (f.any_roughness) {
     const real3 c = SampleTiles(view, f, f.roughness_id, corners, footprint, false,
-                                make3(real(1.0f), real(0.0f), real(0.0f)));
+                                make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
     roughness = roughness * c.y;
     metallic = metallic * c.z;
   }
