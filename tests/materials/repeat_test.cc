@@ -20,31 +20,45 @@ using Complex = std::complex<double>;
 constexpr int kPixels = 640, kCrop = 512, kPadded = 1024;
 constexpr double kMetresPerPixel = 0.1;
 
-// In place, length a power of two, not normalised.
-void Fourier(Complex* a, int n, int stride, bool inverse) {
-  for (int i = 1, j = 0; i < n; ++i) {
-    int bit = n >> 1;
+// One row in place, not normalised.
+void Fourier(Complex* a, bool inverse) {
+  static const std::vector<Complex> kTurns = [] {
+    std::vector<Complex> turns;
+    for (int k = 0; k < kPadded / 2; ++k)
+      turns.push_back(std::polar(1.0, -2 * std::numbers::pi * k / kPadded));
+    return turns;
+  }();
+  for (int i = 1, j = 0; i < kPadded; ++i) {
+    int bit = kPadded >> 1;
     for (; j & bit; bit >>= 1) j ^= bit;
     j ^= bit;
-    if (i < j) std::swap(a[i * stride], a[j * stride]);
+    if (i < j) std::swap(a[i], a[j]);
   }
-  for (int length = 2; length <= n; length *= 2) {
-    const double angle = 2 * std::numbers::pi / length * (inverse ? -1 : 1);
-    for (int k = 0; k < length / 2; ++k) {
-      const Complex turn = std::polar(1.0, angle * k);
-      for (int i = k; i < n; i += length) {
-        Complex &even = a[i * stride], &odd = a[(i + length / 2) * stride];
-        const Complex t = odd * turn;
-        odd = even - t;
-        even += t;
+  for (int length = 2; length <= kPadded; length *= 2) {
+    for (int i = 0; i < kPadded; i += length) {
+      for (int k = 0; k < length / 2; ++k) {
+        const Complex& w = kTurns[k * (kPadded / length)];
+        const Complex turn(w.real(), inverse ? -w.imag() : w.imag());
+        const Complex odd = a[i + k + length / 2];
+        const Complex t(odd.real() * turn.real() - odd.imag() * turn.imag(),
+                        odd.real() * turn.imag() + odd.imag() * turn.real());
+        a[i + k + length / 2] = a[i + k] - t;
+        a[i + k] += t;
       }
     }
   }
 }
 
+// Rows, then columns; the result is transposed, so two calls bring the axes back.
 void Fourier2(std::vector<Complex>& a, bool inverse) {
-  for (int y = 0; y < kPadded; ++y) Fourier(&a[static_cast<size_t>(y) * kPadded], kPadded, 1, inverse);
-  for (int x = 0; x < kPadded; ++x) Fourier(&a[x], kPadded, kPadded, inverse);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int y = 0; y < kPadded; ++y) Fourier(&a[static_cast<size_t>(y) * kPadded], inverse);
+    if (pass == 1) break;
+    for (int y = 0; y < kPadded; ++y) {
+      for (int x = 0; x < y; ++x)
+        std::swap(a[static_cast<size_t>(y) * kPadded + x], a[static_cast<size_t>(x) * kPadded + y]);
+    }
+  }
 }
 
 // Normalised autocorrelation without bias: every lag divided by the number of pairs that it has.

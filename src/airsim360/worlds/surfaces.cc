@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/worlds/recipe_shapes.h"
 #include "airsim360/worlds/surface_recipes.h"
 
 namespace airsim360 {

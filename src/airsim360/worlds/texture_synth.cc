@@ -161,7 +161,7 @@ TextureSet SynthesizeTextures(const TextureRecipe& recipe, int size, TextureFit*
       const Vec3f n = Normalized(Vec3f{(maps.height.At(x - 1, y) - maps.height.At(x + 1, y)) / step,
                                        (maps.height.At(x, y + 1) - maps.height.At(x, y - 1)) / step, 1});
       normal(x, y) = {ToByte(n.x / 2 + 0.5f), ToByte(n.y / 2 + 0.5f), ToByte(n.z / 2 + 0.5f), 255};
-      roughness(x, y) = {255, ToByte(std::clamp(maps.roughness[i] + fit.roughness_shift, 0.03f, 1.0f)), 0,
+      roughness(x, y) = {255, ToByte(std::clamp(maps.roughness[i] + fit.roughness_shift, 0.03f, 1.0f)), 255,
                          255};
     }
   }

@@ -132,15 +132,16 @@ KERNEL real3 UnitTint(const Fetched& f, real u, real v, real footprint) {
   return make3(sel(has, light + warm, one), sel(has, light, one), sel(has, light - warm, one));
 }
 
-KERNEL mask_t GroundIs(real ground, GroundWear which) { return ground == static_cast<float>(which); }
+// GroundWear
+constexpr float kAsphalt = 1, kCarriageway = 2, kPaving = 3, kLawn = 4, kGravel = 5, kSoil = 6, kRoof = 7,
+                kRoofRolls = 8;
 
 /// Lanes of every kind of ground that the vector holds; see shading_ground.h.
 KERNEL void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color,
                        real& roughness) {
   const real ground = load(f.ground);
   const real zero = real(0.0f), one = real(1.0f);
-  const mask_t street = GroundIs(ground, GroundWear::kCarriageway),
-               asphalt = street || GroundIs(ground, GroundWear::kAsphalt);
+  const mask_t street = (ground == kCarriageway), asphalt = street || (ground == kAsphalt);
   if (stdx::any_of(asphalt)) {
     real gain = one, tar = zero, polish = zero;
     asphalt_wear(p.x, p.y, u * load(f.tile), sel(street, one, zero), s.wide, s.mid, s.fine, s.detail, width,
@@ -148,18 +149,16 @@ KERNEL void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real 
     color = sel3(asphalt, lerp3(color * gain, make3(real(0.034f), real(0.034f), real(0.035f)), tar), color);
     roughness = sel(asphalt, lerp1(roughness - polish, real(0.45f), tar), roughness);
   }
-  const mask_t paving = GroundIs(ground, GroundWear::kPaving);
+  const mask_t paving = (ground == kPaving);
   if (stdx::any_of(paving)) color = sel3(paving, color * paving_wear(s.wide, s.mid, s.fine, s.detail), color);
-  const mask_t lawn = GroundIs(ground, GroundWear::kLawn);
+  const mask_t lawn = (ground == kLawn);
   if (stdx::any_of(lawn))
     color = sel3(lawn, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
-  const mask_t gravel = GroundIs(ground, GroundWear::kGravel),
-               loose = gravel || GroundIs(ground, GroundWear::kSoil);
+  const mask_t gravel = (ground == kGravel), loose = gravel || (ground == kSoil);
   if (stdx::any_of(loose))
     color = sel3(loose, loose_ground(color, s.wide, s.mid, s.fine, s.detail, sel(gravel, real(0.35f), one)),
                  color);
-  const mask_t rolls = GroundIs(ground, GroundWear::kRoofRolls),
-               roof = rolls || GroundIs(ground, GroundWear::kRoof);
+  const mask_t rolls = (ground == kRoofRolls), roof = rolls || (ground == kRoof);
   if (stdx::any_of(roof)) {
     const real tint = roof_wear(p.x, s.wide, s.mid, s.fine, s.detail, width, sel(rolls, one, zero));
     color = sel3(roof, color * tint, color);
@@ -263,8 +262,8 @@ KERNEL void LieWeather(const ShadeView& view, const Fetched& f, const Noises& s,
   const real open = OpenAbove(view, p, facing), zero = real(0.0f), one = real(1.0f);
   const mask_t leaf = k.kind == kFoliage, solid = (k.kind != kGlass) && (k.kind != kWater);
   const real up = sel(leaf, rabs(facing.z), facing.z), ground = load(f.ground);
-  const mask_t grass = GroundIs(ground, GroundWear::kLawn) || GroundIs(ground, GroundWear::kSoil);
-  const mask_t street = GroundIs(ground, GroundWear::kCarriageway);
+  const mask_t grass = (ground == kLawn) || (ground == kSoil);
+  const mask_t street = (ground == kCarriageway);
   const real lane = (rabs(rabs(u * load(f.tile)) - 1.72f) - 0.78f) * (1.0f / 0.32f);
   const real track = sel(street, exp_approx(zero - lane * lane), zero);
   if (view.wetness > 0) {

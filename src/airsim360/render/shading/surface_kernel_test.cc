@@ -1,6 +1,7 @@
 // What the surface kernel adds to a look-up: rooms, weather, tiles without repeat. Kernels of this machine.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>

@@ -10,6 +10,10 @@
 namespace airsim360::internal {
 namespace {
 
+// The kernels know the kinds of wear by number.
+static_assert(static_cast<int>(GroundWear::kAsphalt) == 1 && static_cast<int>(GroundWear::kPaving) == 3 &&
+              static_cast<int>(GroundWear::kSoil) == 6 && static_cast<int>(GroundWear::kRoofRolls) == 8);
+
 constexpr int kNoiseSize = 256;
 constexpr int kOwnTextures = 2;
 
