@@ -238,6 +238,11 @@ TEST(GltfMaterial, AlphaModesBecomeOpaqueMaskOrGlass) {
       read({{"emissiveFactor", {1, 0.5, 0}},
             {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}});
   EXPECT_EQ(lamp.emission, (Vec3f{4, 2, 0}));
+  const Material lacquer = read({{"extensions",
+                                  {{"KHR_materials_clearcoat",
+                                    {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}}}}}});
+  EXPECT_EQ(lacquer.clear_coat, 0.75f);
+  EXPECT_EQ(lacquer.clear_coat_roughness, 0.125f);
 }
 
 TEST(GltfMaterial, BlackDiffuseWithBrightSpecularIsMetal) {

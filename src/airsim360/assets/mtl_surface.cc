@@ -135,7 +135,9 @@ Material ToMaterial(const MtlMaterial& m, const MtlContext& context, TextureStor
     out.transmission = 0.3f;
     out.roughness = std::max(out.roughness, 0.5f);
   } else if (m.metallic < 0 && !MakeMetal(m, words, out) && IsCarPaint(m, context, words)) {
-    out.roughness = 0.22f;  // clear coat
+    out.roughness = 0.5f;  // of the colour under the lacquer
+    out.clear_coat = 1;
+    out.clear_coat_roughness = 0.04f;
   }
   return out;
 }

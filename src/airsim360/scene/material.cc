@@ -14,9 +14,8 @@ namespace {
 Image<Rgba8> HalfSize(const Image<Rgba8>& fine, bool srgb) {
   Image<Rgba8> coarse(std::max(1, fine.width() / 2), std::max(1, fine.height() / 2));
   const auto decode = [&](uint8_t v) { return srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f; };
-  const auto encode = [&](float v) {
-    return srgb ? LinearToSrgb8(v) : static_cast<uint8_t>(v * 255.0f + 0.5f);
-  };
+  static const SrgbEncoder kEncode;
+  const auto encode = [&](float v) { return srgb ? kEncode(v) : static_cast<uint8_t>(v * 255.0f + 0.5f); };
   for (int y = 0; y < coarse.height(); ++y) {
     for (int x = 0; x < coarse.width(); ++x) {
       float r = 0, g = 0, b = 0, a = 0;

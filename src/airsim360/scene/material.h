@@ -42,6 +42,20 @@ enum class SurfaceKind : uint8_t {
   kWater,     ///< dielectric with procedural waves
 };
 
+/// Which traces of use and weather the shader adds to a ground, in world space, where no texture could
+/// repeat.
+enum class GroundWear : uint8_t {
+  kNone,
+  kAsphalt,      ///< stains, cracks, sealed repairs
+  kCarriageway,  ///< also wheel tracks; its texture u runs across the street, 0 in the middle
+  kPaving,       ///< dirt, spills, walked lines
+  kLawn,         ///< mowing lanes, clover, dry patches
+  kGravel,       ///< fines, weeds
+  kSoil,         ///< damp hollows, weeds
+  kRoof,         ///< dried puddles
+  kRoofRolls,    ///< also seams of 1 m rolls
+};
+
 /// Colours are linear light. The final base colour is base_color * texture * instance tint.
 struct Material {
   std::string name;
@@ -67,6 +81,11 @@ struct Material {
   TextureId emission_texture = kNoTexture;
   Vec2f uv_scale{1, 1}, uv_offset{};  ///< KHR_texture_transform of mesh uv: scale, then rotate, then offset
   float uv_rotation = 0;              ///< radians, counter-clockwise seen with v downwards; see UvTransform
+  GroundWear ground = GroundWear::kNone;
+  bool blend_tiles =
+      false;      ///< mixes hashed patches of the textures so that no tile repeats (three look-ups)
+  Vec2f units{};  ///< bricks or slabs per texture tile in u and v, every second row shifted by half a unit:
+                  ///< each gets its own brightness in the world; 0 = none
 };
 
 /// A thin clear pane: light passes through it, tinted by base_color and weakened by `transmission`.

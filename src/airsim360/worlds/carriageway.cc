@@ -26,7 +26,13 @@ void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1,
 void LayStretch(Ground& ground, const StreetStretch& street, const std::string& name, Surface asphalt) {
   const float hw = street.line.half_width;
   ground.Begin("road " + name, "ground/road", asphalt);
-  StreetRect(ground, street, street.s0, street.s1, -hw + kGutterWidth, hw - kGutterWidth, 0);
+  // Texture coordinates follow the street: across, along.
+  const float edge = hw - kGutterWidth, s0 = street.s0, s1 = street.s1;
+  for (float d0 : {-edge, 0.0f}) {
+    const float d1 = d0 + edge;
+    ground.mesh().QuadUv(street.At(s0, d0), street.At(s1, d0), street.At(s1, d1), street.At(s0, d1), {d0, s0},
+                         {d0, s1}, {d1, s1}, {d1, s0});
+  }
   ground.Use(Surface::kGutter);
   StreetRect(ground, street, street.s0, street.s1, -hw, -hw + kGutterWidth, 0);
   StreetRect(ground, street, street.s0, street.s1, hw - kGutterWidth, hw, 0);
@@ -216,7 +222,7 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
                                    crossings[k + 1].center - crossings[k + 1].half_width - kCornerRadius};
         const std::string name =
             std::string(along_x ? "EW" : "NS") + std::to_string(i) + "." + std::to_string(k);
-        LayStretch(ground, street, name, rng.Chance(0.3) ? Surface::kAsphaltOld : Surface::kAsphalt);
+        LayStretch(ground, street, name, rng.Chance(0.3) ? Surface::kCarriagewayOld : Surface::kCarriageway);
         if (!is_core(i)) continue;
         LayWear(ground, street, rng);
         LayDrains(ground, street);

@@ -36,7 +36,12 @@ void Adapt(Model& model, const LibraryModel& row) {
     // Panes that their author made blue or violet become neutral: here the sky gives them their colour.
     const Vec3f c = m.base_color;
     if (m.kind == SurfaceKind::kGlass && c.z > 1.5f * std::max(c.x, c.y)) m.base_color = {c.x, c.x, c.x};
-    if (!row.paint.empty() && m.name == row.paint) m.base_color = row.color;
+    if (!row.paint.empty() && m.name == row.paint) {
+      m.base_color = row.color;
+      m.clear_coat = 1;
+      m.clear_coat_roughness = 0.04f;
+      m.roughness = std::max(m.roughness, 0.45f);
+    }
   }
 }
 

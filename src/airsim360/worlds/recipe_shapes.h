@@ -21,27 +21,43 @@ Unit Bond(float u, float v, float tile, int columns, int rows, float offset);
 /// Herringbone of 2:1 bricks, `n` half-bricks a tile (a multiple of 4).
 Unit Herringbone(float u, float v, float tile, int n);
 
-// The recipes by family; u, v in [0, 1).
-Texel Asphalt(float u, float v);
-Texel Concrete(float u, float v);
-Texel Slabs(float u, float v);
-Texel PavingBrick(float u, float v);
-Texel StoneSetts(float u, float v);
-Texel GravelPath(float u, float v);
-Texel Grass(float u, float v);
-Texel Soil(float u, float v);
-Texel RoofGravel(float u, float v);
+// Recipes by family: painters of whole maps.
+struct SurfaceMaps;
+void AsphaltAged(SurfaceMaps& maps);
+void AsphaltFresh(SurfaceMaps& maps);
+void PaintWorn(SurfaceMaps& maps);
+void Slabs(SurfaceMaps& maps);
+void PavingBrick(SurfaceMaps& maps);
+void StoneSetts(SurfaceMaps& maps);
+void GravelPath(SurfaceMaps& maps);
+void RoofGravel(SurfaceMaps& maps);
+void Grass(SurfaceMaps& maps);
+void Soil(SurfaceMaps& maps);
+void Bitumen(SurfaceMaps& maps);
+void BrickRed(SurfaceMaps& maps);
+void BrickStock(SurfaceMaps& maps);
+void BrickPainted(SurfaceMaps& maps);
+void Ashlar(SurfaceMaps& maps);
+void Plaster(SurfaceMaps& maps);
+void Concrete(SurfaceMaps& maps);
+void Planks(SurfaceMaps& maps);
+void RoofTile(SurfaceMaps& maps);
+void Slate(SurfaceMaps& maps);
+void Galvanised(SurfaceMaps& maps);
+// Recipes texel by texel; u, v in [0, 1).
 Texel Rock(float u, float v);
 Texel Fields(float u, float v);
-Texel PaintWorn(float u, float v);
-Texel Brick(float u, float v);
-Texel Ashlar(float u, float v);
-Texel Plaster(float u, float v);
-Texel Planks(float u, float v);
-Texel RoofTile(float u, float v);
 Texel Stripes(float u, float v);
 Texel FarWalls(float u, float v);
 Texel Shop(float u, float v, uint32_t kind);
 Texel Sign(float u, float v);
+
+/// Lattice of a wall or pavement: `columns` by `rows` units a tile, rows shifted by half a unit by turns. The
+/// same numbers go into Material::units.
+struct Lattice {
+  int columns, rows;
+};
+inline constexpr Lattice kSlabUnits{4, 6}, kBrickUnits{8, 26}, kAshlarUnits{5, 10}, kSettUnits{18, 18},
+    kSlateUnits{8, 10};
 
 }  // namespace airsim360::internal

@@ -1,98 +1,131 @@
-// What lies on the ground: asphalt, paving, lawn, gravel, rock.
+// Loose and grown grounds, and the far country.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "airsim360/worlds/recipe_shapes.h"
+#include "airsim360/worlds/texture_maps.h"
 
 namespace airsim360::internal {
+namespace {
 
-Texel Asphalt(float u, float v) {
-  const float grain = HashUnit(static_cast<uint32_t>(u * 512), static_cast<uint32_t>(v * 512), 7);
-  const WorleyResult stone = TilingWorley(3, u, v, 220);
-  const float mottle = TilingFbm(11, u, v, 5, 5);
-  const float exposed = Step(0.55f, 0.15f, stone.first) * (0.6f + 0.4f * HashUnit(stone.cell, 1));
-  const float y =
-      0.105f + 0.055f * exposed * HashUnit(stone.cell, 2) + 0.022f * mottle + 0.03f * (grain - 0.5f);
-  return {Vec3f{1.02f, 1.0f, 0.97f} * y, 0.0022f * exposed + 0.0006f * grain,
-          0.74f - 0.06f * exposed + 0.05f * mottle};
+// Stones of several rocks on fines.
+void PaintGravel(SurfaceMaps& m, const StoneOptions& stones, Vec3f fines, uint32_t seed) {
+  static constexpr std::array<Vec3f, 6> kRocks = {{{0.21f, 0.20f, 0.185f},
+                                                   {0.13f, 0.13f, 0.132f},
+                                                   {0.27f, 0.245f, 0.205f},
+                                                   {0.22f, 0.185f, 0.15f},
+                                                   {0.34f, 0.335f, 0.32f},
+                                                   {0.17f, 0.15f, 0.125f}}};
+  const StoneField stone = DropStones(m.size, m.tile, -0.012f, stones, seed);
+  const Field fine = m.Noise(seed + 1, 0.012f, 3, 0.7f), soft = m.Noise(seed + 2, 0.25f, 5, 0.55f);
+  m.ForEach([&](size_t i, float, float) {
+    const uint32_t id = stone.id[i];
+    const Vec3f rock =
+        kRocks[static_cast<size_t>(HashUnit(id, seed, 1) * 6)] * (0.8f + 0.4f * HashUnit(id, seed, 2));
+    // Deep stones and the rims between them lie in each other's shade.
+    const float shade = 0.62f + 0.38f * Step(-0.011f, 0.0f, stone.height[i]);
+    const Vec3f c = id == 0 ? fines * 0.7f : rock * (1 - 0.22f * Step(0.7f, 1.0f, stone.rim[i]));
+    m.SetColor(i, c * shade * (1 + 0.07f * fine[i] + 0.04f * soft[i]));
+    m.height[i] = stone.height[i] + 0.0002f * fine[i];
+    m.roughness[i] = (id == 0 ? 0.7f : 0.45f + 0.14f * HashUnit(id, seed, 3)) + 0.02f * fine[i];
+  });
+  Flatten(m, 0.22f);
 }
 
-Texel Concrete(float u, float v) {
-  const float soft = TilingFbm(21, u, v, 3, 6), fine = TilingFbm(22, u, v, 64, 2);
-  const float pore = Step(0.16f, 0.05f, TilingWorley(23, u, v, 60).first) * 0.5f;
-  const float y = 0.48f + 0.05f * soft + 0.02f * fine - 0.12f * pore;
-  return {Vec3f{1.0f, 0.985f, 0.95f} * y, 0.0010f * fine - 0.002f * pore + 0.001f * soft,
-          0.6f + 0.05f * soft};
+// Blades as short bent strokes, the later ones over the earlier.
+struct Turf {
+  float per_square_metre, shortest, longest;
+  float dry;     // share of dead blades
+  float clover;  // three-leaved clusters per square metre
+  uint32_t seed;
+};
+
+void PaintBlade(SurfaceMaps& m, const Turf& turf, uint32_t k) {
+  const auto h = [&](uint32_t c) { return HashUnit(k, turf.seed, c); };
+  const float scale = m.texels_per_metre(), length = Mix(turf.shortest, turf.longest, h(1)) * scale;
+  const float width = (0.0012f + 0.0016f * h(2)) * scale, bend = 1.6f * (h(3) - 0.5f);
+  const float foot = -0.012f + 0.010f * h(4), rise = 0.004f + 0.016f * h(5), n = static_cast<float>(m.size);
+  const bool dead = h(6) < turf.dry;
+  const Vec3f green =
+      Mix(Vec3f{0.075f, 0.112f, 0.026f}, Vec3f{0.205f, 0.235f, 0.070f}, h(7) * h(7) * 0.6f + 0.4f * h(8));
+  const Vec3f color = dead ? Mix(Vec3f{0.33f, 0.275f, 0.13f}, Vec3f{0.25f, 0.20f, 0.12f}, h(7)) : green;
+  float x = h(9) * n, y = h(10) * n, angle = 6.2831853f * h(11);
+  const int steps = std::max(2, static_cast<int>(length));
+  for (int q = 0; q < steps; ++q) {
+    const float t = static_cast<float>(q) / static_cast<float>(steps), w = width * (1 - 0.75f * t);
+    const float height = foot + rise * t * (1.6f - t), light = 0.62f + 0.5f * t;
+    const float across_x = -std::sin(angle), across_y = std::cos(angle);
+    for (float s = -w; s <= w + 0.01f; s += 0.5f) {
+      const size_t i = m.height.Index(static_cast<int>(std::floor(x + s * across_x)),
+                                      static_cast<int>(std::floor(y + s * across_y)));
+      if (height < m.height[i]) continue;
+      m.height[i] = height - 0.0006f * s * s / std::max(w * w, 0.1f);
+      m.SetColor(i, color * light);
+      m.roughness[i] = dead ? 0.72f : 0.56f;
+    }
+    x += std::cos(angle);
+    y += std::sin(angle);
+    angle += bend / static_cast<float>(steps);
+  }
 }
 
-Texel Slabs(float u, float v) {
-  const Unit slab = Bond(u, v, 3.0f, 4, 6, 0.5f);
-  const float tone = HashUnit(slab.id, 5), grain = TilingFbm(31, u, v, 96, 2),
-              stain = TilingFbm(32, u, v, 4, 5);
-  const float joint = Step(0.009f, 0.003f, slab.edge);
-  const float gum = Step(0.055f, 0.035f, TilingWorley(33, u, v, 14).first) * (HashUnit(slab.id, 9) < 0.35f);
-  float y = 0.36f * (0.90f + 0.16f * tone) + 0.03f * grain + 0.05f * std::min(stain, 0.2f);
-  y *= (1 - 0.25f * gum) * (1 - 0.55f * joint) * (1 - 0.10f * Step(0.05f, 0.0f, slab.edge));
-  const Vec3f hue = Mix({1.03f, 1, 0.93f}, {0.98f, 1, 1.0f}, HashUnit(slab.id, 6));
-  return {hue * y, -0.004f * joint + 0.0008f * grain + 0.003f * (tone - 0.5f), 0.66f + 0.06f * grain};
+void PaintTurf(SurfaceMaps& m, const Turf& turf) {
+  const Field soil = m.Noise(turf.seed + 1, 0.03f, 4, 0.6f);
+  m.ForEach([&](size_t i, float, float) {
+    m.SetColor(i, Vec3f{0.085f, 0.066f, 0.042f} * (1 + 0.25f * soil[i]));
+    m.height[i] = -0.014f + 0.001f * soil[i];
+    m.roughness[i] = 0.8f;
+  });
+  const auto blades = static_cast<uint32_t>(turf.per_square_metre * m.tile * m.tile);
+  for (uint32_t k = 0; k < blades; ++k) PaintBlade(m, turf, k);
+  const auto leaves = static_cast<uint32_t>(turf.clover * m.tile * m.tile);
+  for (uint32_t k = 0; k < leaves; ++k) {
+    const float n = static_cast<float>(m.size), x = HashUnit(k, turf.seed, 31) * n,
+                y = HashUnit(k, turf.seed, 32) * n;
+    const float r = (0.003f + 0.003f * HashUnit(k, turf.seed, 33)) * m.texels_per_metre(),
+                a = 6.28f * HashUnit(k, turf.seed, 34);
+    for (int leaf = 0; leaf < 3; ++leaf) {
+      const float b = a + 2.094f * static_cast<float>(leaf);
+      Stamp(m.height, x + 0.9f * r * std::cos(b), y + 0.9f * r * std::sin(b), r, [&](size_t i, float d) {
+        m.SetColor(i, Vec3f{0.072f, 0.125f, 0.036f} * (0.8f + 0.45f * HashUnit(k, turf.seed, 35)) *
+                          (1.1f - 0.3f * d));
+        m.height[i] = 0.004f - 0.001f * d * d;
+        m.roughness[i] = 0.55f;
+      });
+    }
+  }
+  // Blades stand far steeper than a normal map can hold: what it shows is their sway.
+  for (float& h : m.height.values) h *= 0.11f;
+  Flatten(m, 0.18f);
 }
 
-Texel PavingBrick(float u, float v) {
-  const Unit brick = Herringbone(u, v, 2.0f, 20);
-  const float tone = HashUnit(brick.id, 5), grain = TilingFbm(41, u, v, 128, 2),
-              dirt = TilingFbm(42, u, v, 4, 5);
-  const float joint = Step(0.008f, 0.003f, brick.edge);
-  const Vec3f hue = Mix({0.42f, 0.160f, 0.092f}, {0.30f, 0.120f, 0.080f}, tone);
-  Vec3f color = hue * (0.85f + 0.3f * HashUnit(brick.id, 6)) * (1 + 0.18f * grain) * (1 + 0.16f * dirt);
-  color = Mix(color, {0.17f, 0.14f, 0.11f}, joint * 0.85f);
-  const float bevel = Step(0.0f, 0.014f, brick.edge);
-  return {color, 0.005f * bevel + 0.0008f * grain + 0.002f * (tone - 0.5f), 0.68f + 0.08f * grain};
+}  // namespace
+
+void GravelPath(SurfaceMaps& m) {
+  PaintGravel(m, {0.003f, 0.011f, 1.7f, 0.45f, 0.7f, -0.008f, -0.002f, 0.15f}, {0.30f, 0.25f, 0.19f}, 61);
 }
 
-Texel StoneSetts(float u, float v) {
-  const Unit stone = Bond(u, v, 2.0f, 10, 10, 0.5f);
-  const float tone = HashUnit(stone.id, 5);
-  const float speckle = HashUnit(static_cast<uint32_t>(u * 512), static_cast<uint32_t>(v * 512), 3) - 0.5f;
-  const float joint = Step(0.011f, 0.004f, stone.edge), soft = TilingFbm(52, u, v, 6, 4);
-  const float y = (0.33f + 0.12f * tone + 0.10f * speckle + 0.04f * soft) * (1 - 0.6f * joint);
-  const float dome = Step(0.0f, 0.05f, stone.edge);
-  return {Vec3f{1.0f, 0.98f, 0.95f} * y, 0.006f * dome + 0.0006f * speckle, 0.58f + 0.1f * soft};
+void RoofGravel(SurfaceMaps& m) {
+  PaintGravel(m, {0.004f, 0.018f, 2.0f, 0.35f, 0.75f, -0.010f, -0.002f, 0.15f}, {0.12f, 0.115f, 0.11f}, 131);
 }
 
-Texel GravelPath(float u, float v) {
-  const WorleyResult stone = TilingWorley(61, u, v, 150), big = TilingWorley(62, u, v, 60);
-  const float soft = TilingFbm(63, u, v, 3, 5);
-  const float tone = HashUnit(stone.cell, 1), lump = 1 - stone.first;
-  const Vec3f hue = Mix({0.40f, 0.33f, 0.24f}, {0.48f, 0.43f, 0.35f}, tone);
-  return {hue * (0.75f + 0.35f * lump) * (1 + 0.14f * soft) * (1 - 0.1f * (big.first < 0.2f)), 0.004f * lump,
-          0.8f + 0.05f * soft};
-}
+void Grass(SurfaceMaps& m) { PaintTurf(m, {26000, 0.012f, 0.055f, 0.13f, 260, 71}); }
 
-Texel Grass(float u, float v) {
-  const float clump = TilingFbm(71, u, v, 6, 5), blade = TilingFbm(72, u * 1.0f, v, 128, 2);
-  const float streak = HashUnit(static_cast<uint32_t>(u * 512), static_cast<uint32_t>(v * 256), 9);
-  const float dry = Step(0.1f, 0.8f, TilingFbm(73, u, v, 4, 4));
-  const Vec3f green = Mix({0.105f, 0.130f, 0.038f}, {0.165f, 0.185f, 0.066f}, streak);
-  const Vec3f color = Mix(green, {0.25f, 0.23f, 0.09f}, 0.55f * dry) * (1 + 0.25f * clump + 0.3f * blade);
-  return {color, 0.010f * blade + 0.012f * clump + 0.004f * streak, 0.75f};
-}
-
-Texel Soil(float u, float v) {
-  const float clod = TilingFbm(81, u, v, 12, 5);
-  const WorleyResult stone = TilingWorley(82, u, v, 50);
-  const float pebble = Step(0.3f, 0.15f, stone.first) * (HashUnit(stone.cell, 3) < 0.25f);
-  const Vec3f color = Mix(Vec3f{0.16f, 0.115f, 0.075f} * (1 + 0.35f * clod), {0.3f, 0.27f, 0.23f}, pebble);
-  return {color, 0.012f * clod + 0.006f * pebble, 0.85f};
-}
-
-Texel RoofGravel(float u, float v) {
-  const WorleyResult stone = TilingWorley(131, u, v, 120);
-  const float soft = TilingFbm(132, u, v, 3, 5), damp = Step(0.25f, 0.6f, TilingFbm(133, u, v, 2, 4));
-  const float tone = HashUnit(stone.cell, 2);
-  const float y =
-      (0.6f + 0.7f * tone) * (1.15f - 0.6f * stone.first) * (1 + 0.12f * soft) * (1 - 0.2f * damp);
-  return {Vec3f{1.02f, 1, 0.95f} * (0.4f * y), 0.008f * (1 - stone.first), 0.85f};
+// Crumbs and clods on fine earth, damp below, with bits of straw.
+void Soil(SurfaceMaps& m) {
+  const StoneOptions clods{0.002f, 0.022f, 0.9f, 0.15f, 0.55f, -0.006f, 0.0f, 0.1f};
+  const StoneField clod = DropStones(m.size, m.tile, -0.006f, clods, 81);
+  const Field fine = m.Noise(82, 0.01f, 3, 0.75f), mid = m.Noise(83, 0.08f, 5, 0.6f);
+  m.ForEach([&](size_t i, float, float) {
+    const bool pebble = clod.id[i] != 0 && HashUnit(clod.id[i], 84) < 0.10f;
+    const Vec3f earth = Vec3f{0.165f, 0.118f, 0.076f} * (0.85f + 0.3f * HashUnit(clod.id[i], 85));
+    const Vec3f stone = Mix(Vec3f{0.24f, 0.22f, 0.19f}, Vec3f{0.34f, 0.31f, 0.27f}, HashUnit(clod.id[i], 86));
+    m.SetColor(i, (pebble ? stone : earth) * (1 + 0.10f * fine[i] + 0.09f * mid[i]));
+    m.height[i] = clod.height[i] + 0.0006f * fine[i] + 0.003f * mid[i];
+    m.roughness[i] = (pebble ? 0.5f : 0.68f) + 0.03f * fine[i];
+  });
+  Flatten(m, 0.2f);
 }
 
 Texel Rock(float u, float v) {
@@ -112,12 +145,6 @@ Texel Fields(float u, float v) {
                                             {0.24f, 0.22f, 0.14f}}};
   const Vec3f crop = kCrops[static_cast<size_t>(HashUnit(field.cell, 1) * 5)];
   return {Mix(crop * (1 + 0.25f * soft), {0.05f, 0.08f, 0.035f}, hedge), 0, 0.9f};
-}
-
-Texel PaintWorn(float u, float v) {
-  const float wear = TilingFbm(191, u, v, 40, 3) + 0.5f * TilingFbm(192, u, v, 4, 3);
-  const float left = Step(0.75f, 0.35f, wear);
-  return {Vec3f{1, 1, 1} * Mix(0.22f, 0.62f, left), 0, 0.7f};
 }
 
 }  // namespace airsim360::internal

@@ -1,59 +1,147 @@
-// What walls and pitched roofs are made of.
+// What walls are made of: brick, dressed stone, render, cast concrete.
 #include <algorithm>
 #include <cmath>
 
 #include "airsim360/worlds/recipe_shapes.h"
+#include "airsim360/worlds/texture_maps.h"
 
 namespace airsim360::internal {
+namespace {
 
-Texel Brick(float u, float v) {
-  const Unit brick = Bond(u, v, 2.0f, 8, 26, 0.5f);
-  const float tone = HashUnit(brick.id, 5), grain = TilingFbm(91, u, v, 100, 3),
-              soot = TilingFbm(92, u, v, 3, 4);
-  const float joint = Step(0.0075f, 0.0045f, brick.edge + 0.0012f * grain);
-  Vec3f color = Mix({0.90f, 0.88f, 0.86f}, {1.12f, 1.1f, 1.08f}, tone);
-  if (HashUnit(brick.id, 8) < 0.09f) color = color * 0.68f;
-  color = color * (1 + 0.10f * grain) * (1 + 0.10f * soot);
-  color = Mix(color, Vec3f{1.35f, 1.4f, 1.5f} * (1 + 0.08f * grain), joint);
-  return {color * 0.5f, -0.006f * joint + 0.0010f * grain + 0.0015f * (tone - 0.5f), 0.72f + 0.1f * joint};
+struct BrickStyle {
+  Vec3f low, high;  // colours between which bricks vary
+  Vec3f odd;        // of the over- or underburnt ones
+  float odd_share;
+  Vec3f mortar;
+  float chips;  // how ragged the edges are
+  float soot;
+  float paint;  // share of the wall under white paint
+  uint32_t seed;
+};
+
+void PaintBricks(SurfaceMaps& m, const BrickStyle& s) {
+  const Field grain = m.Noise(s.seed, 0.012f, 4, 0.7f), chip = m.Noise(s.seed + 1, 0.035f, 4, 0.6f),
+              soft = m.Noise(s.seed + 2, 0.4f, 6, 0.55f),
+              drag = FractalField(m.size, s.seed + 3, m.Cells(0.12f), m.Cells(0.01f), 3, 0.6f);
+  const Field run = DripField(m.size, m.tile, 5, 0.05f, 1.2f, s.seed + 4);
+  m.ForEach([&](size_t i, float u, float v) {
+    const Unit brick = Bond(u, v, m.tile, kBrickUnits.columns, kBrickUnits.rows, 0.5f);
+    const float tone = HashUnit(brick.id, s.seed, 5), d = brick.edge + 0.0007f * s.chips * chip[i];
+    const float joint = Step(0.0062f, 0.0040f, d), rim = Step(0.0115f, 0.0055f, d);
+    Vec3f color = Mix(s.low, s.high, tone) * (0.90f + 0.20f * HashUnit(brick.id, s.seed, 6));
+    if (HashUnit(brick.id, s.seed, 8) < s.odd_share) color = Mix(color, s.odd, 0.75f);
+    color = color * (1 + 0.07f * grain[i] + 0.04f * drag[i]) * (1 - 0.06f * rim);
+    const Vec3f mortar = s.mortar * (1 + 0.05f * grain[i] + 0.05f * soft[i]);
+    Vec3f shown = Mix(color, mortar, joint);
+    float rough = 0.58f + 0.035f * grain[i] + 0.09f * joint;
+    if (s.paint > 0) {
+      // Paint bridges the joint and flakes off where bricks spall.
+      const float left = Step(-0.10f, 0.06f, s.paint + 0.16f * -soft[i] + 0.10f * chip[i] - 0.05f * rim);
+      shown = Mix(shown, Vec3f{0.66f, 0.64f, 0.59f} * (1 + 0.03f * grain[i] - 0.07f * joint), left);
+      rough = Mix(rough, 0.52f + 0.03f * grain[i], left);
+    }
+    shown = shown * (1 - s.soot * (0.10f * Step(0.0f, 1.6f, soft[i]) + 0.14f * Step(0.4f, 3.0f, run[i])));
+    m.SetColor(i, shown);
+    m.height[i] =
+        0.0022f * (tone - 0.5f) - 0.0055f * joint - 0.0010f * rim + 0.00030f * grain[i] + 0.00016f * drag[i];
+    m.roughness[i] = rough;
+  });
 }
 
-Texel Ashlar(float u, float v) {
-  const Unit stone = Bond(u, v, 3.0f, 5, 10, 0.5f);
-  const float tone = HashUnit(stone.id, 5), grain = TilingFbm(101, u, v, 48, 4),
-              soft = TilingFbm(102, u, v, 3, 5);
-  const float joint = Step(0.008f, 0.003f, stone.edge);
-  const float y = (0.92f + 0.14f * tone) * (1 + 0.06f * grain + 0.06f * soft) * (1 - 0.35f * joint);
-  const Vec3f hue = Mix({1.02f, 1, 0.96f}, {0.99f, 1, 1.0f}, HashUnit(stone.id, 6));
-  return {hue * (y * 0.5f), -0.005f * joint + 0.0012f * grain, 0.66f + 0.05f * grain};
+}  // namespace
+
+void BrickRed(SurfaceMaps& m) {
+  PaintBricks(m, {{0.35f, 0.135f, 0.090f},
+                  {0.28f, 0.105f, 0.078f},
+                  {0.105f, 0.072f, 0.066f},
+                  0.10f,
+                  {0.40f, 0.37f, 0.32f},
+                  1.0f,
+                  0.6f,
+                  0,
+                  91});
+}
+void BrickStock(SurfaceMaps& m) {
+  PaintBricks(m, {{0.40f, 0.295f, 0.155f},
+                  {0.32f, 0.225f, 0.125f},
+                  {0.165f, 0.125f, 0.095f},
+                  0.16f,
+                  {0.33f, 0.305f, 0.26f},
+                  1.5f,
+                  1.0f,
+                  0,
+                  191});
+}
+void BrickPainted(SurfaceMaps& m) {
+  PaintBricks(m, {{0.34f, 0.14f, 0.095f},
+                  {0.27f, 0.105f, 0.078f},
+                  {0.12f, 0.08f, 0.07f},
+                  0.08f,
+                  {0.36f, 0.33f, 0.29f},
+                  1.2f,
+                  0.7f,
+                  0.28f,
+                  291});
 }
 
-Texel Plaster(float u, float v) {
-  const float soft = TilingFbm(111, u, v, 3, 5), grain = TilingFbm(112, u, v, 128, 2);
-  const float drip = TilingNoise(113, u * 40, v * 2, 40) * 0.5f + 0.5f;
-  const float y = 0.5f * (1 + 0.06f * soft + 0.03f * grain - 0.06f * drip * Step(0.0f, 0.6f, soft));
-  return {Vec3f{1, 1, 1} * y, 0.0012f * grain + 0.002f * soft, 0.75f + 0.05f * soft};
+// Dressed limestone in regular courses: fine tooling, pits, a weathered skin.
+void Ashlar(SurfaceMaps& m) {
+  const Field grain = m.Noise(101, 0.012f, 4, 0.7f), soft = m.Noise(102, 0.5f, 6, 0.55f),
+              bed = FractalField(m.size, 103, m.Cells(0.5f), m.Cells(0.03f), 4, 0.6f),
+              edge = m.Noise(104, 0.04f, 4, 0.6f);
+  const Field run = DripField(m.size, m.tile, 4, 0.07f, 1.4f, 105);
+  m.ForEach([&](size_t i, float u, float v) {
+    const Unit stone = Bond(u, v, m.tile, kAshlarUnits.columns, kAshlarUnits.rows, 0.5f);
+    const float tone = HashUnit(stone.id, 5), d = stone.edge + 0.0008f * edge[i];
+    const float joint = Step(0.0052f, 0.0028f, d), arris = Step(0.014f, 0.004f, d);
+    const float pit = Step(1.75f, 2.3f, grain[i] + 0.35f * edge[i]);
+    float y = 0.5f * (0.93f + 0.14f * tone) * (1 + 0.035f * grain[i] + 0.045f * soft[i] + 0.025f * bed[i]);
+    y *= (1 - 0.36f * joint) * (1 - 0.22f * pit) * (1 - 0.10f * Step(0.5f, 3.0f, run[i]));
+    m.SetColor(i, Mix(Vec3f{1.03f, 1, 0.94f}, Vec3f{0.98f, 1, 1.02f}, HashUnit(stone.id, 6)) * y);
+    m.height[i] = 0.0026f * (tone - 0.5f) - 0.0062f * joint - 0.0020f * arris - 0.0022f * pit +
+                  0.0004f * grain[i] + 0.0003f * bed[i];
+    m.roughness[i] = 0.60f + 0.035f * grain[i] + 0.06f * joint;
+  });
 }
 
-Texel Planks(float u, float v) {
-  const Unit plank = Bond(u, v, 2.0f, 14, 1, 0);
-  const float tone = HashUnit(plank.id, 5);
-  const float ring = TilingNoise(121 + plank.id, u * 140, v * 6 + tone * 9, 140),
-              fiber = TilingNoise(122, u * 500, v * 24, 500);
-  const float joint = Step(0.006f, 0.003f, plank.edge);
-  const float y = (0.8f + 0.35f * tone) * (1 + 0.16f * ring + 0.1f * fiber) * (1 - 0.75f * joint);
-  return {Vec3f{1.15f, 0.92f, 0.68f} * (0.5f * y), -0.006f * joint + 0.0006f * ring, 0.68f};
+// Float-finished render: grains of sand, the sweep of the float, runs under nothing in particular.
+void Plaster(SurfaceMaps& m) {
+  const Field grain = m.Noise(111, 0.016f, 3, 0.75f), sweep = m.Noise(112, 0.35f, 4, 0.5f),
+              soft = m.Noise(113, 0.9f, 6, 0.55f);
+  const Field run = DripField(m.size, m.tile, 5, 0.04f, 1.3f, 114);
+  m.ForEach([&](size_t i, float, float) {
+    const float stain = Step(0.4f, 3.2f, run[i]);
+    const float y =
+        0.5f * (1 + 0.018f * grain[i] + 0.018f * sweep[i] + 0.038f * soft[i]) * (1 - 0.10f * stain);
+    m.SetColor(i, Mix(Vec3f{1, 1, 1}, Vec3f{1.01f, 0.99f, 0.95f}, Step(0.0f, 2.0f, soft[i])) * y);
+    m.height[i] = 0.00055f * grain[i] + 0.0012f * sweep[i];
+    m.roughness[i] = 0.56f + 0.035f * grain[i] + 0.03f * soft[i];
+  });
 }
 
-Texel RoofTile(float u, float v) {
-  const Unit tile = Bond(u, v, 2.4f, 12, 8, 0);
-  const float tone = HashUnit(tile.id, 5), grain = TilingFbm(141, u, v, 60, 3),
-              lichen = TilingFbm(142, u, v, 5, 5);
-  const float arch = std::sin(3.14159265f * tile.x), lap = tile.y;
-  Vec3f color =
-      Mix({0.46f, 0.20f, 0.11f}, {0.36f, 0.15f, 0.09f}, tone) * (1 + 0.12f * grain) * (0.65f + 0.35f * arch);
-  color = Mix(color, {0.35f, 0.33f, 0.24f}, 0.4f * Step(0.3f, 0.8f, lichen)) * (lap < 0.08f ? 0.5f : 1.0f);
-  return {color, 0.035f * arch + 0.02f * lap, 0.75f};
+// Cast against smooth forms: panels of 1.2 m with tie holes, bug holes, dirty runs.
+void Concrete(SurfaceMaps& m) {
+  const Field fine = m.Noise(21, 0.012f, 3, 0.8f), mid = m.Noise(22, 0.16f, 6, 0.65f),
+              soft = m.Noise(23, 1.0f, 7, 0.6f);
+  const Field run = DripField(m.size, m.tile, 6, 0.035f, 1.5f, 24);
+  m.ForEach([&](size_t i, float, float) {
+    const float stain = Step(0.2f, 3.2f, run[i]) * std::clamp(0.7f + 0.3f * mid[i], 0.0f, 1.0f);
+    const float tone = 1 + 0.040f * soft[i] + 0.026f * mid[i] + 0.012f * fine[i] - 0.10f * stain;
+    m.SetColor(i, Mix(Vec3f{0.50f, 0.487f, 0.460f}, Vec3f{0.465f, 0.46f, 0.45f},
+                      std::clamp(0.5f + 0.4f * mid[i], 0.0f, 1.0f)) *
+                      tone);
+    m.height[i] = 0.0009f * soft[i] + 0.0003f * mid[i] + 0.00022f * fine[i];
+    m.roughness[i] = 0.52f + 0.012f * mid[i] + 0.010f * fine[i] + 0.03f * stain;
+  });
+  const auto holes = static_cast<uint32_t>(300 * m.tile * m.tile);
+  for (uint32_t k = 0; k < holes; ++k) {
+    const float n = static_cast<float>(m.size), h = HashUnit(k, 25),
+                radius = (0.0008f + 0.0042f * h * h * h * h) * m.texels_per_metre();
+    Stamp(m.red, HashUnit(k, 26) * n, HashUnit(k, 27) * n, std::max(radius, 0.8f), [&](size_t i, float d) {
+      m.SetColor(i, m.color(i) * (1 - 0.5f * Step(1.0f, 0.6f, d)));
+      m.height[i] -= 0.7f * radius / m.texels_per_metre() * (1 - d * d);
+    });
+  }
 }
 
 Texel Stripes(float u, float v) {

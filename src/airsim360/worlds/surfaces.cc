@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/worlds/recipe_shapes.h"
 #include "airsim360/worlds/surface_recipes.h"
 
 namespace airsim360 {
@@ -23,6 +24,7 @@ struct Row {
   float macro = 0;
   float metallic = 0;
   SurfaceKind kind = SurfaceKind::kStandard;
+  GroundWear ground = GroundWear::kNone;
 };
 
 constexpr Vec3f Gray(float y) { return {y, y, y}; }
@@ -30,31 +32,49 @@ constexpr SurfaceKind kPane = SurfaceKind::kGlass;
 
 using S = Surface;
 using R = Recipe;
+using G = GroundWear;
+constexpr SurfaceKind kSolid = SurfaceKind::kStandard;
 constexpr Row kRows[] = {
-    {S::kAsphalt, "asphalt", R::kAsphalt, Gray(0.95f), 0.8f, 0.16f},
-    {S::kAsphaltPatch, "asphalt patch", R::kAsphalt, Gray(0.55f), 0.8f, 0.05f},
-    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {1.14f, 1.12f, 1.08f}, 0.8f, 0.16f},
+    {S::kAsphalt, "asphalt", R::kAsphalt, Gray(0.95f), 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kAsphaltPatch, "asphalt patch", R::kAsphaltFresh, Gray(1.15f), 0.8f, 0.05f},
+    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {1.14f, 1.12f, 1.08f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kTar, "tar", R::kNone, Gray(0.035f), 0.5f},
     {S::kGutter, "gutter", R::kConcrete, Gray(0.62f), 0.7f, 0.1f},
     {S::kKerb, "kerb stone", R::kConcrete, {0.86f, 0.85f, 0.83f}, 0.7f, 0.06f},
-    {S::kSlabs, "slabs", R::kSlabs, Gray(1.0f), 0.7f, 0.08f},
-    {S::kSlabsWarm, "slabs warm", R::kSlabs, {1.0f, 0.90f, 0.78f}, 0.7f, 0.08f},
+    {S::kSlabs, "slabs", R::kSlabs, Gray(0.9f), 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
     {S::kTactile, "tactile slabs", R::kSlabs, {1.35f, 1.0f, 0.35f}, 0.7f},
-    {S::kPlazaBrick, "plaza brick", R::kPavingBrick, {0.88f, 0.90f, 0.95f}, 0.7f, 0.10f},
-    {S::kPlazaBrickDark, "plaza brick dark", R::kPavingBrick, {0.68f, 0.70f, 0.76f}, 0.7f, 0.10f},
-    {S::kPlazaStone, "plaza stone", R::kStoneSetts, Gray(1.0f), 0.6f, 0.06f},
-    {S::kPath, "park path", R::kGravelPath, Gray(1.0f), 0.85f, 0.10f},
-    {S::kLawn, "lawn", R::kGrass, {1.0f, 1.0f, 1.0f}, 0.8f, 0.16f},
-    {S::kSoil, "soil", R::kSoil, Gray(1.0f), 0.9f, 0.10f},
+    {S::kPlazaBrick,
+     "plaza brick",
+     R::kPavingBrick,
+     {0.88f, 0.90f, 0.95f},
+     0.7f,
+     0.10f,
+     0,
+     kSolid,
+     G::kPaving},
+    {S::kPlazaBrickDark,
+     "plaza brick dark",
+     R::kPavingBrick,
+     {0.68f, 0.70f, 0.76f},
+     0.7f,
+     0.10f,
+     0,
+     kSolid,
+     G::kPaving},
+    {S::kPlazaStone, "plaza stone", R::kStoneSetts, Gray(1.0f), 0.6f, 0.06f, 0, kSolid, G::kPaving},
+    {S::kPath, "park path", R::kGravelPath, Gray(1.0f), 0.85f, 0.10f, 0, kSolid, G::kGravel},
+    {S::kLawn, "lawn", R::kGrass, {1.0f, 1.0f, 1.0f}, 0.8f, 0.14f, 0, kSolid, G::kLawn},
+    {S::kSoil, "soil", R::kSoil, Gray(1.0f), 0.9f, 0.10f, 0, kSolid, G::kSoil},
     {S::kWater, "water", R::kNone, {0.020f, 0.036f, 0.034f}, 0.08f, 0, 0, SurfaceKind::kWater},
-    {S::kPaintWhite, "road paint white", R::kPaintWorn, Gray(1.15f), 0.65f},
-    {S::kPaintYellow, "road paint yellow", R::kPaintWorn, {1.15f, 0.72f, 0.09f}, 0.65f},
+    {S::kPaintWhite, "road paint white", R::kPaintWorn, Gray(1.05f), 0.65f},
+    {S::kPaintYellow, "road paint yellow", R::kPaintWorn, {1.12f, 0.70f, 0.09f}, 0.65f},
     {S::kBikeLane, "bike lane", R::kAsphalt, {0.55f, 1.45f, 0.75f}, 0.75f, 0.08f},
     {S::kIron, "cast iron", R::kNone, Gray(0.075f), 0.5f, 0, 0.6f},
-    {S::kBrickRed, "brick red", R::kBrick, {0.66f, 0.285f, 0.20f}, 0.7f, 0.06f},
-    {S::kBrickBrown, "brick brown", R::kBrick, {0.46f, 0.27f, 0.19f}, 0.7f, 0.06f},
-    {S::kBrickYellow, "brick yellow", R::kBrick, {0.72f, 0.54f, 0.34f}, 0.7f, 0.06f},
-    {S::kBrickWhite, "brick painted", R::kBrick, {0.92f, 0.88f, 0.80f}, 0.7f, 0.06f},
+    {S::kBrickRed, "brick red", R::kBrickRed, Gray(1.0f), 0.7f, 0.06f},
+    {S::kBrickBrown, "brick brown", R::kBrickRed, {0.74f, 0.80f, 0.84f}, 0.7f, 0.06f},
+    {S::kBrickYellow, "brick yellow", R::kBrickStock, Gray(1.05f), 0.7f, 0.06f},
+    {S::kBrickWhite, "brick painted", R::kBrickPainted, {1.0f, 0.97f, 0.90f}, 0.7f, 0.06f},
     {S::kLimestone, "limestone", R::kAshlar, {1.02f, 0.92f, 0.76f}, 0.7f, 0.06f},
     {S::kSandstone, "sandstone", R::kAshlar, {0.86f, 0.66f, 0.46f}, 0.7f, 0.06f},
     {S::kGranite, "granite", R::kAshlar, {0.50f, 0.49f, 0.48f}, 0.5f, 0.04f},
@@ -91,12 +111,12 @@ constexpr Row kRows[] = {
     {S::kAwningGreen, "awning green", R::kStripes, {0.36f, 0.80f, 0.44f}, 0.85f},
     {S::kAwningBlue, "awning blue", R::kStripes, {0.34f, 0.52f, 1.05f}, 0.85f},
     {S::kAwningYellow, "awning yellow", R::kStripes, {1.40f, 1.02f, 0.36f}, 0.85f},
-    {S::kRoofGravel, "roof gravel", R::kRoofGravel, Gray(1.1f), 0.85f, 0.14f},
-    {S::kRoofBitumen, "roof bitumen", R::kAsphalt, Gray(0.95f), 0.8f, 0.2f},
+    {S::kRoofGravel, "roof gravel", R::kRoofGravel, Gray(1.1f), 0.85f, 0.14f, 0, kSolid, G::kRoof},
+    {S::kRoofBitumen, "roof bitumen", R::kBitumen, Gray(0.95f), 0.8f, 0.16f, 0, kSolid, G::kRoofRolls},
     {S::kRoofTile, "roof tile", R::kRoofTile, Gray(1), 0.8f, 0.1f},
-    {S::kRoofSlate, "roof slate", R::kRoofTile, {0.17f, 0.26f, 0.34f}, 0.7f, 0.08f},
+    {S::kRoofSlate, "roof slate", R::kSlate, Gray(1.15f), 0.7f, 0.08f},
     {S::kCoping, "coping", R::kConcrete, {0.82f, 0.80f, 0.77f}, 0.7f},
-    {S::kMetal, "galvanised metal", R::kNone, Gray(0.42f), 0.4f, 0.04f, 0.7f},
+    {S::kMetal, "galvanised metal", R::kGalvanised, Gray(1.0f), 0.4f, 0.04f, 0.85f},
     {S::kFarWalls0, "far walls brick", R::kFarWalls, {0.74f, 0.46f, 0.34f}, 0.8f, 0.06f},
     {S::kFarWalls1, "far walls stone", R::kFarWalls, {1.05f, 0.95f, 0.80f}, 0.8f, 0.06f},
     {S::kFarWalls2, "far walls concrete", R::kFarWalls, {0.80f, 0.82f, 0.85f}, 0.8f, 0.06f},
@@ -104,6 +124,16 @@ constexpr Row kRows[] = {
     {S::kMountain, "mountain", R::kRock, Gray(1), 0.9f},
     {S::kMountainFar, "mountain far", R::kRock, {0.9f, 0.95f, 1.1f}, 0.9f},
     {S::kPlain, "plain", R::kFields, Gray(1), 0.9f},
+    {S::kCarriageway, "carriageway", R::kAsphalt, Gray(0.95f), 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kCarriagewayOld,
+     "carriageway old",
+     R::kAsphalt,
+     {1.14f, 1.12f, 1.08f},
+     0.8f,
+     0.14f,
+     0,
+     kSolid,
+     G::kCarriageway},
 };
 static_assert(std::size(kRows) == static_cast<size_t>(S::kCount));
 
@@ -113,7 +143,35 @@ struct TextureIds {
 };
 
 bool IsPicture(Recipe recipe) { return recipe >= R::kShop0 && recipe <= R::kSigns; }
-int SizeOf(Recipe recipe) { return recipe == R::kSigns ? 1024 : IsPicture(recipe) ? 256 : 512; }
+
+// Textures without a lattice are mixed from patches of themselves; bricks and slabs are tinted one by one.
+bool IsShapeless(Recipe recipe) {
+  return recipe == R::kAsphalt || recipe == R::kAsphaltFresh || recipe == R::kBitumen ||
+         recipe == R::kConcrete || recipe == R::kGravelPath || recipe == R::kGrass || recipe == R::kSoil ||
+         recipe == R::kPlaster || recipe == R::kRoofGravel;
+}
+
+Vec2f UnitsOf(Recipe recipe) {
+  using internal::Lattice;
+  const auto units = [](Lattice l) {
+    return Vec2f{static_cast<float>(l.columns), static_cast<float>(l.rows)};
+  };
+  switch (recipe) {
+    case R::kSlabs:
+      return units(internal::kSlabUnits);
+    case R::kBrickRed:
+    case R::kBrickStock:
+      return units(internal::kBrickUnits);
+    case R::kAshlar:
+      return units(internal::kAshlarUnits);
+    case R::kStoneSetts:
+      return units(internal::kSettUnits);
+    case R::kSlate:
+      return units(internal::kSlateUnits);
+    default:
+      return {};
+  }
+}
 
 std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
   // Generated in parallel, added in order.
@@ -124,7 +182,7 @@ std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
     const auto recipe = static_cast<Recipe>(i);
     const TextureRecipe made = internal::MakeRecipe(recipe);
     ids[static_cast<size_t>(i)].tile = made.tile;
-    sets[static_cast<size_t>(i)] = SynthesizeTextures(made, SizeOf(recipe));
+    sets[static_cast<size_t>(i)] = SynthesizeTextures(made, internal::SizeOf(recipe));
   });
   for (size_t i = 0; i < kCount; ++i) {
     ids[i].color = builder.AddTexture(std::move(sets[i]->color));
@@ -148,6 +206,12 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
     material.roughness = row.roughness;
     material.metallic = row.metallic;
     material.macro_variation = row.macro;
+    material.ground = row.ground;
+    material.blend_tiles = IsShapeless(row.recipe);
+    material.units = UnitsOf(row.recipe);
+    // Dark panes show the room behind them; blinds and curtains hide it.
+    material.interior = row.surface == S::kGlassDark || row.surface == S::kGlassBlue ||
+                        row.surface == S::kGlassLit || (row.recipe >= R::kShop0 && row.recipe <= R::kShop2);
     if (row.recipe != R::kNone) {
       const TextureIds& ids = textures[static_cast<size_t>(row.recipe)];
       material.base_color_texture = ids.color;

@@ -83,6 +83,8 @@ enum class Surface {
   kMountain,
   kMountainFar,
   kPlain,
+  kCarriageway,  ///< its u runs across the street, 0 in the middle, so that the shader finds the wheel tracks
+  kCarriagewayOld,
   kCount
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "airsim360/image/color.h"
+#include "airsim360/worlds/texture_maps.h"
 
 namespace airsim360 {
 namespace {
@@ -73,37 +74,95 @@ WorleyResult TilingWorley(uint32_t seed, float u, float v, int period) {
   return result;
 }
 
-TextureSet SynthesizeTextures(const TextureRecipe& recipe, int size) {
-  // Evaluate the recipe and measure its mean luminance.
-  std::vector<Texel> texels(static_cast<size_t>(size) * static_cast<size_t>(size));
-  double luminance = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const auto n = static_cast<float>(size);
-      Texel& t = texels[static_cast<size_t>(y) * size + x];
-      t = recipe.texel((static_cast<float>(x) + 0.5f) / n, (static_cast<float>(y) + 0.5f) / n);
-      luminance += Luminance(t.color);
+namespace {
+
+using internal::SurfaceMaps;
+
+SurfaceMaps Paint(const TextureRecipe& recipe, int size) {
+  SurfaceMaps maps(size, recipe.tile);
+  if (recipe.paint) {
+    recipe.paint(maps);
+    return maps;
+  }
+  maps.ForEach([&](size_t i, float u, float v) {
+    const Texel t = recipe.texel(u, v);
+    maps.SetColor(i, t.color);
+    maps.height[i] = t.height;
+    maps.roughness[i] = t.roughness;
+  });
+  return maps;
+}
+
+TextureFit FitOf(const TextureRecipe& recipe, const SurfaceMaps& maps) {
+  double luminance = 0, roughness = 0;
+  for (size_t i = 0; i < maps.count(); ++i) {
+    luminance += Luminance(maps.color(i));
+    roughness += maps.roughness[i];
+  }
+  const auto n = static_cast<double>(maps.count());
+  TextureFit fit;
+  fit.luminance_gain = static_cast<float>(recipe.luminance / std::max(luminance / n, 1e-9));
+  if (recipe.roughness > 0) fit.roughness_shift = static_cast<float>(recipe.roughness - roughness / n);
+  if (recipe.slope > 0)
+    fit.slope_gain = static_cast<float>(recipe.slope / std::max(internal::SlopeOf(maps), 1e-9));
+  return fit;
+}
+
+}  // namespace
+
+namespace internal {
+
+double SlopeOf(const SurfaceMaps& maps) {
+  const float step = 2 / maps.texels_per_metre();
+  double sum = 0;
+  for (int y = 0; y < maps.size; ++y) {
+    for (int x = 0; x < maps.size; ++x) {
+      const float dx = (maps.height.At(x + 1, y) - maps.height.At(x - 1, y)) / step,
+                  dy = (maps.height.At(x, y + 1) - maps.height.At(x, y - 1)) / step;
+      sum += static_cast<double>(dx * dx + dy * dy);
     }
   }
-  const auto gain =
-      static_cast<float>(recipe.luminance * static_cast<double>(texels.size()) / std::max(luminance, 1e-9));
+  return std::sqrt(sum / static_cast<double>(maps.count()));
+}
+
+void Flatten(SurfaceMaps& maps, float radius) {
+  const float texels = radius * maps.texels_per_metre();
+  for (Field* field : {&maps.red, &maps.green, &maps.blue}) {
+    const Field soft = Blurred(*field, texels);
+    double mean = 0;
+    for (float v : field->values) mean += v;
+    mean /= static_cast<double>(field->count());
+    for (size_t i = 0; i < field->count(); ++i)
+      (*field)[i] = std::min(0.9f, (*field)[i] * static_cast<float>(mean) / std::max(soft[i], 0.01f));
+  }
+  const Field soft = Blurred(maps.height, texels);
+  for (size_t i = 0; i < maps.count(); ++i) maps.height[i] -= soft[i];
+}
+
+}  // namespace internal
+
+TextureSet SynthesizeTextures(const TextureRecipe& recipe, int size, TextureFit* fit_out) {
+  static const SrgbEncoder kEncode;
+  const SurfaceMaps maps = Paint(recipe, size);
+  const TextureFit fit = FitOf(recipe, maps);
+  if (fit_out) *fit_out = fit;
 
   // Encode; normals from central differences over the torus, image rows grow downwards while texture +Y is
-  // up.
+  // up. Natural albedo lies between 0.03 and 0.9, in blue down to 0.012 (soil, grass).
   Image<Rgba8> color(size, size), normal(size, size), roughness(size, size);
-  const float step = 2 * recipe.tile / static_cast<float>(size);
-  const auto height = [&](int x, int y) {
-    return texels[static_cast<size_t>((y + size) % size) * size + (x + size) % size].height;
-  };
+  const float step = 2 / maps.texels_per_metre() / fit.slope_gain;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      const Texel& t = texels[static_cast<size_t>(y) * size + x];
-      const auto srgb = [gain](float c) { return LinearToSrgb8(std::clamp(c * gain, 0.012f, 0.9f)); };
-      color(x, y) = {srgb(t.color.x), srgb(t.color.y), srgb(t.color.z), 255};
-      const Vec3f n = Normalized(Vec3f{(height(x - 1, y) - height(x + 1, y)) / step,
-                                       (height(x, y + 1) - height(x, y - 1)) / step, 1});
+      const size_t i = maps.height.Index(x, y);
+      const auto srgb = [&](float c, float least) {
+        return kEncode(std::clamp(c * fit.luminance_gain, least, 0.9f));
+      };
+      color(x, y) = {srgb(maps.red[i], 0.02f), srgb(maps.green[i], 0.02f), srgb(maps.blue[i], 0.012f), 255};
+      const Vec3f n = Normalized(Vec3f{(maps.height.At(x - 1, y) - maps.height.At(x + 1, y)) / step,
+                                       (maps.height.At(x, y + 1) - maps.height.At(x, y - 1)) / step, 1});
       normal(x, y) = {ToByte(n.x / 2 + 0.5f), ToByte(n.y / 2 + 0.5f), ToByte(n.z / 2 + 0.5f), 255};
-      roughness(x, y) = {255, ToByte(t.roughness), 0, 255};
+      roughness(x, y) = {255, ToByte(std::clamp(maps.roughness[i] + fit.roughness_shift, 0.03f, 1.0f)), 255,
+                         255};
     }
   }
   return {Texture::FromImage(recipe.name, std::move(color), true),

@@ -1,5 +1,5 @@
-// Tiling textures made from noise at load time: a recipe fills colour, height and roughness, then normals and
-// mip chains are derived.
+// Tiling textures made from noise at load time: a recipe fills colour, height and roughness, which are
+// brought to the means of measured scans; then normals and mip chains are derived.
 #pragma once
 
 #include <functional>
@@ -32,18 +32,32 @@ WorleyResult TilingWorley(uint32_t seed, float u, float v, int period);
 /// Uniform in [0, 1) from integers.
 float HashUnit(uint32_t a, uint32_t b, uint32_t c = 0);
 
-/// A square tile of `tile` metres: what the texel at (u, v) in [0, 1)², v downwards, looks like.
+namespace internal {
+struct SurfaceMaps;
+}
+
+/// A square tile of `tile` metres: either what the texel at (u, v) in [0, 1)², v downwards, looks like, or a
+/// painter of whole maps. The targets are means over the tile that the result is brought to.
 struct TextureRecipe {
   std::string name;
   float tile = 2;          ///< metres
   float luminance = 0.5f;  ///< mean linear luminance the colours are scaled to
   std::function<Texel(float u, float v)> texel;
+  std::function<void(internal::SurfaceMaps&)> paint = nullptr;
+  float roughness = 0;  ///< mean; 0 = as painted
+  float slope = 0;      ///< root mean square slope of the normal map; 0 = as painted
+};
+
+/// What bringing a recipe to its targets took: near 1 and 0 where the recipe itself is right.
+struct TextureFit {
+  float luminance_gain = 1, roughness_shift = 0, slope_gain = 1;
 };
 
 /// Base colour, normal map and roughness of a recipe.
 struct TextureSet {
   Texture color, normal, roughness;
 };
-TextureSet SynthesizeTextures(const TextureRecipe& recipe, int size);
+/// `size`: texels a side, a power of two. `fit`, if given, receives the corrections.
+TextureSet SynthesizeTextures(const TextureRecipe& recipe, int size, TextureFit* fit = nullptr);
 
 }  // namespace airsim360

@@ -1,5 +1,7 @@
 #include "airsim360/render/shading/shade_view.h"
 
+#include <algorithm>
+
 namespace airsim360::internal {
 namespace {
 
@@ -12,17 +14,31 @@ void Put(float (&to)[3], Vec3f from) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
+// What lies on the surfaces, and how many rooms are lit.
+void PutWeather(const Environment& environment, const Sky* sky, ShadeView& view) {
+  const auto share = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
+  view.wetness = share(environment.wetness);
+  view.snow = share(environment.snow_depth);
+  view.rain = share(environment.rain_mm_h / 8);  // heavy rain: 8 mm/h and more
+  if (sky) view.open_sky = Dot(sky->Irradiance({0, 0, 1}), {0.2126f, 0.7152f, 0.0722f});
+  // Rooms in use by day and in the evening; 150 to 500 lx under lamps, sunlight being 133 klx or 20 units.
+  view.lit_rooms = environment.lamps_on() ? 0.45f : environment.lamps == Lamps::kOff ? 0.0f : 0.12f;
+  view.lamplight = 500.0f / 133300.0f * 20.0f / 3.14159265f;
+}
+
 }  // namespace
 
 ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const Sky* sky,
-                        const LightProbes* probes) {
+                        const LightProbes* probes, const Environment* environment) {
   ShadeView view{};
   view.triangles = tables.triangles.data();
   view.instances = tables.instances.data();
   view.materials = tables.materials.data();
   view.textures = tables.textures.data();
   view.mean_colors = tables.mean_colors.empty() ? nullptr : &tables.mean_colors[0].x;
+  view.panes = tables.panes.data();
   view.macro_texture = 1;
+  PutWeather(environment ? *environment : scene.environment, sky, view);
   view.ground_z = scene.bounds.empty() ? 0.0f : scene.bounds.min.z;
   if (probes) view.probes = probes->view();
   if (!sky) {

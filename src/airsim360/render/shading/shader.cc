@@ -38,7 +38,8 @@ Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& enviro
   if (!scene.instances.empty())
     probes.emplace(internal::ProbeLight{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps},
                    internal::LightProbes::Options{});
-  view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr);
+  view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr,
+                                 &environment);
   view.lamps = lamps->view();
   exposure = ChooseExposure(scene);
 }

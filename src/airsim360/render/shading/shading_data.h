@@ -17,8 +17,19 @@ struct alignas(64) TriangleRecord {
   uint32_t material;  ///< index; kMirroredUv: green of a normal map points along -(n x t)
   uint32_t pane;      ///< hash, the same for both triangles of a quad
   float area;         ///< m^2, of the quad where it is one
+  uint32_t window;    ///< 1 + index of its PaneRecord where a room is seen behind it; 0 = none
 };
 inline constexpr uint32_t kMirroredUv = 0x80000000u;
+
+/// A triangle of a rectangular pane in front of a room (shading_interior.h): where its corners lie in the
+/// pane frame, metres. Both triangles of the rectangle have the same frame, size and hash.
+struct PaneRecord {
+  float a[3], b[3];        ///< right and up from the centre, seen from outside
+  float half_a, half_b;    ///< half the size
+  float u_per_a, v_per_b;  ///< texture coordinates per metre, for pictures
+  uint32_t right, up;      ///< directions in the mesh frame, packed
+  uint32_t hash;
+};
 
 /// Of one instance, one cache line.
 struct alignas(64) InstanceRecord {
@@ -36,7 +47,7 @@ enum MaterialFlags : uint32_t {
   kBaseMapped = 8
 };
 
-/// Of one material, one cache line and a bit.
+/// Of one material, two cache lines.
 struct alignas(64) MaterialRecord {
   float base[3];
   float metallic, roughness;
@@ -45,6 +56,12 @@ struct alignas(64) MaterialRecord {
   float kind;                                                                 ///< SurfaceKind as a number
   int32_t base_texture, roughness_texture, normal_texture, emission_texture;  ///< index; 0 = plain white
   float clear_coat, clear_coat_roughness;
+  float mean[3];                  ///< of the base texture, linear
+  float tile;                     ///< metres per uv unit
+  float blend;                    ///< 1: patches of the texture are mixed (hex tiling)
+  float unit_columns, unit_rows;  ///< bricks or slabs per uv unit, tinted one by one; 0 = none
+  float ground;                   ///< GroundWear as a number
+  float interior;                 ///< 1: rooms behind panes
 };
 
 /// One level of a mip chain.
@@ -151,6 +168,11 @@ struct ShadeView {
   AirView air;
   CloudShadowView cloud_shadow;
   SkyTableView sky_below;  ///< Sky::below; texels nullptr = far ground
+  const PaneRecord* panes;
+  float wetness, snow, rain;  ///< Environment: 0 … 1, 0 … 1, drops on puddles 0 … 1
+  float lit_rooms;            ///< share of rooms whose lamps are on
+  float lamplight;            ///< radiance of a white surface in a lit room
+  float open_sky;             ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
 };
 
 inline constexpr int kBatch = 256;

@@ -34,15 +34,18 @@ SHARED real mantissa_of(real a) {
 }
 SHARED bool any_lane(mask_t m) { return m; }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+// Each uses what the one before defines.
+// clang-format off
 #include "airsim360/render/shading/shading_shared.h"
-//
+// clang-format off: each needs the words of those before it.
 #include "airsim360/render/shading/shading_bsdf.h"
-//
 #include "airsim360/render/shading/shading_air.h"
-//
 #include "airsim360/render/shading/shading_air_view.h"
-//
 #include "airsim360/render/shading/shading_tone.h"
+#include "airsim360/render/shading/shading_interior.h"
+#include "airsim360/render/shading/shading_weather.h"
+#include "airsim360/render/shading/shading_ground.h"
+// clang-format on
 #undef SHARED
 #undef INOUT
 

@@ -78,15 +78,18 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
   store(y, a.y);
   store(z, a.z);
 }
+// Each uses what the one before defines.
+// clang-format off
 #include "airsim360/render/shading/shading_shared.h"
-//
+// clang-format off: each needs the words of those before it.
 #include "airsim360/render/shading/shading_bsdf.h"
-//
 #include "airsim360/render/shading/shading_air.h"
-//
 #include "airsim360/render/shading/shading_air_view.h"
-//
 #include "airsim360/render/shading/shading_tone.h"
+#include "airsim360/render/shading/shading_interior.h"
+#include "airsim360/render/shading/shading_weather.h"
+#include "airsim360/render/shading/shading_ground.h"
+// clang-format on
 #undef SHARED
 #undef INOUT
 

@@ -1,86 +1,11 @@
 // Kernel: from hits to surfaces (geometry, material, textures), all lanes at once.
 #include "airsim360/render/shading/shading_kernels.h"
-#include "airsim360/render/shading/shading_texture.h"
+#include "airsim360/render/shading/surface_detail.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-constexpr float kFoliage = 1, kGlass = 2, kWater = 3;  // SurfaceKind
 constexpr float kMirrorRoughness = 0.12f;
-
-/// Records of the triangles under one vector of rays, turned into lanes.
-struct alignas(64) Fetched {
-  alignas(64) int32_t normal[3][kLanes], geometric[kLanes], tangent[kLanes];
-  alignas(64) int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes],
-      emission_id[kLanes], macro_id[kLanes];
-  alignas(64) Lanes uv[6], texels_log2, mirrored, pane, area;
-  alignas(64) Lanes matrix[9], color[3], emission[3];
-  alignas(64) Lanes metallic, roughness, transmission, macro, normal_scale, kind, coat, coat_roughness;
-  bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base;
-};
-
-/// Brings the records of the next vector into the cache while this one is worked on.
-KERNEL void Prefetch(const ShadeView& view, const RaySet& rays, int begin) {
-  if (begin >= rays.count) return;
-  for (int i = 0; i < kLanes; ++i) {
-    __builtin_prefetch(
-        &view.triangles[view.instances[rays.instance[begin + i]].first_triangle + rays.triangle[begin + i]]);
-  }
-}
-
-KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
-  f.any_normal = f.any_roughness = f.any_emission = f.any_macro = f.any_glass = f.any_water = f.any_base =
-      false;
-  for (int i = 0; i < kLanes; ++i) {
-    const InstanceRecord& instance = view.instances[rays.instance[begin + i]];
-    const TriangleRecord& triangle = view.triangles[instance.first_triangle + rays.triangle[begin + i]];
-    const MaterialRecord& material = view.materials[triangle.material & ~kMirroredUv];
-    for (int k = 0; k < 3; ++k) f.normal[k][i] = static_cast<int32_t>(triangle.normals[k]);
-    f.geometric[i] = static_cast<int32_t>(triangle.geometric_normal);
-    f.tangent[i] = static_cast<int32_t>(triangle.tangent);
-    for (int k = 0; k < 6; ++k) f.uv[k][i] = triangle.uv[k];
-    f.texels_log2[i] = triangle.texels_log2 + instance.texels_log2;
-    f.mirrored[i] = (triangle.material & kMirroredUv) != 0 ? -1.0f : 1.0f;
-    f.pane[i] = static_cast<float>(((triangle.pane ^ instance.hash) * 0x9e3779b1u) >> 8) * 0x1p-24f;
-    f.area[i] = triangle.area;
-    for (int k = 0; k < 9; ++k) f.matrix[k][i] = instance.normal_matrix[k];
-    for (int k = 0; k < 3; ++k) f.color[k][i] = material.base[k] * instance.tint[k];
-    for (int k = 0; k < 3; ++k) f.emission[k][i] = material.emission[k];
-    f.metallic[i] = material.metallic;
-    f.roughness[i] = material.roughness;
-    f.transmission[i] = material.transmission;
-    f.macro[i] = material.macro_variation;
-    f.normal_scale[i] = material.normal_scale;
-    f.kind[i] = material.kind;
-    f.coat[i] = material.clear_coat;
-    f.coat_roughness[i] = material.clear_coat_roughness;
-    f.base_id[i] = material.base_texture;
-    f.roughness_id[i] = material.roughness_texture;
-    f.normal_id[i] = material.normal_texture;
-    f.emission_id[i] = material.emission_texture;
-    f.macro_id[i] = view.macro_texture;
-    f.any_base |= material.base_texture != 0;
-    f.any_normal |= material.normal_texture != 0;
-    f.any_roughness |= material.roughness_texture != 0;
-    f.any_emission |= material.emission_texture != 0;
-    f.any_macro |= material.macro_variation != 0;
-    f.any_glass |= material.kind == kGlass;
-    f.any_water |= material.kind == kWater;
-  }
-}
-
-KERNEL real3 UnpackDirection(const int32_t* packed) {
-  const ireal p(packed, stdx::vector_aligned);
-  constexpr float scale = 2.0f / 65534.0f;
-  return octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
-}
-
-KERNEL real3 ToWorld(const Fetched& f, real3 a) {
-  const auto row = [&](int k) __attribute__((always_inline)) {
-    return load(f.matrix[k]) * a.x + load(f.matrix[k + 1]) * a.y + load(f.matrix[k + 2]) * a.z;
-  };
-  return normalize3(make3(row(0), row(3), row(6)));
-}
 
 KERNEL real3 Facing(real3 n, real3 direction) {
   const real side = sel(dot3(n, direction) > 0.0f, real(-1.0f), real(1.0f));
@@ -88,10 +13,11 @@ KERNEL real3 Facing(real3 n, real3 direction) {
 }
 
 /// A part of the normal map's slope; what mipmapping shortened becomes roughness (Toksvig 2005).
-KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, real3 n, real u, real v, real footprint,
-                       real& roughness) {
-  const TexelColor c = SampleTexture(view.textures, f.normal_id, u, v, footprint, false);
-  const real3 m = c.rgb * real(2.0f) - make3(real(1.0f), real(1.0f), real(1.0f));
+KERNEL real3 MapNormal(const ShadeView& view, const Fetched& f, const TileCorners& corners, real3 n,
+                       real footprint, real& roughness) {
+  const real3 c = SampleTiles(view, f, f.normal_id, corners, footprint, false,
+                              make3(real(0.5f), real(0.5f), real(0.9f)), corners.gain);
+  const real3 m = c * real(2.0f) - make3(real(1.0f), real(1.0f), real(1.0f));
   const real length = rmin(rroot(dot3(m, m)), real(1.0f));
   const real scale = load(f.normal_scale);
   const real3 t0 = ToWorld(f, UnpackDirection(f.tangent));
@@ -119,23 +45,6 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
   const real3 tilted =
       n + across * ((h1 - 0.5f) * 0.011f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.011f + rise);
   return sel3(upright, normalize3(tilted), n);
-}
-
-/// Brightness over 5 to 40 m of world, so that large grounds do not look tiled.
-KERNEL real3 MacroTint(const ShadeView& view, const Fetched& f, real3 p, real3 n, real width) {
-  const real px = p.x + 0.41f * p.z * n.x, py = p.y + 0.37f * p.z;
-  const real none = real(-40.0f);
-  const TexelColor wide =
-      SampleTexture(view.textures, f.macro_id, px * (1.0f / 311.0f), py * (1.0f / 311.0f), none, false);
-  const TexelColor fine =
-      SampleTexture(view.textures, f.macro_id, px * (1.0f / 47.0f) + 0.37f, py * (1.0f / 47.0f), none, false);
-  const real fade = rmin(real(1.0f), 6.0f / rmax(width, real(1e-3f)));
-  const real amount = load(f.macro) * 2.0f;
-  const real light = (wide.rgb.x - 0.5f) * 1.1f + (fine.rgb.x - 0.5f) * 0.9f * fade;
-  const real warm = (wide.rgb.y - 0.5f) * 0.35f + (fine.rgb.y - 0.5f) * 0.2f * fade;
-  const real low = real(0.35f);
-  return make3(rmax(1.0f + amount * (light + warm), low), rmax(1.0f + amount * light, low),
-               rmax(1.0f + amount * (light - warm), low));
 }
 
 /// A point of the sun's disc for samples beside the centre one.
@@ -178,46 +87,77 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   real3 n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * front;
 
   // Texture coordinates and footprint: between the cone's width and its stretch on the slanted surface.
-  const real tu = load(f.uv[0]) * w + load(f.uv[2]) * u + load(f.uv[4]) * v;
-  const real tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
+  real tu = load(f.uv[0]) * w + load(f.uv[2]) * u + load(f.uv[4]) * v;
+  real tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
   const real width = load(rays.width + i);
   const real slant = rmax(rabs(dot3(facing, d)), real(0.03f));
   const real footprint =
       log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + load(f.texels_log2);
 
+  // Rooms behind panes: what is seen through them, and where their pictures hang.
+  const mask_t window = f.any_window ? load(f.interior) > 0.5f : mask_t(false);
+  RoomView room{};
+  if (f.any_window) {
+    room = LookInside(view, f, ToWorld(f, UnpackDirection(f.right)), ToWorld(f, UnpackDirection(f.up)),
+                      facing, d, w, u, v);
+    tu = tu + room.du;
+    tv = tv + room.dv;
+  }
+
   real3 color = load3(f.color[0], f.color[1], f.color[2]);
   real metallic = load(f.metallic), roughness = load(f.roughness);
   real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
-  if (f.any_base) color = color * SampleTexture(view.textures, f.base_id, tu, tv, footprint, true).rgb;
-  if (f.any_macro) color = color * MacroTint(view, f, p, n, width);
+  const TileCorners corners = ChooseCorners(f, tu, tv, footprint);
+  if (f.any_base) {
+    color = color * SampleTiles(view, f, f.base_id, corners, footprint, true,
+                                load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
+  }
   if (f.any_roughness) {
-    const TexelColor c = SampleTexture(view.textures, f.roughness_id, tu, tv, footprint, false);
-    roughness = roughness * c.rgb.y;
-    metallic = metallic * c.rgb.z;
+    const real3 c = SampleTiles(view, f, f.roughness_id, corners, footprint, false,
+                                make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
+    roughness = roughness * c.y;
+    metallic = metallic * c.z;
   }
   if (f.any_emission)
     emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true).rgb;
+  Noises noises{};
+  if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
+    noises = LookUpNoises(view, f, p, n, width);
+  if (f.any_macro) color = color * MacroTint(f, noises, width);
+  if (f.any_unit) color = color * UnitTint(f, tu, tv, footprint);
+  if (f.any_ground) WearGround(f, noises, p, tu, width, color, roughness);
+  if (f.any_leaf) color = LeafTint(f, color);
   roughness = rmin(rmax(roughness, real(0.03f)), real(1.0f));
 
   // Normal: map, panes, waves.
-  const real kind = load(f.kind);
-  if (f.any_normal) n = MapNormal(view, f, n, tu, tv, footprint, roughness);
+  real kind = load(f.kind);
+  if (f.any_normal) n = MapNormal(view, f, corners, n, footprint, roughness);
   if (f.any_glass) {
     const mask_t glass = kind == kGlass;
     n = sel3(glass, GlassNormal(f, n, p), n);
     roughness = sel(glass, rmin(roughness, real(0.08f)), roughness);
-    // Behind some large panes hang blinds: brighter than the dark room.
+    // Behind some large panes without a room hang blinds: brighter than the dark.
     const real blind = clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) *
                        clamp01((0.3f - rabs(facing.z)) * 8.0f);
-    const real shade = sel(glass, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
+    const real shade = sel(glass && !window, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
     color = color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
   }
+  if (f.any_window) FurnishPane(view, f, room, window, color, emission);
   if (f.any_water) {
     const mask_t water = (kind == kWater) && (facing.z > 0.5f);
     real lost = real(0.0f);
-    const real3 waves = water_normal(p.x, p.y, width / rroot(slant), lost);
+    const real3 waves = Waves(view, f, p, width / rroot(slant), lost);
     n = sel3(water, waves, n);
     roughness = sel(water, rmin(rroot(rroot(2.0f * lost + 1e-5f)), real(0.5f)), roughness);
+  }
+  real coat = load(f.clear_coat), coat_roughness = load(f.clear_coat_roughness);
+  real transmission = load(f.transmission);
+  if (view.wetness > 0 || view.snow > 0) {
+    Skin skin{color, metallic, roughness, coat, coat_roughness, transmission, kind, n, emission};
+    LieWeather(view, f, noises, p, facing, width, tu, skin);
+    color = skin.color, metallic = skin.metallic, roughness = skin.roughness, coat = skin.coat;
+    coat_roughness = skin.coat_roughness, transmission = skin.transmission, kind = skin.kind, n = skin.n;
+    emission = skin.emission;
   }
   // A bent normal must not look away from the viewer.
   const real towards = dot3(n, d);
@@ -230,9 +170,9 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store3(out.er + i, out.eg + i, out.eb + i, sel3(front > 0.0f, emission, emission * real(0.0f)));
   store(out.metallic + i, metallic);
   store(out.roughness + i, roughness);
-  store(out.transmission + i, load(f.transmission));
-  store(out.coat + i, load(f.coat));
-  store(out.coat_roughness + i, load(f.coat_roughness));
+  store(out.transmission + i, transmission);
+  store(out.coat + i, coat);
+  store(out.coat_roughness + i, coat_roughness);
   store(out.kind + i, kind);
 
   // Reflection: above the surface itself.
@@ -240,8 +180,9 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real below = dot3(r, facing);
   r = sel3(below < 0.01f, normalize3(r + facing * (0.02f - below)), r);
   store3(out.rx + i, out.ry + i, out.rz + i, r);
-  const mask_t sharp =
-      (kind == kGlass) || (kind == kWater) || ((roughness < kMirrorRoughness) && (metallic > 0.3f));
+  const mask_t sharp = (kind == kGlass) || (kind == kWater) ||
+                       ((roughness < kMirrorRoughness) && (metallic > 0.3f)) ||
+                       ((coat > 0.25f) && (coat_roughness < kMirrorRoughness));
   store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
 
   // Sun.

@@ -13,6 +13,10 @@
 namespace airsim360::internal {
 namespace {
 
+// The kernels know the kinds of wear by number.
+static_assert(static_cast<int>(GroundWear::kAsphalt) == 1 && static_cast<int>(GroundWear::kPaving) == 3 &&
+              static_cast<int>(GroundWear::kSoil) == 6 && static_cast<int>(GroundWear::kRoofRolls) == 8);
+
 constexpr int kNoiseSize = 256;
 constexpr int kOwnTextures = 2;
 
@@ -35,6 +39,42 @@ uint32_t PaneHash(Vec3f a, Vec3f b, Vec3f c) {
 Vec2f Sane(Vec2f uv) {
   const auto sane = [](float x) { return std::isfinite(x) ? std::clamp(x, -1e6f, 1e6f) : 0.0f; };
   return {sane(uv.x), sane(uv.y)};
+}
+
+// The rectangle that a right-angled triangle is half of, as a pane; false for other triangles.
+bool MakePane(const Vec3f (&p)[3], const float (&uv)[6], Vec3f normal, PaneRecord& pane) {
+  // The corner opposite the longest edge has the right angle.
+  int corner = 0;
+  for (int k = 1; k < 3; ++k) {
+    const auto opposite = [&](int i) { return Norm(p[(i + 1) % 3] - p[(i + 2) % 3]); };
+    if (opposite(k) > opposite(corner)) corner = k;
+  }
+  const Vec3f c = p[corner], one = p[(corner + 1) % 3], two = p[(corner + 2) % 3];
+  const Vec3f e1 = one - c, e2 = two - c;
+  const float l1 = Norm(e1), l2 = Norm(e2);
+  if (!(l1 > 1e-3f) || !(l2 > 1e-3f) || std::fabs(Dot(e1, e2)) > 0.01f * l1 * l2) return false;
+
+  // Upright is the side that climbs more; right follows from the face, so both halves agree.
+  const bool first_up = std::fabs(e1.z) * l2 > std::fabs(e2.z) * l1;
+  Vec3f up = first_up ? e1 * (1 / l1) : e2 * (1 / l2);
+  if (up.z < 0 || (up.z == 0 && up.y < 0)) up = up * -1.0f;
+  const Vec3f right = Normalized(Cross(up, normal));
+  const Vec3f centre = (one + two) * 0.5f;
+  pane.half_a = 0.5f * (first_up ? l2 : l1);
+  pane.half_b = 0.5f * (first_up ? l1 : l2);
+  for (int k = 0; k < 3; ++k) {
+    pane.a[k] = Dot(p[k] - centre, right);
+    pane.b[k] = Dot(p[k] - centre, up);
+  }
+  pane.right = PackDirection(right);
+  pane.up = PackDirection(up);
+
+  // Texture coordinates along a and b.
+  const float a1 = pane.a[1] - pane.a[0], b1 = pane.b[1] - pane.b[0], a2 = pane.a[2] - pane.a[0],
+              b2 = pane.b[2] - pane.b[0], det = a1 * b2 - a2 * b1;
+  pane.u_per_a = ((uv[2] - uv[0]) * b2 - (uv[4] - uv[0]) * b1) / det;
+  pane.v_per_b = ((uv[5] - uv[1]) * a1 - (uv[3] - uv[1]) * a2) / det;
+  return std::isfinite(pane.u_per_a) && std::isfinite(pane.v_per_b);
 }
 
 TriangleRecord MakeTriangle(const Mesh& mesh, uint32_t index, uint32_t material,
@@ -103,6 +143,17 @@ int32_t TextureIndex(TextureId id, const Scene& scene) {
              : id + kOwnTextures;
 }
 
+// Mean of a texture, linear; white without one.
+Vec3f MeanTexel(TextureId id, const Scene& scene) {
+  if (TextureIndex(id, scene) == 0) return {1, 1, 1};
+  const Texture& texture = scene.textures[id];
+  const Rgba8 p = texture.levels.back()(0, 0);
+  const auto decode = [&](uint8_t v) {
+    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
+  };
+  return {decode(p.r), decode(p.g), decode(p.b)};
+}
+
 MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   MaterialRecord record{};
   for (int i = 0; i < 3; ++i) {
@@ -121,6 +172,14 @@ MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   record.roughness_texture = TextureIndex(m.metallic_roughness_texture, scene);
   record.normal_texture = TextureIndex(m.normal_texture, scene);
   record.emission_texture = TextureIndex(m.emission_texture, scene);
+  const Vec3f mean = MeanTexel(m.base_color_texture, scene);
+  for (int i = 0; i < 3; ++i) record.mean[i] = mean[i];
+  record.tile = 1 / std::max(std::fabs(m.uv_scale.x), 1e-6f);
+  record.blend = m.blend_tiles ? 1.0f : 0.0f;
+  record.unit_columns = m.units.x;
+  record.unit_rows = m.units.y;
+  record.ground = static_cast<float>(m.ground);
+  record.interior = m.interior && m.kind == SurfaceKind::kGlass ? 1.0f : 0.0f;
   return record;
 }
 
@@ -162,16 +221,6 @@ TextureRecord PlainTexture(const uint32_t* texels, int size) {
   record.levels[0] = {texels, static_cast<float>(size), static_cast<float>(size)};
   record.size_log2 = std::log2(static_cast<float>(size));
   return record;
-}
-
-Vec3f MeanTexel(TextureId id, const Scene& scene) {
-  if (TextureIndex(id, scene) == 0) return {1, 1, 1};
-  const Texture& texture = scene.textures[id];
-  const Rgba8 p = texture.levels.back()(0, 0);
-  const auto decode = [&](uint8_t v) {
-    return texture.srgb ? SrgbToLinear(v) : static_cast<float>(v) / 255.0f;
-  };
-  return {decode(p.r), decode(p.g), decode(p.b)};
 }
 
 }  // namespace
@@ -230,6 +279,7 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
       }
     }
   });
+  AddPanes(scene);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     instances.push_back(
@@ -264,9 +314,10 @@ void SurfaceTables::SetTriangles(const Scene& scene, MeshId id, const Mesh& shap
     const UvTransform transform(scene.materials[part.material]);
     for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
       TriangleRecord& record = triangles[first_[id] + k];
-      const uint32_t pane = record.pane;  // of the mesh as built, so that panes do not flicker
+      const uint32_t pane = record.pane, window = record.window;  // as built, so that panes do not flicker
       record = MakeTriangle(shape, k, part.material, transform);
       record.pane = pane;
+      record.window = window;
     }
   }
 }
@@ -309,6 +360,25 @@ void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> mov
     }
     SetTriangles(scene, d.mesh, shape);
   });
+}
+
+void SurfaceTables::AddPanes(const Scene& scene) {
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    for (const MeshPart& part : mesh.parts) {
+      if (materials[part.material].interior == 0) continue;
+      for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
+        TriangleRecord& triangle = triangles[first_[m] + k];
+        const Vec3u t = mesh.triangles[k];
+        const Vec3f p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+        PaneRecord pane{};
+        if (!MakePane(p, triangle.uv, Normalized(Cross(p[1] - p[0], p[2] - p[0])), pane)) continue;
+        pane.hash = triangle.pane;
+        panes.push_back(pane);
+        triangle.window = static_cast<uint32_t>(panes.size());
+      }
+    }
+  }
 }
 
 }  // namespace airsim360::internal

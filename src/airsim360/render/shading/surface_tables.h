@@ -28,6 +28,7 @@ struct SurfaceTables {
   std::vector<TriangleRecord> triangles;
   std::vector<InstanceRecord> instances;
   std::vector<MaterialRecord> materials;
+  std::vector<PaneRecord> panes;
   std::vector<TextureRecord> textures;  ///< 0 is white, 1 the macro variation noise, then the scene's
   /// Per material: base colour including the mean of its texture; for light that bounces.
   std::vector<Vec3f> mean_colors;
@@ -37,6 +38,8 @@ struct SurfaceTables {
  private:
   void SetTriangles(const Scene& scene, MeshId id, const Mesh& shape);
   const std::vector<uint32_t>& Welds(const Mesh& mesh, MeshId id);
+  /// Panes of materials with rooms behind.
+  void AddPanes(const Scene& scene);
 
   std::vector<uint32_t> own_texels_;
   std::vector<uint32_t> first_;  // by mesh: its first triangle

@@ -21,7 +21,7 @@ void SideWindow(PropBuilder& b, float side, float y0, float y1, float z0, float 
 Model MakeBus(uint32_t variant, uint64_t) {
   PropBuilder b("bus");
   const Vec3f stripe = variant ? Vec3f{0.03f, 0.22f, 0.11f} : Vec3f{0.02f, 0.08f, 0.30f};
-  Material paint = Paint({0.68f, 0.68f, 0.67f}, 0.25f);
+  const Material paint = CarPaint({0.68f, 0.68f, 0.67f});
   b.Use(paint);
   // The roof is rounded across, nose and tail along; the outline is seen from the front and runs along Y.
   const auto outline = RoundedRectangle({-kHalfWidth, 0.32f}, {kHalfWidth, kHeight}, 0.20f, 5);
@@ -31,7 +31,7 @@ Model MakeBus(uint32_t variant, uint64_t) {
       RoundedRectangle({-kHalfWidth + 0.06f, 0.36f}, {kHalfWidth - 0.06f, kHeight - 0.06f}, 0.20f, 5);
   b.Prism(face, -kHalfLength, kHalfLength);
   b.Place({});
-  b.Use(Paint(stripe, 0.25f));
+  b.Use(CarPaint(stripe));
   for (float side : {1.0f, -1.0f})
     SideWindow(b, side, -kHalfLength + 0.15f, kHalfLength - 0.15f, 0.62f, 0.86f);
   b.Use(Plastic({0.02f, 0.02f, 0.021f}, 0.5f));

@@ -1,4 +1,5 @@
 // Cars and vans: body, grille, lights, plates, mirrors and wheels.
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/worlds/props/car_shape.h"
@@ -52,8 +53,10 @@ void AddDetails(PropBuilder& b, const CarShape& s, const Material& paint) {
 
 Model Assemble(const char* name, const CarShape& s, Vec3f color) {
   PropBuilder b(name);
-  Material paint = Paint(color, 0.22f);
-  paint.name = "car paint";
+  // Greys and silvers are metallic paints, white, black and bright colours mostly plain.
+  const float most = std::max({color.x, color.y, color.z}), least = std::min({color.x, color.y, color.z});
+  const bool grey = most > 0.05f && most < 0.5f && least > 0.85f * most;
+  const Material paint = CarPaint(color, grey ? 0.45f : 0.0f);
   AddCarBody(b, s, paint);
   AddDetails(b, s, paint);
   return b.Finish();

@@ -31,6 +31,17 @@ float BarkHeight(float u, float v) {
 }  // namespace
 
 Material Paint(Vec3f color, float roughness) { return Make("paint", color, roughness); }
+Material CarPaint(Vec3f color, float metallic) {
+  // Flakes lie a few degrees off flat: a broad, soft highlight of the paint's own colour under the sharp one of the
+  // lacquer. They are far too small to be seen one by one.
+  Material m = Make("car paint", color, metallic > 0 ? 0.42f : 0.55f, metallic);
+  m.clear_coat = 1;
+  m.clear_coat_roughness = 0.04f;
+  return m;
+}
+
+Material Chrome() { return Make("chrome", {0.56f, 0.565f, 0.57f}, 0.06f, 1); }
+
 Material Metal(Vec3f color, float roughness) { return Make("metal", color, roughness, 1); }
 Material CastIron() { return Make("cast iron", {0.045f, 0.046f, 0.048f}, 0.5f, 0.4f); }
 Material Plastic(Vec3f color, float roughness) { return Make("plastic", color, roughness); }
@@ -58,7 +69,7 @@ Material Glow(Vec3f color, float nits, Burns burns) {
 }
 
 Material Leaf(Vec3f color, float transmission) {
-  Material m = Make("leaf", color, 0.78f);
+  Material m = Make("leaf", color, 0.52f);
   m.kind = SurfaceKind::kFoliage;
   m.transmission = transmission;
   return m;

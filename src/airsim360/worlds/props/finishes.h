@@ -9,6 +9,9 @@ class PropBuilder;
 
 /// Linear colours. Names describe the finish, so that equal finishes of different props are shared.
 Material Paint(Vec3f color, float roughness = 0.4f);  ///< painted or powder-coated metal
+/// Lacquered car body: colour coat with aluminium flakes (`metallic`: their share, 0 for plain colours) under clear coat.
+Material CarPaint(Vec3f color, float metallic = 0);
+Material Chrome();
 Material Metal(Vec3f color = {0.56f, 0.57f, 0.58f}, float roughness = 0.35f);  ///< bare metal
 Material CastIron();
 Material Plastic(Vec3f color, float roughness = 0.45f);
