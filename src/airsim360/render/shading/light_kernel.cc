@@ -12,11 +12,11 @@ constexpr float kSunAlpha = 0.006f;   // about the sine of the sun's diameter of
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
 
-/// What is seen in a skin of this roughness: the traced reflection, else sky and ground dimmed as the probes
-/// say.
-KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3 r, real3 around,
-                        real roughness, mask_t traced) {
+/// What is seen in the surface: the traced reflection, else sky and ground dimmed as the probes say.
+KERNEL real3 Reflection(const ShadeView& view, const SurfaceSet& s, int i, real3 r, real3 around) {
+  const real roughness = load(s.roughness + i);
   const real3 rough = around * real(SHADE_INV_PI);
+  const mask_t traced = load(s.traced + i) > 0.5f;
   const mask_t shiny = ((roughness < 0.5f) || (load(s.metallic + i) > 0.2f)) && !traced;
   real3 light = rough;
   if (view.has_sky > 0.5f && stdx::any_of(shiny)) {

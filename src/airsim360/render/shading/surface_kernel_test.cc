@@ -176,10 +176,10 @@ Mean MeanOver(const Sample& sample, Vec3f d) {
   Mean mean;
   for (int i = 0; i < internal::kBatch; ++i) {
     mean.albedo += s->ag[i] / internal::kBatch;
-    mean.coat += s->clear_coat[i] / internal::kBatch;
-    mean.least_coat_roughness = std::min<double>(mean.least_coat_roughness, s->clear_coat_roughness[i]);
+    mean.coat += s->coat[i] / internal::kBatch;
+    mean.least_coat_roughness = std::min<double>(mean.least_coat_roughness, s->coat_roughness[i]);
     EXPECT_LE(s->ar[i], 0.92f);
-    EXPECT_LE(s->clear_coat[i], 1.0f);
+    EXPECT_LE(s->coat[i], 1.0f);
     EXPECT_NEAR(s->nx[i] * s->nx[i] + s->ny[i] * s->ny[i] + s->nz[i] * s->nz[i], 1, 1e-4);
   }
   return mean;
@@ -222,8 +222,8 @@ TEST(Weather, DryAirChangesNothing) {
   m.clear_coat_roughness = 0.25f;
   const auto s = Sample(ground, m).See({{0, 0.2f, 0.3f}}, {0, 0, -1});
   EXPECT_EQ(s->ag[0], 0.3f);
-  EXPECT_EQ(s->clear_coat[0], 0.5f);
-  EXPECT_EQ(s->clear_coat_roughness[0], 0.25f);
+  EXPECT_EQ(s->coat[0], 0.5f);
+  EXPECT_EQ(s->coat_roughness[0], 0.25f);
 }
 
 // Noise of which mixing must keep mean and contrast.
