@@ -30,6 +30,11 @@ void Curve::Index() {
     const Vec2f v = points_[i] - points_[i - 1];
     s_.push_back(s_.back() + std::hypot(v.x, v.y));
   }
+  low_ = high_ = points_.front();
+  for (Vec2f p : points_) {
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+  }
   // Circles around runs of segments let Distance skip most of the line.
   constexpr size_t kRun = 16;
   for (size_t first = 0; first + 1 < points_.size(); first += kRun) {
@@ -62,6 +67,9 @@ Curve::Nearest Curve::Find(Vec2f p) const {
 
 float Curve::Distance(Vec2f p, float limit) const {
   float best = limit;
+  const float outside_x = std::max({low_.x - p.x, 0.0f, p.x - high_.x}),
+              outside_y = std::max({low_.y - p.y, 0.0f, p.y - high_.y});
+  if (outside_x * outside_x + outside_y * outside_y >= best * best) return best;
   for (const Chunk& chunk : chunks_) {
     const Vec2f to = p - chunk.center;
     const float reach = best + chunk.radius;

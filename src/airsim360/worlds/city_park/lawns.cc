@@ -28,8 +28,8 @@ Lawns::Lawns(SceneBuilder& builder, const Layout& layout)
   ParallelFor(kSide, [&](int64_t y) {
     for (int x = 0; x < kSide; ++x) {
       const Vec2f p{static_cast<float>(x - kHalf) + 0.5f, static_cast<float>(y - kHalf) + 0.5f};
-      if (std::hypot(p.x, p.y) > kParkRadius || layout.Lake(p) < 1.02f || layout.BeyondRoad(p) < 0 ||
-          layout.PathDistance(p, 3) < kPathHalf)
+      if (std::hypot(p.x, p.y) > kParkRadius || (layout.Lake(p) < 1.02f && layout.Island(p) < 0.6f) ||
+          layout.BeyondRoad(p) < 0 || layout.PathDistance(p, 3) < kPathHalf)
         continue;
       piece_[static_cast<size_t>(y) * kSide + static_cast<size_t>(x)] = kFree;
     }
@@ -87,7 +87,7 @@ bool Lawns::IsLawn(Vec2f p) const {
   const int cell = Cell(p);
   if (cell < 0 || piece_[static_cast<size_t>(cell)] == kBlocked) return false;
   return layout_.BeyondRoad(p) > 0.25f && layout_.PathDistance(p, 2) > kPathHalf + 0.12f &&
-         layout_.Lake(p) > 1.05f;
+         (layout_.Lake(p) > 1.05f || layout_.Island(p) > 0.62f);
 }
 
 }  // namespace airsim360::internal::park

@@ -52,6 +52,7 @@ class Curve {
   std::vector<Vec2f> points_;
   std::vector<float> s_;
   std::vector<Chunk> chunks_;
+  Vec2f low_, high_;  // of all points
 };
 
 /// Where a side road meets the main road: main road's arc length, and on which side it leaves.

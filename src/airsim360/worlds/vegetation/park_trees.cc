@@ -183,8 +183,8 @@ Model MakeParkTree(ParkTree species, TreeDetail detail, int individual, uint64_t
                        : species == ParkTree::kMaple ? Maple(i)
                        : species == ParkTree::kCork  ? Cork(i)
                                                      : Poplar(i);
-  s.transmission = 0.95f;
-  s.depth = 0.45f;
+  s.transmission = 0.85f;
+  s.depth = 0.6f;
   if (detail == TreeDetail::kMiddle) s = Simplified(s, kMiddleShare);
   if (detail == TreeDetail::kFar) s = Simplified(s, kFarLeaves / static_cast<float>(s.leaves));
   return GrowBroadleaf(s, LeavesOf(species), key);

@@ -77,7 +77,7 @@ Model GrowWillow(float height, float radius, float detail, uint64_t seed) {
     if (nodes[i].tips <= 4 && nodes[i].p.z > s.clear_trunk) sites.push_back(i);
   }
   // Far trees have fewer and broader shoots.
-  const int shoots = static_cast<int>(2300 * (detail < 1 ? 3.2f * detail : 1));
+  const int shoots = static_cast<int>(3400 * (detail < 1 ? 3.2f * detail : 1));
   const float leaf = detail < 1 ? std::min(0.55f, 0.15f * 0.62f / std::sqrt(detail)) : 0.15f;
   const int per_segment = detail < 1 ? 1 : 4;
   for (int i = 0; i < shoots; ++i) {
