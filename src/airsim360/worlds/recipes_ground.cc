@@ -9,8 +9,8 @@
 namespace airsim360::internal {
 namespace {
 
-// Stones of several rocks on fines.
-void PaintGravel(SurfaceMaps& m, const StoneOptions& stones, Vec3f fines, uint32_t seed) {
+// Stones of several rocks, `pale` times as bright as basalt and sandstone are, on fines.
+void PaintGravel(SurfaceMaps& m, const StoneOptions& stones, Vec3f fines, float pale, uint32_t seed) {
   static constexpr std::array<Vec3f, 6> kRocks = {{{0.21f, 0.20f, 0.185f},
                                                    {0.13f, 0.13f, 0.132f},
                                                    {0.27f, 0.245f, 0.205f},
@@ -21,8 +21,8 @@ void PaintGravel(SurfaceMaps& m, const StoneOptions& stones, Vec3f fines, uint32
   const Field fine = m.Noise(seed + 1, 0.012f, 3, 0.7f), soft = m.Noise(seed + 2, 0.25f, 5, 0.55f);
   m.ForEach([&](size_t i, float, float) {
     const uint32_t id = stone.id[i];
-    const Vec3f rock =
-        kRocks[static_cast<size_t>(HashUnit(id, seed, 1) * 6)] * (0.8f + 0.4f * HashUnit(id, seed, 2));
+    const Vec3f rock = kRocks[static_cast<size_t>(HashUnit(id, seed, 1) * 6)] *
+                       (pale * (0.8f + 0.4f * HashUnit(id, seed, 2)));
     // Deep stones and the rims between them lie in each other's shade.
     const float shade = 0.62f + 0.38f * Step(-0.011f, 0.0f, stone.height[i]);
     const Vec3f c = id == 0 ? fines * 0.7f : rock * (1 - 0.22f * Step(0.7f, 1.0f, stone.rim[i]));
@@ -96,25 +96,27 @@ void PaintTurf(SurfaceMaps& m, const Turf& turf) {
     }
   }
   // Blades stand far steeper than a normal map can hold: what it shows is their sway.
-  for (float& h : m.height.values) h *= 0.11f;
+  for (float& h : m.height.values) h *= 0.38f;
   Flatten(m, 0.18f);
 }
 
 }  // namespace
 
 void GravelPath(SurfaceMaps& m) {
-  PaintGravel(m, {0.003f, 0.011f, 1.7f, 0.45f, 0.7f, -0.008f, -0.002f, 0.15f}, {0.30f, 0.25f, 0.19f}, 61);
+  PaintGravel(m, {0.003f, 0.011f, 1.7f, 0.45f, 0.42f, -0.008f, -0.002f, 0.15f}, {0.30f, 0.25f, 0.19f}, 1.4f,
+              61);
 }
 
 void RoofGravel(SurfaceMaps& m) {
-  PaintGravel(m, {0.004f, 0.018f, 2.0f, 0.35f, 0.75f, -0.010f, -0.002f, 0.15f}, {0.12f, 0.115f, 0.11f}, 131);
+  PaintGravel(m, {0.004f, 0.018f, 2.0f, 0.35f, 0.75f, -0.010f, -0.002f, 0.15f}, {0.12f, 0.115f, 0.11f}, 1,
+              131);
 }
 
 void Grass(SurfaceMaps& m) { PaintTurf(m, {26000, 0.012f, 0.055f, 0.13f, 260, 71}); }
 
 // Crumbs and clods on fine earth, damp below, with bits of straw.
 void Soil(SurfaceMaps& m) {
-  const StoneOptions clods{0.002f, 0.022f, 0.9f, 0.15f, 0.55f, -0.006f, 0.0f, 0.1f};
+  const StoneOptions clods{0.002f, 0.022f, 0.9f, 0.15f, 0.34f, -0.006f, 0.0f, 0.1f};
   const StoneField clod = DropStones(m.size, m.tile, -0.006f, clods, 81);
   const Field fine = m.Noise(82, 0.01f, 3, 0.75f), mid = m.Noise(83, 0.08f, 5, 0.6f);
   m.ForEach([&](size_t i, float, float) {
@@ -122,7 +124,7 @@ void Soil(SurfaceMaps& m) {
     const Vec3f earth = Vec3f{0.165f, 0.118f, 0.076f} * (0.85f + 0.3f * HashUnit(clod.id[i], 85));
     const Vec3f stone = Mix(Vec3f{0.24f, 0.22f, 0.19f}, Vec3f{0.34f, 0.31f, 0.27f}, HashUnit(clod.id[i], 86));
     m.SetColor(i, (pebble ? stone : earth) * (1 + 0.10f * fine[i] + 0.09f * mid[i]));
-    m.height[i] = clod.height[i] + 0.0006f * fine[i] + 0.003f * mid[i];
+    m.height[i] = clod.height[i] + 0.0004f * fine[i] + 0.0019f * mid[i];
     m.roughness[i] = (pebble ? 0.5f : 0.68f) + 0.03f * fine[i];
   });
   Flatten(m, 0.2f);

@@ -23,7 +23,7 @@ void Slabs(SurfaceMaps& m) {
     y *= (1 - 0.58f * joint) * (1 - 0.55f * split) * (1 - 0.07f * worn);
     m.SetColor(i, Mix(Vec3f{1.03f, 1, 0.93f}, Vec3f{0.98f, 1, 1.0f}, HashUnit(slab.id, 6)) * y);
     m.height[i] = 0.0022f * (tone - 0.5f) - 0.0045f * joint - 0.0008f * worn - 0.002f * split +
-                  0.00022f * broom[i] + 0.00016f * grain[i];
+                  0.00042f * broom[i] + 0.00030f * grain[i];
     m.roughness[i] = 0.58f + 0.035f * grain[i] + 0.05f * joint - 0.03f * soft[i] * 0.5f;
   });
   // Trodden gum.
@@ -73,7 +73,7 @@ void StoneSetts(SurfaceMaps& m) {
     const Vec3f moss =
         Mix(Vec3f{0.12f, 0.105f, 0.085f}, Vec3f{0.075f, 0.09f, 0.045f}, Step(0.0f, 1.4f, soft[i]));
     m.SetColor(i, Mix(stone_color, moss * (1 + 0.15f * grain[i]), joint));
-    m.height[i] = 0.0062f * head + 0.003f * (tone - 0.5f) * head + 0.0003f * grain[i];
+    m.height[i] = 0.0140f * head + 0.006f * (tone - 0.5f) * head + 0.0007f * grain[i];
     m.roughness[i] = 0.56f + 0.05f * grain[i] + 0.2f * joint - 0.05f * head;
   });
 }

@@ -44,7 +44,7 @@ void Slate(SurfaceMaps& m) {
     const float step = std::floor(1.4f * bed[i]);
     m.SetColor(i, color * (1 + 0.10f * grain[i] + 0.06f * step) * (1 - 0.5f * joint));
     m.height[i] =
-        0.012f * slate.y + 0.0030f * (tone - 0.5f) - 0.008f * joint + 0.0009f * step + 0.0005f * grain[i];
+        0.019f * slate.y + 0.0048f * (tone - 0.5f) - 0.013f * joint + 0.0014f * step + 0.0005f * grain[i];
     m.roughness[i] = 0.62f + 0.10f * grain[i] * 0.6f + 0.10f * (h - 0.5f);
   });
 }
@@ -67,7 +67,7 @@ void Planks(SurfaceMaps& m) {
     const float c = 0.5f * (0.82f + 0.34f * tone) * (1 + 0.10f * r + 0.05f * fibre[i] + 0.05f * soft[i]) *
                     (1 - 0.75f * joint) * (1 - 0.4f * check);
     m.SetColor(i, Vec3f{1.15f, 0.92f, 0.68f} * c);
-    m.height[i] = -0.006f * joint - 0.0012f * check + 0.00028f * r + 0.00018f * fibre[i];
+    m.height[i] = -0.0096f * joint - 0.0019f * check + 0.00045f * r + 0.00029f * fibre[i];
     m.roughness[i] = 0.60f + 0.035f * r + 0.1f * joint;
   });
 }

@@ -130,7 +130,7 @@ void Concrete(SurfaceMaps& m) {
     m.SetColor(i, Mix(Vec3f{0.50f, 0.487f, 0.460f}, Vec3f{0.465f, 0.46f, 0.45f},
                       std::clamp(0.5f + 0.4f * mid[i], 0.0f, 1.0f)) *
                       tone);
-    m.height[i] = 0.0009f * soft[i] + 0.0003f * mid[i] + 0.00022f * fine[i];
+    m.height[i] = 0.0018f * soft[i] + 0.0006f * mid[i] + 0.00045f * fine[i];
     m.roughness[i] = 0.52f + 0.012f * mid[i] + 0.010f * fine[i] + 0.03f * stain;
   });
   const auto holes = static_cast<uint32_t>(300 * m.tile * m.tile);

@@ -7,6 +7,9 @@
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
+/// A function of its own: inlined into the kernel, these make it so large that compilers take minutes.
+#define SEPARATE static __attribute__((noinline))
+
 // ---- Tiles mixed from patches (after Heitz & Neyret 2018 and Mikkelsen 2022)
 // --------------------------------------
 
@@ -19,7 +22,7 @@ struct TileCorners {
 constexpr float kCellSize = 0.75f;  // edge of the triangular grid, in tiles
 
 /// Triangular grid over the texture plane; every corner shifts its copy of the texture by its own hash.
-KERNEL TileCorners ChooseCorners(const Fetched& f, real u, real v, real footprint) {
+SEPARATE TileCorners ChooseCorners(const Fetched& f, real u, real v, real footprint) {
   TileCorners c;
   c.u[0] = c.u[1] = c.u[2] = u;
   c.v[0] = c.v[1] = c.v[2] = v;
@@ -81,7 +84,7 @@ struct Noises {
   real detail;
 };
 
-KERNEL Noises LookUpNoises(const ShadeView& view, const Fetched& f, real3 p, real3 n, real width) {
+SEPARATE Noises LookUpNoises(const ShadeView& view, const Fetched& f, real3 p, real3 n, real width) {
   // Walls see the noise from the side: height counts as a way along.
   const real px = p.x + 0.41f * p.z * n.x, py = p.y + 0.37f * p.z;
   const real none = real(-40.0f);
@@ -137,8 +140,8 @@ constexpr float kAsphalt = 1, kCarriageway = 2, kPaving = 3, kLawn = 4, kGravel 
                 kRoofRolls = 8;
 
 /// Lanes of every kind of ground that the vector holds; see shading_ground.h.
-KERNEL void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color,
-                       real& roughness) {
+SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color,
+                         real& roughness) {
   const real ground = load(f.ground);
   const real zero = real(0.0f), one = real(1.0f);
   const mask_t street = (ground == kCarriageway), asphalt = street || (ground == kAsphalt);
@@ -186,8 +189,8 @@ struct RoomView {
   real du, dv;
 };
 
-KERNEL RoomView LookInside(const ShadeView& view, const Fetched& f, real3 right, real3 up, real3 facing,
-                           real3 d, real w, real u, real v) {
+SEPARATE RoomView LookInside(const ShadeView& view, const Fetched& f, real3 right, real3 up, real3 facing,
+                             real3 d, real w, real u, real v) {
   const real a = load(f.corner_a[0]) * w + load(f.corner_a[1]) * u + load(f.corner_a[2]) * v;
   const real b = load(f.corner_b[0]) * w + load(f.corner_b[1]) * u + load(f.corner_b[2]) * v;
   const real room = load(f.room);
@@ -257,8 +260,8 @@ KERNEL real OpenAbove(const ShadeView& view, real3 p, real3 facing) {
 }
 
 /// Film of water with puddles, then snow over it.
-KERNEL void LieWeather(const ShadeView& view, const Fetched& f, const Noises& s, real3 p, real3 facing,
-                       real width, real u, Skin& k) {
+SEPARATE void LieWeather(const ShadeView& view, const Fetched& f, const Noises& s, real3 p, real3 facing,
+                         real width, real u, Skin& k) {
   const real open = OpenAbove(view, p, facing), zero = real(0.0f), one = real(1.0f);
   const mask_t leaf = k.kind == kFoliage, solid = (k.kind != kGlass) && (k.kind != kWater);
   const real up = sel(leaf, rabs(facing.z), facing.z), ground = load(f.ground);
