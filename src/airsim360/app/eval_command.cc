@@ -67,7 +67,6 @@ void AddEvalCommand(CLI::App& app, GlobalOptions& globals) {
                     "FLIP: pixels per degree that the viewer sees (default 67.02)");
   image->add_flag("--wrap", arguments->flip.wrap_columns,
                   "FLIP: the left border goes on at the right one (panoramas)");
-  image->add_flag("--json", globals.json, "machine-readable result on stdout");
   image->callback([arguments, &globals] { RunImage(*arguments, globals); });
 }
 

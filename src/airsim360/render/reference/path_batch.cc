@@ -114,8 +114,9 @@ void PathBatch::Arrive(RaySet& hits, uint32_t step) {
     const bool lit_by_room = path.bounces > 0 && path.pdf < kMirrorPdf && Luminance(scene_.room_light) > 0;
     if (lit_by_room)
       path.radiance += path.throughput * scene_.room_light * (0.35f + 0.65f * t * t / (t * t + 0.5f));
-    if (lit_by_room || path.bounces >= max_bounces_) path.throughput = {};
-    any |= Luminance(path.throughput) > 0;
+    if (lit_by_room) path.throughput = {};
+    // After its last bounce a path may still pass clear panes.
+    any |= Luminance(path.throughput) > 0 && (path.bounces < max_bounces_ || scene_.clear_panes);
   }
   if (!any) return;
   if (next_event_ && scene_.lights.has_sun()) JoinSun(step);
@@ -186,7 +187,7 @@ void PathBatch::JoinLights(bool of_sky) {
     const Path& path = paths_[at_.slot[i]];
     const Vec3f light = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]} *
                         lights_[i].radiance * (1 / (lights_[i].pdf + scatter_.pdf[i]));
-    if (lights_[i].pdf == 0 || !(Luminance(light) > 0)) continue;
+    if (path.bounces >= max_bounces_ || lights_[i].pdf == 0 || !(Luminance(light) > 0)) continue;
     const int k = shadow.count++;
     const Vec3f d{scatter_.x[i], scatter_.y[i], scatter_.z[i]}, from = LeaveSurface(at_, surfaces_, i, d);
     shadow.ox[k] = from.x, shadow.oy[k] = from.y, shadow.oz[k] = from.z;
@@ -232,13 +233,15 @@ void PathBatch::Scatter(uint32_t step) {
   for (int i = 0; i < at_.count; ++i) {
     Path& path = paths_[at_.slot[i]];
     path.throughput = path.throughput * Vec3f{scatter_.r[i], scatter_.g[i], scatter_.b[i]};
+    const bool straight = scatter_.event[i] > 1.5f;
     if (scatter_.event[i] == 0 || !(Luminance(path.throughput) > 0)) continue;
+    if (path.bounces >= max_bounces_ && !straight) continue;
     const Vec3f d{scatter_.x[i], scatter_.y[i], scatter_.z[i]};
     path.origin = LeaveSurface(at_, surfaces_, i, d);
     path.direction = d;
     path.width = at_.width[i];
     // Through a pane a path goes on as what it was.
-    if (scatter_.event[i] < 1.5f) {
+    if (!straight) {
       path.pdf = scatter_.pdf[i];
       path.from = {surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
       path.from_normal = LampNormal(surfaces_, i);

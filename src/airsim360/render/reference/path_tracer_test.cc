@@ -68,8 +68,8 @@ Mesh Quad(Vec3f a, Vec3f b, Vec3f c, Vec3f d) {
 Mesh Ground(float half, float z = 0) {
   return Quad({-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z});
 }
-// The six sides of [-half, half]^3.
-Mesh Box(float half, Vec3f center = {}) {
+// The six sides of [-half, half]^3 about a point, seen from outside or, as a room, from inside.
+Mesh Box(float half, Vec3f center = {}, bool room = false) {
   constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   Mesh mesh;
@@ -77,8 +77,9 @@ Mesh Box(float half, Vec3f center = {}) {
     mesh.positions.push_back(center +
                              Vec3f{i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half});
   for (const auto& q : kQuads) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
+    const int second = room ? 3 : 1, last = room ? 1 : 3;
+    mesh.triangles.push_back({q[0], q[second], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[last]});
   }
   return mesh;
 }
@@ -108,7 +109,7 @@ TEST(PathTracer, WhiteRoomThatGlowsAddsItsLightAtEveryBounceWithinOnePerCent) {
   World world;
   Material glowing = Matte(1);
   glowing.emission = {0.5f, 0.5f, 0.5f};
-  world.Add(Box(2), glowing);
+  world.Add(Box(2, {}, true), glowing);
   world.Build();
   for (int bounces : {0, 1, 3, 6}) {
     const Traced t =
@@ -121,7 +122,7 @@ TEST(PathTracer, GreyRoomThatGlowsShowsTheSeriesOfItsAlbedo) {
   World world;
   Material glowing = Matte(0.5f);
   glowing.emission = {1, 1, 1};
-  world.Add(Box(2), glowing);
+  world.Add(Box(2, {}, true), glowing);
   world.Build();
   double mean_albedo = 0;
   for (int i = 0; i < 1000; ++i) {
