@@ -73,7 +73,9 @@ std::shared_ptr<const Scene> Everything() {
 
 /// The scene after a way out and back in.
 std::shared_ptr<const Scene> RoundTrip(const Scene& scene) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "round_trip.glb";
+  // Tests run side by side: a file for each.
+  const auto file = std::filesystem::path(testing::TempDir()) /
+                    (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".glb");
   WriteFileAtomically(file, EncodeGlb(scene));
   const auto back = ImportScene(file);
   std::filesystem::remove(file);

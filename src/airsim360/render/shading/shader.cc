@@ -64,7 +64,7 @@ float Shader::Impl::ChooseExposure(const Scene& scene) const {
   constexpr float kClearShare = 0.15f, kWeight = 0.6f;
   const float diffuse = Luminance(sky->Irradiance({0, 0, 1})) / std::max(light, kDarkest);
   const float metered = 1 / (1 + kWeight * std::max(0.0f, diffuse - kClearShare));
-  return metered * kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.9f);
+  return metered * kGreyLevel * kPi / (0.18f * kNoon) * std::pow(kNoon / std::max(light, kDarkest), 0.85f);
 }
 
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
