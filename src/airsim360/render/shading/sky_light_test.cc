@@ -74,7 +74,8 @@ TEST(SkyLight, DuskIsRedOverTheSunAndBlueAtTheZenith) {
               behind = dusk.Radiance(Direction(kPi, 0.3));
   EXPECT_GT(low.x, 1.5f * low.z);
   EXPECT_GT(zenith.z, 1.3f * zenith.x);
-  EXPECT_GT(Luminance(low), 5 * Luminance(zenith));
+  // The glow is brightest some degrees up, where less air hides it.
+  EXPECT_GT(Luminance(dusk.Radiance(Direction(0, 0.1))), 5 * Luminance(zenith));
   EXPECT_GT(Luminance(low), 2 * Luminance(behind));
 }
 
