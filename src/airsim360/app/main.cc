@@ -139,7 +139,7 @@ int ParseAndRun(int argc, char** argv) {
     // A misspelt flag may also be why a required one is missing: it is named first.
     throw InputError(UnknownArgumentMessage(app, error));
   }
-  if (std::fflush(stdout) != 0) throw RuntimeError("cannot write to stdout");
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw RuntimeError("cannot write to stdout");
   return 0;
 }
 

@@ -236,8 +236,12 @@ std::vector<Vec2f> PlantTrees(Park& park) {
   planter.Solitary(ParkTree::kElm, {4, 19.5f}, 0.95f, 0, 9);
   uint32_t willow = 0;
   for (Vec2f p : {Vec2f{-88, 70}, Vec2f{-86, 92}, Vec2f{-66, 57}, Vec2f{-8, 114}, Vec2f{6, 90},
-                  Vec2f{-60, 117}, Vec2f{-59, 88}})
+                  Vec2f{-60, 117}, Vec2f{-59, 88}}) {
+    // By the water, not in it.
+    while (park.layout.Lake(p) < 1.07f && park.layout.Island(p) < 0.6f)
+      p = kLakeCenter + (p - kLakeCenter) * 1.02f;
     planter.Solitary(ParkTree::kWillow, p, 0.9f + 0.3f * planter.Uniform(), willow++, 7);
+  }
   planter.PlantPark();
   planter.PlantShrubs();
   planter.ScatterRocks();
