@@ -134,9 +134,9 @@ BroadleafSpecies Poplar(int individual) {
 
 // Albedo of leaves: published reflectances of the visible range, a fresh and a deep tone and between.
 const Texture& LeavesOf(ParkTree species) {
-  static const Vec3f elm[] = {{0.076f, 0.120f, 0.029f}, {0.089f, 0.132f, 0.034f}, {0.066f, 0.107f, 0.029f}};
-  static const Vec3f maple[] = {{0.095f, 0.144f, 0.034f}, {0.110f, 0.154f, 0.039f}, {0.081f, 0.127f, 0.034f}};
-  static const Vec3f cork[] = {{0.105f, 0.149f, 0.041f}, {0.120f, 0.161f, 0.046f}, {0.090f, 0.134f, 0.039f}};
+  static const Vec3f elm[] = {{0.064f, 0.101f, 0.024f}, {0.075f, 0.111f, 0.029f}, {0.055f, 0.090f, 0.024f}};
+  static const Vec3f maple[] = {{0.080f, 0.121f, 0.029f}, {0.092f, 0.129f, 0.033f}, {0.068f, 0.107f, 0.029f}};
+  static const Vec3f cork[] = {{0.088f, 0.125f, 0.034f}, {0.101f, 0.135f, 0.039f}, {0.076f, 0.113f, 0.033f}};
   static const Vec3f poplar[] = {
       {0.090f, 0.137f, 0.049f}, {0.107f, 0.149f, 0.056f}, {0.076f, 0.120f, 0.041f}};
   static const Texture atlases[4] = {LeafAtlas("leaves elm", elm), LeafAtlas("leaves maple", maple),
