@@ -60,7 +60,7 @@ class Cache(ProgramTest):
         self.cache.write_text("a file in its place")
         again, said = self.shoot("again")
         self.assertEqual(again, good)
-        self.assertEqual(said.count("cache:"), 1, said)
+        self.assertEqual(said.count("warning: cache:"), 1, said)
 
 
 if __name__ == "__main__":
