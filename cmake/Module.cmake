@@ -36,7 +36,7 @@ function(airsim360_module name)
   elseif(tests)
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE airsim360_${name} ${ARG_PRIVATE_LIBS} GTest::gtest_main)
-    gtest_discover_tests(${name}_test WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} PROPERTIES TIMEOUT 300 DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name}_test WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} PROPERTIES TIMEOUT 300 ENVIRONMENT "AIRSIM360_CACHE=" DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()
 

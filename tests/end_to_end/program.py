@@ -12,6 +12,8 @@ import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("AIRSIM360", str(ROOT / "build/bin/airsim360"))
+# Nothing is written into the home of whoever runs the tests.
+os.environ.setdefault("AIRSIM360_CACHE", "")
 
 
 def run(*arguments, **options):

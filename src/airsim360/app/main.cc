@@ -4,6 +4,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <string>
@@ -42,7 +43,8 @@ uint64_t ParseSeed(const std::string& text) {
   return seed;
 }
 
-// Adds the flags of GlobalOptions to one command. `limit` holds the thread limit once --threads is parsed.
+// Adds the flags of GlobalOptions to one command, and --no-cache. `limit` holds the thread limit once
+// --threads is parsed.
 void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<ThreadLimit>& limit) {
   command.add_flag("--json", globals.json, "machine-readable result on stdout")->group("Common");
   command
@@ -61,6 +63,11 @@ void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<T
             limit = std::make_unique<ThreadLimit>(threads);
           },
           "worker threads, 0 = all cores (default); results do not depend on it")
+      ->group("Common");
+  command
+      .add_flag_callback(
+          "--no-cache", [] { ::setenv("AIRSIM360_CACHE", "", 1); },
+          "build everything anew and keep nothing on disk")
       ->group("Common");
   command
       .add_option_function<std::string>(

@@ -29,11 +29,13 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
 /// z axis.
 Model ImportModel(const std::filesystem::path& file);
 
+/// Where Debian installs them.
+inline constexpr const char* kSweetHomeFolder = "/usr/share/sweethome3d/furniture";
+
 /// The models of Debian's sweethome3d-furniture, read in place; null if the package is not installed. Names
 /// are file stems of the catalogue ("poplar", "fordFocus"), or "library/stem" where several libraries share
 /// one ("Scopia/bench"). Models come at their catalogue size. Each call reads its model anew; calls from
 /// several threads are fine.
-std::unique_ptr<ModelSource> OpenSweetHomeModels(
-    const std::filesystem::path& folder = "/usr/share/sweethome3d/furniture");
+std::unique_ptr<ModelSource> OpenSweetHomeModels(const std::filesystem::path& folder = kSweetHomeFolder);
 
 }  // namespace airsim360

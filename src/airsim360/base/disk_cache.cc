@@ -3,11 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <system_error>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
+#include "airsim360/base/log.h"
 
 namespace airsim360 {
 
@@ -26,6 +28,11 @@ std::string Variable(const char* name) {
   return value != nullptr ? value : "";
 }
 
+void WarnOnce(const std::string& message) {
+  static std::atomic_flag told;
+  if (!told.test_and_set()) LogWarning("cache: " + message);
+}
+
 }  // namespace
 
 CacheKey::CacheKey(std::string_view kind, int version) : kind_(kind) { Add(kind).Add(version); }
@@ -33,6 +40,18 @@ CacheKey::CacheKey(std::string_view kind, int version) : kind_(kind) { Add(kind)
 CacheKey& CacheKey::Add(std::span<const std::byte> bytes) {
   text_ += Sha256Hex(bytes);
   return *this;
+}
+
+CacheKey& CacheKey::AddProgram() {
+  std::error_code error;
+  return AddFile(fs::read_symlink("/proc/self/exe", error));
+}
+
+CacheKey& CacheKey::AddFile(const fs::path& path) {
+  std::error_code error;
+  const uint64_t size = fs::file_size(path, error);
+  if (error) return Add("no file");
+  return Add(path.native()).Add(size).Add(fs::last_write_time(path, error).time_since_epoch().count());
 }
 
 std::string CacheKey::Name() const { return kind_ + "-" + Sha256Hex(AsBytes(text_)); }
@@ -62,6 +81,7 @@ std::optional<Bytes> DiskCache::Load(const CacheKey& key) const {
                          Sha256Hex(std::span<const std::byte>(bytes).subspan(kHeader));
   std::error_code ignored;
   if (!whole) {
+    WarnOnce(path.string() + " is damaged; its content is computed again");
     fs::remove(path, ignored);
     return std::nullopt;
   }
@@ -89,7 +109,8 @@ void DiskCache::Store(const CacheKey& key, std::span<const std::byte> content) c
     WriteFileAtomically(own, bytes);
     fs::rename(own, path);
     Shrink();
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    WarnOnce(std::string(error.what()) + "; nothing is kept");
     std::error_code ignored;
     fs::remove(own, ignored);
   }

@@ -27,6 +27,10 @@ class CacheKey {
   requires std::is_arithmetic_v<T> || std::is_enum_v<T> CacheKey& Add(T value) {
     return Add(std::as_bytes(std::span(&value, 1)));
   }
+  /// What this program is (size and time of its file), so that a rebuilt one reads nothing of the old.
+  CacheKey& AddProgram();
+  /// Size and time of a file, or that there is none.
+  CacheKey& AddFile(const std::filesystem::path& path);
   /// "light_probes-0123…": a file name.
   std::string Name() const;
 
@@ -37,7 +41,8 @@ class CacheKey {
 
 /// A folder of entries, safe to delete at any time, also while programs use it. Several programs may share
 /// it: entries appear whole or not at all, and one that is damaged, cut off or of another format counts as
-/// missing. Everything that goes wrong on the disk is silent: the result is computed again.
+/// missing. Nothing that goes wrong on the disk is an error: the result is computed again, after one warning
+/// of the program.
 class DiskCache {
  public:
   static constexpr uint64_t kDefaultLimit = uint64_t{2} << 30;

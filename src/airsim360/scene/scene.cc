@@ -220,10 +220,24 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   return built;
 }
 
+namespace {
+
+// Made by SceneBuilder as a plain Scene, so it may be changed while nobody else looks.
+std::shared_ptr<Scene> OwnScene(std::shared_ptr<const Scene> scene) {
+  return scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene))
+                                : std::make_shared<Scene>(*scene);
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> WithCacheKey(std::shared_ptr<const Scene> scene, std::string key) {
+  const auto own = OwnScene(std::move(scene));
+  own->cache_key = std::move(key);
+  return own;
+}
+
 std::shared_ptr<const Scene> WithEnvironment(std::shared_ptr<const Scene> scene, Environment environment) {
-  // Made by SceneBuilder as a plain Scene, so it may be changed while nobody else looks.
-  const auto own = scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene))
-                                          : std::make_shared<Scene>(*scene);
+  const auto own = OwnScene(std::move(scene));
   own->environment = std::move(environment);
   return own;
 }

@@ -58,6 +58,8 @@ struct Scene {
   std::optional<Vec3f> spawn;             ///< a good first viewpoint
   std::vector<std::string> attributions;  ///< one line per third-party model used: title, author, licence
   float spawn_yaw_deg = 0;                ///< where to look from `spawn`: 0 = +X, counter-clockwise
+  std::string cache_key = {};  ///< stands for all of the above but `environment` in keys of the disk cache;
+                               ///< empty = what is computed of the scene is not kept
 
   const Entity& entity(EntityId id) const { return entities[id - 1]; }
   SceneCounts Count() const;
@@ -98,6 +100,9 @@ class SceneBuilder {
   Scene scene_;
   std::map<std::string, int> name_uses_;
 };
+
+/// The same scene with a cache_key; in place where `scene` is the only reference, else a copy.
+std::shared_ptr<const Scene> WithCacheKey(std::shared_ptr<const Scene> scene, std::string key);
 
 /// The same scene under another sky; in place where `scene` is the only reference, else a copy.
 std::shared_ptr<const Scene> WithEnvironment(std::shared_ptr<const Scene> scene, Environment environment);

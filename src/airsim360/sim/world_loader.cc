@@ -1,11 +1,17 @@
 #include "airsim360/sim/world_loader.h"
 
+#include <algorithm>
 #include <cctype>
+#include <optional>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "airsim360/assets/import.h"
 #include "airsim360/base/config.h"
+#include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
+#include "airsim360/scene/scene_archive.h"
 #include "airsim360/sim/world_environment.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -48,6 +54,36 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
   return request;
 }
 
+// Everything that a built-in world depends on.
+CacheKey KeyOf(const WorldRequest& request) {
+  CacheKey key("scene", 1);
+  key.AddProgram().Add(request.world).Add(request.seed).Add(request.use_models);
+  if (!request.use_models) return key;
+  std::vector<fs::path> libraries;
+  std::error_code error;
+  for (const auto& file : fs::recursive_directory_iterator(kSweetHomeFolder, error))
+    libraries.push_back(file.path());
+  std::sort(libraries.begin(), libraries.end());
+  for (const fs::path& library : libraries) key.AddFile(library);
+  return key;
+}
+
+// Built, or as built by an earlier run.
+std::shared_ptr<const Scene> LoadBuiltIn(const WorldRequest& request) {
+  const CacheKey key = KeyOf(request);
+  const DiskCache cache = DiskCache::OfUser();
+  if (const std::optional<Bytes> bytes = cache.Load(key)) {
+    if (std::optional<Scene> scene = SceneFromArchive(*bytes)) {
+      scene->cache_key = key.Name();
+      return std::make_shared<Scene>(std::move(*scene));
+    }
+  }
+  const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
+  auto built = BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
+  if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
+  return WithCacheKey(std::move(built), key.Name());
+}
+
 }  // namespace
 
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
@@ -61,8 +97,7 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
     return WithEnvironment(std::move(scene), environment);
   }
   if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
-  const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
-  return BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
+  return LoadBuiltIn(request);
 }
 
 }  // namespace airsim360

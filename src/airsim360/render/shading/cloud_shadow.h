@@ -27,6 +27,11 @@ class CloudShadowMap {
   /// Refers to this map.
   CloudShadowView view() const;
 
+  template <class Archive, class Self>
+  static void Visit(Archive& archive, Self& s) {
+    archive(s.place_, s.slant_x_, s.slant_y_, s.mean_, s.texels_);
+  }
+
  private:
   Vec3f place_;
   float slant_x_ = 0, slant_y_ = 0, mean_ = 1;

@@ -24,6 +24,8 @@ class LightProbes {
     float cell = 2.0f;  ///< distance of columns, m; less in small rooms, more where max_probes is reached
   };
 
+  /// None, to be filled by Visit.
+  LightProbes() = default;
   /// Light after many bounces: probes twice as far apart are baked first, each time with the result of the
   /// time before. `world.earlier` is ignored.
   LightProbes(const ProbeLight& world, const Options& options);
@@ -36,8 +38,14 @@ class LightProbes {
   bool Covers(Vec3f p) const;
   size_t size() const { return valid_.size(); }
 
+  /// All fields, for the disk cache.
+  template <class Archive, class Self>
+  static void Visit(Archive& archive, Self& s) {
+    archive(s.cell_, s.origin_, s.nx_, s.ny_, s.nz_, s.layers_, s.height_step_, s.layer_of_height_, s.probes_,
+            s.valid_);
+  }
+
  private:
-  LightProbes() = default;
   void Place(const Scene& scene, const Options& options);
   void Bake(const ProbeLight& world);
   void BakeRow(const ProbeLight& world, int y, int z);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "airsim360/render/shading/light_cache.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
 #include "airsim360/render/shading/shader_impl.h"
@@ -33,11 +34,17 @@ Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& enviro
       tables(tracer->scene(), environment.lamps_on()),
       lights(tracer->scene(), tables, environment) {
   const Scene& scene = tracer->scene();
-  if (scene.sky_entity != kNoEntity) sky.emplace(environment, scene.spawn.value_or(Vec3f{}));
+  const internal::LightCache cache(*tracer, environment);
+  if (scene.sky_entity != kNoEntity) {
+    sky = cache.Get<internal::Sky>("sky",
+                                   [&] { return internal::Sky(environment, scene.spawn.value_or(Vec3f{})); });
+  }
   lamps.emplace(*tracer, lights, Daylight());
-  if (!scene.instances.empty())
-    probes.emplace(internal::ProbeLight{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps},
-                   internal::LightProbes::Options{});
+  if (!scene.instances.empty()) {
+    const internal::ProbeLight light{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps};
+    probes = cache.Get<internal::LightProbes>(
+        "light_probes", [&] { return internal::LightProbes(light, internal::LightProbes::Options{}); });
+  }
   view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr,
                                  &environment);
   view.lamps = lamps->view();

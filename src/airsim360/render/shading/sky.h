@@ -30,6 +30,8 @@ class Sky {
   /// Roughness of the blurred tables; table 0 of roughness 0 is `table()`.
   static constexpr std::array<float, kBlurLevels> kBlurRoughness{0.30f, 0.55f, 0.85f};
 
+  /// Black, to be filled by Visit.
+  Sky() = default;
   /// `place` (in W) stands in the sun between the clouds, and fog lies on its height.
   explicit Sky(const Environment& environment, Vec3f place = {});
 
@@ -74,6 +76,18 @@ class Sky {
   /// Extinction of clear air at the ground, 1 / m.
   Vec3f extinction() const { return extinction_; }
 
+  /// All fields, for the disk cache.
+  template <class Archive, class Self>
+  static void Visit(Archive& archive, Self& s) {
+    archive(s.place_, s.to_sun_, s.sun_irradiance_, s.extinction_, s.ground_radiance_, s.sun_radius_);
+    SkyTable::Visit(archive, s.table_);
+    SkyTable::Visit(archive, s.below_);
+    for (auto& level : s.blurred_) SkyTable::Visit(archive, level);
+    archive(s.sh_, s.air_);
+    CloudShadowMap::Visit(archive, s.cloud_shadow_);
+    SkySampler::Visit(archive, s.sampler_);
+  }
+
  private:
   void BakeSky(const Environment& environment);
   void BakePicture(const Environment& environment);
@@ -84,7 +98,7 @@ class Sky {
   void BakeSampler();
 
   Vec3f place_, to_sun_, sun_irradiance_, extinction_, ground_radiance_;
-  float sun_radius_;
+  float sun_radius_ = 0;
   SkyTable table_, below_;
   std::array<SkyTable, kBlurLevels> blurred_;
   std::array<Vec3f, 9> sh_{};

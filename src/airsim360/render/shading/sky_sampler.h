@@ -28,6 +28,11 @@ class SkySampler {
   Vec3f Direction(Vec2f u) const;
   float Pdf(Vec3f direction) const;
 
+  template <class Archive, class Self>
+  static void Visit(Archive& archive, Self& s) {
+    archive(s.density_, s.cumulative_, s.row_);
+  }
+
  private:
   std::vector<float> density_;     // per solid angle, of each cell
   std::vector<float> cumulative_;  // of the cells of a row, up to 1

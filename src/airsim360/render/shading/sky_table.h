@@ -22,6 +22,12 @@ struct SkyTable {
   void SetTexel(int x, int y, Vec3f c);
   /// Bilinear; below its lowest row the table repeats it.
   Vec3f At(Vec3f direction) const;
+
+  /// All fields, for the disk cache; the same in other classes of the sky.
+  template <class Archive, class Self>
+  static void Visit(Archive& archive, Self& s) {
+    archive(s.width, s.height, s.full_sphere, s.texels);
+  }
 };
 
 /// Elevation of the upper-hemisphere tables, as a share e of pi/2, is kSkyRowSlope * t + (1 - kSkyRowSlope) *

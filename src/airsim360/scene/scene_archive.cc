@@ -1,0 +1,154 @@
+#include "airsim360/scene/scene_archive.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "airsim360/base/archive.h"
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+// Kept as their memory: no padding whose bytes would be anything.
+static_assert(sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8 && sizeof(Vec3u) == 12 && sizeof(Rgba8) == 4);
+static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 68 && sizeof(Box3f) == 24);
+// A field added to these belongs into the lists below.
+static_assert(sizeof(Material) == 152 && sizeof(Environment) == 144 && sizeof(Scene) == 520);
+
+template <class Pixel>
+void VisitImage(ArchiveWriter& archive, const Image<Pixel>& image) {
+  archive(image.width(), image.height());
+  archive.Raw(image.pixels());
+}
+
+template <class Pixel>
+void VisitImage(ArchiveReader& archive, Image<Pixel>& image) {
+  int width = 0, height = 0;
+  archive(width, height);
+  if (width < 0 || height < 0) throw InputError("archive holds a picture of negative size");
+  archive.Expect(static_cast<uint64_t>(width) * static_cast<uint64_t>(height), sizeof(Pixel));
+  image = Image<Pixel>(width, height);
+  archive.Raw(image.pixels());
+}
+
+template <class Archive, class T>
+void VisitTexture(Archive& archive, T& t) {
+  archive(t.name, t.srgb, t.wrap_u, t.wrap_v);
+  archive.Each(t.levels, [&](auto& level) { VisitImage(archive, level); });
+}
+
+template <class Archive, class T>
+void VisitMaterial(Archive& archive, T& m) {
+  archive(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic, m.roughness,
+          m.emission, m.normal_scale, m.transmission, m.clear_coat, m.clear_coat_roughness, m.interior,
+          m.lamp, m.macro_variation, m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
+          m.emission_texture, m.uv_scale, m.uv_offset, m.uv_rotation, m.ground, m.blend_tiles, m.units);
+}
+
+template <class Archive, class T>
+void VisitMesh(Archive& archive, T& m) {
+  archive(m.name, m.positions, m.normals, m.uvs, m.triangles, m.parts);
+}
+
+template <class Archive, class T>
+void VisitEntity(Archive& archive, T& e) {
+  archive(e.id, e.name, e.category, e.bounds);
+}
+
+void VisitPicture(ArchiveWriter& archive, const Environment& e) {
+  archive(e.hdri != nullptr);
+  if (!e.hdri) return;
+  archive(e.hdri->name);
+  VisitImage(archive, e.hdri->pixels);
+}
+
+void VisitPicture(ArchiveReader& archive, Environment& e) {
+  bool present = false;
+  archive(present);
+  if (!present) return;
+  auto picture = std::make_shared<SkyPicture>();
+  archive(picture->name);
+  VisitImage(archive, picture->pixels);
+  e.hdri = std::move(picture);
+}
+
+template <class Archive, class T>
+void VisitEnvironment(Archive& archive, T& e) {
+  for (const EnvironmentField& field : EnvironmentFields()) archive(e.*field.value);
+  archive(e.lamps);
+  VisitPicture(archive, e);
+}
+
+// The built-in categories are in the program; custom ones come back in the order of ids, parents found by
+// path.
+void VisitTree(ArchiveWriter& archive, const SemanticTree& tree) {
+  std::vector<const Category*> custom;
+  for (const auto& [id, category] : tree.categories())
+    if (id >= kFirstCustomId) custom.push_back(&category);
+  archive.Each(custom, [&](const Category* category) { archive(category->path, category->thing); });
+}
+
+void VisitTree(ArchiveReader& archive, SemanticTree& tree) {
+  std::vector<std::pair<std::string, bool>> custom;
+  archive.Each(custom, [&](auto& category) { archive(category.first, category.second); });
+  // An ancestor first: Add would make it of the kind of its child.
+  std::sort(custom.begin(), custom.end());
+  for (const auto& [path, thing] : custom) tree.Add(path, thing);
+}
+
+void VisitSpawn(ArchiveWriter& archive, const std::optional<Vec3f>& spawn) {
+  archive(spawn.has_value(), spawn.value_or(Vec3f{}));
+}
+
+void VisitSpawn(ArchiveReader& archive, std::optional<Vec3f>& spawn) {
+  bool present = false;
+  Vec3f p;
+  archive(present, p);
+  if (present) spawn = p;
+}
+
+template <class Archive, class T>
+void VisitScene(Archive& archive, T& scene) {
+  archive(scene.name);
+  VisitTree(archive, scene.tree);
+  archive.Each(scene.textures, [&](auto& texture) { VisitTexture(archive, texture); });
+  archive.Each(scene.materials, [&](auto& material) { VisitMaterial(archive, material); });
+  archive.Each(scene.meshes, [&](auto& mesh) { VisitMesh(archive, mesh); });
+  archive(scene.instances);
+  archive.Each(scene.entities, [&](auto& entity) { VisitEntity(archive, entity); });
+  archive(scene.sky_entity);
+  VisitEnvironment(archive, scene.environment);
+  archive(scene.interior_light, scene.bounds);
+  VisitSpawn(archive, scene.spawn);
+  archive.Each(scene.attributions, [&](auto& line) { archive(line); });
+  archive(scene.spawn_yaw_deg);
+}
+
+}  // namespace
+
+Bytes ArchiveScene(const Scene& scene) {
+  ArchiveWriter archive;
+  VisitScene(archive, scene);
+  return archive.Take();
+}
+
+std::optional<Scene> SceneFromArchive(std::span<const std::byte> bytes) {
+  try {
+    ArchiveReader archive(bytes);
+    Scene scene;
+    VisitScene(archive, scene);
+    if (archive.done()) return scene;
+  } catch (const InputError&) {  // rejected below
+  }
+  return std::nullopt;
+}
+
+void AddToKey(CacheKey& key, const Environment& environment) {
+  ArchiveWriter archive;
+  VisitEnvironment(archive, environment);
+  key.Add(archive.bytes());
+}
+
+}  // namespace airsim360
