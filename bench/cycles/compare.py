@@ -118,7 +118,7 @@ def parse_size(text):
 
 def label_agreement(program, cycles, world, pose, size, threads, folder):
     """Ids of one frame; range of the mean over frames with other jitters, which Cycles cannot switch off."""
-    out = folder / "labels"
+    out = folder / f"labels_{world}"
     subprocess.run([program, "render", "--world", world, f"--pose={pose}", "--size", "x".join(map(str, size)), "--tier", "labels",
                     "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
     frame = json.loads((out / "frames.jsonl").read_text().splitlines()[0])
