@@ -16,7 +16,9 @@ typedef double V8Memory __attribute__((vector_size(64), aligned(8), may_alias));
 AIRSIM360_INLINE V4 Load4(const double* p) { return *reinterpret_cast<const V4Memory*>(p); }
 AIRSIM360_INLINE V8 Load8(const double* p) { return *reinterpret_cast<const V8Memory*>(p); }
 AIRSIM360_INLINE void Store8(V8 v, double* p) { *reinterpret_cast<V8Memory*>(p) = v; }
-AIRSIM360_INLINE V8 Join(V4 low, V4 high) { return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7); }
+AIRSIM360_INLINE V8 Join(V4 low, V4 high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
 AIRSIM360_INLINE V8 Join(double low, double high) { return V8{low, low, low, low, high, high, high, high}; }
 /// Lanes 0 to 3 of one and 4 to 7 of the other.
 AIRSIM360_INLINE V8 Halves(V8 low, V8 high) {
@@ -24,8 +26,10 @@ AIRSIM360_INLINE V8 Halves(V8 low, V8 high) {
 }
 
 AIRSIM360_INLINE void Transpose4(V4& a, V4& b, V4& c, V4& d) {
-  const V4 ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const V4 cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  const V4 ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+           ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const V4 cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+           cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
   a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
   b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
