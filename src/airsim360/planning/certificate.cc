@@ -28,10 +28,11 @@ double TimeToGo(double way, double speed, const TrajectoryPeaks& peaks) {
 }  // namespace
 
 Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
-                    const ClearanceQuery& world, double radius) {
+                    const ClearanceQuery& world, double radius, TimeSpan span) {
+  const double end = std::min(span.to, trajectory.duration());
   Certificate result;
   result.least_clearance = std::numeric_limits<double>::infinity();
-  for (double t = 0;;) {
+  for (double t = span.from;;) {
     const TrajectoryPoint point = trajectory.At(t);
     const double clearance = Bound(world, point.p, radius);
     ++result.queries;
@@ -40,10 +41,10 @@ Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeak
       result.violation_time = t;
       return result;
     }
-    if (t >= trajectory.duration()) break;
+    if (t >= end) break;
     // Half of the slack stays, for the rounding of positions and times.
     const double way = clearance - radius - 0.5 * kCertificateSlack;
-    t = std::min(t + TimeToGo(way, Norm(point.v), peaks), trajectory.duration());
+    t = std::min(t + TimeToGo(way, Norm(point.v), peaks), end);
   }
   result.certified = true;
   return result;

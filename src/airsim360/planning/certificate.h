@@ -3,6 +3,8 @@
 // the centre moves less than d - radius; certified maxima of speed and acceleration say how long that is.
 #pragma once
 
+#include <limits>
+
 #include "airsim360/planning/clearance.h"
 #include "airsim360/planning/polynomial_trajectory.h"
 #include "airsim360/planning/trajectory_limits.h"
@@ -19,10 +21,15 @@ struct Certificate {
   int queries = 0;
 };
 
-/// Proves that the clearance is at least `radius` at every time of the path. `peaks` must be certified for
-/// this very path (CertifiedPeaks).
+/// Times of a path, seconds.
+struct TimeSpan {
+  double from = 0, to = std::numeric_limits<double>::infinity();
+};
+
+/// Proves that the clearance is at least `radius` at every time of the path within `span`. `peaks` must be
+/// certified for this very path (CertifiedPeaks).
 Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
-                    const ClearanceQuery& world, double radius);
+                    const ClearanceQuery& world, double radius, TimeSpan span = {});
 
 /// True if the clearance is proved to be at least `radius` everywhere on the straight segment from a to b.
 bool SegmentIsClear(Vec3d a, Vec3d b, const ClearanceQuery& world, double radius);

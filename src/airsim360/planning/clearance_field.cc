@@ -11,7 +11,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kReach = 24;  // voxels up to which distances are measured
+constexpr int kReach = 24;    // voxels up to which distances are measured
 constexpr double kSteps = 4;  // of a bound in a voxel
 constexpr int64_t kMaxVoxels = int64_t{1} << 28;
 constexpr double kMargin = 1e-4;  // voxels by which triangles are thickened, against rounding
@@ -108,7 +108,8 @@ bool MayTouchSquare(const Turned& t, double u, double v) {
     const Vec3d a = t.p[i], b = t.p[(i + 1) % 3];
     const double nu = -(b[t.v] - a[t.v]) * sign, nv = (b[t.u] - a[t.u]) * sign;
     // The corner of the square farthest inwards.
-    const double corner_u = u + (nu > 0 ? 1 + kMargin : -kMargin), corner_v = v + (nv > 0 ? 1 + kMargin : -kMargin);
+    const double corner_u = u + (nu > 0 ? 1 + kMargin : -kMargin),
+                 corner_v = v + (nv > 0 ? 1 + kMargin : -kMargin);
     if (nu * (corner_u - a[t.u]) + nv * (corner_v - a[t.v]) < 0) return false;
   }
   return true;
@@ -143,11 +144,27 @@ void ClearanceFieldBuilder::Add(Vec3d a, Vec3d b, Vec3d c) {
           t.p[0][t.w] + t.slope_u * (u + 0.5 - t.p[0][t.u]) + t.slope_v * (v + 0.5 - t.p[0][t.v]);
       const double half = 0.5 * (std::fabs(t.slope_u) + std::fabs(t.slope_v)) + kMargin;
       const int from = std::max(first[t.w], static_cast<int>(std::floor(std::max(middle - half, -1.0))));
-      const int to =
-          std::min(last[t.w], static_cast<int>(std::floor(std::min(middle + half, 1e9))));
+      const int to = std::min(last[t.w], static_cast<int>(std::floor(std::min(middle + half, 1e9))));
       int cell[3];
       cell[t.u] = u, cell[t.v] = v;
       for (cell[t.w] = from; cell[t.w] <= to; ++cell[t.w]) mark(cell[0], cell[1], cell[2]);
+    }
+  }
+}
+
+void ClearanceFieldBuilder::Add(const Box3d& box) {
+  const double scale = 1 / field_.voxel_;
+  const Vec3d low = (box.min - field_.box_.min) * scale, high = (box.max - field_.box_.min) * scale;
+  int first[3], last[3];
+  for (int i = 0; i < 3; ++i) {
+    if (!(high[i] >= -kMargin && low[i] <= field_.size_[i] + kMargin)) return;
+    first[i] = static_cast<int>(std::max(0.0, std::floor(low[i] - kMargin)));
+    last[i] = static_cast<int>(std::min(field_.size_[i] - 1.0, std::floor(high[i] + kMargin)));
+  }
+  for (int z = first[2]; z <= last[2]; ++z) {
+    for (int y = first[1]; y <= last[1]; ++y) {
+      for (int x = first[0]; x <= last[0]; ++x)
+        std::atomic_ref<uint8_t>(field_.cells_[field_.Index(x, y, z)]).store(0, std::memory_order_relaxed);
     }
   }
 }

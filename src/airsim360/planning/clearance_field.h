@@ -32,9 +32,7 @@ class ClearanceField {
 
  private:
   friend class ClearanceFieldBuilder;
-  size_t Index(int x, int y, int z) const {
-    return (static_cast<size_t>(z) * size_[1] + y) * size_[0] + x;
-  }
+  size_t Index(int x, int y, int z) const { return (static_cast<size_t>(z) * size_[1] + y) * size_[0] + x; }
   // False outside the box.
   bool Find(Vec3d p, int (&cell)[3]) const;
 
@@ -51,6 +49,8 @@ class ClearanceFieldBuilder {
   ClearanceFieldBuilder(const Box3d& box, double voxel);
   /// Marks every voxel that the triangle touches (and perhaps a few more). May be called by several threads.
   void Add(Vec3d a, Vec3d b, Vec3d c);
+  /// Marks every voxel that the box touches. May be called by several threads.
+  void Add(const Box3d& box);
   /// The builder is empty afterwards.
   ClearanceField Build();
 
