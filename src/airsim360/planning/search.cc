@@ -15,6 +15,8 @@ namespace {
 constexpr uint32_t kNone = UINT32_MAX;
 constexpr double kJoin = 1.8;  // spacings around the goal from which it is joined: more than half a diagonal
 
+constexpr size_t kHeadStart = 2000;  // nodes looked at before the goal's side is
+
 // The nodes and what is known of them.
 class Lattice {
  public:
@@ -98,17 +100,21 @@ class Search {
     goal_clearance_ = world.LowerBound(goal, options.radius + options.spacing, options.radius + 8);
   }
 
-  bool Run() {
+  SearchOutcome Run() {
     Offer(from_, kNone, 0);
     while (!open_.empty()) {
       const auto [estimate, node] = open_.top();
       open_.pop();
-      if (estimate >= goal_cost_) return true;
+      if (estimate >= goal_cost_) return SearchOutcome::kFound;
       if (estimate > cost_[node] + ToGo(node)) continue;  // a cheaper way came later
-      ++expanded_;
+      if (++expanded_ > options_.max_expanded) return SearchOutcome::kGaveUp;
       Expand(node);
+      // A goal that is shut in is found out by its own side, which is small.
+      if (expanded_ == kHeadStart) BeginFlood();
+      if (expanded_ >= kHeadStart && !flood_met_ && !FloodOne()) return SearchOutcome::kGoalEnclosed;
     }
-    return goal_cost_ < std::numeric_limits<double>::infinity();
+    return goal_cost_ < std::numeric_limits<double>::infinity() ? SearchOutcome::kFound
+                                                                : SearchOutcome::kStartEnclosed;
   }
 
   SearchResult Found(Vec3d start) const {
@@ -122,9 +128,48 @@ class Search {
     result.expanded = expanded_;
     return result;
   }
-  size_t expanded() const { return expanded_; }
+  SearchResult Failed(SearchOutcome outcome) const {
+    SearchResult result;
+    result.outcome = outcome;
+    result.expanded = expanded_;
+    const size_t side = outcome == SearchOutcome::kGoalEnclosed ? flooded_ : expanded_;
+    result.reached_volume = static_cast<double>(side) * std::pow(options_.spacing, 3);
+    return result;
+  }
 
  private:
+  // All that the goal can reach, one node after another.
+  void BeginFlood() {
+    seen_.assign(lattice_.size(), false);
+    const uint32_t nearest = lattice_.Nearest(goal_);
+    const auto join = [&](uint32_t node) {
+      if (lattice_.Free(node) &&
+          lattice_.Joined(lattice_.At(node), lattice_.Clearance(node), goal_, goal_clearance_))
+        Flood(node);
+    };
+    join(nearest);
+    lattice_.ForNeighbours(nearest, join);
+  }
+  void Flood(uint32_t node) {
+    if (seen_[node]) return;
+    seen_[node] = true;
+    ++flooded_;
+    // What the other side has reached is not shut in.
+    flood_met_ |= cost_[node] < std::numeric_limits<double>::infinity();
+    flood_.push(node);
+  }
+  bool FloodOne() {
+    if (flood_.empty()) return false;
+    const uint32_t node = flood_.front();
+    flood_.pop();
+    lattice_.ForNeighbours(node, [&](uint32_t next) {
+      if (!seen_[next] && lattice_.Free(next) &&
+          lattice_.Joined(lattice_.At(node), lattice_.Clearance(node), lattice_.At(next),
+                          lattice_.Clearance(next)))
+        Flood(next);
+    });
+    return true;
+  }
   double ToGo(uint32_t node) const { return options_.heuristic * Norm(goal_ - lattice_.At(node)); }
   void Offer(uint32_t node, uint32_t previous, double cost) {
     if (!(cost < cost_[node])) return;
@@ -158,7 +203,10 @@ class Search {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
   double goal_clearance_ = 0, goal_cost_ = std::numeric_limits<double>::infinity();
   uint32_t goal_from_ = kNone;
-  size_t expanded_ = 0;
+  size_t expanded_ = 0, flooded_ = 0;
+  std::vector<bool> seen_;  // by the flood
+  std::queue<uint32_t> flood_;
+  bool flood_met_ = false;
 };
 
 bool IsFree(Vec3d p, const ClearanceQuery& world, double radius) {
@@ -176,21 +224,9 @@ SearchResult FindPath(Vec3d start, Vec3d goal, const BoundedClearance& world, co
   if (SegmentIsClear(start, goal, world, options.radius))
     return {SearchOutcome::kFound, {start, goal}, Norm(goal - start), 0, 0};
 
-  Search forward(start, goal, world, options);
-  if (forward.Run()) return forward.Found(start);
-  // Which side is shut in? The one from which less can be reached.
-  Search backward(goal, start, world, options);
-  if (backward.Run()) {  // the two lattices differ: a way may fit one of them only
-    SearchResult found = backward.Found(goal);
-    std::reverse(found.path.begin(), found.path.end());
-    return found;
-  }
-  const bool goal_side = backward.expanded() < forward.expanded();
-  failed.outcome = goal_side ? SearchOutcome::kGoalEnclosed : SearchOutcome::kStartEnclosed;
-  failed.expanded = forward.expanded() + backward.expanded();
-  failed.reached_volume =
-      static_cast<double>(std::min(forward.expanded(), backward.expanded())) * std::pow(options.spacing, 3);
-  return failed;
+  Search search(start, goal, world, options);
+  const SearchOutcome outcome = search.Run();
+  return outcome == SearchOutcome::kFound ? search.Found(start) : search.Failed(outcome);
 }
 
 double PolylineLength(const std::vector<Vec3d>& points) {

@@ -15,14 +15,16 @@ struct SearchOptions {
   double spacing = 1;    ///< metres between lattice nodes along an axis
   double heuristic = 1;  ///< weight of the straight distance to go; 0 makes it Dijkstra's search
   size_t max_nodes = size_t{1} << 24;  ///< of the lattice; a larger one is an InputError
+  size_t max_expanded = 1'000'000;     ///< nodes looked at from either side
 };
 
 enum class SearchOutcome {
   kFound,
   kStartBlocked,   ///< the start is nearer than the radius to a surface
   kGoalBlocked,    ///< the goal is
-  kStartEnclosed,  ///< all that can be reached from the start was looked at, and it is the smaller side
-  kGoalEnclosed,   ///< likewise from the goal
+  kStartEnclosed,  ///< all that can be reached from the start was looked at
+  kGoalEnclosed,   ///< all from which the goal can be reached was looked at
+  kGaveUp,         ///< neither after max_expanded nodes
 };
 
 struct SearchResult {
@@ -30,7 +32,7 @@ struct SearchResult {
   std::vector<Vec3d> path;  ///< start … goal; every edge proved clear (SegmentIsClear); empty if not found
   double length = 0;        ///< metres, of the path
   size_t expanded = 0;      ///< nodes
-  double reached_volume = 0;  ///< m^3 of lattice cells of the enclosed side
+  double reached_volume = 0;  ///< m^3 of the lattice cells that the enclosed side reaches
 };
 
 /// Shortest way on the lattice of 26 neighbours a node (the start is a node, the goal is joined to the nodes

@@ -73,7 +73,7 @@ TEST(Search, SaysWhatIsWrong) {
                                                  {{4, -2, 0}, {6, -1.9, 2.1}},
                                                  {{4, 1.9, 0}, {6, 2, 2.1}}});
   const BoundedClearance world(inner, kHall);
-  const SearchOptions options{.radius = 0.3, .spacing = 0.5};
+  const SearchOptions options{.radius = 0.3, .spacing = 0.4};
   const Vec3d open{-8, 0, 3}, boxed{5, 0, 1}, wall{8, 0, 3};
   EXPECT_EQ(FindPath(wall, open, world, options).outcome, SearchOutcome::kStartBlocked);
   EXPECT_EQ(FindPath(open, wall, world, options).outcome, SearchOutcome::kGoalBlocked);
