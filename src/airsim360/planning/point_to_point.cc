@@ -44,26 +44,31 @@ std::vector<double> Spacings(double distance, double radius) {
   return spacings;
 }
 
-// Clear legs from a to b; why there are none, if the result is not found.
-SearchResult FindLegs(Vec3d a, Vec3d b, const BoundedClearance& world, double radius) {
+// Clear legs from a to b; why there are none, if the result is not found. Shortcuts make up for what the
+// greedy search loses in length.
+SearchResult FindLegs(Vec3d a, Vec3d b, const BoundedClearance& world, double radius, size_t max_expanded) {
+  constexpr double kGreed = 1.6;  // weight of the distance to go
   SearchResult result;
+  result.outcome = SearchOutcome::kGaveUp;
   const double distance = Norm(b - a);
   for (const double spacing : Spacings(distance, radius)) {
     for (const double margin : {std::max(20.0, 0.5 * distance), 4 * std::max(50.0, distance)}) {
       const BoundedClearance part(world, BoxAround(a, b, margin, world.box()));
       const Vec3d extent = part.box().max - part.box().min;
-      const SearchOptions options{.radius = radius, .spacing = spacing};
+      const SearchOptions options{
+          .radius = radius, .spacing = spacing, .heuristic = kGreed, .max_expanded = max_expanded};
       if (extent.x * extent.y * extent.z / std::pow(spacing, 3) >
           0.5 * static_cast<double>(options.max_nodes))
         continue;
-      result = FindPath(a, b, part, options);
+      SearchResult found = FindPath(a, b, part, options);
+      if (found.outcome == SearchOutcome::kFound) {
+        found.path = Shortcut(std::move(found.path), world, radius);
+        return found;
+      }
+      if (found.outcome == SearchOutcome::kGaveUp) break;  // a larger box would not help
+      result = std::move(found);
       if (result.outcome == SearchOutcome::kStartBlocked || result.outcome == SearchOutcome::kGoalBlocked)
         return result;
-      if (result.outcome == SearchOutcome::kFound) {
-        result.path = Shortcut(std::move(result.path), world, radius);
-        return result;
-      }
-      if (part.box().min == world.box().min && part.box().max == world.box().max) break;
     }
   }
   return result;
@@ -116,26 +121,31 @@ CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& w
 
 CertifiedFlight FlyFree(const std::vector<Vec3d>& waypoints, const BoundedClearance& world,
                         const FlightOptions& options) {
-  // Legs with room to spare first: a smooth path cannot follow legs that touch.
-  for (const double spare : {0.5, 0.25, 0.1, 0.02}) {
-    const double radius = options.radius + std::max(0.02, spare * options.radius);
+  constexpr size_t kThorough = 200'000, kQuick = 20'000;  // nodes looked at
+  // Legs at about the radius itself: if there are none, there is no way.
+  const double least = options.radius + 5 * kCertificateSlack;
+  std::vector<std::vector<Vec3d>> legs;
+  for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    SearchResult found = FindLegs(waypoints[i], waypoints[i + 1], world, least, kThorough);
+    if (found.outcome != SearchOutcome::kFound)
+      Refuse(found, i, waypoints[i], waypoints[i + 1], world, options.radius);
+    legs.push_back(std::move(found.path));
+  }
+  // Legs with room to spare where there are any: a smooth path follows them more easily.
+  for (const double spare : {0.5, 0.2, 0.0}) {
     std::vector<Vec3d> points = {waypoints.front()};
-    SearchResult result;
-    for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
-      result = FindLegs(waypoints[i], waypoints[i + 1], world, radius);
-      if (result.outcome != SearchOutcome::kFound) break;
-      points.insert(points.end(), result.path.begin() + 1, result.path.end());
+    for (size_t i = 0; i < legs.size(); ++i) {
+      std::vector<Vec3d> way = legs[i];
+      if (spare > 0) {
+        const double radius = least + std::max(0.1, spare * options.radius);
+        SearchResult roomy = FindLegs(waypoints[i], waypoints[i + 1], world, radius, kQuick);
+        if (roomy.outcome == SearchOutcome::kFound) way = std::move(roomy.path);
+      }
+      points.insert(points.end(), way.begin() + 1, way.end());
     }
-    if (result.outcome != SearchOutcome::kFound) continue;
     CertifiedFlight flight = FlyThrough(std::move(points), world, options);
     flight.added = flight.waypoints.size() - waypoints.size();
     if (flight.certificate.certified) return flight;
-  }
-  // Tell which leg has no way at all, if one has none.
-  for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
-    const SearchResult legs = FindLegs(waypoints[i], waypoints[i + 1], world, options.radius);
-    if (legs.outcome != SearchOutcome::kFound)
-      Refuse(legs, i, waypoints[i], waypoints[i + 1], world, options.radius);
   }
   throw InputError("no smooth flight could be proved free at radius " + Metres(options.radius) +
                    "; try a smaller --radius or --amax");

@@ -55,7 +55,7 @@ class Lattice {
     if (std::isnan(known)) {
       // Enough to know its edges free without a look at them.
       const double enough = options_.radius + options_.spacing;
-      known = std::nextafter(static_cast<float>(world_.LowerBound(At(node), enough, enough + 8)), 0.0f);
+      known = std::nextafter(static_cast<float>(world_.LowerBound(At(node), enough, enough)), 0.0f);
     }
     return known;
   }
@@ -97,7 +97,8 @@ class Search {
       : lattice_(start, world, options), goal_(goal), options_(options), from_(lattice_.Nearest(start)) {
     cost_.assign(lattice_.size(), std::numeric_limits<double>::infinity());
     previous_.assign(lattice_.size(), kNone);
-    goal_clearance_ = world.LowerBound(goal, options.radius + options.spacing, options.radius + 8);
+    goal_clearance_ =
+        world.LowerBound(goal, options.radius + options.spacing, options.radius + options.spacing);
   }
 
   SearchOutcome Run() {
