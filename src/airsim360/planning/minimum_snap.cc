@@ -1,147 +1,111 @@
 #include "airsim360/planning/minimum_snap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "airsim360/base/error.h"
-#include "airsim360/planning/spline_filter.h"
+#include "airsim360/planning/aligned_buffer.h"
+#include "airsim360/planning/spline_kernel.h"
+#include "airsim360/planning/spline_wide.h"
 
 namespace airsim360 {
 namespace {
 
 using namespace internal;
 
-void CheckVector(Vec3d v, const std::string& what) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(v[axis])) throw InputError("minimum snap: " + what + " is not finite");
+[[noreturn]] void Fail(const std::string& text) { throw InputError("minimum snap: " + text); }
+
+void CheckCounts(size_t waypoints, size_t durations) {
+  if (waypoints < 2) Fail(std::to_string(waypoints) + " waypoints, at least 2 are needed");
+  if (durations + 1 != waypoints) {
+    Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " +
+         std::to_string(durations));
   }
 }
 
-void CheckProblem(const MinimumSnapProblem& problem) {
-  const size_t segments = problem.durations.size();
-  if (problem.waypoints.size() < 2) {
-    throw InputError("minimum snap: " + std::to_string(problem.waypoints.size()) +
-                     " waypoints, at least 2 are needed");
+/// x - x is zero for finite numbers and NaN for others.
+double Finiteness(Vec3d v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z); }
+
+/// Cheap test of all numbers first; the culprit is looked for only if there is one.
+void CheckNumbers(std::span<const Vec3d> waypoints, std::span<const double> durations) {
+  double finite = 0;
+  bool positive = true;
+  for (const Vec3d& waypoint : waypoints) finite += Finiteness(waypoint);
+  for (const double duration : durations) {
+    finite += duration - duration;
+    positive &= duration > 0;
   }
-  if (segments + 1 != problem.waypoints.size()) {
-    throw InputError("minimum snap: " + std::to_string(problem.waypoints.size()) + " waypoints need " +
-                     std::to_string(problem.waypoints.size() - 1) + " durations, not " +
-                     std::to_string(segments));
-  }
-  for (size_t i = 0; i < segments; ++i) {
-    const double duration = problem.durations[i];
-    if (!(duration > 0) || !std::isfinite(duration)) {
-      throw InputError("minimum snap: duration " + std::to_string(i) + " is " + std::to_string(duration) +
-                       " s, must be positive and finite");
+  if (positive && finite == 0) return;
+  for (size_t i = 0; i < durations.size(); ++i) {
+    if (!(durations[i] > 0) || !std::isfinite(durations[i])) {
+      Fail("duration " + std::to_string(i) + " is " + std::to_string(durations[i]) +
+           " s, must be positive and finite");
     }
   }
-  for (size_t i = 0; i <= segments; ++i) CheckVector(problem.waypoints[i], "waypoint " + std::to_string(i));
-  for (const BoundaryDerivatives* end : {&problem.start, &problem.end}) {
-    CheckVector(end->v, "end velocity");
-    CheckVector(end->a, "end acceleration");
-    CheckVector(end->jerk, "end jerk");
+  for (size_t i = 0; i < waypoints.size(); ++i) {
+    if (Finiteness(waypoints[i]) != 0) Fail("waypoint " + std::to_string(i) + " is not finite");
   }
 }
 
-/// Derivative i + 1 of one axis at an end, in units of a segment.
-double EndState(const BoundaryDerivatives& end, int axis, int i, double duration) {
-  const double value = i == 0 ? end.v[axis] : i == 1 ? end.a[axis] : end.jerk[axis];
-  double power = duration;
-  for (int k = 0; k < i; ++k) power *= duration;
-  return value * power;
+void CheckEnd(const BoundaryDerivatives& end, const char* which) {
+  if (Finiteness(end.v) + Finiteness(end.a) + Finiteness(end.jerk) != 0) {
+    Fail(std::string(which) + " derivatives are not finite");
+  }
 }
 
-/// x = A^-1 b by LDL^T, A symmetric positive definite of n <= 3 rows, packed by Packed().
-template <int D>
-void SolveSymmetric(const double* a, int n, double* b) {
-  double l[D][D] = {}, d[D];
-  for (int j = 0; j < n; ++j) {
-    d[j] = a[Packed(j + 1, j + 1, D)];
-    for (int k = 0; k < j; ++k) d[j] -= l[j][k] * l[j][k] * d[k];
-    for (int i = j + 1; i < n; ++i) {
-      double sum = a[Packed(j + 1, i + 1, D)];
-      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
-      l[i][j] = sum / d[j];
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < i; ++k) b[i] -= l[i][k] * b[k];
-  }
-  for (int i = n; i-- > 0;) {
-    b[i] /= d[i];
-    for (int k = i + 1; k < n; ++k) b[i] -= l[k][i] * b[k];
-  }
+/// Four lanes per vector.
+void Pad(Vec3d v, double* out) {
+  out[0] = v.x;
+  out[1] = v.y;
+  out[2] = v.z;
+  out[3] = 0;
 }
 
 }  // namespace
 
 struct MinimumSnapSolver::Impl {
+  const SplineKernels* kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
-  std::vector<Vec3d> waypoints;
+  bool free = false;
   std::vector<double> durations, coefficients;
+  AlignedBuffer knots, workspace;
+  double start[12] = {}, end[12] = {};
 
-  template <class Model>
-  void Solve(const MinimumSnapProblem& problem, bool free);
+  void Copy(const MinimumSnapProblem& problem) {
+    kind = problem.kind;
+    free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
+    durations.assign(problem.durations.begin(), problem.durations.end());
+    double* out = knots.Reserve(4 * problem.waypoints.size());
+    for (const Vec3d& waypoint : problem.waypoints) {
+      Pad(waypoint, out);
+      out += 4;
+    }
+    Pad(problem.start.v, start);
+    Pad(problem.start.a, start + 4);
+    Pad(problem.start.jerk, start + 8);
+    Pad(problem.end.v, end);
+    Pad(problem.end.a, end + 4);
+    Pad(problem.end.jerk, end + 8);
+    coefficients.resize(durations.size() * 3 * static_cast<size_t>(PowersOf(kind)));
+  }
+
+  void Solve() {
+    const size_t segments = durations.size();
+    const RouteArguments arguments = {.knots = knots.data(),
+                                      .durations = durations.data(),
+                                      .segments = segments,
+                                      .start = start,
+                                      .end = end,
+                                      .free = free,
+                                      .workspace = workspace.Reserve(RouteWorkspace(segments)),
+                                      .coefficients = coefficients.data()};
+    if (segments == 1 || NeedsWideArithmetic(durations.data(), segments)) {
+      return SolveRouteWide(kind, arguments);
+    }
+    kernels->route[static_cast<int>(kind)](arguments);
+  }
 };
-
-template <class Model>
-void MinimumSnapSolver::Impl::Solve(const MinimumSnapProblem& problem, bool free) {
-  constexpr int D = Model::kStates, kPowers = Model::kDegree + 1;
-  const size_t segments = durations.size();
-  std::vector<SegmentRecord<double, 3, D>> records(segments);
-  KnotBelief<double, 3, D> belief = {};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < D; ++i) {
-      belief.mean[axis][i] = free && i == D - 1 ? 0 : EndState(problem.start, axis, i, durations[0]);
-    }
-  }
-  for (size_t k = 0; k < segments; ++k) {
-    SegmentRecord<double, 3, D>& record = records[k];
-    record.start = belief;
-    if (free && k == 0) {
-      StepFreeCovariance<double, Model>(record, belief);
-    } else {
-      StepCovariance<double, Model>(record, belief);
-    }
-    const double from[3] = {waypoints[k].x, waypoints[k].y, waypoints[k].z};
-    const double to[3] = {waypoints[k + 1].x, waypoints[k + 1].y, waypoints[k + 1].z};
-    StepMean<double, Model>(from, to, record, belief);
-    if (k + 1 < segments) {
-      ChangeUnits(durations[k + 1] / durations[k], durations[k] / durations[k + 1], belief);
-    }
-  }
-  double after[3][D] = {};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int n = free ? D - 1 : D;
-    for (int i = 0; i < n; ++i) {
-      after[axis][i] = belief.mean[axis][i] - EndState(problem.end, axis, i, durations[segments - 1]);
-    }
-    SolveSymmetric<D>(belief.covariance, n, after[axis]);
-  }
-  for (size_t k = segments; k-- > 0;) {
-    const double inverse = 1 / durations[k];
-    for (int axis = 0; axis < 3; ++axis) {
-      const Costate<double, D> end = EndCostate(records[k], axis, after[axis]);
-      const Costate<double, D> start = StartCostate<double>(end);
-      double c[kPowers];
-      c[0] = waypoints[k][axis];
-      SmoothStart(records[k].start, axis, start, c + 1);
-      HighCoefficients<double, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
-      for (int i = 2; i <= D; ++i) c[i] /= Factorial<double>(i);
-      if (free && k == 0) {
-        double rest = waypoints[k + 1][axis] - waypoints[k][axis];
-        for (int i = 1; i < kPowers; ++i) rest -= i == D ? 0 : c[i];
-        c[D] = rest;
-      }
-      double power = 1;
-      for (int i = 0; i < kPowers; ++i, power *= inverse) {
-        coefficients[(k * 3 + static_cast<size_t>(axis)) * kPowers + static_cast<size_t>(i)] = c[i] * power;
-      }
-      for (int i = 1; i <= D; ++i) after[axis][i - 1] = start.at[i];
-      if (k > 0) ChangeCostateUnits<double, D>(durations[k - 1] / durations[k], after[axis]);
-    }
-  }
-}
 
 MinimumSnapSolver::MinimumSnapSolver() : impl_(std::make_unique<Impl>()) {}
 MinimumSnapSolver::~MinimumSnapSolver() = default;
@@ -149,19 +113,12 @@ MinimumSnapSolver::MinimumSnapSolver(MinimumSnapSolver&&) noexcept = default;
 MinimumSnapSolver& MinimumSnapSolver::operator=(MinimumSnapSolver&&) noexcept = default;
 
 void MinimumSnapSolver::Solve(const MinimumSnapProblem& problem) {
-  CheckProblem(problem);
-  impl_->kind = problem.kind;
-  impl_->waypoints.assign(problem.waypoints.begin(), problem.waypoints.end());
-  impl_->durations.assign(problem.durations.begin(), problem.durations.end());
-  impl_->coefficients.resize(impl_->durations.size() * 3 * static_cast<size_t>(PowersOf(problem.kind)));
-  switch (problem.kind) {
-    case SplineKind::kMinimumSnap:
-      return impl_->Solve<SnapModel>(problem, problem.free_jerk);
-    case SplineKind::kPaperQuintic:
-      return impl_->Solve<QuinticModel>(problem, true);
-    case SplineKind::kMinimumJerk:
-      return impl_->Solve<JerkModel>(problem, false);
-  }
+  CheckCounts(problem.waypoints.size(), problem.durations.size());
+  CheckNumbers(problem.waypoints, problem.durations);
+  CheckEnd(problem.start, "start");
+  CheckEnd(problem.end, "end");
+  impl_->Copy(problem);
+  impl_->Solve();
 }
 
 int MinimumSnapSolver::degree() const { return PowersOf(impl_->kind) - 1; }
@@ -188,15 +145,39 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   const size_t size = segments * 3 * static_cast<size_t>(PowersOf(kind));
   if (durations.size() != routes * segments || waypoints.size() != routes * (segments + 1) ||
       coefficients.size() != routes * size) {
-    throw InputError("minimum snap: sizes of the batch do not agree");
+    Fail("sizes of the batch do not agree");
   }
+  if (routes == 0) return;
+  CheckCounts(segments + 1, segments);
+  CheckNumbers(waypoints, durations);
+
+  const SplineKernels* const kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  static thread_local AlignedBuffer workspace;
+  BatchArguments arguments = {};
+  arguments.segments = segments;
+  arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
+  std::vector<size_t> uneven;
+  for (size_t first = 0; first < routes; first += 8) {
+    for (size_t lane = 0; lane < 8; ++lane) {
+      // Lanes beyond the last route repeat it: they write the same numbers once more.
+      const size_t route = std::min(first + lane, routes - 1);
+      arguments.waypoints[lane] = &waypoints[route * (segments + 1)].x;
+      arguments.durations[lane] = &durations[route * segments];
+      arguments.coefficients[lane] = &coefficients[route * size];
+      if (first + lane == route &&
+          (segments == 1 || NeedsWideArithmetic(arguments.durations[lane], segments))) {
+        uneven.push_back(route);
+      }
+    }
+    kernels->batch[static_cast<int>(kind)](arguments);
+  }
+  if (uneven.empty()) return;
   MinimumSnapSolver solver;
-  for (size_t i = 0; i < routes; ++i) {
-    solver.Solve({.waypoints = waypoints.subspan(i * (segments + 1), segments + 1),
-                  .durations = durations.subspan(i * segments, segments),
+  for (const size_t route : uneven) {
+    solver.Solve({.waypoints = waypoints.subspan(route * (segments + 1), segments + 1),
+                  .durations = durations.subspan(route * segments, segments),
                   .kind = kind});
-    std::copy(solver.coefficients().begin(), solver.coefficients().end(),
-              coefficients.begin() + static_cast<ptrdiff_t>(i * size));
+    std::copy(solver.coefficients().begin(), solver.coefficients().end(), &coefficients[route * size]);
   }
 }
 

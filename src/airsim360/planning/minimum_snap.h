@@ -15,7 +15,7 @@ enum class SplineKind {
   kMinimumSnap,   ///< degree 7, C6: the true minimum of squared snap
   kPaperQuintic,  ///< degree 5, C3, least squared snap of that class; end velocity and acceleration given,
                   ///< jerk free; snap jumps at waypoints
-  kMinimumJerk,  ///< degree 5, C4: the true minimum of squared jerk
+  kMinimumJerk,   ///< degree 5, C4: the true minimum of squared jerk
 };
 
 /// What is prescribed at an end besides its position: m/s, m/s^2, m/s^3.

@@ -25,7 +25,7 @@ using QuinticModel = SplineModel<3, true>;
 using JerkModel = SplineModel<2, false>;
 
 template <class S>
-constexpr S Factorial(int n) {
+AIRSIM360_INLINE constexpr S Factorial(int n) {
   S product = 1;
   for (int i = 2; i <= n; ++i) product *= S(i);
   return product;
@@ -34,17 +34,17 @@ constexpr S Factorial(int n) {
 /// Effect of the control's Legendre components 1 and sqrt(3)(2 tau - 1) on derivative i at the segment's end
 /// (the second without its sqrt(3)).
 template <class S, int D>
-constexpr S ConstantEffect(int i) {
+AIRSIM360_INLINE constexpr S ConstantEffect(int i) {
   return S(1) / Factorial<S>(D + 1 - i);
 }
 template <class S, int D>
-constexpr S LinearEffect(int i) {
+AIRSIM360_INLINE constexpr S LinearEffect(int i) {
   return -S(D - i) / (S(D - i + 1) * S(D - i + 2) * Factorial<S>(D - i));
 }
 
 /// Covariance that a unit segment adds between derivatives i and j.
 template <class S, class Model>
-constexpr S Noise(int i, int j) {
+AIRSIM360_INLINE constexpr S Noise(int i, int j) {
   constexpr int D = Model::kStates;
   if (Model::kIsLinear) {
     return ConstantEffect<S, D>(i) * ConstantEffect<S, D>(j) +
@@ -55,11 +55,11 @@ constexpr S Noise(int i, int j) {
 
 /// Gain and posterior covariance after the first segment when the highest state is free at its start.
 template <class S, int D>
-constexpr S FreeGain(int i) {
+AIRSIM360_INLINE constexpr S FreeGain(int i) {
   return Factorial<S>(D) / Factorial<S>(D - i);
 }
 template <class S, class Model>
-constexpr S FreeCovariance(int i, int j) {
+AIRSIM360_INLINE constexpr S FreeCovariance(int i, int j) {
   constexpr int D = Model::kStates;
   return Noise<S, Model>(i, j) - FreeGain<S, D>(i) * Noise<S, Model>(0, j) -
          FreeGain<S, D>(j) * Noise<S, Model>(0, i) +
@@ -67,7 +67,9 @@ constexpr S FreeCovariance(int i, int j) {
 }
 
 /// Index of (i, j), 1 <= i <= j <= D, in a packed symmetric matrix.
-constexpr int Packed(int i, int j, int d) { return (i - 1) * d - (i - 1) * (i - 2) / 2 + j - i; }
+AIRSIM360_INLINE constexpr int Packed(int i, int j, int d) {
+  return (i - 1) * d - (i - 1) * (i - 2) / 2 + j - i;
+}
 
 /// What the forward pass knows at the start of a segment, in the segment's units.
 template <class V, int A, int D>
