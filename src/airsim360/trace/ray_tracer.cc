@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "airsim360/base/error.h"
-#include "airsim360/trace/closest_point.h"
 #include "airsim360/trace/dynamic_scene.h"
 #include "airsim360/trace/embree_scene.h"
 
@@ -212,11 +211,11 @@ bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
 }
 
 float RayTracer::Clearance(Vec3f p_W, float max_distance) const {
-  const bool moves = impl_->dynamic != nullptr;
   float distance = max_distance;
+  if (!IsFinite(p_W) || !(distance > 0)) return std::max(distance, 0.0f);
   if (impl_->traces_static)
-    distance = internal::ClosestSurfaceDistance(*this, impl_->embree->top(), moves, p_W, distance);
-  if (moves) distance = internal::ClosestSurfaceDistance(*this, impl_->dynamic->top(), false, p_W, distance);
+    distance = impl_->embree->PointQueries(*impl_->scene).Distance(p_W, distance, moved());
+  if (impl_->dynamic != nullptr) distance = impl_->dynamic->Distance(p_W, distance);
   return distance;
 }
 
