@@ -13,6 +13,7 @@ RotorConstants<T> MakeRotor(const RotorModel& r, double dt) {
   RotorConstants<T> c;
   c.p = VecCast<T>(r.p_B);
   c.axis = VecCast<T>(r.axis_B);
+  c.p2 = T(r.p_B.x * r.p_B.x + r.p_B.y * r.p_B.y);
   c.thrust = T(r.thrust_factor);
   c.torque = T(r.direction * r.torque_ratio * r.thrust_factor);
   c.drag = T(r.in_plane_drag);
@@ -50,9 +51,11 @@ void FindTerms(const DroneModel& model, DroneConstants<T>& c) {
   }
   c.has_battery = model.battery.cells > 0;
   const auto& J = model.inertia_B.m;
-  c.diagonal_inertia =
-      J[0][1] == 0 && J[0][2] == 0 && J[1][0] == 0 && J[1][2] == 0 && J[2][0] == 0 && J[2][1] == 0;
+  c.has_products = J[0][1] != 0 || J[0][2] != 0 || J[1][2] != 0;
+  c.has_height = model.rotors.front().p_B.z != 0;
   c.upright = IsUpright(model);
+  c.plain = c.upright && !(c.has_inflow || c.has_lift || c.has_flapping || c.has_spin || c.has_battery ||
+                           c.has_products || c.has_height);
 }
 
 template <class T>
@@ -72,6 +75,7 @@ void SetInertia(const Mat3d& J, DroneConstants<T>& c) {
   // Rows of the inverse are cross products of columns over the determinant.
   const Vec3d a = J.column(0), b = J.column(1), d = J.column(2);
   const double det = J.determinant();
+  c.inertia_gaps = VecCast<T>(Vec3d{d.z - b.y, a.x - d.z, b.y - a.x});
   const Vec3d inverse_rows[3] = {Cross(b, d) / det, Cross(d, a) / det, Cross(a, b) / det};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
@@ -105,6 +109,7 @@ DroneConstants<T> MakeDroneConstants(const DroneModel& model, double dt) {
   c.dt = T(dt);
   c.half_dt = T(dt / 2);
   c.sixth_dt = T(dt / 6);
+  c.most_turning = T(1.5 / dt);
   c.inverse_mass = T(1 / model.mass);
   SetInertia(model.inertia_B, c);
   c.linear_drag = VecCast<T>(model.linear_drag_B);
