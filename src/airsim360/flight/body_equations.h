@@ -142,6 +142,14 @@ AIRSIM360_LANES void AddExactly(V step, V& a, V& low) {
   a = sum;
 }
 
+/// Keeps RK4 stable whatever the torque: no component of the turning above 1.5 rad a step (1500 rad/s at 1
+/// ms).
+template <class V>
+AIRSIM360_LANES V LimitTurning(V w, V most) {
+  const V high = Select(w < most, w, most);
+  return Select(high > -most, high, -most);
+}
+
 /// One RK4 step of the body, given the rotors at its start, middle and end.
 template <class Drive, class V, class T = ScalarOf<V>>
 AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads<V>& loads,
@@ -160,7 +168,8 @@ AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads
   AddExactly(step.z, s.p.z, s.p_low.z);
   for (int i = 0; i < 3; ++i) {
     s.v[i] = s.v[i] + sixth * Simpson(k1.v[i], k2.v[i], k3.v[i], k4.v[i]);
-    s.w[i] = s.w[i] + sixth * Simpson(k1.w[i], k2.w[i], k3.w[i], k4.w[i]);
+    const V w = s.w[i] + sixth * Simpson(k1.w[i], k2.w[i], k3.w[i], k4.w[i]);
+    s.w[i] = LimitTurning(w, V(c.most_turning));
   }
   for (int i = 0; i < 4; ++i) s.q[i] = s.q[i] + sixth * Simpson(k1.q[i], k2.q[i], k3.q[i], k4.q[i]);
   // One Newton step for 1 / |q| about 1: the error of a step squares.

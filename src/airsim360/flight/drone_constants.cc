@@ -107,6 +107,7 @@ DroneConstants<T> MakeDroneConstants(const DroneModel& model, double dt) {
   c.dt = T(dt);
   c.half_dt = T(dt / 2);
   c.sixth_dt = T(dt / 6);
+  c.most_turning = T(1.5 / dt);
   c.inverse_mass = T(1 / model.mass);
   SetInertia(model.inertia_B, c);
   c.linear_drag = VecCast<T>(model.linear_drag_B);

@@ -41,6 +41,7 @@ struct DroneConstants {
   LiftSums<T> lift;
   T height;  ///< of the rotor plane above B, when upright
   T dt, half_dt, sixth_dt;
+  T most_turning;  ///< rad/s, about each axis
   T inverse_mass;
   Mat3<T> inertia, inverse_inertia;
   Vec3<T> inertia_gaps;  ///< J_z - J_y, J_x - J_z, J_y - J_x

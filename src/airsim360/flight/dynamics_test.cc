@@ -240,7 +240,7 @@ TEST(Dynamics, SumsOverUprightRotorsEqualTheRotorsOneByOne) {
   around.force_W = {0.3, -0.2, 0.1};
   around.torque_B = {0.01, 0.02, -0.03};
   const auto end = [&]<class Drive>() {
-    internal::BodyState<double> s;
+    internal::BodyState<double> s{};
     internal::LoadState(Tumbling(1000), 4, s);
     const double commands[] = {1200, 900, 1500, 1100};
     internal::StepLanes<Drive>(c, internal::LoadSurroundings(around), true, commands, 300, s);
@@ -267,7 +267,7 @@ TEST(Dynamics, ThePoseOfTheWholeExperimentDoesNotMatter) {
   t.v_WB = R * s.v_WB;
   Fly(drone, AllAt(1200), 500, s);
   Fly(drone, AllAt(1200), 500, t);
-  EXPECT_LT(Norm(R * s.p_WB - t.p_WB) + Norm(R * s.v_WB - t.v_WB) + Norm(s.w_WB_B - t.w_WB_B), 1e-11);
+  EXPECT_LT(Norm(R * s.p_WB - t.p_WB) + Norm(R * s.v_WB - t.v_WB) + Norm(s.w_WB_B - t.w_WB_B), 1e-9);
 }
 
 TEST(Dynamics, TheGroundAddsThrustByCheesemanAndBennettAndNeverWithoutBound) {
@@ -284,7 +284,7 @@ TEST(Dynamics, TheGroundAddsThrustByCheesemanAndBennettAndNeverWithoutBound) {
   EXPECT_NEAR(gain(2 * radius), 1 / (1 - 1.0 / 64), 1e-9);
   EXPECT_NEAR(gain(0.5 * radius), 4.0 / 3, 1e-9);
   EXPECT_NEAR(gain(0), 4.0 / 3, 1e-9);
-  EXPECT_EQ(gain(100 * radius), 1);
+  EXPECT_NEAR(gain(100 * radius), 1, 1e-12);
 }
 
 TEST(Dynamics, ThinAirThrustsInProportion) {

@@ -24,6 +24,12 @@ void FlightLoop::Give(const Command& command, int64_t timeout_ns) {
 
 void FlightLoop::Step() {
   const RotorValues speeds = autopilot_.Step(EstimateOf(state, t_ns_), command_, pilot);
+  if (wind) {
+    const double dt = autopilot_.options().control_dt, span = 2 * model().half_size_B.y;
+    const WindSample air = StepWind(*wind, time(), dt, state.p_WB.z, state.v_WB, span, wind_state);
+    surroundings.wind_W = air.velocity_W;
+    surroundings.wind_rate_B = ToMatrix(state.q_WB).transpose() * air.rate_W;
+  }
   for (int i = 0; i < substeps_; ++i) dynamics_.Step(surroundings, speeds, health, state);
   t_ns_ += std::llround(autopilot_.options().control_dt * 1e9);
 }

@@ -3,6 +3,7 @@
 
 #include "airsim360/flight/control/autopilot.h"
 #include "airsim360/flight/dynamics.h"
+#include "airsim360/flight/wind.h"
 
 namespace airsim360 {
 
@@ -26,6 +27,8 @@ class FlightLoop {
   AutopilotState pilot;
   DroneSurroundings surroundings;
   RotorHealth health = kAllRotorsWork;
+  std::optional<WindSettings> wind;  ///< with it, `wind_state` moves surroundings.wind_W
+  WindState wind_state = StartWind(0, 0);
 
  private:
   Autopilot autopilot_;
