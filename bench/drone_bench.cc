@@ -84,7 +84,7 @@ void Turbulence() {
   std::printf("\n12.9 m/s, 2.1 g, light Dryden turbulence (Tal and Karaman, real flight: rms 6.6 cm)\n");
   for (uint64_t seed = 0; seed < 5; ++seed) {
     FlightLoop loop(CatalogModel("agilicious"), {}, {0, 0, 10});
-    loop.wind = WindSettings{.wind_6m = 15 * 1852.0 / 3600};
+    loop.wind.emplace().wind_6m = 15 * 1852.0 / 3600;
     loop.wind_state = StartWind(seed, 0);
     const auto curve = std::make_shared<Lemniscate>(Vec3d{0, 0, 10}, 8.58, 12.9, 3, 5);
     const TrackingError e = Track(loop, curve, curve->ramp(), curve->duration() - curve->ramp());

@@ -67,8 +67,8 @@ StandardLemniscate StandardLemniscateFor(const DroneModel& model, const ControlG
   StandardLemniscate lemniscate;
   lemniscate.amplitude = std::clamp(10 * arm, 0.5, 10.0);
   // Its acceleration peaks at about 2 A w^2, its speed at sqrt(2) A w.
-  const double agile = std::sqrt(lemniscate.amplitude * 0.4 * gains.max_acceleration);
-  lemniscate.speed = std::min(agile, 0.6 * gains.max_speed);
+  const double agile = std::sqrt(lemniscate.amplitude * 0.6 * gains.max_acceleration);
+  lemniscate.speed = std::min(agile, 0.8 * gains.max_speed);
   return lemniscate;
 }
 

@@ -48,7 +48,7 @@ TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory>
                     double to);
 
 /// The lemniscate by which a drone of any size is judged: ten arm lengths (0.5 to 10 m) in amplitude, flown
-/// at 40 % of the acceleration and at most 60 % of the speed that its guidance asks for.
+/// at 60 % of the acceleration and at most 80 % of the speed that its guidance asks for.
 struct StandardLemniscate {
   double amplitude = 0, speed = 0;
 };

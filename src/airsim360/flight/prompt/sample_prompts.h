@@ -108,7 +108,7 @@ inline constexpr const char* kSamplePrompts[] = {
     "a quad of 350 grams with 25 cm diagonal",
     "an ordinary 2 kg quad",
     "a generic 5 kg hexa",
-    "a 10 kg hexacopter with 20 inch propellers and a 1 m wheelbase",
+    "a 10 kg hexacopter with 20 inch propellers and a 1.2 m wheelbase",
     "a 752 g five-inch wide X racing quad with a 250 mm wheelbase",
     "a 60 g quad",
     "a 60 g hexacopter",
