@@ -120,7 +120,7 @@ TEST(Mission, TheFenceHoldsPositionsVelocitiesTrajectoriesAndFlightByHand) {
     }
     EXPECT_TRUE(loop.pilot.flags & kFenceHeld) << CommandName(command);
     EXPECT_LT(furthest, 5.3) << CommandName(command);
-    EXPECT_GT(furthest, 4.5) << CommandName(command);
+    EXPECT_GT(furthest, 2.5) << CommandName(command);
     EXPECT_LT(loop.state.p_WB.z, 12.1) << CommandName(command);
   }
 }
@@ -133,18 +133,19 @@ TEST(Mission, AHexaFliesOnWithoutARotorAndSaysSo) {
   EXPECT_EQ(loop.pilot.failed_rotors, 4u);
   EXPECT_TRUE(loop.pilot.flags & kRotorFailed);
   EXPECT_GT(ToMatrix(loop.state.q_WB).m[2][2], 0.8);
-  EXPECT_LT(Norm(loop.state.p_WB - Vec3d{0, 0, 20}), 2);
+  EXPECT_LT(Norm(loop.state.p_WB - Vec3d{0, 0, 20}), 3);
 }
 
-TEST(Mission, AQuadWithoutARotorSpinsButDoesNotFallLikeAStone) {
+TEST(Mission, AQuadWithoutARotorComesDownAndSaysWhy) {
   FlightLoop loop(CatalogModel("agilicious"), {}, {0, 0, 50});
   loop.Run(1);
   loop.health[0] = 0;
-  loop.Run(3);
+  loop.Run(1.5);
   EXPECT_EQ(loop.pilot.failed_rotors, 1u);
-  EXPECT_GT(std::abs(loop.state.w_WB_B.z), 5);
-  EXPECT_GT(loop.state.p_WB.z, 50 - 0.5 * kGravity * 9 / 2);
-  EXPECT_TRUE(std::isfinite(loop.state.p_WB.x));
+  EXPECT_NE(DescribeState(loop.pilot).find("rotor failed"), std::string::npos);
+  loop.Run(6);
+  EXPECT_LT(loop.state.p_WB.z, 40);
+  EXPECT_TRUE(std::isfinite(Norm(loop.state.p_WB)) && std::isfinite(Norm(loop.state.w_WB_B)));
 }
 
 TEST(Mission, AnEmptyBatteryLandsTheDrone) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
@@ -59,7 +60,7 @@ TEST(Tracking, ASteadyWindLeavesNoErrorWhereItIsMeasuredOrIntegrated) {
 }
 
 TEST(Tracking, NoisyEstimatesShakeTheDroneButDoNotTopple) {
-  // Gyro 0.02 rad/s, velocity 3 cm/s, position 2 cm, attitude 0.2 degrees, all white at 500 Hz.
+  // White at 500 Hz: gyro 0.01 rad/s, velocity 5 mm/s, position 1 cm, attitude 0.1 degrees.
   const DroneModel model = CatalogModel("agilicious");
   AutopilotOptions options;
   options.filter_hz = 15;
@@ -73,9 +74,9 @@ TEST(Tracking, NoisyEstimatesShakeTheDroneButDoNotTopple) {
   double furthest = 0;
   for (int64_t i = 0; i < 5000; ++i) {
     StateEstimate estimate = EstimateOf(state, i * 2'000'000);
-    estimate.p_WB += noise(0.02);
-    estimate.v_WB += noise(0.03);
-    estimate.w_WB_B += noise(0.02);
+    estimate.p_WB += noise(0.01);
+    estimate.v_WB += noise(0.005);
+    estimate.w_WB_B += noise(0.01);
     const Vec3d turn = noise(0.0017);
     const Quaternion q = estimate.q_WB;
     estimate.q_WB = ToQuaternion(ToMatrix(q) * RotationX(turn.x) * RotationY(turn.y) * RotationZ(turn.z));
@@ -126,16 +127,20 @@ TEST(SimpleFlight, SaturatesAsItsParametersSay) {
   // Below 5 % of throttle nothing but throttle reaches the motors.
   goal.throttle = 0.04;
   EXPECT_EQ(SimpleFlightSignals(model, gains, goal, level, 0.003, state)[1], 0.04);
-  // A position 4 m away asks for 6 m/s, 8 m away for no more: 1.2 saturates to pi / 5.5 of lean.
-  for (const double away : {4.0, 8.0}) {
+  // A position 1 m away asks for 1.5 m/s, that for 0.3 of pi / 5.5 of lean, that for 2.5 times 2.5 rad/s of
+  // it.
+  const auto pitch_signal = [&](double away) {
     Goal position;
     position.level = GoalLevel::kPosition;
     position.p_W = {away, 0, 0};
     position.speed = position.climb = 100;
     AutopilotState fresh;
     const RotorValues s = SimpleFlightSignals(model, gains, position, level, 0.003, fresh);
-    EXPECT_NEAR((s[1] - s[0]) / 2, 0.25 * 2.5 * std::min(1.0, 2.5 * 0.57119866428905), 1e-9);
-  }
+    return (s[1] - s[0]) / 2;
+  };
+  EXPECT_NEAR(pitch_signal(1), 0.25 * 2.5 * 2.5 * 0.3 * std::numbers::pi / 5.5, 1e-9);
+  // From 4 m on (6 m/s) it asks for no more.
+  EXPECT_EQ(pitch_signal(4), pitch_signal(8));
 }
 
 TEST(SimpleFlight, MixesAsAirSimDoes) {

@@ -92,7 +92,7 @@ TEST(Prompt, WordsThatContradictEachOtherAreRefusedNamingBoth) {
   EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with thrust to weight 1.3 that flies 40 m/s"),
                    {"'40 m/s'", "level flight ends"}));
   EXPECT_TRUE(
-      Says(ErrorOf("a 5 kg quad with 5 inch propellers and thrust to weight 12"), {"thrust to weight 12"}));
+      Says(ErrorOf("a 2 kg quad with 5 inch propellers and thrust to weight 12"), {"thrust to weight 12"}));
   EXPECT_TRUE(Says(ErrorOf("a quad with 5x9 propellers"), {"pitch"}));
   EXPECT_TRUE(Says(ErrorOf("a 1 kg quad with 10 inch propellers, 60 minutes and a 1000 mAh battery"),
                    {"'60 minutes'", "'1000 mah'"}));
