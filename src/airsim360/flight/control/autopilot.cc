@@ -155,7 +155,7 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
   const Mixer mixer = failed ? Mixer(model_, failed) : mixer_;
   const internal::TrackingStep step{
       model_, gains_, mixer, estimate, ToMatrix(estimate.q_WB), goal, options_.control_dt, filter_};
-  const Wrench wrench = options_.controller == ControllerKind::kPx4   ? internal::Px4Wrench(step, state)
+  const RotorWrench wrench = options_.controller == ControllerKind::kPx4   ? internal::Px4Wrench(step, state)
                         : options_.controller == ControllerKind::kSe3 ? internal::Se3Wrench(step, state)
                                                                       : internal::IndiWrench(step, state);
   const Mixer::Result mix = mixer.Allocate(wrench);

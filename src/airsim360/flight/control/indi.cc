@@ -24,7 +24,7 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
   for (int i = 0; i < step.mixer.rotors(); ++i) {
     thrust[i] = ThrustAtSpeed(step.model.rotors[i], step.estimate.rotor_speeds[i]);
   }
-  const Wrench wrench = step.mixer.WrenchOf(thrust);
+  const RotorWrench wrench = step.mixer.WrenchOf(thrust);
   const Vec3d force = step.R_WB.column(2) * (wrench.thrust / step.model.mass);
   const Vec3d v = step.estimate.v_WB, w = step.estimate.w_WB_B;
   const bool carried = wrench.thrust < kCarriedShare * step.model.mass * kGravity && Norm(v) < kStillSpeed;
@@ -53,7 +53,7 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
 
 }  // namespace
 
-Wrench IndiWrench(const TrackingStep& step, AutopilotState& state) {
+RotorWrench IndiWrench(const TrackingStep& step, AutopilotState& state) {
   Observe(step, state);
   const Vec3d a = WantedAcceleration(step) - state.disturbance_a;
   const AttitudeDemand demand =
