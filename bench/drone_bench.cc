@@ -61,7 +61,9 @@ void Rate() {
     options.controller = kind;
     options.control_dt = 1e-3;
     FlightLoop loop(CatalogModel("airsim_quad"), options);
-    loop.Give(VelocityCommand{{1, 0, 0}});
+    VelocityCommand forward;
+    forward.v = {1, 0, 0};
+    loop.Give(forward);
     double best = 1e9;
     for (int round = 0; round < 9; ++round) {
       const double start = CpuNow();

@@ -14,7 +14,8 @@ namespace {
 
 constexpr CatalogDrone kDrones[] = {
     {"crazyflie", "Crazyflie 2.x (brushed, 47 mm propellers)",
-     "learnsyslab/drone-models cf2x_L250, measured: mass, inertia, k_f, k_m; drag and lag: Forster 2015 as in RotorPy 9b760b8",
+     "learnsyslab/drone-models cf2x_L250, measured: mass, inertia, k_f, k_m; drag and lag: Forster 2015 as "
+     "in RotorPy 9b760b8",
      "a 32 g nano quad with 47 mm propellers and 46 mm arms"},
     {"crazyflie_rotorpy", "Crazyflie 2.x as RotorPy has it (for comparisons with RotorPy)",
      "RotorPy 9b760b8 crazyflie_params.py: k_m is its own guess, J_z > J_x + J_y", ""},
@@ -25,17 +26,27 @@ constexpr CatalogDrone kDrones[] = {
      "a 500 g research quad with 200 mm propellers and 17 cm arms"},
     {"airsim_quad", "AirSim's generic quad X", "AirSim 1.8.1 MultiRotorParams.hpp, RotorParams.hpp",
      "a 1 kg hobby quad with 9 inch propellers and 22.75 cm arms"},
-    {"airsim_hexa", "AirSim's generic hexa X", "AirSim 1.8.1 MultiRotorParams.hpp",
-     "a 1 kg hobby hexacopter with 9 inch propellers and 22.75 cm arms"},
-    {"airsim_octo", "AirSim's generic octo X", "AirSim 1.8.1 MultiRotorParams.hpp",
-     "a 1 kg hobby octocopter with 9 inch propellers and 22.75 cm arms"},
+    {"airsim_hexa", "AirSim's generic hexa X", "AirSim 1.8.1 MultiRotorParams.hpp; its propellers overlap",
+     ""},
+    {"airsim_octo", "AirSim's generic octo X", "AirSim 1.8.1 MultiRotorParams.hpp; its propellers overlap",
+     ""},
     {"f450", "DJI Flamewheel F450 as AirSim has it", "AirSim 1.8.1 MultiRotorParams.hpp (Flamewheel)",
      "a 1.635 kg flamewheel kit quad with 9 inch propellers and a 450 mm wheelbase"},
+    {"f550", "DJI Flamewheel F550, hexa",
+     "MRS uav_system: 2.3 kg, 270 mm arms, k_f 1.2216e-7 N/rpm^2, lag 30 ms; 9.4 x 5 in propellers; its "
+     "inertia is a "
+     "formula and its torque constant 4 times too large: both, and drag, by our laws",
+     "a 2.3 kg flamewheel kit hexacopter with 9.4x5 propellers and 27 cm arms", false, true},
+    {"octo", "DJI S1000 class, octo",
+     "maker's sheet as remembered: 1045 mm diagonal, 15 x 5.2 in propellers, 9.5 kg ready to fly; the rest "
+     "by our laws",
+     "a 9.5 kg heavy lift octocopter with 15x5.2 propellers and a 1045 mm wheelbase", false, false},
     {"agilicious", "Agilicious 5-inch quad (NeuroBEM)",
      "Foehn et al. 2022, Bauersfeld et al. 2021: mass, inertia, k_f, k_m, lag; drag by our laws",
      "a 752 g five-inch wide X racing quad with a 250 mm wheelbase"},
     {"racer", "5-inch racer (ARPL)",
-     "rl-tools arpl.h: mass, inertia, arms, full thrust 7.5 N a rotor, lag; its thrust curve is in other units: k_f by our laws",
+     "rl-tools arpl.h: mass, inertia, arms, full thrust 7.5 N a rotor, lag; its thrust curve is in other "
+     "units: k_f by our laws",
      "a 782 g five-inch wide X racing quad with a 250 mm wheelbase", true, false},
     {"matrice", "DJI Matrice class (M30)",
      "DJI M30 sheet: 3.77 kg, 668 mm diagonal, 16 x 7.1 in propellers, 23 m/s, 41 min; the rest by our laws",
@@ -123,12 +134,14 @@ DroneModel AirSim(int count, double mass, double motor, double arm, Vec3d box, d
   model.mass = mass;
   model.rotors = internal::PlaceRotors(count, RotorLayout::kX, arm, 0.025);
   model.inertia_B = internal::CompositeInertia(model.rotors, motor, 0, mass - count * motor, box);
-  SetRotors(model, c_t * kSeaLevelAirDensity * std::pow(D, 4) / (4 * pi * pi), c_p * D / (2 * pi * c_t), 0.005, speed, D);
+  SetRotors(model, c_t * kSeaLevelAirDensity * std::pow(D, 4) / (4 * pi * pi), c_p * D / (2 * pi * c_t),
+            0.005, speed, D);
   // Six faces with the propellers' discs (its disc is pi D^2) and blade edges (1 cm) shared out among them,
   // times its linear drag coefficient 1.3 / 4 and rho / 2 (folded into rho F).
   const double disc = count * pi * D * D, edge = count * pi * D * 0.01;
   const double k = 1.3 / 4 / 2 * kSeaLevelAirDensity;
-  model.quadratic_drag_B = {(box.y * box.z + edge) * k, (box.x * box.z + edge) * k, (box.x * box.y + disc) * k};
+  model.quadratic_drag_B = {(box.y * box.z + edge) * k, (box.x * box.z + edge) * k,
+                            (box.x * box.y + disc) * k};
   SetSize(model, 0.05);
   return model;
 }
@@ -159,6 +172,17 @@ DroneModel Racer() {
   return model;
 }
 
+DroneModel F550(std::string_view prompt) {
+  DroneModel model = DroneFromPrompt(prompt).model;
+  model.battery = {};
+  for (RotorModel& rotor : model.rotors) {
+    rotor.thrust_factor = 1.2216e-7 * std::pow(60 / (2 * std::numbers::pi), 2);
+    rotor.tau_up = rotor.tau_down = 0.03;
+    rotor.max_speed = 9068 * 2 * std::numbers::pi / 60;
+  }
+  return model;
+}
+
 }  // namespace
 
 std::span<const CatalogDrone> DroneCatalog() { return kDrones; }
@@ -181,6 +205,7 @@ DroneModel CatalogModel(const std::string& name) {
     if (name == "f450") return AirSim(4, 1.635, 0.052, 0.225, {0.16, 0.10, 0.14}, 0.11, 0.047, 9500);
     if (name == "agilicious") return Agilicious();
     if (name == "racer") return Racer();
+    if (name == "f550") return F550(kDrones[found - names.begin()].prompt);
     return DroneFromPrompt(kDrones[found - names.begin()].prompt).model;
   };
   DroneModel model = make();

@@ -5,7 +5,8 @@
 
 namespace airsim360 {
 
-FlightLoop::FlightLoop(const DroneModel& model, const AutopilotOptions& options, Vec3d p_W, double dynamics_dt)
+FlightLoop::FlightLoop(const DroneModel& model, const AutopilotOptions& options, Vec3d p_W,
+                       double dynamics_dt)
     : autopilot_(model, options),
       dynamics_(model, dynamics_dt),
       substeps_(static_cast<int>(std::lround(options.control_dt / dynamics_dt))) {
@@ -70,7 +71,8 @@ FlightCheck CheckFlight(const DroneModel& model) {
   FlightCheck check;
   check.lemniscate = StandardLemniscateFor(model, loop.autopilot().gains());
   const Vec3d center{0, 0, 0};
-  const auto curve = std::make_shared<Lemniscate>(center, check.lemniscate.amplitude, check.lemniscate.speed, 1, 3);
+  const auto curve =
+      std::make_shared<Lemniscate>(center, check.lemniscate.amplitude, check.lemniscate.speed, 1, 3);
   loop.Run(0.5);
   check.tracking = Track(loop, curve, 0, curve->duration());
   loop.Run(2);

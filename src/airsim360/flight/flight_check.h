@@ -44,8 +44,8 @@ struct TrackingError {
 TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory> trajectory, double from,
                     double to);
 
-/// The lemniscate by which a drone of any size is judged: ten arm lengths (0.5 to 10 m) in amplitude, flown at
-/// 40 % of the acceleration and at most 60 % of the speed that its guidance asks for.
+/// The lemniscate by which a drone of any size is judged: ten arm lengths (0.5 to 10 m) in amplitude, flown
+/// at 40 % of the acceleration and at most 60 % of the speed that its guidance asks for.
 struct StandardLemniscate {
   double amplitude = 0, speed = 0;
 };
