@@ -113,11 +113,10 @@ void DynamicScene::Place(EmbreeScene& statics, const Scene& scene, const SceneSt
   }
 }
 
-float DynamicScene::Distance(Vec3f p_W, float farthest) const {
+void DynamicScene::Find(Vec3f p_W, NearestTriangle& best) const {
   for (const PlacedMesh& mesh : placed_) {
-    if (DistanceToBox(p_W, mesh.bounds()) < farthest) farthest = mesh.Distance(p_W, farthest);
+    if (DistanceToBox(p_W, mesh.bounds()) < best.distance) mesh.Find(p_W, best);
   }
-  return farthest;
 }
 
 }  // namespace airsim360::internal

@@ -22,8 +22,8 @@ class DynamicScene {
   /// `movers`.
   void Update(EmbreeScene& statics, const Scene& scene, const SceneState& state, const Movers& movers);
 
-  /// Distance from p_W to the nearest triangle of what is shown, at most `farthest`.
-  float Distance(Vec3f p_W, float farthest) const;
+  /// Looks for a triangle of what is shown nearer to p_W than `best`.
+  void Find(Vec3f p_W, NearestTriangle& best) const;
 
   RTCScene top() const { return top_.get(); }
   const std::vector<MovedInstance>& moved() const { return moved_; }

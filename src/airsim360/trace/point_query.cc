@@ -54,13 +54,20 @@ Box3f BoundsInWorld(RTCScene scene, const AffineTransform& X) {
   return box;
 }
 
-float DistanceToTriangle(Vec3f a, Vec3f b, Vec3f c) { return Norm(ClosestPointOnTriangle({}, a, b, c)); }
+// Takes the triangle, given with the point asked for as origin, if it is nearer.
+bool Improve(Vec3f a, Vec3f b, Vec3f c, NearestTriangle found, NearestTriangle& best) {
+  found.offset = ClosestPointOnTriangle({}, a, b, c);
+  found.distance = Norm(found.offset);
+  if (!(found.distance < best.distance)) return false;
+  best = found;
+  return true;
+}
 
 // Shared by the visits of one query.
 struct MeshQuery {
   const PlacedMesh* mesh;
   Vec3f p_W;
-  float best;  // metres in W
+  NearestTriangle* best;
 };
 
 }  // namespace
@@ -104,23 +111,23 @@ bool PlacedMesh::VisitTriangle(RTCPointQueryFunctionArguments* args) {
   // In W, with the point as origin: fewest digits are lost.
   const Vec3f offset = mesh.X_WM_.p - query.p_W;
   const Mat3f& A = mesh.X_WM_.A;
-  const float distance = DistanceToTriangle(
-      A * group.vertices[t.x] + offset, A * group.vertices[t.y] + offset, A * group.vertices[t.z] + offset);
-  if (!(distance < query.best)) return false;
-  query.best = distance;
-  args->query->radius = std::min(args->query->radius, distance * mesh.stretch_ * (1 + kRounding));
+  if (!Improve(A * group.vertices[t.x] + offset, A * group.vertices[t.y] + offset,
+               A * group.vertices[t.z] + offset, {0, {}, mesh.instance_, args->geomID, args->primID, true},
+               *query.best)) {
+    return false;
+  }
+  args->query->radius = std::min(args->query->radius, query.best->distance * mesh.stretch_ * (1 + kRounding));
   return true;
 }
 
-float PlacedMesh::Distance(Vec3f p_W, float farthest) const {
+void PlacedMesh::Find(Vec3f p_W, NearestTriangle& best) const {
   const Vec3f p = to_mesh_ * (p_W - X_WM_.p);
-  RTCPointQuery query{p.x, p.y, p.z, 0, farthest * stretch_ + kRounding * Norm(p)};
+  RTCPointQuery query{p.x, p.y, p.z, 0, best.distance * stretch_ + kRounding * Norm(p)};
   if (!std::isfinite(query.radius)) query.radius = kInfinity;
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  MeshQuery visit{this, p_W, farthest};
+  MeshQuery visit{this, p_W, &best};
   rtcPointQuery(scene_, &query, &context, VisitTriangle, &visit);
-  return visit.best;
 }
 
 PointQueryScene::PointQueryScene(RTCDevice device, RTCScene top, const std::vector<Baked>& baked,
@@ -173,35 +180,36 @@ PointQueryScene::~PointQueryScene() { rtcReleaseScene(scene_); }
 struct PointQueryScene::Query {
   const PointQueryScene* scene;
   std::span<const MovedInstance> left_out;
+  NearestTriangle* best;
 };
 
 bool PointQueryScene::Visit(RTCPointQueryFunctionArguments* args) {
-  const auto& [scene, left_out] = *static_cast<const Query*>(args->userPtr);
+  const auto& [scene, left_out, best] = *static_cast<const Query*>(args->userPtr);
   const bool placed = args->geomID == scene->placed_id_;
   const uint32_t instance =
       placed ? scene->placed_[args->primID].instance() : scene->instances_[args->geomID];
   if (std::ranges::binary_search(left_out, instance, {}, &MovedInstance::instance)) return false;
   const Vec3f p{args->query->x, args->query->y, args->query->z};
-  float distance;
+  const float before = best->distance;
   if (placed) {
-    distance = scene->placed_[args->primID].Distance(p, args->query->radius);
+    scene->placed_[args->primID].Find(p, *best);
   } else {
     const TriangleBuffers& part = scene->baked_[args->geomID];
     const Vec3u t = part.triangles[args->primID];
-    distance = DistanceToTriangle(part.vertices[t.x] - p, part.vertices[t.y] - p, part.vertices[t.z] - p);
+    Improve(part.vertices[t.x] - p, part.vertices[t.y] - p, part.vertices[t.z] - p,
+            {0, {}, instance, args->geomID, args->primID}, *best);
   }
-  if (!(distance < args->query->radius)) return false;
-  args->query->radius = distance;
+  if (!(best->distance < before)) return false;
+  args->query->radius = best->distance;
   return true;
 }
 
-float PointQueryScene::Distance(Vec3f p_W, float farthest, std::span<const MovedInstance> left_out) const {
-  RTCPointQuery query{p_W.x, p_W.y, p_W.z, 0, farthest};
+void PointQueryScene::Find(Vec3f p_W, std::span<const MovedInstance> left_out, NearestTriangle& best) const {
+  RTCPointQuery query{p_W.x, p_W.y, p_W.z, 0, best.distance};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  Query visit{this, left_out};
+  Query visit{this, left_out, &best};
   rtcPointQuery(scene_, &query, &context, Visit, &visit);
-  return query.radius;
 }
 
 }  // namespace airsim360::internal

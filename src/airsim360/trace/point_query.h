@@ -16,6 +16,15 @@
 
 namespace airsim360::internal {
 
+/// The best triangle of a point query so far.
+struct NearestTriangle {
+  float distance;             // metres in W; before the first find: how far to look
+  Vec3f offset = {};          // from the point asked for to the nearest point of the triangle, in W
+  uint32_t instance = kMiss;  // index into Scene::instances; kMiss = none found
+  uint32_t geometry = 0, primitive = 0;  // ids of Embree
+  bool placed = false;                   // the geometry counts within the mesh, not within the top scene
+};
+
 /// What Embree reads of one triangle geometry.
 struct TriangleBuffers {
   const Vec3f* vertices = nullptr;
@@ -34,8 +43,8 @@ class PlacedMesh {
 
   uint32_t instance() const { return instance_; }
   const Box3f& bounds() const { return bounds_; }
-  /// Distance from p_W to the nearest triangle, at most `farthest`.
-  float Distance(Vec3f p_W, float farthest) const;
+  /// Looks for a triangle nearer to p_W than `best`.
+  void Find(Vec3f p_W, NearestTriangle& best) const;
 
  private:
   static bool VisitTriangle(RTCPointQueryFunctionArguments* args);
@@ -73,8 +82,8 @@ class PointQueryScene {
   PointQueryScene(const PointQueryScene&) = delete;
   PointQueryScene& operator=(const PointQueryScene&) = delete;
 
-  /// Distance from p_W to the nearest triangle, at most `farthest`, leaving out instances in `left_out`.
-  float Distance(Vec3f p_W, float farthest, std::span<const MovedInstance> left_out) const;
+  /// Looks for a triangle nearer to p_W than `best`, leaving out instances in `left_out`.
+  void Find(Vec3f p_W, std::span<const MovedInstance> left_out, NearestTriangle& best) const;
 
  private:
   struct Query;

@@ -76,7 +76,21 @@ TEST_P(PointQuery, IsTheLeastDistanceOverAllTrianglesWhateverTheInstancesAreScal
   for (int i = 0; i < 1500; ++i) {
     const Vec3f p{Uniform(rng, -35, 35), Uniform(rng, -35, 35), Uniform(rng, -35, 35)};
     const float farthest = i % 3 ? 100 : Uniform(rng, 0.5, 5);
-    EXPECT_NEAR(tracer.Clearance(p, farthest), BruteForce(*scene, p, farthest), 2e-5f) << i;
+    const float distance = tracer.Clearance(p, farthest);
+    EXPECT_NEAR(distance, BruteForce(*scene, p, farthest), 2e-5f) << i;
+
+    // The nearest point lies so far away, on the triangle that is named.
+    const auto nearest = tracer.Nearest(p, farthest);
+    ASSERT_EQ(nearest.has_value(), distance < farthest) << i;
+    if (!nearest) continue;
+    EXPECT_EQ(nearest->distance, distance);
+    EXPECT_NEAR(Norm(nearest->offset), distance, 1e-6f * distance);
+    const Instance& instance = scene->instances[nearest->surface.instance];
+    const Mesh& mesh = scene->meshes[instance.mesh];
+    const Vec3u t = mesh.triangles[nearest->surface.triangle];
+    const Vec3f a = instance.X_WM * mesh.positions[t.x], b = instance.X_WM * mesh.positions[t.y],
+                c = instance.X_WM * mesh.positions[t.z];
+    EXPECT_LT(Norm(internal::ClosestPointOnTriangle(p, a, b, c) - (p + nearest->offset)), 2e-3f) << i;
   }
 }
 

@@ -210,13 +210,30 @@ bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
   return ray.tfar < 0;
 }
 
+namespace {
+
+// The point query over both scenes, starting from `max_distance`.
+template <class Impl>
+internal::NearestTriangle FindNearest(const Impl& impl, std::span<const MovedInstance> moved, Vec3f p_W,
+                                      float max_distance) {
+  internal::NearestTriangle best{std::max(max_distance, 0.0f)};
+  if (!IsFinite(p_W) || !(max_distance > 0)) return best;
+  if (impl.traces_static) impl.embree->PointQueries(*impl.scene).Find(p_W, moved, best);
+  if (impl.dynamic != nullptr) impl.dynamic->Find(p_W, best);
+  return best;
+}
+
+}  // namespace
+
 float RayTracer::Clearance(Vec3f p_W, float max_distance) const {
-  float distance = max_distance;
-  if (!IsFinite(p_W) || !(distance > 0)) return std::max(distance, 0.0f);
-  if (impl_->traces_static)
-    distance = impl_->embree->PointQueries(*impl_->scene).Distance(p_W, distance, moved());
-  if (impl_->dynamic != nullptr) distance = impl_->dynamic->Distance(p_W, distance);
-  return distance;
+  return FindNearest(*impl_, moved(), p_W, max_distance).distance;
+}
+
+std::optional<NearestSurface> RayTracer::Nearest(Vec3f p_W, float max_distance) const {
+  const internal::NearestTriangle best = FindNearest(*impl_, moved(), p_W, max_distance);
+  if (best.instance == kMiss) return std::nullopt;
+  const uint32_t instance = best.placed ? impl_->embree->TopId(best.instance) : kMiss;
+  return NearestSurface{best.distance, best.offset, Resolve(best.geometry, instance, best.primitive)};
 }
 
 namespace {
