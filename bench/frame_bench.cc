@@ -11,7 +11,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/sensors/rig.h"
-#include "airsim360/sim/flight.h"
+#include "airsim360/sim/fly_route.h"
 #include "airsim360/sim/survey.h"
 #include "airsim360/sim/world_loader.h"
 
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   const auto scene = LoadWorld({.world = "downtown_west"});
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const auto route = std::make_shared<const Route>(PlanSurvey(*tracer, {}));
-  const Flight flight = FlyRoute({.tracer = tracer}, route, EvenTimes(*route, frames));
+  const Flight flight = FlyRoute({.tracer = tracer, .dt_ns = kRouteStepNs}, route, EvenTimes(*route, frames));
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
 
   // All rows take turns at every pose, so that a busy moment of the machine hits all of them.

@@ -127,7 +127,7 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
   spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
-  const Flight flight = FlyRoute({.tracer = world.tracer}, plan.route, plan.shot_times_ns);
+  const Flight flight = FlyRoute({.tracer = world.tracer, .dt_ns = kRouteStepNs}, plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
   const CollectResult result = Collect({spec, *world.scene, flight, arguments.out}, *world.renderer);
   ReportRun(world, spec, result, arguments.out, globals.json);

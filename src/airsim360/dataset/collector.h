@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "airsim360/dataset/spec.h"
-#include "airsim360/sim/flight.h"
+#include "airsim360/sim/fly_route.h"
 
 namespace airsim360 {
 

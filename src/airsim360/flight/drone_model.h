@@ -37,6 +37,7 @@ struct BatteryModel {
   double resistance = 0;     ///< ohm, of the whole pack
   double efficiency = 0.75;  ///< of motors and speed controllers: shaft power / electrical power
   double idle_power = 0;     ///< W, electronics
+  // The rotors' max_speed holds at full, unloaded voltage and falls in proportion to the voltage.
 };
 
 struct DroneModel {
@@ -49,5 +50,14 @@ struct DroneModel {
   BatteryModel battery;
   Vec3d half_size_B;  ///< metres; box around the whole drone with propellers, centred on B
 };
+
+/// Speed in rad/s at which all rotors, turning alike, carry the weight at sea-level density: the sum of
+/// k_f speed^2 axis_z is mass * kGravity. InputError naming the drone if they cannot thrust upwards.
+double HoverSpeed(const DroneModel& model);
+
+/// InputError naming the drone and the figure if the model cannot be integrated: number of rotors, a mass,
+/// lag or speed that is not positive and finite, an inertia that is not symmetric positive definite, an axis
+/// that is not a unit vector. Whether the drone is a likely one is not asked.
+void CheckModel(const DroneModel& model);
 
 }  // namespace airsim360

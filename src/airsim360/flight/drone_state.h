@@ -29,4 +29,9 @@ struct DroneSurroundings {
 /// Per-rotor health: 1 works, 0 has failed (its commanded speed counts as 0).
 using RotorHealth = std::array<double, kMaxRotors>;
 
+inline constexpr RotorHealth kAllRotorsWork = {1, 1, 1, 1, 1, 1, 1, 1};
+
+/// Speeds in rad/s, in the order of DroneModel::rotors; places beyond the last rotor are ignored.
+using RotorSpeeds = std::array<double, kMaxRotors>;
+
 }  // namespace airsim360

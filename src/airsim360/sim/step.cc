@@ -1,85 +1,150 @@
 #include "airsim360/sim/step.h"
 
-#include <bit>
+#include <algorithm>
 #include <string>
 
 #include "airsim360/base/error.h"
-#include "airsim360/base/random.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/sim/step_drone.h"
 
 namespace airsim360 {
 namespace {
 
-void ApplyCommands(std::span<const RouteCommand> commands, SimState& state) {
-  for (const RouteCommand& command : commands) {
-    if (command.vehicle >= state.vehicles.size()) {
-      throw InputError("command for vehicle " + std::to_string(command.vehicle) + " of " +
-                       std::to_string(state.vehicles.size()));
+// Vehicles of one task: fewer are not worth the hand-over to another thread.
+constexpr size_t kVehiclesPerTask = 8;
+
+bool Flies(const SimModel& model, size_t i, const Vehicle& vehicle) {
+  return i < model.drones.size() && !vehicle.following;
+}
+
+/// Applies one command; visits its kind.
+struct CommandVisitor {
+  const SimModel& model;
+  size_t i;
+  SimState& state;
+
+  Vehicle& vehicle() const { return state.vehicles[i]; }
+  void operator()(const std::shared_ptr<const Route>& route) const {
+    vehicle().following = FollowRoute{route, state.t_ns};
+  }
+  void operator()(const FlightCommand& flight) const {
+    if (vehicle().following) {
+      // From here on it flies: it takes over in mid-air.
+      vehicle().following.reset();
+      internal::FollowMotion(*model.drones[i], vehicle());
+      vehicle().autopilot = model.drones[i]->autopilot().HoverState(EstimateOf(vehicle().drone, state.t_ns));
     }
-    state.vehicles[command.vehicle].following = FollowRoute{command.route, state.t_ns};
+    vehicle().command = {flight.command, vehicle().command.id + 1, flight.timeout_ns};
   }
-}
-
-// Vehicles that follow a route are where it is at the state's time.
-void PlanMotion(SimState& state) {
-  for (Vehicle& vehicle : state.vehicles) {
-    if (!vehicle.following) continue;
-    const FollowRoute& following = *vehicle.following;
-    const RoutePoint point = following.route->At(static_cast<double>(state.t_ns - following.start_ns) * 1e-9);
-    vehicle.motion = {BodyPose(point.p, point.yaw, 0, 0), point.v, {0, 0, point.yaw_rate}};
-    vehicle.a_WB = point.a;
+  void operator()(const GimbalCommand& gimbal) const {
+    vehicle().sensors.gimbals[gimbal.gimbal].command = gimbal.angles;
   }
-}
-
-void QueryContacts(const SimModel& model, SimState& state) {
-  for (Vehicle& vehicle : state.vehicles) {
-    vehicle.clearance = model.tracer->Clearance(VecCast<float>(vehicle.motion.X_WB.p), model.contact_range);
+  void operator()(const RotorHealthCommand& rotors) const { vehicle().health = rotors.health; }
+  void operator()(const ResetCommand& reset) const {
+    const DroneSetup& setup = model.drones[i]->setup();
+    const uint64_t id = vehicle().command.id;
+    vehicle() =
+        DroneAt(model, state, i, reset.X_WB.value_or(setup.X_WB), reset.airborne.value_or(setup.airborne));
+    vehicle().command.id += id;
   }
-}
-
-// Order-dependent mixing of 64-bit words.
-class StateHasher {
- public:
-  void Add(uint64_t bits) { hash_ = MixBits(hash_ ^ bits) + 0x9e3779b97f4a7c15ull; }
-  void Add(double value) { Add(std::bit_cast<uint64_t>(value)); }
-  void Add(Vec3d v) {
-    for (int i = 0; i < 3; ++i) Add(v[i]);
-  }
-  uint64_t hash() const { return hash_; }
-
- private:
-  uint64_t hash_ = 0;
+  void operator()(const WindCommand& wind) const { state.wind_W = wind.wind_W; }
 };
+
+void ApplyCommands(const SimModel& model, std::span<const SimCommand> commands, SimState& state) {
+  for (const SimCommand& command : commands) CheckCommand(model, state, command);
+  for (const SimCommand& command : commands) {
+    std::visit(CommandVisitor{model, command.vehicle, state}, command.action);
+  }
+}
+
+// Vehicles that follow a route are where it is at time t.
+void MoveAlong(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
+  const FollowRoute& following = *vehicle.following;
+  const RoutePoint point = following.route->At(static_cast<double>(t_ns - following.start_ns) * 1e-9);
+  vehicle.motion = {BodyPose(point.p, point.yaw, 0, 0), point.v, {0, 0, point.yaw_rate}};
+  vehicle.a_WB = point.a;
+  vehicle.clearance = model.tracer->Clearance(VecCast<float>(point.p), model.contact_range);
+}
+
+// What others meet of the drones: where they are now.
+DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
+  std::vector<DroneBox> boxes;
+  const size_t count = std::min(model.drones.size(), state.vehicles.size());
+  for (size_t i = 0; i < count && count > 1; ++i) {
+    const SimDrone& drone = *model.drones[i];
+    const Kinematics& motion = state.vehicles[i].motion;
+    boxes.push_back(
+        {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity});
+  }
+  return DroneBoxes(std::move(boxes));
+}
+
+void RecordTrace(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
+  if (model.trace_samples == 0 || t_ns % model.trace_period_ns >= model.dt_ns) return;
+  if (vehicle.trace.size() >= model.trace_samples) vehicle.trace.erase(vehicle.trace.begin());
+  vehicle.trace.push_back({t_ns, vehicle.motion.X_WB.p, ToQuaternion(vehicle.motion.X_WB.R)});
+}
+
+void StepVehicle(const internal::StepContext& context, size_t i, Vehicle& vehicle,
+                 std::vector<SimEvent>& events) {
+  const SimModel& model = context.model;
+  const int64_t t_ns = context.t_ns + model.dt_ns;
+  if (Flies(model, i, vehicle)) {
+    internal::PlanDrone(context, i, vehicle, events);
+    const DroneSurroundings surroundings = internal::Surround(context, i, vehicle);
+    internal::FlyDrone(context, i, surroundings, vehicle, events);
+  } else if (vehicle.following) {
+    MoveAlong(model, t_ns, vehicle);
+  }
+  if (i < model.drones.size()) {
+    StepSensors(model.drones[i]->setup().sensors, model.world, static_cast<uint32_t>(i), MotionOf(vehicle),
+                t_ns, model.dt_ns, vehicle.sensors);
+  }
+  RecordTrace(model, t_ns, vehicle);
+}
 
 }  // namespace
 
-Vehicle VehicleAt(const SimModel& model, const RigidTransform& X_WB) {
-  Vehicle vehicle{.motion = {X_WB, {}, {}}, .a_WB = {}, .clearance = 0, .following = {}};
-  vehicle.clearance = model.tracer->Clearance(VecCast<float>(X_WB.p), model.contact_range);
-  return vehicle;
+void CheckCommand(const SimModel& model, const SimState& state, const SimCommand& command) {
+  if (std::holds_alternative<WindCommand>(command.action)) return;
+  const size_t i = command.vehicle;
+  const std::string where = "command for vehicle " + std::to_string(i);
+  if (i >= state.vehicles.size()) throw InputError(where + " of " + std::to_string(state.vehicles.size()));
+  const auto* route = std::get_if<std::shared_ptr<const Route>>(&command.action);
+  if (route != nullptr && *route == nullptr) throw InputError(where + ": there is no route");
+  if (route == nullptr && i >= model.drones.size())
+    throw InputError(where + ": it is no drone, it can only follow a route");
+  const auto* gimbal = std::get_if<GimbalCommand>(&command.action);
+  if (gimbal != nullptr && gimbal->gimbal >= state.vehicles[i].sensors.gimbals.size()) {
+    throw InputError(where + ": gimbal " + std::to_string(gimbal->gimbal) + " of " +
+                     std::to_string(state.vehicles[i].sensors.gimbals.size()));
+  }
 }
 
-void Step(const SimModel& model, std::span<const RouteCommand> commands, SimState& state) {
-  ApplyCommands(commands, state);
+BodyMotion MotionOf(const Vehicle& vehicle) { return {vehicle.motion, vehicle.a_WB, vehicle.alpha_WB_B}; }
+
+void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state,
+          std::vector<SimEvent>* events) {
+  ApplyCommands(model, commands, state);
+  const DroneBoxes boxes = BoxesOf(model, state);
+  const internal::StepContext context{model, boxes, state.wind_W, state.t_ns};
+  const size_t count = state.vehicles.size(), tasks = (count + kVehiclesPerTask - 1) / kVehiclesPerTask;
+  // Each task has its own events, so that their order does not depend on the threads.
+  std::vector<std::vector<SimEvent>> happened(tasks);
+  const auto step_task = [&](int64_t task) {
+    const auto first = static_cast<size_t>(task) * kVehiclesPerTask;
+    for (size_t i = first; i < std::min(first + kVehiclesPerTask, count); ++i)
+      StepVehicle(context, i, state.vehicles[i], happened[static_cast<size_t>(task)]);
+  };
+  if (tasks == 1) {
+    step_task(0);
+  } else {
+    ParallelFor(static_cast<int64_t>(tasks), step_task);
+  }
   ++state.step;
   state.t_ns += model.dt_ns;
-  PlanMotion(state);
-  QueryContacts(model, state);
-}
-
-uint64_t HashState(const SimState& state) {
-  StateHasher hasher;
-  hasher.Add(static_cast<uint64_t>(state.step));
-  hasher.Add(static_cast<uint64_t>(state.t_ns));
-  for (const Vehicle& vehicle : state.vehicles) {
-    for (int i = 0; i < 3; ++i) hasher.Add(vehicle.motion.X_WB.R.row(i));
-    hasher.Add(vehicle.motion.X_WB.p);
-    hasher.Add(vehicle.motion.v_WB);
-    hasher.Add(vehicle.motion.w_WB_B);
-    hasher.Add(vehicle.a_WB);
-    hasher.Add(static_cast<double>(vehicle.clearance));
-    hasher.Add(vehicle.following ? static_cast<uint64_t>(vehicle.following->start_ns) : ~uint64_t{0});
-  }
-  return hasher.hash();
+  if (events == nullptr) return;
+  for (auto& some : happened) std::ranges::move(some, std::back_inserter(*events));
 }
 
 }  // namespace airsim360

@@ -7,7 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/sim/flight.h"
+#include "airsim360/sim/fly_route.h"
 #include "airsim360/sim/survey.h"
 #include "airsim360/worlds/mesh_builder.h"
 #include "airsim360/worlds/worlds.h"
@@ -33,13 +33,13 @@ SimState StartState(const SimModel& model) {
 
 // Steps `n` times, giving the route at the first step.
 void Advance(const SimModel& model, const std::shared_ptr<const Route>& route, int n, SimState& state) {
-  const std::vector<RouteCommand> commands = {{0, route}};
+  const std::vector<SimCommand> commands = {{0, route}};
   for (int i = 0; i < n; ++i)
-    Step(model, i == 0 && route ? std::span(commands) : std::span<const RouteCommand>(), state);
+    Step(model, i == 0 && route ? std::span(commands) : std::span<const SimCommand>(), state);
 }
 
 TEST(Step, ThousandStepsGiveTheSameHashEveryTime) {
-  const SimModel model{.tracer = Room()};
+  const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
   SimState a = StartState(model), b = StartState(model);
   Advance(model, RoomRoute(), 1000, a);
   Advance(model, RoomRoute(), 1000, b);
@@ -49,7 +49,7 @@ TEST(Step, ThousandStepsGiveTheSameHashEveryTime) {
 }
 
 TEST(Step, ARestoredSnapshotContinuesWithTheSameBytes) {
-  const SimModel model{.tracer = Room()};
+  const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
   SimState state = StartState(model);
   Advance(model, RoomRoute(), 400, state);
   const SimState snapshot = state;
@@ -62,7 +62,7 @@ TEST(Step, ARestoredSnapshotContinuesWithTheSameBytes) {
 }
 
 TEST(Step, HashSeesEveryPartOfTheState) {
-  const SimModel model{.tracer = Room()};
+  const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
   const SimState state = StartState(model);
   std::vector<SimState> changed(7, state);
   changed[0].step = 1;
@@ -76,15 +76,15 @@ TEST(Step, HashSeesEveryPartOfTheState) {
 }
 
 TEST(Step, ClearanceIsTheDistanceToTheNearestSurface) {
-  const SimModel model{.tracer = Room(), .contact_range = 10};
+  const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs, .contact_range = 10};
   EXPECT_NEAR(VehicleAt(model, BodyPose({-4.25, 0, 3}, 0, 0, 0)).clearance, 0.75, 1e-5);
   EXPECT_NEAR(VehicleAt(model, BodyPose({3, 0, 2}, 0, 0, 0)).clearance, 1, 1e-5);  // above the box
 }
 
 TEST(Step, RefusesACommandForAVehicleThatDoesNotExist) {
-  const SimModel model{.tracer = Room()};
+  const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
   SimState state = StartState(model);
-  const std::vector<RouteCommand> commands = {{3, RoomRoute()}};
+  const std::vector<SimCommand> commands = {{3, RoomRoute()}};
   EXPECT_THROW(Step(model, commands, state), InputError);
 }
 
@@ -140,7 +140,7 @@ TEST(PlanSurvey, GoesAroundASingleModelInTheOpen) {
 
 TEST(FlyRoute, TakesEveryShotAtItsTimeOnTheRoute) {
   const auto route = RoomRoute();
-  const SimModel model{.tracer = Room()};
+  const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
   const std::vector<int64_t> times = EvenTimes(*route, 7);
   const Flight flight = FlyRoute(model, route, times);
   ASSERT_EQ(flight.shots.size(), 7u);
@@ -153,7 +153,8 @@ TEST(FlyRoute, TakesEveryShotAtItsTimeOnTheRoute) {
 }
 
 TEST(TrajectoryCsv, NumbersReadBackExactly) {
-  const Flight flight = FlyRoute({.tracer = Room()}, RoomRoute(), std::vector<int64_t>{0});
+  const Flight flight =
+      FlyRoute({.tracer = Room(), .dt_ns = kRouteStepNs}, RoomRoute(), std::vector<int64_t>{0});
   std::istringstream csv(TrajectoryCsv(flight));
   std::string line;
   std::getline(csv, line);

@@ -102,6 +102,21 @@ void DynamicScene::Place(EmbreeScene& statics, const Scene& scene, const SceneSt
     moved_[k] = place;
     shown_[k] = shown;
   }
+  placed_.clear();
+  groups_.clear();
+  for (size_t k = 0; k < moved_.size(); ++k) {
+    if (moved_[k].hidden) continue;
+    auto& groups = groups_[shown_[k]];
+    if (groups.empty())
+      groups = BuffersOf(shown_[k], statics.GroupCount(scene.instances[moved_[k].instance].mesh));
+    placed_.emplace_back(moved_[k].instance, shown_[k], groups, moved_[k].X_WM);
+  }
+}
+
+void DynamicScene::Find(Vec3f p_W, NearestTriangle& best) const {
+  for (const PlacedMesh& mesh : placed_) {
+    if (DistanceToBox(p_W, mesh.bounds()) < best.distance) mesh.Find(p_W, best);
+  }
 }
 
 }  // namespace airsim360::internal

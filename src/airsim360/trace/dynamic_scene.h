@@ -22,6 +22,9 @@ class DynamicScene {
   /// `movers`.
   void Update(EmbreeScene& statics, const Scene& scene, const SceneState& state, const Movers& movers);
 
+  /// Looks for a triangle of what is shown nearer to p_W than `best`.
+  void Find(Vec3f p_W, NearestTriangle& best) const;
+
   RTCScene top() const { return top_.get(); }
   const std::vector<MovedInstance>& moved() const { return moved_; }
   const std::vector<DeformedMesh>& deformed() const { return deformed_; }
@@ -45,6 +48,8 @@ class DynamicScene {
   std::vector<DeformedMesh> deformed_;
   std::map<MeshId, Body> bodies_;
   std::vector<HitSlot> slots_;
+  std::map<RTCScene, std::vector<TriangleBuffers>> groups_;  // of what is shown
+  std::vector<PlacedMesh> placed_;                           // what is shown
 };
 
 }  // namespace airsim360::internal

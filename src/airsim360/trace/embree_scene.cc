@@ -1,6 +1,7 @@
 #include "airsim360/trace/embree_scene.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
@@ -182,6 +183,33 @@ RTCScene EmbreeScene::SubScene(const Mesh& mesh, MeshId id) {
   const std::lock_guard lock(mutex_);
   if (sub_scenes_[id] == nullptr) BuildSubScene(mesh, id);
   return sub_scenes_[id].get();
+}
+
+const PointQueryScene& EmbreeScene::PointQueries(const Scene& scene) {
+  std::call_once(point_queries_once_, [&] {
+    std::vector<PointQueryScene::Baked> baked;
+    std::vector<PointQueryScene::Instanced> instanced;
+    for (uint32_t id = 0; id < first_slots_.size(); ++id) {
+      const HitSlot& slot = slots_[first_slots_[id]];
+      const Instance& instance = scene.instances[slot.instance];
+      if (slot.normal_in_world) {
+        baked.push_back({id, slot.instance,
+                         static_cast<uint32_t>(scene.meshes[instance.mesh].positions.size()),
+                         slot.primitive_count});
+      } else {
+        instanced.push_back({slot.instance, sub_scenes_[instance.mesh].get(), instance.mesh,
+                             GroupCount(instance.mesh), instance.X_WM});
+      }
+    }
+    // On a thread of its own: one that waits for the build may not begin another task of a parallel loop,
+    // which would wait for this very build.
+    std::thread([&] {
+      point_queries_ =
+          std::make_unique<PointQueryScene>(device_.get(), top_.get(), baked, instanced, groups_.size());
+    }).join();
+    ThrowOnError();
+  });
+  return *point_queries_;
 }
 
 SceneHandle EmbreeScene::MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const {

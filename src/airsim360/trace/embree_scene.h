@@ -22,6 +22,7 @@
 
 #include "airsim360/scene/scene.h"
 #include "airsim360/trace/alpha_filter.h"
+#include "airsim360/trace/point_query.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
@@ -75,6 +76,8 @@ class EmbreeScene {
   /// A scene of one mesh with other vertices, of one more element than the mesh has; for refitting.
   SceneHandle MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const;
   unsigned GroupCount(MeshId id) const { return static_cast<unsigned>(groups_[id].size()); }
+  /// The scene as built, for point queries; made when first needed. May be called while others trace.
+  const PointQueryScene& PointQueries(const Scene& scene);
   RTCDevice device() const { return device_.get(); }
   void ThrowOnError() const;
 
@@ -103,6 +106,8 @@ class EmbreeScene {
   std::vector<uint32_t> top_ids_;    // by instance
   std::vector<uint32_t> top_masks_;  // by id in the top-level scene, before anything moves
 
+  std::once_flag point_queries_once_;
+  std::unique_ptr<PointQueryScene> point_queries_;
   std::mutex mutex_;  // of the following and of sub-scenes made late
   Movers movers_;
 };

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "airsim360/base/error.h"
-#include "airsim360/trace/closest_point.h"
 #include "airsim360/trace/dynamic_scene.h"
 #include "airsim360/trace/embree_scene.h"
 
@@ -211,13 +210,30 @@ bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
   return ray.tfar < 0;
 }
 
+namespace {
+
+// The point query over both scenes, starting from `max_distance`.
+template <class Impl>
+internal::NearestTriangle FindNearest(const Impl& impl, std::span<const MovedInstance> moved, Vec3f p_W,
+                                      float max_distance) {
+  internal::NearestTriangle best{std::max(max_distance, 0.0f)};
+  if (!IsFinite(p_W) || !(max_distance > 0)) return best;
+  if (impl.traces_static) impl.embree->PointQueries(*impl.scene).Find(p_W, moved, best);
+  if (impl.dynamic != nullptr) impl.dynamic->Find(p_W, best);
+  return best;
+}
+
+}  // namespace
+
 float RayTracer::Clearance(Vec3f p_W, float max_distance) const {
-  const bool moves = impl_->dynamic != nullptr;
-  float distance = max_distance;
-  if (impl_->traces_static)
-    distance = internal::ClosestSurfaceDistance(*this, impl_->embree->top(), moves, p_W, distance);
-  if (moves) distance = internal::ClosestSurfaceDistance(*this, impl_->dynamic->top(), false, p_W, distance);
-  return distance;
+  return FindNearest(*impl_, moved(), p_W, max_distance).distance;
+}
+
+std::optional<NearestSurface> RayTracer::Nearest(Vec3f p_W, float max_distance) const {
+  const internal::NearestTriangle best = FindNearest(*impl_, moved(), p_W, max_distance);
+  if (best.instance == kMiss) return std::nullopt;
+  const uint32_t instance = best.placed ? impl_->embree->TopId(best.instance) : kMiss;
+  return NearestSurface{best.distance, best.offset, Resolve(best.geometry, instance, best.primitive)};
 }
 
 namespace {

@@ -58,6 +58,13 @@ struct SurfaceHit {
   Vec3f normal;  ///< unit geometric normal in W, on the side the ray came from
 };
 
+/// Nearest point of the surfaces to a point asked for.
+struct NearestSurface {
+  float distance;
+  Vec3f offset;  ///< in W: the nearest point less the point asked for
+  SurfaceRef surface;
+};
+
 struct RayTracerOptions {
   std::string isa;  ///< Embree instruction set, e.g. "avx2" to pin goldens; empty = best of this machine
   bool sort_alpha = true;  ///< false: every alpha-tested triangle pays for the test, for measuring
@@ -108,6 +115,8 @@ class RayTracer {
   /// Distance from a point of W to the nearest triangle (holes of alpha-tested ones count as solid), at most
   /// `max_distance`.
   float Clearance(Vec3f p_W, float max_distance) const;
+  /// The point that Clearance measures to; nullopt where there is none nearer than `max_distance`.
+  std::optional<NearestSurface> Nearest(Vec3f p_W, float max_distance) const;
 
   /// Instances that need not stand where the scene has them, by index, with their places now: empty unless a
   /// DynamicTracer made this tracer. Holds what has ever moved, so also what is back in its old place.

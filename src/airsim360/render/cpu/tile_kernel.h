@@ -6,7 +6,7 @@
 #include "airsim360/image/image.h"
 #include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/cpu/label_tables.h"
-#include "airsim360/render/kernel_isa.h"
+#include "airsim360/base/kernel_isa.h"
 #include "airsim360/render/shading/shader.h"
 
 namespace airsim360::internal {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "airsim360/render/filter/filter_planes.h"
-#include "airsim360/render/kernel_isa.h"
+#include "airsim360/base/kernel_isa.h"
 
 /// Fills row y of the planes, all but the columns after `width`; light and data_id of set 0.
 AIRSIM360_DECLARE_KERNEL(void LoadFilterRow(const FilterPlanes& planes, int y, const FilterSource& source))

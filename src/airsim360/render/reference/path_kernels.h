@@ -1,7 +1,7 @@
 // The kernels of tier `reference`: scattering at surfaces, one copy per instruction set.
 #pragma once
 
-#include "airsim360/render/kernel_isa.h"
+#include "airsim360/base/kernel_isa.h"
 #include "airsim360/render/shading/shading_data.h"
 
 namespace airsim360::internal {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "airsim360/image/image.h"
-#include "airsim360/render/kernel_isa.h"
+#include "airsim360/base/kernel_isa.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/trace/ray_tracer.h"
 

@@ -1,4 +1,4 @@
-#include "airsim360/render/kernel_isa.h"
+#include "airsim360/base/kernel_isa.h"
 
 #include <array>
 #include <cstdlib>

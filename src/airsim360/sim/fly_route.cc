@@ -1,4 +1,4 @@
-#include "airsim360/sim/flight.h"
+#include "airsim360/sim/fly_route.h"
 
 #include <algorithm>
 #include <charconv>
@@ -34,7 +34,7 @@ Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
   state.vehicles.push_back(VehicleAt(model, BodyPose(start.p, start.yaw, 0, 0)));
   Flight flight;
   flight.least_clearance = state.vehicles[0].clearance;
-  const std::vector<RouteCommand> commands = {{0, std::move(route)}};
+  const std::vector<SimCommand> commands = {{0, std::move(route)}};
   size_t next = 0;
   while (true) {
     // Take the shots that are nearer to this step than to the next one, and the record when it is due.
@@ -47,7 +47,7 @@ Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
       flight.trajectory.push_back({state.t_ns, vehicle.motion, vehicle.a_WB});
     if (landed) return flight;
 
-    Step(model, state.step == 0 ? std::span(commands) : std::span<const RouteCommand>(), state);
+    Step(model, state.step == 0 ? std::span(commands) : std::span<const SimCommand>(), state);
     flight.least_clearance =
         std::min(flight.least_clearance, static_cast<double>(state.vehicles[0].clearance));
   }

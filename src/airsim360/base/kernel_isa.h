@@ -1,4 +1,4 @@
-// Code compiled once per instruction set (files *_kernel.cc, see module.cmake) and chosen at run time.
+// Code compiled once per instruction set (files *_kernel.cc, see cmake/Kernels.cmake) and chosen at run time.
 //
 // Rules for a *_kernel.cc file: everything it defines lives in namespace airsim360::internal::AIRSIM360_ISA
 // or in an anonymous namespace; what it includes may bring only types and always_inline functions, because a

@@ -1,0 +1,85 @@
+// Whole steps of a drone, one source for scalars and SIMD lanes: command limits, battery, ground effect,
+// rotors, body.
+#pragma once
+
+#include "airsim360/flight/battery_equations.h"
+#include "airsim360/flight/body_equations.h"
+
+namespace airsim360::internal {
+
+/// Commanded speed that a rotor heads for: within 0 .. limit, and 0 when the command is not a number.
+template <class V>
+AIRSIM360_LANES V LimitSpeed(V command, V limit) {
+  const V zero = V(ScalarOf<V>(0));
+  const V positive = Select(command > zero, command, zero);
+  return Select(positive < limit, positive, limit);
+}
+
+/// Thrust gained near the ground (Cheeseman and Bennett, ARC R&M 3021, 1955, with their term for forward
+/// flight): 1 / (1 - (R / 4 z)^2 / (1 + (V / v_i)^2)), z held at R / 2 or more; 1 upside down.
+template <class V, class T = ScalarOf<V>>
+AIRSIM360_LANES V GroundFactor(const RotorConstants<T>& r, V distance, V speed, V upright, V across2) {
+  const V one = V(T(1)), zero = V(T(0));
+  const V z = Select(distance > V(r.least_height), distance, V(r.least_height));
+  const V induced2 = speed * speed * r.induced;
+  const V moving = induced2 / (induced2 + across2 + V(T(1e-12)));
+  const V share = Select(upright > zero, moving * (V(r.ground) / (z * z)), zero);
+  return one / (one - share);
+}
+
+template <class V, class T = ScalarOf<V>>
+AIRSIM360_LANES void FindGround(const DroneConstants<T>& c, const LaneSurroundings<V>& around,
+                                const BodyState<V>& s, V* ground) {
+  const V upright = V(T(1)) - V(T(2)) * (s.q[1] * s.q[1] + s.q[2] * s.q[2]);
+  const V vx = s.v.x - around.wind.x, vy = s.v.y - around.wind.y;
+  const V across2 = vx * vx + vy * vy;
+  const int count = c.upright ? 1 : c.rotors;
+  for (int i = 0; i < count; ++i) {
+    ground[i] = GroundFactor(c.rotor[i], around.ground_distance, s.speed[i], upright, across2);
+  }
+}
+
+/// Speeds that the rotors head for, and the charge spent over the step.
+template <class V, class T = ScalarOf<V>>
+AIRSIM360_LANES void UseBattery(const DroneConstants<T>& c, V density, const V* command, BodyState<V>& s,
+                                V* target) {
+  const BatteryLoad<V> load = LoadBattery(c, density, s.speed, s.charge);
+  for (int i = 0; i < c.rotors; ++i) {
+    target[i] = LimitSpeed(command[i], load.speed_factor * c.rotor[i].max_speed);
+  }
+  const V left = s.charge - load.current * c.charge_per_ampere;
+  s.charge = Select(left > V(T(0)), left, V(T(0)));
+}
+
+/// `steps` steps with the same commands and surroundings. `near_ground`: the ground effect is asked for.
+template <class Drive, class V, class T = ScalarOf<V>>
+AIRSIM360_LANES void StepLanes(const DroneConstants<T>& c, const LaneSurroundings<V>& around,
+                               bool near_ground, const V* command, int steps, BodyState<V>& s) {
+  const SteadyLoads<V> loads = MakeSteadyLoads(c, around);
+  V target[kMaxRotors], middle_speed[kMaxRotors], ground[kMaxRotors];
+  for (int i = 0; i < c.rotors; ++i) {
+    target[i] = LimitSpeed(command[i], V(c.rotor[i].max_speed));
+    ground[i] = V(T(1));
+  }
+  // The end of a step is the start of the next, unless something besides the rotors' speeds changes.
+  const bool chained = !near_ground && !c.has_battery;
+  const RotorInstant<V> now{s.speed, target, around.density, ground};
+  const RotorInstant<V> middle_now{middle_speed, target, around.density, ground};
+  if (c.has_battery) UseBattery(c, around.density, command, s, target);
+  if (near_ground) FindGround(c, around, s, ground);
+  Drive start(c, now);
+  for (int i = 0; i < steps; ++i) {
+    if (i > 0 && !chained) {
+      if (c.has_battery) UseBattery(c, around.density, command, s, target);
+      if (near_ground) FindGround(c, around, s, ground);
+      start = Drive(c, now);
+    }
+    TurnRotors(c, target, s.speed, middle_speed);
+    const Drive middle(c, middle_now);
+    const Drive end(c, now);
+    IntegrateBody(c, loads, start, middle, end, s);
+    start = end;
+  }
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,40 @@
+// The few operations that the equations need beside + - * /, for scalars and for SIMD lanes. Every one is
+// exactly rounded or a selection, so that any number of lanes gives the same bits.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "airsim360/math/vector.h"
+
+#define AIRSIM360_LANES inline __attribute__((always_inline))
+
+namespace airsim360::internal {
+
+template <class V>
+struct ScalarOfLanes {
+  using type = typename V::value_type;
+};
+template <std::floating_point V>
+struct ScalarOfLanes<V> {
+  using type = V;
+};
+template <class V>
+using ScalarOf = typename ScalarOfLanes<V>::type;
+
+template <std::floating_point V>
+AIRSIM360_LANES V Select(bool first, V a, V b) {
+  return first ? a : b;
+}
+template <std::floating_point V>
+AIRSIM360_LANES V SquareRoot(V x) {
+  return std::sqrt(x);
+}
+
+/// A vector of scalars for lanes: every lane gets the same.
+template <class V>
+AIRSIM360_LANES Vec3<V> Broadcast(Vec3<ScalarOf<V>> a) {
+  return {V(a.x), V(a.y), V(a.z)};
+}
+
+}  // namespace airsim360::internal

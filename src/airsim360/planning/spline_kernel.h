@@ -1,0 +1,45 @@
+// The vectorised solvers behind minimum_snap.h, compiled once per instruction set. Plain arrays, no checks.
+#pragma once
+
+#include <cstddef>
+
+#include "airsim360/base/kernel_isa.h"
+
+namespace airsim360::internal {
+
+/// Index into kernel tables; the order of SplineKind.
+constexpr int kSplineKinds = 3;
+
+/// One route. Points and derivatives are padded to four lanes, x y z 0.
+struct RouteArguments {
+  const double* knots;      ///< [segments + 1][4]
+  const double* durations;  ///< [segments]
+  size_t segments;
+  const double* start;  ///< [3][4]: v, a, jerk
+  const double* end;
+  bool free;             ///< the highest derivative is free at both ends
+  double* workspace;     ///< RouteWorkspace(segments) doubles, 64-byte aligned
+  double* coefficients;  ///< [segment][3][power]
+};
+
+constexpr size_t RouteWorkspace(size_t segments) { return segments * 8 * 8 + 256; }
+
+/// Eight routes of equally many segments, from rest to rest.
+struct BatchArguments {
+  const double* waypoints[8];  ///< [segments + 1][3]
+  const double* durations[8];
+  size_t segments;
+  double* workspace;  ///< BatchWorkspace(segments) doubles, 64-byte aligned
+  double* coefficients[8];
+};
+
+constexpr size_t BatchWorkspace(size_t segments) { return segments * 25 * 8; }
+
+struct SplineKernels {
+  void (*route[kSplineKinds])(const RouteArguments&);  ///< at least 2 segments
+  void (*batch[kSplineKinds])(const BatchArguments&);
+};
+
+}  // namespace airsim360::internal
+
+AIRSIM360_DECLARE_KERNEL(extern const SplineKernels kSplineKernels)

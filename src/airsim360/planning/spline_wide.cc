@@ -1,0 +1,148 @@
+#include "airsim360/planning/spline_wide.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "airsim360/planning/spline_filter.h"
+
+namespace airsim360::internal {
+namespace {
+
+__extension__ typedef __float128 Quad;
+
+/// A ratio that random routes with trapezoidal times hardly ever exceed; measured errors below it stay within
+/// 1e-12 of the largest coefficient (docs/trajectories.md).
+constexpr double kWideRatio = 12;
+
+template <class Model, class S>
+class ChainSolver {
+ public:
+  explicit ChainSolver(const RouteArguments& arguments) : args_(arguments), records_(arguments.segments) {}
+
+  void Run() {
+    KnotBelief<S, 3, D> belief = Start();
+    for (size_t k = 0; k < args_.segments; ++k) {
+      if (k > 0) ChangeUnits(Duration(k) / Duration(k - 1), Duration(k - 1) / Duration(k), belief);
+      records_[k].start = belief;
+      if (args_.free && k == 0) {
+        StepFreeCovariance<S, Model>(records_[k], belief);
+      } else {
+        StepCovariance<S, Model>(records_[k], belief);
+      }
+      S from[3], to[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        from[axis] = Knot(k, axis);
+        to[axis] = Knot(k + 1, axis);
+      }
+      StepMean<S, Model>(from, to, records_[k], belief);
+    }
+    for (int axis = 0; axis < 3; ++axis) Backward(belief, axis);
+  }
+
+ private:
+  static constexpr int D = Model::kStates, kPowers = Model::kDegree + 1;
+
+  S Duration(size_t k) const { return args_.durations[k]; }
+  S Knot(size_t k, int axis) const { return args_.knots[4 * k + static_cast<size_t>(axis)]; }
+
+  /// Derivative i + 1 at an end in units of the duration of its segment.
+  static S Boundary(const double* end, int axis, int i, S duration) {
+    S value = end[4 * i + axis];
+    for (int k = 0; k <= i; ++k) value *= duration;
+    return value;
+  }
+
+  KnotBelief<S, 3, D> Start() const {
+    KnotBelief<S, 3, D> belief = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = 0; i < (args_.free ? D - 1 : D); ++i) {
+        belief.mean[axis][i] = Boundary(args_.start, axis, i, Duration(0));
+      }
+    }
+    return belief;
+  }
+
+  /// covariance costate = mean - prescribed state, for the clamped derivatives.
+  void EndCostates(const KnotBelief<S, 3, D>& belief, int axis, S* x) const {
+    const int n = args_.free ? D - 1 : D;
+    S l[D][D] = {}, d[D] = {};
+    for (int i = 0; i < D; ++i) x[i] = S(0);
+    for (int i = 0; i < n; ++i) {
+      x[i] = belief.mean[axis][i] - Boundary(args_.end, axis, i, Duration(args_.segments - 1));
+    }
+    for (int j = 0; j < n; ++j) {
+      d[j] = belief.covariance[Packed(j + 1, j + 1, D)];
+      for (int k = 0; k < j; ++k) d[j] -= l[j][k] * l[j][k] * d[k];
+      for (int i = j + 1; i < n; ++i) {
+        S sum = belief.covariance[Packed(j + 1, i + 1, D)];
+        for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
+        l[i][j] = sum / d[j];
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < i; ++k) x[i] -= l[i][k] * x[k];
+    }
+    for (int i = n; i-- > 0;) {
+      x[i] /= d[i];
+      for (int k = i + 1; k < n; ++k) x[i] -= l[k][i] * x[k];
+    }
+  }
+
+  void Backward(const KnotBelief<S, 3, D>& belief, int axis) {
+    S after[D];
+    EndCostates(belief, axis, after);
+    for (size_t k = args_.segments; k-- > 0;) {
+      const Costate<S, D> end = EndCostate(records_[k], axis, after);
+      const Costate<S, D> start = StartCostate<S>(end);
+      S c[kPowers];
+      c[0] = Knot(k, axis);
+      SmoothStart(records_[k].start, axis, start, c + 1);
+      HighCoefficients<S, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
+      for (int i = 2; i <= D; ++i) c[i] /= Factorial<S>(i);
+      if (args_.free && k == 0) {
+        c[D] = Knot(1, axis) - c[0];
+        for (int i = 1; i < kPowers; ++i) c[D] -= i == D ? S(0) : c[i];
+      }
+      double* const out = args_.coefficients + (k * 3 + static_cast<size_t>(axis)) * kPowers;
+      S power = 1;
+      for (int i = 0; i < kPowers; ++i, power *= Duration(k)) out[i] = static_cast<double>(c[i] / power);
+      for (int i = 1; i <= D; ++i) after[i - 1] = start.at[i];
+      if (k > 0) ChangeCostateUnits<S, D>(Duration(k - 1) / Duration(k), after);
+    }
+  }
+
+  const RouteArguments& args_;
+  std::vector<SegmentRecord<S, 3, D>> records_;
+};
+
+template <class S>
+void SolveKind(SplineKind kind, const RouteArguments& arguments) {
+  switch (kind) {
+    case SplineKind::kMinimumSnap:
+      return ChainSolver<SnapModel, S>(arguments).Run();
+    case SplineKind::kPaperQuintic:
+      return ChainSolver<QuinticModel, S>(arguments).Run();
+    case SplineKind::kMinimumJerk:
+      return ChainSolver<JerkModel, S>(arguments).Run();
+  }
+}
+
+}  // namespace
+
+bool NeedsWideArithmetic(const double* durations, size_t segments) {
+  bool uneven = false;
+  for (size_t reach = 1; reach <= 3; ++reach) {
+    for (size_t i = 0; i + reach < segments; ++i) {
+      const double a = durations[i], b = durations[i + reach];
+      uneven |= a > kWideRatio * b || b > kWideRatio * a;
+    }
+  }
+  return uneven;
+}
+
+void SolveRouteWide(SplineKind kind, const RouteArguments& arguments) {
+  if (arguments.segments == 1) return SolveKind<long double>(kind, arguments);
+  SolveKind<Quad>(kind, arguments);
+}
+
+}  // namespace airsim360::internal

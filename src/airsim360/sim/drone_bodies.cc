@@ -1,0 +1,87 @@
+#include "airsim360/sim/drone_bodies.h"
+
+#include <algorithm>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+AffineTransform PlaceOf(const RigidTransform& X_WB) {
+  const Mat3d& R = X_WB.R;
+  return {Mat3f::FromColumns(VecCast<float>(R.column(0)), VecCast<float>(R.column(1)),
+                             VecCast<float>(R.column(2))),
+          VecCast<float>(X_WB.p)};
+}
+
+// The scene to change: the given one if nobody else has it.
+std::shared_ptr<Scene> Own(std::shared_ptr<const Scene> scene) {
+  if (scene.use_count() == 1) return std::const_pointer_cast<Scene>(std::move(scene));
+  return std::make_shared<Scene>(*scene);
+}
+
+std::string UniqueName(const Scene& scene, const std::string& name) {
+  const auto taken = [&](const std::string& text) {
+    return std::ranges::any_of(scene.entities, [&](const Entity& entity) { return entity.name == text; });
+  };
+  if (!taken(name)) return name;
+  int number = 2;
+  while (taken(name + " " + std::to_string(number))) ++number;
+  return name + " " + std::to_string(number);
+}
+
+DroneBodyRef AddBody(const DroneBodySpec& body, Scene& scene) {
+  if (!body.model.textures.empty()) throw InputError("body of '" + body.name + "' has textures");
+  // Parts and materials count on from those of the scene.
+  Mesh mesh = body.model.mesh;
+  const auto first_material = static_cast<MaterialId>(scene.materials.size());
+  for (MeshPart& part : mesh.parts) part.material += first_material;
+  scene.materials.insert(scene.materials.end(), body.model.materials.begin(), body.model.materials.end());
+
+  const auto entity = static_cast<EntityId>(scene.entities.size() + 1);
+  const AffineTransform X_WM = PlaceOf(body.X_WB);
+  Box3f bounds;
+  for (const Vec3f& p : mesh.positions) bounds.Add(X_WM * p);
+  scene.entities.push_back({entity, UniqueName(scene, body.name), scene.tree.At("uav/other"), bounds});
+  scene.instances.push_back({static_cast<MeshId>(scene.meshes.size()), X_WM, entity});
+  scene.meshes.push_back(std::move(mesh));
+  return {static_cast<uint32_t>(scene.instances.size() - 1), entity};
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
+                                            std::span<const DroneBodySpec> bodies,
+                                            std::vector<DroneBodyRef>& refs) {
+  refs.clear();
+  if (bodies.empty()) return scene;
+  const std::shared_ptr<Scene> own = Own(std::move(scene));
+  // What is kept on disk of a scene is of the scene without bodies.
+  own->cache_key.clear();
+  for (const DroneBodySpec& body : bodies) refs.push_back(AddBody(body, *own));
+  return own;
+}
+
+std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self) {
+  auto scene_state = std::make_shared<SceneState>();
+  scene_state->t_ns = state.t_ns;
+  const size_t count = std::min(model.drones.size(), state.vehicles.size());
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t instance = model.drones[i]->setup().instance;
+    if (instance != kMiss)
+      scene_state->moved.push_back({instance, PlaceOf(state.vehicles[i].motion.X_WB), i == self});
+  }
+  std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
+  return scene_state;
+}
+
+std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
+                                               std::span<const DroneBodyRef> bodies) {
+  if (bodies.empty()) return base;
+  auto state = std::make_shared<SceneState>();
+  for (const DroneBodyRef& body : bodies) state->moved.push_back({body.instance, {}, true});
+  std::ranges::sort(state->moved, {}, &MovedInstance::instance);
+  return DynamicTracer(base).At(state);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,47 @@
+// Drones as others see them: bodies in the scene that move with the simulation's state.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "airsim360/scene/model_source.h"
+#include "airsim360/sim/step.h"
+
+namespace airsim360 {
+
+/// A body to be added: `model` is in B (origin at the centre of mass, +X forward, +Z up).
+struct DroneBodySpec {
+  std::string name;  ///< of the entity; category uav/other
+  Model model;
+  RigidTransform X_WB;  ///< where it stands in the scene as built
+};
+
+/// The body that stands for a drone of this model.
+Model MakeDroneBody(const DroneModel& drone);
+
+/// Where a body has come to in the scene.
+struct DroneBodyRef {
+  uint32_t instance = kMiss;
+  EntityId entity = kNoEntity;
+};
+
+/// The scene with bodies added, each an instance and an entity of its own, after those that it has: ids of
+/// everything else stay. In place where `scene` is the only reference, else a copy. `refs`: one for each
+/// body.
+std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
+                                            std::span<const DroneBodySpec> bodies,
+                                            std::vector<DroneBodyRef>& refs);
+
+inline constexpr size_t kNobody = SIZE_MAX;
+
+/// What has moved, as sensors of vehicle `self` see it: bodies where the drones are, its own hidden (kNobody:
+/// all are shown). Drones without a body are left out.
+std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self);
+
+/// The scene of `base` without any of the bodies, for SimModel::tracer; `base` itself if there are none.
+std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
+                                               std::span<const DroneBodyRef> bodies);
+
+}  // namespace airsim360

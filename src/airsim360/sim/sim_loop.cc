@@ -1,0 +1,94 @@
+#include "airsim360/sim/sim_loop.h"
+
+#include <algorithm>
+
+namespace airsim360 {
+
+SimLoop::SimLoop(std::shared_ptr<const SimModel> model)
+    : model_(std::move(model)), state_(StartState(*model_)) {}
+SimLoop::SimLoop(std::shared_ptr<const SimModel> model, SimState start)
+    : model_(std::move(model)), state_(std::move(start)) {}
+
+void SimLoop::Post(SimCommand command) {
+  const std::lock_guard lock(mutex_);
+  CheckCommand(*model_, state_, command);
+  waiting_.push_back(std::move(command));
+}
+
+void SimLoop::StepOnce() {
+  if (recorder_) recorder_->Before(state_, waiting_);
+  Step(*model_, waiting_, state_, &events_);
+  waiting_.clear();
+  if (recorder_) recorder_->After(state_);
+  if (events_.size() > kMostEvents) events_.erase(events_.begin(), events_.end() - kMostEvents);
+}
+
+void SimLoop::Advance(int64_t steps) {
+  // The lock is given back between steps, so that others are not kept waiting.
+  for (int64_t i = 0; i < steps; ++i) {
+    const std::lock_guard lock(mutex_);
+    StepOnce();
+  }
+}
+
+int64_t SimLoop::AdvanceUnlessPaused(int64_t steps) {
+  for (int64_t i = 0; i < steps; ++i) {
+    const std::lock_guard lock(mutex_);
+    if (allowed_ == 0) return i;
+    if (allowed_ > 0) --allowed_;
+    StepOnce();
+  }
+  return steps;
+}
+
+std::shared_ptr<const SimState> SimLoop::Snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return std::make_shared<const SimState>(state_);
+}
+
+void SimLoop::Restore(const SimState& snapshot) {
+  const std::lock_guard lock(mutex_);
+  state_ = snapshot;
+  waiting_.clear();
+  recorder_.reset();
+}
+
+int64_t SimLoop::t_ns() const {
+  const std::lock_guard lock(mutex_);
+  return state_.t_ns;
+}
+
+std::vector<SimEvent> SimLoop::TakeEvents() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(events_, {});
+}
+
+void SimLoop::Pause() {
+  const std::lock_guard lock(mutex_);
+  allowed_ = 0;
+}
+
+void SimLoop::Continue(int64_t steps) {
+  const std::lock_guard lock(mutex_);
+  allowed_ = steps > 0 ? steps : -1;
+}
+
+bool SimLoop::paused() const {
+  const std::lock_guard lock(mutex_);
+  return allowed_ == 0;
+}
+
+void SimLoop::StartRecording(std::string note, int64_t hash_every) {
+  const std::lock_guard lock(mutex_);
+  recorder_.emplace(*model_, state_, std::move(note), hash_every);
+}
+
+std::optional<Recording> SimLoop::StopRecording() {
+  const std::lock_guard lock(mutex_);
+  if (!recorder_) return std::nullopt;
+  const Recording recording = recorder_->Finish(state_);
+  recorder_.reset();
+  return recording;
+}
+
+}  // namespace airsim360

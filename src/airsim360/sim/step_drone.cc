@@ -1,0 +1,172 @@
+#include "airsim360/sim/step_drone.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/math/standard_atmosphere.h"
+
+namespace airsim360::internal {
+namespace {
+
+using Kind = SimEvent::Kind;
+
+// A contact that begins harder than this is a collision even while another lasts, m/s.
+constexpr double kNewImpact = 0.3;
+// Drones farther away than this do not meet within a step, metres: closing at 500 m/s.
+constexpr double kMeetingRange = 2;
+// Vehicles are kept within this distance of the scene's box, metres.
+constexpr double kWorldMargin = 1000;
+
+// Flags of the autopilot that are told once, when they rise.
+constexpr std::pair<uint64_t, Kind> kToldFlags[] = {
+    {kCommandRefused, Kind::kCommandRefused}, {kCommandLost, Kind::kCommandLost},
+    {kCommandDone, Kind::kCommandDone},       {kFenceHeld, Kind::kFence},
+    {kRotorFailed, Kind::kRotorFailed},       {kBatteryLow, Kind::kBatteryLow},
+    {kBatteryEmpty, Kind::kBatteryEmpty}};
+
+void TellFlags(uint64_t before, uint64_t after, size_t i, int64_t t_ns, std::vector<SimEvent>& events) {
+  for (const auto& [flag, kind] : kToldFlags) {
+    if ((after & ~before & flag) != 0) events.push_back({.kind = kind, .vehicle = i, .t_ns = t_ns});
+  }
+}
+
+// Velocity of the air at the vehicle: mean wind of its height behind what shelters it.
+Vec3d WindAt(const StepContext& context, Vehicle& vehicle) {
+  const WindSpec& spec = context.model.wind;
+  if (context.wind_W == Vec3d{}) return {};
+  const Vec3d p = vehicle.drone.p_WB;
+  const Vec3d mean = WindAtHeight(spec, context.wind_W, p.z - context.model.tracer->scene().bounds.min.z);
+  if (!spec.shelter) return mean;
+  if (context.t_ns % kShelterPeriodNs < context.model.dt_ns) {
+    const double period = static_cast<double>(std::max(kShelterPeriodNs, context.model.dt_ns)) * 1e-9;
+    const double follow = 1 - std::exp(-period / kShelterTime);
+    vehicle.gusts.shelter += follow * (ShelterFactor(*context.model.tracer, p, mean) - vehicle.gusts.shelter);
+  }
+  return mean * vehicle.gusts.shelter;
+}
+
+// Metres from the rotor plane down to the surface below, where its effect is felt.
+double GroundDistance(const StepContext& context, const SimDrone& drone, const Vehicle& vehicle) {
+  constexpr double kFar = 1e9;
+  if (vehicle.contact.free_distance > drone.ground_range()) return kFar;
+  const RotorModel& rotor = drone.model().rotors.front();
+  const Vec3d hub = vehicle.drone.p_WB + ToMatrix(vehicle.drone.q_WB) * Vec3d{0, 0, rotor.p_B.z};
+  const auto hit = context.model.tracer->Intersect(VecCast<float>(hub), {0, 0, -1},
+                                                   static_cast<float>(drone.ground_range()));
+  return hit ? static_cast<double>(hit->distance) : kFar;
+}
+
+void NoteCollision(const ContactReport& report, int64_t t_ns, size_t i, Vehicle& vehicle,
+                   std::vector<SimEvent>& events) {
+  const bool begins = report.touching && (!vehicle.touching || report.impact_speed > kNewImpact);
+  vehicle.touching = report.touching;
+  if (!begins && !report.crashed) return;
+  CollisionInfo& collision = vehicle.collision;
+  collision = {collision.count + 1, t_ns,
+               report.point.p_W,    report.point.normal_W,
+               vehicle.drone.p_WB,  report.impact_speed,
+               report.penetration,  report.point.entity};
+  events.push_back({Kind::kCollision, i, t_ns, collision});
+  if (report.crashed) events.push_back({Kind::kCrash, i, t_ns, collision});
+}
+
+// Nothing leaves the neighbourhood of the scene: an invisible wall takes the speed through it.
+void KeepInWorld(const StepContext& context, size_t i, Vehicle& vehicle, std::vector<SimEvent>& events) {
+  const Box3f& bounds = context.model.tracer->scene().bounds;
+  if (bounds.empty()) return;
+  bool outside = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = bounds.min[axis] - kWorldMargin, high = bounds.max[axis] + kWorldMargin;
+    double& p = vehicle.drone.p_WB[axis];
+    if (p >= low && p <= high) continue;
+    p = std::clamp(p, low, high);
+    double& v = vehicle.drone.v_WB[axis];
+    // Told when it arrives, not while it is held there.
+    outside |= (p == low ? v < -kNewImpact : v > kNewImpact);
+    v = p == low ? std::max(v, 0.0) : std::min(v, 0.0);
+  }
+  if (outside) events.push_back({.kind = Kind::kWorldEdge, .vehicle = i, .t_ns = context.t_ns});
+}
+
+// Largest speed of drones that may be met in this step.
+double NeighbourSpeed(const StepContext& context, size_t i, const SimDrone& drone, const Vehicle& vehicle) {
+  double speed = 0;
+  context.boxes.Near(vehicle.drone.p_WB, drone.radius() + kMeetingRange, i,
+                     [&](const DroneBox& box) { speed = std::max(speed, Norm(box.v_WB)); });
+  return speed;
+}
+
+}  // namespace
+
+void CopyMotion(Vehicle& vehicle) {
+  const DroneState& drone = vehicle.drone;
+  vehicle.motion = {{ToMatrix(drone.q_WB), drone.p_WB}, drone.v_WB, drone.w_WB_B};
+}
+
+void FollowMotion(const SimDrone& drone, Vehicle& vehicle) {
+  DroneState& state = vehicle.drone;
+  state.p_WB = vehicle.motion.X_WB.p;
+  state.q_WB = ToQuaternion(vehicle.motion.X_WB.R);
+  state.v_WB = vehicle.motion.v_WB;
+  state.w_WB_B = vehicle.motion.w_WB_B;
+  state.rotor_speeds.fill(0);
+  const double hover = HoverSpeed(drone.model());
+  std::fill_n(state.rotor_speeds.begin(), drone.model().rotors.size(), hover);
+  vehicle.contact = {};
+}
+
+void PlanDrone(const StepContext& context, size_t i, Vehicle& vehicle, std::vector<SimEvent>& events) {
+  const SimDrone& drone = *context.model.drones[i];
+  if (context.t_ns % drone.control_ns() != 0) return;
+  const uint64_t before = vehicle.autopilot.flags, last_id = vehicle.autopilot.command_id;
+  const StateEstimate estimate = EstimateOf(vehicle.drone, context.t_ns);
+  vehicle.rotor_commands = drone.autopilot().Step(estimate, vehicle.command, vehicle.autopilot);
+  // Flags of a command rise anew with each command.
+  constexpr uint64_t kOfCommand = kCommandRefused | kCommandLost | kCommandDone | kFenceHeld;
+  const bool is_new = vehicle.autopilot.command_id != last_id;
+  const size_t first = events.size();
+  TellFlags(is_new ? before & ~kOfCommand : before, vehicle.autopilot.flags, i, context.t_ns, events);
+  for (size_t k = first; k < events.size(); ++k) {
+    if (events[k].kind == Kind::kCommandRefused)
+      events[k].text = drone.autopilot().Problem(vehicle.command.command, vehicle.autopilot);
+  }
+}
+
+DroneSurroundings Surround(const StepContext& context, size_t i, Vehicle& vehicle) {
+  const SimDrone& drone = *context.model.drones[i];
+  const SimModel& model = context.model;
+  if (context.t_ns % kClearancePeriodNs < model.dt_ns) {
+    vehicle.clearance = model.tracer->Clearance(VecCast<float>(vehicle.drone.p_WB), model.contact_range);
+  }
+  vehicle.wind_W = WindAt(context, vehicle);
+  DroneSurroundings around;
+  around.wind_W = vehicle.wind_W;
+  const double height = model.world.frame.origin().altitude + vehicle.drone.p_WB.z;
+  around.air_density = StandardAir(height, model.world.sea_level_pressure).density;
+  around.ground_distance = GroundDistance(context, drone, vehicle);
+  return around;
+}
+
+void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& surroundings, Vehicle& vehicle,
+              std::vector<SimEvent>& events) {
+  const SimModel& model = context.model;
+  const SimDrone& drone = *model.drones[i];
+  const double dt = drone.dynamics().dt();
+  const DroneState before = vehicle.drone;
+  drone.dynamics().Step(surroundings, vehicle.rotor_commands, vehicle.health, vehicle.drone);
+  const WorldContacts contacts(*model.tracer, context.boxes, i);
+  const ContactReport report =
+      ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
+                      NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
+  NoteCollision(report, context.t_ns + model.dt_ns, i, vehicle, events);
+  if (report.crashed && drone.setup().crash_disarms) {
+    vehicle.autopilot.mode = FlightMode::kDisarmed;
+    vehicle.rotor_commands.fill(0);
+  }
+  KeepInWorld(context, i, vehicle, events);
+  vehicle.a_WB = (vehicle.drone.v_WB - before.v_WB) / dt;
+  vehicle.alpha_WB_B = (vehicle.drone.w_WB_B - before.w_WB_B) / dt;
+  CopyMotion(vehicle);
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,49 @@
+#include "airsim360/sim/wind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace airsim360 {
+namespace {
+
+constexpr double kDeficit = 0.8, kRecovery = 25;  // share of the wind lost close behind a wall; metres
+constexpr double kFarthest = 4 * kRecovery;       // what is left of the deficit there is 1.5 %
+constexpr double kElevationsDeg[] = {2, 12, 25}, kTurnsDeg[] = {-12, 0, 12};
+constexpr double kReferenceHeight = 10, kLowest = 0.5;  // metres
+
+}  // namespace
+
+void WindSpec::Visit(ConfigVisitor& v) {
+  v.Field("east", "m/s, towards the east, 10 m above the ground", mean_W.x, -60, 60);
+  v.Field("north", "m/s, towards the north", mean_W.y, -60, 60);
+  v.Field("up", "m/s", mean_W.z, -60, 60);
+  v.Field("profile_exponent", "power law over height: 0 none, 0.14 open land, 0.3 town", profile_exponent, 0,
+          1);
+  v.Field("shelter", "buildings upwind slow the air", shelter);
+}
+
+double ShelterFactor(const RayTracer& tracer, Vec3d p_W, Vec3d wind_W) {
+  const double speed = std::hypot(wind_W.x, wind_W.y);
+  if (!(speed > 0)) return 1;
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double into = std::atan2(-wind_W.y, -wind_W.x);
+  double deficit = 0;
+  for (const double elevation : kElevationsDeg) {
+    for (const double turn : kTurnsDeg) {
+      const double e = elevation * kRadians, a = into + turn * kRadians;
+      const Vec3d d{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
+      const auto hit =
+          tracer.Intersect(VecCast<float>(p_W), VecCast<float>(d), static_cast<float>(kFarthest));
+      if (hit) deficit += std::exp(-static_cast<double>(hit->distance) / kRecovery);
+    }
+  }
+  return 1 - kDeficit * deficit / 9;
+}
+
+Vec3d WindAtHeight(const WindSpec& spec, Vec3d wind_10m_W, double height) {
+  if (spec.profile_exponent == 0) return wind_10m_W;
+  return wind_10m_W * std::pow(std::max(height, kLowest) / kReferenceHeight, spec.profile_exponent);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,37 @@
+// The air of a world: mean wind with a profile over height, shadows of buildings, gusts.
+#pragma once
+
+#include "airsim360/base/config.h"
+#include "airsim360/base/state_hash.h"
+#include "airsim360/math/transform.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360 {
+
+struct WindSpec {
+  Vec3d mean_W;                 ///< m/s, 10 m above the ground
+  double profile_exponent = 0;  ///< power law over height: 0 = the same everywhere, 0.14 open land, 0.3 town
+  bool shelter = false;         ///< buildings upwind slow the air, see ShelterFactor
+
+  void Visit(ConfigVisitor& v);
+};
+
+/// Of one vehicle; plain data.
+struct WindState {
+  double shelter = 1;  ///< factor of the mean wind, follows ShelterFactor within kShelterTime
+};
+
+inline constexpr double kShelterTime = 1;                ///< seconds
+inline constexpr int64_t kShelterPeriodNs = 50'000'000;  ///< between looks at the buildings
+
+/// What the mean wind at p is multiplied by behind obstacles: 1 - 0.8 mean(exp(-d / 25 m)), d the distance to
+/// what each of nine rays into the wind meets (upwards by 2, 12 and 25 degrees, turned by -12, 0 and 12
+/// degrees), rays that meet nothing counting 0. A stand-in for wakes: it costs nine rays, is a function of
+/// place and direction alone, and makes streets across the wind calm and crossings windy; it does not speed
+/// air up around corners.
+double ShelterFactor(const RayTracer& tracer, Vec3d p_W, Vec3d wind_W);
+
+/// Mean wind of a profile at a height over the ground, metres, without shelter.
+Vec3d WindAtHeight(const WindSpec& spec, Vec3d wind_10m_W, double height);
+
+}  // namespace airsim360
