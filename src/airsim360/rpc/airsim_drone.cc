@@ -55,16 +55,15 @@ LidarSpec AsLidar(const SensorSettings& sensor) {
 }  // namespace
 
 DroneModel AirSimQuad() {
-  constexpr double kArm = 0.2275, kRotorHeight = 0.025, kTopSpeed = 669.86, kThrust = 4.179446, kTorque = 0.055562;
+  constexpr double kArm = 0.2275, kRotorHeight = 0.025, kTopSpeed = 669.86, kThrust = 4.179446,
+                   kTorque = 0.055562;
   const double d = kArm * std::numbers::sqrt2 / 2;
   DroneModel model;
   model.name = "airsim_quad";
   model.mass = 1;
   model.inertia_B.m = {{{0.006721, 0, 0}, {0, 0.008041, 0}, {0, 0, 0.014279}}};
   // FR and RL turn counter-clockwise seen from above, their reaction is clockwise.
-  const struct {
-    double x, y, direction;
-  } kPlaces[] = {{d, -d, -1}, {-d, d, -1}, {d, d, 1}, {-d, -d, 1}};
+  const struct { double x, y, direction; } kPlaces[] = {{d, -d, -1}, {-d, d, -1}, {d, d, 1}, {-d, -d, 1}};
   for (const auto& place : kPlaces) {
     RotorModel rotor;
     rotor.p_B = {place.x, place.y, kRotorHeight};
@@ -94,23 +93,26 @@ RigidTransform MountOf(const SettingsPose& pose, const SettingsPose& otherwise) 
 
 RaySensors MakeRaySensors(const AirSimSettings& settings, const VehicleSettings& vehicle) {
   RaySensors sensors;
-  ForSensors(settings, vehicle, SensorType::kLidar, nullptr, [&](const std::string& name, const SensorSettings& s) {
-    sensors.lidars.push_back({name, AsLidar(s), s.sensor_local_frame});
-  });
-  ForSensors(settings, vehicle, SensorType::kDistance, nullptr, [&](const std::string& name, const SensorSettings& s) {
-    RangeFinderSpec spec;
-    spec.mount = AsMount(MountOf(s.pose, {0, 0, 0, 0, 0, 0}));
-    spec.beam_deg = 0;
-    spec.min_range = s.min_distance;
-    spec.max_range = s.max_distance;
-    spec.sigma = spec.sigma_per_metre = 0;
-    sensors.distances.push_back({name, spec});
-  });
+  ForSensors(settings, vehicle, SensorType::kLidar, nullptr,
+             [&](const std::string& name, const SensorSettings& s) {
+               sensors.lidars.push_back({name, AsLidar(s), s.sensor_local_frame});
+             });
+  ForSensors(settings, vehicle, SensorType::kDistance, nullptr,
+             [&](const std::string& name, const SensorSettings& s) {
+               RangeFinderSpec spec;
+               spec.mount = AsMount(MountOf(s.pose, {0, 0, 0, 0, 0, 0}));
+               spec.beam_deg = 0;
+               spec.min_range = s.min_distance;
+               spec.max_range = s.max_distance;
+               spec.sigma = spec.sigma_per_metre = 0;
+               sensors.distances.push_back({name, spec});
+             });
   return sensors;
 }
 
-DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings, const VehicleSettings& vehicle,
-                          const SimpleFlightGains& gains, const RigidTransform& X_WB) {
+DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings,
+                          const VehicleSettings& vehicle, const SimpleFlightGains& gains,
+                          const RigidTransform& X_WB) {
   DroneSetup setup;
   setup.name = name;
   setup.model = AirSimQuad();
@@ -122,23 +124,29 @@ DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& setting
   setup.X_WB = X_WB;
   SensorSet& set = setup.sensors;
   set = {};
-  ForSensors(settings, vehicle, SensorType::kImu, "imu", [&](const std::string& sensor, const SensorSettings&) {
-    set.imus.push_back({sensor, ImuSpec{.rate_hz = 333}});
-  });
-  ForSensors(settings, vehicle, SensorType::kGps, "gps", [&](const std::string& sensor, const SensorSettings&) {
-    // AirSim's receiver knows its place exactly, 0.2 s late; eph and epv are what it reports.
-    set.gnss.push_back({sensor, GnssSpec{.rate_hz = 50,
-                                         .horizontal_sigma = 0,
-                                         .vertical_sigma = 0,
-                                         .velocity_sigma = 0,
-                                         .correlation_time = 0,
-                                         .latency = 0.2,
-                                         .start_up = 1}});
-  });
+  ForSensors(settings, vehicle, SensorType::kImu, "imu",
+             [&](const std::string& sensor, const SensorSettings&) {
+               set.imus.push_back({sensor, ImuSpec{.rate_hz = 333}});
+             });
+  ForSensors(settings, vehicle, SensorType::kGps, "gps",
+             [&](const std::string& sensor, const SensorSettings&) {
+               // AirSim's receiver knows its place exactly, 0.2 s late; eph and epv are what it reports.
+               set.gnss.push_back({sensor, GnssSpec{.rate_hz = 50,
+                                                    .horizontal_sigma = 0,
+                                                    .vertical_sigma = 0,
+                                                    .velocity_sigma = 0,
+                                                    .correlation_time = 0,
+                                                    .latency = 0.2,
+                                                    .start_up = 1}});
+             });
   ForSensors(settings, vehicle, SensorType::kBarometer, "barometer",
-             [&](const std::string& sensor, const SensorSettings&) { set.barometers.push_back({sensor, {}}); });
+             [&](const std::string& sensor, const SensorSettings&) {
+               set.barometers.push_back({sensor, {}});
+             });
   ForSensors(settings, vehicle, SensorType::kMagnetometer, "magnetometer",
-             [&](const std::string& sensor, const SensorSettings&) { set.magnetometers.push_back({sensor, {}}); });
+             [&](const std::string& sensor, const SensorSettings&) {
+               set.magnetometers.push_back({sensor, {}});
+             });
   return setup;
 }
 

@@ -26,8 +26,9 @@ struct RaySensors {
 DroneModel AirSimQuad();
 
 /// A drone of the settings at its start. `gains`: what set...ControllerGains have changed.
-DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings, const VehicleSettings& vehicle,
-                          const SimpleFlightGains& gains, const RigidTransform& X_WB);
+DroneSetup MakeDroneSetup(const std::string& name, const AirSimSettings& settings,
+                          const VehicleSettings& vehicle, const SimpleFlightGains& gains,
+                          const RigidTransform& X_WB);
 
 /// Lidars and distance sensors of a vehicle.
 RaySensors MakeRaySensors(const AirSimSettings& settings, const VehicleSettings& vehicle);

@@ -55,8 +55,8 @@ class Api {
     });
   }
 
-  /// f(ImageService&, const SnapshotPointer&, …): runs in the thread of the pictures, with the snapshot of the
-  /// moment of the call.
+  /// f(ImageService&, const SnapshotPointer&, …): runs in the thread of the pictures, with the snapshot of
+  /// the moment of the call.
   template <class F>
   void Picture(const char* name, F f, size_t optional = 0) {
     Add<2>(name, optional, f, [this, f](auto arguments, const Reply& reply) {

@@ -18,7 +18,8 @@ void AddClockCalls(Api& api) {
   api.Change("simPause", [](Session& s, bool is_paused) { s.pacer().Pause(is_paused, s.state().t_ns); });
   api.Read("simIsPaused", [](const Snapshot& now) { return now.paused; });
   api.Start("simContinueForTime", [](Session& s, const Reply& reply, double seconds) {
-    if (!(seconds >= 0 && seconds <= kLongestContinue)) throw std::invalid_argument("seconds must be in 0 ... 1e6");
+    if (!(seconds >= 0 && seconds <= kLongestContinue))
+      throw std::invalid_argument("seconds must be in 0 ... 1e6");
     s.pacer().Continue(s.state().t_ns, std::llround(seconds * 1e9), reply);
   });
   api.Start("simContinueForFrames", [](Session& s, const Reply& reply, uint32_t frames) {

@@ -21,7 +21,8 @@ DetectionFilter& FilterOf(Session& s, const CameraName& camera, Text vehicle) {
 void AddDetectionCalls(Api& api) {
   api.Change(
       "simAddDetectionFilterMeshName",
-      [](Session& s, const CameraName& camera, airsim::ImageType, Text pattern, Text vehicle, const External&) {
+      [](Session& s, const CameraName& camera, airsim::ImageType, Text pattern, Text vehicle,
+         const External&) {
         auto& patterns = FilterOf(s, camera, vehicle).patterns;
         if (patterns.size() >= kMostPatterns) throw std::invalid_argument("more than 1000 filters");
         patterns.push_back(pattern);
@@ -29,9 +30,8 @@ void AddDetectionCalls(Api& api) {
       1);
   api.Change(
       "simSetDetectionFilterRadius",
-      [](Session& s, const CameraName& camera, airsim::ImageType, float radius_cm, Text vehicle, const External&) {
-        FilterOf(s, camera, vehicle).radius = radius_cm / 100;
-      },
+      [](Session& s, const CameraName& camera, airsim::ImageType, float radius_cm, Text vehicle,
+         const External&) { FilterOf(s, camera, vehicle).radius = radius_cm / 100; },
       1);
   api.Change(
       "simClearDetectionMeshNames",

@@ -8,7 +8,8 @@ constexpr int kSmallestPanorama = 16, kLargestPanorama = 8192;  // pixels across
 constexpr size_t kMostRequests = 64;
 
 // Each panorama has a resolution; those that have none of their own follow the first that gets one.
-bool SetPanoramaResolution(Session& s, const std::string& name, int width, int height, const std::string& vehicle) {
+bool SetPanoramaResolution(Session& s, const std::string& name, int width, int height,
+                           const std::string& vehicle) {
   const size_t index = s.control(vehicle).index();
   if (FindCamera(s.world().cameras[index], name).panorama == PanoramaKind::kNone) {
     throw std::invalid_argument("Camera '" + name + "' is no panorama");
@@ -39,8 +40,8 @@ void AddImageCalls(Api& api) {
       1);
   api.Picture(
       "simGetImage",
-      [](ImageService& images, const SnapshotPointer& now, const airsim::CameraName& camera, airsim::ImageType type,
-         const std::string& vehicle, const airsim::External& external) {
+      [](ImageService& images, const SnapshotPointer& now, const airsim::CameraName& camera,
+         airsim::ImageType type, const std::string& vehicle, const airsim::External& external) {
         airsim::ImageRequest request;
         request.camera_name = camera;
         request.image_type = type;
@@ -48,21 +49,21 @@ void AddImageCalls(Api& api) {
         return std::move(images.Capture(now, {request}, vehicle, external.external)[0].image_data_uint8);
       },
       1);
-  api.Change("simSetPanoramaResolution", [](Session& s, const airsim::CameraName& camera, int width, int height,
-                                            const std::string& vehicle) {
+  api.Change("simSetPanoramaResolution", [](Session& s, const airsim::CameraName& camera, int width,
+                                            int height, const std::string& vehicle) {
     return SetPanoramaResolution(s, camera.text, width, height, vehicle);
   });
   // In the simulation's thread, so that the instant is that of everything said before.
-  api.Change("simTriggerPanoramaCapture",
-             [&api](Session& s, const airsim::CameraName& camera, const std::string& vehicle) {
-               const VehicleControl& control = s.control(vehicle);
-               if (FindCamera(s.world().cameras[control.index()], camera.text).panorama == PanoramaKind::kNone) {
-                 throw std::invalid_argument("Camera '" + camera.text + "' is no panorama");
-               }
-               s.PublishNow();
-               api.images().Trigger(control.status().name, s.snapshot());
-               return true;
-             });
+  api.Change("simTriggerPanoramaCapture", [&api](Session& s, const airsim::CameraName& camera,
+                                                 const std::string& vehicle) {
+    const VehicleControl& control = s.control(vehicle);
+    if (FindCamera(s.world().cameras[control.index()], camera.text).panorama == PanoramaKind::kNone) {
+      throw std::invalid_argument("Camera '" + camera.text + "' is no panorama");
+    }
+    s.PublishNow();
+    api.images().Trigger(control.status().name, s.snapshot());
+    return true;
+  });
 }
 
 }  // namespace airsim360

@@ -13,7 +13,8 @@ using airsim::YawMode;
 using Text = const std::string&;
 
 // AirSim's: how high a take-off goes and how fast, what counts as standing.
-constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5, kStillSpeed = 0.05;
+constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5,
+                 kStillSpeed = 0.05;
 constexpr double kForever = 3e38;
 constexpr double kBound = 1e6;  // metres, m/s: what is beyond is no wish
 
@@ -49,11 +50,12 @@ void Takeoff(Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
   });
 }
 
-void MoveTo(Session& s, const Reply& reply, const std::vector<Vec3d>& path, double timeout, const PathOptions& options,
-            Text vehicle) {
+void MoveTo(Session& s, const Reply& reply, const std::vector<Vec3d>& path, double timeout,
+            const PathOptions& options, Text vehicle) {
   for (const Vec3d& point : path) CheckFinite({point.x, point.y, point.z});
   CheckFinite({options.velocity});
-  Begin(s, reply, vehicle, [&](const FlightView& view) { return MakePathTask(view, path, timeout, options); });
+  Begin(s, reply, vehicle,
+        [&](const FlightView& view) { return MakePathTask(view, path, timeout, options); });
 }
 
 void AddPathCalls(Api& api) {
@@ -62,19 +64,20 @@ void AddPathCalls(Api& api) {
                              float lookahead, float adaptive_lookahead, Text vehicle) {
     std::vector<Vec3d> points;
     for (const airsim::Vector3r& point : path) points.push_back(airsim::FromVector(point));
-    MoveTo(s, reply, points, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead),
-           vehicle);
+    MoveTo(s, reply, points, timeout_sec,
+           Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
   });
   api.Start("moveToPosition", [](Session& s, const Reply& reply, float x, float y, float z, float velocity,
-                                 float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw, float lookahead,
-                                 float adaptive_lookahead, Text vehicle) {
-    MoveTo(s, reply, {{x, y, z}}, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead),
-           vehicle);
+                                 float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                                 float lookahead, float adaptive_lookahead, Text vehicle) {
+    MoveTo(s, reply, {{x, y, z}}, timeout_sec,
+           Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
   });
   api.Start("moveToGPS", [](Session& s, const Reply& reply, double latitude, double longitude, float altitude,
                             float velocity, float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
                             float lookahead, float adaptive_lookahead, Text vehicle) {
-    if (!(std::abs(latitude) <= 90 && std::abs(longitude) <= 360)) throw std::invalid_argument("no such place");
+    if (!(std::abs(latitude) <= 90 && std::abs(longitude) <= 360))
+      throw std::invalid_argument("no such place");
     const Vec3d p_W = s.earth().ToWorld({latitude, longitude, altitude});
     const Vec3d p_N = NedFromWorld(p_W - s.control(vehicle).status().origin_W);
     MoveTo(s, reply, {p_N}, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead),
@@ -86,7 +89,8 @@ void AddPathCalls(Api& api) {
     Vec3d p_N = control.ViewOf(s.vehicle(control)).p_N;
     p_N.z = z;
     MoveTo(s, reply, {p_N}, timeout_sec,
-           Options(s, velocity, DrivetrainType::kMaxDegreeOfFreedom, yaw, lookahead, adaptive_lookahead), vehicle);
+           Options(s, velocity, DrivetrainType::kMaxDegreeOfFreedom, yaw, lookahead, adaptive_lookahead),
+           vehicle);
   });
 }
 
@@ -116,12 +120,13 @@ void AddWholeCalls(Api& api) {
                 return task;
               });
             });
-  api.Start("rotateByYawRate", [](Session& s, const Reply& reply, float yaw_rate, float duration, Text vehicle) {
-    CheckFinite({yaw_rate});
-    Begin(s, reply, vehicle, [&](const FlightView& view) {
-      return MakeTimedTask(NedPosition(view.p_N, {true, yaw_rate}, view.origin_W), duration);
-    });
-  });
+  api.Start("rotateByYawRate",
+            [](Session& s, const Reply& reply, float yaw_rate, float duration, Text vehicle) {
+              CheckFinite({yaw_rate});
+              Begin(s, reply, vehicle, [&](const FlightView& view) {
+                return MakeTimedTask(NedPosition(view.p_N, {true, yaw_rate}, view.origin_W), duration);
+              });
+            });
   api.Start("moveByManual", [](Session& s, const Reply& reply, float vx_max, float vy_max, float z_min,
                                float duration, DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
     CheckFinite({vx_max, vy_max, z_min});
@@ -165,15 +170,16 @@ void AddVelocityCalls(Api& api) {
       return MakeTimedTask(NedVelocity({v_N.x, v_N.y, vz}, AdjustYaw(v_N, drivetrain, yaw)), duration);
     });
   });
-  api.Start("moveByVelocityZBodyFrame", [](Session& s, const Reply& reply, float vx, float vy, float z,
-                                           float duration, DrivetrainType drivetrain, const YawMode& yaw,
-                                           Text vehicle) {
-    CheckFinite({vx, vy, z});
-    Begin(s, reply, vehicle, [&](const FlightView& view) {
-      const Vec3d v_N = FromHeading(view, vx, vy);
-      return MakeTimedTask(NedVelocityZ(v_N.x, v_N.y, z, AdjustYaw(v_N, drivetrain, yaw), view.origin_W), duration);
-    });
-  });
+  api.Start("moveByVelocityZBodyFrame",
+            [](Session& s, const Reply& reply, float vx, float vy, float z, float duration,
+               DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+              CheckFinite({vx, vy, z});
+              Begin(s, reply, vehicle, [&](const FlightView& view) {
+                const Vec3d v_N = FromHeading(view, vx, vy);
+                return MakeTimedTask(
+                    NedVelocityZ(v_N.x, v_N.y, z, AdjustYaw(v_N, drivetrain, yaw), view.origin_W), duration);
+              });
+            });
 }
 
 // roll, pitch, yaw or its rate, then a throttle or z: one function for the four of them.
@@ -183,7 +189,8 @@ void AddAttitudeCall(Api& api, const char* name, bool yaw_is_rate, bool is_throt
     CheckFinite({roll, pitch, yaw, vertical});
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const double value = is_throttle ? std::clamp(vertical, 0.0f, 1.0f) : vertical;
-      return MakeTimedTask(FrdAttitude(roll, pitch, yaw, yaw_is_rate, {is_throttle, value}, view.origin_W), duration);
+      return MakeTimedTask(FrdAttitude(roll, pitch, yaw, yaw_is_rate, {is_throttle, value}, view.origin_W),
+                           duration);
     });
   });
 }
@@ -194,7 +201,8 @@ void AddRateCall(Api& api, const char* name, bool is_throttle) {
     CheckFinite({roll_rate, pitch_rate, yaw_rate, vertical});
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const double value = is_throttle ? std::clamp(vertical, 0.0f, 1.0f) : vertical;
-      return MakeTimedTask(FrdRates({roll_rate, pitch_rate, yaw_rate}, {is_throttle, value}, view.origin_W), duration);
+      return MakeTimedTask(FrdRates({roll_rate, pitch_rate, yaw_rate}, {is_throttle, value}, view.origin_W),
+                           duration);
     });
   });
 }
@@ -216,7 +224,8 @@ void AddMoveCalls(Api& api) {
     const auto signal = [](float pwm) { return static_cast<double>(std::clamp(pwm, 0.0f, 1.0f)); };
     Begin(s, reply, vehicle, [&](const FlightView&) {
       return MakeTimedTask(
-          MotorSignals({signal(front_right), signal(rear_left), signal(front_left), signal(rear_right)}), duration);
+          MotorSignals({signal(front_right), signal(rear_left), signal(front_left), signal(rear_right)}),
+          duration);
     });
   });
 }

@@ -51,7 +51,8 @@ airsim::BarometerData Barometer(const Snapshot& now, Text name, Text vehicle) {
   const size_t i = SensorIndex(sensors.set.barometers, name, "barometer");
   const BarometerReading& reading = sensors.states.barometers[i].last;
   constexpr double kHectopascal = 0.01;
-  return {Stamp(now, reading.t_ns), static_cast<float>(reading.altitude), static_cast<float>(reading.pressure),
+  return {Stamp(now, reading.t_ns), static_cast<float>(reading.altitude),
+          static_cast<float>(reading.pressure),
           static_cast<float>(sensors.set.barometers[i].spec.qnh * kHectopascal)};
 }
 
@@ -145,8 +146,9 @@ airsim::GpuLidarData GpuLidar(const Snapshot& now, Text name, Text vehicle) {
     const LidarPoint& point = scan.scan.points[i];
     const airsim::Vector3r p = airsim::ToVector(scan.points_F[i]);
     const Rgb8 c = SegmentationColor(now.world->segmentation[point.entity]);
-    data.point_cloud.insert(data.point_cloud.end(),
-                            {p.x_val, p.y_val, p.z_val, static_cast<float>(c.r << 16 | c.g << 8 | c.b), point.intensity});
+    data.point_cloud.insert(
+        data.point_cloud.end(),
+        {p.x_val, p.y_val, p.z_val, static_cast<float>(c.r << 16 | c.g << 8 | c.b), point.intensity});
   }
   return data;
 }
@@ -154,14 +156,17 @@ airsim::GpuLidarData GpuLidar(const Snapshot& now, Text name, Text vehicle) {
 }  // namespace
 
 void AddSensorCalls(Api& api) {
-  api.Read("getImuData", [](const Snapshot& now, Text name, Text vehicle) { return Imu(now, name, vehicle); });
-  api.Read("getBarometerData", [](const Snapshot& now, Text name, Text vehicle) { return Barometer(now, name, vehicle); });
-  api.Read("getMagnetometerData", [](const Snapshot& now, Text name, Text vehicle) { return Magnetometer(now, name, vehicle); });
-  api.Read("getGpsData", [](const Snapshot& now, Text name, Text vehicle) { return Gps(now, name, vehicle); });
+  api.Read("getImuData",
+           [](const Snapshot& now, Text name, Text vehicle) { return Imu(now, name, vehicle); });
+  api.Read("getBarometerData",
+           [](const Snapshot& now, Text name, Text vehicle) { return Barometer(now, name, vehicle); });
+  api.Read("getMagnetometerData",
+           [](const Snapshot& now, Text name, Text vehicle) { return Magnetometer(now, name, vehicle); });
+  api.Read("getGpsData",
+           [](const Snapshot& now, Text name, Text vehicle) { return Gps(now, name, vehicle); });
   // Rays are cast in the thread of the pictures, so that nobody waits for them.
-  api.Picture("getDistanceSensorData", [](ImageService&, const SnapshotPointer& now, Text name, Text vehicle) {
-    return Distance(*now, name, vehicle);
-  });
+  api.Picture("getDistanceSensorData", [](ImageService&, const SnapshotPointer& now, Text name,
+                                          Text vehicle) { return Distance(*now, name, vehicle); });
   api.Picture("getLidarData", [](ImageService&, const SnapshotPointer& now, Text name, Text vehicle) {
     return Lidar(*now, name, vehicle);
   });

@@ -14,11 +14,11 @@ namespace airsim360 {
 enum class PanoramaKind { kNone, kOriginal, kDepth, kSeg, kEntity, kNormal, kFlow };
 
 struct CameraSetup {
-  RigidTransform X_BA;  ///< mount; A is body-like, it looks along +X
+  RigidTransform X_BA;                                    ///< mount; A is body-like, it looks along +X
   std::map<airsim::ImageType, CaptureSettings> captures;  ///< of every type
   PanoramaKind panorama = PanoramaKind::kNone;
   int panorama_width = 1024, panorama_height = 512;
-  bool own_resolution = false;  ///< of the panorama, set by a call
+  bool own_resolution = false;                                  ///< of the panorama, set by a call
   std::vector<float> distortion = std::vector<float>(5, 0.0f);  ///< K1, K2, K3, P1, P2; kept, not applied
   double focal_length = 0;                                      ///< kept only
 };

@@ -75,9 +75,9 @@ std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, 
   std::vector<airsim::DetectionInfo> detections;
   for (const auto& [id, pixels] : seen) {
     const Entity& entity = objects.scene().entity(id);
-    const bool wanted = std::any_of(filter.patterns.begin(), filter.patterns.end(), [&](const std::string& pattern) {
-      return MatchesWildcard(pattern, entity.name);
-    });
+    const bool wanted =
+        std::any_of(filter.patterns.begin(), filter.patterns.end(),
+                    [&](const std::string& pattern) { return MatchesWildcard(pattern, entity.name); });
     if (!wanted || id == objects.scene().sky_entity) continue;
     const auto moved = now.world->places.find(id);
     const ObjectPlace place = moved == now.world->places.end() ? objects.PlaceOf(id) : moved->second;

@@ -15,8 +15,8 @@ inline constexpr double kTaskPeriod = 0.02;  ///< seconds between commands
 /// What a move sees of its drone: N relative to the drone's own origin.
 struct FlightView {
   Vec3d p_N, v_N;
-  double yaw_deg = 0;      ///< clockwise from north
-  double yaw_rate = 0;     ///< rad/s, about F's z axis
+  double yaw_deg = 0;   ///< clockwise from north
+  double yaw_rate = 0;  ///< rad/s, about F's z axis
   Vec3d origin_W;
   airsim::RCData rc;
 };
@@ -32,7 +32,7 @@ class FlightTask {
   virtual ~FlightTask() = default;
   virtual TaskTurn Turn(const FlightView& view) = 0;
 
-  double timeout = 0;           ///< seconds from the start
+  double timeout = 0;  ///< seconds from the start
   bool result_at_timeout = false;
 };
 
@@ -55,10 +55,11 @@ TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path
 /// Sinks at 0.2 m/s until it has stopped sinking.
 TaskPointer MakeLandTask(double timeout);
 /// Turns in place. `wrap`: the error is measured round the circle (AirSim does not).
-TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout, bool wrap);
+TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout,
+                           bool wrap);
 /// Follows the sticks of the remote control.
-TaskPointer MakeManualTask(const FlightView& start, double vx_max, double vy_max, double z_min, double duration,
-                           airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw);
+TaskPointer MakeManualTask(const FlightView& start, double vx_max, double vy_max, double z_min,
+                           double duration, airsim::DrivetrainType drivetrain, const airsim::YawMode& yaw);
 
 /// The yaw mode of a velocity: along it where the drone may only fly forwards.
 airsim::YawMode AdjustYaw(Vec3d v_N, airsim::DrivetrainType drivetrain, airsim::YawMode yaw);

@@ -65,7 +65,9 @@ Rgb8 FlowColor(const FlowPixel& flow) {
   return {channel(5), channel(3), channel(1)};
 }
 
-uint8_t UnitByte(float value) { return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
+uint8_t UnitByte(float value) {
+  return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+}
 
 // World normal as a game engine paints it: north, east, up from -1 … 1 to 0 … 255.
 Rgb8 NormalColor(Vec3f n_W) {
@@ -73,8 +75,8 @@ Rgb8 NormalColor(Vec3f n_W) {
   return {UnitByte(0.5f + 0.5f * n_W.y), UnitByte(0.5f + 0.5f * n_W.x), UnitByte(0.5f + 0.5f * n_W.z)};
 }
 
-Rgb8 ColorAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int x,
-             int y) {
+Rgb8 ColorAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options,
+             int x, int y) {
   const auto gray = [](uint8_t v) { return Rgb8{v, v, v}; };
   switch (content) {
     case ImageContent::kColor:
@@ -100,14 +102,15 @@ Rgb8 ColorAt(ImageContent content, const Frame& frame, const Camera& camera, con
       return gray(UnitByte(DepthAt(content, frame, camera, x, y, false)));
     default: {
       const float range = frame.range(x, y);
-      if (options.centimetres) return gray(range <= 0 ? 255 : static_cast<uint8_t>(std::min(range * 100, 255.0f)));
+      if (options.centimetres)
+        return gray(range <= 0 ? 255 : static_cast<uint8_t>(std::min(range * 100, 255.0f)));
       return gray(UnitByte(DepthAt(ImageContent::kDepthShade, frame, camera, x, y, false)));
     }
   }
 }
 
-float FloatAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int x,
-              int y) {
+float FloatAt(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options,
+              int x, int y) {
   switch (content) {
     case ImageContent::kEntity:
       return static_cast<float>(frame.entity(x, y));
@@ -139,22 +142,33 @@ float RoundToHalf(float value) {
 
 ImageContent ContentOf(const CameraSetup& camera, airsim::ImageType type) {
   using airsim::ImageType;
-  constexpr ImageContent kPanoramas[] = {ImageContent::kColor,  ImageContent::kColor,  ImageContent::kRange,
-                                         ImageContent::kSegmentation, ImageContent::kEntity, ImageContent::kNormal,
-                                         ImageContent::kFlow};
+  constexpr ImageContent kPanoramas[] = {
+      ImageContent::kColor,  ImageContent::kColor,  ImageContent::kRange, ImageContent::kSegmentation,
+      ImageContent::kEntity, ImageContent::kNormal, ImageContent::kFlow};
   if (type == ImageType::kScene) return kPanoramas[static_cast<int>(camera.panorama)];
   switch (type) {
-    case ImageType::kDepthPlanar: return ImageContent::kPlanarDepth;
-    case ImageType::kDepthPerspective: return ImageContent::kRange;
-    case ImageType::kDepthVis: return ImageContent::kDepthShade;
-    case ImageType::kDisparityNormalized: return ImageContent::kDisparity;
-    case ImageType::kSegmentation: return ImageContent::kSegmentation;
-    case ImageType::kSurfaceNormals: return ImageContent::kNormal;
-    case ImageType::kInfrared: return ImageContent::kInfrared;
-    case ImageType::kOpticalFlow: return ImageContent::kFlow;
-    case ImageType::kOpticalFlowVis: return ImageContent::kFlowShade;
-    case ImageType::kAnnotation: return ImageContent::kAnnotation;
-    default: return ImageContent::kColor;  // Cosys' lighting only: no counterpart
+    case ImageType::kDepthPlanar:
+      return ImageContent::kPlanarDepth;
+    case ImageType::kDepthPerspective:
+      return ImageContent::kRange;
+    case ImageType::kDepthVis:
+      return ImageContent::kDepthShade;
+    case ImageType::kDisparityNormalized:
+      return ImageContent::kDisparity;
+    case ImageType::kSegmentation:
+      return ImageContent::kSegmentation;
+    case ImageType::kSurfaceNormals:
+      return ImageContent::kNormal;
+    case ImageType::kInfrared:
+      return ImageContent::kInfrared;
+    case ImageType::kOpticalFlow:
+      return ImageContent::kFlow;
+    case ImageType::kOpticalFlowVis:
+      return ImageContent::kFlowShade;
+    case ImageType::kAnnotation:
+      return ImageContent::kAnnotation;
+    default:
+      return ImageContent::kColor;  // Cosys' lighting only: no counterpart
   }
 }
 
@@ -180,7 +194,8 @@ std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const
   return pixels;
 }
 
-std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options) {
+std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+                        const PixelOptions& options) {
   const int width = Width(camera), height = Height(camera);
   std::string pixels(3 * static_cast<size_t>(width) * static_cast<size_t>(height), '\0');
   ForRows(camera, [&](int y) {
@@ -193,7 +208,8 @@ std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& 
   return pixels;
 }
 
-std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options) {
+std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
+                  const PixelOptions& options) {
   Image<Rgb8> image(Width(camera), Height(camera));
   ForRows(camera, [&](int y) {
     for (int x = 0; x < image.width(); ++x) image(x, y) = ColorAt(content, frame, camera, options, x, y);

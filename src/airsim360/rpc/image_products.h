@@ -30,8 +30,8 @@ ImageContent ContentOf(const CameraSetup& camera, airsim::ImageType type);
 void AddProducts(ImageContent content, Products& products);
 
 struct PixelOptions {
-  bool half_depth = true;      ///< depth is rounded to half precision, as AirSim's readback does
-  bool centimetres = false;    ///< 8-bit range is centimetres, held at 255
+  bool half_depth = true;    ///< depth is rounded to half precision, as AirSim's readback does
+  bool centimetres = false;  ///< 8-bit range is centimetres, held at 255
   std::vector<uint32_t> const* segmentation = nullptr;  ///< id by entity
   std::vector<uint32_t> const* annotation = nullptr;
 };
@@ -43,9 +43,11 @@ inline constexpr float kSkyDepth = 65504;
 std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options);
 /// Three bytes a pixel in the order B, G, R.
-std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options);
+std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+                        const PixelOptions& options);
 /// A PNG of the same picture.
-std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options);
+std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
+                  const PixelOptions& options);
 
 /// Rounded to the nearest half-precision number, ties to even; at most 65504.
 float RoundToHalf(float value);

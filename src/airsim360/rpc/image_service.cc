@@ -31,7 +31,8 @@ RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const Came
   return snapshot.state.vehicles[vehicle].motion.X_WB * camera.X_BA;
 }
 
-ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tracer, const ImageOptions& options)
+ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tracer,
+                           const ImageOptions& options)
     : session_(session), tracer_(std::move(tracer)), options_(options) {
   const SnapshotPointer snapshot = session_.snapshot();
   environment_version_ = snapshot->world->environment_version;
@@ -39,9 +40,12 @@ ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tr
   thread_ = std::thread([this] { Run(); });
 }
 
-ImageService::~ImageService() {
+ImageService::~ImageService() { Stop(); }
+
+void ImageService::Stop() {
   {
     const std::lock_guard lock(mutex_);
+    if (stopping_) return;
     stopping_ = true;
   }
   wake_.notify_all();
@@ -85,7 +89,8 @@ std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot
   if (snapshot.world->places.empty()) return nullptr;
   auto state = std::make_shared<SceneState>();
   state->t_ns = snapshot.state.t_ns;
-  for (const auto& [entity, place] : snapshot.world->places) session_.objects().Move(entity, place, state->moved);
+  for (const auto& [entity, place] : snapshot.world->places)
+    session_.objects().Move(entity, place, state->moved);
   std::sort(state->moved.begin(), state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
   return state;
@@ -104,7 +109,8 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
 }
 
 airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request, ImageContent content,
-                                            const Snapshot& snapshot, const Shot& shot, Vec3d origin_W) const {
+                                            const Snapshot& snapshot, const Shot& shot,
+                                            Vec3d origin_W) const {
   airsim::ImageResponse response;
   response.camera_name = request.camera_name.text;
   response.image_type = request.image_type;
@@ -144,7 +150,8 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
   for (size_t i = 0; i < requests.size(); ++i) {
     const airsim::ImageType type = requests[i].image_type;
     if (static_cast<unsigned>(type) >= static_cast<unsigned>(airsim::ImageType::kCount)) {
-      throw std::invalid_argument("image_type " + std::to_string(static_cast<int>(type)) + " is not in 0 ... 11");
+      throw std::invalid_argument("image_type " + std::to_string(static_cast<int>(type)) +
+                                  " is not in 0 ... 11");
     }
     const CameraSetup& camera = FindCamera(cameras, requests[i].camera_name.text);
     Shot shot;
@@ -158,7 +165,8 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
       shot.X_WA_next = Extrapolate(body, kFlowSeconds) * camera.X_BA;
     }
     const auto same = std::find_if(shots.begin(), shots.end(), [&](const Shot& other) {
-      return SameProjection(other.camera, shot.camera) && other.X_WA.p == shot.X_WA.p && other.X_WA.R == shot.X_WA.R;
+      return SameProjection(other.camera, shot.camera) && other.X_WA.p == shot.X_WA.p &&
+             other.X_WA.R == shot.X_WA.R;
     });
     Shot& chosen = same == shots.end() ? shots.emplace_back(std::move(shot)) : *same;
     const ImageContent content = ContentOf(camera, type);
@@ -171,10 +179,11 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
 // Where a panorama is asked for, everything is of the instant of its trigger.
 SnapshotPointer ImageService::InstantFor(const std::vector<airsim::ImageRequest>& requests,
                                          const SnapshotPointer& now, size_t vehicle) {
-  const bool panorama = std::any_of(requests.begin(), requests.end(), [&](const airsim::ImageRequest& request) {
-    const CameraSetup& camera = FindCamera(now->world->cameras[vehicle], request.camera_name.text);
-    return camera.panorama != PanoramaKind::kNone;
-  });
+  const bool panorama =
+      std::any_of(requests.begin(), requests.end(), [&](const airsim::ImageRequest& request) {
+        const CameraSetup& camera = FindCamera(now->world->cameras[vehicle], request.camera_name.text);
+        return camera.panorama != PanoramaKind::kNone;
+      });
   if (!panorama) return now;
   const std::lock_guard lock(mutex_);
   const auto found = triggered_.find(now->vehicles[vehicle].name);
@@ -199,8 +208,8 @@ std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& 
   return responses;
 }
 
-ImageService::View ImageService::RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& name,
-                                              airsim::ImageType type) {
+ImageService::View ImageService::RenderLabels(const Snapshot& snapshot, size_t vehicle,
+                                              const std::string& name, airsim::ImageType type) {
   const CameraSetup& camera = FindCamera(snapshot.world->cameras[vehicle], name);
   Shot shot;
   shot.camera = ProjectionOf(camera, type);

@@ -29,8 +29,10 @@ class ImageService {
   ImageService(const ImageService&) = delete;
   ImageService& operator=(const ImageService&) = delete;
 
-  /// Runs `job` after those before it; from any thread.
+  /// Runs `job` after those before it; from any thread. Nothing happens after Stop.
   void Post(Job job);
+  /// Ends the present job, drops those that wait, and joins the thread.
+  void Stop();
   /// Keeps the present instant of a vehicle for its panoramas; from any thread.
   void Trigger(const std::string& vehicle, SnapshotPointer snapshot);
 
@@ -45,7 +47,8 @@ class ImageService {
     Camera camera;
     RigidTransform X_WC;
   };
-  View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera, airsim::ImageType type);
+  View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera,
+                    airsim::ImageType type);
   Session& session() { return session_; }
 
  private:
@@ -58,8 +61,8 @@ class ImageService {
                               size_t vehicle, bool external) const;
   SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
                              size_t vehicle);
-  airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content, const Snapshot& snapshot,
-                                const Shot& shot, Vec3d origin_W) const;
+  airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content,
+                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W) const;
 
   Session& session_;
   std::shared_ptr<const RayTracer> tracer_;

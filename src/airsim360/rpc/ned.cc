@@ -16,6 +16,8 @@ Mat3d NedRotation(const Mat3d& R_WB) { return kNedFromWorld * R_WB * kFrdFromBod
 Mat3d WorldRotation(const Mat3d& R_NF) { return kNedFromWorld * R_NF * kFrdFromBody; }
 Mat3d FrdRotation(const Mat3d& R_BA) { return kFrdFromBody * R_BA * kFrdFromBody; }
 
+Mat3d ObjectRotation(const Mat3d& R) { return kNedFromWorld * R * kNedFromWorld; }
+
 double SwapHeading(double yaw) { return std::remainder(std::numbers::pi / 2 - yaw, 2 * std::numbers::pi); }
 
 namespace airsim {

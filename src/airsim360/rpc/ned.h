@@ -20,6 +20,9 @@ Mat3d WorldRotation(const Mat3d& R_NF);
 /// back.
 Mat3d FrdRotation(const Mat3d& R_BA);
 
+/// Turn of an object against how the scene has it, from axes of W to axes of N; the same function leads back.
+Mat3d ObjectRotation(const Mat3d& R);
+
 /// Heading of W (counter-clockwise from east) and of N (clockwise from north); the same function leads back.
 double SwapHeading(double yaw);
 

@@ -28,7 +28,9 @@ EntityId ObjectIndex::Find(const std::string& name) const {
   return found == by_name_.end() ? kNoEntity : found->second;
 }
 
-const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const { return instances_[entity - 1]; }
+const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const {
+  return instances_[entity - 1];
+}
 
 ObjectPlace ObjectIndex::PlaceOf(EntityId entity) const {
   ObjectPlace place;
@@ -75,7 +77,8 @@ std::vector<uint32_t> InitialSegmentation(const Scene& scene, const std::string&
   if (init_method == "None") return ids;
   for (const Entity& entity : scene.entities) {
     // The sky is no mesh of AirSim's and has no id.
-    if (entity.id != scene.sky_entity) ids[entity.id] = static_cast<uint32_t>(DefaultSegmentationId(entity.name));
+    if (entity.id != scene.sky_entity)
+      ids[entity.id] = static_cast<uint32_t>(DefaultSegmentationId(entity.name));
   }
   return ids;
 }

@@ -2,7 +2,7 @@
 
 namespace airsim360 {
 
-void Recorder::Observe(const SnapshotPointer& snapshot) {
+void FlightRecorder::Observe(const SnapshotPointer& snapshot) {
   if (!running_ || !sink_ || snapshot->vehicles.empty() || snapshot->state.t_ns < next_ns_) return;
   const Vec3d p_W = snapshot->state.vehicles[0].motion.X_WB.p;
   constexpr double kMoved = 1e-3;  // metres

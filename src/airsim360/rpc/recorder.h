@@ -9,12 +9,13 @@
 namespace airsim360 {
 
 /// Says when a record is due; who owns the pictures writes it. Of the session's thread.
-class Recorder {
+class FlightRecorder {
  public:
   /// Told of a snapshot to be recorded.
   using Sink = std::function<void(const SnapshotPointer&)>;
 
-  explicit Recorder(const RecordingSettings& settings) : settings_(settings), running_(settings.enabled) {}
+  explicit FlightRecorder(const RecordingSettings& settings)
+      : settings_(settings), running_(settings.enabled) {}
   void SetSink(Sink sink) { sink_ = std::move(sink); }
   void Start() { running_ = true; }
   void Stop() { running_ = false; }

@@ -22,16 +22,17 @@ Vec3d FindOrigin(const RayTracer& tracer) {
 }
 
 uint64_t WallClockNs() {
-  return static_cast<uint64_t>(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-          .count());
+  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                   std::chrono::system_clock::now().time_since_epoch())
+                                   .count());
 }
 
 }  // namespace
 
 std::string NoVehicleText(const std::string& name) {
   return "Vehicle API for '" + name +
-         "' is not available. This could either because this is simulation-only API or this vehicle does not exist";
+         "' is not available. This could either because this is simulation-only API or this vehicle does not "
+         "exist";
 }
 
 size_t Snapshot::Find(const std::string& name) const {
@@ -86,7 +87,8 @@ RigidTransform Session::StartPose(const VehicleSettings& settings) const {
   return X_WB;
 }
 
-void Session::AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB) {
+void Session::AddToModel(const std::string& name, const VehicleSettings& settings,
+                         const RigidTransform& X_WB) {
   const bool is_drone = settings.type != "ComputerVision";
   auto model = std::make_shared<SimModel>(*model_);
   const size_t index = state_.vehicles.size();
@@ -211,7 +213,8 @@ void Session::Run() {
     if (!jobs_.empty()) continue;
     // In small slices: answers to questions about the state need not be newer than that.
     const auto next = pacer_.NextDue(state_.t_ns, kSliceNs);
-    next ? (void)wake_.wait_until(lock, *next) : wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+    next ? (void)wake_.wait_until(lock, *next)
+         : wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
   }
   for (const auto& control : controls_) control->Cancel();
 }

@@ -69,7 +69,7 @@ class Session {
   /// What has changed so far can be seen.
   void PublishNow() { Publish(); }
   Pacer& pacer() { return pacer_; }
-  Recorder& recorder() { return recorder_; }
+  FlightRecorder& recorder() { return recorder_; }
 
  private:
   void Run();
@@ -95,7 +95,7 @@ class Session {
   std::shared_ptr<const WorldView> world_;
   std::shared_ptr<WorldView> new_world_;  // while a job changes it
   Pacer pacer_;
-  Recorder recorder_;
+  FlightRecorder recorder_;
 
   mutable std::mutex snapshot_mutex_;
   SnapshotPointer snapshot_;

@@ -1,4 +1,5 @@
-// What everybody but the simulation's own thread sees: one instant of everything, never changed once published.
+// What everybody but the simulation's own thread sees: one instant of everything, never changed once
+// published.
 #pragma once
 
 #include <array>
@@ -38,10 +39,10 @@ struct WorldView {
   CameraMap external_cameras;
   std::vector<RaySensors> ray_sensors;                                  ///< by vehicle
   std::map<std::pair<size_t, std::string>, DetectionFilter> detection;  ///< by vehicle and camera
-  Environment base_environment;     ///< without the weather of calls
-  bool weather_enabled = false;     ///< simEnableWeather
-  std::array<float, 8> weather{};   ///< simSetWeatherParameter, 0 ... 1, by WeatherParameter
-  Environment environment;          ///< what is rendered
+  Environment base_environment;                                         ///< without the weather of calls
+  bool weather_enabled = false;                                         ///< simEnableWeather
+  std::array<float, 8> weather{};    ///< simSetWeatherParameter, 0 ... 1, by WeatherParameter
+  Environment environment;           ///< what is rendered
   uint64_t environment_version = 0;  ///< grows with every change of `environment`
   PlotCounts plots;
 };

@@ -194,8 +194,10 @@ TcpServer::TcpServer(const std::string& address, int port, TcpHandlers handlers,
   impl_->thread = std::thread([this] { impl_->Run(); });
 }
 
-TcpServer::~TcpServer() {
-  impl_->stopping = true;
+TcpServer::~TcpServer() { Stop(); }
+
+void TcpServer::Stop() {
+  if (impl_->stopping.exchange(true)) return;
   const uint64_t one = 1;
   [[maybe_unused]] const ssize_t put = ::write(impl_->wake.fd, &one, sizeof one);
   impl_->thread.join();

@@ -41,6 +41,8 @@ class TcpServer {
   TcpServer(const TcpServer&) = delete;
   TcpServer& operator=(const TcpServer&) = delete;
 
+  /// Takes no more messages and joins the thread; answers can still be given.
+  void Stop();
   int port() const;
   /// Sends the answer to one message; from any thread, never waits. Nothing happens if the connection is
   /// gone.

@@ -54,8 +54,8 @@ class VehicleControl {
   VehicleSettings settings_;
   VehicleStatus status_;
   std::optional<Running> running_;
-  std::deque<Command> urgent_;           // each is given for a whole control step
-  std::optional<int64_t> hold_at_ns_;    // when the drone begins to hold its place
+  std::deque<Command> urgent_;         // each is given for a whole control step
+  std::optional<int64_t> hold_at_ns_;  // when the drone begins to hold its place
   uint64_t collisions_seen_ = 0;
 };
 
