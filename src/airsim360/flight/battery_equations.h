@@ -45,12 +45,16 @@ AIRSIM360_LANES BatteryLoad<V> LoadBattery(const DroneConstants<T>& c, V density
   }
   const V power = shaft * density * c.inverse_efficiency + c.idle_power;
   const V open = CellVoltage(charge) * c.cells;
-  const V square = open * open - power * V(T(4) * c.resistance);
-  const V root = SquareRoot(Select(square > V(T(0)), square, V(T(0))));
+  // What the load asks of open^2; above it, the source gives its most, open^2 / 4 R, and the rotors get
+  // slower.
+  const V most = open * open, asked = power * V(T(4) * c.resistance);
+  const V given = Select(asked > most, most / asked, V(T(1)));
+  const V rest = most - asked;
   BatteryLoad<V> load;
-  load.voltage = (open + root) * V(T(0.5));
-  load.current = power / load.voltage;
-  load.speed_factor = Select(charge > V(T(0)), load.voltage / V(c.cells * T(kFullCellVoltage)), V(T(0)));
+  load.voltage = (open + SquareRoot(Select(rest > V(T(0)), rest, V(T(0))))) * V(T(0.5));
+  load.current = power * given / load.voltage;
+  load.speed_factor =
+      Select(charge > V(T(0)), given * load.voltage / V(c.cells * T(kFullCellVoltage)), V(T(0)));
   return load;
 }
 

@@ -34,7 +34,7 @@ struct Motion {
   V q[4];
 };
 
-/// What stays the same over the steps of one call.
+/// What stays the same over the steps of one call; drag coefficients divided by the mass.
 template <class V>
 struct SteadyLoads {
   Vec3<V> wind, wind_rate, acceleration, torque, linear_drag, quadratic_drag;
@@ -63,11 +63,20 @@ struct Rotation {
 };
 
 template <class V, class T = ScalarOf<V>>
-AIRSIM360_LANES Vec3<V> Times(const Mat3<T>& a, bool diagonal, Vec3<V> v) {
-  if (diagonal) return {v.x * a.m[0][0], v.y * a.m[1][1], v.z * a.m[2][2]};
+AIRSIM360_LANES Vec3<V> Times(const Mat3<T>& a, Vec3<V> v) {
   return {v.x * a.m[0][0] + v.y * a.m[0][1] + v.z * a.m[0][2],
           v.x * a.m[1][0] + v.y * a.m[1][1] + v.z * a.m[1][2],
           v.x * a.m[2][0] + v.y * a.m[2][1] + v.z * a.m[2][2]};
+}
+
+/// Euler's equation J dw/dt = M - w x J w; the rotors' own momentum is part of M.
+template <class V, class T = ScalarOf<V>>
+AIRSIM360_LANES Vec3<V> AngularAcceleration(const DroneConstants<T>& c, Vec3<V> torque, Vec3<V> w) {
+  if (!c.diagonal_inertia) return Times(c.inverse_inertia, torque - Cross(w, Times(c.inertia, w)));
+  const auto& inverse = c.inverse_inertia.m;
+  return {(torque.x - w.y * w.z * c.inertia_gaps.x) * inverse[0][0],
+          (torque.y - w.z * w.x * c.inertia_gaps.y) * inverse[1][1],
+          (torque.z - w.x * w.y * c.inertia_gaps.z) * inverse[2][2]};
 }
 
 template <class V, class T = ScalarOf<V>>
@@ -77,31 +86,32 @@ AIRSIM360_LANES SteadyLoads<V> MakeSteadyLoads(const DroneConstants<T>& c, const
           s.wind_rate,
           s.force * V(c.inverse_mass) + gravity,
           s.torque,
-          Broadcast<V>(c.linear_drag) * s.density,
-          Broadcast<V>(c.quadratic_drag) * s.density};
+          Broadcast<V>(c.linear_drag) * (s.density * c.inverse_mass),
+          Broadcast<V>(c.quadratic_drag) * (s.density * c.inverse_mass)};
 }
 
-/// Force of the air on the body, in B: -(linear_i + quadratic_i |v|) v_i.
+/// Deceleration by the air's force on the body, in B: (linear_i + quadratic_i |v|) v_i / m. The air speed is
+/// taken in W, so that it need not wait for the rotation.
 template <class V>
-AIRSIM360_LANES Vec3<V> BodyDrag(const SteadyLoads<V>& loads, Vec3<V> v) {
-  const V speed = SquareRoot(Dot(v, v));
-  return -((loads.linear_drag + loads.quadratic_drag * speed) * v);
+AIRSIM360_LANES Vec3<V> BodyDrag(const SteadyLoads<V>& loads, Vec3<V> v_W, Vec3<V> v_B) {
+  const V speed = SquareRoot(Dot(v_W, v_W));
+  return (loads.linear_drag + loads.quadratic_drag * speed) * v_B;
 }
 
-/// Newton's and Euler's equations; J dw/dt = M - w x J w, the rotors' own momentum being part of the wrench.
+/// Newton's and Euler's equations and the quaternion's, dq/dt = q (0, w) / 2.
 template <class Drive, class V, class T = ScalarOf<V>>
 AIRSIM360_LANES Motion<V> Differentiate(const DroneConstants<T>& c, const SteadyLoads<V>& loads,
                                         const Drive& drive, const Motion<V>& s) {
   const Rotation<V> R(s.q);
-  const AirMotion<V> air{R.ToBody(s.v - loads.wind), s.w - loads.wind_rate, s.w};
+  const Vec3<V> air_W = s.v - loads.wind;
+  const AirMotion<V> air{R.ToBody(air_W), s.w - loads.wind_rate, s.w};
   const Wrench<V> rotors = drive.WrenchIn(c, air);
-  const Vec3<V> force = rotors.force + BodyDrag(loads, air.v);
-  const Vec3<V> torque = rotors.torque + loads.torque - Cross(s.w, Times(c.inertia, c.diagonal_inertia, s.w));
+  const Vec3<V> specific_force = rotors.force * V(c.inverse_mass) - BodyDrag(loads, air_W, air.v);
   const Vec3<V> h = s.w * V(T(0.5));
   Motion<V> rate;
-  rate.v = R.ToWorld(force) * V(c.inverse_mass) + loads.acceleration;
-  rate.w = Times(c.inverse_inertia, c.diagonal_inertia, torque);
-  rate.q[0] = V(T(0)) - (s.q[1] * h.x + s.q[2] * h.y + s.q[3] * h.z);
+  rate.v = R.ToWorld(specific_force) + loads.acceleration;
+  rate.w = AngularAcceleration(c, rotors.torque + loads.torque, s.w);
+  rate.q[0] = -(s.q[1] * h.x + s.q[2] * h.y + s.q[3] * h.z);
   rate.q[1] = s.q[0] * h.x + s.q[2] * h.z - s.q[3] * h.y;
   rate.q[2] = s.q[0] * h.y - s.q[1] * h.z + s.q[3] * h.x;
   rate.q[3] = s.q[0] * h.z + s.q[1] * h.y - s.q[2] * h.x;
@@ -132,6 +142,14 @@ AIRSIM360_LANES void AddExactly(V step, V& a, V& low) {
   a = sum;
 }
 
+/// Keeps RK4 stable whatever the torque: no component of the turning above 1.5 rad a step (1500 rad/s at 1
+/// ms).
+template <class V>
+AIRSIM360_LANES V LimitTurning(V w, V most) {
+  const V high = Select(w < most, w, most);
+  return Select(high > -most, high, -most);
+}
+
 /// One RK4 step of the body, given the rotors at its start, middle and end.
 template <class Drive, class V, class T = ScalarOf<V>>
 AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads<V>& loads,
@@ -150,7 +168,8 @@ AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads
   AddExactly(step.z, s.p.z, s.p_low.z);
   for (int i = 0; i < 3; ++i) {
     s.v[i] = s.v[i] + sixth * Simpson(k1.v[i], k2.v[i], k3.v[i], k4.v[i]);
-    s.w[i] = s.w[i] + sixth * Simpson(k1.w[i], k2.w[i], k3.w[i], k4.w[i]);
+    const V w = s.w[i] + sixth * Simpson(k1.w[i], k2.w[i], k3.w[i], k4.w[i]);
+    s.w[i] = LimitTurning(w, V(c.most_turning));
   }
   for (int i = 0; i < 4; ++i) s.q[i] = s.q[i] + sixth * Simpson(k1.q[i], k2.q[i], k3.q[i], k4.q[i]);
   // One Newton step for 1 / |q| about 1: the error of a step squares.

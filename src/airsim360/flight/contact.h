@@ -37,7 +37,7 @@ struct ContactProperties {
   double crash_speed = 3;    ///< m/s along the normal; an impact above it counts as a crash
 };
 
-/// Outlives the step: part of the simulation's state. Plain data.
+/// Outlives the step: part of the simulation's state. Plain data. Start anew when the drone is put elsewhere.
 struct ContactState {
   double free_distance = 0;  ///< metres that the drone may still move before surfaces must be asked for again
   bool crashed = false;      ///< latched by an impact above crash_speed

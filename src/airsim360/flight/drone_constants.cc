@@ -13,6 +13,7 @@ RotorConstants<T> MakeRotor(const RotorModel& r, double dt) {
   RotorConstants<T> c;
   c.p = VecCast<T>(r.p_B);
   c.axis = VecCast<T>(r.axis_B);
+  c.p2 = T(r.p_B.x * r.p_B.x + r.p_B.y * r.p_B.y);
   c.thrust = T(r.thrust_factor);
   c.torque = T(r.direction * r.torque_ratio * r.thrust_factor);
   c.drag = T(r.in_plane_drag);
@@ -72,6 +73,7 @@ void SetInertia(const Mat3d& J, DroneConstants<T>& c) {
   // Rows of the inverse are cross products of columns over the determinant.
   const Vec3d a = J.column(0), b = J.column(1), d = J.column(2);
   const double det = J.determinant();
+  c.inertia_gaps = VecCast<T>(Vec3d{d.z - b.y, a.x - d.z, b.y - a.x});
   const Vec3d inverse_rows[3] = {Cross(b, d) / det, Cross(d, a) / det, Cross(a, b) / det};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
@@ -105,6 +107,7 @@ DroneConstants<T> MakeDroneConstants(const DroneModel& model, double dt) {
   c.dt = T(dt);
   c.half_dt = T(dt / 2);
   c.sixth_dt = T(dt / 6);
+  c.most_turning = T(1.5 / dt);
   c.inverse_mass = T(1 / model.mass);
   SetInertia(model.inertia_B, c);
   c.linear_drag = VecCast<T>(model.linear_drag_B);

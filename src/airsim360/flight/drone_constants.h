@@ -9,6 +9,7 @@ namespace airsim360::internal {
 template <class T>
 struct RotorConstants {
   Vec3<T> p, axis;             ///< hub and unit axis, B
+  T p2;                        ///< x^2 + y^2 of the hub
   T thrust;                    ///< k_f
   T torque;                    ///< reaction torque along the axis / speed^2: direction * torque_ratio * k_f
   T drag, inflow, lift, flap;  ///< k_d, k_z, k_h, k_flap
@@ -40,8 +41,10 @@ struct DroneConstants {
   LiftSums<T> lift;
   T height;  ///< of the rotor plane above B, when upright
   T dt, half_dt, sixth_dt;
+  T most_turning;  ///< rad/s, about each axis
   T inverse_mass;
   Mat3<T> inertia, inverse_inertia;
+  Vec3<T> inertia_gaps;  ///< J_z - J_y, J_x - J_z, J_y - J_x
   Vec3<T> linear_drag, quadratic_drag;
   // Battery: ohms, 1 / efficiency, watts, and what one ampere takes off the charge in a step.
   T cells, resistance, inverse_efficiency, idle_power, charge_per_ampere;

@@ -4,6 +4,7 @@
 
 #include "airsim360/flight/battery_equations.h"
 #include "airsim360/flight/body_equations.h"
+#include "airsim360/flight/ground_effect.h"
 
 namespace airsim360::internal {
 
@@ -13,30 +14,6 @@ AIRSIM360_LANES V LimitSpeed(V command, V limit) {
   const V zero = V(ScalarOf<V>(0));
   const V positive = Select(command > zero, command, zero);
   return Select(positive < limit, positive, limit);
-}
-
-/// Thrust gained near the ground (Cheeseman and Bennett, ARC R&M 3021, 1955, with their term for forward
-/// flight): 1 / (1 - (R / 4 z)^2 / (1 + (V / v_i)^2)), z held at R / 2 or more; 1 upside down.
-template <class V, class T = ScalarOf<V>>
-AIRSIM360_LANES V GroundFactor(const RotorConstants<T>& r, V distance, V speed, V upright, V across2) {
-  const V one = V(T(1)), zero = V(T(0));
-  const V z = Select(distance > V(r.least_height), distance, V(r.least_height));
-  const V induced2 = speed * speed * r.induced;
-  const V moving = induced2 / (induced2 + across2 + V(T(1e-12)));
-  const V share = Select(upright > zero, moving * (V(r.ground) / (z * z)), zero);
-  return one / (one - share);
-}
-
-template <class V, class T = ScalarOf<V>>
-AIRSIM360_LANES void FindGround(const DroneConstants<T>& c, const LaneSurroundings<V>& around,
-                                const BodyState<V>& s, V* ground) {
-  const V upright = V(T(1)) - V(T(2)) * (s.q[1] * s.q[1] + s.q[2] * s.q[2]);
-  const V vx = s.v.x - around.wind.x, vy = s.v.y - around.wind.y;
-  const V across2 = vx * vx + vy * vy;
-  const int count = c.upright ? 1 : c.rotors;
-  for (int i = 0; i < count; ++i) {
-    ground[i] = GroundFactor(c.rotor[i], around.ground_distance, s.speed[i], upright, across2);
-  }
 }
 
 /// Speeds that the rotors head for, and the charge spent over the step.

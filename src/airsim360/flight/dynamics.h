@@ -5,6 +5,7 @@
 #include "airsim360/flight/drone_constants.h"
 #include "airsim360/flight/drone_model.h"
 #include "airsim360/flight/drone_state.h"
+#include "airsim360/flight/dynamics_kernel.h"
 
 namespace airsim360 {
 
@@ -38,6 +39,7 @@ class DroneDynamics {
 
  private:
   internal::DroneConstants<double> constants_;
+  internal::StepOneKernel* step_;
 };
 
 /// DroneDynamics(model, dt).Step(...), for a step of a drone that is not stepped again.

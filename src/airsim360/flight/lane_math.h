@@ -22,13 +22,21 @@ struct ScalarOfLanes<V> {
 template <class V>
 using ScalarOf = typename ScalarOfLanes<V>::type;
 
-template <std::floating_point V>
-AIRSIM360_LANES V Select(bool first, V a, V b) {
-  return first ? a : b;
+/// a where `first`, else b; Mask is bool, or the mask of std::experimental::simd.
+template <class Mask, class V>
+AIRSIM360_LANES V Select(Mask first, V a, V b) {
+  if constexpr (std::floating_point<V>) {
+    return first ? a : b;
+  } else {
+    where(first, b) = a;
+    return b;
+  }
 }
-template <std::floating_point V>
+
+template <class V>
 AIRSIM360_LANES V SquareRoot(V x) {
-  return std::sqrt(x);
+  using std::sqrt;
+  return sqrt(x);
 }
 
 /// A vector of scalars for lanes: every lane gets the same.

@@ -69,14 +69,15 @@ struct UprightDrive {
   }
 
   AIRSIM360_LANES Wrench<V> WrenchIn(const DroneConstants<T>& c, const AirMotion<V>& air) const {
-    const V ux = air.v.x + air.w_air.y * c.height, uy = air.v.y - air.w_air.x * c.height;
     const V turn = air.w_air.z;
+    V ux = air.v.x, uy = air.v.y;
+    if (c.height != 0) ux = ux + air.w_air.y * c.height, uy = uy - air.w_air.x * c.height;
     // H-force, in the plane of the rotors.
-    const V fx = turn * drag_y - ux * drag, fy = V(T(0)) - (uy * drag + turn * drag_x);
+    const V fx = turn * drag_y - ux * drag, fy = -(uy * drag + turn * drag_x);
     Wrench<V> out;
     out.force = {fx, fy, thrust};
-    out.torque = {roll - fy * c.height, pitch + fx * c.height,
-                  yaw - (turn * drag_r2 + (uy * drag_x - ux * drag_y))};
+    out.torque = {roll, pitch, yaw - (turn * drag_r2 + (uy * drag_x - ux * drag_y))};
+    if (c.height != 0) out.torque.x -= fy * c.height, out.torque.y += fx * c.height;
     if (c.has_inflow) ApplyInflow(air, out);
     if (c.has_lift) ApplyLift(c.lift, ux, uy, turn, out);
     if (c.has_flapping) {
@@ -84,7 +85,7 @@ struct UprightDrive {
       out.torque.y += turn * flap_y - ux * flap;
     }
     if (c.has_spin) {
-      out.torque.x += V(T(0)) - air.w.y * spin;
+      out.torque.x -= air.w.y * spin;
       out.torque.y += air.w.x * spin;
     }
     return out;
@@ -101,7 +102,7 @@ struct UprightDrive {
     drag = drag + k;
     drag_x = drag_x + kx;
     drag_y = drag_y + ky;
-    drag_r2 = drag_r2 + (kx * r.p.x + ky * r.p.y);
+    drag_r2 = drag_r2 + k * r.p2;
   }
   AIRSIM360_LANES void AddInflow(const RotorConstants<T>& r, V speed) {
     const V k = speed * r.inflow, kx = k * r.p.x, ky = k * r.p.y;
@@ -134,8 +135,8 @@ struct UprightDrive {
   AIRSIM360_LANES void ApplyInflow(const AirMotion<V>& air, Wrench<V>& out) const {
     const Vec3<V> w = air.w_air;
     const V z = air.v.z;
-    out.force.z += V(T(0)) - (z * in + (w.x * in_y - w.y * in_x));
-    out.torque.x += V(T(0)) - (z * in_y + (w.x * in_yy - w.y * in_xy));
+    out.force.z -= z * in + (w.x * in_y - w.y * in_x);
+    out.torque.x -= z * in_y + (w.x * in_yy - w.y * in_xy);
     out.torque.y += z * in_x + (w.x * in_xy - w.y * in_xx);
   }
   /// Thrust gained at each hub: k_h ((u_x - w_z y)^2 + (u_y + w_z x)^2).
@@ -144,7 +145,7 @@ struct UprightDrive {
     const V bx = b * ux, by = b * uy;
     out.force.z += a * h.one + (by * h.x - bx * h.y) + d * (h.xx + h.yy);
     out.torque.x += a * h.y + (by * h.xy - bx * h.yy) + d * h.yr2;
-    out.torque.y += V(T(0)) - (a * h.x + (by * h.xx - bx * h.xy) + d * h.xr2);
+    out.torque.y -= a * h.x + (by * h.xx - bx * h.xy) + d * h.xr2;
   }
 };
 

@@ -41,6 +41,7 @@ Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const Ri
   const StateEstimate estimate = EstimateOf(vehicle.drone, state.t_ns);
   vehicle.autopilot =
       airborne ? drone.autopilot().HoverState(estimate) : drone.autopilot().GroundState(estimate);
+  vehicle.gusts = StartWind(model.world.seed, i);
   vehicle.sensors =
       StartSensors(drone.setup().sensors, model.world, static_cast<uint32_t>(i), MotionOf(vehicle));
   return vehicle;

@@ -43,6 +43,14 @@ void Add(const CollisionInfo& collision, StateHasher& hasher) {
   hasher.Add(collision.entity);
 }
 
+void Add(const WindState& wind, StateHasher& hasher) {
+  hasher.Add(std::bit_cast<uint64_t>(wind.random));
+  const DrydenState& air = wind.turbulence;
+  hasher.Add(air.started);
+  for (const double x : {air.u, air.roll, air.v[0], air.v[1], air.w[0], air.w[1], air.v_slow, air.w_slow})
+    hasher.Add(x);
+}
+
 void Add(const Vehicle& vehicle, StateHasher& hasher) {
   Add(vehicle.motion, hasher);
   hasher.Add(vehicle.a_WB);
@@ -60,7 +68,8 @@ void Add(const Vehicle& vehicle, StateHasher& hasher) {
   hasher.Add(vehicle.contact.crashed);
   hasher.Add(vehicle.touching);
   Add(vehicle.collision, hasher);
-  hasher.Add(vehicle.gusts.shelter);
+  Add(vehicle.gusts, hasher);
+  hasher.Add(vehicle.shelter);
   hasher.Add(vehicle.wind_W);
   HashSensors(vehicle.sensors, hasher);
   for (const TraceSample& sample : vehicle.trace) {

@@ -73,8 +73,10 @@ DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
   for (size_t i = 0; i < count && count > 1; ++i) {
     const SimDrone& drone = *model.drones[i];
     const Kinematics& motion = state.vehicles[i].motion;
+    const RotorWake wake =
+        Flies(model, i, state.vehicles[i]) ? WakeOf(drone.model(), state.vehicles[i].drone) : RotorWake{};
     boxes.push_back(
-        {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity});
+        {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity, wake});
   }
   return DroneBoxes(std::move(boxes));
 }

@@ -13,7 +13,7 @@
 #include "airsim360/sensors/sensor_set.h"
 #include "airsim360/sim/route.h"
 #include "airsim360/sim/sim_drone.h"
-#include "airsim360/sim/wind.h"
+#include "airsim360/sim/world_wind.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -28,7 +28,7 @@ struct SimModel {
   float contact_range = 2;                  ///< metres up to which clearance is measured
   std::vector<std::shared_ptr<const SimDrone>> drones = {};  ///< by vehicle; further ones only follow routes
   SensorWorld world = {};                                    ///< place on the Earth, weather, seed
-  WindSpec wind = {};
+  WorldWind wind = {};
   int64_t trace_period_ns = 100'000'000;  ///< between samples of a vehicle's trace
   size_t trace_samples = 0;               ///< newest samples that a vehicle keeps; 0 = no trace
 };
@@ -74,8 +74,9 @@ struct Vehicle {
   ContactState contact;
   bool touching = false;
   CollisionInfo collision;
-  WindState gusts;
-  Vec3d wind_W;  ///< velocity of the air at the vehicle in the last step
+  WindState gusts = StartWind(0, 0);
+  double shelter = 1;  ///< factor of the mean wind, follows ShelterFactor within kShelterTime
+  Vec3d wind_W;        ///< velocity of the air at the vehicle in the last step
   SensorStates sensors;
   std::vector<TraceSample> trace;  ///< oldest first
 };

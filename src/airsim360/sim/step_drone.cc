@@ -14,6 +14,8 @@ using Kind = SimEvent::Kind;
 constexpr double kNewImpact = 0.3;
 // Drones farther away than this do not meet within a step, metres: closing at 500 m/s.
 constexpr double kMeetingRange = 2;
+// Wakes of drones farther away than this are not felt, metres.
+constexpr double kWakeReach = 15;
 // Vehicles are kept within this distance of the scene's box, metres.
 constexpr double kWorldMargin = 1000;
 
@@ -30,19 +32,34 @@ void TellFlags(uint64_t before, uint64_t after, size_t i, int64_t t_ns, std::vec
   }
 }
 
-// Velocity of the air at the vehicle: mean wind of its height behind what shelters it.
-Vec3d WindAt(const StepContext& context, Vehicle& vehicle) {
-  const WindSpec& spec = context.model.wind;
-  if (context.wind_W == Vec3d{}) return {};
-  const Vec3d p = vehicle.drone.p_WB;
-  const Vec3d mean = WindAtHeight(spec, context.wind_W, p.z - context.model.tracer->scene().bounds.min.z);
-  if (!spec.shelter) return mean;
-  if (context.t_ns % kShelterPeriodNs < context.model.dt_ns) {
-    const double period = static_cast<double>(std::max(kShelterPeriodNs, context.model.dt_ns)) * 1e-9;
-    const double follow = 1 - std::exp(-period / kShelterTime);
-    vehicle.gusts.shelter += follow * (ShelterFactor(*context.model.tracer, p, mean) - vehicle.gusts.shelter);
-  }
-  return mean * vehicle.gusts.shelter;
+// Follows what shelters the vehicle from the mean wind.
+void UpdateShelter(const StepContext& context, Vec3d mean, Vehicle& vehicle) {
+  if (!context.model.wind.shelter || context.t_ns % kShelterPeriodNs >= context.model.dt_ns) return;
+  const double period = static_cast<double>(std::max(kShelterPeriodNs, context.model.dt_ns)) * 1e-9;
+  const double follow = 1 - std::exp(-period / kShelterTime);
+  const double now = ShelterFactor(*context.model.tracer, vehicle.drone.p_WB, mean);
+  vehicle.shelter += follow * (now - vehicle.shelter);
+}
+
+// The air at the vehicle: mean wind of its height behind what shelters it, gusts, turbulence.
+WindSample WindAt(const StepContext& context, const SimDrone& drone, Vehicle& vehicle) {
+  const WorldWind& wind = context.model.wind;
+  if (context.wind_W == Vec3d{} && wind.turbulence_6m == 0 && wind.gusts.empty()) return {};
+  const double height = vehicle.drone.p_WB.z - context.model.tracer->scene().bounds.min.z;
+  const Vec3d mean = WindAtHeight(wind, context.wind_W, height);
+  UpdateShelter(context, mean, vehicle);
+  const WindSettings settings{mean * vehicle.shelter, wind.turbulence_6m, wind.gusts};
+  return StepWind(settings, static_cast<double>(context.t_ns) * 1e-9, drone.dynamics().dt(), height,
+                  vehicle.drone.v_WB, 2 * drone.model().half_size_B.y, vehicle.gusts);
+}
+
+// What the rotors of other drones blow at the vehicle.
+Vec3d Downwash(const StepContext& context, size_t i, const Vehicle& vehicle) {
+  std::vector<RotorWake> wakes;
+  context.boxes.Near(vehicle.drone.p_WB, kWakeReach, i, [&](const DroneBox& box) {
+    if (box.wake.momentum > 0) wakes.push_back(box.wake);
+  });
+  return wakes.empty() ? Vec3d{} : DownwashOn(wakes, wakes.size(), vehicle.drone.p_WB);
 }
 
 // Metres from the rotor plane down to the surface below, where its effect is felt.
@@ -138,9 +155,11 @@ DroneSurroundings Surround(const StepContext& context, size_t i, Vehicle& vehicl
   if (context.t_ns % kClearancePeriodNs < model.dt_ns) {
     vehicle.clearance = model.tracer->Clearance(VecCast<float>(vehicle.drone.p_WB), model.contact_range);
   }
-  vehicle.wind_W = WindAt(context, vehicle);
+  const WindSample wind = WindAt(context, drone, vehicle);
+  vehicle.wind_W = wind.velocity_W + Downwash(context, i, vehicle);
   DroneSurroundings around;
   around.wind_W = vehicle.wind_W;
+  if (wind.rate_W != Vec3d{}) around.wind_rate_B = ToMatrix(vehicle.drone.q_WB).transpose() * wind.rate_W;
   const double height = model.world.frame.origin().altitude + vehicle.drone.p_WB.z;
   around.air_density = StandardAir(height, model.world.sea_level_pressure).density;
   around.ground_distance = GroundDistance(context, drone, vehicle);

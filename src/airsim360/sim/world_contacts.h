@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "airsim360/flight/contact.h"
+#include "airsim360/flight/downwash.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -17,6 +18,7 @@ struct DroneBox {
   double radius = 0;  ///< of a sphere around the box
   size_t vehicle = 0;
   EntityId entity = kNoEntity;
+  RotorWake wake = {};
 };
 
 /// All drones of a simulation, sorted along x, so that neighbours are found without looking at all.

@@ -129,6 +129,7 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
   RotorValues speeds{};
   if (goal.level <= GoalLevel::kSpeeds) {
     if (goal.level != GoalLevel::kSpeeds) state.has_history = 0;
+    state.yaw_torque = 0;
     for (size_t i = 0; i < model_.rotors.size(); ++i) {
       const double idle = goal.level == GoalLevel::kIdle ? kIdleSpeed * model_.rotors[i].max_speed : 0;
       speeds[i] =
@@ -155,9 +156,13 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
   const Mixer mixer = failed ? Mixer(model_, failed) : mixer_;
   const internal::TrackingStep step{
       model_, gains_, mixer, estimate, ToMatrix(estimate.q_WB), goal, options_.control_dt, filter_};
-  const Wrench wrench = options_.controller == ControllerKind::kPx4   ? internal::Px4Wrench(step, state)
-                        : options_.controller == ControllerKind::kSe3 ? internal::Se3Wrench(step, state)
-                                                                      : internal::IndiWrench(step, state);
+  RotorWrench wrench = options_.controller == ControllerKind::kPx4   ? internal::Px4Wrench(step, state)
+                       : options_.controller == ControllerKind::kSe3 ? internal::Se3Wrench(step, state)
+                                                                     : internal::IndiWrench(step, state);
+  // Turning the rotors up gives its yaw torque sooner than their drag does: the demand waits for that.
+  const double dt = options_.control_dt;
+  state.yaw_torque += (wrench.torque_B.z - state.yaw_torque) * dt / (gains_.spin_time + dt);
+  wrench.torque_B.z = state.yaw_torque;
   const Mixer::Result mix = mixer.Allocate(wrench);
   if (mix.saturated) state.flags |= kSaturated;
   return Drive(estimate, mix.thrust, state);

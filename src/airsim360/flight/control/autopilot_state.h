@@ -56,7 +56,9 @@ struct AutopilotState {
   // Controllers.
   int64_t has_history = 0;  ///< previous_v, previous_w, previous_thrust hold values
   Vec3d previous_v, previous_w;
-  Wrench previous_wrench;                  ///< of the rotor speeds, static
+  RotorWrench previous_wrench;             ///< of the rotor speeds, static
+  Vec3d previous_spin_B;                   ///< angular momentum of the rotors, N m s
+  double yaw_torque = 0;                   ///< N m, filtered demand
   Vec3d previous_force_W;                  ///< m/s^2 of thrust
   Vec3d disturbance_a, disturbance_alpha;  ///< filtered: what the model of the rotors does not explain
   Vec3d velocity_integral, rate_integral;  ///< m/s^2; rad/s^2

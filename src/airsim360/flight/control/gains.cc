@@ -58,6 +58,17 @@ double MeanLag(const DroneModel& model) {
   return sum / static_cast<double>(model.rotors.size());
 }
 
+/// Zero of the yaw torque k_m w^2 + I dw/dt, linear about hover: I / (2 k_m w).
+double SpinTime(const DroneModel& model) {
+  const double hover = std::sqrt(model.mass * kGravity / MaxThrust(model));
+  double sum = 0;
+  for (const RotorModel& rotor : model.rotors) {
+    const double torque_slope = 2 * rotor.torque_ratio * rotor.thrust_factor * rotor.max_speed * hover;
+    if (torque_slope > 0) sum += rotor.inertia / torque_slope;
+  }
+  return sum / static_cast<double>(model.rotors.size());
+}
+
 }  // namespace
 
 double LinearDrag(const DroneModel& model) {
@@ -86,6 +97,8 @@ ControlGains SynthesizeGains(const DroneModel& model, double control_dt) {
   const double tau = MeanLag(model);
   gains.lead = std::clamp(tau / (3 * control_dt), 1.0, kMostLead);
   gains.lag = tau / gains.lead + control_dt;
+
+  gains.spin_time = SpinTime(model);
 
   // Rates: damping 0.7 over the lag, as far as the torque reaches.
   const Vec3d authority = gains.authority = Authority(model);

@@ -7,8 +7,10 @@
 namespace airsim360 {
 
 struct ControlGains {
-  double lead = 1;      ///< rotor speeds are commanded past their goal by this factor of the error
-  double lag = 0.02;    ///< of rotor thrust with the lead, s
+  double lead = 1;       ///< rotor speeds are commanded past their goal by this factor of the error
+  double lag = 0.02;     ///< of rotor thrust with the lead, s
+  double spin_time = 0;  ///< s: rotors that speed up turn the drone at once by their inertia, as much as
+                         ///< their torque would this much later; the yaw demand is slowed by it in turn
   Vec3d rate;           ///< 1/s: angular acceleration per error of body rate
   Vec3d attitude;       ///< 1/s: body rate per error of attitude
   double velocity = 1;  ///< 1/s: acceleration per error of velocity

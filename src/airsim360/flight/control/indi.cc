@@ -21,10 +21,14 @@ Vec3d Clamp(Vec3d v, Vec3d most) { return Min(Max(v, -most), most); }
 /// Filters the disturbances of the interval that has just ended.
 void Observe(const TrackingStep& step, AutopilotState& state) {
   RotorValues thrust{};
+  Vec3d spin;
   for (int i = 0; i < step.mixer.rotors(); ++i) {
-    thrust[i] = ThrustAtSpeed(step.model.rotors[i], step.estimate.rotor_speeds[i]);
+    const RotorModel& rotor = step.model.rotors[i];
+    const double speed = step.estimate.rotor_speeds[i];
+    thrust[i] = ThrustAtSpeed(rotor, speed);
+    spin -= rotor.axis_B * (rotor.direction * rotor.inertia * speed);
   }
-  const Wrench wrench = step.mixer.WrenchOf(thrust);
+  const RotorWrench wrench = step.mixer.WrenchOf(thrust);
   const Vec3d force = step.R_WB.column(2) * (wrench.thrust / step.model.mass);
   const Vec3d v = step.estimate.v_WB, w = step.estimate.w_WB_B;
   const bool carried = wrench.thrust < kCarriedShare * step.model.mass * kGravity && Norm(v) < kStillSpeed;
@@ -33,7 +37,8 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
   } else if (state.has_history) {
     // Means over the interval on both sides, so that they belong to the same time.
     const Vec3d mean_force = (force + state.previous_force_W) * 0.5;
-    const Vec3d mean_torque = (wrench.torque_B + state.previous_wrench.torque_B) * 0.5;
+    const Vec3d spun_up = (spin - state.previous_spin_B) / step.dt;
+    const Vec3d mean_torque = (wrench.torque_B + state.previous_wrench.torque_B) * 0.5 - spun_up;
     const Vec3d mean_w = (w + state.previous_w) * 0.5;
     const Mat3d& J = step.model.inertia_B;
     const Vec3d a = (v - state.previous_v) / step.dt + Vec3d{0, 0, kGravity} - mean_force;
@@ -47,13 +52,14 @@ void Observe(const TrackingStep& step, AutopilotState& state) {
   state.previous_v = v;
   state.previous_w = w;
   state.previous_wrench = wrench;
+  state.previous_spin_B = spin;
   state.previous_force_W = force;
   state.has_history = 1;
 }
 
 }  // namespace
 
-Wrench IndiWrench(const TrackingStep& step, AutopilotState& state) {
+RotorWrench IndiWrench(const TrackingStep& step, AutopilotState& state) {
   Observe(step, state);
   const Vec3d a = WantedAcceleration(step) - state.disturbance_a;
   const AttitudeDemand demand =

@@ -84,8 +84,8 @@ Mixer::Mixer(const DroneModel& model, uint64_t failed) : n_(static_cast<int>(mod
   }
 }
 
-Wrench Mixer::WrenchOf(const RotorValues& thrust) const {
-  Wrench sum;
+RotorWrench Mixer::WrenchOf(const RotorValues& thrust) const {
+  RotorWrench sum;
   for (int i = 0; i < n_; ++i) {
     const Row& e = effect_[i];
     sum.torque_B += Vec3d{e.roll, e.pitch, e.yaw} * thrust[i];
@@ -94,7 +94,7 @@ Wrench Mixer::WrenchOf(const RotorValues& thrust) const {
   return sum;
 }
 
-Mixer::Result Mixer::Allocate(const Wrench& wanted, double density_ratio) const {
+Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) const {
   Result result;
   const Vec3d torque = wanted.torque_B;
   RotorValues tilt{}, low{}, high{};

@@ -11,7 +11,7 @@ namespace airsim360 {
 using RotorValues = std::array<double, kMaxRotors>;
 
 /// Torque about the axes of B (N m) and collective thrust along +Z of B (N).
-struct Wrench {
+struct RotorWrench {
   Vec3d torque_B;
   double thrust = 0;
 };
@@ -30,10 +30,10 @@ class Mixer {
   /// With room for it, the thrusts of least weighted squares that give exactly `wanted` (each rotor weighted
   /// by its strength). Else: roll and pitch come first (scaled down together only when the rotors' whole
   /// range is too small), then the thrust as near as possible to the wanted one, then as much yaw as fits.
-  Result Allocate(const Wrench& wanted, double density_ratio = 1) const;
+  Result Allocate(const RotorWrench& wanted, double density_ratio = 1) const;
 
   /// What thrusts give.
-  Wrench WrenchOf(const RotorValues& thrust) const;
+  RotorWrench WrenchOf(const RotorValues& thrust) const;
   bool has_yaw() const { return has_yaw_; }
   bool usable() const { return usable_; }  ///< roll, pitch and thrust can all be given
   int rotors() const { return n_; }

@@ -35,7 +35,7 @@ void RunOuter(const TrackingStep& step, AutopilotState& state) {
 
 }  // namespace
 
-Wrench Px4Wrench(const TrackingStep& step, AutopilotState& state) {
+RotorWrench Px4Wrench(const TrackingStep& step, AutopilotState& state) {
   const bool by_hand = IsByHand(step.goal);
   const Vec3d w = step.estimate.w_WB_B, v = step.estimate.v_WB;
   const Vec3d a_now = state.has_history ? (v - state.previous_v) / step.dt : Vec3d{};

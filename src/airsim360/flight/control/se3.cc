@@ -4,7 +4,7 @@
 
 namespace airsim360::internal {
 
-Wrench Se3Wrench(const TrackingStep& step, AutopilotState&) {
+RotorWrench Se3Wrench(const TrackingStep& step, AutopilotState&) {
   const Vec3d a = WantedAcceleration(step);
   const AttitudeDemand demand =
       IsByHand(step.goal) ? DemandByHand(step, a.z) : DemandForForce(step, a + Vec3d{0, 0, kGravity}, true);

@@ -49,8 +49,8 @@ Vec3d TorqueFor(const DroneModel& model, Vec3d alpha_B, Vec3d w_B);
 Vec3d SolveInertia(const Mat3d& J, Vec3d torque);
 
 // The controllers. Each is told what it holds in AutopilotState.
-Wrench Px4Wrench(const TrackingStep& step, AutopilotState& state);
-Wrench Se3Wrench(const TrackingStep& step, AutopilotState& state);
-Wrench IndiWrench(const TrackingStep& step, AutopilotState& state);
+RotorWrench Px4Wrench(const TrackingStep& step, AutopilotState& state);
+RotorWrench Se3Wrench(const TrackingStep& step, AutopilotState& state);
+RotorWrench IndiWrench(const TrackingStep& step, AutopilotState& state);
 
 }  // namespace airsim360::internal

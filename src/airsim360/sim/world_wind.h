@@ -1,24 +1,20 @@
-// The air of a world: mean wind with a profile over height, shadows of buildings, gusts.
+// The air of a world: mean wind with a profile over height, shadows of buildings, gusts and turbulence.
 #pragma once
 
 #include "airsim360/base/config.h"
-#include "airsim360/base/state_hash.h"
-#include "airsim360/math/transform.h"
+#include "airsim360/flight/wind.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
 
-struct WindSpec {
+struct WorldWind {
   Vec3d mean_W;                 ///< m/s, 10 m above the ground
   double profile_exponent = 0;  ///< power law over height: 0 = the same everywhere, 0.14 open land, 0.3 town
   bool shelter = false;         ///< buildings upwind slow the air, see ShelterFactor
+  double turbulence_6m = 0;  ///< m/s at 6 m that the strength of turbulence follows (WindSettings); 0 = none
+  std::vector<WindGust> gusts = {};  ///< of the whole world, by the time of the simulation
 
   void Visit(ConfigVisitor& v);
-};
-
-/// Of one vehicle; plain data.
-struct WindState {
-  double shelter = 1;  ///< factor of the mean wind, follows ShelterFactor within kShelterTime
 };
 
 inline constexpr double kShelterTime = 1;                ///< seconds
@@ -32,6 +28,6 @@ inline constexpr int64_t kShelterPeriodNs = 50'000'000;  ///< between looks at t
 double ShelterFactor(const RayTracer& tracer, Vec3d p_W, Vec3d wind_W);
 
 /// Mean wind of a profile at a height over the ground, metres, without shelter.
-Vec3d WindAtHeight(const WindSpec& spec, Vec3d wind_10m_W, double height);
+Vec3d WindAtHeight(const WorldWind& wind, Vec3d wind_10m_W, double height);
 
 }  // namespace airsim360
