@@ -126,6 +126,7 @@ int ParseAndRun(int argc, char** argv) {
   AddStitchCommand(app, globals);
   AddEvalCommand(app, globals);
   AddFlyCommand(app, globals);
+  AddServeCommand(app, globals);
   AddDroneCommand(app, globals);
   AddDoctorCommand(app, globals);
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {

@@ -1,0 +1,1 @@
+"""AirSim360: a 360 degree simulator for drones."""

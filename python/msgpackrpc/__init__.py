@@ -1,0 +1,189 @@
+"""A small msgpack-rpc client with the names of msgpack-rpc-python, on plain sockets.
+
+The stock `airsim` package imports `msgpackrpc`, whose original needs tornado < 5 and msgpack < 1. This one needs only
+msgpack (Debian: python3-msgpack). One thread reads answers, in whatever order they come; calls may be made from any
+thread.
+"""
+import itertools
+import socket
+import struct
+import threading
+
+import msgpack
+
+from . import error
+
+__all__ = ["Address", "Client", "Future", "error"]
+
+_REQUEST, _RESPONSE, _NOTIFY = 0, 1, 2
+
+
+class Address:
+    """Host and port of a server."""
+
+    def __init__(self, host, port):
+        self._host, self._port = host, port
+
+    @property
+    def host(self):
+        return self._host
+
+    @property
+    def port(self):
+        return self._port
+
+    def __repr__(self):
+        return f"Address({self._host!r}, {self._port})"
+
+
+class Future:
+    """An answer that may not be there yet."""
+
+    def __init__(self, timeout=None):
+        self._done = threading.Event()
+        self._timeout = timeout
+        self._result = self._error = None
+        self._callbacks = []
+        self._lock = threading.Lock()
+
+    def _set(self, result, failure):
+        with self._lock:
+            self._result, self._error = result, failure
+            self._done.set()
+            callbacks, self._callbacks = self._callbacks, []
+        for callback in callbacks:
+            callback(self)
+
+    def join(self, timeout=None):
+        """Waits for the answer; errors of the server are not raised here."""
+        if not self._done.wait(self._timeout if timeout is None else timeout):
+            self._set(None, error.TimeoutError("Request timed out"))
+        return self
+
+    def get(self):
+        """Waits and returns the result; raises RPCError, TimeoutError or TransportError."""
+        self.join()
+        if self._error is None:
+            return self._result
+        if isinstance(self._error, Exception):
+            raise self._error
+        raise error.RPCError(self._error)
+
+    @property
+    def result(self):
+        return self._result
+
+    @property
+    def error(self):
+        return self._error
+
+    def attach_callback(self, callback):
+        with self._lock:
+            if not self._done.is_set():
+                self._callbacks.append(callback)
+                return
+        callback(self)
+
+
+class Client:
+    """Calls functions of one server. Connects at the first call, and again after the connection was lost."""
+
+    def __init__(self, address, timeout=10, pack_encoding="utf-8", unpack_encoding="utf-8", reconnect_limit=5,
+                 connect_timeout=10):
+        del pack_encoding, unpack_encoding  # always UTF-8
+        self._address, self._timeout = address, timeout
+        self._connect_timeout, self._tries = connect_timeout, max(1, reconnect_limit)
+        self._ids = itertools.count()
+        self._lock = threading.Lock()
+        self._socket = None
+        self._waiting = {}
+
+    @property
+    def address(self):
+        return self._address
+
+    def call(self, method, *args):
+        return self.call_async(method, *args).get()
+
+    def call_async(self, method, *args):
+        future = Future(self._timeout)
+        with self._lock:
+            self._connect()
+            number = next(self._ids) & 0xFFFFFFFF
+            message = msgpack.packb([_REQUEST, number, method, args], default=_to_msgpack)
+            self._waiting[number] = future
+            try:
+                self._socket.sendall(message)
+            except OSError as problem:
+                self._waiting.pop(number, None)
+                self._drop(self._socket)
+                raise error.TransportError(str(problem)) from problem
+        return future
+
+    def notify(self, method, *args):
+        with self._lock:
+            self._connect()
+            self._socket.sendall(msgpack.packb([_NOTIFY, method, args], default=_to_msgpack))
+
+    def close(self):
+        with self._lock:
+            if self._socket is not None:
+                self._drop(self._socket)
+
+    def _connect(self):
+        if self._socket is not None:
+            return
+        problem = None
+        for _ in range(self._tries):
+            try:
+                connected = socket.create_connection((self._address.host, self._address.port), self._connect_timeout)
+                break
+            except OSError as failure:
+                problem = failure
+        else:
+            raise error.TransportError(f"Retry connection over the limit: {problem}")
+        connected.settimeout(None)
+        connected.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket = connected
+        threading.Thread(target=self._read, args=(connected,), daemon=True).start()
+
+    def _drop(self, connected):
+        if self._socket is connected:
+            self._socket = None
+        try:
+            connected.shutdown(socket.SHUT_RDWR)
+        except OSError:
+            pass
+
+    def _read(self, connected):
+        unpacker = msgpack.Unpacker(raw=False, strict_map_key=False, max_buffer_size=2**31 - 1,
+                                    max_bin_len=2**31 - 1, max_str_len=2**31 - 1, max_array_len=2**31 - 1)
+        failure = error.TransportError("Connection closed by the server")
+        try:
+            while True:
+                data = connected.recv(1 << 20)
+                if not data:
+                    break
+                unpacker.feed(data)
+                for message in unpacker:
+                    if len(message) == 4 and message[0] == _RESPONSE:
+                        future = self._waiting.pop(message[1], None)
+                        if future is not None:
+                            future._set(message[3], message[2])
+        except (OSError, ValueError, struct.error) as problem:
+            failure = error.TransportError(str(problem))
+        with self._lock:
+            self._drop(connected)
+            waiting, self._waiting = self._waiting, {}
+        connected.close()
+        for future in waiting.values():
+            future._set(None, failure)
+
+
+def _to_msgpack(value):
+    """Structures of AirSim's clients know how to be sent; NumPy numbers and arrays as plain ones."""
+    if hasattr(value, "to_msgpack"):
+        return value.to_msgpack()
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"cannot send {type(value).__name__}")

@@ -1,0 +1,101 @@
+// airsim360 serve: the AirSim-compatible server, until SIGINT or SIGTERM.
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+#include "airsim360/rpc/server.h"
+#include "airsim360/sim/world_environment.h"
+#include "airsim360/sim/world_loader.h"
+
+namespace airsim360 {
+namespace {
+
+struct ServeArguments {
+  std::string world, settings, tier = "fast", host;
+  int port = -1;
+  int people = 0;
+  bool realtime = false, lockstep = false;
+  EnvironmentFlags environment;
+};
+
+// What can be wrong with the flags.
+void Check(const ServeArguments& arguments) {
+  if (arguments.people != 0) {
+    throw InputError("--people: " + std::to_string(arguments.people) +
+                     ": people are not in this build; use 0");
+  }
+  if (arguments.realtime && arguments.lockstep) {
+    throw InputError(
+        "--lockstep: time passes by the wall clock (--realtime) or by calls (--lockstep), not both");
+  }
+  if (arguments.port < -1 || arguments.port > 65535) {
+    throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
+  }
+}
+
+ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& globals) {
+  ServerOptions options;
+  if (!arguments.settings.empty()) options.settings = ReadSettings(arguments.settings);
+  options.address = arguments.host.empty() ? options.settings.local_host_ip : arguments.host;
+  options.port = arguments.port >= 0 ? arguments.port : options.settings.port;
+  options.lockstep = arguments.lockstep;
+  options.tier = ParseTierArgument(arguments.tier);
+  options.seed = globals.seed;
+  return options;
+}
+
+void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
+  Check(arguments);
+  ServerOptions options = OptionsOf(arguments, globals);
+  ApplyFlags(arguments.environment, {});
+  std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed});
+  options.environment = ApplyFlags(arguments.environment, scene->environment);
+
+  // Before any thread exists, so that the signals come to sigwait alone.
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  {
+    const AirSimServer server(std::move(scene), options);
+    if (globals.json) {
+      PrintJson({{"address", options.address}, {"port", server.port()}});
+    } else {
+      std::printf("listening on %s:%d\n", options.address.empty() ? "0.0.0.0" : options.address.c_str(),
+                  server.port());
+    }
+    std::fflush(stdout);
+    int signal = 0;
+    sigwait(&signals, &signal);
+    LogInfo("stopping");
+  }
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+}
+
+}  // namespace
+
+void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand("serve", "a server that AirSim's clients can fly in (docs/rpc.md)");
+  auto arguments = std::make_shared<ServeArguments>();
+  command->add_option("--world", arguments->world, "name or file of the world")->required();
+  command->add_option("--settings", arguments->settings,
+                      "AirSim's settings.json: vehicles, cameras, sensors, …");
+  command->add_option("--port", arguments->port,
+                      "TCP port, 0 = any free one (default: of the settings, 41451)");
+  command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
+  command->add_option("--people", arguments->people, "people in the world");
+  command->add_option("--tier", arguments->tier,
+                      "quality of colour pictures: fast, high or reference (default fast)");
+  command->add_flag("--realtime", arguments->realtime, "time passes with the wall clock (default)");
+  command->add_flag("--lockstep", arguments->lockstep,
+                    "time passes only in simContinueForTime and simContinueForFrames, as fast as it can");
+  AddEnvironmentFlags(*command, arguments->environment);
+  command->callback([arguments, &globals] { Serve(*arguments, globals); });
+}
+
+}  // namespace airsim360

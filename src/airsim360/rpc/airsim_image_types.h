@@ -1,0 +1,94 @@
+// Requests for pictures and their answers as they travel (see airsim_types.h).
+#pragma once
+
+#include "airsim360/rpc/airsim_types.h"
+
+namespace airsim360::airsim {
+
+enum class ImageType : int {
+  kScene = 0,
+  kDepthPlanar,
+  kDepthPerspective,
+  kDepthVis,
+  kDisparityNormalized,
+  kSegmentation,
+  kSurfaceNormals,
+  kInfrared,
+  kOpticalFlow,
+  kOpticalFlowVis,
+  kLighting,    // Cosys-AirSim
+  kAnnotation,  // Cosys-AirSim
+  kCount
+};
+
+/// Camera names: older scripts send numbers.
+struct CameraName {
+  std::string text;
+};
+inline void FromWire(const WireValue& value, CameraName& out) {
+  if (value.kind == WireValue::Kind::kInt) {
+    out.text = std::to_string(value.integer);
+  } else {
+    airsim360::FromWire(value, out.text);
+  }
+}
+
+/// The last argument of camera calls: AirSim's `external`, or Cosys-AirSim's name of an annotation layer.
+struct External {
+  bool external = false;
+  std::string annotation;
+};
+inline void FromWire(const WireValue& value, External& out) {
+  if (value.kind == WireValue::Kind::kBool) {
+    out.external = value.flag;
+  } else {
+    airsim360::FromWire(value, out.annotation);
+  }
+}
+
+struct ImageRequest {
+  CameraName camera_name;
+  ImageType image_type = ImageType::kScene;
+  bool pixels_as_float = false, compress = true;
+  std::string annotation_name;
+  bool binary_float = false;  ///< ours: floats come as the bytes of a little-endian array, exact, not halved
+  template <class V>
+  void Visit(V& v) {
+    v("camera_name", camera_name), v("image_type", image_type), v("pixels_as_float", pixels_as_float);
+    v("compress", compress), v("annotation_name", annotation_name), v("binary_float", binary_float);
+  }
+};
+
+/// Floats as AirSim sends them, or as the bytes that ImageRequest::binary_float asks for.
+struct FloatPixels {
+  std::vector<float> values;
+  bool binary = false;
+};
+inline void ToWire(WireWriter& writer, const FloatPixels& pixels) {
+  if (!pixels.binary) return writer.Floats(pixels.values);
+  writer.Binary({reinterpret_cast<const char*>(pixels.values.data()), pixels.values.size() * sizeof(float)});
+}
+
+struct ImageResponse {
+  WireBytes image_data_uint8;
+  FloatPixels image_data_float;
+  Vector3r camera_position;
+  std::string camera_name;
+  Quaternionr camera_orientation;
+  uint64_t time_stamp = 0;
+  std::string message;
+  bool pixels_as_float = false, compress = true;
+  int width = 0, height = 0;
+  ImageType image_type = ImageType::kScene;
+  std::string annotation_name;
+  template <class V>
+  void Visit(V& v) {
+    v("image_data_uint8", image_data_uint8), v("image_data_float", image_data_float);
+    v("camera_position", camera_position), v("camera_name", camera_name);
+    v("camera_orientation", camera_orientation), v("time_stamp", time_stamp), v("message", message);
+    v("pixels_as_float", pixels_as_float), v("compress", compress), v("width", width), v("height", height);
+    v("image_type", image_type), v("annotation_name", annotation_name);
+  }
+};
+
+}  // namespace airsim360::airsim

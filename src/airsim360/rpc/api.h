@@ -1,0 +1,120 @@
+// The functions of AirSim's API on a running session, and where each of them runs.
+#pragma once
+
+#include "airsim360/base/log.h"
+#include "airsim360/rpc/image_service.h"
+#include "airsim360/rpc/method_table.h"
+#include "airsim360/rpc/session.h"
+
+namespace airsim360 {
+
+/// Fills a method table. Every function is a lambda whose parameters after the first ones are the client's
+/// arguments, in their order on the wire; `optional` of the last may be missing.
+class Api {
+ public:
+  Api(Session& session, ImageService& images) : session_(session), images_(images) {}
+
+  MethodTable& table() { return table_; }
+  Session& session() { return session_; }
+  ImageService& images() { return images_; }
+
+  /// f(const Snapshot&, …): answers from the present snapshot, in the server's own thread; must be quick.
+  template <class F>
+  void Read(const char* name, F f, size_t optional = 0) {
+    Add<1>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
+      const SnapshotPointer snapshot = session_.snapshot();
+      std::apply([&](auto&... argument) { AnswerWith(reply, [&] { return f(*snapshot, argument...); })(); },
+                 arguments);
+    });
+  }
+
+  /// f(Session&, …): runs between two steps.
+  template <class F>
+  void Change(const char* name, F f, size_t optional = 0) {
+    Add<1>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
+      session_.Post([f, arguments, reply](Session& session) mutable {
+        return std::apply(
+            [&](auto&... argument) { return AnswerWith(reply, [&] { return f(session, argument...); }); },
+            arguments);
+      });
+    });
+  }
+
+  /// f(Session&, const Reply&, …): as Change, but answers later by itself.
+  template <class F>
+  void Start(const char* name, F f) {
+    Add<2>(name, 0, f, [this, f](auto arguments, const Reply& reply) {
+      session_.Post([f, arguments, reply](Session& session) mutable -> std::function<void()> {
+        try {
+          std::apply([&](auto&... argument) { f(session, reply, argument...); }, arguments);
+        } catch (const std::exception& error) {
+          reply.Exception(error.what());
+        }
+        return {};
+      });
+    });
+  }
+
+  /// f(ImageService&, const SnapshotPointer&, …): runs in the thread of the pictures, with the snapshot of
+  /// the moment of the call.
+  template <class F>
+  void Picture(const char* name, F f, size_t optional = 0) {
+    Add<2>(name, optional, f, [this, f](auto arguments, const Reply& reply) {
+      images_.Post([f, arguments, reply, snapshot = session_.snapshot()](ImageService& images) mutable {
+        if (!reply.wanted()) return;
+        std::apply(
+            [&](auto&... argument) { AnswerWith(reply, [&] { return f(images, snapshot, argument...); })(); },
+            arguments);
+      });
+    });
+  }
+
+ private:
+  // Calls and keeps the result; the function returned answers with it.
+  template <class Call>
+  static std::function<void()> AnswerWith(const Reply& reply, const Call& call) {
+    try {
+      if constexpr (std::is_void_v<std::invoke_result_t<Call>>) {
+        call();
+        return [reply] { reply.Nil(); };
+      } else {
+        return [reply, result = call()] { reply.Result(result); };
+      }
+    } catch (const std::exception& error) {
+      return [reply, what = std::string(error.what())] { reply.Exception(what); };
+    }
+  }
+
+  template <size_t Skip, class F, class Run>
+  void Add(const char* name, size_t optional, const F&, Run run) {
+    using Arguments = typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type;
+    table_.Add(name, std::tuple_size_v<Arguments>, optional,
+               [run](const std::vector<WireValue>& values, const Reply& reply) {
+                 run(MethodTable::Read<F, Skip>(values), reply);
+               });
+  }
+
+  Session& session_;
+  ImageService& images_;
+  MethodTable table_;
+};
+
+// Each adds one family of functions; together all of AirSim's, AirSim360's and Cosys-AirSim's.
+void AddConnectionCalls(Api& api);
+void AddVehicleCalls(Api& api);
+void AddMoveCalls(Api& api);
+void AddImageCalls(Api& api);
+void AddCameraCalls(Api& api);
+void AddDetectionCalls(Api& api);
+void AddSensorCalls(Api& api);
+void AddObjectCalls(Api& api);
+void AddWorldCalls(Api& api);
+void AddWeatherCalls(Api& api);
+void AddPlotCalls(Api& api);
+void AddCosysCalls(Api& api);
+void AddUnavailableCalls(Api& api);
+
+/// Writes a notice to the log, each text once in the life of the process and at most a few hundred.
+void NoticeOnce(const std::string& text);
+
+}  // namespace airsim360

@@ -1,0 +1,69 @@
+// simGetImages, simGetImage and AirSim360's panoramas.
+#include "airsim360/rpc/api.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr int kSmallestPanorama = 16, kLargestPanorama = 8192;  // pixels across
+constexpr size_t kMostRequests = 64;
+
+// Each panorama has a resolution; those that have none of their own follow the first that gets one.
+bool SetPanoramaResolution(Session& s, const std::string& name, int width, int height,
+                           const std::string& vehicle) {
+  const size_t index = s.control(vehicle).index();
+  if (FindCamera(s.world().cameras[index], name).panorama == PanoramaKind::kNone) {
+    throw std::invalid_argument("Camera '" + name + "' is no panorama");
+  }
+  if (width < kSmallestPanorama || width > kLargestPanorama || width != 2 * height) {
+    throw std::invalid_argument("a panorama is twice as wide as high and 16 to 8192 pixels wide, not " +
+                                std::to_string(width) + "x" + std::to_string(height));
+  }
+  for (auto& [other, camera] : s.world().cameras[index]) {
+    if (camera.panorama == PanoramaKind::kNone || (other != name && camera.own_resolution)) continue;
+    camera.panorama_width = width;
+    camera.panorama_height = height;
+    camera.own_resolution |= other == name;
+  }
+  return true;
+}
+
+}  // namespace
+
+void AddImageCalls(Api& api) {
+  api.Picture(
+      "simGetImages",
+      [](ImageService& images, const SnapshotPointer& now, const std::vector<airsim::ImageRequest>& requests,
+         const std::string& vehicle, const airsim::External& external) {
+        if (requests.size() > kMostRequests) throw std::invalid_argument("more than 64 images in one call");
+        return images.Capture(now, requests, vehicle, external.external);
+      },
+      1);
+  api.Picture(
+      "simGetImage",
+      [](ImageService& images, const SnapshotPointer& now, const airsim::CameraName& camera,
+         airsim::ImageType type, const std::string& vehicle, const airsim::External& external) {
+        airsim::ImageRequest request;
+        request.camera_name = camera;
+        request.image_type = type;
+        request.annotation_name = external.annotation;
+        return std::move(images.Capture(now, {request}, vehicle, external.external)[0].image_data_uint8);
+      },
+      1);
+  api.Change("simSetPanoramaResolution", [](Session& s, const airsim::CameraName& camera, int width,
+                                            int height, const std::string& vehicle) {
+    return SetPanoramaResolution(s, camera.text, width, height, vehicle);
+  });
+  // In the simulation's thread, so that the instant is that of everything said before.
+  api.Change("simTriggerPanoramaCapture", [&api](Session& s, const airsim::CameraName& camera,
+                                                 const std::string& vehicle) {
+    const VehicleControl& control = s.control(vehicle);
+    if (FindCamera(s.world().cameras[control.index()], camera.text).panorama == PanoramaKind::kNone) {
+      throw std::invalid_argument("Camera '" + camera.text + "' is no panorama");
+    }
+    s.PublishNow();
+    api.images().Trigger(control.status().name, s.snapshot());
+    return true;
+  });
+}
+
+}  // namespace airsim360

@@ -1,0 +1,233 @@
+// takeoff … moveByMotorPWMs: each starts a task and answers when it ends.
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/rpc/api.h"
+#include "airsim360/rpc/ned.h"
+
+namespace airsim360 {
+namespace {
+
+using airsim::DrivetrainType;
+using airsim::YawMode;
+using Text = const std::string&;
+
+// AirSim's: how high a take-off goes and how fast, what counts as standing.
+constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5,
+                 kStillSpeed = 0.05;
+constexpr double kForever = 3e38;
+constexpr double kBound = 1e6;  // metres, m/s: what is beyond is no wish
+
+void CheckFinite(std::initializer_list<double> values) {
+  for (const double value : values) {
+    if (!(std::abs(value) <= kBound)) throw std::invalid_argument(std::to_string(value) + " is absurd");
+  }
+}
+
+PathOptions Options(const Session& s, double velocity, DrivetrainType drivetrain, const YawMode& yaw,
+                    double lookahead, double adaptive_lookahead) {
+  return {velocity, drivetrain, yaw, lookahead, adaptive_lookahead, s.settings().slow_down};
+}
+
+// Starts what `make` builds of the drone as it is now.
+template <class Make>
+void Begin(Session& s, const Reply& reply, Text name, const Make& make) {
+  VehicleControl& control = s.control(name);
+  const FlightView view = control.ViewOf(s.vehicle(control));
+  control.Start(make(view), s.state().t_ns, reply);
+}
+
+void Takeoff(Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+  Begin(s, reply, vehicle, [&](const FlightView& view) {
+    const double speed = Norm(view.v_N);
+    if (speed > kStillSpeed) {
+      throw std::runtime_error("Cannot perform takeoff because vehicle is already moving with velocity " +
+                               std::to_string(speed) + " m/s");
+    }
+    const Vec3d above = view.p_N - Vec3d{0, 0, kTakeoffHeight};
+    return MakePathTask(view, {above}, timeout_sec,
+                        Options(s, kTakeoffSpeed, DrivetrainType::kMaxDegreeOfFreedom, {false, 0}, -1, 1));
+  });
+}
+
+void MoveTo(Session& s, const Reply& reply, const std::vector<Vec3d>& path, double timeout,
+            const PathOptions& options, Text vehicle) {
+  for (const Vec3d& point : path) CheckFinite({point.x, point.y, point.z});
+  CheckFinite({options.velocity});
+  Begin(s, reply, vehicle,
+        [&](const FlightView& view) { return MakePathTask(view, path, timeout, options); });
+}
+
+void AddPathCalls(Api& api) {
+  api.Start("moveOnPath", [](Session& s, const Reply& reply, const std::vector<airsim::Vector3r>& path,
+                             float velocity, float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                             float lookahead, float adaptive_lookahead, Text vehicle) {
+    std::vector<Vec3d> points;
+    for (const airsim::Vector3r& point : path) points.push_back(airsim::FromVector(point));
+    MoveTo(s, reply, points, timeout_sec,
+           Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
+  });
+  api.Start("moveToPosition", [](Session& s, const Reply& reply, float x, float y, float z, float velocity,
+                                 float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                                 float lookahead, float adaptive_lookahead, Text vehicle) {
+    MoveTo(s, reply, {{x, y, z}}, timeout_sec,
+           Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
+  });
+  api.Start("moveToGPS", [](Session& s, const Reply& reply, double latitude, double longitude, float altitude,
+                            float velocity, float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                            float lookahead, float adaptive_lookahead, Text vehicle) {
+    if (!(std::abs(latitude) <= 90 && std::abs(longitude) <= 360))
+      throw std::invalid_argument("no such place");
+    const Vec3d p_W = s.earth().ToWorld({latitude, longitude, altitude});
+    const Vec3d p_N = NedFromWorld(p_W - s.control(vehicle).status().origin_W);
+    MoveTo(s, reply, {p_N}, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead),
+           vehicle);
+  });
+  api.Start("moveToZ", [](Session& s, const Reply& reply, float z, float velocity, float timeout_sec,
+                          const YawMode& yaw, float lookahead, float adaptive_lookahead, Text vehicle) {
+    const VehicleControl& control = s.control(vehicle);
+    Vec3d p_N = control.ViewOf(s.vehicle(control)).p_N;
+    p_N.z = z;
+    MoveTo(s, reply, {p_N}, timeout_sec,
+           Options(s, velocity, DrivetrainType::kMaxDegreeOfFreedom, yaw, lookahead, adaptive_lookahead),
+           vehicle);
+  });
+}
+
+void AddWholeCalls(Api& api) {
+  api.Start("takeoff", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+    Takeoff(s, reply, timeout_sec, vehicle);
+  });
+  api.Start("land", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+    Begin(s, reply, vehicle, [&](const FlightView&) { return MakeLandTask(timeout_sec); });
+  });
+  api.Start("goHome", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+    MoveTo(s, reply, {Vec3d{}}, timeout_sec,
+           Options(s, kHomeSpeed, DrivetrainType::kMaxDegreeOfFreedom, {false, 0}, -1, 1), vehicle);
+  });
+  api.Start("hover", [](Session& s, const Reply& reply, Text vehicle) {
+    const VehicleControl& control = s.control(vehicle);
+    const Vec3d p_N = control.ViewOf(s.vehicle(control)).p_N;
+    MoveTo(s, reply, {p_N}, kForever,
+           Options(s, kHoverSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, 1, 0), vehicle);
+  });
+  api.Start("rotateToYaw",
+            [](Session& s, const Reply& reply, float yaw, float timeout_sec, float margin, Text vehicle) {
+              CheckFinite({yaw, margin});
+              Begin(s, reply, vehicle, [&](const FlightView& view) {
+                TaskPointer task = MakeRotateTask(view, yaw, margin, timeout_sec, s.settings().wrap_yaw);
+                task->result_at_timeout = timeout_sec <= 0;
+                return task;
+              });
+            });
+  api.Start("rotateByYawRate",
+            [](Session& s, const Reply& reply, float yaw_rate, float duration, Text vehicle) {
+              CheckFinite({yaw_rate});
+              Begin(s, reply, vehicle, [&](const FlightView& view) {
+                return MakeTimedTask(NedPosition(view.p_N, {true, yaw_rate}, view.origin_W), duration);
+              });
+            });
+  api.Start("moveByManual", [](Session& s, const Reply& reply, float vx_max, float vy_max, float z_min,
+                               float duration, DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+    CheckFinite({vx_max, vy_max, z_min});
+    Begin(s, reply, vehicle, [&](const FlightView& view) {
+      return MakeManualTask(view, vx_max, vy_max, z_min, duration, drivetrain, yaw);
+    });
+  });
+}
+
+// A velocity in the frame of the heading that the drone has now.
+Vec3d FromHeading(const FlightView& view, double vx, double vy) {
+  const double yaw = view.yaw_deg * 3.14159265358979323846 / 180, c = std::cos(yaw), sn = std::sin(yaw);
+  return {vx * c - vy * sn, vx * sn + vy * c, 0};
+}
+
+void AddVelocityCalls(Api& api) {
+  api.Start("moveByVelocity", [](Session& s, const Reply& reply, float vx, float vy, float vz, float duration,
+                                 DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+    CheckFinite({vx, vy, vz});
+    Begin(s, reply, vehicle, [&](const FlightView&) {
+      return MakeTimedTask(NedVelocity({vx, vy, vz}, AdjustYaw({vx, vy, 0}, drivetrain, yaw)), duration);
+    });
+  });
+  api.Start("moveByVelocityZ", [](Session& s, const Reply& reply, float vx, float vy, float z, float duration,
+                                  DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+    CheckFinite({vx, vy, z});
+    Begin(s, reply, vehicle, [&](const FlightView& view) {
+      TaskPointer task = MakeTimedTask(
+          NedVelocityZ(vx, vy, z, AdjustYaw({vx, vy, 0}, drivetrain, yaw), view.origin_W), duration);
+      // The one move whose answer to no time at all is False.
+      if (duration <= 0) task->result_at_timeout = false;
+      return task;
+    });
+  });
+  api.Start("moveByVelocityBodyFrame", [](Session& s, const Reply& reply, float vx, float vy, float vz,
+                                          float duration, DrivetrainType drivetrain, const YawMode& yaw,
+                                          Text vehicle) {
+    CheckFinite({vx, vy, vz});
+    Begin(s, reply, vehicle, [&](const FlightView& view) {
+      const Vec3d v_N = FromHeading(view, vx, vy);
+      return MakeTimedTask(NedVelocity({v_N.x, v_N.y, vz}, AdjustYaw(v_N, drivetrain, yaw)), duration);
+    });
+  });
+  api.Start("moveByVelocityZBodyFrame",
+            [](Session& s, const Reply& reply, float vx, float vy, float z, float duration,
+               DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
+              CheckFinite({vx, vy, z});
+              Begin(s, reply, vehicle, [&](const FlightView& view) {
+                const Vec3d v_N = FromHeading(view, vx, vy);
+                return MakeTimedTask(
+                    NedVelocityZ(v_N.x, v_N.y, z, AdjustYaw(v_N, drivetrain, yaw), view.origin_W), duration);
+              });
+            });
+}
+
+// roll, pitch, yaw or its rate, then a throttle or z: one function for the four of them.
+void AddAttitudeCall(Api& api, const char* name, bool yaw_is_rate, bool is_throttle) {
+  api.Start(name, [=](Session& s, const Reply& reply, float roll, float pitch, float yaw, float vertical,
+                      float duration, Text vehicle) {
+    CheckFinite({roll, pitch, yaw, vertical});
+    Begin(s, reply, vehicle, [&](const FlightView& view) {
+      const double value = is_throttle ? std::clamp(vertical, 0.0f, 1.0f) : vertical;
+      return MakeTimedTask(FrdAttitude(roll, pitch, yaw, yaw_is_rate, {is_throttle, value}, view.origin_W),
+                           duration);
+    });
+  });
+}
+
+void AddRateCall(Api& api, const char* name, bool is_throttle) {
+  api.Start(name, [=](Session& s, const Reply& reply, float roll_rate, float pitch_rate, float yaw_rate,
+                      float vertical, float duration, Text vehicle) {
+    CheckFinite({roll_rate, pitch_rate, yaw_rate, vertical});
+    Begin(s, reply, vehicle, [&](const FlightView& view) {
+      const double value = is_throttle ? std::clamp(vertical, 0.0f, 1.0f) : vertical;
+      return MakeTimedTask(FrdRates({roll_rate, pitch_rate, yaw_rate}, {is_throttle, value}, view.origin_W),
+                           duration);
+    });
+  });
+}
+
+}  // namespace
+
+void AddMoveCalls(Api& api) {
+  AddWholeCalls(api);
+  AddPathCalls(api);
+  AddVelocityCalls(api);
+  AddAttitudeCall(api, "moveByRollPitchYawZ", false, false);
+  AddAttitudeCall(api, "moveByRollPitchYawThrottle", false, true);
+  AddAttitudeCall(api, "moveByRollPitchYawrateThrottle", true, true);
+  AddAttitudeCall(api, "moveByRollPitchYawrateZ", true, false);
+  AddRateCall(api, "moveByAngleRatesZ", false);
+  AddRateCall(api, "moveByAngleRatesThrottle", true);
+  api.Start("moveByMotorPWMs", [](Session& s, const Reply& reply, float front_right, float rear_left,
+                                  float front_left, float rear_right, float duration, Text vehicle) {
+    const auto signal = [](float pwm) { return static_cast<double>(std::clamp(pwm, 0.0f, 1.0f)); };
+    Begin(s, reply, vehicle, [&](const FlightView&) {
+      return MakeTimedTask(
+          MotorSignals({signal(front_right), signal(rear_left), signal(front_left), signal(rear_right)}),
+          duration);
+    });
+  });
+}
+
+}  // namespace airsim360

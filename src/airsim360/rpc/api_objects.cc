@@ -1,0 +1,144 @@
+// Objects of the scene by name, and segmentation ids.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "airsim360/rpc/api.h"
+#include "airsim360/rpc/ned.h"
+
+namespace airsim360 {
+namespace {
+
+using Text = const std::string&;
+
+// Vehicles can be asked for like objects.
+const VehicleStatus* VehicleNamed(const Snapshot& now, Text name, size_t& index) {
+  for (index = 0; index < now.vehicles.size(); ++index) {
+    if (now.vehicles[index].name == name) return &now.vehicles[index];
+  }
+  return nullptr;
+}
+
+ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity) {
+  const auto found = world.places.find(entity);
+  return found == world.places.end() ? objects.PlaceOf(entity) : found->second;
+}
+
+bool IsThere(const WorldView& world, EntityId entity) {
+  const auto found = world.places.find(entity);
+  return found == world.places.end() || !found->second.hidden;
+}
+
+// NaN is what AirSim gives for a name that it does not know.
+airsim::Pose NoPose() {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  return {{kNan, kNan, kNan}, {kNan, kNan, kNan, kNan}};
+}
+
+// Changes the place of an object that can be moved; false if there is none.
+template <class ChangePlace>
+bool MoveObject(Session& s, Text name, const ChangePlace& change) {
+  const ObjectIndex& objects = s.objects();
+  const EntityId entity = objects.Find(name);
+  if (entity == kNoEntity || !IsThere(s.world(), entity)) return false;
+  if (objects.InstancesOf(entity).empty()) {
+    NoticeOnce("'" + name + "' is part of a larger mesh and cannot be moved");
+    return false;
+  }
+  ObjectPlace place = PlaceIn(s.world(), objects, entity);
+  change(place);
+  s.world().places[entity] = place;
+  s.ObjectsMoved();
+  return true;
+}
+
+void AddPoseCalls(Api& api) {
+  api.Read(
+      "simGetObjectPose",
+      [&api](const Snapshot& now, Text name, bool /*ned*/) {
+        // Cosys' second argument asks for an engine's own axes, which there are none of here.
+        size_t index = 0;
+        const Vec3d origin_W = api.session().origin_W();
+        if (VehicleNamed(now, name, index))
+          return airsim::ToPose(now.state.vehicles[index].motion.X_WB, origin_W);
+        const EntityId entity = api.session().objects().Find(name);
+        if (entity == kNoEntity || !IsThere(*now.world, entity)) return NoPose();
+        const ObjectPlace place = PlaceIn(*now.world, api.session().objects(), entity);
+        // An unturned object has the unit quaternion, whatever the axes.
+        return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)),
+                            airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))};
+      },
+      1);
+  api.Change("simSetObjectPose", [](Session& s, Text name, const airsim::Pose& pose, bool /*teleport*/) {
+    const Vec3d p_W = airsim::FromPose(pose, s.origin_W()).p;
+    const Mat3d R = ObjectRotation(airsim::FromQuaternionr(pose.orientation));
+    return MoveObject(s, name, [&](ObjectPlace& place) { place.X_WO = {R, p_W}; });
+  });
+  api.Read("simGetObjectScale", [&api](const Snapshot& now, Text name) {
+    const EntityId entity = api.session().objects().Find(name);
+    if (entity == kNoEntity) return NoPose().position;
+    return airsim::ToVector(PlaceIn(*now.world, api.session().objects(), entity).scale);
+  });
+  api.Change("simSetObjectScale", [](Session& s, Text name, const airsim::Vector3r& scale) {
+    const Vec3d factor = airsim::FromVector(scale);
+    constexpr double kLargest = 1e4;
+    for (int i = 0; i < 3; ++i) {
+      if (!(factor[i] > 0 && factor[i] < kLargest))
+        throw std::invalid_argument("scale must be in 0 ... 10000");
+    }
+    return MoveObject(s, name, [&](ObjectPlace& place) { place.scale = factor; });
+  });
+}
+
+void AddListCalls(Api& api) {
+  api.Picture("simListSceneObjects", [&api](ImageService&, const SnapshotPointer& now, Text regex) {
+    std::vector<std::string> names;
+    const ObjectIndex& objects = api.session().objects();
+    for (const EntityId entity : objects.Match(regex)) {
+      if (IsThere(*now->world, entity)) names.push_back(objects.scene().entity(entity).name);
+    }
+    return names;
+  });
+  api.Picture("simListSceneObjectsTags", [&api](ImageService&, const SnapshotPointer& now, Text regex) {
+    std::vector<std::pair<std::string, std::string>> tags;
+    const Scene& scene = api.session().objects().scene();
+    for (const EntityId id : api.session().objects().Match(regex)) {
+      const Entity& entity = scene.entity(id);
+      if (IsThere(*now->world, id)) tags.emplace_back(entity.name, scene.tree[entity.category].path);
+    }
+    return tags;
+  });
+  api.Change("simDestroyObject", [](Session& s, Text name) {
+    return MoveObject(s, name, [](ObjectPlace& place) { place.hidden = true; });
+  });
+}
+
+std::vector<EntityId> Named(const ObjectIndex& objects, Text name, bool is_regex) {
+  if (is_regex) return objects.Match(name);
+  const EntityId entity = objects.Find(name);
+  return entity == kNoEntity ? std::vector<EntityId>{} : std::vector<EntityId>{entity};
+}
+
+void AddSegmentationCalls(Api& api) {
+  api.Change("simSetSegmentationObjectID", [](Session& s, Text name, int id, bool is_regex) {
+    // Ids beyond 255 are ours; 24 bits fit the colours.
+    if (id < 0 || id >= 1 << 24) throw std::invalid_argument("object_id must be in 0 ... 16777215");
+    const std::vector<EntityId> entities = Named(s.objects(), name, is_regex);
+    for (const EntityId entity : entities) s.world().segmentation[entity] = static_cast<uint32_t>(id);
+    return !entities.empty();
+  });
+  api.Read("simGetSegmentationObjectID", [&api](const Snapshot& now, Text name) {
+    const EntityId entity = api.session().objects().Find(name);
+    return entity == kNoEntity ? -1 : static_cast<int>(now.world->segmentation[entity]);
+  });
+}
+
+}  // namespace
+
+void AddObjectCalls(Api& api) {
+  AddPoseCalls(api);
+  AddListCalls(api);
+  AddSegmentationCalls(api);
+}
+
+}  // namespace airsim360

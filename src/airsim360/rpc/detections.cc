@@ -1,0 +1,90 @@
+#include "airsim360/rpc/detections.h"
+
+#include <algorithm>
+#include <map>
+
+#include "airsim360/rpc/ned.h"
+#include "airsim360/rpc/vehicle_state.h"
+
+namespace airsim360 {
+namespace {
+
+struct Pixels {
+  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+  void Add(int x, int y) {
+    left = std::min(left, x), right = std::max(right, x);
+    top = std::min(top, y), bottom = std::max(bottom, y);
+  }
+};
+
+// What one object looks like to AirSim's clients: its box in the camera's body-like frame.
+airsim::DetectionInfo Describe(const Entity& entity, const ObjectPlace& place, const Pixels& pixels,
+                               const RigidTransform& X_WA, const Snapshot& now) {
+  airsim::DetectionInfo info;
+  info.name = entity.name;
+  info.geo_point = GeoPointOf(now, place.X_WO.p);
+  info.box2D.min = {static_cast<float>(pixels.left), static_cast<float>(pixels.top)};
+  info.box2D.max = {static_cast<float>(pixels.right + 1), static_cast<float>(pixels.bottom + 1)};
+  const RigidTransform X_AO = X_WA.inverse() * place.X_WO;
+  Vec3d low{1e30, 1e30, 1e30}, high = -low;
+  const Vec3d half = VecCast<double>(entity.bounds.size()) * 0.5 * place.scale;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d sign{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
+    const Vec3d p_F = FrdFromBody(X_AO * (half * sign));
+    low = Min(low, p_F);
+    high = {std::max(high.x, p_F.x), std::max(high.y, p_F.y), std::max(high.z, p_F.z)};
+  }
+  info.box3D.min = airsim::ToVector(low);
+  info.box3D.max = airsim::ToVector(high);
+  info.relative_pose = airsim::ToMount(X_AO);
+  return info;
+}
+
+}  // namespace
+
+bool MatchesWildcard(std::string_view pattern, std::string_view name) {
+  // The last star and what it has swallowed so far, to come back to.
+  size_t p = 0, n = 0, star = std::string_view::npos, mark = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') {
+      ++p, ++n;
+    } else if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      mark = n;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++mark;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now,
+                                                const ObjectIndex& objects, const DetectionFilter& filter) {
+  std::map<EntityId, Pixels> seen;
+  const Image<EntityId>& entities = view.frame->entity;
+  for (int y = 0; y < entities.height(); ++y) {
+    for (int x = 0; x < entities.width(); ++x) {
+      if (entities(x, y) != kNoEntity) seen[entities(x, y)].Add(x, y);
+    }
+  }
+  const RigidTransform X_WA = view.X_WC * CameraInBody().inverse();
+  std::vector<airsim::DetectionInfo> detections;
+  for (const auto& [id, pixels] : seen) {
+    const Entity& entity = objects.scene().entity(id);
+    const bool wanted =
+        std::any_of(filter.patterns.begin(), filter.patterns.end(),
+                    [&](const std::string& pattern) { return MatchesWildcard(pattern, entity.name); });
+    if (!wanted || id == objects.scene().sky_entity) continue;
+    const auto moved = now.world->places.find(id);
+    const ObjectPlace place = moved == now.world->places.end() ? objects.PlaceOf(id) : moved->second;
+    if (Norm(place.X_WO.p - X_WA.p) > filter.radius) continue;
+    detections.push_back(Describe(entity, place, pixels, X_WA, now));
+  }
+  return detections;
+}
+
+}  // namespace airsim360

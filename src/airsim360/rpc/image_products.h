@@ -1,0 +1,55 @@
+// From what one rendering gave to the pixels that a client asked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "airsim360/render/renderer.h"
+#include "airsim360/rpc/airsim_image_types.h"
+#include "airsim360/rpc/cameras.h"
+
+namespace airsim360 {
+
+/// What images of a camera show for a type: panoramas show their own kind when asked for the scene.
+enum class ImageContent {
+  kColor,
+  kPlanarDepth,
+  kRange,
+  kDepthShade,
+  kDisparity,
+  kSegmentation,
+  kNormal,
+  kInfrared,
+  kFlow,
+  kFlowShade,
+  kEntity,
+  kAnnotation,
+};
+ImageContent ContentOf(const CameraSetup& camera, airsim::ImageType type);
+/// The products of the renderer that an image is made of.
+void AddProducts(ImageContent content, Products& products);
+
+struct PixelOptions {
+  bool half_depth = true;    ///< depth is rounded to half precision, as AirSim's readback does
+  bool centimetres = false;  ///< 8-bit range is centimetres, held at 255
+  std::vector<uint32_t> const* segmentation = nullptr;  ///< id by entity
+  std::vector<uint32_t> const* annotation = nullptr;
+};
+
+/// Depth of what no ray meets: the largest half-precision number, as AirSim's sky.
+inline constexpr float kSkyDepth = 65504;
+
+/// One float a pixel, two of flow.
+std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+                                 const PixelOptions& options);
+/// Three bytes a pixel in the order B, G, R.
+std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+                        const PixelOptions& options);
+/// A PNG of the same picture.
+std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
+                  const PixelOptions& options);
+
+/// Rounded to the nearest half-precision number, ties to even; at most 65504.
+float RoundToHalf(float value);
+
+}  // namespace airsim360

@@ -1,0 +1,222 @@
+#include "airsim360/rpc/image_service.h"
+
+#include <algorithm>
+
+#include "airsim360/rpc/ned.h"
+
+namespace airsim360 {
+namespace {
+
+// Optical flow leads to where things are after one frame of simContinueForFrames.
+constexpr double kFlowSeconds = 1e-9 * kFrameNs;
+
+// Cameras made here are panoramas, or pinholes with square pixels and the middle as principal point.
+bool SameProjection(const Camera& a, const Camera& b) {
+  if (a.index() != b.index() || Width(a) != Width(b) || Height(a) != Height(b)) return false;
+  const auto *first = std::get_if<Pinhole>(&a), *second = std::get_if<Pinhole>(&b);
+  return first == nullptr || first->fx == second->fx;
+}
+
+}  // namespace
+
+// One rendering: what requests with the same camera and projection share.
+struct ImageService::Shot {
+  Camera camera;
+  RigidTransform X_WA, X_WA_next;
+  Products products;
+  std::vector<std::pair<size_t, ImageContent>> requests;  // index and what it shows
+};
+
+RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const CameraSetup& camera) {
+  return snapshot.state.vehicles[vehicle].motion.X_WB * camera.X_BA;
+}
+
+ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tracer,
+                           const ImageOptions& options)
+    : session_(session), tracer_(std::move(tracer)), options_(options) {
+  const SnapshotPointer snapshot = session_.snapshot();
+  environment_version_ = snapshot->world->environment_version;
+  renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = snapshot->world->environment});
+  thread_ = std::thread([this] { Run(); });
+}
+
+ImageService::~ImageService() { Stop(); }
+
+void ImageService::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return;
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void ImageService::Post(Job job) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return;
+    jobs_.push_back(std::move(job));
+  }
+  wake_.notify_one();
+}
+
+void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot) {
+  const std::lock_guard lock(mutex_);
+  triggered_[vehicle] = std::move(snapshot);
+}
+
+void ImageService::Run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+    if (stopping_) return;
+    const Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    job(*this);
+    lock.lock();
+  }
+}
+
+void ImageService::FollowEnvironment(const WorldView& world) {
+  if (world.environment_version == environment_version_) return;
+  environment_version_ = world.environment_version;
+  renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = world.environment});
+}
+
+std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot) const {
+  if (snapshot.world->places.empty()) return nullptr;
+  auto state = std::make_shared<SceneState>();
+  state->t_ns = snapshot.state.t_ns;
+  for (const auto& [entity, place] : snapshot.world->places)
+    session_.objects().Move(entity, place, state->moved);
+  std::sort(state->moved.begin(), state->moved.end(),
+            [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
+  return state;
+}
+
+const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot) {
+  FollowEnvironment(*snapshot.world);
+  RenderRequest request{.camera = shot.camera, .X_WC = shot.X_WA * CameraInBody()};
+  // Without colours there is no shading to be paid for.
+  request.tier = shot.products.rgb ? options_.tier : Tier::kLabels;
+  request.products = shot.products;
+  request.state = StateOf(snapshot);
+  if (shot.products.flow) request.X_WC_next = shot.X_WA_next * CameraInBody();
+  renderer_->Render(request, frame_);
+  return frame_;
+}
+
+airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request, ImageContent content,
+                                            const Snapshot& snapshot, const Shot& shot,
+                                            Vec3d origin_W) const {
+  airsim::ImageResponse response;
+  response.camera_name = request.camera_name.text;
+  response.image_type = request.image_type;
+  response.pixels_as_float = request.pixels_as_float;
+  response.compress = request.compress;
+  response.annotation_name = request.annotation_name;
+  response.width = Width(shot.camera);
+  response.height = Height(shot.camera);
+  response.time_stamp = snapshot.time_stamp();
+  const airsim::Pose pose = airsim::ToPose(shot.X_WA, origin_W);
+  response.camera_position = pose.position;
+  response.camera_orientation = pose.orientation;
+
+  const AirSimSettings& settings = session_.settings();
+  PixelOptions options{.half_depth = !settings.float32_depth && !request.binary_float &&
+                                     std::holds_alternative<Pinhole>(shot.camera),
+                       .centimetres = settings.depth_in_centimetres && content == ImageContent::kRange,
+                       .segmentation = &snapshot.world->segmentation};
+  const auto layer = snapshot.world->annotations.find(request.annotation_name);
+  if (layer != snapshot.world->annotations.end()) options.annotation = &layer->second;
+  if (request.pixels_as_float) {
+    response.image_data_float = {FloatPixelsOf(content, frame_, shot.camera, options), request.binary_float};
+  } else if (request.compress) {
+    response.image_data_uint8.bytes = PngOf(content, frame_, shot.camera, options);
+  } else {
+    response.image_data_uint8.bytes = BgrPixelsOf(content, frame_, shot.camera, options);
+  }
+  return response;
+}
+
+// Requests that the same rays can answer are one shot.
+std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim::ImageRequest>& requests,
+                                                        const Snapshot& snapshot, size_t vehicle,
+                                                        bool external) const {
+  const CameraMap& cameras = external ? snapshot.world->external_cameras : snapshot.world->cameras[vehicle];
+  std::vector<Shot> shots;
+  for (size_t i = 0; i < requests.size(); ++i) {
+    const airsim::ImageType type = requests[i].image_type;
+    if (static_cast<unsigned>(type) >= static_cast<unsigned>(airsim::ImageType::kCount)) {
+      throw std::invalid_argument("image_type " + std::to_string(static_cast<int>(type)) +
+                                  " is not in 0 ... 11");
+    }
+    const CameraSetup& camera = FindCamera(cameras, requests[i].camera_name.text);
+    Shot shot;
+    shot.camera = ProjectionOf(camera, type);
+    shot.products.rgb = false;
+    if (external) {
+      shot.X_WA = shot.X_WA_next = airsim::FromPose(airsim::ToMount(camera.X_BA), session_.origin_W());
+    } else {
+      const Kinematics& body = snapshot.state.vehicles[vehicle].motion;
+      shot.X_WA = body.X_WB * camera.X_BA;
+      shot.X_WA_next = Extrapolate(body, kFlowSeconds) * camera.X_BA;
+    }
+    const auto same = std::find_if(shots.begin(), shots.end(), [&](const Shot& other) {
+      return SameProjection(other.camera, shot.camera) && other.X_WA.p == shot.X_WA.p &&
+             other.X_WA.R == shot.X_WA.R;
+    });
+    Shot& chosen = same == shots.end() ? shots.emplace_back(std::move(shot)) : *same;
+    const ImageContent content = ContentOf(camera, type);
+    AddProducts(content, chosen.products);
+    chosen.requests.emplace_back(i, content);
+  }
+  return shots;
+}
+
+// Where a panorama is asked for, everything is of the instant of its trigger.
+SnapshotPointer ImageService::InstantFor(const std::vector<airsim::ImageRequest>& requests,
+                                         const SnapshotPointer& now, size_t vehicle) {
+  const bool panorama =
+      std::any_of(requests.begin(), requests.end(), [&](const airsim::ImageRequest& request) {
+        const CameraSetup& camera = FindCamera(now->world->cameras[vehicle], request.camera_name.text);
+        return camera.panorama != PanoramaKind::kNone;
+      });
+  if (!panorama) return now;
+  const std::lock_guard lock(mutex_);
+  const auto found = triggered_.find(now->vehicles[vehicle].name);
+  return found == triggered_.end() ? now : found->second;
+}
+
+std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& now,
+                                                         const std::vector<airsim::ImageRequest>& requests,
+                                                         const std::string& vehicle, bool external) {
+  // Cameras of the world need no vehicle.
+  external = external && vehicle.empty();
+  const size_t index = external ? 0 : now->Find(vehicle);
+  const SnapshotPointer instant = external ? now : InstantFor(requests, now, index);
+  const Vec3d origin_W = external ? session_.origin_W() : instant->vehicles[index].origin_W;
+  std::vector<airsim::ImageResponse> responses(requests.size());
+  for (const Shot& shot : PlanShots(requests, *instant, index, external)) {
+    RenderShot(*instant, shot);
+    for (const auto& [i, content] : shot.requests) {
+      responses[i] = Respond(requests[i], content, *instant, shot, origin_W);
+    }
+  }
+  return responses;
+}
+
+ImageService::View ImageService::RenderLabels(const Snapshot& snapshot, size_t vehicle,
+                                              const std::string& name, airsim::ImageType type) {
+  const CameraSetup& camera = FindCamera(snapshot.world->cameras[vehicle], name);
+  Shot shot;
+  shot.camera = ProjectionOf(camera, type);
+  shot.X_WA = CameraPoseIn(snapshot, vehicle, camera);
+  shot.products.rgb = false;
+  const Frame& frame = RenderShot(snapshot, shot);
+  return {&frame, shot.camera, shot.X_WA * CameraInBody()};
+}
+
+}  // namespace airsim360

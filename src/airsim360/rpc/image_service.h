@@ -1,0 +1,85 @@
+// Pictures for clients: one thread that renders snapshots, so that nothing else ever waits for a picture.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "airsim360/rpc/image_products.h"
+#include "airsim360/rpc/session.h"
+
+namespace airsim360 {
+
+struct ImageOptions {
+  Tier tier = Tier::kFast;
+};
+
+/// Everything but Post and Trigger belongs to jobs, which run in the service's thread.
+class ImageService {
+ public:
+  using Job = std::function<void(ImageService&)>;
+
+  /// The renderer is made at once.
+  ImageService(Session& session, std::shared_ptr<const RayTracer> tracer, const ImageOptions& options);
+  ~ImageService();
+  ImageService(const ImageService&) = delete;
+  ImageService& operator=(const ImageService&) = delete;
+
+  /// Runs `job` after those before it; from any thread. Nothing happens after Stop.
+  void Post(Job job);
+  /// Ends the present job, drops those that wait, and joins the thread.
+  void Stop();
+  /// Keeps the present instant of a vehicle for its panoramas; from any thread.
+  void Trigger(const std::string& vehicle, SnapshotPointer snapshot);
+
+  /// The pictures of one call: all from one instant, that of the last trigger where a panorama is among them.
+  /// std::exception for a camera or vehicle that there is not.
+  std::vector<airsim::ImageResponse> Capture(const SnapshotPointer& now,
+                                             const std::vector<airsim::ImageRequest>& requests,
+                                             const std::string& vehicle, bool external);
+  /// Labels (range, semantic, entity) of an ordinary camera now, and its pose.
+  struct View {
+    const Frame* frame;
+    Camera camera;
+    RigidTransform X_WC;
+  };
+  View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera,
+                    airsim::ImageType type);
+  Session& session() { return session_; }
+
+ private:
+  struct Shot;
+  void Run();
+  const Frame& RenderShot(const Snapshot& snapshot, const Shot& shot);
+  void FollowEnvironment(const WorldView& world);
+  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot) const;
+  std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
+                              size_t vehicle, bool external) const;
+  SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
+                             size_t vehicle);
+  airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content,
+                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W) const;
+
+  Session& session_;
+  std::shared_ptr<const RayTracer> tracer_;
+  ImageOptions options_;
+  std::unique_ptr<Renderer> renderer_;
+  uint64_t environment_version_ = 0;
+  Frame frame_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable wake_;
+  std::deque<Job> jobs_;
+  std::map<std::string, SnapshotPointer> triggered_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+/// Pose of a camera's body-like frame in W at a snapshot.
+RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const CameraSetup& camera);
+
+}  // namespace airsim360

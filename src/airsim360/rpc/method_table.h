@@ -1,0 +1,72 @@
+// The functions a client can call, by name and number of arguments.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "airsim360/rpc/reply.h"
+
+namespace airsim360 {
+
+namespace internal {
+template <class F>
+struct Signature : Signature<decltype(&F::operator())> {};
+template <class C, class R, class... A>
+struct Signature<R (C::*)(A...) const> {
+  using Arguments = std::tuple<std::decay_t<A>...>;
+};
+
+/// The rest of a tuple after its first N types.
+template <size_t N, class Tuple, class = void>
+struct TupleTail;
+template <class Tuple>
+struct TupleTail<0, Tuple> {
+  using type = Tuple;
+};
+template <size_t N, class First, class... Rest>
+struct TupleTail<N, std::tuple<First, Rest...>, std::enable_if_t<(N > 0)>>
+    : TupleTail<N - 1, std::tuple<Rest...>> {};
+}  // namespace internal
+
+class MethodTable {
+ public:
+  /// Takes the checked arguments and returns what is to be run with the reply, here or elsewhere.
+  using Handler = std::function<void(const std::vector<WireValue>& arguments, const Reply& reply)>;
+
+  /// `most` arguments of which the last `optional` may be missing. A name may be added once.
+  void Add(std::string name, size_t most, size_t optional, Handler handler);
+
+  /// Calls the method, or answers with rpclib's error for a name or a number of arguments that there is not.
+  void Call(const RpcMessage& message, const Reply& reply) const;
+  std::vector<std::string> Names() const;
+
+  /// Reads the arguments of a function whose first `Skip` parameters are not the client's. Missing ones keep
+  /// their defaults. Throws BadCast, or std::invalid_argument for a number that is not one.
+  template <class F, size_t Skip>
+  static auto Read(const std::vector<WireValue>& values) {
+    typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type arguments{};
+    for (const WireValue& value : values) RefuseNan(value);
+    std::apply(
+        [&](auto&... argument) {
+          size_t i = 0;
+          ((i < values.size() ? FromWire(values[i++], argument) : void()), ...);
+        },
+        arguments);
+    return arguments;
+  }
+
+ private:
+  static void RefuseNan(const WireValue& value);
+
+  struct Method {
+    size_t most = 0, optional = 0;
+    Handler handler;
+  };
+  std::map<std::string, Method, std::less<>> methods_;
+};
+
+}  // namespace airsim360

@@ -1,0 +1,86 @@
+#include "airsim360/rpc/objects.h"
+
+#include <algorithm>
+#include <regex>
+#include <stdexcept>
+
+namespace airsim360 {
+
+ObjectIndex::ObjectIndex(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
+  for (const Entity& entity : scene_->entities) by_name_[entity.name] = entity.id;
+  instances_.resize(scene_->entities.size());
+  // Meshes with parts of several entities are fixed.
+  for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
+    const Instance& instance = scene_->instances[i];
+    const auto& parts = scene_->meshes[instance.mesh].parts;
+    EntityId owner = instance.entity;
+    const bool one = std::all_of(parts.begin(), parts.end(), [&](const MeshPart& part) {
+      const EntityId entity = part.entity != kNoEntity ? part.entity : instance.entity;
+      if (&part == &parts.front()) owner = entity;
+      return entity == owner;
+    });
+    if (one && owner != kNoEntity) instances_[owner - 1].push_back(i);
+  }
+}
+
+EntityId ObjectIndex::Find(const std::string& name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? kNoEntity : found->second;
+}
+
+const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const {
+  return instances_[entity - 1];
+}
+
+ObjectPlace ObjectIndex::PlaceOf(EntityId entity) const {
+  ObjectPlace place;
+  const Box3f& bounds = scene_->entity(entity).bounds;
+  if (!bounds.empty()) place.X_WO.p = VecCast<double>(bounds.center());
+  return place;
+}
+
+std::vector<EntityId> ObjectIndex::Match(const std::string& regex) const {
+  std::vector<EntityId> matches;
+  // Patterns of any length are a client's: the library's recursion is kept small.
+  if (regex.size() > 1000) throw std::invalid_argument("regular expression of more than 1000 characters");
+  const std::regex pattern(regex, std::regex::icase);
+  for (const Entity& entity : scene_->entities) {
+    if (entity.name.size() <= 200 && std::regex_match(entity.name, pattern)) matches.push_back(entity.id);
+  }
+  return matches;
+}
+
+void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<MovedInstance>& moved) const {
+  const Vec3f centre = VecCast<float>(PlaceOf(entity).X_WO.p);
+  AffineTransform X;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      X.A.m[i][j] = static_cast<float>(place.X_WO.R.m[i][j] * place.scale[static_cast<int>(j)]);
+    }
+  }
+  X.p = VecCast<float>(place.X_WO.p) - X.A * centre;
+  for (const uint32_t instance : InstancesOf(entity)) {
+    moved.push_back({instance, X * scene_->instances[instance].X_WM, place.hidden});
+  }
+}
+
+int DefaultSegmentationId(const std::string& name) {
+  int sum = 5;
+  for (const unsigned char c : name) {
+    if (c >= 97) sum += c;
+  }
+  return sum % 256;
+}
+
+std::vector<uint32_t> InitialSegmentation(const Scene& scene, const std::string& init_method) {
+  std::vector<uint32_t> ids(scene.entities.size() + 1, 0);
+  if (init_method == "None") return ids;
+  for (const Entity& entity : scene.entities) {
+    // The sky is no mesh of AirSim's and has no id.
+    if (entity.id != scene.sky_entity)
+      ids[entity.id] = static_cast<uint32_t>(DefaultSegmentationId(entity.name));
+  }
+  return ids;
+}
+
+}  // namespace airsim360

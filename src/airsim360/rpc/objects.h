@@ -1,0 +1,48 @@
+// The things of a scene as AirSim's calls see them: by name, with poses, scales and segmentation ids.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "airsim360/scene/scene.h"
+#include "airsim360/scene/scene_state.h"
+
+namespace airsim360 {
+
+/// Where an object has been put. Its pose is that of the centre of its bounds, unturned as the scene has it.
+struct ObjectPlace {
+  RigidTransform X_WO;
+  Vec3d scale{1, 1, 1};
+  bool hidden = false;
+};
+
+/// What never changes of a scene's objects.
+class ObjectIndex {
+ public:
+  explicit ObjectIndex(std::shared_ptr<const Scene> scene);
+
+  const Scene& scene() const { return *scene_; }
+  /// Entity of a name; kNoEntity if there is none.
+  EntityId Find(const std::string& name) const;
+  /// Instances that are wholly this entity's: what can be moved. Empty for parts of larger meshes.
+  const std::vector<uint32_t>& InstancesOf(EntityId entity) const;
+  ObjectPlace PlaceOf(EntityId entity) const;
+  /// Names that a regular expression matches as a whole, letters of either case; of existing things only.
+  std::vector<EntityId> Match(const std::string& regex) const;
+  /// Where the instances of an entity are when it is put elsewhere.
+  void Move(EntityId entity, const ObjectPlace& place, std::vector<MovedInstance>& moved) const;
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  std::map<std::string, EntityId, std::less<>> by_name_;
+  std::vector<std::vector<uint32_t>> instances_;  // by entity - 1
+};
+
+/// AirSim's id of a name: a sum of its letters (Unreal/Plugins/AirSim/Source/AirBlueprintLib.h).
+int DefaultSegmentationId(const std::string& name);
+/// AirSim's SegmentationSettings.InitMethod: "None" gives 0 to all.
+std::vector<uint32_t> InitialSegmentation(const Scene& scene, const std::string& init_method);
+
+}  // namespace airsim360

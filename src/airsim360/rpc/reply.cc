@@ -1,0 +1,56 @@
+#include "airsim360/rpc/reply.h"
+
+#include <atomic>
+
+namespace airsim360 {
+
+struct Reply::State {
+  std::optional<uint32_t> id;
+  std::string method;
+  size_t argument_count;
+  AnswerSink sink;
+  std::function<bool()> alive;
+  std::atomic<bool> answered{false};
+
+  ~State() {
+    if (!answered) sink(id ? ErrorAnswer(*id, "rpclib: the server is going down") : std::string());
+  }
+};
+
+Reply::Reply(std::optional<uint32_t> id, std::string method, size_t argument_count, AnswerSink sink,
+             std::function<bool()> alive)
+    : state_(new State{id, std::move(method), argument_count, std::move(sink), std::move(alive)}) {}
+
+bool Reply::Begin(WireWriter& writer) const {
+  if (state_->answered.exchange(true)) return false;
+  if (state_->id) {
+    BeginAnswer(*state_->id, writer);
+    return true;
+  }
+  state_->sink({});
+  return false;
+}
+
+void Reply::Send(std::string bytes) const { state_->sink(std::move(bytes)); }
+
+void Reply::Nil() const {
+  WireWriter writer;
+  if (!Begin(writer)) return;
+  writer.Nil();
+  Send(std::move(writer.bytes()));
+}
+
+void Reply::Error(std::string_view text) const {
+  if (state_->answered.exchange(true)) return;
+  state_->sink(state_->id ? ErrorAnswer(*state_->id, text) : std::string());
+}
+
+void Reply::Exception(std::string_view what) const {
+  Error("rpclib: function '" + state_->method + "' (called with " + std::to_string(state_->argument_count) +
+        " arg(s)) threw an exception. The exception contained this information: " + std::string(what) + ".");
+}
+
+bool Reply::wanted() const { return !state_->answered && state_->alive(); }
+const std::string& Reply::method() const { return state_->method; }
+
+}  // namespace airsim360

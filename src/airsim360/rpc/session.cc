@@ -1,0 +1,230 @@
+#include "airsim360/rpc/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "airsim360/base/log.h"
+#include "airsim360/rpc/ned.h"
+
+namespace airsim360 {
+namespace {
+
+// Steps between two looks at the jobs that wait: at most so much simulated time, so that answers come soon.
+constexpr int64_t kSliceNs = 3'000'000;
+
+// What AirSim calls PlayerStart: the ground below the scene's first viewpoint.
+Vec3d FindOrigin(const RayTracer& tracer) {
+  const Scene& scene = tracer.scene();
+  const Vec3f spawn = scene.spawn.value_or(scene.bounds.empty() ? Vec3f{} : scene.bounds.center());
+  const auto below = tracer.Intersect(spawn, {0, 0, -1});
+  return VecCast<double>(below ? spawn - Vec3f{0, 0, below->distance} : spawn);
+}
+
+uint64_t WallClockNs() {
+  return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                   std::chrono::system_clock::now().time_since_epoch())
+                                   .count());
+}
+
+}  // namespace
+
+std::string NoVehicleText(const std::string& name) {
+  return "Vehicle API for '" + name +
+         "' is not available. This could either because this is simulation-only API or this vehicle does not "
+         "exist";
+}
+
+size_t Snapshot::Find(const std::string& name) const {
+  if (name.empty() && !vehicles.empty()) return 0;
+  for (size_t i = 0; i < vehicles.size(); ++i) {
+    if (vehicles[i].name == name) return i;
+  }
+  throw std::runtime_error(NoVehicleText(name));
+}
+
+Session::Session(std::shared_ptr<const RayTracer> tracer, const SessionOptions& options)
+    : options_(options),
+      objects_(std::shared_ptr<const Scene>(tracer, &tracer->scene())),
+      origin_W_(FindOrigin(*tracer)),
+      earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
+                      options.settings.origin.altitude}),
+      base_tracer_(tracer),
+      dynamic_tracer_(tracer),
+      pacer_(options.lockstep, options.settings.clock_speed),
+      recorder_(options.settings.recording) {
+  auto world = std::make_shared<WorldView>();
+  world->segmentation = InitialSegmentation(objects_.scene(), options_.settings.segmentation_init);
+  world->external_cameras = MakeExternalCameras(options_.settings);
+  world->environment = world->base_environment = options_.environment;
+  world_ = std::move(world);
+  BuildVehicles();
+  // Lockstep runs are the same every time: their clock starts at zero.
+  auto first = std::make_shared<Snapshot>();
+  first->epoch_ns = options_.lockstep ? 0 : WallClockNs();
+  snapshot_ = first;
+  Publish();
+  thread_ = std::thread([this] { Run(); });
+}
+
+Session::~Session() {
+  {
+    const std::lock_guard lock(jobs_mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+RigidTransform Session::StartPose(const VehicleSettings& settings) const {
+  constexpr double kClearance = 0.02;  // above the ground that it then stands on, metres
+  RigidTransform X = MountOf(settings.pose, {});
+  // The file's place is in the global N frame.
+  const Vec3d p_N = FrdFromBody(X.p);
+  const airsim::Pose pose{airsim::ToVector(p_N), airsim::ToQuaternionr(FrdRotation(X.R))};
+  RigidTransform X_WB = airsim::FromPose(pose, origin_W_);
+  X_WB.p.z += AirSimQuad().half_size_B.z + kClearance;
+  return X_WB;
+}
+
+void Session::AddToModel(const std::string& name, const VehicleSettings& settings,
+                         const RigidTransform& X_WB) {
+  const bool is_drone = settings.type != "ComputerVision";
+  auto model = std::make_shared<SimModel>(*model_);
+  const size_t index = state_.vehicles.size();
+  RigidTransform start = X_WB;
+  if (is_drone) {
+    model->drones.push_back(std::make_shared<const SimDrone>(
+        MakeDroneSetup(name, options_.settings, settings, {}, X_WB), model->dt_ns));
+    model_ = model;
+    // Where the file gives a height it starts there, in free fall as in AirSim; else on the ground.
+    const bool on_ground = std::isnan(settings.pose.z) || settings.pose.z >= 0;
+    Vehicle vehicle = DroneAt(*model_, state_, index, X_WB, false);
+    if (!on_ground) vehicle.motion.X_WB = vehicle.drone.p_WB.z < X_WB.p.z ? X_WB : vehicle.motion.X_WB;
+    vehicle.drone.p_WB = vehicle.motion.X_WB.p;
+    start = vehicle.motion.X_WB;
+    state_.vehicles.push_back(vehicle);
+  } else {
+    state_.vehicles.push_back(VehicleAt(*model_, X_WB));
+  }
+  controls_.push_back(std::make_unique<VehicleControl>(index, name, settings, is_drone, start.p));
+  world().cameras.push_back(MakeCameras(options_.settings, settings));
+  world().ray_sensors.push_back(MakeRaySensors(options_.settings, settings));
+}
+
+void Session::BuildVehicles() {
+  auto model = std::make_shared<SimModel>();
+  model->tracer = base_tracer_;
+  model->dt_ns = kPhysicsStepNs;
+  model->world.frame = earth_;
+  model->world.seed = options_.seed;
+  model->wind.mean_W = NedFromWorld(airsim::FromVector(options_.settings.wind));
+  model_ = model;
+  state_.wind_W = model->wind.mean_W;
+  // Drones come first in the simulation, in the order of their names as AirSim has them.
+  for (const bool drones : {true, false}) {
+    for (const auto& [name, settings] : options_.settings.vehicles) {
+      if (!settings.auto_create || (settings.type != "ComputerVision") != drones) continue;
+      AddToModel(name, settings, StartPose(settings));
+    }
+  }
+}
+
+void Session::Post(Job job) {
+  {
+    const std::lock_guard lock(jobs_mutex_);
+    if (stopping_) return;
+    jobs_.push_back(std::move(job));
+  }
+  wake_.notify_one();
+}
+
+SnapshotPointer Session::snapshot() const {
+  const std::lock_guard lock(snapshot_mutex_);
+  return snapshot_;
+}
+
+WorldView& Session::world() {
+  if (!new_world_) new_world_ = std::make_shared<WorldView>(*world_);
+  return *new_world_;
+}
+
+void Session::Publish() {
+  if (new_world_) world_ = std::move(new_world_);
+  new_world_.reset();
+  auto next = std::make_shared<Snapshot>();
+  next->state = state_;
+  next->model = model_;
+  next->world = world_;
+  next->paused = pacer_.paused();
+  next->recording = recorder_.running();
+  next->epoch_ns = snapshot_->epoch_ns;
+  next->real_time_factor = pacer_.real_time_factor();
+  for (const auto& control : controls_) next->vehicles.push_back(control->status());
+  const std::lock_guard lock(snapshot_mutex_);
+  snapshot_ = std::move(next);
+}
+
+bool Session::RunJobs() {
+  std::vector<Job> jobs;
+  {
+    const std::lock_guard lock(jobs_mutex_);
+    jobs.swap(jobs_);
+  }
+  for (const Job& job : jobs) {
+    const std::function<void()> answer = job(*this);
+    Publish();
+    if (answer) answer();
+  }
+  return !jobs.empty();
+}
+
+void Session::StepOnce() {
+  std::vector<SimCommand> commands;
+  if (state_.t_ns % kControlStepNs == 0) {
+    for (const auto& control : controls_) {
+      if (!control->status().is_drone) continue;
+      if (auto command = control->Plan(vehicle(*control), state_.t_ns)) {
+        commands.push_back({control->index(), std::move(*command)});
+      }
+    }
+  }
+  Step(*model_, commands, state_);
+  for (const auto& control : controls_) {
+    if (control->status().is_drone) control->Observe(AirSimQuad(), vehicle(*control));
+  }
+}
+
+void Session::Run() {
+  while (true) {
+    RunJobs();
+    const int64_t due = std::min(pacer_.Due(state_.t_ns), state_.t_ns + kSliceNs);
+    bool stepped = false;
+    for (; state_.t_ns + model_->dt_ns <= due; stepped = true) StepOnce();
+    const std::vector<Reply> reached = pacer_.Reached(state_.t_ns);
+    if (stepped || !reached.empty()) {
+      Publish();
+      for (const Reply& reply : reached) reply.Nil();
+      recorder_.Observe(snapshot());
+      continue;
+    }
+    std::unique_lock lock(jobs_mutex_);
+    if (stopping_) break;
+    if (!jobs_.empty()) continue;
+    // In small slices: answers to questions about the state need not be newer than that.
+    const auto next = pacer_.NextDue(state_.t_ns, kSliceNs);
+    next ? (void)wake_.wait_until(lock, *next)
+         : wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+  }
+  for (const auto& control : controls_) control->Cancel();
+}
+
+VehicleControl& Session::control(const std::string& name) {
+  if (name.empty() && !controls_.empty()) return *controls_.front();
+  for (const auto& control : controls_) {
+    if (control->status().name == name) return *control;
+  }
+  throw std::runtime_error(NoVehicleText(name));
+}
+
+}  // namespace airsim360

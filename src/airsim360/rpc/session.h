@@ -1,0 +1,109 @@
+// The running simulation behind a server: one thread that alone changes it, paces it and publishes snapshots.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "airsim360/rpc/pacer.h"
+#include "airsim360/rpc/recorder.h"
+#include "airsim360/rpc/settings.h"
+#include "airsim360/rpc/snapshot.h"
+#include "airsim360/rpc/vehicle_control.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360 {
+
+struct SessionOptions {
+  AirSimSettings settings;
+  bool lockstep = false;  ///< time passes only in simContinueForTime and simContinueForFrames
+  uint64_t seed = 0;
+  Environment environment;
+};
+
+/// What runs in the session's thread.
+class Session {
+ public:
+  /// Changes the session and returns what is to be done once the change can be seen: answering, mostly.
+  using Job = std::function<std::function<void()>(Session&)>;
+
+  Session(std::shared_ptr<const RayTracer> tracer, const SessionOptions& options);
+  /// Ends every move with False and joins the thread.
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // From any thread.
+
+  /// Runs `job` between two steps, publishes the changed state, then does what the job has returned.
+  void Post(Job job);
+  SnapshotPointer snapshot() const;
+  const AirSimSettings& settings() const { return options_.settings; }
+  const ObjectIndex& objects() const { return objects_; }
+  /// Origin of the global N frame in W, and W on the Earth.
+  Vec3d origin_W() const { return origin_W_; }
+  const GeoFrame& earth() const { return earth_; }
+
+  // From jobs only.
+
+  SimState& state() { return state_; }
+  const SimModel& model() const { return *model_; }
+  VehicleControl& control(const std::string& name);
+  Vehicle& vehicle(const VehicleControl& control) { return state_.vehicles[control.index()]; }
+  /// The world, to be changed.
+  WorldView& world();
+  /// The environment was changed: renderers need to be made anew.
+  void EnvironmentChanged() { ++world().environment_version; }
+  /// Objects were moved: drones meet them in their new places.
+  void ObjectsMoved();
+  /// Gains of a drone's controllers were changed.
+  void GainsChanged(const VehicleControl& control);
+  /// A drone added at a place; false if the name is taken or the type unknown.
+  bool AddVehicle(const std::string& name, const std::string& type, const RigidTransform& X_WB);
+  /// Puts a vehicle somewhere else, at the speed it has.
+  void Teleport(const VehicleControl& control, const RigidTransform& X_WB);
+  void Reset();
+  /// What has changed so far can be seen.
+  void PublishNow() { Publish(); }
+  Pacer& pacer() { return pacer_; }
+  FlightRecorder& recorder() { return recorder_; }
+
+ private:
+  void Run();
+  bool RunJobs();
+  void StepOnce();
+  void Publish();
+  void BuildVehicles();
+  void RebuildModel();
+  void AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB);
+  RigidTransform StartPose(const VehicleSettings& settings) const;
+
+  SessionOptions options_;
+  ObjectIndex objects_;
+  Vec3d origin_W_;
+  GeoFrame earth_;
+  std::shared_ptr<const RayTracer> base_tracer_;
+  DynamicTracer dynamic_tracer_;
+
+  // Of the session's thread.
+  std::shared_ptr<SimModel> model_;  // replaced, never changed
+  SimState state_;
+  std::vector<std::unique_ptr<VehicleControl>> controls_;
+  std::shared_ptr<const WorldView> world_;
+  std::shared_ptr<WorldView> new_world_;  // while a job changes it
+  Pacer pacer_;
+  FlightRecorder recorder_;
+
+  mutable std::mutex snapshot_mutex_;
+  SnapshotPointer snapshot_;
+  std::mutex jobs_mutex_;
+  std::condition_variable wake_;
+  std::vector<Job> jobs_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace airsim360

@@ -1,0 +1,36 @@
+// Any bytes: the scanner finds the same objects however they are cut, and the decoder takes what it finds.
+#include <cstdlib>
+
+#include "airsim360/rpc/message.h"
+#include "airsim360/rpc/wire_value.h"
+
+namespace {
+
+constexpr airsim360::WireLimits kLimits{.bytes = 1 << 16, .values = 4096, .depth = 16};
+
+// Length of the first object when `step` bytes arrive at a time; 0 = none, SIZE_MAX = refused.
+size_t FirstLength(const uint8_t* data, size_t size, size_t step) {
+  airsim360::WireScanner scanner(kLimits);
+  try {
+    for (size_t have = step < size ? step : size;; have = have + step < size ? have + step : size) {
+      if (const auto length = scanner.Scan({data, have})) return *length;
+      if (have == size) return 0;
+    }
+  } catch (const airsim360::WireError&) {
+    return SIZE_MAX;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const size_t length = FirstLength(data, size, size ? size : 1);
+  if (length != FirstLength(data, size, 1)) std::abort();
+  if (length == 0 || length == SIZE_MAX) return 0;
+  try {
+    const airsim360::WireValue value = airsim360::DecodeWire({data, length}, kLimits);
+    airsim360::ParseMessage(value);
+  } catch (const airsim360::WireError&) {
+  }
+  return 0;
+}

@@ -1,0 +1,216 @@
+"""The wire, the errors, clients that misbehave: over raw sockets."""
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import msgpack
+
+from harness import RawClient, Server, ServerTest
+
+
+class Handshake(ServerTest):
+    def test_versions_are_airsims(self):
+        raw = self.raw()
+        self.assertIs(raw.call("ping"), True)
+        self.assertEqual(raw.call("getServerVersion"), 1)
+        self.assertEqual(raw.call("getMinRequiredClientVersion"), 1)
+
+    def test_structs_are_maps_with_airsims_keys(self):
+        state = self.raw().call("getMultirotorState", "")
+        self.assertEqual(set(state), {"collision", "kinematics_estimated", "gps_location", "timestamp", "landed_state", "rc_data"})
+        self.assertEqual(set(state["kinematics_estimated"]), {"position", "orientation", "linear_velocity", "angular_velocity",
+                                                              "linear_acceleration", "angular_acceleration"})
+        self.assertEqual(set(state["collision"]), {"has_collided", "penetration_depth", "time_stamp", "normal", "impact_point", "position",
+                                                   "object_name", "object_id"})
+        image = self.raw().call("simGetImages", [{"camera_name": "0", "image_type": 0}], "", False)[0]
+        self.assertTrue({"image_data_uint8", "image_data_float", "camera_position", "camera_name", "camera_orientation", "time_stamp",
+                         "message", "pixels_as_float", "compress", "width", "height", "image_type"} <= set(image))
+        self.assertIsInstance(image["image_data_uint8"], bytes)
+        # An unknown key whose value is a map would end AirSim's own client.
+        self.assertEqual({key for key, value in image.items() if isinstance(value, dict)}, {"camera_position", "camera_orientation"})
+
+    def test_answers_come_when_they_are_ready(self):
+        raw = self.raw()
+        raw.call("enableApiControl", True, "")
+        raw.call("armDisarm", True, "")
+        move = raw.send("moveByVelocity", 0, 0, 0, 40.0, 0, {"is_rate": True, "yaw_or_rate": 0}, "")
+        for method, arguments in [("ping", ()), ("getMultirotorState", ("",)),
+                                  ("simGetImages", ([{"camera_name": "0", "image_type": 1, "pixels_as_float": True}], "", False))]:
+            asked = raw.send(method, *arguments)
+            number, error, _ = raw.receive()
+            self.assertEqual((number, error), (asked, None), method)
+        cancel = raw.send("cancelLastTask", "")
+        answers = dict((number, (error, result)) for number, error, result in (raw.receive(), raw.receive()))
+        self.assertEqual(answers, {move: (None, False), cancel: (None, None)})
+
+    def test_a_new_move_ends_the_old_one_with_false(self):
+        raw = self.raw()
+        raw.call("enableApiControl", True, "")
+        first = raw.send("moveByVelocity", 0, 0, 0, 1000, 0, {"is_rate": True, "yaw_or_rate": 0}, "")
+        second = raw.send("moveByVelocity", 0, 0, 0, 0.1, 0, {"is_rate": True, "yaw_or_rate": 0}, "")
+        self.assertEqual(raw.receive(), (first, None, False))
+        self.assertEqual(raw.receive(), (second, None, True))
+
+    def test_notifications_get_no_answer(self):
+        raw = self.raw()
+        raw.socket.sendall(msgpack.packb([2, "simPrintLogMessage", ["hello", "", 0]]))
+        self.assertIs(raw.call("ping"), True)
+
+
+class BadCalls(ServerTest):
+    def test_errors_are_airsims_and_nothing_changes(self):
+        raw = self.raw()
+        before = raw.call("simGetVehiclePose", "")
+        cases = [
+            (("simFlyAway", 1, 2), "rpclib: server could not find function 'simFlyAway' with argument count 2."),
+            (("ping", 1), "rpclib: Function 'ping' was called with an invalid number of arguments. Expected: 0, got: 1"),
+            (("simSetVehiclePose", {}), "rpclib: Function 'simSetVehiclePose' was called with an invalid number of arguments. Expected: 3, got: 1"),
+            (("simPause", "yes"), "rpclib: function 'simPause' (called with 1 arg(s)) threw an exception. The exception contained this information: std::bad_cast."),
+            (("getMultirotorState", "Nobody"), "Vehicle API for 'Nobody' is not available. This could either because this is simulation-only API or this vehicle does not exist"),
+            (("getImuData", "imu9", ""), "No IMU with name imu9 exist on vehicle"),
+            (("getLidarData", "", ""), "No lidar with name  exist on vehicle"),
+            (("simSetVehiclePose", {"position": {"x_val": float("nan")}}, True, ""), "not a number"),
+            (("simSetVehiclePose", {"position": {"x_val": float("inf")}}, True, ""), "not finite"),
+            (("simSetVehiclePose", {"orientation": {"w_val": 0}}, True, ""), "no rotation"),
+            (("moveToPosition", float("nan"), 0, 0, 1, 1, 0, {}, -1, 1, ""), "not a number"),
+            (("moveToPosition", 1, 0, 0, 1, 1, 0, {}, 0, 1, ""), "lookahead distance cannot be 0"),
+            (("moveToPosition", 1, 0, 0, 1, 1, 0, {}, 0.1, 1, ""), "is smaller than drone's distance accuracy"),
+            (("moveOnPath", [{"x_val": 1}], 1, 1, 1, {"is_rate": True}, -1, 1, ""), "Yaw cannot be specified as rate if drivetrain is ForwardOnly"),
+            (("simGetImages", [{"camera_name": "nose", "image_type": 0}], "", False), "Camera 'nose' not found"),
+            (("simGetImages", [{"camera_name": "0", "image_type": 99}], "", False), "image_type 99"),
+            (("simSetPanoramaResolution", "panorama_original", 100, 100, ""), "twice as wide as high"),
+            (("simSetSegmentationObjectID", "[", 1, True), "threw an exception"),
+            (("simSetWind", {"x_val": 1e9}), "wind"),
+            (("setSafety", 0, 0.0, 0, 0.0, {}, 0.0, 0.0, 0.0, ""), "safety_eval_ptr_"),
+        ]
+        for call, text in cases:
+            self.assertError(lambda: raw.call(*call), text)
+        self.assertError(lambda: raw.call(*cases[14][0]), "front_center", "panorama_original")
+        after = raw.call("simGetVehiclePose", "")
+        for key in ("x_val", "y_val", "z_val"):
+            self.assertAlmostEqual(before["position"][key], after["position"][key], places=3)
+
+    def test_cosys_argument_counts_are_taken_too(self):
+        raw = self.raw()
+        request = [{"camera_name": "0", "image_type": 0, "annotation_name": ""}]
+        self.assertEqual(len(raw.call("simGetImages", request, "")), 1)
+        self.assertTrue(raw.call("simGetImage", "0", 0, "", "").startswith(b"\x89PNG"))
+        self.assertTrue(raw.call("simGetImage", "0", 0, "", False).startswith(b"\x89PNG"))
+        self.assertEqual(raw.call("simGetCameraInfo", "0", "")["fov"], 90)
+        raw.call("simSetCameraFov", "0", 90, "")
+        self.assertEqual(set(raw.call("simGetObjectPose", "box", True)), {"position", "orientation"})
+
+
+class Hostile(ServerTest):
+    def alive(self):
+        self.assertIs(self.raw().call("ping"), True)
+
+    def test_garbage_closes_only_its_own_connection(self):
+        for garbage in [b"\xc1", b"GET / HTTP/1.1\r\n\r\n", b"\xdd\xff\xff\xff\xff", b"\x91" * 100, b"\x94\x01\x02\x03\x04", os.urandom(5000)]:
+            victim = socket.create_connection(("127.0.0.1", self.server.port), 10)
+            victim.sendall(garbage)
+            victim.close()
+        self.alive()
+
+    def test_half_messages_and_silent_clients_wait_alone(self):
+        half = [socket.create_connection(("127.0.0.1", self.server.port), 10) for _ in range(20)]
+        for victim in half:
+            victim.sendall(msgpack.packb([0, 1, "ping", []])[:3])
+        self.alive()
+        for victim in half:
+            victim.close()
+
+    def test_a_client_that_does_not_read_does_not_stop_others(self):
+        slow = socket.create_connection(("127.0.0.1", self.server.port), 10)
+        request = msgpack.packb([0, 1, "simGetImages", [[{"camera_name": "0", "image_type": 0, "compress": False}], "", False]])
+        slow.sendall(request * 200)
+        other = self.raw()
+        for _ in range(20):
+            started = time.time()
+            other.call("getMultirotorState", "")
+            self.assertLess(time.time() - started, 5)
+        slow.close()
+        self.alive()
+
+    def test_too_many_connections_are_turned_away(self):
+        held = []
+        for _ in range(100):
+            held.append(socket.create_connection(("127.0.0.1", self.server.port), 10))
+        time.sleep(0.3)
+        for connection in held:
+            connection.close()
+        time.sleep(0.3)
+        self.alive()
+
+    def test_killed_clients_are_harmless(self):
+        code = ("import socket,msgpack,sys,os;s=socket.create_connection(('127.0.0.1',%d));"
+                "s.sendall(msgpack.packb([0,1,'simGetImages',[[{'camera_name':'panorama_original','image_type':0}],'',False]])*3);"
+                "s.sendall(msgpack.packb([0,9,'moveByVelocity',[1,0,0,100,0,{'is_rate':True,'yaw_or_rate':0},'']]));"
+                "print('x',flush=True);s.recv(1<<30)" % self.server.port)
+        for _ in range(10):
+            child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+            child.stdout.readline()
+            child.send_signal(signal.SIGKILL)
+            child.wait()
+            child.stdout.close()
+        self.alive()
+
+    def test_a_long_message_is_refused(self):
+        victim = socket.create_connection(("127.0.0.1", self.server.port), 10)
+        victim.sendall(b"\x94\x00\x01\xa4ping\x91\xc6\x7f\xff\xff\xff")
+        self.assertEqual(victim.recv(10), b"")
+        victim.close()
+        self.alive()
+
+    def test_many_clients_at_once_get_their_own_answers(self):
+        failures = []
+
+        def work(number):
+            client = RawClient(self.server.port)
+            for i in range(50):
+                if client.call("simPrintLogMessage", "", "", 0) is not None or client.call("ping") is not True:
+                    failures.append(number)
+            client.close()
+        threads = [threading.Thread(target=work, args=(number,)) for number in range(16)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(failures, [])
+
+
+class Life(unittest.TestCase):
+    def test_the_port_is_free_after_a_crash(self):
+        first = Server()
+        client = RawClient(first.port)
+        client.call("ping")
+        first.process.kill()
+        first.process.wait()
+        second = subprocess.Popen([os.environ["AIRSIM360"], "serve", "--world", "box_room", "--port", str(first.port)],
+                                  stdout=subprocess.PIPE, text=True)
+        self.assertEqual(second.stdout.readline(), f"listening on 127.0.0.1:{first.port}\n")
+        second.send_signal(signal.SIGINT)
+        self.assertEqual(second.wait(30), 0)
+        second.stdout.close()
+        first.process.stdout.close()
+        client.close()
+
+    def test_bad_flags_and_settings_are_told(self):
+        def run(*arguments):
+            return subprocess.run([os.environ["AIRSIM360"], "serve", *arguments], capture_output=True, text=True, timeout=60)
+        self.assertEqual(run("--world", "box_room", "--people", "3").returncode, 2)
+        self.assertIn("people are not in this build", run("--world", "box_room", "--people", "3").stderr)
+        self.assertIn("--lockstep", run("--world", "box_room", "--lockstep", "--realtime").stderr)
+        self.assertIn("did you mean 'box_room'", run("--world", "box_rom").stderr)
+        server = Server(settings={"Vehicles": {"A": {"VehicleType": "SimpleFlight"}}, "Unknown": 1})
+        self.assertIn("'Unknown' is not known here", server.messages())
+        self.assertEqual(server.stop(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
