@@ -30,34 +30,35 @@ bool AllFinite(const double* x, size_t n) {
     sum[0] += a - a;
     sum[1] += b - b;
   }
-  V8 rest = {};
-  for (; i < n; ++i) rest[i % 8] += x[i] - x[i];
-  return !AnyLane((sum[0] + sum[1] + rest) != V8{});
+  bool finite = i == 0 || !AnyLane((sum[0] + sum[1]) != V8{});
+  for (; i < n; ++i) finite &= x[i] - x[i] == 0;
+  return finite;
 }
 
 bool AllPositive(const double* x, size_t n) {
   I8 bad = {};
   size_t i = 0;
   for (; i + 8 <= n; i += 8) bad |= ~(Load8(x + i) > V8{});
-  bool positive = !AnyLane(bad);
+  bool positive = i == 0 || !AnyLane(bad);
   for (; i < n; ++i) positive &= x[i] > 0;
   return positive;
 }
 
+AIRSIM360_INLINE bool UnevenHere(double a, double b, double c) {
+  const double low = a < b ? a : b, high = a < b ? b : a, right = b < c ? c : b;
+  return (high > kSingleRatio * low) | (a > kDoubleRatio * right) | (c > kDoubleRatio * high);
+}
+
 bool AnyUneven(const double* durations, size_t n) {
   if (n < 2) return false;
-  I8 uneven = {};
+  I8 mask = {};
   size_t i = 0;
   for (; i + 10 <= n; i += 8) {
-    uneven |= Uneven(Load8(durations + i), Load8(durations + i + 1), Load8(durations + i + 2));
+    mask |= Uneven(Load8(durations + i), Load8(durations + i + 1), Load8(durations + i + 2));
   }
-  V8 a = V8{} + 1, b = a, c = a;
-  for (size_t lane = 0; i + 1 < n; ++i, ++lane) {
-    a[lane] = durations[i];
-    b[lane] = durations[i + 1];
-    c[lane] = i + 2 < n ? durations[i + 2] : durations[i + 1];
-  }
-  return AnyLane(uneven | Uneven(a, b, c));
+  bool uneven = i > 0 && AnyLane(mask);
+  for (; i + 2 < n; ++i) uneven |= UnevenHere(durations[i], durations[i + 1], durations[i + 2]);
+  return uneven || UnevenHere(durations[n - 2], durations[n - 1], durations[n - 1]);
 }
 
 }  // namespace

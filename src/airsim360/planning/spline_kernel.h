@@ -40,6 +40,20 @@ struct SplineKernels {
   void (*batch[kSplineKinds])(const BatchArguments&);
 };
 
+/// Derivatives of a function of coefficients and durations, through the optimum.
+struct AdjointArguments {
+  RouteArguments route;          ///< solved: coefficients are read; any number of segments
+  const double* by_coefficient;  ///< like route.coefficients
+  double* by_duration;           ///< [segments]: in at fixed coefficients, out in total
+  double* by_waypoint;           ///< [segments + 1][4], out
+};
+
+constexpr size_t AdjointWorkspace(size_t segments) { return segments * 38 * 4; }
+
+struct AdjointKernels {
+  void (*adjoint[kSplineKinds])(const AdjointArguments&);
+};
+
 struct CheckKernels {
   bool (*all_finite)(const double* x, size_t n);
   bool (*all_positive)(const double* x, size_t n);
@@ -51,4 +65,5 @@ struct CheckKernels {
 }  // namespace airsim360::internal
 
 AIRSIM360_DECLARE_KERNEL(extern const SplineKernels kSplineKernels)
+AIRSIM360_DECLARE_KERNEL(extern const AdjointKernels kAdjointKernels)
 AIRSIM360_DECLARE_KERNEL(extern const CheckKernels kCheckKernels)
