@@ -60,6 +60,21 @@ class YamlReader : public ConfigVisitor {
     }
   }
 
+  void Entries(std::string_view name, std::string_view, size_t, const std::function<void(size_t)>& resize,
+               const std::function<void(ConfigVisitor&, size_t)>& visit) override {
+    const YAML::Node node = Find(name);
+    if (!node || !node.IsDefined()) return;
+    if (!node.IsSequence())
+      throw InputError(Where(file_, node.Mark()) + std::string(name) +
+                       ": expected a list ('- key: value' entries)");
+    resize(node.size());
+    for (size_t i = 0; i < node.size(); ++i) {
+      YamlReader entry(node[i], file_);
+      visit(entry, i);
+      entry.RefuseUnknownKeys();
+    }
+  }
+
   void RefuseUnknownKeys() const {
     std::set<std::string> seen;
     for (const auto& entry : node_) {
@@ -130,6 +145,18 @@ class Describer : public ConfigVisitor {
     Describer inner(indent_ + "  ");
     visit(inner);
     text_ += inner.text_;
+  }
+  void Entries(std::string_view name, std::string_view help, size_t size, const std::function<void(size_t)>&,
+               const std::function<void(ConfigVisitor&, size_t)>& visit) override {
+    Line(name, "", help);
+    for (size_t i = 0; i < size; ++i) {
+      Describer inner(indent_ + "    ");
+      visit(inner, i);
+      // The first line of an entry carries the dash.
+      std::string entry = std::move(inner.text_);
+      if (!entry.empty()) entry[indent_.size() + 2] = '-';
+      text_ += entry;
+    }
   }
   const std::string& text() const { return text_; }
 

@@ -34,6 +34,21 @@ class ConfigVisitor {
   /// A nested struct.
   virtual void Group(std::string_view name, std::string_view help,
                      const std::function<void(ConfigVisitor&)>& visit) = 0;
+  /// A list of nested structs: `visit(v, entry)` names the fields of one. A file that mentions the list
+  /// replaces it, each entry starting from the defaults.
+  template <class T, class Visit>
+  void List(std::string_view name, std::string_view help, std::vector<T>& list, const Visit& visit) {
+    Entries(
+        name, help, list.size(), [&](size_t size) { list.assign(size, T{}); },
+        [&](ConfigVisitor& v, size_t i) { visit(v, list[i]); });
+  }
+
+ protected:
+  /// List without its type: `resize` makes that many default entries, `visit` names the fields of one.
+  /// Visitors that know no lists skip them.
+  virtual void Entries(std::string_view /*name*/, std::string_view /*help*/, size_t /*size*/,
+                       const std::function<void(size_t)>& /*resize*/,
+                       const std::function<void(ConfigVisitor&, size_t)>& /*visit*/) {}
 };
 
 using ConfigFields = std::function<void(ConfigVisitor&)>;
