@@ -39,6 +39,7 @@ double Seconds() {
 
 double CheckPositive(const char* flag, double value) {
   if (value > 0 && std::isfinite(value)) return value;
+  if (value == 0) throw InputError(std::string(flag) + ": missing or 0; give a number above zero");
   char text[96];
   std::snprintf(text, sizeof(text), "%s: %g is not a number above zero", flag, value);
   throw InputError(text);
@@ -108,6 +109,7 @@ struct Planned {
   AllocatedTrajectory flight;
   std::optional<Certificate> certificate;
   size_t added = 0;
+  std::vector<Vec3d> waypoints;
 };
 
 Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, const PlanWorld& world) {
@@ -121,7 +123,7 @@ Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, con
       for (size_t i = 0; i < waypoints.points.size(); ++i)
         CheckAboveGround(*world.tracer, waypoints.points[i].p, "waypoint " + std::to_string(i + 1));
       CertifiedFlight flight = FlyFree(waypoints.Positions(), *world.bounded, options);
-      return {std::move(flight.flight), flight.certificate, flight.added};
+      return {std::move(flight.flight), flight.certificate, flight.added, std::move(flight.waypoints)};
     } catch (const InputError& error) {
       Rethrow(error, waypoints);
     }
@@ -141,7 +143,7 @@ Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, con
       LogWarning(text);
     }
   }
-  return {std::move(flight), certificate, 0};
+  return {std::move(flight), certificate, 0, waypoints.Positions()};
 }
 
 void Report(const PlanArguments& arguments, const Planned& planned, const PlanRecord& record,
@@ -268,7 +270,8 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
                           .start_time = timed ? waypoints.points.front().t : 0,
                           .yaw = arguments.yaw_deg * std::numbers::pi / 180,
                           .radius = arguments.clearance,
-                          .certificate = planned.certificate};
+                          .certificate = planned.certificate,
+                          .waypoints = planned.waypoints};
   output.plot.title = "degree " + std::to_string(path.degree()) + ", " + std::to_string(path.segments()) +
                       " segments" + (arguments.world.empty() ? "" : ", " + arguments.world);
   output.plot.max_speed = arguments.vmax;

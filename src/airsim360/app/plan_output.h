@@ -16,10 +16,10 @@ const std::vector<std::string>& PlanFormats();
 
 struct PlanOutput {
   std::filesystem::path out;
-  std::vector<std::string> formats;  ///< empty: by the extension of `out`
-  double interval = 0.1;             ///< seconds between samples
-  GeoPoint origin;                   ///< of W, for QGroundControl
-  PlotOptions plot;
+  std::vector<std::string> formats = {};  ///< empty: by the extension of `out`
+  double interval = 0.1;                  ///< seconds between samples
+  GeoPoint origin = {};                   ///< of W, for QGroundControl
+  PlotOptions plot = {};
 };
 
 /// Formats to write: those given, or the one that the extension of `out` stands for. InputError for an

@@ -62,8 +62,8 @@ struct WaypointSetOptions {
   int64_t most_routes = 0;               ///< of each world; 0 = as many as the paper has
   double radius = 0.5;                   ///< metres to keep from every surface
   std::vector<std::string> worlds = {};  ///< only these; empty = all of the table
-  std::function<bool(const std::string&)> exists;
-  std::function<std::shared_ptr<const Scene>(const std::string&)> load;
+  std::function<bool(const std::string&)> exists = {};
+  std::function<std::shared_ptr<const Scene>(const std::string&)> load = {};
 };
 struct WaypointSetResult {
   int64_t flights = 0, written = 0;  ///< of this shard; written by this run
