@@ -24,19 +24,14 @@ void CheckCounts(size_t waypoints, size_t durations) {
   }
 }
 
-/// x - x is zero for finite numbers and NaN for others.
-double Finiteness(Vec3d v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z); }
-
 /// Cheap test of all numbers first; the culprit is looked for only if there is one.
-void CheckNumbers(std::span<const Vec3d> waypoints, std::span<const double> durations) {
-  double finite = 0;
-  bool positive = true;
-  for (const Vec3d& waypoint : waypoints) finite += Finiteness(waypoint);
-  for (const double duration : durations) {
-    finite += duration - duration;
-    positive &= duration > 0;
+void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
+                  std::span<const double> durations) {
+  if (kernels.all_finite(&waypoints[0].x, 3 * waypoints.size()) &&
+      kernels.all_finite(durations.data(), durations.size()) &&
+      kernels.all_positive(durations.data(), durations.size())) {
+    return;
   }
-  if (positive && finite == 0) return;
   for (size_t i = 0; i < durations.size(); ++i) {
     if (!(durations[i] > 0) || !std::isfinite(durations[i])) {
       Fail("duration " + std::to_string(i) + " is " + std::to_string(durations[i]) +
@@ -44,14 +39,14 @@ void CheckNumbers(std::span<const Vec3d> waypoints, std::span<const double> dura
     }
   }
   for (size_t i = 0; i < waypoints.size(); ++i) {
-    if (Finiteness(waypoints[i]) != 0) Fail("waypoint " + std::to_string(i) + " is not finite");
+    if (!kernels.all_finite(&waypoints[i].x, 3)) Fail("waypoint " + std::to_string(i) + " is not finite");
   }
 }
 
-void CheckEnd(const BoundaryDerivatives& end, const char* which) {
-  if (Finiteness(end.v) + Finiteness(end.a) + Finiteness(end.jerk) != 0) {
-    Fail(std::string(which) + " derivatives are not finite");
-  }
+void CheckEnds(const CheckKernels& kernels, const MinimumSnapProblem& problem) {
+  static_assert(sizeof(BoundaryDerivatives) == 9 * sizeof(double));
+  if (!kernels.all_finite(&problem.start.v.x, 9)) Fail("derivatives at the start are not finite");
+  if (!kernels.all_finite(&problem.end.v.x, 9)) Fail("derivatives at the end are not finite");
 }
 
 /// Four lanes per vector.
@@ -66,9 +61,13 @@ void Pad(Vec3d v, double* out) {
 
 struct MinimumSnapSolver::Impl {
   const SplineKernels* kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  const AdjointKernels* adjoints = AIRSIM360_SELECT_KERNEL(kAdjointKernels);
+  const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
   bool free = false;
   std::vector<double> durations, coefficients;
+  std::vector<double> cost_gradient, direct;
+  AlignedBuffer waypoint_gradient;
   AlignedBuffer knots, workspace;
   double start[12] = {}, end[12] = {};
 
@@ -87,23 +86,30 @@ struct MinimumSnapSolver::Impl {
     Pad(problem.end.v, end);
     Pad(problem.end.a, end + 4);
     Pad(problem.end.jerk, end + 8);
+    direct.resize(durations.size());
     coefficients.resize(durations.size() * 3 * static_cast<size_t>(PowersOf(kind)));
   }
 
-  void Solve() {
+  RouteArguments Arguments() {
     const size_t segments = durations.size();
-    const RouteArguments arguments = {.knots = knots.data(),
-                                      .durations = durations.data(),
-                                      .segments = segments,
-                                      .start = start,
-                                      .end = end,
-                                      .free = free,
-                                      .workspace = workspace.Reserve(RouteWorkspace(segments)),
-                                      .coefficients = coefficients.data()};
-    if (segments == 1 || NeedsWideArithmetic(durations.data(), segments)) {
-      return SolveRouteWide(kind, arguments);
-    }
+    return {.knots = knots.data(),
+            .durations = durations.data(),
+            .segments = segments,
+            .start = start,
+            .end = end,
+            .free_start = free,
+            .free_end = free,
+            .workspace = workspace.Reserve(std::max(RouteWorkspace(segments), AdjointWorkspace(segments))),
+            .coefficients = coefficients.data()};
+  }
+
+  void Solve(bool refine) {
+    const RouteArguments arguments = Arguments();
+    if (arguments.segments == 1) return SolveRouteWide(kind, arguments);
     kernels->route[static_cast<int>(kind)](arguments);
+    if (refine && checks->any_uneven(durations.data(), arguments.segments)) {
+      RefineUneven(kind, *checks, arguments);
+    }
   }
 };
 
@@ -114,11 +120,10 @@ MinimumSnapSolver& MinimumSnapSolver::operator=(MinimumSnapSolver&&) noexcept = 
 
 void MinimumSnapSolver::Solve(const MinimumSnapProblem& problem) {
   CheckCounts(problem.waypoints.size(), problem.durations.size());
-  CheckNumbers(problem.waypoints, problem.durations);
-  CheckEnd(problem.start, "start");
-  CheckEnd(problem.end, "end");
+  CheckNumbers(*impl_->checks, problem.waypoints, problem.durations);
+  CheckEnds(*impl_->checks, problem);
   impl_->Copy(problem);
-  impl_->Solve();
+  impl_->Solve(problem.refine);
 }
 
 int MinimumSnapSolver::degree() const { return PowersOf(impl_->kind) - 1; }
@@ -131,6 +136,60 @@ PolynomialTrajectory MinimumSnapSolver::Trajectory() const {
 
 double MinimumSnapSolver::Cost() const {
   return IntegralOfSquaredDerivative(Trajectory(), impl_->kind == SplineKind::kMinimumJerk ? 3 : 4);
+}
+
+void MinimumSnapSolver::Backpropagate(std::span<const double> by_coefficient, std::span<double> by_duration,
+                                      std::span<Vec3d> by_waypoint) {
+  Impl& impl = *impl_;
+  const size_t segments = impl.durations.size();
+  if (by_coefficient.size() != impl.coefficients.size() || by_duration.size() != segments ||
+      (!by_waypoint.empty() && by_waypoint.size() != segments + 1)) {
+    Fail("sizes of the gradients do not agree with the solution");
+  }
+  double* const waypoints = impl.waypoint_gradient.Reserve(4 * (segments + 1));
+  impl.adjoints->adjoint[static_cast<int>(impl.kind)]({.route = impl.Arguments(),
+                                                       .by_coefficient = by_coefficient.data(),
+                                                       .by_duration = by_duration.data(),
+                                                       .by_waypoint = waypoints});
+  for (size_t k = 0; k < by_waypoint.size(); ++k) {
+    by_waypoint[k] = {waypoints[4 * k], waypoints[4 * k + 1], waypoints[4 * k + 2]};
+  }
+}
+
+void MinimumSnapSolver::CostGradient(std::span<double> by_duration, std::span<Vec3d> by_waypoint) {
+  Impl& impl = *impl_;
+  const size_t segments = impl.durations.size(), powers = static_cast<size_t>(PowersOf(impl.kind));
+  const size_t order = impl.kind == SplineKind::kMinimumJerk ? 3 : 4;
+  // The cost of one segment and axis is sum_jk h_j h_k T^(j + k + 1) / (j + k + 1), h the coefficients of the
+  // squared derivative; its derivative by T is the square of that derivative at the segment's end.
+  impl.cost_gradient.resize(impl.coefficients.size());
+  for (size_t i = 0; i < segments; ++i) {
+    const double duration = impl.durations[i];
+    double at_end = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double* const c = &impl.coefficients[(3 * i + axis) * powers];
+      double* const gradient = &impl.cost_gradient[(3 * i + axis) * powers];
+      double h[4] = {}, factor[4] = {}, value = 0, power = 1;
+      const size_t terms = powers - order;
+      for (size_t j = 0; j < terms; ++j, power *= duration) {
+        factor[j] = 1;
+        for (size_t f = j + order; f > j; --f) factor[j] *= static_cast<double>(f);
+        h[j] = factor[j] * c[j + order];
+        value += h[j] * power;
+      }
+      at_end += value * value;
+      std::fill(gradient, gradient + order, 0.0);
+      for (size_t j = 0; j < terms; ++j) {
+        double sum = 0;
+        for (size_t k = terms; k-- > 0;) sum = sum * duration + h[k] / static_cast<double>(j + k + 1);
+        gradient[j + order] = 2 * factor[j] * sum * std::pow(duration, static_cast<double>(j + 1));
+      }
+    }
+    impl.direct[i] = at_end;
+  }
+  Backpropagate(impl.cost_gradient, impl.direct, by_waypoint);
+  std::copy(impl.direct.begin(), impl.direct.begin() + static_cast<ptrdiff_t>(by_duration.size()),
+            by_duration.begin());
 }
 
 PolynomialTrajectory SolveMinimumSnap(const MinimumSnapProblem& problem) {
@@ -149,7 +208,8 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   }
   if (routes == 0) return;
   CheckCounts(segments + 1, segments);
-  CheckNumbers(waypoints, durations);
+  const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
+  CheckNumbers(checks, waypoints, durations);
 
   const SplineKernels* const kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
   static thread_local AlignedBuffer workspace;
@@ -165,7 +225,7 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
       if (first + lane == route &&
-          (segments == 1 || NeedsWideArithmetic(arguments.durations[lane], segments))) {
+          (segments == 1 || checks.any_uneven(arguments.durations[lane], segments))) {
         uneven.push_back(route);
       }
     }

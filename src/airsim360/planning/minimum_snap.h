@@ -30,6 +30,9 @@ struct MinimumSnapProblem {
   BoundaryDerivatives start = {}, end = {};
   SplineKind kind = SplineKind::kMinimumSnap;
   bool free_jerk = false;  ///< kMinimumSnap: jerk at both ends is free (then snap is zero there)
+  /// Places with very uneven durations are solved again in wide arithmetic; false leaves them at double
+  /// precision, for the inner loop of an optimisation.
+  bool refine = true;
 };
 
 /// Solves one problem after another without allocating once its buffers have grown. Not thread-safe.
@@ -52,7 +55,7 @@ class MinimumSnapSolver {
   double Cost() const;
   /// Derivatives of Cost() of the last solution with respect to every duration and every waypoint (first and
   /// last too). Either span may be empty.
-  void CostGradient(std::span<double> by_duration, std::span<Vec3d> by_waypoint) const;
+  void CostGradient(std::span<double> by_duration, std::span<Vec3d> by_waypoint);
   /// For any function F(coefficients, durations) of the last solution: on entry `by_coefficient` = dF/dc at
   /// fixed durations (laid out like coefficients()) and `by_duration` = dF/dT at fixed coefficients; on
   /// return by_duration and by_waypoint hold the total derivatives of F with the coefficients following the

@@ -1,11 +1,148 @@
 #include "airsim360/planning/time_allocation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/planning/excess_kernel.h"
+#include "airsim360/planning/lbfgs.h"
 
 namespace airsim360 {
+namespace {
+
+/// One stage of the continuation: exponent 2^squarings of the power mean, samples per segment.
+struct Stage {
+  int squarings;
+  size_t samples;
+  double tolerance;
+  int max_evaluations;
+};
+
+/// The mean tends to the maximum as the exponent grows; each stage starts where the last one ended.
+constexpr Stage kStages[] = {{3, 12, 1e-3, 40}, {5, 16, 3e-4, 60}, {7, 24, 1e-4, 100}, {9, 48, 3e-5, 120}};
+
+/// Rows of the first and second derivatives of tau^k at the midpoints of equal parts of [0, 1].
+std::vector<double> SampleBasis(size_t samples) {
+  std::vector<double> basis(samples * 16);
+  for (size_t j = 0; j < samples; ++j) {
+    const double tau = (static_cast<double>(j) + 0.5) / static_cast<double>(samples);
+    double power = 1;  // tau^(k-2) while row k is written
+    for (size_t k = 1; k < 8; ++k) {
+      basis[16 * j + k] = static_cast<double>(k) * (k == 1 ? 1 : power * tau);
+      if (k < 2) continue;
+      basis[16 * j + 8 + k] = static_cast<double>(k * (k - 1)) * power;
+      power *= tau;
+    }
+  }
+  return basis;
+}
+
+/// F(x) = log(total time) + log(factor by which the path must slow down, smoothed), x = log durations.
+/// Unchanged when all durations are multiplied by a factor: nothing to weigh.
+class Objective {
+ public:
+  Objective(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, SplineKind kind)
+      : waypoints_(waypoints),
+        limits_(limits),
+        kind_(kind),
+        durations_(waypoints.size() - 1),
+        by_duration_(durations_.size()),
+        by_coefficient_(durations_.size() * 3 * static_cast<size_t>(PowersOf(kind))) {}
+
+  void SetStage(const Stage& stage) {
+    stage_ = stage;
+    basis_ = SampleBasis(stage.samples);
+  }
+
+  const std::vector<double>& Durations(const std::vector<double>& x) {
+    for (size_t i = 0; i < x.size(); ++i) durations_[i] = std::exp(x[i]);
+    return durations_;
+  }
+
+  double operator()(const std::vector<double>& x, std::vector<double>& gradient) {
+    Durations(x);
+    solver_.Solve({.waypoints = waypoints_, .durations = durations_, .kind = kind_, .refine = false});
+    double total = 0;
+    for (const double duration : durations_) total += duration;
+    const double excess =
+        kernels_->excess({.coefficients = solver_.coefficients().data(),
+                          .durations = durations_.data(),
+                          .segments = durations_.size(),
+                          .powers = PowersOf(kind_),
+                          .basis = basis_.data(),
+                          .samples = stage_.samples,
+                          .squarings = stage_.squarings,
+                          .inverse_speed = 1 / (limits_.speed * limits_.speed),
+                          .inverse_acceleration = 1 / (limits_.acceleration * limits_.acceleration),
+                          .weight = 1 / (total * static_cast<double>(stage_.samples)),
+                          .by_coefficient = by_coefficient_.data(),
+                          .by_duration = by_duration_.data()});
+    if (!(excess > 0) || !std::isfinite(excess)) return std::numeric_limits<double>::infinity();
+
+    // log excess / (2 q), and the share of the total time in the weights.
+    solver_.Backpropagate(by_coefficient_, by_duration_, {});
+    const double root = 0.5 / static_cast<double>(1LL << stage_.squarings);
+    for (size_t i = 0; i < x.size(); ++i) {
+      const double by_time = 1 / total + root * (by_duration_[i] / excess - 1 / total);
+      gradient[i] = by_time * durations_[i];
+    }
+    return std::log(total) + root * std::log(excess);
+  }
+
+ private:
+  std::span<const Vec3d> waypoints_;
+  TrajectoryLimits limits_;
+  SplineKind kind_;
+  Stage stage_ = kStages[0];
+  const internal::ExcessKernels* kernels_ = AIRSIM360_SELECT_KERNEL(kExcessKernels);
+  MinimumSnapSolver solver_;
+  std::vector<double> durations_, by_duration_, by_coefficient_, basis_;
+};
+
+std::vector<double> Chords(std::span<const Vec3d> waypoints) {
+  if (waypoints.size() < 2) {
+    throw InputError("time allocation: " + std::to_string(waypoints.size()) +
+                     " waypoints, at least 2 are needed");
+  }
+  std::vector<double> chords;
+  for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    chords.push_back(Norm(waypoints[i + 1] - waypoints[i]));
+    if (!std::isfinite(chords.back())) {
+      throw InputError("time allocation: waypoint " + std::to_string(i) + " or the next is not finite");
+    }
+    if (!(chords.back() > 0)) {
+      throw InputError("time allocation: waypoints " + std::to_string(i) + " and " + std::to_string(i + 1) +
+                       " coincide");
+    }
+  }
+  return chords;
+}
+
+PolynomialTrajectory Fly(std::span<const Vec3d> waypoints, std::span<const double> durations, SplineKind kind,
+                         const TrajectoryLimits& limits) {
+  return ScaleToLimits(SolveMinimumSnap({.waypoints = waypoints, .durations = durations, .kind = kind}),
+                       limits);
+}
+
+/// Improves the durations of a feasible path stage by stage; returns the number of evaluations.
+int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, SplineKind kind,
+             std::vector<double>& durations) {
+  Objective objective(waypoints, limits, kind);
+  internal::Lbfgs minimiser;
+  std::vector<double> x;
+  for (const double duration : durations) x.push_back(std::log(duration));
+  int evaluations = 0;
+  for (const Stage& stage : kStages) {
+    objective.SetStage(stage);
+    evaluations += minimiser.Minimise(
+        x, {.max_evaluations = stage.max_evaluations, .tolerance = stage.tolerance}, std::ref(objective));
+  }
+  durations = objective.Durations(x);
+  return evaluations;
+}
+
+}  // namespace
 
 double RestToRestTime(double distance, double max_speed, double max_acceleration) {
   const double ramp = max_speed * max_speed / max_acceleration;
@@ -16,21 +153,31 @@ double RestToRestTime(double distance, double max_speed, double max_acceleration
 AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits,
                                   const AllocationOptions& options) {
   CheckLimits(limits);
+  if (!std::isfinite(limits.speed) || !std::isfinite(limits.acceleration)) {
+    throw InputError("time allocation: limits on speed and acceleration must be finite");
+  }
+  const std::vector<double> chords = Chords(waypoints);
   std::vector<double> durations;
   double length = 0;
-  for (size_t i = 0; i + 1 < waypoints.size(); ++i) {
-    const double chord = Norm(waypoints[i + 1] - waypoints[i]);
-    if (!(chord > 0)) {
-      throw InputError("time allocation: waypoints " + std::to_string(i) + " and " + std::to_string(i + 1) +
-                       " coincide");
-    }
+  for (const double chord : chords) {
     length += chord;
     durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
   }
-  PolynomialTrajectory trajectory = ScaleToLimits(
-      SolveMinimumSnap({.waypoints = waypoints, .durations = durations, .kind = options.kind}), limits);
-  const TrajectoryPeaks peaks = CertifiedPeaks(trajectory);
-  return {std::move(trajectory), peaks, RestToRestTime(length, limits.speed, limits.acceleration), 1};
+  PolynomialTrajectory best = Fly(waypoints, durations, options.kind, limits);
+  int evaluations = 0;
+  if (options.optimise && durations.size() > 1) {
+    durations.assign(best.durations().begin(), best.durations().end());
+    evaluations = Optimise(waypoints, limits, options.kind, durations);
+    PolynomialTrajectory optimised = Fly(waypoints, durations, options.kind, limits);
+    if (optimised.duration() < best.duration()) best = std::move(optimised);
+  }
+  if (options.sample_interval > 0) {
+    const double steps = std::ceil(best.duration() / options.sample_interval * (1 - 1e-12));
+    best = Slowed(best, std::max(1.0, steps * options.sample_interval / best.duration()));
+  }
+  const TrajectoryPeaks peaks = CertifiedPeaks(best);
+  const double bound = RestToRestTime(length, limits.speed, limits.acceleration);
+  return {std::move(best), peaks, bound, evaluations};
 }
 
 }  // namespace airsim360

@@ -64,10 +64,6 @@ CertifiedPeak PeakOfNorm(const PolynomialTrajectory& trajectory, int derivative)
       trajectory, [&](size_t segment) { return SquaredNorm(Derivatives(trajectory, segment, derivative)); }));
 }
 
-TrajectoryPeaks CertifiedPeaks(const PolynomialTrajectory& trajectory) {
-  return {PeakOfNorm(trajectory, 1), PeakOfNorm(trajectory, 2)};
-}
-
 CertifiedPeak PeakAlong(const PolynomialTrajectory& trajectory, int derivative, Vec3d direction) {
   return Maximum(trajectory, [&](size_t segment) {
     const std::array<Bernstein, 3> d = Derivatives(trajectory, segment, derivative);
@@ -158,8 +154,11 @@ double ExactScale(const PolynomialTrajectory& trajectory, const TrajectoryLimits
   const auto acceleration = [&](double peak, double limit) {
     scale = std::max(scale, std::sqrt(std::max(0.0, peak) / limit));
   };
-  if (Finite(limits.speed)) speed(PeakOfNorm(trajectory, 1).value, limits.speed);
-  if (Finite(limits.acceleration)) acceleration(PeakOfNorm(trajectory, 2).value, limits.acceleration);
+  if (Finite(limits.speed) || Finite(limits.acceleration)) {
+    const TrajectoryPeaks peaks = CertifiedPeaks(trajectory);
+    speed(peaks.speed.value, limits.speed);
+    acceleration(peaks.acceleration.value, limits.acceleration);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     if (Finite(limits.axis_speed[axis])) {
       speed(PeakOfAxis(trajectory, 1, axis).value, limits.axis_speed[axis]);

@@ -1,0 +1,121 @@
+#include "airsim360/planning/excess_kernel.h"
+
+#include "airsim360/planning/spline_lanes.h"
+
+namespace airsim360::internal::AIRSIM360_ISA {
+namespace {
+
+/// x^(2^squarings), and the same less one power.
+AIRSIM360_INLINE V8 Power(V8 x, int squarings, V8& one_less) {
+  one_less = V8{} + 1.0;
+  for (int i = 0; i < squarings; ++i) {
+    one_less *= x;
+    x *= x;
+  }
+  return x;
+}
+
+/// Eight segments in the lanes.
+template <int kPowers>
+class Group {
+ public:
+  Group(const ExcessArguments& arguments, size_t first) : args_(arguments), first_(first) {
+    for (size_t lane = 0; lane < 8; ++lane) {
+      const size_t segment = Segment(lane);
+      const double duration = args_.durations[segment];
+      inverse_[lane] = 1 / duration;
+      // Lanes beyond the last segment repeat it without weight.
+      weight_[lane] = first + lane < args_.segments ? args_.weight * duration : 0;
+      double power = 1;
+      for (size_t k = 0; k < kPowers; ++k, power *= duration) {
+        power_[k][lane] = power;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          g_[axis][k][lane] = args_.coefficients[(3 * segment + axis) * kPowers + k] * power;
+        }
+      }
+    }
+  }
+
+  double Run() {
+    for (size_t j = 0; j < args_.samples; ++j) Sample(args_.basis + 16 * j);
+    Store();
+    double total = 0;
+    for (int lane = 0; lane < 8; ++lane) total += sum_[lane];
+    return total;
+  }
+
+ private:
+  size_t Segment(size_t lane) const {
+    return first_ + lane < args_.segments ? first_ + lane : args_.segments - 1;
+  }
+
+  AIRSIM360_INLINE void Sample(const double* basis) {
+    V8 v[3], a[3];
+    AIRSIM360_UNROLL
+    for (int axis = 0; axis < 3; ++axis) {
+      v[axis] = g_[axis][1];
+      a[axis] = g_[axis][2] * 2.0;
+      AIRSIM360_UNROLL
+      for (int k = 2; k < kPowers; ++k) v[axis] += g_[axis][k] * basis[k];
+      AIRSIM360_UNROLL
+      for (int k = 3; k < kPowers; ++k) a[axis] += g_[axis][k] * basis[8 + k];
+    }
+    const V8 inverse2 = inverse_ * inverse_;
+    const V8 speed_unit = inverse2 * args_.inverse_speed;
+    const V8 acceleration_unit = inverse2 * inverse2 * args_.inverse_acceleration;
+    const V8 speed = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * speed_unit;
+    const V8 acceleration = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * acceleration_unit;
+
+    V8 speed_less, acceleration_less;
+    sum_ += weight_ * (Power(speed, args_.squarings, speed_less) +
+                       Power(acceleration, args_.squarings - 1, acceleration_less));
+    const double q = static_cast<double>(1LL << args_.squarings);
+    const V8 by_v = weight_ * speed_less * speed_unit * (2 * q);
+    const V8 by_a = weight_ * acceleration_less * acceleration_unit * q;
+    AIRSIM360_UNROLL
+    for (int axis = 0; axis < 3; ++axis) {
+      const V8 gv = by_v * v[axis], ga = by_a * a[axis];
+      by_g_[axis][1] += gv;
+      by_g_[axis][2] += gv * basis[2] + ga * 2.0;
+      AIRSIM360_UNROLL
+      for (int k = 3; k < kPowers; ++k) by_g_[axis][k] += gv * basis[k] + ga * basis[8 + k];
+    }
+  }
+
+  /// Derivatives by g_k = c_k T^k at fixed T become those by c_k and T.
+  void Store() {
+    // At fixed g a term goes with T^(1 - 2 q).
+    const double q = static_cast<double>(1LL << args_.squarings);
+    V8 by_duration = sum_ * (1 - 2 * q);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 1; k < kPowers; ++k) by_duration += by_g_[axis][k] * g_[axis][k] * static_cast<double>(k);
+    }
+    by_duration *= inverse_;
+    for (size_t lane = 0; lane < 8 && first_ + lane < args_.segments; ++lane) {
+      const size_t segment = first_ + lane;
+      args_.by_duration[segment] = by_duration[lane];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        double* const out = args_.by_coefficient + (3 * segment + axis) * kPowers;
+        for (size_t k = 0; k < kPowers; ++k) out[k] = by_g_[axis][k][lane] * power_[k][lane];
+      }
+    }
+  }
+
+  const ExcessArguments& args_;
+  size_t first_;
+  V8 inverse_ = {}, weight_ = {}, sum_ = {}, g_[3][kPowers] = {}, power_[kPowers] = {}, by_g_[3][kPowers] = {};
+};
+
+double Excess(const ExcessArguments& arguments) {
+  double total = 0;
+  for (size_t first = 0; first < arguments.segments; first += 8) {
+    total += arguments.powers == 8 ? Group<8>(arguments, first).Run() : Group<6>(arguments, first).Run();
+  }
+  return total;
+}
+
+}  // namespace
+
+const ExcessKernels kExcessKernels = {Excess};
+
+}  // namespace airsim360::internal::AIRSIM360_ISA
