@@ -117,6 +117,15 @@ void ParseProducts(const std::string& text, DatasetSpec& spec) {
   }
 }
 
+Shard ParseShard(const std::string& text) {
+  Shard shard;
+  const std::vector<std::string> parts = Split(text, '/');
+  if (parts.size() != 2 || !ParseNumber(parts[0], shard.index) || !ParseNumber(parts[1], shard.count) ||
+      shard.index < 0 || shard.count < 1 || shard.index >= shard.count)
+    throw InputError("--shard: '" + text + "' is not I/N with I from 0 to N - 1, for example 0/4");
+  return shard;
+}
+
 void PrintJson(const nlohmann::ordered_json& value) {
   std::puts(value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }

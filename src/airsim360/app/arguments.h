@@ -43,6 +43,12 @@ std::vector<std::string> ParseList(std::string_view flag, const std::string& tex
 /// InputError naming `--products` and the nearest name for one that does not exist.
 void ParseProducts(const std::string& text, DatasetSpec& spec);
 
+/// "I/N", 0 <= I < N; InputError naming `--shard` otherwise.
+struct Shard {
+  int64_t index = 0, count = 1;
+};
+Shard ParseShard(const std::string& text);
+
 /// Prints one JSON object on stdout.
 void PrintJson(const nlohmann::ordered_json& value);
 

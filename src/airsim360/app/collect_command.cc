@@ -1,6 +1,5 @@
 // airsim360 collect: a dataset along a route.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 
@@ -8,10 +7,12 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/picture_arguments.h"
+#include "airsim360/app/plan_file.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/planning/export_text.h"
 #include "airsim360/sim/route_file.h"
 #include "airsim360/sim/survey.h"
 
@@ -25,27 +26,13 @@ constexpr double kTouching = 0.05;     // metres: a route closer to a surface is
 
 struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out, products;
+  std::string pano_frame = "body", shard = "0/1", out, products, plan;
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
   PictureArguments picture;
 };
-
-// "I/N", 0 <= I < N.
-void ParseShard(const std::string& text, DatasetSpec& spec) {
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, spec.shard);
-  bool good = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  if (good) {
-    const auto second = std::from_chars(first.ptr + 1, end, spec.shards);
-    good = second.ec == std::errc() && second.ptr == end;
-  }
-  if (!good || spec.shard < 0 || spec.shards < 1 || spec.shard >= spec.shards) {
-    throw InputError("--shard: '" + text + "' is not I/N with I from 0 to N - 1, for example 0/4");
-  }
-}
 
 // A choice among two or more words.
 size_t ParseChoice(const char* flag, const std::string& value, const std::vector<std::string>& choices) {
@@ -77,7 +64,9 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.pano_frame = ParseChoice("--pano-frame", arguments.pano_frame, {"body", "level"}) == 1
                         ? PanoFrame::kLevel
                         : PanoFrame::kBody;
-  ParseShard(arguments.shard, spec);
+  const Shard shard = ParseShard(arguments.shard);
+  spec.shard = shard.index;
+  spec.shards = shard.count;
   return spec;
 }
 
@@ -89,7 +78,7 @@ struct Plan {
 
 // A route file: without --frames one frame at every waypoint, with it frames spread evenly.
 Plan PlanFromFile(const CollectArguments& arguments, DatasetSpec& spec) {
-  const std::vector<Waypoint> waypoints = ReadRouteCsv(arguments.route);
+  const std::vector<Waypoint> waypoints = ReadRouteFile(arguments.route);
   Plan plan{std::make_shared<const Route>(RouteThrough(waypoints, kFileRouteSpeed)), {}};
   const std::string hash = "sha256:" + Sha256HexOfFile(arguments.route);
   if (arguments.frames > 0) {
@@ -103,9 +92,20 @@ Plan PlanFromFile(const CollectArguments& arguments, DatasetSpec& spec) {
   return plan;
 }
 
+// A planned trajectory: frames spread evenly over it.
+Plan PlanFromTrajectory(const CollectArguments& arguments, DatasetSpec& spec) {
+  const PlannedPath path = ReadPlanFile(arguments.plan);
+  Plan plan{std::make_shared<const Route>(Route::Along(path.trajectory, path.yaw)), {}};
+  plan.shot_times_ns = EvenTimes(*plan.route, arguments.frames > 0 ? arguments.frames : kDefaultFrames);
+  spec.route = "planned sha256:" + Sha256HexOfFile(arguments.plan);
+  return plan;
+}
+
 Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, DatasetSpec& spec) {
   Plan plan;
-  if (arguments.route == "auto") {
+  if (!arguments.plan.empty()) {
+    plan = PlanFromTrajectory(arguments, spec);
+  } else if (arguments.route == "auto") {
     plan.route = std::make_shared<const Route>(PlanSurvey(tracer, {.seed = spec.seed}));
     plan.shot_times_ns = EvenTimes(*plan.route, arguments.frames > 0 ? arguments.frames : kDefaultFrames);
     spec.route = "auto";
@@ -123,13 +123,24 @@ Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, Datase
 void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
-  if (arguments.route != "auto") ReadRouteCsv(arguments.route);
+  if (arguments.route != "auto") ReadRouteFile(arguments.route);
+  if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
+  if (!arguments.plan.empty() && arguments.route != "auto")
+    throw InputError("--plan: give either --plan or --route, not both");
   const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
   spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
   const Flight flight = FlyRoute({.tracer = world.tracer, .dt_ns = kRouteStepNs}, plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
-  const CollectResult result = Collect({spec, *world.scene, flight, arguments.out}, *world.renderer);
+  CollectInput input{spec, *world.scene, flight, arguments.out};
+  if (const auto* path = plan.route->path()) {
+    const PlannedPath planned = ReadPlanFile(arguments.plan);
+    input.trajectory_json = TrajectoryJson({.trajectory = *path,
+                                            .peaks = CertifiedPeaks(*path),
+                                            .cost_snap = IntegralOfSquaredDerivative(*path, 4),
+                                            .yaw = planned.yaw.value_or(0)});
+  }
+  const CollectResult result = Collect(input, *world.renderer);
   ReportRun(world, spec, result, arguments.out, globals.json);
 }
 
@@ -145,8 +156,11 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       ->required();
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
-                      "auto (a survey through free space), or a CSV file x,y,z[,yaw_deg][,t]: without "
-                      "--frames one frame at each row");
+                      "auto (a survey through free space), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
+                      "KML): without --frames one frame at each waypoint");
+  command->add_option(
+      "--plan", arguments->plan,
+      "fly a trajectory of `airsim360 plan` (its JSON or YAML), frames spread evenly over it");
   command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
   command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");

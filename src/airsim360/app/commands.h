@@ -21,6 +21,7 @@ void AddWorldsCommand(CLI::App& app, GlobalOptions& globals);
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals);
 void AddRenderCommand(CLI::App& app, GlobalOptions& globals);
 void AddCollectCommand(CLI::App& app, GlobalOptions& globals);
+void AddPlanCommand(CLI::App& app, GlobalOptions& globals);
 void AddVerifyCommand(CLI::App& app, GlobalOptions& globals);
 void AddStitchCommand(CLI::App& app, GlobalOptions& globals);
 void AddEvalCommand(CLI::App& app, GlobalOptions& globals);

@@ -122,6 +122,7 @@ int ParseAndRun(int argc, char** argv) {
   AddWorldCommand(app, globals);
   AddRenderCommand(app, globals);
   AddCollectCommand(app, globals);
+  AddPlanCommand(app, globals);
   AddVerifyCommand(app, globals);
   AddStitchCommand(app, globals);
   AddEvalCommand(app, globals);

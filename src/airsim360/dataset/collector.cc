@@ -123,6 +123,7 @@ void WriteSummaries(const CollectInput& input) {
   if (input.spec.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
   write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
+  if (!input.trajectory_json.empty()) write("trajectory.json", AsBytes(input.trajectory_json));
   write("contact_sheet.png", ContactSheetPng(index, input.spec, input.out));
   write("README.md", AsBytes(CardMarkdown(index, input.spec, input.scene)));
 

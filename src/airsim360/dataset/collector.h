@@ -15,6 +15,8 @@ struct CollectInput {
   const Scene& scene;
   const Flight& flight;  ///< its shots are all frames of the dataset; this shard takes its own
   std::filesystem::path out;
+  std::string trajectory_json =
+      {};  ///< content of trajectory.json beside trajectory.csv; empty = no such file
 };
 
 /// What a run did.

@@ -159,9 +159,9 @@ TEST(Geodesy, GoesToTheEllipsoidAndBack) {
     const Vec3d p{rng.Uniform(-20000, 20000), rng.Uniform(-20000, 20000), rng.Uniform(-100, 500)};
     EXPECT_LT(Norm(FromGeo(ToGeo(p, origin), origin) - p), 1e-7);
   }
-  // A degree of latitude at the equator is 110,574.3 m, one of longitude 111,319.5 m (WGS84).
-  EXPECT_NEAR(FromGeo({1, 0, 0}, {0, 0, 0}).y, 110574.3 - 6, 8);
-  EXPECT_NEAR(FromGeo({0, 1, 0}, {0, 0, 0}).x, 6378137 * std::sin(std::numbers::pi / 180), 1e-3);
+  // The semi-axes of the ellipsoid (WGS84): from the equator to the pole, and a quarter turn east.
+  EXPECT_NEAR(FromGeo({90, 0, 0}, {0, 0, 0}).y, 6356752.3142, 1e-3);
+  EXPECT_NEAR(FromGeo({0, 90, 0}, {0, 0, 0}).x, 6378137, 1e-6);
 }
 
 TEST(Qgc, WaypointsLieOnTheFlightAtMostTheirSpacingApart) {

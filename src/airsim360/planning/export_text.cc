@@ -55,9 +55,12 @@ std::string TrajectoryJson(const PlanRecord& plan) {
   out += ",\n  \"durations\": ";
   AppendList(out, path.durations());
   out += ",\n  \"waypoints\": [";
-  for (size_t i = 0; i <= path.segments(); ++i) {
+  std::vector<Vec3d> waypoints = plan.waypoints;
+  for (size_t i = 0; plan.waypoints.empty() && i <= path.segments(); ++i)
+    waypoints.push_back(path.At(i < path.segments() ? path.start(i) : path.duration()).p);
+  for (size_t i = 0; i < waypoints.size(); ++i) {
     out += i > 0 ? ", [" : "[";
-    AppendVector(out, path.At(i < path.segments() ? path.start(i) : path.duration()).p, ", ");
+    AppendVector(out, waypoints[i], ", ");
     out += ']';
   }
   out += "],\n  \"coefficients\": [\n";

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "airsim360/planning/certificate.h"
 #include "airsim360/planning/polynomial_trajectory.h"
@@ -21,6 +22,7 @@ struct PlanRecord {
   double yaw = 0;          ///< radians, all along
   double radius = 0;       ///< metres, of the certificate
   std::optional<Certificate> certificate = std::nullopt;
+  std::vector<Vec3d> waypoints = {};  ///< as given; empty = the joints of the trajectory
 };
 
 /// `t_s,px,py,pz,vx,vy,vz,ax,ay,az`: samples every `interval` seconds and at the end. Metres, seconds, W.

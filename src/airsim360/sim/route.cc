@@ -57,6 +57,25 @@ Route::Route(std::vector<RouteNode> nodes) : nodes_(std::move(nodes)) {
   }
 }
 
+Route Route::Along(const PolynomialTrajectory& path, std::optional<double> yaw) {
+  // Close enough that the heading, a smooth step from node to node, follows the way.
+  constexpr double kNodeInterval = 0.5;  // seconds
+  std::vector<RouteNode> nodes;
+  double heading = yaw.value_or(0);
+  const int count = std::max(1, static_cast<int>(std::ceil(path.duration() / kNodeInterval)));
+  for (int i = 0; i <= count; ++i) {
+    const double t = path.duration() * i / count;
+    const TrajectoryPoint point = path.At(t);
+    // At rest the heading is that of the way just after or before.
+    const Vec3d travel = path.At(t + 0.25 * kNodeInterval).p - path.At(t - 0.25 * kNodeInterval).p;
+    if (!yaw && std::hypot(travel.x, travel.y) > 1e-3) heading = std::atan2(travel.y, travel.x);
+    nodes.push_back({.t = t, .p = point.p, .v = point.v, .yaw = heading});
+  }
+  Route route(std::move(nodes));
+  route.path_ = std::make_shared<const PolynomialTrajectory>(path);
+  return route;
+}
+
 RoutePoint Route::At(double t) const {
   if (t <= 0) return {nodes_.front().p, {}, {}, nodes_.front().yaw, 0};
   if (t >= duration()) return {nodes_.back().p, {}, {}, nodes_.back().yaw, 0};
@@ -67,6 +86,10 @@ RoutePoint Route::At(double t) const {
   const double T = b.t - a.t;
   const double s = (t - a.t) / T;
   const double turn = b.yaw - a.yaw;
+  if (path_) {
+    const TrajectoryPoint point = path_->At(t);
+    return {point.p, point.v, point.a, a.yaw + turn * s * s * (3 - 2 * s), turn * 6 * s * (1 - s) / T};
+  }
   return {Blend(Position(s), a, b, T), Blend(Velocity(s), a, b, T) / T,
           Blend(Acceleration(s), a, b, T) / (T * T), a.yaw + turn * s * s * (3 - 2 * s),
           turn * 6 * s * (1 - s) / T};

@@ -1,9 +1,13 @@
 // A timed path with heading: what a vehicle follows and what a survey or a route file gives.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "airsim360/math/vector.h"
+#include "airsim360/planning/polynomial_trajectory.h"
 
 namespace airsim360 {
 
@@ -29,7 +33,12 @@ class Route {
   /// At least one node, times strictly increasing from 0; InputError otherwise. Headings turn the shorter
   /// way.
   explicit Route(std::vector<RouteNode> nodes);
+  /// A planned flight, its positions exactly; the heading is `yaw`, or along the way from node to node where
+  /// none is given.
+  static Route Along(const PolynomialTrajectory& path, std::optional<double> yaw);
 
+  /// The planned flight; nullptr if the route is not one.
+  const PolynomialTrajectory* path() const { return path_.get(); }
   const std::vector<RouteNode>& nodes() const { return nodes_; }
   /// Seconds from the first to the last node.
   double duration() const { return nodes_.back().t; }
@@ -38,6 +47,7 @@ class Route {
 
  private:
   std::vector<RouteNode> nodes_;
+  std::shared_ptr<const PolynomialTrajectory> path_;
 };
 
 /// A place to pass, from a route file.
@@ -46,6 +56,7 @@ struct Waypoint {
   double yaw = 0;  ///< radians, used if `has_yaw`
   double t = 0;    ///< seconds, used if `has_time`
   bool has_yaw = false, has_time = false;
+  size_t line = 0;  ///< of its file, from 1; 0 = not from a file
 };
 
 /// Passes exactly through every waypoint, at rest at both ends, with the velocity of the central difference

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -13,6 +14,7 @@
 namespace airsim360 {
 namespace {
 
+constexpr uint64_t kMaxFileSize = uint64_t{64} << 20;
 constexpr size_t kMaxWaypoints = 1'000'000;
 
 const std::vector<std::string> kColumns = {"x", "y", "z", "yaw_deg", "t"};
@@ -115,8 +117,10 @@ std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name
       columns = ParseHeader(fields, place);
       continue;
     }
-    if (columns.empty()) columns = {0, 1, 2};
+    if (columns.empty())
+      columns = fields.size() == 4 ? std::vector<size_t>{0, 1, 2, 4} : std::vector<size_t>{0, 1, 2};
     waypoints.push_back(ParseRow(fields, columns, place));
+    waypoints.back().line = place.line;
     if (waypoints.size() > kMaxWaypoints)
       Fail(place, 1, "more than " + std::to_string(kMaxWaypoints) + " points");
     if (waypoints.size() > 1 && waypoints.back().has_time &&
@@ -128,8 +132,14 @@ std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name
   return waypoints;
 }
 
-std::vector<Waypoint> ReadRouteCsv(const std::filesystem::path& path) {
-  return ParseRouteCsv(ReadTextFile(path), path.string());
+std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path,
+                                    const std::optional<GeoPoint>& origin) {
+  std::string extension = path.extension();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string text = ReadTextFile(path, kMaxFileSize), name = path.string();
+  if (extension == ".yaml" || extension == ".yml" || extension == ".json") return ParseRouteYaml(text, name);
+  if (extension == ".gpx" || extension == ".kml") return ParseRouteXml(text, name, origin);
+  return ParseRouteCsv(text, name);
 }
 
 }  // namespace airsim360

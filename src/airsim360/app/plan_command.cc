@@ -1,0 +1,331 @@
+// airsim360 plan: smooth flights through waypoints within limits, free of collisions in a world; the waypoint
+// set.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/plan_output.h"
+#include "airsim360/app/plan_waypoints.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+#include "airsim360/dataset/waypoint_set.h"
+#include "airsim360/planning/arc_length.h"
+#include "airsim360/planning/point_to_point.h"
+#include "airsim360/sim/world_clearance.h"
+#include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/worlds.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of the map around the waypoints
+
+struct PlanArguments {
+  WaypointArguments waypoints;
+  std::string world, out, format, dataset, shard = "0/1", worlds, origin = "47.397742,8.545594,488";
+  double vmax = 0, amax = 0, dt = 0, clearance = 0.5, yaw_deg = 0;
+  int order = 7;
+  int64_t routes = 0;
+  bool avoid = false;
+};
+
+double Seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double CheckPositive(const char* flag, double value) {
+  if (value > 0 && std::isfinite(value)) return value;
+  if (value == 0) throw InputError(std::string(flag) + ": missing or 0; give a number above zero");
+  char text[96];
+  std::snprintf(text, sizeof(text), "%s: %g is not a number above zero", flag, value);
+  throw InputError(text);
+}
+
+GeoPoint ParseOrigin(const std::string& text) {
+  GeoPoint p;
+  char rest;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.latitude_deg, &p.longitude_deg, &p.altitude, &rest) !=
+          3 ||
+      !(std::fabs(p.latitude_deg) <= 90) || !(std::fabs(p.longitude_deg) <= 180) ||
+      !(std::fabs(p.altitude) <= 1e5))
+    throw InputError("--origin: '" + text + "' is not latitude,longitude,altitude in degrees and metres");
+  return p;
+}
+
+// A world with its distances and a map around the waypoints.
+struct PlanWorld {
+  std::shared_ptr<const RayTracer> tracer;
+  std::unique_ptr<WorldClearance> clearance;
+  std::unique_ptr<BoundedClearance> bounded;
+};
+
+PlanWorld OpenPlanWorld(const std::string& name, uint64_t seed) {
+  PlanWorld world;
+  world.tracer = std::make_shared<const RayTracer>(LoadWorld({.world = name, .seed = seed}));
+  return world;
+}
+
+void MapAround(PlanWorld& world, const std::vector<Vec3d>& points) {
+  const Box3d space = FlightBox(*world.tracer);
+  Box3d box{points.front(), points.front()};
+  for (const Vec3d p : points) box = {Min(box.min, p), Max(box.max, p)};
+  box = BoxAround(box.min, box.max, kMapMargin, space);
+  std::shared_ptr<const ClearanceField> map;
+  const Vec3d size = box.max - box.min;
+  if (size.x > 1 && size.y > 1 && size.z > 1) {
+    const double fine = std::min(kMapVoxel, std::min({size.x, size.y, size.z}) / 40);
+    map = MapScene(world.tracer->scene(), box, fine);
+  }
+  world.clearance = std::make_unique<WorldClearance>(world.tracer, map);
+  world.bounded = std::make_unique<BoundedClearance>(*world.clearance, space);
+}
+
+// Times given with the waypoints: the limits are only reported.
+AllocatedTrajectory WithGivenTimes(const PlanWaypoints& waypoints, SplineKind kind) {
+  std::vector<double> durations;
+  for (size_t i = 1; i < waypoints.points.size(); ++i)
+    durations.push_back(waypoints.points[i].t - waypoints.points[i - 1].t);
+  const std::vector<Vec3d> positions = waypoints.Positions();
+  PolynomialTrajectory path =
+      SolveMinimumSnap({.waypoints = positions, .durations = durations, .kind = kind});
+  const TrajectoryPeaks peaks = CertifiedPeaks(path);
+  return {std::move(path), peaks, 0, 0};
+}
+
+// Puts the source of a waypoint before a message that begins with "waypoint N".
+[[noreturn]] void Rethrow(const InputError& error, const PlanWaypoints& waypoints) {
+  const std::string what = error.what();
+  const size_t at = what.find("waypoint ");
+  const size_t number = at == std::string::npos ? 0 : std::strtoul(what.c_str() + at + 9, nullptr, 10);
+  if (number == 0 || number > waypoints.sources.size()) throw InputError(what);
+  throw InputError(waypoints.sources[number - 1] + ": " + what);
+}
+
+struct Planned {
+  AllocatedTrajectory flight;
+  std::optional<Certificate> certificate;
+  size_t added = 0;
+  std::vector<Vec3d> waypoints;
+};
+
+Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, const PlanWorld& world) {
+  const SplineKind kind = arguments.order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
+  const FlightOptions options{.limits = {.speed = arguments.vmax, .acceleration = arguments.amax},
+                              .allocation = {.kind = kind, .sample_interval = arguments.dt},
+                              .radius = arguments.clearance};
+  const bool timed = waypoints.points.front().has_time;
+  if (arguments.avoid) {
+    try {
+      for (size_t i = 0; i < waypoints.points.size(); ++i)
+        CheckAboveGround(*world.tracer, waypoints.points[i].p, "waypoint " + std::to_string(i + 1));
+      CertifiedFlight flight = FlyFree(waypoints.Positions(), *world.bounded, options);
+      return {std::move(flight.flight), flight.certificate, flight.added, std::move(flight.waypoints)};
+    } catch (const InputError& error) {
+      Rethrow(error, waypoints);
+    }
+  }
+  AllocatedTrajectory flight = timed
+                                   ? WithGivenTimes(waypoints, kind)
+                                   : AllocateTimes(waypoints.Positions(), options.limits, options.allocation);
+  std::optional<Certificate> certificate;
+  if (world.bounded) {
+    certificate = Certify(flight.trajectory, flight.peaks, *world.bounded, arguments.clearance);
+    if (!certificate->certified) {
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "the flight comes closer than %g m to a surface or the end of the world at t = %.3f s; "
+                    "--avoid goes around",
+                    arguments.clearance, certificate->violation_time);
+      LogWarning(text);
+    }
+  }
+  return {std::move(flight), certificate, 0, waypoints.Positions()};
+}
+
+void Report(const PlanArguments& arguments, const Planned& planned, const PlanRecord& record,
+            const std::vector<std::filesystem::path>& files, double plan_ms, bool json) {
+  const PolynomialTrajectory& path = record.trajectory;
+  const double length = ArcLength(path);
+  const bool within = (arguments.vmax == 0 || record.peaks.speed.value <= arguments.vmax * (1 + 1e-9)) &&
+                      (arguments.amax == 0 || record.peaks.acceleration.value <= arguments.amax * (1 + 1e-9));
+  if (json) {
+    nlohmann::ordered_json out = {{"order", path.degree()},
+                                  {"segments", path.segments()},
+                                  {"duration", path.duration()},
+                                  {"length_m", length},
+                                  {"cost_snap", record.cost_snap},
+                                  {"max_speed", record.peaks.speed.value},
+                                  {"max_acceleration", record.peaks.acceleration.value},
+                                  {"within_limits", within},
+                                  {"waypoints_added", planned.added},
+                                  {"plan_ms", plan_ms}};
+    if (record.lower_bound > 0) out["time_lower_bound"] = record.lower_bound;
+    if (record.certificate) {
+      out["collision_free"] = record.certificate->certified;
+      out["least_clearance_bound"] = record.certificate->least_clearance;
+    }
+    for (const auto& file : files) out["files"].push_back(file.string());
+    PrintJson(out);
+    return;
+  }
+  std::printf("%zu segments, %.2f m in %.3f s; at most %.4f m/s and %.4f m/s^2%s\n", path.segments(), length,
+              path.duration(), record.peaks.speed.value, record.peaks.acceleration.value,
+              within ? "" : " (beyond the limits)");
+  if (record.certificate && record.certificate->certified)
+    std::printf("proved free of collisions with a radius of %g m; %zu waypoints added\n", record.radius,
+                planned.added);
+  for (const auto& file : files) std::printf("%s\n", file.c_str());
+}
+
+void RunDataset(const PlanArguments& arguments, const GlobalOptions& globals) {
+  if (arguments.dataset != "waypoint")
+    throw InputError("--dataset: " + UnknownChoiceMessage("dataset", arguments.dataset,
+                                                          std::vector<std::string>{"waypoint"}));
+  if (arguments.routes < 0)
+    throw InputError("--routes: " + std::to_string(arguments.routes) + " is below zero");
+  const Shard shard = ParseShard(arguments.shard);
+  WaypointSetOptions options{.out = arguments.out,
+                             .seed = globals.seed,
+                             .shard = shard.index,
+                             .shards = shard.count,
+                             .most_routes = arguments.routes,
+                             .radius = CheckPositive("--clearance", arguments.clearance)};
+  std::vector<std::string> names;
+  for (const WaypointWorld& world : WaypointWorlds()) names.push_back(world.name);
+  if (!arguments.worlds.empty()) options.worlds = ParseList("--worlds", arguments.worlds, names);
+  options.exists = [](const std::string& name) {
+    for (const WorldInfo& world : ListWorlds()) {
+      if (world.name == name) return true;
+    }
+    return false;
+  };
+  // Worlds are always those of seed 0: the seed varies the routes.
+  options.load = [](const std::string& name) { return LoadWorld({.world = name}); };
+  const WaypointSetResult result = WriteWaypointSet(options);
+  if (globals.json) {
+    PrintJson({{"out", arguments.out},
+               {"flights", result.flights},
+               {"flights_written", result.written},
+               {"worlds_missing", result.skipped},
+               {"complete", result.complete},
+               {"preparing_s", result.preparing_s},
+               {"planning_s", result.planning_s}});
+    return;
+  }
+  std::printf("%s: %lld flights of this shard, %lld written now in %.1f s after %.1f s of preparing%s\n",
+              arguments.out.c_str(), static_cast<long long>(result.flights),
+              static_cast<long long>(result.written), result.planning_s, result.preparing_s,
+              result.complete ? "; the set is complete" : "");
+}
+
+void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
+  if (!arguments.dataset.empty()) return RunDataset(arguments, globals);
+  // Everything that can be wrong with the flags is found before a world is loaded.
+  PlanOutput output{.out = arguments.out, .interval = arguments.dt > 0 ? arguments.dt : 0.1};
+  if (!arguments.format.empty()) output.formats = ParseList("--format", arguments.format, PlanFormats());
+  FormatsToWrite(output);
+  output.origin = ParseOrigin(arguments.origin);
+  if (arguments.order != 5 && arguments.order != 7)
+    throw InputError("--order: " + std::to_string(arguments.order) + " is not 5 or 7; did you mean 7?");
+  if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
+  CheckPositive("--clearance", arguments.clearance);
+  if (!std::isfinite(arguments.yaw_deg)) throw InputError("--yaw: not a finite number");
+  arguments.avoid |= !arguments.waypoints.from.empty();
+  const bool needs_world = arguments.avoid || NeedsWorld(arguments.waypoints);
+  if (needs_world && arguments.world.empty()) throw InputError("--world: it is needed to find a free way");
+
+  PlanWorld world;
+  PlanWaypoints waypoints;
+  if (!NeedsWorld(arguments.waypoints))
+    waypoints = FindWaypoints(arguments.waypoints, nullptr, globals.seed, arguments.clearance);
+  if (!waypoints.points.empty()) CheckWaypoints(waypoints);
+  const bool timed = !waypoints.points.empty() && waypoints.points.front().has_time;
+  if (timed && arguments.avoid) throw InputError("--avoid: the waypoints have times; remove the column t");
+  for (const auto& [flag, value] :
+       {std::pair{"--vmax", arguments.vmax}, std::pair{"--amax", arguments.amax}}) {
+    if (value != 0 || !timed) CheckPositive(flag, value);
+  }
+  if (!arguments.world.empty()) {
+    world = OpenPlanWorld(arguments.world, 0);
+    if (waypoints.points.empty()) {
+      waypoints = FindWaypoints(arguments.waypoints, world.tracer, globals.seed, arguments.clearance);
+      CheckWaypoints(waypoints);
+    }
+    MapAround(world, waypoints.Positions());
+    output.plot.map = world.clearance->field();
+  }
+
+  const double start = Seconds();
+  const Planned planned = Plan(arguments, waypoints, world);
+  const double plan_ms = 1e3 * (Seconds() - start);
+  const PolynomialTrajectory& path = planned.flight.trajectory;
+  const PlanRecord record{.trajectory = path,
+                          .peaks = planned.flight.peaks,
+                          .cost_snap = IntegralOfSquaredDerivative(path, 4),
+                          .lower_bound = planned.flight.lower_bound,
+                          .start_time = timed ? waypoints.points.front().t : 0,
+                          .yaw = arguments.yaw_deg * std::numbers::pi / 180,
+                          .radius = arguments.clearance,
+                          .certificate = planned.certificate,
+                          .waypoints = planned.waypoints};
+  output.plot.title = "degree " + std::to_string(path.degree()) + ", " + std::to_string(path.segments()) +
+                      " segments" + (arguments.world.empty() ? "" : ", " + arguments.world);
+  output.plot.max_speed = arguments.vmax;
+  output.plot.max_acceleration = arguments.amax;
+  Report(arguments, planned, record, WritePlan(record, output), plan_ms, globals.json);
+}
+
+}  // namespace
+
+void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand(
+      "plan", "a smooth flight through waypoints within limits of speed and acceleration, around obstacles");
+  auto a = std::make_shared<PlanArguments>();
+  WaypointArguments& w = a->waypoints;
+  command
+      ->add_option("--out", a->out, "file (several formats: its name without extension); --dataset: folder")
+      ->required();
+  command->add_option("--waypoints", w.file,
+                      "CSV x,y,z[,t] (metres east-north-up, seconds), YAML, GPX or KML");
+  command->add_option("--vmax", a->vmax, "greatest speed, m/s");
+  command->add_option("--amax", a->amax, "greatest acceleration, m/s^2");
+  command->add_option("--dt", a->dt,
+                      "seconds between samples; the flight takes a multiple of it (default: 0.1, any)");
+  command->add_option("--order", a->order,
+                      "degree: 7, the true minimum of snap (default), or 5, as in the paper");
+  command->add_option("--world", a->world, "name or file of a world: the flight is checked against it");
+  command->add_flag("--avoid", a->avoid, "go around what is in the way in --world");
+  command->add_option("--clearance", a->clearance, "metres to keep from every surface (default 0.5)");
+  command->add_option("--from", w.from, "x,y,z: start of a free flight in --world");
+  command->add_option("--to", w.to, "x,y,z: its end");
+  command->add_option("--route", w.route, "coverage, orbit, road or random: waypoints of that kind");
+  command->add_option("--area", w.area, "coverage: x0,y0,x1,y1");
+  command->add_option("--height", w.height,
+                      "coverage: z; road: above the road; orbit --entity: above its middle (20)");
+  command->add_option("--spacing", w.spacing, "coverage: metres between lanes (10)");
+  command->add_option("--heading", w.heading_deg,
+                      "coverage: of the lanes; orbit: of the start; degrees from east (0)");
+  command->add_option("--center", w.center, "orbit: x,y,z");
+  command->add_option("--entity", w.entity, "orbit: around this entity of the world");
+  command->add_option("--radius", w.radius, "orbit: metres (10)");
+  command->add_option("--turns", w.turns, "orbit: counter-clockwise, negative for clockwise (1)");
+  command->add_option("--length", w.length, "random: MIN,MAX metres (50,150)");
+  command->add_option(
+      "--format", a->format,
+      "csv, json, npz, yaml, crazyflie, crazyflie-compressed, qgc, mavlink, svg; several with "
+      "commas (default: by the extension of --out)");
+  command->add_option("--yaw", a->yaw_deg, "heading of the drone in exports, degrees from east (0)");
+  command->add_option("--origin", a->origin, "qgc: latitude,longitude,altitude of the origin of the world");
+  command->add_option("--dataset", a->dataset, "waypoint: the Omni360-WayPoint set, into the folder --out");
+  command->add_option("--routes", a->routes,
+                      "dataset: at most this many routes of each world (default: the paper's)");
+  command->add_option("--worlds", a->worlds, "dataset: only these worlds");
+  command->add_option("--shard", a->shard, "dataset: I/N, only parts with number % N == I (default 0/1)");
+  command->callback([a, &globals] { RunPlan(*a, globals); });
+}
+
+}  // namespace airsim360

@@ -1,0 +1,109 @@
+// Route files other than CSV (route_test.cc has those).
+#include "airsim360/sim/route_file.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "airsim360/base/error.h"
+#include "airsim360/planning/minimum_snap.h"
+
+namespace airsim360 {
+namespace {
+
+template <class Parse>
+std::string MessageOf(const Parse& parse) {
+  try {
+    parse();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RouteYaml, HasTheFieldsOfCsv) {
+  const auto route = ParseRouteYaml(
+      "waypoints:\n- {x: 1, y: 2, z: 3, yaw_deg: 90, t: 0}\n- {x: 4, y: 5, z: 6, t: 2.5}\n", "r.yaml");
+  ASSERT_EQ(route.size(), 2u);
+  EXPECT_EQ(route[0].p, (Vec3d{1, 2, 3}));
+  EXPECT_TRUE(route[0].has_yaw && !route[1].has_yaw);
+  EXPECT_NEAR(route[0].yaw, std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(route[1].t, 2.5);
+}
+
+TEST(RouteYaml, ErrorsNameThePlace) {
+  const auto message = [](const char* text) { return MessageOf([&] { ParseRouteYaml(text, "r.yaml"); }); };
+  EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, w: 3}\n").find("r.yaml:2:"), std::string::npos);
+  EXPECT_NE(message("waypoints:\n- {x: 1, y: 2}\n").find("entry 1"), std::string::npos);
+  EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, z: nan}\n").find("r.yaml:2:"), std::string::npos);
+  EXPECT_NE(
+      message("waypoints:\n- {x: 1, y: 2, z: 1, t: 3}\n- {x: 1, y: 2, z: 1, t: 3}\n").find("t does not grow"),
+      std::string::npos);
+  EXPECT_NE(message("waypoints: []\n").find("no points"), std::string::npos);
+}
+
+TEST(RouteXml, GpxIsEastNorthUpAroundTheFirstPoint) {
+  const char* gpx =
+      "<?xml version=\"1.0\"?>\n<!-- a <trkpt> in a comment -->\n<gpx><trk><trkseg>\n"
+      "<trkpt lat=\"47.0\" lon='8.0'><ele>400</ele><time>2026-01-01T00:00:00Z</time></trkpt>\n"
+      "<trkpt lat=\"47.001\" lon=\"8.0\"><ele>410.5</ele></trkpt>\n"
+      "<trkpt lat=\"47.0\" lon=\"8.001\"/>\n</trkseg></trk></gpx>\n";
+  const auto route = ParseRouteXml(gpx, "r.gpx");
+  ASSERT_EQ(route.size(), 3u);
+  EXPECT_LT(Norm(route[0].p - Vec3d{0, 0, 400}), 1e-6);
+  // A thousandth of a degree at 47 degrees north: 111.17 m north, 76.06 m east, and 400 m higher a little
+  // more.
+  EXPECT_NEAR(route[1].p.y, 111.18, 0.02);
+  EXPECT_NEAR(route[1].p.z, 410.5, 0.002);
+  EXPECT_NEAR(route[2].p.x, 76.06, 0.02);
+  EXPECT_EQ(route[0].line, 4u);
+  EXPECT_EQ(route[2].line, 6u);
+}
+
+TEST(RouteXml, KmlCoordinatesAreLongitudeFirst) {
+  const char* kml =
+      "<kml><Placemark><LineString><coordinates>\n 8.0,47.0,5\n 8.0,47.001,6 8.001,47.0\n"
+      "</coordinates></LineString></Placemark></kml>";
+  const auto route = ParseRouteXml(kml, "r.kml", GeoPoint{47, 8, 0});
+  ASSERT_EQ(route.size(), 3u);
+  EXPECT_NEAR(route[0].p.z, 5, 1e-6);
+  EXPECT_NEAR(route[1].p.y, 111.17, 0.02);
+  EXPECT_NEAR(route[2].p.x, 76.05, 0.02);
+  EXPECT_EQ(route[1].line, 3u);
+}
+
+TEST(RouteXml, ErrorsNameThePlace) {
+  const auto message = [](const char* text) { return MessageOf([&] { ParseRouteXml(text, "r.gpx"); }); };
+  EXPECT_NE(message("<gpx>\n<wpt lat=\"x\" lon=\"1\"/>\n</gpx>").find("r.gpx:2:11: 'x' is not a number"),
+            std::string::npos)
+      << message("<gpx>\n<wpt lat=\"x\" lon=\"1\"/>\n</gpx>");
+  EXPECT_NE(message("<gpx>\n<wpt lon=\"1\"/></gpx>").find("attribute 'lat' is missing"), std::string::npos);
+  EXPECT_NE(message("<gpx><wpt lat=\"91\" lon=\"1\"/></gpx>").find("out of range"), std::string::npos);
+  EXPECT_NE(message("<gpx><wpt lat=\"9").find("does not end"), std::string::npos);
+  EXPECT_NE(message("<!DOCTYPE x><gpx/>").find("DOCTYPE"), std::string::npos);
+  EXPECT_NE(message("<gpx></gpx>").find("no points"), std::string::npos);
+  EXPECT_NE(message("<kml><coordinates>1,2,3,4</coordinates></kml>").find("more than lon,lat,alt"),
+            std::string::npos);
+  EXPECT_NE(message("<kml><coordinates>1</coordinates></kml>").find("is needed"), std::string::npos);
+}
+
+TEST(RouteAlong, IsThePlannedFlightExactlyAndLooksWhereItGoes) {
+  const Vec3d points[] = {{0, 0, 2}, {10, 0, 2}, {10, 10, 4}};
+  const double durations[] = {4, 5};
+  const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
+  const Route route = Route::Along(path, std::nullopt), fixed = Route::Along(path, 1.25);
+  EXPECT_EQ(route.duration(), path.duration());
+  for (int i = 1; i < 900; ++i) {
+    const double t = path.duration() * i / 900;
+    EXPECT_EQ(route.At(t).p, path.At(t).p);
+    EXPECT_EQ(route.At(t).v, path.At(t).v);
+    EXPECT_EQ(fixed.At(t).yaw, 1.25);
+    const Vec3d v = path.At(t).v;
+    if (std::hypot(v.x, v.y) > 1)
+      EXPECT_LT(std::fabs(std::remainder(route.At(t).yaw - std::atan2(v.y, v.x), 2 * std::numbers::pi)),
+                0.15);
+  }
+}
+
+}  // namespace
+}  // namespace airsim360
