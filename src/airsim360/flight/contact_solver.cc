@@ -133,6 +133,8 @@ void LimitEnergy(const DroneModel& model, double most, DroneState& s) {
   const double scale = kinetic > excess ? std::sqrt(1 - excess / kinetic) : 0;
   s.v_WB *= scale;
   s.w_WB_B *= scale;
+  // At rest and still too high, by nanometres: back down into the surface.
+  if (excess > kinetic) s.p_WB.z -= (excess - kinetic) / (model.mass * kGravity);
 }
 
 }  // namespace airsim360::internal
