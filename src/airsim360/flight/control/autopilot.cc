@@ -117,6 +117,22 @@ RotorValues Autopilot::Drive(const StateEstimate& estimate, const RotorValues& t
   return speeds;
 }
 
+RotorValues Autopilot::Unflown(const Goal& goal, AutopilotState& state) const {
+  RotorValues speeds{};
+  for (size_t i = 0; i < model_.rotors.size(); ++i) {
+    const double most = model_.rotors[i].max_speed;
+    if (goal.level == GoalLevel::kIdle) speeds[i] = kIdleSpeed * most;
+    if (goal.level == GoalLevel::kSpeeds) speeds[i] = std::min(goal.speeds[i], most);
+  }
+  // Controllers start afresh after this.
+  if (goal.level != GoalLevel::kSpeeds) state.has_history = 0;
+  if (goal.level == GoalLevel::kOff) state.expected_speeds = speeds;
+  state.velocity_integral = state.rate_integral = {};
+  state.throttle_integral = state.yaw_torque = 0;
+  state.commanded_speeds = speeds;
+  return speeds;
+}
+
 RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& command,
                             AutopilotState& state) const {
   const bool armed = state.mode != FlightMode::kDisarmed;
@@ -126,26 +142,12 @@ RotorValues Autopilot::Step(const StateEstimate& estimate, const ActiveCommand& 
   if (estimate.charge < options_.empty_charge) state.flags |= kBatteryEmpty;
 
   const Goal goal = internal::Guide(*this, estimate, command, state);
-  RotorValues speeds{};
-  if (goal.level <= GoalLevel::kSpeeds) {
-    if (goal.level != GoalLevel::kSpeeds) state.has_history = 0;
-    state.yaw_torque = 0;
-    for (size_t i = 0; i < model_.rotors.size(); ++i) {
-      const double idle = goal.level == GoalLevel::kIdle ? kIdleSpeed * model_.rotors[i].max_speed : 0;
-      speeds[i] =
-          goal.level == GoalLevel::kSpeeds ? std::min(goal.speeds[i], model_.rotors[i].max_speed) : idle;
-    }
-    state.velocity_integral = state.rate_integral = {};
-    state.throttle_integral = 0;
-    state.commanded_speeds = speeds;
-    if (goal.level == GoalLevel::kOff) state.expected_speeds = speeds;
-    return speeds;
-  }
+  if (goal.level <= GoalLevel::kSpeeds) return Unflown(goal, state);
   if (options_.controller == ControllerKind::kSimpleFlight) {
-    const RotorValues signals =
+    RotorValues speeds =
         SimpleFlightSignals(model_, options_.simple_flight, goal, estimate, options_.control_dt, state);
     for (size_t i = 0; i < model_.rotors.size(); ++i) {
-      speeds[i] = std::sqrt(signals[i]) * model_.rotors[i].max_speed;
+      speeds[i] = std::sqrt(speeds[i]) * model_.rotors[i].max_speed;
     }
     state.commanded_speeds = speeds;
     return speeds;

@@ -61,6 +61,8 @@ class Autopilot {
 
  private:
   void WatchRotors(const StateEstimate& estimate, AutopilotState& state) const;
+  /// Rotors off, idle or as commanded.
+  RotorValues Unflown(const Goal& goal, AutopilotState& state) const;
   RotorValues Drive(const StateEstimate& estimate, const RotorValues& thrust, AutopilotState& state) const;
 
   DroneModel model_;

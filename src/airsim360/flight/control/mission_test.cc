@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "airsim360/base/random.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/flight/control/attitude.h"
 #include "airsim360/flight/flight_check.h"
@@ -161,6 +163,62 @@ TEST(Mission, AnEmptyBatteryLandsTheDrone) {
   EXPECT_TRUE(loop.pilot.flags & kBatteryEmpty);
   RunOnFloor(loop, 10);
   EXPECT_EQ(loop.pilot.mode, FlightMode::kDisarmed);
+}
+
+/// Any command at all, every tenth of them broken.
+Command RandomCommand(RngStream& rng) {
+  const auto vector = [&](double s) { return Vec3d{rng.Normal(), rng.Normal(), rng.Normal()} * s; };
+  const double broken = rng.Chance(0.1) ? std::numeric_limits<double>::quiet_NaN() : 0;
+  const YawTarget yaw{static_cast<YawTarget::Mode>(rng.Index(4)), rng.Uniform(-3, 3) + broken};
+  const VerticalTarget throttle{VerticalTarget::Mode::kThrottle, rng.Uniform()};
+  switch (rng.Index(8)) {
+    case 0: {
+      RotorSignalCommand c;
+      for (double& signal : c.signals) signal = rng.Uniform() + broken;
+      return c;
+    }
+    case 1:
+      return RateCommand{vector(3) * (1 + broken), throttle};
+    case 2:
+      return AttitudeCommand{rng.Uniform(-1, 1) + broken, rng.Uniform(-1, 1), yaw, throttle};
+    case 3:
+      return VelocityCommand{vector(8), rng.Chance(0.5), yaw, false, broken};
+    case 4:
+      return PositionCommand{vector(30), rng.Uniform(0, 20) + broken, yaw};
+    case 5: {
+      std::vector<Vec3d> points(1 + rng.Index(5));
+      for (Vec3d& p : points) p = vector(20);
+      return PathCommand{std::make_shared<const std::vector<Vec3d>>(points), rng.Uniform(0, 10) + broken, 0,
+                         yaw};
+    }
+    case 6:
+      return TrajectoryCommand{std::make_shared<Lemniscate>(vector(10), 5, 1 + rng.Uniform(0, 10))};
+    default:
+      return HoverCommand{yaw};
+  }
+}
+
+TEST(Mission, AQuarterOfAnHourOfRandomCommandsLeaveNoNanAndNoEscape) {
+  AutopilotOptions options;
+  options.fence = Geofence{{-60, -60, -60}, {60, 60, 60}, 1e9};
+  for (const char* name : {"agilicious", "f550"}) {
+    FlightLoop loop(CatalogModel(name), options);
+    RngStream rng(4, name);
+    double furthest = 0;
+    for (int i = 0; i < 400; ++i) {
+      loop.Give(RandomCommand(rng), 3'000'000'000);
+      loop.Run(rng.Uniform(0.2, 2));
+      ASSERT_TRUE(std::isfinite(Norm(loop.state.p_WB) + Norm(loop.state.w_WB_B))) << i;
+      for (int k = 0; k < 3; ++k) furthest = std::max(furthest, std::abs(loop.state.p_WB[k]));
+    }
+    // Rotor signals throw it over the fence, tumbling at up to 30 m/s: a second to right itself, then some
+    // 35 m of braking.
+    EXPECT_LT(furthest, 60 + 30 + 35) << name;
+    loop.Give(HoverCommand{});
+    loop.Run(20);
+    EXPECT_LT(Norm(loop.state.v_WB), 0.05) << name;
+    EXPECT_GT(ToMatrix(loop.state.q_WB).m[2][2], 0.99) << name;
+  }
 }
 
 TEST(Autopilot, IsAPureFunctionOfPlainData) {

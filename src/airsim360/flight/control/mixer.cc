@@ -99,22 +99,28 @@ RotorWrench Mixer::WrenchOf(const RotorValues& thrust) const {
 Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) const {
   Result result;
   const Vec3d torque = wanted.torque_B;
-  RotorValues tilt{}, low{}, high{};
+  RotorValues low{}, high{};
   bool fits = true;
   for (int i = 0; i < n_; ++i) {
     const Row& c = inverse_[i];
     low[i] = min_[i] * density_ratio;
     high[i] = max_[i] * density_ratio;
-    tilt[i] = c.roll * torque.x + c.pitch * torque.y;
-    result.thrust[i] = tilt[i] + c.thrust * wanted.thrust + c.yaw * torque.z;
+    result.thrust[i] = c.roll * torque.x + c.pitch * torque.y + c.thrust * wanted.thrust + c.yaw * torque.z;
     fits &= result.thrust[i] >= low[i] && result.thrust[i] <= high[i];
   }
-  if (fits) return result;
-  result.saturated = true;
-  for (int i = 0; i < n_; ++i) tilt[i] = loose_[i].roll * torque.x + loose_[i].pitch * torque.y;
+  if (!fits) result = {TiltAndThrust(wanted, low, high), true};
+  if (!fits) AddYaw(torque.z, low, high, result.thrust);
+  return result;
+}
 
-  // Roll and pitch: the largest share for which some thrust puts every rotor in range. With the thrust's
-  // column c and rotor range [low, high], share s needs (low_i - s t_i) / c_i <= T <= (high_j - s t_j) / c_j.
+RotorValues Mixer::TiltAndThrust(const RotorWrench& wanted, const RotorValues& low,
+                                 const RotorValues& high) const {
+  RotorValues tilt{};
+  for (int i = 0; i < n_; ++i) {
+    tilt[i] = loose_[i].roll * wanted.torque_B.x + loose_[i].pitch * wanted.torque_B.y;
+  }
+  // The largest share of roll and pitch for which some thrust puts every rotor in range. With the thrust's
+  // column c, share s needs (low_i - s t_i) / c_i <= T <= (high_j - s t_j) / c_j for all i and j.
   double share = 1;
   for (int i = 0; i < n_; ++i) {
     for (int j = 0; j < n_; ++j) {
@@ -124,7 +130,8 @@ Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) c
       if (grows > 0) share = std::min(share, (high[j] / cj - low[i] / ci) / grows);
     }
   }
-  // Then the thrust, clamped to its interval.
+  share = std::max(share, 0.0);
+  // The thrust as near as its interval allows.
   double least = -std::numeric_limits<double>::infinity(), most = -least;
   for (int i = 0; i < n_; ++i) {
     tilt[i] *= share;
@@ -134,20 +141,24 @@ Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) c
     most = std::min(most, (high[i] - tilt[i]) / c);
   }
   const double thrust = std::max(least, std::min(most, wanted.thrust));
-  // Then yaw: the largest share of what is missing that keeps every rotor in range.
-  for (int i = 0; i < n_; ++i) result.thrust[i] = tilt[i] + loose_[i].thrust * thrust;
-  const double missing = torque.z - WrenchOf(result.thrust).torque_B.z;
-  double yaw = 1;
+  for (int i = 0; i < n_; ++i) tilt[i] += loose_[i].thrust * thrust;
+  return tilt;
+}
+
+void Mixer::AddYaw(double yaw_torque, const RotorValues& low, const RotorValues& high,
+                   RotorValues& thrust) const {
+  // The largest share of what is missing that keeps every rotor in range.
+  const double missing = yaw_torque - WrenchOf(thrust).torque_B.z;
+  double share = 1;
   for (int i = 0; i < n_; ++i) {
     const double step = inverse_[i].yaw * missing;
-    if (step > 0) yaw = std::min(yaw, (high[i] - result.thrust[i]) / step);
-    if (step < 0) yaw = std::min(yaw, (low[i] - result.thrust[i]) / step);
+    if (step > 0) share = std::min(share, (high[i] - thrust[i]) / step);
+    if (step < 0) share = std::min(share, (low[i] - thrust[i]) / step);
   }
-  yaw = std::max(yaw, 0.0);
+  share = std::max(share, 0.0);
   for (int i = 0; i < n_; ++i) {
-    result.thrust[i] = std::clamp(result.thrust[i] + yaw * inverse_[i].yaw * missing, low[i], high[i]);
+    thrust[i] = std::clamp(thrust[i] + share * inverse_[i].yaw * missing, low[i], high[i]);
   }
-  return result;
 }
 
 }  // namespace airsim360

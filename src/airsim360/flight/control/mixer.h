@@ -43,6 +43,8 @@ class Mixer {
   struct Row {
     double roll, pitch, yaw, thrust;
   };
+  RotorValues TiltAndThrust(const RotorWrench& wanted, const RotorValues& low, const RotorValues& high) const;
+  void AddYaw(double yaw_torque, const RotorValues& low, const RotorValues& high, RotorValues& thrust) const;
   bool Invert(bool with_yaw, std::array<Row, kMaxRotors>& inverse) const;
 
   int n_ = 0;

@@ -33,6 +33,30 @@ struct Outputs {
   double roll = 0, pitch = 0, yaw = 0, throttle = 0;
 };
 
+/// The position loop, in W: saturates at 4 m of error.
+Vec3d PositionLoop(const SimpleFlightGains& gains, Vec3d error) {
+  Vec3d out;
+  for (int i = 0; i < 3; ++i) out[i] = Unit(gains.position_p[i] * error[i]) * gains.max_velocity;
+  return out;
+}
+
+Vec3d GoalVelocity(const SimpleFlightGains& gains, const Goal& goal, Vec3d p_W) {
+  Vec3d v = goal.v_W;
+  if (goal.level == GoalLevel::kPosition) {
+    // moveToPosition chases its goal at the commanded speed; near it the position loop brakes.
+    v = PositionLoop(gains, goal.p_W - p_W);
+    const double level = std::hypot(v.x, v.y);
+    if (level > goal.speed) v = {v.x * goal.speed / level, v.y * goal.speed / level, v.z};
+    v.z = std::clamp(v.z, -goal.climb, goal.climb);
+  }
+  if (goal.level == GoalLevel::kTrajectory) {
+    v = goal.reference.v + PositionLoop(gains, goal.reference.p - p_W);
+  }
+  const bool by_hand = goal.level == GoalLevel::kRates || goal.level == GoalLevel::kAttitude;
+  if (goal.hold_z || (by_hand && !goal.throttle_given)) v.z = PositionLoop(gains, goal.p_W - p_W).z;
+  return v;
+}
+
 /// AirSim's motor mix: throttle + pitch, roll and yaw with the signs of the arms.
 RotorValues Mix(const DroneModel& model, const SimpleFlightGains& gains, const Outputs& out) {
   const size_t n = model.rotors.size();
@@ -72,23 +96,7 @@ RotorValues SimpleFlightSignals(const DroneModel& model, const SimpleFlightGains
   const Frd now = ToFrd(estimate, R);
   const bool by_hand = goal.level == GoalLevel::kRates || goal.level == GoalLevel::kAttitude;
 
-  // Position to velocity, in W: saturates at 4 m of error.
-  Vec3d v = goal.v_W;
-  const auto position_loop = [&](Vec3d p) {
-    const Vec3d error = p - estimate.p_WB;
-    Vec3d out;
-    for (int i = 0; i < 3; ++i) out[i] = Unit(gains.position_p[i] * error[i]) * gains.max_velocity;
-    return out;
-  };
-  if (goal.level == GoalLevel::kPosition) {
-    // moveToPosition chases its goal at the commanded speed; near it the position loop brakes.
-    v = position_loop(goal.p_W);
-    const double level = std::hypot(v.x, v.y);
-    if (level > goal.speed) v = {v.x * goal.speed / level, v.y * goal.speed / level, v.z};
-    v.z = std::clamp(v.z, -goal.climb, goal.climb);
-  }
-  if (goal.level == GoalLevel::kTrajectory) v = goal.reference.v + position_loop(goal.reference.p);
-  if (goal.hold_z || (by_hand && !goal.throttle_given)) v.z = position_loop(goal.p_W).z;
+  const Vec3d v = GoalVelocity(gains, goal, estimate.p_WB);
 
   // Velocity to lean and throttle.
   Outputs out;
