@@ -47,30 +47,27 @@ AIRSIM360_LANES LaneSurroundings<Lanes> Load(const SurroundingsBlock& b, int k) 
 }
 
 template <class Drive>
-void StepAll(const BatchWork& work) {
+AIRSIM360_LANES void StepBlock(const BatchWork& work, const SurroundingsBlock& around, int k,
+                               DroneBlock& block) {
   const DroneConstants<float>& c = *work.constants;
-  for (int64_t i = 0; i < work.count; ++i) {
-    DroneBlock& block = work.blocks[i];
-    const SurroundingsBlock& around = work.surroundings[work.shared ? 0 : i];
-    for (int k = 0; k < kBlockDrones; k += kLanes) {
-      BodyState<Lanes> s;
-      Lanes command[kMaxRotors];
-      Load(block, k, c.rotors, s);
-      for (int r = 0; r < c.rotors; ++r) command[r] = Get(block.command[r] + k);
-      StepLanes<Drive>(c, Load(around, k), work.near_ground, command, work.steps, s);
-      Store(s, k, c.rotors, block);
-    }
-  }
+  const int rotors = Drive::Layout::Rotors(c);
+  BodyState<Lanes> s;
+  Lanes command[kMaxRotors];
+  Load(block, k, rotors, s);
+  for (int r = 0; r < rotors; ++r) command[r] = Get(block.command[r] + k);
+  StepLanes<Drive>(c, Load(around, k), work.near_ground, command, work.steps, s);
+  Store(s, k, rotors, block);
 }
 
 }  // namespace
 
 void StepBlocks(const BatchWork& work) {
-  if (work.constants->upright) {
-    StepAll<UprightDrive<Lanes>>(work);
-  } else {
-    StepAll<TiltedDrive<Lanes>>(work);
-  }
+  ChooseDrive<Lanes>(*work.constants, [&]<class Drive>(Drive*) {
+    for (int64_t i = 0; i < work.count; ++i) {
+      const SurroundingsBlock& around = work.surroundings[work.shared ? 0 : i];
+      for (int k = 0; k < kBlockDrones; k += kLanes) StepBlock<Drive>(work, around, k, work.blocks[i]);
+    }
+  });
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -171,8 +171,12 @@ TEST(Batch, InstructionSetsAgreeBitForBit) {
     };
     const std::string bits = end(internal::isa_sse42::StepBlocks);
     const KernelIsa isa = internal::CurrentKernelIsa();
-    if (isa >= KernelIsa::kAvx2) EXPECT_TRUE(bits == end(internal::isa_avx2::StepBlocks)) << model.name;
-    if (isa >= KernelIsa::kAvx512) EXPECT_TRUE(bits == end(internal::isa_avx512::StepBlocks)) << model.name;
+    if (isa >= KernelIsa::kAvx2) {
+      EXPECT_TRUE(bits == end(internal::isa_avx2::StepBlocks)) << model.name;
+    }
+    if (isa >= KernelIsa::kAvx512) {
+      EXPECT_TRUE(bits == end(internal::isa_avx512::StepBlocks)) << model.name;
+    }
   }
 }
 
@@ -189,8 +193,12 @@ TEST(Batch, SingleDroneInstructionSetsAgreeBitForBit) {
   };
   const std::string bits = end(internal::isa_sse42::StepOne);
   const KernelIsa isa = internal::CurrentKernelIsa();
-  if (isa >= KernelIsa::kAvx2) EXPECT_EQ(bits, end(internal::isa_avx2::StepOne));
-  if (isa >= KernelIsa::kAvx512) EXPECT_EQ(bits, end(internal::isa_avx512::StepOne));
+  if (isa >= KernelIsa::kAvx2) {
+    EXPECT_EQ(bits, end(internal::isa_avx2::StepOne));
+  }
+  if (isa >= KernelIsa::kAvx512) {
+    EXPECT_EQ(bits, end(internal::isa_avx512::StepOne));
+  }
 }
 
 TEST(Batch, ThreadsSnapshotsAndCallSizesDoNotChangeTheBits) {

@@ -70,9 +70,9 @@ AIRSIM360_LANES Vec3<V> Times(const Mat3<T>& a, Vec3<V> v) {
 }
 
 /// Euler's equation J dw/dt = M - w x J w; the rotors' own momentum is part of M.
-template <class V, class T = ScalarOf<V>>
+template <class L, class V, class T = ScalarOf<V>>
 AIRSIM360_LANES Vec3<V> AngularAcceleration(const DroneConstants<T>& c, Vec3<V> torque, Vec3<V> w) {
-  if (!c.diagonal_inertia) return Times(c.inverse_inertia, torque - Cross(w, Times(c.inertia, w)));
+  if (L::Has(c.has_products)) return Times(c.inverse_inertia, torque - Cross(w, Times(c.inertia, w)));
   const auto& inverse = c.inverse_inertia.m;
   return {(torque.x - w.y * w.z * c.inertia_gaps.x) * inverse[0][0],
           (torque.y - w.z * w.x * c.inertia_gaps.y) * inverse[1][1],
@@ -110,7 +110,7 @@ AIRSIM360_LANES Motion<V> Differentiate(const DroneConstants<T>& c, const Steady
   const Vec3<V> h = s.w * V(T(0.5));
   Motion<V> rate;
   rate.v = R.ToWorld(specific_force) + loads.acceleration;
-  rate.w = AngularAcceleration(c, rotors.torque + loads.torque, s.w);
+  rate.w = AngularAcceleration<typename Drive::Layout>(c, rotors.torque + loads.torque, s.w);
   rate.q[0] = -(s.q[1] * h.x + s.q[2] * h.y + s.q[3] * h.z);
   rate.q[1] = s.q[0] * h.x + s.q[2] * h.z - s.q[3] * h.y;
   rate.q[2] = s.q[0] * h.y - s.q[1] * h.z + s.q[3] * h.x;
@@ -179,9 +179,9 @@ AIRSIM360_LANES void IntegrateBody(const DroneConstants<T>& c, const SteadyLoads
 }
 
 /// Speeds half a step later and a whole step later, the latter into `speed`.
-template <class V, class T = ScalarOf<V>>
+template <class L, class V, class T = ScalarOf<V>>
 AIRSIM360_LANES void TurnRotors(const DroneConstants<T>& c, const V* target, V* speed, V* middle) {
-  for (int i = 0; i < c.rotors; ++i) {
+  for (int i = 0; i < L::Rotors(c); ++i) {
     const RotorConstants<T>& r = c.rotor[i];
     const V gap = speed[i] - target[i];
     const V decay = Select(gap < V(T(0)), V(r.half_decay_up), V(r.half_decay_down));

@@ -25,7 +25,8 @@ Vec3d ShiftOut(std::span<const Contact> contacts);
 /// Kinetic and potential energy, J.
 double MechanicalEnergy(const DroneModel& model, const DroneState& state);
 
-/// Slows `state` down, in proportion, so that its energy is `most` at the highest.
+/// Slows `state` down, in proportion, and if that is not enough lowers it, so that its energy is `most` at
+/// the highest.
 void LimitEnergy(const DroneModel& model, double most, DroneState& state);
 
 }  // namespace airsim360::internal

@@ -35,8 +35,10 @@ struct DroneConstants {
   int rotors = 0;
   /// All axes are +Z of B, at one height and of one diameter: few sums over the rotors give their wrench.
   bool upright = false;
-  bool diagonal_inertia = false;
+  bool has_products = false;  ///< of inertia
+  bool has_height = false;    ///< `height` is not 0
   bool has_inflow = false, has_lift = false, has_flapping = false, has_spin = false, has_battery = false;
+  bool plain = false;  ///< upright, and none of the has_ terms
   RotorConstants<T> rotor[kMaxRotors];
   LiftSums<T> lift;
   T height;  ///< of the rotor plane above B, when upright

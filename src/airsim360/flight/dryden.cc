@@ -8,10 +8,10 @@ namespace airsim360 {
 namespace internal {
 namespace {
 
-/// Integral of s^k e^(-2 s) from 0 to x, by its series: no cancellation for small x.
+/// Integral of s^k e^(-2 s) from 0 to x < 1, by its series: no cancellation for small x.
 double MomentSeries(int k, double x) {
   double term = std::pow(x, k + 1), sum = 0;
-  for (int j = 0; j < 40; ++j) {
+  for (int j = 0; std::abs(term) > 1e-18 * sum; ++j) {
     sum += term / (k + j + 1);
     term *= -2 * x / (j + 1);
   }

@@ -4,7 +4,7 @@
 // body at that instant. UprightDrive is for the common layout (DroneConstants::upright), TiltedDrive for all.
 #pragma once
 
-#include "airsim360/flight/drone_constants.h"
+#include "airsim360/flight/drive_layout.h"
 #include "airsim360/flight/lane_math.h"
 
 namespace airsim360::internal {
@@ -40,8 +40,9 @@ AIRSIM360_LANES V SpeedRate(const RotorConstants<T>& r, V speed, V target) {
 }
 
 /// Rotors along +Z at one height: their hubs move with u = v at the middle of the rotor plane, and w_z.
-template <class V>
+template <class V, class L = AnyLayout>
 struct UprightDrive {
+  using Layout = L;
   using T = ScalarOf<V>;
   V thrust{}, roll{}, pitch{}, yaw{};                 // of k_f speed^2 and of the reaction torques
   V drag{}, drag_x{}, drag_y{}, drag_r2{};            // k_d speed times 1, x, y, x^2 + y^2
@@ -52,39 +53,36 @@ struct UprightDrive {
 
   AIRSIM360_LANES UprightDrive(const DroneConstants<T>& c, const RotorInstant<V>& now)
       : density(now.density) {
-    V spin_rate = V(T(0));
-    for (int i = 0; i < c.rotors; ++i) {
-      const RotorConstants<T>& r = c.rotor[i];
-      const V speed = now.speed[i];
-      AddLoad(r, speed);
-      if (c.has_inflow) AddInflow(r, speed);
-      if (c.has_flapping) AddFlapping(r, speed);
-      if (c.has_spin) {
-        spin = spin + r.spin * speed;
-        spin_rate = spin_rate + r.spin * SpeedRate(r, speed, now.target[i]);
-      }
+    for (int i = 0; i < L::Rotors(c); ++i) AddLoad(c.rotor[i], now.speed[i]);
+    if (L::Has(c.has_inflow)) {
+      for (int i = 0; i < L::Rotors(c); ++i) AddInflow(c.rotor[i], now.speed[i]);
+    }
+    if (L::Has(c.has_flapping)) {
+      for (int i = 0; i < L::Rotors(c); ++i) AddFlapping(c.rotor[i], now.speed[i]);
     }
     Scale(c, now.ground[0]);
-    if (c.has_spin) yaw = yaw - spin_rate;
+    if (L::Has(c.has_spin)) {
+      for (int i = 0; i < L::Rotors(c); ++i) AddSpin(c.rotor[i], now.speed[i], now.target[i]);
+    }
   }
 
   AIRSIM360_LANES Wrench<V> WrenchIn(const DroneConstants<T>& c, const AirMotion<V>& air) const {
     const V turn = air.w_air.z;
     V ux = air.v.x, uy = air.v.y;
-    if (c.height != 0) ux = ux + air.w_air.y * c.height, uy = uy - air.w_air.x * c.height;
+    if (L::Has(c.has_height)) ux = ux + air.w_air.y * c.height, uy = uy - air.w_air.x * c.height;
     // H-force, in the plane of the rotors.
     const V fx = turn * drag_y - ux * drag, fy = -(uy * drag + turn * drag_x);
     Wrench<V> out;
     out.force = {fx, fy, thrust};
     out.torque = {roll, pitch, yaw - (turn * drag_r2 + (uy * drag_x - ux * drag_y))};
-    if (c.height != 0) out.torque.x -= fy * c.height, out.torque.y += fx * c.height;
-    if (c.has_inflow) ApplyInflow(air, out);
-    if (c.has_lift) ApplyLift(c.lift, ux, uy, turn, out);
-    if (c.has_flapping) {
+    if (L::Has(c.has_height)) out.torque.x -= fy * c.height, out.torque.y += fx * c.height;
+    if (L::Has(c.has_inflow)) ApplyInflow(air, out);
+    if (L::Has(c.has_lift)) ApplyLift(c.lift, ux, uy, turn, out);
+    if (L::Has(c.has_flapping)) {
       out.torque.x += uy * flap + turn * flap_x;
       out.torque.y += turn * flap_y - ux * flap;
     }
-    if (c.has_spin) {
+    if (L::Has(c.has_spin)) {
       out.torque.x -= air.w.y * spin;
       out.torque.y += air.w.x * spin;
     }
@@ -119,17 +117,22 @@ struct UprightDrive {
     flap_x = flap_x + k * r.p.x;
     flap_y = flap_y + k * r.p.y;
   }
+  /// Momentum, and the torque that its change takes.
+  AIRSIM360_LANES void AddSpin(const RotorConstants<T>& r, V speed, V target) {
+    spin = spin + r.spin * speed;
+    yaw = yaw - r.spin * SpeedRate(r, speed, target);
+  }
   /// Coefficients hold at sea level; nearness of the ground adds to the thrust alone.
   AIRSIM360_LANES void Scale(const DroneConstants<T>& c, V ground) {
     const V k = density * ground;
     thrust = thrust * k, roll = roll * k, pitch = pitch * k;
     yaw = yaw * density;
     drag = drag * density, drag_x = drag_x * density, drag_y = drag_y * density, drag_r2 = drag_r2 * density;
-    if (c.has_inflow) {
+    if (L::Has(c.has_inflow)) {
       in = in * density, in_x = in_x * density, in_y = in_y * density;
       in_xx = in_xx * density, in_xy = in_xy * density, in_yy = in_yy * density;
     }
-    if (c.has_flapping) flap = flap * density, flap_x = flap_x * density, flap_y = flap_y * density;
+    if (L::Has(c.has_flapping)) flap = flap * density, flap_x = flap_x * density, flap_y = flap_y * density;
   }
   /// Thrust lost at each hub: k_z speed (v_z + w_x y - w_y x).
   AIRSIM360_LANES void ApplyInflow(const AirMotion<V>& air, Wrench<V>& out) const {
@@ -152,6 +155,7 @@ struct UprightDrive {
 /// Rotors in any places and directions, each on its own.
 template <class V>
 struct TiltedDrive {
+  using Layout = AnyLayout;
   using T = ScalarOf<V>;
   V speed[kMaxRotors];   // times the density ratio
   V thrust[kMaxRotors];  // k_f speed^2
