@@ -45,6 +45,15 @@ TEST(Flying, TakesOffHoversAndLandsOnTheFloor) {
   EXPECT_NEAR(BottomOf(*model, state.vehicles[0]), 0, 0.01);
   EXPECT_LT(Norm(state.vehicles[0].drone.v_WB), 0.01);
   EXPECT_EQ(state.vehicles[0].autopilot.mode, FlightMode::kDisarmed);
+
+  // It lies there without moving at all, its accelerometer feels the floor, and it takes off again.
+  Wait(*model, state, 1);
+  const Vec3d p = state.vehicles[0].drone.p_WB;
+  Wait(*model, state, 1);
+  EXPECT_EQ(state.vehicles[0].drone.p_WB, p);
+  EXPECT_NEAR(state.vehicles[0].sensors.imus[0].last.specific_force.z, kGravity, 0.3);
+  Fly(*model, state, 0, TakeoffCommand{.height = 1}, 4);
+  EXPECT_GT(state.vehicles[0].drone.p_WB.z, 0.9);
 }
 
 TEST(Flying, HittingAWallIsReportedWithItsEntityNormalAndSpeed) {
