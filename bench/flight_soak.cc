@@ -3,6 +3,8 @@
 //   flight_soak [--world W] [--seconds S] [--drones N]      default box_room, 3600 s, 2 drones
 //   flight_soak --determinism [--steps N] [--drones N]      default 1,000,000 steps, 9 drones
 // Exit status 1 if anything is wrong.
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,7 +12,6 @@
 #include <limits>
 #include <string>
 
-#include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/sim/recording.h"
@@ -35,8 +36,12 @@ bool Given(int argc, char** argv, const char* name) {
 }
 
 double ResidentMib() {
-  const std::string text = ReadTextFile("/proc/self/status");
-  return std::atof(text.c_str() + text.find("VmRSS:") + 6) / 1024;
+  // Pages: all, then those in memory.
+  long all = 0, resident = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr || std::fscanf(file, "%ld %ld", &all, &resident) != 2) resident = 0;
+  if (file != nullptr) std::fclose(file);
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
 Vec3d RandomVector(RngStream& random, double size) {
@@ -95,8 +100,11 @@ std::vector<SimCommand> RandomCommands(RngStream& random, const SimModel& model)
     if (random.Chance(0.05)) commands.push_back({i, ResetCommand{.airborne = random.Chance(0.5)}});
   }
   if (random.Chance(0.02)) {
-    const Vec3d wind = RandomVector(random, 8);
-    commands.push_back({0, WindCommand{{wind.x, wind.y, 0}}});
+    Vec3d wind = RandomVector(random, 8);
+    wind.z = 0;
+    SimCommand command;
+    command.action.emplace<WindCommand>(wind);
+    commands.push_back(std::move(command));
   }
   return commands;
 }
@@ -111,6 +119,7 @@ SimModel MakeModel(const std::string& world, int count) {
     setup.model.battery = {.cells = 3, .capacity_ah = 2.2, .resistance = 0.02};
     setup.X_WB.p = spawn + Vec3d{-1.5 + 1.5 * (i % 3), -1.5 + 1.5 * (i / 3), 1};
     setup.airborne = true;
+    setup.crash_disarms = i % 2 == 0;  // the others go on after every crash
     model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));
   }
   return model;

@@ -45,6 +45,15 @@ TEST(Flying, TakesOffHoversAndLandsOnTheFloor) {
   EXPECT_NEAR(BottomOf(*model, state.vehicles[0]), 0, 0.01);
   EXPECT_LT(Norm(state.vehicles[0].drone.v_WB), 0.01);
   EXPECT_EQ(state.vehicles[0].autopilot.mode, FlightMode::kDisarmed);
+
+  // It lies there without moving at all, its accelerometer feels the floor, and it takes off again.
+  Wait(*model, state, 1);
+  const Vec3d p = state.vehicles[0].drone.p_WB;
+  Wait(*model, state, 1);
+  EXPECT_EQ(state.vehicles[0].drone.p_WB, p);
+  EXPECT_NEAR(state.vehicles[0].sensors.imus[0].last.specific_force.z, kGravity, 0.3);
+  Fly(*model, state, 0, TakeoffCommand{.height = 1}, 4);
+  EXPECT_GT(state.vehicles[0].drone.p_WB.z, 0.9);
 }
 
 TEST(Flying, HittingAWallIsReportedWithItsEntityNormalAndSpeed) {
@@ -71,7 +80,7 @@ TEST(Flying, HittingAWallIsReportedWithItsEntityNormalAndSpeed) {
 }
 
 TEST(Flying, AHardImpactIsACrashAndStopsTheRotors) {
-  DroneSetup setup = HummingbirdAt({-4, 2, 3});
+  DroneSetup setup = HummingbirdAt({3.5, 2, 3});
   const auto model = RoomModel({setup});
   SimState state = StartState(*model);
   state.vehicles[0].drone.v_WB = {8, 0, 0};
@@ -160,15 +169,17 @@ TEST(Flying, DronesThatMeetCollideWithEachOther) {
                                                  {1, FlightCommand{VelocityCommand{.v = {-1, 0, 0}}}}};
   std::vector<SimEvent> events;
   Step(*model, at_each_other, state, &events);
-  double nearest = 3;
+  const Vec3d half = model->drones[0]->model().half_size_B;
   for (int i = 0; i < 3000; ++i) {
     Step(*model, {}, state, &events);
-    nearest = std::min(nearest, state.vehicles[1].drone.p_WB.x - state.vehicles[0].drone.p_WB.x);
+    // The centre of one is never in the box of the other.
+    const Kinematics &a = state.vehicles[0].motion, &b = state.vehicles[1].motion;
+    const Vec3d d = a.X_WB.R.transpose() * (b.X_WB.p - a.X_WB.p);
+    ASSERT_TRUE(std::abs(d.x) > half.x || std::abs(d.y) > half.y || std::abs(d.z) > half.z) << i;
   }
   const SimEvent* hit = FindEvent(events, Kind::kCollision);
   ASSERT_NE(hit, nullptr);
   EXPECT_NEAR(std::abs(hit->collision.p_W.x), 0, 0.4);
-  EXPECT_GT(nearest, model->drones[0]->model().half_size_B.x);  // never through each other
 }
 
 TEST(Flying, ADroneOnARouteTakesOverInMidAir) {
@@ -221,7 +232,9 @@ TEST(Flying, LandsOnTheGroundOfATown) {
   auto model = std::make_shared<SimModel>();
   const auto scene = BuildWorld("downtown_west", {});
   model->tracer = std::make_shared<const RayTracer>(scene);
-  DroneSetup setup = HummingbirdAt(VecCast<double>(*scene->spawn) + Vec3d{0, 0, 1});
+  const auto street = model->tracer->Intersect(*scene->spawn, {0, 0, -1});
+  ASSERT_TRUE(street);
+  DroneSetup setup = HummingbirdAt(VecCast<double>(*scene->spawn) - Vec3d{0, 0, street->distance - 2.5});
   model->drones.push_back(std::make_shared<const SimDrone>(setup, model->dt_ns));
   SimState state = StartState(*model);
   const auto below = model->tracer->Intersect(VecCast<float>(setup.X_WB.p), {0, 0, -1});

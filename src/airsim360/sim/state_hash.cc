@@ -68,6 +68,7 @@ void Add(const Vehicle& vehicle, StateHasher& hasher) {
   hasher.Add(vehicle.contact.crashed);
   hasher.Add(vehicle.touching);
   hasher.Add(vehicle.touched_ns);
+  hasher.Add(vehicle.still_ns);
   Add(vehicle.collision, hasher);
   Add(vehicle.gusts, hasher);
   hasher.Add(vehicle.shelter);

@@ -73,6 +73,7 @@ struct Vehicle {
   ActiveCommand command;
   ContactState contact;
   bool touching = false;    ///< in the last step
+  int64_t still_ns = 0;     ///< for how long it has lain still, disarmed; see kSleepNs
   int64_t touched_ns = -1;  ///< when it last touched anything; -1 = never
   CollisionInfo collision;
   WindState gusts = StartWind(0, 0);
@@ -83,6 +84,9 @@ struct Vehicle {
 };
 
 inline constexpr int64_t kClearancePeriodNs = 10'000'000;
+/// A disarmed drone that lies still for so long in calm air is not integrated until something changes: it is
+/// armed, the wind rises, or another drone comes near.
+inline constexpr int64_t kSleepNs = 500'000'000;
 
 /// Everything that changes. A copy is a snapshot; assigning one back restores it, and the same bytes follow.
 struct SimState {

@@ -55,6 +55,31 @@ WindSample WindAt(const StepContext& context, const SimDrone& drone, Vehicle& ve
                   vehicle.drone.v_WB, 2 * drone.model().half_size_B.y, vehicle.gusts);
 }
 
+// Largest speed of drones that may be met in this step.
+double NeighbourSpeed(const StepContext& context, size_t i, const SimDrone& drone, const Vehicle& vehicle) {
+  double speed = 0;
+  context.boxes.Near(vehicle.drone.p_WB, drone.radius() + kMeetingRange, i,
+                     [&](const DroneBox& box) { speed = std::max(speed, Norm(box.v_WB)); });
+  return speed;
+}
+
+// Whether nothing happens to the drone in this step: it lies still, and has for a while.
+bool Sleeps(const StepContext& context, size_t i, const SimDrone& drone, Vec3d wind, Vehicle& vehicle) {
+  constexpr double kStillSpeed = 0.02, kStillTurn = 0.1, kStillRotor = 1;  // m/s, rad/s, rad/s
+  DroneState& state = vehicle.drone;
+  const bool lies = vehicle.touched_ns >= 0 && context.t_ns - vehicle.touched_ns <= kContactGapNs;
+  const bool still =
+      (lies || vehicle.still_ns >= kSleepNs) && vehicle.autopilot.mode == FlightMode::kDisarmed &&
+      std::ranges::max(vehicle.rotor_commands) == 0 && std::ranges::max(state.rotor_speeds) < kStillRotor &&
+      Norm(state.v_WB) < kStillSpeed && Norm(state.w_WB_B) < kStillTurn && wind == Vec3d{} &&
+      NeighbourSpeed(context, i, drone, vehicle) < kStillSpeed;
+  vehicle.still_ns = still ? std::min(vehicle.still_ns + context.model.dt_ns, kSleepNs) : 0;
+  if (vehicle.still_ns < kSleepNs) return false;
+  state.v_WB = state.w_WB_B = vehicle.a_WB = vehicle.alpha_WB_B = {};
+  state.rotor_speeds.fill(0);
+  return true;
+}
+
 // What the rotors of other drones blow at the vehicle.
 Vec3d Downwash(const StepContext& context, size_t i, const Vehicle& vehicle) {
   std::vector<RotorWake> wakes;
@@ -122,14 +147,6 @@ void KeepInWorld(const StepContext& context, size_t i, Vehicle& vehicle, std::ve
   if (outside) events.push_back({.kind = Kind::kWorldEdge, .vehicle = i, .t_ns = context.t_ns});
 }
 
-// Largest speed of drones that may be met in this step.
-double NeighbourSpeed(const StepContext& context, size_t i, const SimDrone& drone, const Vehicle& vehicle) {
-  double speed = 0;
-  context.boxes.Near(vehicle.drone.p_WB, drone.radius() + kMeetingRange, i,
-                     [&](const DroneBox& box) { speed = std::max(speed, Norm(box.v_WB)); });
-  return speed;
-}
-
 }  // namespace
 
 void CopyMotion(Vehicle& vehicle) {
@@ -192,6 +209,10 @@ void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& sur
   const SimModel& model = context.model;
   const SimDrone& drone = *model.drones[i];
   const double dt = drone.dynamics().dt();
+  if (Sleeps(context, i, drone, surroundings.wind_W, vehicle)) {
+    CopyMotion(vehicle);
+    return;
+  }
   const DroneState before = vehicle.drone;
   drone.dynamics().Step(surroundings, vehicle.rotor_commands, vehicle.health, vehicle.drone);
   const WorldContacts contacts(*model.tracer, context.boxes, i);

@@ -25,7 +25,7 @@ std::shared_ptr<const Route> RoomRoute(uint64_t seed = 0) {
   return std::make_shared<const Route>(PlanSurvey(*Room(), {.seed = seed}));
 }
 
-SimState StartState(const SimModel& model) {
+SimState RoomState(const SimModel& model) {
   SimState state;
   state.vehicles.push_back(VehicleAt(model, BodyPose({0, 0, 2}, 0, 0, 0)));
   return state;
@@ -40,7 +40,7 @@ void Advance(const SimModel& model, const std::shared_ptr<const Route>& route, i
 
 TEST(Step, ThousandStepsGiveTheSameHashEveryTime) {
   const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
-  SimState a = StartState(model), b = StartState(model);
+  SimState a = RoomState(model), b = RoomState(model);
   Advance(model, RoomRoute(), 1000, a);
   Advance(model, RoomRoute(), 1000, b);
   EXPECT_EQ(HashState(a), HashState(b));
@@ -50,7 +50,7 @@ TEST(Step, ThousandStepsGiveTheSameHashEveryTime) {
 
 TEST(Step, ARestoredSnapshotContinuesWithTheSameBytes) {
   const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
-  SimState state = StartState(model);
+  SimState state = RoomState(model);
   Advance(model, RoomRoute(), 400, state);
   const SimState snapshot = state;
   Advance(model, nullptr, 600, state);
@@ -63,7 +63,7 @@ TEST(Step, ARestoredSnapshotContinuesWithTheSameBytes) {
 
 TEST(Step, HashSeesEveryPartOfTheState) {
   const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
-  const SimState state = StartState(model);
+  const SimState state = RoomState(model);
   std::vector<SimState> changed(7, state);
   changed[0].step = 1;
   changed[1].t_ns = 1;
@@ -83,7 +83,7 @@ TEST(Step, ClearanceIsTheDistanceToTheNearestSurface) {
 
 TEST(Step, RefusesACommandForAVehicleThatDoesNotExist) {
   const SimModel model{.tracer = Room(), .dt_ns = kRouteStepNs};
-  SimState state = StartState(model);
+  SimState state = RoomState(model);
   const std::vector<SimCommand> commands = {{3, RoomRoute()}};
   EXPECT_THROW(Step(model, commands, state), InputError);
 }

@@ -44,27 +44,27 @@ struct RateCommand {
 /// roll: right side down positive; pitch: nose up positive (BodyPose).
 struct AttitudeCommand {
   double roll = 0, pitch = 0;
-  YawTarget yaw;
+  YawTarget yaw = {};
   VerticalTarget vertical;
 };
 struct VelocityCommand {
   Vec3d v;                    ///< m/s
   bool body_heading = false;  ///< v is in the level frame turned by the heading that the drone has now
-  YawTarget yaw;
+  YawTarget yaw = {};
   bool hold_altitude = false;  ///< then v.z counts for nothing and `altitude` (z of W) is kept
   double altitude = 0;
 };
 struct PositionCommand {
   Vec3d p_W;
   double speed = 0;  ///< m/s; 0 = what the drone is made for
-  YawTarget yaw;
+  YawTarget yaw = {};
 };
 /// Follows the polyline from where the drone is through the waypoints, chasing a point `lookahead` ahead.
 struct PathCommand {
   std::shared_ptr<const std::vector<Vec3d>> waypoints;  ///< in W, at least one
   double speed = 0;                                     ///< m/s; 0 = what the drone is made for
   double lookahead = 0;                                 ///< metres; 0 = max(0.75, 0.6 s * speed)
-  YawTarget yaw;
+  YawTarget yaw = {};
 };
 /// Follows p(t) with feed-forward of every derivative; t runs from the command's start.
 struct TrajectoryCommand {
@@ -80,7 +80,7 @@ struct LandCommand {
 };
 /// Stops and stays.
 struct HoverCommand {
-  YawTarget yaw;
+  YawTarget yaw = {};
 };
 /// Climbs to at least `height` above home, flies there, lands if asked to. Home is where the drone was armed.
 struct ReturnCommand {
