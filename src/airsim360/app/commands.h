@@ -24,6 +24,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals);
 void AddVerifyCommand(CLI::App& app, GlobalOptions& globals);
 void AddStitchCommand(CLI::App& app, GlobalOptions& globals);
 void AddEvalCommand(CLI::App& app, GlobalOptions& globals);
+void AddFlyCommand(CLI::App& app, GlobalOptions& globals);
 void AddServeCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);

@@ -125,6 +125,7 @@ int ParseAndRun(int argc, char** argv) {
   AddVerifyCommand(app, globals);
   AddStitchCommand(app, globals);
   AddEvalCommand(app, globals);
+  AddFlyCommand(app, globals);
   AddServeCommand(app, globals);
   AddDroneCommand(app, globals);
   AddDoctorCommand(app, globals);

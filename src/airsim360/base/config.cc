@@ -39,6 +39,7 @@ class YamlReader : public ConfigVisitor {
     Read(name, "a whole number, 0 or more", value);
   }
   void Field(std::string_view name, std::string_view, double& value, double low, double high) override {
+    if (!Find(name)) return;
     double read = value;
     Read(name, "a number", read);
     char range[80];

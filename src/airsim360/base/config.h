@@ -45,9 +45,10 @@ class ConfigVisitor {
 
  protected:
   /// List without its type: `resize` makes that many default entries, `visit` names the fields of one.
-  virtual void Entries(std::string_view name, std::string_view help, size_t size,
-                       const std::function<void(size_t)>& resize,
-                       const std::function<void(ConfigVisitor&, size_t)>& visit) = 0;
+  /// Visitors that know no lists skip them.
+  virtual void Entries(std::string_view /*name*/, std::string_view /*help*/, size_t /*size*/,
+                       const std::function<void(size_t)>& /*resize*/,
+                       const std::function<void(ConfigVisitor&, size_t)>& /*visit*/) {}
 };
 
 using ConfigFields = std::function<void(ConfigVisitor&)>;

@@ -24,6 +24,12 @@ void FlightLoop::Give(const Command& command, int64_t timeout_ns) {
 
 void FlightLoop::Step() {
   const RotorValues speeds = autopilot_.Step(EstimateOf(state, t_ns_), command_, pilot);
+  if (wind) {
+    const double dt = autopilot_.options().control_dt, span = 2 * model().half_size_B.y;
+    const WindSample air = StepWind(*wind, time(), dt, state.p_WB.z, state.v_WB, span, wind_state);
+    surroundings.wind_W = air.velocity_W;
+    surroundings.wind_rate_B = ToMatrix(state.q_WB).transpose() * air.rate_W;
+  }
   for (int i = 0; i < substeps_; ++i) dynamics_.Step(surroundings, speeds, health, state);
   t_ns_ += std::llround(autopilot_.options().control_dt * 1e9);
 }
@@ -61,8 +67,8 @@ StandardLemniscate StandardLemniscateFor(const DroneModel& model, const ControlG
   StandardLemniscate lemniscate;
   lemniscate.amplitude = std::clamp(10 * arm, 0.5, 10.0);
   // Its acceleration peaks at about 2 A w^2, its speed at sqrt(2) A w.
-  const double agile = std::sqrt(lemniscate.amplitude * 0.4 * gains.max_acceleration);
-  lemniscate.speed = std::min(agile, 0.6 * gains.max_speed);
+  const double agile = std::sqrt(lemniscate.amplitude * 0.6 * gains.max_acceleration);
+  lemniscate.speed = std::min(agile, 0.8 * gains.max_speed);
   return lemniscate;
 }
 

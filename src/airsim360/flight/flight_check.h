@@ -3,6 +3,7 @@
 
 #include "airsim360/flight/control/autopilot.h"
 #include "airsim360/flight/dynamics.h"
+#include "airsim360/flight/wind.h"
 
 namespace airsim360 {
 
@@ -26,6 +27,8 @@ class FlightLoop {
   AutopilotState pilot;
   DroneSurroundings surroundings;
   RotorHealth health = kAllRotorsWork;
+  std::optional<WindSettings> wind;  ///< with it, `wind_state` moves surroundings.wind_W
+  WindState wind_state = StartWind(0, 0);
 
  private:
   Autopilot autopilot_;
@@ -45,7 +48,7 @@ TrackingError Track(FlightLoop& loop, std::shared_ptr<const ReferenceTrajectory>
                     double to);
 
 /// The lemniscate by which a drone of any size is judged: ten arm lengths (0.5 to 10 m) in amplitude, flown
-/// at 40 % of the acceleration and at most 60 % of the speed that its guidance asks for.
+/// at 60 % of the acceleration and at most 80 % of the speed that its guidance asks for.
 struct StandardLemniscate {
   double amplitude = 0, speed = 0;
 };

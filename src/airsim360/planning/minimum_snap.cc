@@ -24,19 +24,14 @@ void CheckCounts(size_t waypoints, size_t durations) {
   }
 }
 
-/// x - x is zero for finite numbers and NaN for others.
-double Finiteness(Vec3d v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z); }
-
 /// Cheap test of all numbers first; the culprit is looked for only if there is one.
-void CheckNumbers(std::span<const Vec3d> waypoints, std::span<const double> durations) {
-  double finite = 0;
-  bool positive = true;
-  for (const Vec3d& waypoint : waypoints) finite += Finiteness(waypoint);
-  for (const double duration : durations) {
-    finite += duration - duration;
-    positive &= duration > 0;
+void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
+                  std::span<const double> durations) {
+  if (kernels.all_finite(&waypoints[0].x, 3 * waypoints.size()) &&
+      kernels.all_finite(durations.data(), durations.size()) &&
+      kernels.all_positive(durations.data(), durations.size())) {
+    return;
   }
-  if (positive && finite == 0) return;
   for (size_t i = 0; i < durations.size(); ++i) {
     if (!(durations[i] > 0) || !std::isfinite(durations[i])) {
       Fail("duration " + std::to_string(i) + " is " + std::to_string(durations[i]) +
@@ -44,14 +39,14 @@ void CheckNumbers(std::span<const Vec3d> waypoints, std::span<const double> dura
     }
   }
   for (size_t i = 0; i < waypoints.size(); ++i) {
-    if (Finiteness(waypoints[i]) != 0) Fail("waypoint " + std::to_string(i) + " is not finite");
+    if (!kernels.all_finite(&waypoints[i].x, 3)) Fail("waypoint " + std::to_string(i) + " is not finite");
   }
 }
 
-void CheckEnd(const BoundaryDerivatives& end, const char* which) {
-  if (Finiteness(end.v) + Finiteness(end.a) + Finiteness(end.jerk) != 0) {
-    Fail(std::string(which) + " derivatives are not finite");
-  }
+void CheckEnds(const CheckKernels& kernels, const MinimumSnapProblem& problem) {
+  static_assert(sizeof(BoundaryDerivatives) == 9 * sizeof(double));
+  if (!kernels.all_finite(&problem.start.v.x, 9)) Fail("derivatives at the start are not finite");
+  if (!kernels.all_finite(&problem.end.v.x, 9)) Fail("derivatives at the end are not finite");
 }
 
 /// Four lanes per vector.
@@ -66,6 +61,7 @@ void Pad(Vec3d v, double* out) {
 
 struct MinimumSnapSolver::Impl {
   const SplineKernels* kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
   bool free = false;
   std::vector<double> durations, coefficients;
@@ -97,13 +93,13 @@ struct MinimumSnapSolver::Impl {
                                       .segments = segments,
                                       .start = start,
                                       .end = end,
-                                      .free = free,
+                                      .free_start = free,
+                                      .free_end = free,
                                       .workspace = workspace.Reserve(RouteWorkspace(segments)),
                                       .coefficients = coefficients.data()};
-    if (segments == 1 || NeedsWideArithmetic(durations.data(), segments)) {
-      return SolveRouteWide(kind, arguments);
-    }
+    if (segments == 1) return SolveRouteWide(kind, arguments);
     kernels->route[static_cast<int>(kind)](arguments);
+    if (checks->any_uneven(durations.data(), segments)) RefineUneven(kind, *checks, arguments);
   }
 };
 
@@ -114,9 +110,8 @@ MinimumSnapSolver& MinimumSnapSolver::operator=(MinimumSnapSolver&&) noexcept = 
 
 void MinimumSnapSolver::Solve(const MinimumSnapProblem& problem) {
   CheckCounts(problem.waypoints.size(), problem.durations.size());
-  CheckNumbers(problem.waypoints, problem.durations);
-  CheckEnd(problem.start, "start");
-  CheckEnd(problem.end, "end");
+  CheckNumbers(*impl_->checks, problem.waypoints, problem.durations);
+  CheckEnds(*impl_->checks, problem);
   impl_->Copy(problem);
   impl_->Solve();
 }
@@ -149,7 +144,8 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   }
   if (routes == 0) return;
   CheckCounts(segments + 1, segments);
-  CheckNumbers(waypoints, durations);
+  const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
+  CheckNumbers(checks, waypoints, durations);
 
   const SplineKernels* const kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
   static thread_local AlignedBuffer workspace;
@@ -165,7 +161,7 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
       if (first + lane == route &&
-          (segments == 1 || NeedsWideArithmetic(arguments.durations[lane], segments))) {
+          (segments == 1 || checks.any_uneven(arguments.durations[lane], segments))) {
         uneven.push_back(route);
       }
     }

@@ -9,6 +9,8 @@
 #pragma once
 
 #define AIRSIM360_INLINE [[gnu::always_inline]] inline
+// Loops over states, axes and powers must unroll completely, for their arrays are registers.
+#define AIRSIM360_UNROLL _Pragma("GCC unroll 9")
 
 namespace airsim360::internal {
 
@@ -27,6 +29,7 @@ using JerkModel = SplineModel<2, false>;
 template <class S>
 AIRSIM360_INLINE constexpr S Factorial(int n) {
   S product = 1;
+  AIRSIM360_UNROLL
   for (int i = 2; i <= n; ++i) product *= S(i);
   return product;
 }
@@ -91,13 +94,17 @@ struct SegmentRecord {
 template <class V, int A, int D>
 AIRSIM360_INLINE void ChangeUnits(V ratio, V inverse, KnotBelief<V, A, D>& belief) {
   V power = ratio;
+  AIRSIM360_UNROLL
   for (int i = 0; i < D; ++i) {
+    AIRSIM360_UNROLL
     for (int axis = 0; axis < A; ++axis) belief.mean[axis][i] *= power;
     if (i + 1 < D) power *= ratio;
   }
   // Covariance of derivatives i and j goes with inverse^(2 D + 1 - i - j).
   V inverse_power = inverse;
+  AIRSIM360_UNROLL
   for (int exponent = 1; exponent <= 2 * D - 1; ++exponent) {
+    AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
       const int j = 2 * D + 1 - exponent - i;
       if (j >= i && j <= D) belief.covariance[Packed(i, j, D)] *= inverse_power;
@@ -112,6 +119,7 @@ template <class S, int D, class V>
 AIRSIM360_INLINE V Advance(const V* x, int i) {
   const int first = i > 1 ? i : 1;
   V sum = x[D - 1] * (S(1) / Factorial<S>(D - i));
+  AIRSIM360_UNROLL
   for (int k = D - 1; k >= first; --k) sum += x[k - 1] * (S(1) / Factorial<S>(k - i));
   return sum;
 }
@@ -121,9 +129,11 @@ template <class S, class Model, class V, int A>
 AIRSIM360_INLINE void StepMean(const V* from, const V* to, SegmentRecord<V, A, Model::kStates>& record,
                                KnotBelief<V, A, Model::kStates>& next) {
   constexpr int D = Model::kStates;
+  AIRSIM360_UNROLL
   for (int axis = 0; axis < A; ++axis) {
     const V* mean = record.start.mean[axis];
     record.innovation[axis] = (to[axis] - from[axis]) - Advance<S, D>(mean, 0);
+    AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
       next.mean[axis][i - 1] = Advance<S, D>(mean, i) + record.gain[i - 1] * record.innovation[axis];
     }
@@ -137,9 +147,12 @@ AIRSIM360_INLINE void StepCovariance(SegmentRecord<V, A, Model::kStates>& record
   constexpr int D = Model::kStates;
   // Predicted = G P G^T + noise, rows 0 to D.
   V half[D + 1][D];
+  AIRSIM360_UNROLL
   for (int i = 0; i <= D; ++i) {
+    AIRSIM360_UNROLL
     for (int j = 1; j <= D; ++j) {
       V column[D];
+      AIRSIM360_UNROLL
       for (int k = 1; k <= D; ++k) {
         column[k - 1] = record.start.covariance[k <= j ? Packed(k, j, D) : Packed(j, k, D)];
       }
@@ -149,11 +162,14 @@ AIRSIM360_INLINE void StepCovariance(SegmentRecord<V, A, Model::kStates>& record
   const V variance = Advance<S, D>(half[0], 0) + Noise<S, Model>(0, 0);
   record.information = S(1) / variance;
   V cross[D];
+  AIRSIM360_UNROLL
   for (int j = 1; j <= D; ++j) {
     cross[j - 1] = Advance<S, D>(half[0], j) + Noise<S, Model>(0, j);
     record.gain[j - 1] = cross[j - 1] * record.information;
   }
+  AIRSIM360_UNROLL
   for (int i = 1; i <= D; ++i) {
+    AIRSIM360_UNROLL
     for (int j = i; j <= D; ++j) {
       next.covariance[Packed(i, j, D)] =
           (Advance<S, D>(half[i], j) + Noise<S, Model>(i, j)) - record.gain[i - 1] * cross[j - 1];
@@ -167,8 +183,10 @@ AIRSIM360_INLINE void StepFreeCovariance(SegmentRecord<V, A, Model::kStates>& re
                                          KnotBelief<V, A, Model::kStates>& next) {
   constexpr int D = Model::kStates;
   record.information = V{};
+  AIRSIM360_UNROLL
   for (int i = 1; i <= D; ++i) {
     record.gain[i - 1] = V{} + FreeGain<S, D>(i);
+    AIRSIM360_UNROLL
     for (int j = i; j <= D; ++j) {
       next.covariance[Packed(i, j, D)] = V{} + FreeCovariance<S, Model>(i, j);
     }
@@ -186,6 +204,7 @@ template <class V, int A, int D>
 AIRSIM360_INLINE Costate<V, D> EndCostate(const SegmentRecord<V, A, D>& record, int axis, const V* after) {
   Costate<V, D> end;
   V sum = record.innovation[axis] * record.information;
+  AIRSIM360_UNROLL
   for (int i = 1; i <= D; ++i) {
     sum += record.gain[i - 1] * after[i - 1];
     end.at[i] = after[i - 1];
@@ -198,8 +217,10 @@ AIRSIM360_INLINE Costate<V, D> EndCostate(const SegmentRecord<V, A, D>& record, 
 template <class S, class V, int D>
 AIRSIM360_INLINE Costate<V, D> StartCostate(const Costate<V, D>& end) {
   Costate<V, D> start;
+  AIRSIM360_UNROLL
   for (int i = 0; i <= D; ++i) {
     V sum = end.at[0] * (S(1) / Factorial<S>(i));
+    AIRSIM360_UNROLL
     for (int k = 1; k <= i; ++k) sum += end.at[k] * (S(1) / Factorial<S>(i - k));
     start.at[i] = sum;
   }
@@ -210,8 +231,10 @@ AIRSIM360_INLINE Costate<V, D> StartCostate(const Costate<V, D>& end) {
 template <class V, int A, int D>
 AIRSIM360_INLINE void SmoothStart(const KnotBelief<V, A, D>& belief, int axis, const Costate<V, D>& start,
                                   V* y) {
+  AIRSIM360_UNROLL
   for (int i = 1; i <= D; ++i) {
     V sum = belief.mean[axis][i - 1];
+    AIRSIM360_UNROLL
     for (int j = 1; j <= D; ++j) {
       sum -= belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)] * start.at[j];
     }
@@ -228,6 +251,7 @@ AIRSIM360_INLINE void HighCoefficients(const Costate<V, Model::kStates>& costate
     // The control is the costate's polynomial projected on linear functions. Both components are taken from
     // the costate at the end of the walk; walking backwards changes the sign of time.
     V constant = V{}, linear = V{};
+    AIRSIM360_UNROLL
     for (int i = D; i >= 0; --i) {
       constant -= costate.at[i] * ConstantEffect<S, D>(i);
       if (i < D) linear -= costate.at[i] * (S(3) * LinearEffect<S, D>(i));
@@ -236,6 +260,7 @@ AIRSIM360_INLINE void HighCoefficients(const Costate<V, Model::kStates>& costate
     high[0] = (constant - linear) * (S(1) / Factorial<S>(D + 1));
     high[1] = linear * (S(2) / Factorial<S>(D + 2));
   } else {
+    AIRSIM360_UNROLL
     for (int m = 0; m <= D; ++m) {
       const bool negative = reversed ? D % 2 == 1 : m % 2 == 0;
       high[m] = costate.at[D - m] * ((negative ? -S(1) : S(1)) / Factorial<S>(D + 1 + m));
@@ -247,7 +272,9 @@ AIRSIM360_INLINE void HighCoefficients(const Costate<V, Model::kStates>& costate
 template <class V, int D>
 AIRSIM360_INLINE void ChangeCostateUnits(V ratio, V* costate) {
   V power = ratio;
+  AIRSIM360_UNROLL
   for (int i = 0; i < D; ++i) power *= ratio;
+  AIRSIM360_UNROLL
   for (int i = D; i >= 1; --i) {
     costate[i - 1] *= power;
     if (i > 1) power *= ratio;

@@ -23,6 +23,7 @@ AIRSIM360_INLINE void Step(bool free_start, const V* delta, SegmentRecord<V, A, 
 template <int kPowers, class V>
 AIRSIM360_INLINE void ScalePowers(V factor, V* c) {
   V power = factor;
+  AIRSIM360_UNROLL
   for (int k = 1; k < kPowers; ++k) {
     c[k] *= power;
     if (k + 1 < kPowers) power *= factor;
@@ -49,7 +50,7 @@ class RouteSolver {
     for (size_t k = 0; k < common_; ++k) {
       if (k > 0) ToNextUnits(k, belief);
       const V8 delta = Delta(k);
-      Step<Model>(args_.free && k == 0, &delta, records_[k], belief);
+      Step<Model>(args_.free_start && k == 0, &delta, records_[k], belief);
     }
     if (ragged) {
       // The forward chain alone takes the middle segment.
@@ -57,7 +58,9 @@ class RouteSolver {
       ToNextUnits(common_, belief);
       const V8 delta = Delta(common_);
       Step<Model>(false, &delta, records_[common_], belief);
+      AIRSIM360_UNROLL
       for (int i = 0; i < D; ++i) belief.mean[0][i] = Halves(belief.mean[0][i], before.mean[0][i]);
+      AIRSIM360_UNROLL
       for (int i = 0; i < kPacked; ++i) {
         belief.covariance[i] = Halves(belief.covariance[i], before.covariance[i]);
       }
@@ -94,12 +97,13 @@ class RouteSolver {
     Belief belief = {};
     const V8 duration = Duration(0);
     V8 power = duration;
+    AIRSIM360_UNROLL
     for (int i = 0; i < D; ++i) {
       const V4 first = Load4(args_.start + 4 * i), last = Load4(args_.end + 4 * i);
       belief.mean[0][i] = Join(first, i % 2 == 0 ? -last : last) * power;
       power *= duration;
     }
-    if (args_.free) belief.mean[0][D - 1] = V8{};
+    if (args_.free_start) belief.mean[0][D - 1] = V8{};
     return belief;
   }
 
@@ -111,12 +115,15 @@ class RouteSolver {
                  to_backward = args_.durations[b] * inverse_[f];
     double forward_power[2 * D + 1], backward_power[2 * D + 1];  // powers of the two ratios
     forward_power[0] = backward_power[0] = 1;
+    AIRSIM360_UNROLL
     for (int i = 1; i <= 2 * D; ++i) {
       forward_power[i] = forward_power[i - 1] * to_forward;
       backward_power[i] = backward_power[i - 1] * to_backward;
     }
     V4 sum[kPacked], costate[1][D], own[D], other[D];
+    AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
+      AIRSIM360_UNROLL
       for (int j = i; j <= D; ++j) {
         const V8 both = belief.covariance[Packed(i, j, D)];
         const double sign = (i + j) % 2 == 0 ? 1 : -1;
@@ -127,8 +134,10 @@ class RouteSolver {
       costate[0][i - 1] = own[i - 1] - other[i - 1];
     }
     SolveSymmetric<D, 1>(sum, D, costate);
+    AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
       V4 state = own[i - 1];
+      AIRSIM360_UNROLL
       for (int j = 1; j <= D; ++j) {
         state -= Low(belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)]) * costate[0][j - 1];
       }
@@ -156,8 +165,10 @@ class RouteSolver {
     HighCoefficients<double, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
     V8 reversed[kPowers - D - 1];
     HighCoefficients<double, Model, true>(end, reversed);
+    AIRSIM360_UNROLL
     for (int i = D + 1; i < kPowers; ++i) c[i] = Halves(c[i], reversed[i - D - 1]);
-    if (k == 0 && args_.free) FreeState(c, state);
+    if (k == 0 && args_.free_start) FreeState(c, state);
+    AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
       c[i] = Halves(state[i - 1], i % 2 == 0 ? state_[i - 1] : -state_[i - 1]) * (1 / Factorial<double>(i));
     }
@@ -170,11 +181,14 @@ class RouteSolver {
     V8 next_state[D], next_costate[D];
     const V8 ratio = Duration(k - 1) * Inverse(k);
     V8 power = ratio;
+    AIRSIM360_UNROLL
     for (int i = 0; i < D; ++i, power *= ratio) next_state[i] = state[i] * power;
+    AIRSIM360_UNROLL
     for (int i = D; i >= 1; --i) {
       next_costate[i - 1] = start.at[i] * power;
       if (i > 1) power *= ratio;
     }
+    AIRSIM360_UNROLL
     for (int i = 0; i < D; ++i) {
       state_[i] = forward_only ? Halves(next_state[i], state_[i]) : next_state[i];
       costate_[i] = forward_only ? Halves(next_costate[i], costate_[i]) : next_costate[i];
@@ -185,7 +199,9 @@ class RouteSolver {
   /// `c` has the high coefficients in place.
   AIRSIM360_INLINE void FreeState(const V8* c, V8* state) const {
     V8 rest = Delta(0);
+    AIRSIM360_UNROLL
     for (int i = 1; i < D; ++i) rest -= state[i - 1] * (1 / Factorial<double>(i));
+    AIRSIM360_UNROLL
     for (int i = D + 1; i < kPowers; ++i) rest -= c[i];
     state[D - 1] = rest * Factorial<double>(D);
   }
@@ -211,73 +227,118 @@ void SolveRoute(const RouteArguments& arguments) {
 // ---- Eight routes in the lanes, one forward chain.
 
 template <class Model>
-void SolveBatch(const BatchArguments& args) {
-  constexpr int D = Model::kStates, kPowers = Model::kDegree + 1;
+class BatchSolver {
+ public:
+  explicit BatchSolver(const BatchArguments& arguments)
+      : args_(arguments), saved_(reinterpret_cast<Saved*>(arguments.workspace)) {}
+
+  AIRSIM360_INLINE void Run() {
+    Belief belief = {};  // at rest the mean starts at zero
+    LoadWaypoint(0);
+    for (size_t k = 0; k < args_.segments; ++k) ForwardStep(k, belief);
+    V8 after[3][D];
+    EndCostates(belief, after);
+    for (size_t k = args_.segments; k-- > 0;) BackwardStep(k, after);
+  }
+
+ private:
+  static constexpr int D = Model::kStates, kPowers = Model::kDegree + 1;
+  using Belief = KnotBelief<V8, 3, D>;
   struct Saved {
     SegmentRecord<V8, 3, D> record;
-    V8 duration, inverse;
-  };
-  Saved* const saved = reinterpret_cast<Saved*>(args.workspace);
-  const size_t segments = args.segments;
-  const auto waypoint = [&](size_t k, int axis) {
-    V8 v;
-    for (int lane = 0; lane < 8; ++lane) v[lane] = args.waypoints[lane][3 * k + static_cast<size_t>(axis)];
-    return v;
+    V8 duration, inverse, waypoint[3];  // of the segment's start
   };
 
-  // Forwards: at rest the mean starts at zero.
-  KnotBelief<V8, 3, D> belief = {};
-  V8 from[3] = {waypoint(0, 0), waypoint(0, 1), waypoint(0, 2)};
-  for (size_t k = 0; k < segments; ++k) {
-    V8 duration;
-    for (int lane = 0; lane < 8; ++lane) duration[lane] = args.durations[lane][k];
-    const V8 inverse = 1.0 / duration;
-    saved[k].duration = duration;
-    saved[k].inverse = inverse;
-    if (k > 0) ChangeUnits(duration * saved[k - 1].inverse, saved[k - 1].duration * inverse, belief);
-    V8 delta[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      const V8 to = waypoint(k + 1, axis);
-      delta[axis] = to - from[axis];
-      from[axis] = to;
-    }
-    Step<Model>(Model::kIsLinear && k == 0, delta, saved[k].record, belief);
+  AIRSIM360_INLINE void LoadWaypoint(size_t k) {
+    const double* const* w = args_.waypoints;
+    const size_t x = 3 * k, y = x + 1, z = x + 2;
+    V8* const to = saved_[k].waypoint;
+    to[0] = V8{w[0][x], w[1][x], w[2][x], w[3][x], w[4][x], w[5][x], w[6][x], w[7][x]};
+    to[1] = V8{w[0][y], w[1][y], w[2][y], w[3][y], w[4][y], w[5][y], w[6][y], w[7][y]};
+    to[2] = V8{w[0][z], w[1][z], w[2][z], w[3][z], w[4][z], w[5][z], w[6][z], w[7][z]};
+  }
+  AIRSIM360_INLINE V8 Duration(size_t k) const {
+    const double* const* d = args_.durations;
+    return V8{d[0][k], d[1][k], d[2][k], d[3][k], d[4][k], d[5][k], d[6][k], d[7][k]};
   }
 
-  // The end at rest: mean - covariance costate = 0 for the clamped derivatives.
-  V8 after[3][D];
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < D; ++i) after[axis][i] = belief.mean[axis][i];
-    if (Model::kIsLinear) after[axis][D - 1] = V8{};
+  AIRSIM360_INLINE void ForwardStep(size_t k, Belief& belief) {
+    const V8 duration = Duration(k), inverse = 1.0 / duration;
+    saved_[k].duration = duration;
+    saved_[k].inverse = inverse;
+    if (k > 0) ChangeUnits(duration * saved_[k - 1].inverse, saved_[k - 1].duration * inverse, belief);
+    LoadWaypoint(k + 1);
+    const V8 delta[3] = {saved_[k + 1].waypoint[0] - saved_[k].waypoint[0],
+                         saved_[k + 1].waypoint[1] - saved_[k].waypoint[1],
+                         saved_[k + 1].waypoint[2] - saved_[k].waypoint[2]};
+    Step<Model>(Model::kIsLinear && k == 0, delta, saved_[k].record, belief);
   }
-  SolveSymmetric<D, 3>(belief.covariance, Model::kIsLinear ? D - 1 : D, after);
 
-  for (size_t k = segments; k-- > 0;) {
-    const SegmentRecord<V8, 3, D>& record = saved[k].record;
+  /// At rest: mean - covariance costate = 0 for the clamped derivatives.
+  AIRSIM360_INLINE static void EndCostates(const Belief& belief, V8 (*after)[D]) {
     for (int axis = 0; axis < 3; ++axis) {
-      const Costate<V8, D> end = EndCostate(record, axis, after[axis]);
-      const Costate<V8, D> start = StartCostate<double>(end);
-      V8 c[kPowers];
-      c[0] = waypoint(k, axis);
-      SmoothStart(record.start, axis, start, c + 1);
-      HighCoefficients<double, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
-      for (int i = 2; i <= D; ++i) c[i] *= 1 / Factorial<double>(i);
-      if (Model::kIsLinear && k == 0) {
-        V8 rest = waypoint(1, axis) - c[0];
-        for (int i = 1; i < kPowers; ++i) rest -= i == D ? V8{} : c[i];
-        c[D] = rest;
-      }
-      ScalePowers<kPowers>(saved[k].inverse, c);
-      double* out[8];
-      for (int lane = 0; lane < 8; ++lane) {
-        out[lane] = args.coefficients[lane] + (k * 3 + static_cast<size_t>(axis)) * kPowers;
-      }
-      StoreHalf<kPowers>(c, 0, out, 4);
-      StoreHalf<kPowers>(c, 1, out + 4, 4);
-      for (int i = 1; i <= D; ++i) after[axis][i - 1] = start.at[i];
-      if (k > 0) ChangeCostateUnits<V8, D>(saved[k - 1].duration * saved[k].inverse, after[axis]);
+      for (int i = 0; i < D; ++i) after[axis][i] = belief.mean[axis][i];
+      if (Model::kIsLinear) after[axis][D - 1] = V8{};
     }
+    SolveSymmetric<D, 3>(belief.covariance, Model::kIsLinear ? D - 1 : D, after);
   }
+
+  AIRSIM360_INLINE void BackwardStep(size_t k, V8 (*after)[D]) {
+    BackwardAxis<0>(k, after[0]);
+    BackwardAxis<1>(k, after[1]);
+    BackwardAxis<2>(k, after[2]);
+  }
+
+  template <int axis>
+  AIRSIM360_INLINE void BackwardAxis(size_t k, V8* after) {
+    const SegmentRecord<V8, 3, D>& record = saved_[k].record;
+    const Costate<V8, D> end = EndCostate(record, axis, after);
+    const Costate<V8, D> start = StartCostate<double>(end);
+    V8 c[kPowers];
+    c[0] = saved_[k].waypoint[axis];
+    SmoothStart(record.start, axis, start, c + 1);
+    HighCoefficients<double, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
+    LowCoefficients(c);
+    if (Model::kIsLinear && k == 0) FreeState(saved_[1].waypoint[axis], c);
+    ScalePowers<kPowers>(saved_[k].inverse, c);
+    Store(c, (3 * k + axis) * kPowers);
+    NextCostate(start, after);
+    if (k > 0) ChangeCostateUnits<V8, D>(saved_[k - 1].duration * saved_[k].inverse, after);
+  }
+
+  AIRSIM360_INLINE static void LowCoefficients(V8* c) {
+    AIRSIM360_UNROLL
+    for (int i = 2; i <= D; ++i) c[i] *= 1 / Factorial<double>(i);
+  }
+
+  /// The highest state at a free start closes the distance to the next waypoint.
+  AIRSIM360_INLINE static void FreeState(V8 to, V8* c) {
+    V8 rest = to - c[0];
+    AIRSIM360_UNROLL
+    for (int i = 1; i < kPowers; ++i) rest -= i == D ? V8{} : c[i];
+    c[D] = rest;
+  }
+
+  AIRSIM360_INLINE static void NextCostate(const Costate<V8, D>& start, V8* after) {
+    AIRSIM360_UNROLL
+    for (int i = 1; i <= D; ++i) after[i - 1] = start.at[i];
+  }
+
+  AIRSIM360_INLINE void Store(const V8* c, size_t at) const {
+    double* const* o = args_.coefficients;
+    double* const out[8] = {o[0] + at, o[1] + at, o[2] + at, o[3] + at,
+                            o[4] + at, o[5] + at, o[6] + at, o[7] + at};
+    StoreHalf<kPowers>(c, 0, out, 4);
+    StoreHalf<kPowers>(c, 1, out + 4, 4);
+  }
+
+  const BatchArguments& args_;
+  Saved* saved_;
+};
+
+template <class Model>
+void SolveBatch(const BatchArguments& arguments) {
+  BatchSolver<Model>(arguments).Run();
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ struct RouteArguments {
   size_t segments;
   const double* start;  ///< [3][4]: v, a, jerk
   const double* end;
-  bool free;             ///< the highest derivative is free at both ends
-  double* workspace;     ///< RouteWorkspace(segments) doubles, 64-byte aligned
-  double* coefficients;  ///< [segment][3][power]
+  bool free_start, free_end;  ///< the highest derivative is free there; the kernels want both alike
+  double* workspace;          ///< RouteWorkspace(segments) doubles, 64-byte aligned
+  double* coefficients;       ///< [segment][3][power]
 };
 
 constexpr size_t RouteWorkspace(size_t segments) { return segments * 8 * 8 + 256; }
@@ -33,13 +33,22 @@ struct BatchArguments {
   double* coefficients[8];
 };
 
-constexpr size_t BatchWorkspace(size_t segments) { return segments * 25 * 8; }
+constexpr size_t BatchWorkspace(size_t segments) { return (segments + 1) * 27 * 8; }
 
 struct SplineKernels {
   void (*route[kSplineKinds])(const RouteArguments&);  ///< at least 2 segments
   void (*batch[kSplineKinds])(const BatchArguments&);
 };
 
+struct CheckKernels {
+  bool (*all_finite)(const double* x, size_t n);
+  bool (*all_positive)(const double* x, size_t n);
+  /// A duration is more than 16 times its neighbour, or more than 8 times both of the next two on one side:
+  /// double precision would lose more than about five digits there.
+  bool (*any_uneven)(const double* durations, size_t n);
+};
+
 }  // namespace airsim360::internal
 
 AIRSIM360_DECLARE_KERNEL(extern const SplineKernels kSplineKernels)
+AIRSIM360_DECLARE_KERNEL(extern const CheckKernels kCheckKernels)

@@ -40,6 +40,7 @@ AIRSIM360_INLINE void Transpose4(V4& a, V4& b, V4& c, V4& d) {
 template <int kPowers>
 AIRSIM360_INLINE void StoreHalf(const V8* c, int half, double* const* out, int lanes) {
   V4 low[4], high[4];
+  AIRSIM360_UNROLL
   for (int i = 0; i < 4; ++i) {
     const V8 second = i + 4 < kPowers ? c[i + 4] : V8{};
     low[i] = half == 0 ? __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3)
@@ -49,6 +50,7 @@ AIRSIM360_INLINE void StoreHalf(const V8* c, int half, double* const* out, int l
   }
   Transpose4(low[0], low[1], low[2], low[3]);
   Transpose4(high[0], high[1], high[2], high[3]);
+  AIRSIM360_UNROLL
   for (int lane = 0; lane < lanes; ++lane) {
     *reinterpret_cast<V4Memory*>(out[lane]) = low[lane];
     if constexpr (kPowers == 8) {
@@ -63,24 +65,33 @@ AIRSIM360_INLINE void StoreHalf(const V8* c, int half, double* const* out, int l
 template <int D, int A, class V>
 AIRSIM360_INLINE void SolveSymmetric(const V* a, int n, V (*b)[D]) {
   V l[D][D], inverse[D];
+  AIRSIM360_UNROLL
   for (int j = 0; j < n; ++j) {
     V d = a[Packed(j + 1, j + 1, D)];
+    AIRSIM360_UNROLL
     for (int k = 0; k < j; ++k) d -= l[k][j] * l[j][k];
     inverse[j] = 1.0 / d;
+    AIRSIM360_UNROLL
     for (int i = j + 1; i < n; ++i) {
       V sum = a[Packed(j + 1, i + 1, D)];
+      AIRSIM360_UNROLL
       for (int k = 0; k < j; ++k) sum -= l[k][i] * l[j][k];
       l[j][i] = sum;               // upper: not yet divided by the pivot
       l[i][j] = sum * inverse[j];  // lower
     }
   }
+  AIRSIM360_UNROLL
   for (int axis = 0; axis < A; ++axis) {
     V* x = b[axis];
+    AIRSIM360_UNROLL
     for (int i = 0; i < n; ++i) {
+      AIRSIM360_UNROLL
       for (int k = 0; k < i; ++k) x[i] -= l[i][k] * x[k];
     }
+    AIRSIM360_UNROLL
     for (int i = n; i-- > 0;) {
       x[i] *= inverse[i];
+      AIRSIM360_UNROLL
       for (int k = i + 1; k < n; ++k) x[i] -= l[k][i] * x[k];
     }
   }

@@ -73,6 +73,8 @@ inline double LargestDifference(const PolynomialTrajectory& a, const PolynomialT
 inline PolynomialTrajectory WideOptimum(const MinimumSnapProblem& problem) {
   std::vector<double> knots;
   for (const Vec3d& p : problem.waypoints) knots.insert(knots.end(), {p.x, p.y, p.z, 0});
+  const bool free = problem.kind == SplineKind::kPaperQuintic ||
+                    (problem.kind == SplineKind::kMinimumSnap && problem.free_jerk);
   double ends[2][12] = {};
   for (int side = 0; side < 2; ++side) {
     const BoundaryDerivatives& end = side == 0 ? problem.start : problem.end;
@@ -89,8 +91,8 @@ inline PolynomialTrajectory WideOptimum(const MinimumSnapProblem& problem) {
                                 .segments = problem.durations.size(),
                                 .start = ends[0],
                                 .end = ends[1],
-                                .free = problem.kind == SplineKind::kPaperQuintic ||
-                                        (problem.kind == SplineKind::kMinimumSnap && problem.free_jerk),
+                                .free_start = free,
+                                .free_end = free,
                                 .workspace = nullptr,
                                 .coefficients = coefficients.data()});
   return PolynomialTrajectory(PowersOf(problem.kind) - 1,

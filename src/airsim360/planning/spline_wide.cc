@@ -10,9 +10,9 @@ namespace {
 
 __extension__ typedef __float128 Quad;
 
-/// A ratio that random routes with trapezoidal times hardly ever exceed; measured errors below it stay within
-/// 1e-12 of the largest coefficient (docs/trajectories.md).
-constexpr double kWideRatio = 12;
+/// Knots between an uneven place and the border of the part solved again; the influence of the border decays
+/// at least by 0.54 per knot.
+constexpr size_t kMargin = 24;
 
 template <class Model, class S>
 class ChainSolver {
@@ -24,7 +24,7 @@ class ChainSolver {
     for (size_t k = 0; k < args_.segments; ++k) {
       if (k > 0) ChangeUnits(Duration(k) / Duration(k - 1), Duration(k - 1) / Duration(k), belief);
       records_[k].start = belief;
-      if (args_.free && k == 0) {
+      if (args_.free_start && k == 0) {
         StepFreeCovariance<S, Model>(records_[k], belief);
       } else {
         StepCovariance<S, Model>(records_[k], belief);
@@ -55,7 +55,7 @@ class ChainSolver {
   KnotBelief<S, 3, D> Start() const {
     KnotBelief<S, 3, D> belief = {};
     for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < (args_.free ? D - 1 : D); ++i) {
+      for (int i = 0; i < (args_.free_start ? D - 1 : D); ++i) {
         belief.mean[axis][i] = Boundary(args_.start, axis, i, Duration(0));
       }
     }
@@ -64,7 +64,7 @@ class ChainSolver {
 
   /// covariance costate = mean - prescribed state, for the clamped derivatives.
   void EndCostates(const KnotBelief<S, 3, D>& belief, int axis, S* x) const {
-    const int n = args_.free ? D - 1 : D;
+    const int n = args_.free_end ? D - 1 : D;
     S l[D][D] = {}, d[D] = {};
     for (int i = 0; i < D; ++i) x[i] = S(0);
     for (int i = 0; i < n; ++i) {
@@ -99,7 +99,7 @@ class ChainSolver {
       SmoothStart(records_[k].start, axis, start, c + 1);
       HighCoefficients<S, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
       for (int i = 2; i <= D; ++i) c[i] /= Factorial<S>(i);
-      if (args_.free && k == 0) {
+      if (args_.free_start && k == 0) {
         c[D] = Knot(1, axis) - c[0];
         for (int i = 1; i < kPowers; ++i) c[D] -= i == D ? S(0) : c[i];
       }
@@ -129,20 +129,61 @@ void SolveKind(SplineKind kind, const RouteArguments& arguments) {
 
 }  // namespace
 
-bool NeedsWideArithmetic(const double* durations, size_t segments) {
-  bool uneven = false;
-  for (size_t reach = 1; reach <= 3; ++reach) {
-    for (size_t i = 0; i + reach < segments; ++i) {
-      const double a = durations[i], b = durations[i + reach];
-      uneven |= a > kWideRatio * b || b > kWideRatio * a;
-    }
-  }
-  return uneven;
-}
-
 void SolveRouteWide(SplineKind kind, const RouteArguments& arguments) {
   if (arguments.segments == 1) return SolveKind<long double>(kind, arguments);
   SolveKind<Quad>(kind, arguments);
+}
+
+namespace {
+
+/// Derivatives 1 to 3 at the start of a segment, in the layout of RouteArguments.
+void StartDerivatives(const RouteArguments& arguments, size_t segment, size_t powers, double* out) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double* const c = arguments.coefficients + (segment * 3 + axis) * powers;
+    out[axis] = c[1];
+    out[4 + axis] = 2 * c[2];
+    out[8 + axis] = 6 * c[3];
+  }
+}
+
+/// Segments [first, last) solved again with what the solution has at their borders.
+void SolveAgain(SplineKind kind, const RouteArguments& all, size_t first, size_t last) {
+  RouteArguments part = all;
+  const size_t powers = static_cast<size_t>(PowersOf(kind));
+  double start[12] = {}, end[12] = {};
+  part.knots += 4 * first;
+  part.durations += first;
+  part.segments = last - first;
+  part.coefficients += first * 3 * powers;
+  if (first > 0) {
+    StartDerivatives(all, first, powers, start);
+    part.start = start;
+    part.free_start = false;
+  }
+  if (last < all.segments) {
+    StartDerivatives(all, last, powers, end);
+    part.end = end;
+    part.free_end = false;
+  }
+  SolveKind<Quad>(kind, part);
+}
+
+}  // namespace
+
+void RefineUneven(SplineKind kind, const CheckKernels& kernels, const RouteArguments& arguments) {
+  const size_t segments = arguments.segments;
+  size_t first = segments, last = 0;  // the part being collected
+  for (size_t i = 0; i + 1 < segments; ++i) {
+    if (!kernels.any_uneven(arguments.durations + i, std::min<size_t>(3, segments - i))) continue;
+    const size_t from = i > kMargin ? i - kMargin : 0, to = std::min(segments, i + 3 + kMargin);
+    if (first < last && from > last) {
+      SolveAgain(kind, arguments, first, last);
+      first = from;
+    }
+    first = std::min(first, from);
+    last = to;
+  }
+  if (first < last) SolveAgain(kind, arguments, first, last);
 }
 
 }  // namespace airsim360::internal

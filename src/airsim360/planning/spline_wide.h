@@ -6,9 +6,9 @@
 
 namespace airsim360::internal {
 
-/// True if durations near each other differ so much that double precision would lose more than about four
-/// digits: the elimination loses up to the fifth power of their ratio.
-bool NeedsWideArithmetic(const double* durations, size_t segments);
+/// Solves again, in wide arithmetic, the neighbourhoods of uneven durations (kernels->any_uneven) of a route
+/// whose coefficients are already there.
+void RefineUneven(SplineKind kind, const CheckKernels& kernels, const RouteArguments& arguments);
 
 /// Any number of segments; workspace is not used. 64 bits of mantissa for one segment, 113 bits else.
 void SolveRouteWide(SplineKind kind, const RouteArguments& arguments);

@@ -88,7 +88,7 @@ TEST(Determinism, HashSeesEveryPartOfADrone) {
 }
 
 // A run with a command of every kind.
-Recording RecordedRun(const std::shared_ptr<SimModel>& model, SimLoop& loop) {
+Recording RecordedRun(SimLoop& loop) {
   loop.StartRecording("box_room, two hummingbirds", 500);
   const auto polynomial = std::make_shared<const PolynomialTrajectory>(
       PolynomialOf(RouteThrough({{.p = {-1, 0, 2}}, {.p = {1, 1, 3}}, {.p = {-1, 0, 2}}}, 2)));
@@ -111,7 +111,6 @@ Recording RecordedRun(const std::shared_ptr<SimModel>& model, SimLoop& loop) {
     for (const SimCommand& command : commands) loop.Post(command);
     loop.Advance(300);
   }
-  (void)model;
   return *loop.StopRecording();
 }
 
@@ -124,7 +123,7 @@ std::shared_ptr<SimModel> TwoDrones() {
 TEST(Recording, OfEveryKindOfCommandReplaysBitForBitFromItsFile) {
   const auto model = TwoDrones();
   SimLoop loop(model);
-  const Recording recording = RecordedRun(model, loop);
+  const Recording recording = RecordedRun(loop);
   EXPECT_EQ(recording.steps, 8 * 300);
   ASSERT_EQ(recording.commands.size(), 8u);
 
@@ -141,7 +140,7 @@ TEST(Recording, OfEveryKindOfCommandReplaysBitForBitFromItsFile) {
 TEST(Recording, AChangedCommandIsFoundOutAtTheNextHash) {
   const auto model = TwoDrones();
   SimLoop loop(model);
-  Recording recording = RecordedRun(model, loop);
+  Recording recording = RecordedRun(loop);
   std::get<WindCommand>(recording.commands[4].commands[0].action).wind_W.x = 1.001;
   SimState state = StartState(*model);
   const ReplayResult result = Replay(*model, recording, state);
@@ -154,7 +153,7 @@ TEST(Recording, AChangedCommandIsFoundOutAtTheNextHash) {
 TEST(Recording, DamagedCutOrForeignFilesAreRefused) {
   const auto model = TwoDrones();
   SimLoop loop(model);
-  const Bytes bytes = EncodeRecording(RecordedRun(model, loop));
+  const Bytes bytes = EncodeRecording(RecordedRun(loop));
   for (const size_t size : {size_t{0}, size_t{7}, size_t{60}, bytes.size() / 2, bytes.size() - 1})
     EXPECT_THROW(DecodeRecording(std::span(bytes).first(size), "run"), InputError) << size;
   for (size_t place = 0; place < bytes.size(); place += 97) {

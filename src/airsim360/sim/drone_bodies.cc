@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/body/drone_body.h"
 
 namespace airsim360 {
 namespace {
@@ -49,6 +50,26 @@ DroneBodyRef AddBody(const DroneBodySpec& body, Scene& scene) {
 }
 
 }  // namespace
+
+Model DroneBodyModel(const DroneModel& drone) {
+  constexpr float kPlastic = 0.5f;  // roughness
+  const DroneBody body = MakeDroneBody(drone, {.discs = true});
+  Model model;
+  model.mesh.name = drone.name;
+  model.mesh.positions = body.positions;
+  model.mesh.triangles = body.triangles;
+  for (const DronePart& part : body.parts) {
+    const auto same = [&](const Material& material) { return material.base_color == part.color; };
+    auto found = std::ranges::find_if(model.materials, same);
+    if (found == model.materials.end()) {
+      Material paint{.name = "drone " + part.name, .base_color = part.color, .roughness = kPlastic};
+      found = model.materials.insert(found, std::move(paint));
+    }
+    const auto material = static_cast<MaterialId>(found - model.materials.begin());
+    model.mesh.parts.push_back({part.first, part.count, material});
+  }
+  return model;
+}
 
 std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
                                             std::span<const DroneBodySpec> bodies,

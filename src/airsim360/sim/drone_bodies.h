@@ -18,8 +18,8 @@ struct DroneBodySpec {
   RigidTransform X_WB;  ///< where it stands in the scene as built
 };
 
-/// The body that stands for a drone of this model.
-Model MakeDroneBody(const DroneModel& drone);
+/// The body that stands for a drone of this model (MakeDroneBody, turning propellers as discs).
+Model DroneBodyModel(const DroneModel& drone);
 
 /// Where a body has come to in the scene.
 struct DroneBodyRef {

@@ -28,7 +28,7 @@ struct TwoInTheRoom {
       setup.sensors.range_finders = {
           {"ahead", {.mount = {}, .beam_deg = 6, .sigma = 0, .sigma_per_metre = 0}}};
       setup.sensors.cameras = {{"panorama", {.width = 512, .height = 256, .tier = "labels"}}};
-      bodies.push_back({"drone", MakeDroneBody(setup.model), setup.X_WB});
+      bodies.push_back({"drone", DroneBodyModel(setup.model), setup.X_WB});
     }
     base = std::make_shared<const RayTracer>(AddDroneBodies(BuildWorld("box_room", {}), bodies, refs));
     model->tracer = WithoutBodies(base, refs);

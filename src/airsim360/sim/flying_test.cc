@@ -83,7 +83,10 @@ TEST(Flying, AHardImpactIsACrashAndStopsTheRotors) {
   // It lies on the floor.
   EXPECT_LT(state.vehicles[0].drone.p_WB.z, 0.4);
   EXPECT_LT(*std::ranges::max_element(state.vehicles[0].drone.rotor_speeds), 1);
-  // A reset makes it whole.
+  // It takes no commands until a reset makes it whole.
+  const auto refused = Fly(*model, state, 0, TakeoffCommand{}, 1);
+  EXPECT_NE(FindEvent(refused, Kind::kCommandRefused), nullptr);
+  EXPECT_LT(state.vehicles[0].drone.p_WB.z, 0.4);
   Step(*model, std::vector<SimCommand>{{0, ResetCommand{}}}, state);
   EXPECT_FALSE(state.vehicles[0].contact.crashed);
   EXPECT_LT(Norm(state.vehicles[0].drone.p_WB - setup.X_WB.p), 0.01);
@@ -212,6 +215,26 @@ TEST(Flying, HoldsItsPlaceInWind) {
   EXPECT_LT(Norm(state.vehicles[0].drone.p_WB - Vec3d{0, 0, 3}), 0.1);
   // It leans into the wind.
   EXPECT_LT(state.vehicles[0].motion.X_WB.R.column(2).x, -0.005);
+}
+
+TEST(Flying, LandsOnTheGroundOfATown) {
+  auto model = std::make_shared<SimModel>();
+  const auto scene = BuildWorld("downtown_west", {});
+  model->tracer = std::make_shared<const RayTracer>(scene);
+  DroneSetup setup = HummingbirdAt(VecCast<double>(*scene->spawn) + Vec3d{0, 0, 1});
+  model->drones.push_back(std::make_shared<const SimDrone>(setup, model->dt_ns));
+  SimState state = StartState(*model);
+  const auto below = model->tracer->Intersect(VecCast<float>(setup.X_WB.p), {0, 0, -1});
+  ASSERT_TRUE(below);
+  const auto events = Fly(*model, state, 0, LandCommand{}, 8);
+  EXPECT_NE(FindEvent(events, Kind::kCommandDone), nullptr);
+  const SimEvent* touch = FindEvent(events, Kind::kCollision);
+  ASSERT_NE(touch, nullptr);
+  const Entity& ground = scene->entity(touch->collision.entity);
+  EXPECT_EQ(scene->tree[ground.category].path.substr(0, 6), "ground") << ground.name;
+  EXPECT_GT(touch->collision.normal_W.z, 0.98);
+  EXPECT_NEAR(BottomOf(*model, state.vehicles[0]), setup.X_WB.p.z - below->distance, 0.05);
+  EXPECT_LT(Norm(state.vehicles[0].drone.v_WB), 0.02);
 }
 
 TEST(ShelterFactor, IsLowBehindAWallAndOneWhereNothingStandsUpwind) {

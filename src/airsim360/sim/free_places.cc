@@ -110,6 +110,18 @@ std::vector<Vec3d> Candidates(const RayTracer& tracer, const Ground& ground, con
 
 }  // namespace
 
+Box2d InhabitedGround(const Scene& scene) {
+  const Ground ground = FindGround(scene);
+  Box2d box{{ground.box.min.x, ground.box.min.y}, {ground.box.max.x, ground.box.max.y}};
+  if (ground.cells.empty()) return box;
+  box = {ground.cells.front(), ground.cells.front()};
+  for (const Vec2d corner : ground.cells) {
+    box.min = {std::min(box.min.x, corner.x), std::min(box.min.y, corner.y)};
+    box.max = {std::max(box.max.x, corner.x + kCell), std::max(box.max.y, corner.y + kCell)};
+  }
+  return box;
+}
+
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options) {
   const Ground ground = FindGround(tracer.scene());
   const std::vector<Vec3d> candidates = Candidates(tracer, ground, options);

@@ -9,6 +9,15 @@
 
 namespace airsim360 {
 
+/// Ground seen from above, metres in W.
+struct Box2d {
+  Vec2d min, max;
+};
+
+/// Box around the cells of the ground that hold most of the things of everyday size; around a single model in
+/// the open, its box and some way around it.
+Box2d InhabitedGround(const Scene& scene);
+
 /// Where to look for free places.
 struct PlaceOptions {
   uint64_t seed = 0;

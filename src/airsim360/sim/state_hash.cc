@@ -67,6 +67,7 @@ void Add(const Vehicle& vehicle, StateHasher& hasher) {
   hasher.Add(vehicle.contact.free_distance);
   hasher.Add(vehicle.contact.crashed);
   hasher.Add(vehicle.touching);
+  hasher.Add(vehicle.touched_ns);
   Add(vehicle.collision, hasher);
   Add(vehicle.gusts, hasher);
   hasher.Add(vehicle.shelter);

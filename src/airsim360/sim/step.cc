@@ -63,6 +63,10 @@ void MoveAlong(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
   const RoutePoint point = following.route->At(static_cast<double>(t_ns - following.start_ns) * 1e-9);
   vehicle.motion = {BodyPose(point.p, point.yaw, 0, 0), point.v, {0, 0, point.yaw_rate}};
   vehicle.a_WB = point.a;
+  vehicle.drone.p_WB = point.p;
+  vehicle.drone.q_WB = ToQuaternion(vehicle.motion.X_WB.R);
+  vehicle.drone.v_WB = point.v;
+  vehicle.drone.w_WB_B = vehicle.motion.w_WB_B;
   vehicle.clearance = model.tracer->Clearance(VecCast<float>(point.p), model.contact_range);
 }
 

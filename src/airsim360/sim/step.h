@@ -72,7 +72,8 @@ struct Vehicle {
   AutopilotState autopilot;
   ActiveCommand command;
   ContactState contact;
-  bool touching = false;
+  bool touching = false;    ///< in the last step
+  int64_t touched_ns = -1;  ///< when it last touched anything; -1 = never
   CollisionInfo collision;
   WindState gusts = StartWind(0, 0);
   double shelter = 1;  ///< factor of the mean wind, follows ShelterFactor within kShelterTime

@@ -12,6 +12,8 @@ using Kind = SimEvent::Kind;
 
 // A contact that begins harder than this is a collision even while another lasts, m/s.
 constexpr double kNewImpact = 0.3;
+// A drone that lies on something need not touch it in every step: it is the same contact within this time.
+constexpr int64_t kContactGapNs = 100'000'000;
 // Drones farther away than this do not meet within a step, metres: closing at 500 m/s.
 constexpr double kMeetingRange = 2;
 // Wakes of drones farther away than this are not felt, metres.
@@ -73,10 +75,25 @@ double GroundDistance(const StepContext& context, const SimDrone& drone, const V
   return hit ? static_cast<double>(hit->distance) : kFar;
 }
 
+// After a crash: the rotors stand still and every new command is refused, until a reset.
+void LieBroken(const StepContext& context, size_t i, Vehicle& vehicle, std::vector<SimEvent>& events) {
+  vehicle.rotor_commands.fill(0);
+  vehicle.autopilot.mode = FlightMode::kDisarmed;
+  if (vehicle.autopilot.command_id == vehicle.command.id) return;
+  vehicle.autopilot.command_id = vehicle.command.id;
+  events.push_back(
+      {.kind = Kind::kCommandRefused,
+       .vehicle = i,
+       .t_ns = context.t_ns,
+       .text = CommandName(vehicle.command.command) + ": the drone has crashed; reset it first"});
+}
+
 void NoteCollision(const ContactReport& report, int64_t t_ns, size_t i, Vehicle& vehicle,
                    std::vector<SimEvent>& events) {
-  const bool begins = report.touching && (!vehicle.touching || report.impact_speed > kNewImpact);
+  const bool lasts = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kContactGapNs;
+  const bool begins = report.touching && (!lasts || report.impact_speed > kNewImpact);
   vehicle.touching = report.touching;
+  if (report.touching) vehicle.touched_ns = t_ns;
   if (!begins && !report.crashed) return;
   CollisionInfo& collision = vehicle.collision;
   collision = {collision.count + 1, t_ns,
@@ -135,6 +152,10 @@ void FollowMotion(const SimDrone& drone, Vehicle& vehicle) {
 void PlanDrone(const StepContext& context, size_t i, Vehicle& vehicle, std::vector<SimEvent>& events) {
   const SimDrone& drone = *context.model.drones[i];
   if (context.t_ns % drone.control_ns() != 0) return;
+  if (vehicle.contact.crashed && drone.setup().crash_disarms) {
+    LieBroken(context, i, vehicle, events);
+    return;
+  }
   const uint64_t before = vehicle.autopilot.flags, last_id = vehicle.autopilot.command_id;
   const StateEstimate estimate = EstimateOf(vehicle.drone, context.t_ns);
   vehicle.rotor_commands = drone.autopilot().Step(estimate, vehicle.command, vehicle.autopilot);
@@ -178,10 +199,6 @@ void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& sur
       ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
                       NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
   NoteCollision(report, context.t_ns + model.dt_ns, i, vehicle, events);
-  if (report.crashed && drone.setup().crash_disarms) {
-    vehicle.autopilot.mode = FlightMode::kDisarmed;
-    vehicle.rotor_commands.fill(0);
-  }
   KeepInWorld(context, i, vehicle, events);
   vehicle.a_WB = (vehicle.drone.v_WB - before.v_WB) / dt;
   vehicle.alpha_WB_B = (vehicle.drone.w_WB_B - before.w_WB_B) / dt;

@@ -254,11 +254,12 @@ Movers EmbreeScene::Move(std::span<const uint32_t> instances) {
   return movers_;
 }
 
-void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM) {
+void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM,
+                                 unsigned mask) {
   RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   const Vec3f columns[4] = {X_WM.A.column(0), X_WM.A.column(1), X_WM.A.column(2), X_WM.p};
   rtcSetGeometryInstancedScene(g, sub_scene);
-  rtcSetGeometryMask(g, kMaskAll);
+  rtcSetGeometryMask(g, mask);
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(top_.get(), g, id);
@@ -293,10 +294,13 @@ void EmbreeScene::AttachInstances(const Scene& scene, const std::vector<uint32_t
     if (groups.empty()) continue;
     top_ids_[i] = static_cast<uint32_t>(first_slots_.size());
     if (!direct) {
+      // Rays that look for clear panes alone pass by all that has none.
+      unsigned mask = 0;
+      for (const auto& group : groups) mask |= group->mask * kAllGenerations;
       AttachInstance(static_cast<unsigned>(first_slots_.size()), sub_scenes_[instance.mesh].get(),
-                     instance.X_WM);
+                     instance.X_WM, mask);
       first_slots_.push_back(static_cast<uint32_t>(slots_.size()));
-      top_masks_.push_back(kMaskAll);
+      top_masks_.push_back(mask);
     }
     for (const auto& group : groups) {
       if (direct) {

@@ -88,7 +88,7 @@ class EmbreeScene {
   void SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses, bool sort_alpha);
   void BuildSubScenes(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses);
-  void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM);
+  void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM, unsigned mask);
   void AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices,
                       size_t count, RTCBuildQuality quality) const;
   void BuildSubScene(const Mesh& mesh, MeshId id);

@@ -11,10 +11,10 @@ struct ControlGains {
   double lag = 0.02;     ///< of rotor thrust with the lead, s
   double spin_time = 0;  ///< s: rotors that speed up turn the drone at once by their inertia, as much as
                          ///< their torque would this much later; the yaw demand is slowed by it in turn
-  Vec3d rate;           ///< 1/s: angular acceleration per error of body rate
-  Vec3d attitude;       ///< 1/s: body rate per error of attitude
-  double velocity = 1;  ///< 1/s: acceleration per error of velocity
-  double position = 1;  ///< 1/s: velocity per error of position
+  Vec3d rate;            ///< 1/s: angular acceleration per error of body rate
+  Vec3d attitude;        ///< 1/s: body rate per error of attitude
+  double velocity = 1;   ///< 1/s: acceleration per error of velocity
+  double position = 1;   ///< 1/s: velocity per error of position
 
   double max_thrust = 0;        ///< N, all rotors
   Vec3d authority;              ///< rad/s^2 that the rotors can give about each axis while hovering

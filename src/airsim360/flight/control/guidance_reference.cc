@@ -173,14 +173,18 @@ Vec3d SlowDown(const Geofence& fence, const ControlGains& gains, Vec3d home, Vec
 bool KeepInside(const Geofence& fence, const ControlGains& gains, const StateEstimate& estimate, Goal& goal,
                 AutopilotState& state) {
   const Vec3d home = state.home_W;
-  const auto stay_at = [&](Vec3d p) {
+  // Stops, inside; until the next command.
+  const auto stop = [&] {
     goal = {};
-    goal.level = GoalLevel::kPosition;
-    goal.p_W = p;
-    goal.speed = gains.max_speed;
-    goal.climb = gains.max_climb;
+    goal.level = GoalLevel::kVelocity;
     goal.yaw_by_rate = true;
+    goal.v_W = SlowDown(fence, gains, home, state.reference_p, {});
     return true;
+  };
+  // Where braking from a speed ends, the turn of the drone into it included.
+  const auto end_of = [&](Vec3d p, Vec3d v) {
+    const double lag = 2 / LoopOf(gains).acceleration;
+    return p + v * (lag + Norm(v) / (2 * kBrakeShare * gains.max_acceleration));
   };
   switch (goal.level) {
     case GoalLevel::kOff:
@@ -203,18 +207,12 @@ bool KeepInside(const Geofence& fence, const ControlGains& gains, const StateEst
       return held;
     }
     case GoalLevel::kTrajectory: {
-      // A trajectory that leaves is left where it does, until the next command.
-      const Vec3d p = Inside(fence, home, goal.reference.p);
-      if (p == goal.reference.p && !(state.flags & kFenceHeld)) return false;
-      return stay_at(p);
+      const Vec3d end = end_of(goal.reference.p, goal.reference.v);
+      return Inside(fence, home, end) == end && !(state.flags & kFenceHeld) ? false : stop();
     }
     default: {
-      // Flown by hand: taken over where braking would not keep it inside.
-      const double speed = Norm(estimate.v_WB);
-      const Vec3d stop = estimate.p_WB + estimate.v_WB * (speed / (2 * kBrakeShare * gains.max_acceleration));
-      const Vec3d p = Inside(fence, home, stop);
-      if (p == stop && !(state.flags & kFenceHeld)) return false;
-      return stay_at(p);
+      const Vec3d end = end_of(estimate.p_WB, estimate.v_WB);
+      return Inside(fence, home, end) == end && !(state.flags & kFenceHeld) ? false : stop();
     }
   }
 }

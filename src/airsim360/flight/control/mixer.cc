@@ -57,31 +57,33 @@ Mixer::Mixer(const DroneModel& model, uint64_t failed) : n_(static_cast<int>(mod
     min_[i] = max_[i] * kIdleSpeed * kIdleSpeed;
   }
 
-  // Weighted right inverse W B' (B W B')^-1, with yaw when the rotors can give it.
-  for (const bool with_yaw : {true, false}) {
-    const int rows = with_yaw ? 4 : 3;
-    double gram[4][4] = {};
-    const auto row = [&](int i, int k) {
-      const Row& e = effect_[i];
-      return k == 0 ? e.roll : k == 1 ? e.pitch : k == 2 ? e.thrust : e.yaw;
-    };
-    for (int i = 0; i < n_; ++i) {
-      for (int a = 0; a < rows; ++a) {
-        for (int b = 0; b < rows; ++b) gram[a][b] += max_[i] * row(i, a) * row(i, b);
-      }
+  usable_ = Invert(false, loose_);
+  has_yaw_ = usable_ && Invert(true, inverse_);
+  if (!has_yaw_) inverse_ = loose_;
+}
+
+bool Mixer::Invert(bool with_yaw, std::array<Row, kMaxRotors>& inverse) const {
+  // Weighted right inverse W B' (B W B')^-1.
+  const int rows = with_yaw ? 4 : 3;
+  const auto row = [&](int i, int k) {
+    const Row& e = effect_[i];
+    return k == 0 ? e.roll : k == 1 ? e.pitch : k == 2 ? e.thrust : e.yaw;
+  };
+  double gram[4][4] = {};
+  for (int i = 0; i < n_; ++i) {
+    for (int a = 0; a < rows; ++a) {
+      for (int b = 0; b < rows; ++b) gram[a][b] += max_[i] * row(i, a) * row(i, b);
     }
-    if (!InvertSymmetric(gram, rows)) continue;
-    for (int i = 0; i < n_; ++i) {
-      double out[4] = {};
-      for (int a = 0; a < rows; ++a) {
-        for (int b = 0; b < rows; ++b) out[a] += max_[i] * row(i, b) * gram[b][a];
-      }
-      inverse_[i] = {out[0], out[1], with_yaw ? out[3] : 0, out[2]};
-    }
-    has_yaw_ = with_yaw;
-    usable_ = true;
-    break;
   }
+  if (!InvertSymmetric(gram, rows)) return false;
+  for (int i = 0; i < n_; ++i) {
+    double out[4] = {};
+    for (int a = 0; a < rows; ++a) {
+      for (int b = 0; b < rows; ++b) out[a] += max_[i] * row(i, b) * gram[b][a];
+    }
+    inverse[i] = {out[0], out[1], out[3], out[2]};
+  }
+  return true;
 }
 
 RotorWrench Mixer::WrenchOf(const RotorValues& thrust) const {
@@ -109,13 +111,14 @@ Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) c
   }
   if (fits) return result;
   result.saturated = true;
+  for (int i = 0; i < n_; ++i) tilt[i] = loose_[i].roll * torque.x + loose_[i].pitch * torque.y;
 
   // Roll and pitch: the largest share for which some thrust puts every rotor in range. With the thrust's
   // column c and rotor range [low, high], share s needs (low_i - s t_i) / c_i <= T <= (high_j - s t_j) / c_j.
   double share = 1;
   for (int i = 0; i < n_; ++i) {
     for (int j = 0; j < n_; ++j) {
-      const double ci = inverse_[i].thrust, cj = inverse_[j].thrust;
+      const double ci = loose_[i].thrust, cj = loose_[j].thrust;
       if (ci <= 0 || cj <= 0) continue;
       const double grows = tilt[j] / cj - tilt[i] / ci;
       if (grows > 0) share = std::min(share, (high[j] / cj - low[i] / ci) / grows);
@@ -125,23 +128,24 @@ Mixer::Result Mixer::Allocate(const RotorWrench& wanted, double density_ratio) c
   double least = -std::numeric_limits<double>::infinity(), most = -least;
   for (int i = 0; i < n_; ++i) {
     tilt[i] *= share;
-    const double c = inverse_[i].thrust;
+    const double c = loose_[i].thrust;
     if (c <= 0) continue;
     least = std::max(least, (low[i] - tilt[i]) / c);
     most = std::min(most, (high[i] - tilt[i]) / c);
   }
   const double thrust = std::max(least, std::min(most, wanted.thrust));
-  // Then yaw: the largest share that keeps every rotor in range.
+  // Then yaw: the largest share of what is missing that keeps every rotor in range.
+  for (int i = 0; i < n_; ++i) result.thrust[i] = tilt[i] + loose_[i].thrust * thrust;
+  const double missing = torque.z - WrenchOf(result.thrust).torque_B.z;
   double yaw = 1;
   for (int i = 0; i < n_; ++i) {
-    result.thrust[i] = tilt[i] + inverse_[i].thrust * thrust;
-    const double step = inverse_[i].yaw * torque.z;
+    const double step = inverse_[i].yaw * missing;
     if (step > 0) yaw = std::min(yaw, (high[i] - result.thrust[i]) / step);
     if (step < 0) yaw = std::min(yaw, (low[i] - result.thrust[i]) / step);
   }
   yaw = std::max(yaw, 0.0);
   for (int i = 0; i < n_; ++i) {
-    result.thrust[i] = std::clamp(result.thrust[i] + yaw * inverse_[i].yaw * torque.z, low[i], high[i]);
+    result.thrust[i] = std::clamp(result.thrust[i] + yaw * inverse_[i].yaw * missing, low[i], high[i]);
   }
   return result;
 }

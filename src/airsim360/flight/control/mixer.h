@@ -43,11 +43,14 @@ class Mixer {
   struct Row {
     double roll, pitch, yaw, thrust;
   };
+  bool Invert(bool with_yaw, std::array<Row, kMaxRotors>& inverse) const;
+
   int n_ = 0;
   bool has_yaw_ = false, usable_ = false;
   RotorValues max_{}, min_{};
   std::array<Row, kMaxRotors> effect_{};   ///< wrench per newton of a rotor
   std::array<Row, kMaxRotors> inverse_{};  ///< newtons of a rotor per unit of the wrench
+  std::array<Row, kMaxRotors> loose_{};    ///< the same with whatever yaw results
 };
 
 /// Largest static thrust of all rotors, N at sea level.

@@ -93,7 +93,7 @@ class Fields {
   std::string_view Help(std::string_view unit, const char* law) {
     const auto found = d_.laws.find(law);
     help_ = std::string(unit);
-    if (found != d_.laws.end()) help_ += (help_.empty() ? "" : "; ") + found->second;
+    if (found != d_.laws.end() && !found->second.empty()) help_ += (help_.empty() ? "" : "; ") + found->second;
     return help_;
   }
   static void Vector(ConfigVisitor& v, std::string_view name, std::string_view help, Vec3d& value, double low,
@@ -188,7 +188,7 @@ std::string DroneYaml(const DroneDesign& design) {
 std::string DroneYaml(const DroneModel& model, std::string_view source) {
   DroneDesign design;
   design.model = model;
-  design.laws["mass"] = std::string(source);
+  if (!source.empty()) design.laws["mass"] = std::string(source);
   return DroneYaml(design);
 }
 

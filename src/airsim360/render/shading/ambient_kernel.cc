@@ -19,21 +19,37 @@ struct alignas(64) Met {
 };
 
 KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
-  for (int i = 0; i < 16; ++i) {
-    const bool hit = hits.instance[i] != kMiss;
-    met.hit[i] = hit ? 1.0f : 0.0f;
-    const InstanceRecord& placed = view.instances[hit ? hits.instance[i] : 0];
-    const TriangleRecord& record = view.triangles[placed.first_triangle + (hit ? hits.triangle[i] : 0)];
-    const uint32_t id = record.material & ~kMirroredUv;
-    const MaterialRecord& material = view.materials[id];
-    met.normal[i] = static_cast<int32_t>(record.geometric_normal);
-    for (int k = 0; k < 9; ++k) met.m[k][i] = placed.normal_matrix[k];
-    for (int k = 0; k < 3; ++k) {
-      const float albedo = view.mean_colors[3 * id + static_cast<uint32_t>(k)] * placed.tint[k];
-      met.albedo[k][i] = albedo < 0.9f ? albedo : 0.9f;
-      met.emission[k][i] = hit ? material.emission[k] * hits.shines[i] : 0.0f;
+  for (int first = 0; first < 16; first += kLanes) {
+    const InstanceRecord* instance[kLanes];
+    const TriangleRecord* triangle[kLanes];
+    const MaterialRecord* material[kLanes];
+    alignas(64) float mean[3][kLanes], shines[kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      const bool hit = hits.instance[first + i] != kMiss;
+      met.hit[first + i] = hit ? 1.0f : 0.0f;
+      shines[i] = hit ? hits.shines[first + i] : 0.0f;
+      instance[i] = &view.instances[hit ? hits.instance[first + i] : 0];
+      triangle[i] = &view.triangles[instance[i]->first_triangle + (hit ? hits.triangle[first + i] : 0)];
+      const uint32_t id = triangle[i]->material & ~kMirroredUv;
+      material[i] = &view.materials[id];
+      met.normal[first + i] = static_cast<int32_t>(triangle[i]->geometric_normal);
+      for (uint32_t k = 0; k < 3; ++k) mean[k][i] = view.mean_colors[3 * id + k];
     }
-    met.leaf[i] = material.kind == BSDF_FOLIAGE ? material.transmission : 0.0f;
+    const auto quad = [](const auto* const* records, int q) __attribute__((always_inline)) {
+      return GatherQuads([&](int i) __attribute__((always_inline)) {
+        return reinterpret_cast<const float*>(records[i]) + 4 * q;
+      });
+    };
+    const real4 m0 = quad(instance, 0), m1 = quad(instance, 1), m2 = quad(instance, 2);
+    const real rows[9] = {m0.x, m0.y, m0.z, m0.w, m1.x, m1.y, m1.z, m1.w, m2.x};
+    for (int k = 0; k < 9; ++k) store(met.m[k] + first, rows[k]);
+    const real tint[3] = {m2.y, m2.z, m2.w};
+    for (int k = 0; k < 3; ++k) store(met.albedo[k] + first, rmin(load(mean[k]) * tint[k], real(0.9f)));
+    // metallic, roughness, emission, transmission, …, kind
+    const real4 a = quad(material, 1), b = quad(material, 2);
+    const real shine = load(shines), emission[3] = {a.y, a.z, a.w};
+    for (int k = 0; k < 3; ++k) store(met.emission[k] + first, emission[k] * shine);
+    store(met.leaf + first, sel(b.w == BSDF_FOLIAGE, b.x, real(0.0f)));
   }
 }
 
@@ -64,72 +80,43 @@ KERNEL real SunSeen(const SunMapView& map, real3 p) {
   return sel(inside && (affine(map.height) + map.bias < load(height)), zero, real(1.0f));
 }
 
-/// Irradiance of the eight probes around, weighted, for one lane.
-KERNEL Quad AllProbes(const ProbeView& grid, const float* base, const float* f, const float* n) {
-  Quad terms[4] = {};
-  for (int k = 0; k < 8; ++k) {
-    const float* probe = base + ((k & 1) + (k & 2 ? grid.stride_y : 0) + (k & 4 ? grid.stride_z : 0)) * 16;
-    const float weight = (k & 1 ? f[0] : 1 - f[0]) * (k & 2 ? f[1] : 1 - f[1]) * (k & 4 ? f[2] : 1 - f[2]);
-    for (int j = 0; j < 4; ++j) terms[j] += LoadQuad(probe + 4 * j) * weight;
-  }
-  const float scale = 1.0f / terms[0][3];
-  const Quad square = {terms[1][3], terms[2][3], terms[3][3], 0};
-  return (terms[0] + terms[1] * n[0] + terms[2] * n[1] + terms[3] * n[2] + square * (n[2] * n[2])) * scale;
-}
-
 /// Irradiance by probes: one of the eight around, chosen with the probability of its weight (which is right
 /// on average and reads one cache line); all eight where the chosen one is inside a solid. The choice hangs
 /// on the bits of the point alone.
 KERNEL real3 NearProbe(const ShadeView& view, real3 p, real3 n) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;
-  const real3 q = p + n * real(0.45f / grid.cells_per_metre);
-  const real zero = real(0.0f);
-  const real x = rmin(real(grid.max_x + 0.9999f), rmax(zero, (q.x - grid.origin_x) * grid.cells_per_metre));
-  const real y = rmin(real(grid.max_y + 0.9999f), rmax(zero, (q.y - grid.origin_y) * grid.cells_per_metre));
-  const real h = rmin(real(grid.height_last), rmax(zero, (q.z - grid.height_origin) * grid.height_scale));
-  alignas(64) float layer[kLanes];
-  store(layer, rfloor(h + 0.5f));
-  for (int i = 0; i < kLanes; ++i) layer[i] = grid.layer_of_height[static_cast<int>(layer[i])];
-  const real z = load(layer);
-  const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)),
-             z0 = rmin(rfloor(z), real(grid.max_z));
-  alignas(64) float fx[kLanes], fy[kLanes], fz[kLanes], nx[kLanes], ny[kLanes], nz[kLanes];
-  alignas(64) int32_t index[kLanes], bits_x[kLanes], bits_y[kLanes], bits_z[kLanes];
-  store3(fx, fy, fz, make3(x - x0, y - y0, z - z0));
-  store3(nx, ny, nz, n);
-  bits_of(p.x).copy_to(bits_x, stdx::vector_aligned);
-  bits_of(p.y).copy_to(bits_y, stdx::vector_aligned);
-  bits_of(p.z).copy_to(bits_z, stdx::vector_aligned);
-  ((to_int(z0) * grid.stride_z + to_int(y0) * grid.stride_y + to_int(x0)) * 16)
-      .copy_to(index, stdx::vector_aligned);
-  ColorLanes out;
-  for (int i = 0; i < kLanes; ++i) {
-    uint32_t hash = static_cast<uint32_t>(bits_x[i]) * 0x9e3779b1u ^
-                    static_cast<uint32_t>(bits_y[i]) * 0x85ebca77u ^
-                    static_cast<uint32_t>(bits_z[i]) * 0xc2b2ae3du;
-    hash = (hash ^ (hash >> 16)) * 0x7feb352du;
-    hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
-    hash ^= hash >> 16;
-    const auto above = [&](float f, int shift) __attribute__((always_inline)) {
-      return static_cast<float>((hash >> shift) & 0x3ff) * (1.0f / 1024) < f;
-    };
-    const float* base = grid.probes + index[i];
-    const float* probe = base + ((above(fx[i], 0) ? 1 : 0) + (above(fy[i], 10) ? grid.stride_y : 0) +
-                                 (above(fz[i], 20) ? grid.stride_z : 0)) *
-                                    16;
-    const float direction[3] = {nx[i], ny[i], nz[i]};
-    if (probe[3] < 0.5f) {
-      const float f[3] = {fx[i], fy[i], fz[i]};
-      out.Set(i, AllProbes(grid, base, f, direction));
-      continue;
+  const ProbePlace place = FindProbes(grid, p, n);
+  const auto bits = [](real x) __attribute__((always_inline)) {
+    return stdx::static_simd_cast<ureal>(bits_of(x));
+  };
+  ureal hash = bits(p.x) * 0x9e3779b1u ^ bits(p.y) * 0x85ebca77u ^ bits(p.z) * 0xc2b2ae3du;
+  hash = (hash ^ (hash >> 16)) * 0x7feb352du;
+  hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
+  hash = hash ^ (hash >> 16);
+  const auto step = [&](real f, int shift, int32_t stride) __attribute__((always_inline)) {
+    const real u = to_real(stdx::static_simd_cast<ireal>((hash >> shift) & 0x3ffu)) * (1.0f / 1024);
+    return to_int(sel(u < f, real(static_cast<float>(stride * 16)), real(0.0f)));
+  };
+  alignas(64) int32_t chosen[kLanes];
+  (ireal(place.index, stdx::vector_aligned) + step(place.fx, 0, 1) + step(place.fy, 10, grid.stride_y) +
+   step(place.fz, 20, grid.stride_z))
+      .copy_to(chosen, stdx::vector_aligned);
+  ProbeTerms terms =
+      GatherTerms([&](int i) __attribute__((always_inline)) { return grid.probes + chosen[i]; });
+  const mask_t solid = terms.t[0].w < 0.5f;
+  if (stdx::any_of(solid)) {
+    const ProbeTerms all = MixProbes(grid, place);
+    for (int j = 0; j < 4; ++j) {
+      real4& t = terms.t[j];
+      t = {sel(solid, all.t[j].x, t.x), sel(solid, all.t[j].y, t.y), sel(solid, all.t[j].z, t.z),
+           sel(solid, all.t[j].w, t.w)};
     }
-    const Quad t0 = LoadQuad(probe), t1 = LoadQuad(probe + 4), t2 = LoadQuad(probe + 8),
-               t3 = LoadQuad(probe + 12);
-    const Quad square = {t1[3], t2[3], t3[3], 0};
-    out.Set(i, (t0 + t1 * nx[i] + t2 * ny[i] + t3 * nz[i] + square * (nz[i] * nz[i])) * (1.0f / t0[3]));
   }
-  const real3 e = out.Get();
+  const real3 e = (Rgb(terms.t[0]) + Rgb(terms.t[1]) * n.x + Rgb(terms.t[2]) * n.y + Rgb(terms.t[3]) * n.z +
+                   terms.Square() * (n.z * n.z)) *
+                  (1.0f / terms.t[0].w);
+  const real zero = real(0.0f);
   return make3(rmax(e.x, zero), rmax(e.y, zero), rmax(e.z, zero));
 }
 

@@ -195,20 +195,20 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
 
 void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, int curve,
                 Rgb8* out) {
-  alignas(64) int32_t shown[3][kLanes];
+  alignas(64) uint32_t shown[kLanes];
   const auto map = [&](real3 light, Rgb8 * to, int n) __attribute__((always_inline)) {
     const real3 exposed = light * real(exposure);
     const real3 c = curve == kAgx      ? agx_curve(exposed)
                     : curve == kLinear ? linear_curve(exposed)
                                        : tone_curve(exposed);
-    to_int(srgb_encode(c.x) * 255.0f + 0.5f).copy_to(shown[0], stdx::vector_aligned);
-    to_int(srgb_encode(c.y) * 255.0f + 0.5f).copy_to(shown[1], stdx::vector_aligned);
-    to_int(srgb_encode(c.z) * 255.0f + 0.5f).copy_to(shown[2], stdx::vector_aligned);
-    for (int k = 0; k < n; ++k) {
-      to[k].r = static_cast<uint8_t>(shown[0][k]);
-      to[k].g = static_cast<uint8_t>(shown[1][k]);
-      to[k].b = static_cast<uint8_t>(shown[2][k]);
-    }
+    const auto code = [](real x) __attribute__((always_inline)) {
+      return stdx::static_simd_cast<ureal>(to_int(srgb_encode(x) * 255.0f + 0.5f));
+    };
+    (code(c.x) | code(c.y) << 8 | code(c.z) << 16).copy_to(shown, stdx::vector_aligned);
+    // Four bytes at a time, each over the last of those before.
+    auto* bytes = reinterpret_cast<uint8_t*>(to);
+    for (int k = 0; k < n - 1; ++k) __builtin_memcpy(bytes + 3 * k, &shown[k], 4);
+    __builtin_memcpy(bytes + 3 * (n - 1), &shown[n - 1], 3);
   };
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {

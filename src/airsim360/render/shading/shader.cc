@@ -130,17 +130,25 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) cons
 }
 
 void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
-  surfaces.count = sky.count = 0;
+  int found = 0, missed = 0;
   for (int k = 0; k < hits.count; ++k) {
-    RaySet& set = hits.instance[k] == kMiss ? sky : surfaces;
-    set.slot[set.count++] = static_cast<uint32_t>(k);
+    const bool miss = hits.instance[k] == kMiss;
+    surfaces.slot[found] = sky.slot[missed] = static_cast<uint32_t>(k);
+    found += miss ? 0 : 1, missed += miss ? 1 : 0;
   }
+  surfaces.count = found, sky.count = missed;
   // Array by array, which compilers make vectors of; the sky needs directions alone.
   for (RaySet* set : {&surfaces, &sky}) {
     const int count = set->count;
     const uint32_t* slot = set->slot;
+    if (count == 0) continue;
+    const bool all = count == hits.count;
     const auto take = [&](const auto* from, auto* to) {
-      for (int i = 0; i < count; ++i) to[i] = from[slot[i]];
+      if (all) {
+        std::copy_n(from, count, to);
+      } else {
+        for (int i = 0; i < count; ++i) to[i] = from[slot[i]];
+      }
     };
     take(hits.direction_x, set->dx), take(hits.direction_y, set->dy), take(hits.direction_z, set->dz);
     std::fill_n(set->ox, count, hits.origin.x), std::fill_n(set->oy, count, hits.origin.y);

@@ -1,23 +1,12 @@
 // Look-ups of light for the shading kernels (only for *_kernel.cc files): sky tables and light probes.
 #pragma once
 
+#include "airsim360/render/shading/lane_gather.h"
 #include "airsim360/render/shading/shading_data.h"
-#include "airsim360/render/shading/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
-
-/// One colour and a spare, for gathering lane by lane.
-typedef float Quad __attribute__((vector_size(16)));
-KERNEL Quad LoadQuad(const float* p) { return *reinterpret_cast<const Quad*>(p); }
-
-/// Colours collected lane by lane.
-struct alignas(64) ColorLanes {
-  alignas(64) float r[kLanes], g[kLanes], b[kLanes];
-  __attribute__((always_inline)) void Set(int i, Quad c) { r[i] = c[0], g[i] = c[1], b[i] = c[2]; }
-  __attribute__((always_inline)) real3 Get() const { return load3(r, g, b); }
-};
 
 KERNEL ufloat3 Uniform(const float* p) { return {p[0], p[1], p[2]}; }
 
@@ -38,19 +27,15 @@ static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& tab
   const real x = rmin(real(table.width - 1.0f), rmax(real(0.0f), rfloor(column)));
   const real y = rmin(real(table.height - 2.0f), rmax(real(0.0f), rfloor(row)));
   alignas(64) int32_t index[kLanes];
-  alignas(64) float fx[kLanes], fy[kLanes];
   ((to_int(y) * table.stride + to_int(x)) * 4).copy_to(index, stdx::vector_aligned);
-  store(fx, column - x);
-  store(fy, row - y);
-  ColorLanes colors;
-  for (int i = 0; i < kLanes; ++i) {
-    const float* p = table.texels + index[i];
-    const float* q = p + table.stride * 4;
-    const Quad lower = LoadQuad(p) + (LoadQuad(p + 4) - LoadQuad(p)) * fx[i];
-    const Quad upper = LoadQuad(q) + (LoadQuad(q + 4) - LoadQuad(q)) * fx[i];
-    colors.Set(i, lower + (upper - lower) * fy[i]);
-  }
-  return colors.Get();
+  const real fx = column - x, fy = row - y;
+  const auto texel = [&](int32_t offset) __attribute__((always_inline)) {
+    return Rgb(
+        GatherQuads([&](int i) __attribute__((always_inline)) { return table.texels + index[i] + offset; }));
+  };
+  const int32_t below = table.stride * 4;
+  const real3 lower = lerp3(texel(0), texel(4), fx), upper = lerp3(texel(below), texel(below + 4), fx);
+  return lerp3(lower, upper, fy);
 }
 
 /// Share of the sun's light that clouds leave at p; CloudShadowMap::At for lanes.
@@ -110,12 +95,14 @@ KERNEL Ambient UniformAmbient(const ShadeView& view, real3 n, real3 r) {
   return {sky(n), sky(-n), sky(r)};
 }
 
-static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g,
-                                                              real3 n, real3 r) {
-  const ProbeView& grid = view.probes;
-  if (grid.probes == nullptr) return UniformAmbient(view, n, r);
+/// Where points lie among the probes.
+struct ProbePlace {
+  real fx, fy, fz;                    ///< in the cell
+  alignas(64) int32_t index[kLanes];  ///< first float of its lowest corner
+};
 
-  // Half a cell in front of the surface, in grid coordinates.
+/// Of points half a cell in front of surfaces of normal g.
+KERNEL ProbePlace FindProbes(const ProbeView& grid, real3 p, real3 g) {
   const float bias = 0.45f / grid.cells_per_metre;
   const real3 q = p + g * real(bias);
   const real zero = real(0.0f);
@@ -126,44 +113,70 @@ static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& v
   store(layer, rfloor(h + 0.5f));
   for (int i = 0; i < kLanes; ++i) layer[i] = grid.layer_of_height[static_cast<int>(layer[i])];
   const real z = load(layer);
-
   const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)),
              z0 = rmin(rfloor(z), real(grid.max_z));
-  alignas(64) float fx[kLanes], fy[kLanes], fz[kLanes], nx[kLanes], ny[kLanes], nz[kLanes], rx[kLanes],
-      ry[kLanes], rz[kLanes];
-  alignas(64) int32_t index[kLanes];
-  store3(fx, fy, fz, make3(x - x0, y - y0, z - z0));
-  store3(nx, ny, nz, n);
-  store3(rx, ry, rz, r);
+  ProbePlace place{x - x0, y - y0, z - z0, {}};
   ((to_int(z0) * grid.stride_z + to_int(y0) * grid.stride_y + to_int(x0)) * 16)
-      .copy_to(index, stdx::vector_aligned);
+      .copy_to(place.index, stdx::vector_aligned);
+  return place;
+}
 
-  ColorLanes front, back, reflected;
+/// Terms of one probe, or the mean of several.
+struct ProbeTerms {
+  real4 t[4];
+  __attribute__((always_inline)) real3 Square() const { return {t[1].w, t[2].w, t[3].w}; }
+  __attribute__((always_inline)) real3 Bent(real3 n) const {
+    return Rgb(t[1]) * n.x + Rgb(t[2]) * n.y + Rgb(t[3]) * n.z;
+  }
+};
+template <class At>
+KERNEL ProbeTerms GatherTerms(At at) {
+  ProbeTerms terms;
+  for (int j = 0; j < 4; ++j)
+    terms.t[j] = GatherQuads([&](int i) __attribute__((always_inline)) { return at(i) + 4 * j; });
+  return terms;
+}
+
+/// Sum of the eight probes around, by weight; their terms carry one of their own already, which is to be
+/// divided by.
+KERNEL ProbeTerms MixProbes(const ProbeView& grid, const ProbePlace& place) {
+  typedef float Probe __attribute__((vector_size(64), aligned(4), may_alias));
+  alignas(64) float weight[8][kLanes], mixed[kLanes][16];
+  for (int k = 0; k < 8; ++k) {
+    store(weight[k], (k & 1 ? place.fx : 1.0f - place.fx) * (k & 2 ? place.fy : 1.0f - place.fy) *
+                         (k & 4 ? place.fz : 1.0f - place.fz));
+  }
   const int along_x = 16, along_y = grid.stride_y * 16, along_z = grid.stride_z * 16;
   for (int i = 0; i < kLanes; ++i) {
-    // Eight probes; their terms carry their weight already.
-    const float* base = grid.probes + index[i];
-    Quad terms[4] = {};
-    for (int k = 0; k < 8; ++k) {
-      const float* probe = base + (k & 1 ? along_x : 0) + (k & 2 ? along_y : 0) + (k & 4 ? along_z : 0);
-      const float weight =
-          (k & 1 ? fx[i] : 1 - fx[i]) * (k & 2 ? fy[i] : 1 - fy[i]) * (k & 4 ? fz[i] : 1 - fz[i]);
-      for (int j = 0; j < 4; ++j) terms[j] += LoadQuad(probe + 4 * j) * weight;
-    }
-    const float scale = 1.0f / terms[0][3];
-    for (Quad& t : terms) t *= scale;
-    const Quad square = {terms[1][3], terms[2][3], terms[3][3], 0};
-    const Quad bent = terms[1] * nx[i] + terms[2] * ny[i] + terms[3] * nz[i];
-    const Quad even = terms[0] + square * (nz[i] * nz[i]);
-    front.Set(i, even + bent);
-    back.Set(i, even - bent);
-    reflected.Set(
-        i, terms[0] + terms[1] * rx[i] + terms[2] * ry[i] + terms[3] * rz[i] + square * (rz[i] * rz[i]));
+    const float* base = grid.probes + place.index[i];
+    const auto add = [&](int k, Probe& sum) __attribute__((always_inline)) {
+      sum += *reinterpret_cast<const Probe*>(base + (k & 1 ? along_x : 0) + (k & 2 ? along_y : 0) +
+                                             (k & 4 ? along_z : 0)) *
+             weight[k][i];
+    };
+    Probe sum = *reinterpret_cast<const Probe*>(base) * weight[0][i];
+    for (int k = 1; k < 8; ++k) add(k, sum);
+    *reinterpret_cast<Probe*>(mixed[i]) = sum;
   }
-  const auto positive = [&](real3 c) __attribute__((always_inline)) {
+  return GatherTerms([&](int i) __attribute__((always_inline)) { return mixed[i]; });
+}
+
+static __attribute__((noinline, unused)) Ambient SampleProbes(const ShadeView& view, real3 p, real3 g,
+                                                              real3 n, real3 r) {
+  const ProbeView& grid = view.probes;
+  if (grid.probes == nullptr) return UniformAmbient(view, n, r);
+  ProbeTerms terms = MixProbes(grid, FindProbes(grid, p, g));
+  const real scale = 1.0f / terms.t[0].w;
+  for (real4& t : terms.t) t = {t.x * scale, t.y * scale, t.z * scale, t.w * scale};
+  const real3 square = terms.Square(), bent = terms.Bent(n);
+  const real3 even = Rgb(terms.t[0]) + square * (n.z * n.z);
+  const real3 reflected = Rgb(terms.t[0]) + Rgb(terms.t[1]) * r.x + Rgb(terms.t[2]) * r.y +
+                          Rgb(terms.t[3]) * r.z + square * (r.z * r.z);
+  const auto positive = [](real3 c) __attribute__((always_inline)) {
+    const real zero = real(0.0f);
     return make3(rmax(c.x, zero), rmax(c.y, zero), rmax(c.z, zero));
   };
-  return {positive(front.Get()), positive(back.Get()), positive(reflected.Get())};
+  return {positive(even + bent), positive(even - bent), positive(reflected)};
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -62,14 +62,14 @@ SEPARATE TileCorners ChooseCorners(const Fetched& f, real u, real v, real footpr
 /// channel.
 KERNEL real3 SampleTiles(const ShadeView& view, const Fetched& f, const int32_t* id, const TileCorners& c,
                          real footprint, bool trilinear, real3 mean, real gain) {
-  const real3 first = SampleTexture(view.textures, id, c.u[0], c.v[0], footprint, trilinear).rgb;
+  const real3 first = SampleTexture(view.textures, id, c.u[0], c.v[0], footprint, trilinear);
   if (!f.any_blend) return first;
   real3 sum = (first - mean) * c.weight[0];
   for (int k = 1; k < 3; ++k) {
     // A lane without weight adds nothing, so leaving out a vector without any changes no bit.
     if (stdx::any_of(c.weight[k] > 0.0f))
-      sum = sum +
-            (SampleTexture(view.textures, id, c.u[k], c.v[k], footprint, trilinear).rgb - mean) * c.weight[k];
+      sum =
+          sum + (SampleTexture(view.textures, id, c.u[k], c.v[k], footprint, trilinear) - mean) * c.weight[k];
   }
   const real3 mixed = mean + sum * gain;
   return sel3(load(f.blend) > 0.5f, make3(clamp01(mixed.x), clamp01(mixed.y), clamp01(mixed.z)), first);
@@ -87,24 +87,19 @@ struct Noises {
 SEPARATE Noises LookUpNoises(const ShadeView& view, const Fetched& f, real3 p, real3 n, real width) {
   // Walls see the noise from the side: height counts as a way along.
   const real px = p.x + 0.41f * p.z * n.x, py = p.y + 0.37f * p.z;
-  const real none = real(-40.0f);
   Noises out;
-  out.wide =
-      SampleTexture(view.textures, f.macro_id, px * (1.0f / 311.0f), py * (1.0f / 311.0f), none, false).rgb;
+  out.wide = SampleNoise(view, px * (1.0f / 311.0f), py * (1.0f / 311.0f));
   // The wider noise bends the finer ones, so that their periods of 47 and 11 m do not line up.
   const real bend_x = (out.wide.y - 0.5f) * 0.9f, bend_y = (out.wide.z - 0.5f) * 0.9f;
-  out.mid = SampleTexture(view.textures, f.macro_id, px * (1.0f / 47.0f) + 0.37f + bend_x,
-                          py * (1.0f / 47.0f) + bend_y, none, false)
-                .rgb;
+  out.mid = SampleNoise(view, px * (1.0f / 47.0f) + 0.37f + bend_x, py * (1.0f / 47.0f) + bend_y);
   out.detail = rmin(real(1.0f), 0.5f / rmax(width, real(1e-3f)));
   out.fine = make3(real(0.5f), real(0.5f), real(0.5f));
   const mask_t near = width < 5.0f;
   if ((f.any_ground || view.wetness > 0 || view.snow > 0) && stdx::any_of(near)) {
     const real qx = (px * 0.83f + py * 0.56f) * (1.0f / 11.3f),
                qy = (py * 0.83f - px * 0.56f) * (1.0f / 11.3f);
-    const real3 fine = SampleTexture(view.textures, f.macro_id, qx + (out.mid.y - 0.5f) * 0.6f + bend_x,
-                                     qy + (out.mid.z - 0.5f) * 0.6f, none, false)
-                           .rgb;
+    const real3 fine =
+        SampleNoise(view, qx + (out.mid.y - 0.5f) * 0.6f + bend_x, qy + (out.mid.z - 0.5f) * 0.6f);
     out.fine = sel3(near, fine, out.fine);
   }
   return out;
@@ -231,10 +226,8 @@ KERNEL void FurnishPane(const ShadeView& view, const Fetched& f, const RoomView&
 
 /// Waves whose strength wanders over 5 to 60 m: gusts and calm streaks, which also hides that the waves are
 /// few.
-KERNEL real3 Waves(const ShadeView& view, const Fetched& f, real3 p, real footprint, real& lost) {
-  const real none = real(-40.0f);
-  const real3 gust =
-      SampleTexture(view.textures, f.macro_id, p.x * (1.0f / 173.0f), p.y * (1.0f / 131.0f), none, false).rgb;
+KERNEL real3 Waves(const ShadeView& view, real3 p, real footprint, real& lost) {
+  const real3 gust = SampleNoise(view, p.x * (1.0f / 173.0f), p.y * (1.0f / 131.0f));
   const real wind = rmax(0.75f + 2.6f * (gust.x - 0.5f), real(0.22f));
   const real3 n = water_normal(p.x + 5.0f * (gust.y - 0.5f), p.y + 5.0f * (gust.z - 0.5f), footprint, lost);
   lost = lost * wind * wind;

@@ -1,26 +1,52 @@
 // Reads the records under one vector of rays into lanes (only for *_kernel.cc files).
 #pragma once
 
+#include <cstddef>
+
+#include "airsim360/render/shading/lane_gather.h"
 #include "airsim360/render/shading/shading_texture.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
 constexpr float kFoliage = 1, kGlass = 2, kWater = 3;  // SurfaceKind
 
-/// Records of the triangles under one vector of rays, turned into lanes.
+using BitLanes = uint32_t[kLanes];
+
+/// Records of the triangles under one vector of rays, turned into lanes. The first rows are the words of
+/// TriangleRecord, InstanceRecord and MaterialRecord in their order.
 struct alignas(64) Fetched {
-  alignas(64) int32_t normal[3][kLanes], geometric[kLanes], tangent[kLanes];
-  alignas(64) int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes],
-      emission_id[kLanes], macro_id[kLanes];
-  alignas(64) Lanes uv[6], texels_log2, mirrored, pane, area;
-  alignas(64) Lanes matrix[9], color[3], emission[3];
-  alignas(64) Lanes metallic, roughness, transmission, macro, normal_scale, kind;
-  alignas(64) Lanes clear_coat, clear_coat_roughness, mean[3], tile, blend, columns, rows, ground, interior;
-  alignas(64) Lanes corner_a[3], corner_b[3], half_a, half_b, u_per_a, v_per_b, room;
-  alignas(64) int32_t right[kLanes], up[kLanes];
+  int32_t normal[3][kLanes], geometric[kLanes], tangent[kLanes];
+  Lanes uv[6], texels_log2;  ///< the last with the instance's scale
+  BitLanes material, pane_bits;
+  Lanes area;
+  BitLanes window;
+
+  Lanes matrix[9], tint[3], scale_log2;
+  BitLanes first_triangle, instance_hash, unused_instance;
+
+  Lanes base[3], metallic, roughness, emission[3], transmission, macro, normal_scale, kind;
+  int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes], emission_id[kLanes];
+  Lanes clear_coat, clear_coat_roughness, mean[3], tile, blend, columns, rows, ground;
+  Lanes room_material, unused_material;
+
+  Lanes mirrored, pane, color[3];
+  /// Set only where any_window.
+  Lanes corner_a[3], corner_b[3], half_a, half_b, u_per_a, v_per_b, room, interior;
+  int32_t right[kLanes], up[kLanes];
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
       any_unit, any_ground, any_window, any_leaf;
 };
+constexpr size_t kWord = sizeof(float), kRow = kWord * kLanes;
+static_assert(sizeof(TriangleRecord) == 16 * kWord && offsetof(TriangleRecord, window) == 15 * kWord &&
+              offsetof(Fetched, window) == 15 * kRow && offsetof(Fetched, texels_log2) == 11 * kRow &&
+              offsetof(TriangleRecord, texels_log2) == 11 * kWord);
+static_assert(offsetof(InstanceRecord, hash) == 14 * kWord && offsetof(Fetched, matrix) == 16 * kRow &&
+              offsetof(Fetched, instance_hash) == 30 * kRow && offsetof(Fetched, base) == 32 * kRow);
+static_assert(offsetof(MaterialRecord, interior) == 26 * kWord &&
+              offsetof(Fetched, room_material) == (32 + 26) * kRow &&
+              offsetof(MaterialRecord, base_texture) == 12 * kWord &&
+              offsetof(Fetched, base_id) == (32 + 12) * kRow &&
+              offsetof(MaterialRecord, tile) == 21 * kWord && offsetof(Fetched, tile) == (32 + 21) * kRow);
 
 /// Brings the records of the next vector into the cache while this one is worked on.
 KERNEL void Prefetch(const ShadeView& view, const RaySet& rays, int begin) {
@@ -33,73 +59,66 @@ KERNEL void Prefetch(const ShadeView& view, const RaySet& rays, int begin) {
 
 KERNEL float HashLane(uint32_t bits) { return static_cast<float>((bits * 0x9e3779b1u) >> 8) * 0x1p-24f; }
 
-/// The pane in front of a room under lane i, if any.
-KERNEL void FetchPane(const ShadeView& view, const TriangleRecord& triangle, const InstanceRecord& instance,
-                      int i, Fetched& f) {
+/// The panes in front of rooms, where there are some.
+static __attribute__((noinline)) void FetchPanes(const ShadeView& view, Fetched& f) {
   static constexpr PaneRecord kNone{{0, 0, 0}, {0, 0, 0}, 1, 1, 0, 0, 0, 0, 0};
-  const PaneRecord& pane = triangle.window != 0 ? view.panes[triangle.window - 1] : kNone;
-  for (int k = 0; k < 3; ++k) f.corner_a[k][i] = pane.a[k], f.corner_b[k][i] = pane.b[k];
-  f.half_a[i] = pane.half_a;
-  f.half_b[i] = pane.half_b;
-  f.u_per_a[i] = pane.u_per_a;
-  f.v_per_b[i] = pane.v_per_b;
-  f.right[i] = static_cast<int32_t>(pane.right);
-  f.up[i] = static_cast<int32_t>(pane.up);
-  f.room[i] = HashLane((pane.hash ^ instance.hash) * 0x85ebca6bu + 77u);
-  f.interior[i] = triangle.window != 0 ? 1.0f : 0.0f;
-  f.any_window |= triangle.window != 0;
+  for (int i = 0; i < kLanes; ++i) {
+    const uint32_t window = f.window[i];
+    const PaneRecord& pane = window != 0 ? view.panes[window - 1] : kNone;
+    for (int k = 0; k < 3; ++k) f.corner_a[k][i] = pane.a[k], f.corner_b[k][i] = pane.b[k];
+    f.half_a[i] = pane.half_a;
+    f.half_b[i] = pane.half_b;
+    f.u_per_a[i] = pane.u_per_a;
+    f.v_per_b[i] = pane.v_per_b;
+    f.right[i] = static_cast<int32_t>(pane.right);
+    f.up[i] = static_cast<int32_t>(pane.up);
+    f.room[i] = HashLane((pane.hash ^ f.instance_hash[i]) * 0x85ebca6bu + 77u);
+    f.interior[i] = window != 0 ? 1.0f : 0.0f;
+  }
 }
 
+KERNEL bool AnyBit(const int32_t* lanes) { return stdx::any_of(ireal(lanes, stdx::vector_aligned) != 0); }
+KERNEL bool AnyIs(const float* lanes, float value) { return stdx::any_of(load(lanes) == value); }
+
 KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
-  f.any_normal = f.any_roughness = f.any_emission = f.any_macro = f.any_glass = f.any_water = f.any_base =
-      f.any_blend = f.any_unit = f.any_ground = f.any_window = f.any_leaf = false;
+  const TriangleRecord* triangle[kLanes];
+  const InstanceRecord* instance[kLanes];
+  const MaterialRecord* material[kLanes];
   for (int i = 0; i < kLanes; ++i) {
-    const InstanceRecord& instance = view.instances[rays.instance[begin + i]];
-    const TriangleRecord& triangle = view.triangles[instance.first_triangle + rays.triangle[begin + i]];
-    const MaterialRecord& material = view.materials[triangle.material & ~kMirroredUv];
-    for (int k = 0; k < 3; ++k) f.normal[k][i] = static_cast<int32_t>(triangle.normals[k]);
-    f.geometric[i] = static_cast<int32_t>(triangle.geometric_normal);
-    f.tangent[i] = static_cast<int32_t>(triangle.tangent);
-    for (int k = 0; k < 6; ++k) f.uv[k][i] = triangle.uv[k];
-    f.texels_log2[i] = triangle.texels_log2 + instance.texels_log2;
-    f.mirrored[i] = (triangle.material & kMirroredUv) != 0 ? -1.0f : 1.0f;
-    f.pane[i] = HashLane(triangle.pane ^ instance.hash);
-    f.area[i] = triangle.area;
-    for (int k = 0; k < 9; ++k) f.matrix[k][i] = instance.normal_matrix[k];
-    for (int k = 0; k < 3; ++k) f.color[k][i] = material.base[k] * instance.tint[k];
-    for (int k = 0; k < 3; ++k) f.emission[k][i] = material.emission[k];
-    f.metallic[i] = material.metallic;
-    f.roughness[i] = material.roughness;
-    f.transmission[i] = material.transmission;
-    f.macro[i] = material.macro_variation;
-    f.normal_scale[i] = material.normal_scale;
-    f.kind[i] = material.kind;
-    f.base_id[i] = material.base_texture;
-    f.roughness_id[i] = material.roughness_texture;
-    f.normal_id[i] = material.normal_texture;
-    f.emission_id[i] = material.emission_texture;
-    f.macro_id[i] = view.macro_texture;
-    f.any_base |= material.base_texture != 0;
-    f.any_normal |= material.normal_texture != 0;
-    f.any_roughness |= material.roughness_texture != 0;
-    f.any_emission |= material.emission_texture != 0;
-    f.any_macro |= material.macro_variation != 0;
-    f.any_glass |= material.kind == kGlass;
-    f.any_water |= material.kind == kWater;
-    f.clear_coat[i] = material.clear_coat;
-    f.clear_coat_roughness[i] = material.clear_coat_roughness;
-    for (int k = 0; k < 3; ++k) f.mean[k][i] = material.mean[k];
-    f.tile[i] = material.tile;
-    f.blend[i] = material.blend;
-    f.columns[i] = material.unit_columns;
-    f.rows[i] = material.unit_rows;
-    f.ground[i] = material.ground;
-    f.any_blend |= material.blend != 0;
-    f.any_unit |= material.unit_columns != 0;
-    f.any_ground |= material.ground != 0;
-    f.any_leaf |= material.kind == kFoliage;
-    FetchPane(view, triangle, instance, i, f);
+    instance[i] = &view.instances[rays.instance[begin + i]];
+    triangle[i] = &view.triangles[instance[i]->first_triangle + rays.triangle[begin + i]];
+    material[i] = &view.materials[triangle[i]->material & ~kMirroredUv];
   }
+  const auto take = [&](const auto* const* records, int quad, void* rows) __attribute__((always_inline)) {
+    GatherRows(
+        [&](int i)
+            __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * quad; },
+        static_cast<char*>(rows) + 4 * static_cast<size_t>(quad) * kRow);
+  };
+  for (int q = 0; q < 4; ++q) take(triangle, q, f.normal);
+  for (int q = 0; q < 4; ++q) take(instance, q, f.matrix);
+  for (int q = 0; q < 7; ++q) take(material, q, f.base);
+
+  store(f.texels_log2, load(f.texels_log2) + load(f.scale_log2));
+  const ureal flags = Bits(f.material);
+  const mask_t mirrored = stdx::__proposed::static_simd_cast<mask_t>((flags & kMirroredUv) != 0u);
+  store(f.mirrored, sel(mirrored, real(-1.0f), real(1.0f)));
+  store(f.pane, HashLanes(Bits(f.pane_bits) ^ Bits(f.instance_hash)));
+  for (int k = 0; k < 3; ++k) store(f.color[k], load(f.base[k]) * load(f.tint[k]));
+
+  f.any_base = AnyBit(f.base_id);
+  f.any_normal = AnyBit(f.normal_id);
+  f.any_roughness = AnyBit(f.roughness_id);
+  f.any_emission = AnyBit(f.emission_id);
+  f.any_macro = stdx::any_of(load(f.macro) != 0.0f);
+  f.any_glass = AnyIs(f.kind, kGlass);
+  f.any_water = AnyIs(f.kind, kWater);
+  f.any_leaf = AnyIs(f.kind, kFoliage);
+  f.any_blend = stdx::any_of(load(f.blend) != 0.0f);
+  f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
+  f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
+  f.any_window = stdx::any_of(Bits(f.window) != 0u);
+  if (f.any_window) FetchPanes(view, f);
 }
 
 KERNEL real3 UnpackDirection(const int32_t* packed) {

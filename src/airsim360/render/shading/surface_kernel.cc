@@ -47,22 +47,22 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
   return sel3(upright, normalize3(tilted), n);
 }
 
-/// A point of the sun's disc for samples beside the centre one.
+/// The sun's centre, or a point of its disc for samples beside the centre one.
 KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i) {
-  alignas(64) int32_t mixed[kLanes];
-  alignas(64) float beside[kLanes];
-  for (int k = 0; k < kLanes; ++k) {
-    uint32_t h = rays.key[i + k];
-    beside[k] = h != 0 ? 1.0f : 0.0f;
-    h = (h ^ (h >> 16)) * 0x7feb352du;
-    h = (h ^ (h >> 15)) * 0x846ca68bu;
-    mixed[k] = static_cast<int32_t>(h ^ (h >> 16));
-  }
-  const ireal key(mixed, stdx::vector_aligned);
-  const real a = to_real((key >> 8) & 0xfff) * (1.0f / 4096.0f),
-             b = to_real((key >> 20) & 0xfff) * (1.0f / 4096.0f);
-  const real radius = rroot(a) * 0.00462f * load(beside), angle = b * (2.0f * SHADE_PI);
   const ufloat3 s{view.to_sun[0], view.to_sun[1], view.to_sun[2]};
+  const real3 center = make3(real(s.x), real(s.y), real(s.z));
+  const ureal key = Bits(rays.key + i);
+  if (stdx::all_of(key == 0u)) return normalize3(center);
+  ureal h = (key ^ (key >> 16)) * 0x7feb352du;
+  h = (h ^ (h >> 15)) * 0x846ca68bu;
+  h = h ^ (h >> 16);
+  const auto part = [](ureal bits) __attribute__((always_inline)) {
+    return to_real(stdx::static_simd_cast<ireal>(bits & 0xfffu)) * (1.0f / 4096.0f);
+  };
+  const real a = part(h >> 8), b = part(h >> 20);
+  const mask_t beside = stdx::__proposed::static_simd_cast<mask_t>(key != 0u);
+  const real radius = rroot(a) * 0.00462f * sel(beside, real(1.0f), real(0.0f)),
+             angle = b * (2.0f * SHADE_PI);
   const float side = s.x * s.x + s.y * s.y > 1e-6f ? 1.0f / __builtin_sqrtf(s.x * s.x + s.y * s.y) : 0.0f;
   const ufloat3 e1 = side > 0 ? ufloat3{-s.y * side, s.x * side, 0} : ufloat3{1, 0, 0};
   const ufloat3 e2{s.y * e1.z - s.z * e1.y, s.z * e1.x - s.x * e1.z, s.x * e1.y - s.y * e1.x};
@@ -119,7 +119,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
     metallic = metallic * c.z;
   }
   if (f.any_emission)
-    emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true).rgb;
+    emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true);
   Noises noises{};
   if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
     noises = LookUpNoises(view, f, p, n, width);
@@ -146,7 +146,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   if (f.any_water) {
     const mask_t water = (kind == kWater) && (facing.z > 0.5f);
     real lost = real(0.0f);
-    const real3 waves = Waves(view, f, p, width / rroot(slant), lost);
+    const real3 waves = Waves(view, p, width / rroot(slant), lost);
     n = sel3(water, waves, n);
     roughness = sel(water, rmin(rroot(rroot(2.0f * lost + 1e-5f)), real(0.5f)), roughness);
   }

@@ -1,0 +1,231 @@
+// airsim360 fly: one drone flies a script, or waypoints, through a world.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/fly_run.h"
+#include "airsim360/app/session.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/log.h"
+#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/prompt/drone_file.h"
+#include "airsim360/planning/time_allocation.h"
+#include "airsim360/sim/route_file.h"
+#include "airsim360/sim/trajectory_reference.h"
+
+namespace airsim360 {
+namespace {
+namespace fs = std::filesystem;
+
+struct FlyArguments {
+  std::string world, drone = "hummingbird", controller = "indi", waypoints, script, pose, sensors, wind, out,
+                     size = "1024x512", tier = "fast";
+  double vmax = 4, amax = 4, speed = 0;
+  int64_t frames = 0;
+  bool record = false;
+};
+
+// A name of the catalogue, a YAML file, or words.
+DroneModel FindDrone(const std::string& text) {
+  for (const CatalogDrone& drone : DroneCatalog()) {
+    if (drone.name == text) return CatalogModel(text);
+  }
+  if (text.ends_with(".yaml") || text.ends_with(".yml")) return ReadDroneFile(text).model;
+  // One word that is no name is a misspelt one.
+  if (text.find(' ') == std::string::npos) return CatalogModel(text);
+  return DroneFromPrompt(text).model;
+}
+
+WorldWind ReadWind(const std::string& text) {
+  WorldWind wind;
+  if (text.empty()) return wind;
+  ReadYamlFile(text, [&](ConfigVisitor& v) { wind.Visit(v); });
+  return wind;
+}
+
+// The waypoints as a trajectory within the limits, and where it begins.
+std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& arguments) {
+  std::vector<Vec3d> points;
+  for (const Waypoint& waypoint : ReadRouteCsv(arguments.waypoints)) points.push_back(waypoint.p);
+  if (points.size() < 2) throw InputError("--waypoints: " + arguments.waypoints + " holds one point only");
+  TrajectoryLimits limits;
+  limits.speed = arguments.vmax;
+  limits.acceleration = arguments.amax;
+  return std::make_shared<const PolynomialTrajectory>(AllocateTimes(points, limits).trajectory);
+}
+
+std::vector<FlyTask> TasksOf(const FlyArguments& arguments,
+                             const std::shared_ptr<const PolynomialTrajectory>& trajectory) {
+  if (!trajectory)
+    return ParseFlyScript(arguments.script.empty() ? "takeoff 2; hover 3; land" : arguments.script);
+  const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
+  const auto reference =
+      std::make_shared<const PlannedReference>(trajectory, std::nullopt, std::atan2(way.y, way.x));
+  constexpr double kSettle = 1;  // seconds to come to rest after it
+  return {{"waypoints", TrajectoryCommand{reference}, trajectory->duration() + kSettle},
+          {"hover 1", HoverCommand{}, 1}};
+}
+
+// Where the drone begins: hovering at the first waypoint, or standing under the pose.
+void SetStart(const FlyArguments& arguments, const Scene& scene, const PolynomialTrajectory* trajectory,
+              DroneSetup& setup) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  if (trajectory != nullptr) {
+    const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
+    setup.X_WB = BodyPose(trajectory->At(0).p, std::atan2(way.y, way.x), 0, 0);
+    setup.airborne = true;
+  } else if (!arguments.pose.empty()) {
+    const PoseArgument pose = ParsePose(arguments.pose);
+    setup.X_WB = BodyPose(pose.p, pose.yaw_deg * kRadians, 0, 0);
+  } else {
+    setup.X_WB = BodyPose(VecCast<double>(scene.spawn.value_or(scene.bounds.center())),
+                          scene.spawn_yaw_deg * kRadians, 0, 0);
+  }
+}
+
+nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneModel& drone, const FlyResult& r,
+                                  const Scene& scene) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (const SimEvent& event : r.events) {
+    nlohmann::ordered_json json = {{"t_s", static_cast<double>(event.t_ns) * 1e-9},
+                                   {"event", kSimEventNames[static_cast<size_t>(event.kind)]}};
+    if (event.collision.count > 0) {
+      const CollisionInfo& c = event.collision;
+      json["entity_id"] = c.entity;
+      json["entity"] = c.entity != kNoEntity ? scene.entity(c.entity).name : "";
+      json["impact_speed"] = c.impact_speed;
+      json["point"] = {c.p_W.x, c.p_W.y, c.p_W.z};
+      json["normal"] = {c.normal_W.x, c.normal_W.y, c.normal_W.z};
+    }
+    if (!event.text.empty()) json["text"] = event.text;
+    events.push_back(json);
+  }
+  char hash[24];
+  std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(r.hash));
+  nlohmann::ordered_json json = {{"out", arguments.out},         {"world", arguments.world},
+                                 {"drone", drone.name},          {"controller", arguments.controller},
+                                 {"flight_s", r.pace.simulated}, {"steps", r.steps}};
+  if (r.tracking_rms >= 0) {
+    json["tracking_rms"] = r.tracking_rms;
+    json["tracking_max"] = r.tracking_max;
+  }
+  json["least_clearance"] = r.flight.least_clearance;
+  json["charge"] = r.charge;
+  json["events"] = events;
+  json["real_time_factor"] = r.pace.real_time_factor;
+  json["state_hash"] = hash;
+  return json;
+}
+
+void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
+  const fs::path out = arguments.out;
+  WriteFileAtomically(out / "trajectory.csv", TrajectoryCsv(result.flight));
+  CreateWritableFolder(out / "sensors");
+  for (size_t i = 0; i < std::size(kSensorCsvNames); ++i)
+    WriteFileAtomically(out / "sensors" / (std::string(kSensorCsvNames[i]) + ".csv"), result.sensor_csv[i]);
+  if (result.recording) WriteRecording(out / "run.a360", *result.recording);
+}
+
+void WriteFrames(const FlyArguments& arguments, uint64_t seed, const OpenedWorld& world,
+                 const FlyResult& result) {
+  if (arguments.frames == 0) return;
+  DatasetSpec spec;
+  spec.command = "fly";
+  spec.world = arguments.world;
+  spec.seed = seed;
+  const ImageSize size = ParseSize(arguments.size);
+  spec.width = size.width;
+  spec.height = size.height;
+  spec.tier = ParseTierArgument(arguments.tier);
+  spec.frames = arguments.frames;
+  spec.route = "flight of " + arguments.drone;
+  Collect({spec, *world.scene, result.flight, fs::path(arguments.out) / "frames"}, *world.renderer);
+}
+
+void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
+  // Everything that can be wrong with the flags is found before the world is loaded.
+  if (!arguments.waypoints.empty() && !arguments.script.empty())
+    throw InputError("fly: give --waypoints or --script, not both");
+  DroneSetup setup{.name = "drone", .model = FindDrone(arguments.drone)};
+  setup.autopilot.controller = ParseControllerKind(arguments.controller);
+  if (!arguments.sensors.empty()) setup.sensors = ReadSensorSet(arguments.sensors);
+  const auto trajectory = arguments.waypoints.empty() ? nullptr : PlanWaypoints(arguments);
+  FlyJob job;
+  job.tasks = TasksOf(arguments, trajectory);
+  CheckPanoramaSize(ParseSize(arguments.size));
+  const Tier tier = ParseTierArgument(arguments.tier);
+  const WorldWind wind = ReadWind(arguments.wind);
+  if (!arguments.pose.empty()) ParsePose(arguments.pose);
+
+  const OpenedWorld world =
+      OpenWorld(arguments.world, globals.seed, arguments.frames > 0 ? tier : Tier::kLabels);
+  SetStart(arguments, *world.scene, trajectory.get(), setup);
+  SimModel model{.tracer = world.tracer, .wind = wind};
+  model.world.seed = globals.seed;
+  model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));
+  job.model = std::make_shared<const SimModel>(std::move(model));
+  job.speed = arguments.speed;
+  job.frames = arguments.frames;
+  if (arguments.record) job.record_note = arguments.world + ", " + arguments.drone;
+  job.log = [](const std::string& text) { LogInfo(text); };
+  CreateWritableFolder(arguments.out);
+  const FlyResult result = RunFlight(job);
+  WriteFiles(arguments, result);
+  WriteFrames(arguments, globals.seed, world, result);
+  if (globals.json) {
+    PrintJson(ResultJson(arguments, setup.model, result, *world.scene));
+    return;
+  }
+  std::printf("%s: %.1f s of flight, %zu events, least clearance %.2f m, %.1f times real time\n",
+              arguments.out.c_str(), result.pace.simulated, result.events.size(),
+              result.flight.least_clearance, result.pace.real_time_factor);
+  if (result.tracking_rms >= 0)
+    std::printf("tracking error %.3f m rms, %.3f m at most\n", result.tracking_rms, result.tracking_max);
+}
+
+}  // namespace
+
+void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand("fly", "fly one drone through a world, with dynamics and sensors");
+  auto arguments = std::make_shared<FlyArguments>();
+  command
+      ->add_option("--world", arguments->world,
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+      ->required();
+  command->add_option("--out", arguments->out, "folder of trajectory.csv, sensors/ and frames/")->required();
+  command->add_option("--drone", arguments->drone,
+                      "name of the catalogue, a drone .yaml, or words in quotes (default hummingbird)");
+  command->add_option("--controller", arguments->controller,
+                      "simple_flight, px4, se3 or indi (default indi)");
+  command->add_option("--waypoints", arguments->waypoints,
+                      "CSV x,y,z: minimum-snap flight through them, begun hovering at the first");
+  command->add_option("--script", arguments->script,
+                      "tasks: takeoff [HEIGHT]; hover SECONDS; goto X,Y,Z[,SPEED]; velocity X,Y,Z,SECONDS; "
+                      "return; land (default \"takeoff 2; hover 3; land\")");
+  command->add_option("--pose", arguments->pose,
+                      "x,y,z[,yaw_deg] above where it stands (default: the spawn)");
+  command->add_option("--vmax", arguments->vmax, "m/s of --waypoints (default 4)")
+      ->check(CLI::Range(0.01, 100.0));
+  command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
+      ->check(CLI::Range(0.01, 100.0));
+  command->add_option("--sensors", arguments->sensors, "sensor file (docs/sensors.md)");
+  command->add_option("--wind", arguments->wind, "wind file (docs/simulation.md)");
+  command
+      ->add_option("--speed", arguments->speed,
+                   "simulated seconds a second, 0 = as fast as possible (default)")
+      ->check(CLI::Range(0.0, 1000.0));
+  command
+      ->add_option("--frames", arguments->frames, "panoramas spread over the flight, in frames/ (default 0)")
+      ->check(CLI::Range(int64_t{0}, int64_t{1000000}));
+  command->add_option("--size", arguments->size, "WxH of the panoramas (default 1024x512)");
+  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
+  command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
+  command->callback([arguments, &globals] { RunFly(*arguments, globals); });
+}
+
+}  // namespace airsim360

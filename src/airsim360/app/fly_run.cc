@@ -1,0 +1,161 @@
+#include "airsim360/app/fly_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace airsim360 {
+namespace {
+
+constexpr int64_t kRecordPeriodNs = 10'000'000;
+constexpr float kClearanceRange = 50;  // metres: farther is not told
+
+void AddRow(std::string& csv, std::initializer_list<double> values) {
+  for (const double value : values) {
+    char number[32];
+    std::snprintf(number, sizeof(number), "%s%.12g", csv.empty() || csv.back() == '\n' ? "" : ",", value);
+    csv += number;
+  }
+  csv += '\n';
+}
+
+int64_t PeriodNs(double rate_hz) { return std::llround(1e9 / rate_hz); }
+double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
+
+/// Flies one task after the other and notes what happens.
+class Pilot {
+ public:
+  Pilot(const FlyJob& job, FlyResult& result)
+      : job_(job), result_(result), loop_(job.model), pacer_(loop_, job.speed) {
+    result_.sensor_csv[0] = "t_s,wx,wy,wz,fx,fy,fz\n";
+    result_.sensor_csv[1] = "t_s,measured_s,latitude_deg,longitude_deg,altitude,vx,vy,vz,fix\n";
+    result_.sensor_csv[2] = "t_s,pressure,altitude,temperature\n";
+    result_.sensor_csv[3] = "t_s,bx,by,bz\n";
+    result_.flight.least_clearance = kClearanceRange;
+    const SensorSet& sensors = job.model->drones[0]->setup().sensors;
+    for (const auto& imu : sensors.imus) slice_ns_ = std::min(slice_ns_, PeriodNs(imu.spec.rate_hz));
+    for (const auto& gnss : sensors.gnss) slice_ns_ = std::min(slice_ns_, PeriodNs(gnss.spec.rate_hz));
+    slice_ns_ = std::max(slice_ns_ - slice_ns_ % job.model->dt_ns, job.model->dt_ns);
+    if (!job.record_note.empty()) loop_.StartRecording(job.record_note);
+    Note(*loop_.Snapshot());
+  }
+
+  void Run() {
+    for (const FlyTask& task : job_.tasks) RunTask(task);
+    const auto state = loop_.Snapshot();
+    result_.pace = pacer_.report();
+    result_.hash = HashState(*state);
+    result_.steps = state->step;
+    result_.charge = state->vehicles[0].drone.charge;
+    result_.recording = loop_.StopRecording();
+    if (errors_ > 0) {
+      result_.tracking_rms = std::sqrt(squares_ / static_cast<double>(errors_));
+      result_.tracking_max = largest_;
+    }
+  }
+
+ private:
+  void RunTask(const FlyTask& task) {
+    job_.log(task.text);
+    loop_.Post({0, FlightCommand{task.command}});
+    const int64_t end_ns = loop_.t_ns() + static_cast<int64_t>(task.seconds * 1e9);
+    bool done = false;
+    while (!done && loop_.t_ns() < end_ns) {
+      pacer_.Run(std::min(end_ns, loop_.t_ns() + slice_ns_));
+      const auto state = loop_.Snapshot();
+      Note(*state);
+      Compare(task, *state);
+      for (const SimEvent& event : loop_.TakeEvents()) {
+        const bool finished = event.kind == SimEvent::Kind::kCommandDone;
+        done |= task.until_done && (finished || event.kind == SimEvent::Kind::kCommandRefused ||
+                                    event.kind == SimEvent::Kind::kCrash);
+        if (!finished) job_.log(DescribeEvent(event, job_.model->tracer->scene()));
+        result_.events.push_back(event);
+      }
+    }
+  }
+
+  void Note(const SimState& state) {
+    const Vehicle& drone = state.vehicles[0];
+    NoteSensors(drone.sensors);
+    if (state.t_ns % kRecordPeriodNs != 0) return;
+    result_.flight.trajectory.push_back({state.t_ns, drone.motion, drone.a_WB});
+    const float clearance =
+        job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
+    result_.flight.least_clearance = std::min<double>(result_.flight.least_clearance, clearance);
+  }
+
+  void NoteSensors(const SensorStates& sensors) {
+    const auto is_new = [](int64_t t_ns, int64_t& last_ns) { return std::exchange(last_ns, t_ns) != t_ns; };
+    if (!sensors.imus.empty() && is_new(sensors.imus[0].last.t_ns, last_ns_[0])) {
+      const auto& [t, w, f] = sensors.imus[0].last;
+      AddRow(result_.sensor_csv[0], {Seconds(t), w.x, w.y, w.z, f.x, f.y, f.z});
+    }
+    if (!sensors.gnss.empty() && is_new(sensors.gnss[0].last.t_ns, last_ns_[1])) {
+      const GnssReading& r = sensors.gnss[0].last;
+      AddRow(result_.sensor_csv[1],
+             {Seconds(r.t_ns), Seconds(r.measured_ns), r.place.latitude_deg, r.place.longitude_deg,
+              r.place.altitude, r.v_WS.x, r.v_WS.y, r.v_WS.z, r.has_fix ? 1.0 : 0.0});
+    }
+    if (!sensors.barometers.empty() && is_new(sensors.barometers[0].last.t_ns, last_ns_[2])) {
+      const BarometerReading& r = sensors.barometers[0].last;
+      AddRow(result_.sensor_csv[2], {Seconds(r.t_ns), r.pressure, r.altitude, r.temperature});
+    }
+    if (!sensors.magnetometers.empty() && is_new(sensors.magnetometers[0].last.t_ns, last_ns_[3])) {
+      const MagnetometerReading& r = sensors.magnetometers[0].last;
+      AddRow(result_.sensor_csv[3], {Seconds(r.t_ns), r.field.x, r.field.y, r.field.z});
+    }
+  }
+
+  // Distance to where a trajectory wants the drone now.
+  void Compare(const FlyTask& task, const SimState& state) {
+    const auto* command = std::get_if<TrajectoryCommand>(&task.command);
+    const AutopilotState& autopilot = state.vehicles[0].autopilot;
+    const double t = Seconds(state.t_ns - autopilot.command_start_ns);
+    if (command == nullptr || t > command->trajectory->duration()) return;
+    const double error = Norm(state.vehicles[0].drone.p_WB - command->trajectory->At(t).p);
+    squares_ += error * error;
+    largest_ = std::max(largest_, error);
+    ++errors_;
+  }
+
+  const FlyJob& job_;
+  FlyResult& result_;
+  SimLoop loop_;
+  RealTimePacer pacer_;
+  int64_t slice_ns_ = kRecordPeriodNs;  // the loop is looked at so often that no sample of a sensor is missed
+  int64_t last_ns_[4] = {};
+  double squares_ = 0, largest_ = 0;
+  int64_t errors_ = 0;
+};
+
+}  // namespace
+
+FlyResult RunFlight(const FlyJob& job) {
+  FlyResult result;
+  Pilot(job, result).Run();
+  // Frames at samples of the trajectory, evenly spread.
+  const auto& trajectory = result.flight.trajectory;
+  for (int64_t i = 0; i < job.frames; ++i) {
+    const size_t last = trajectory.size() - 1;
+    const size_t at =
+        job.frames > 1 ? static_cast<size_t>(i) * last / static_cast<size_t>(job.frames - 1) : last;
+    result.flight.shots.push_back({trajectory[at].t_ns, trajectory[at].body});
+  }
+  return result;
+}
+
+std::string DescribeEvent(const SimEvent& event, const Scene& scene) {
+  char text[160];
+  std::snprintf(text, sizeof(text), "t %.3f s: %s", Seconds(event.t_ns),
+                kSimEventNames[static_cast<size_t>(event.kind)]);
+  std::string description = text;
+  if (event.collision.count > 0) {
+    const EntityId id = event.collision.entity;
+    std::snprintf(text, sizeof(text), " at %.2f m/s", event.collision.impact_speed);
+    description += " with '" + (id != kNoEntity ? scene.entity(id).name : "another drone") + "'" + text;
+  }
+  return event.text.empty() ? description : description + ": " + event.text;
+}
+
+}  // namespace airsim360

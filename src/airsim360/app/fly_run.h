@@ -1,0 +1,44 @@
+// Flying the tasks of `airsim360 fly`: the loop, and what is noted on the way.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "airsim360/app/fly_script.h"
+#include "airsim360/sim/fly_route.h"
+#include "airsim360/sim/pacer.h"
+
+namespace airsim360 {
+
+struct FlyJob {
+  std::shared_ptr<const SimModel> model;  ///< with one drone
+  std::vector<FlyTask> tasks;
+  double speed = 0;                             ///< of the clock, 0 = as fast as the machine can
+  int64_t frames = 0;                           ///< pictures, spread evenly over the flight once it is known
+  std::string record_note;                      ///< not empty: the run is recorded
+  std::function<void(const std::string&)> log;  ///< told of tasks and events
+};
+
+struct FlyResult {
+  Flight flight;              ///< trajectory at 100 Hz; shots at the times of the frames
+  std::string sensor_csv[4];  ///< imu, gnss, barometer, magnetometer: all samples of the first of each
+  std::vector<SimEvent> events;
+  double tracking_rms = -1, tracking_max = -1;  ///< metres, of trajectory tasks; -1 = there were none
+  PaceReport pace;
+  uint64_t hash = 0;  ///< of the last state
+  int64_t steps = 0;
+  double charge = 1;  ///< of the battery at the end
+  std::optional<Recording> recording;
+};
+
+inline constexpr const char* kSensorCsvNames[4] = {"imu", "gnss", "barometer", "magnetometer"};
+
+/// Runs all tasks. RuntimeError never; what goes wrong in the air is told by events.
+FlyResult RunFlight(const FlyJob& job);
+
+/// "t 12.340 s: collision with 'wall east' at 2.13 m/s".
+std::string DescribeEvent(const SimEvent& event, const Scene& scene);
+
+}  // namespace airsim360

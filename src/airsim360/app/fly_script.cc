@@ -1,0 +1,89 @@
+#include "airsim360/app/fly_script.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kLongest = 600;  // seconds that a task may take that ends by itself
+
+[[noreturn]] void Fail(const std::string& task, const std::string& what) {
+  throw InputError("--script: '" + task + "': " + what);
+}
+
+std::string Trimmed(const std::string& text) {
+  const size_t begin = text.find_first_not_of(" \t\n");
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\n") + 1 - begin);
+}
+
+// "1, 2.5,3": from `least` to `most` numbers.
+std::vector<double> Numbers(const std::string& task, const std::string& text, size_t least, size_t most) {
+  std::vector<double> numbers;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = Trimmed(text.substr(begin, end - begin));
+    double value = 0;
+    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (error != std::errc() || stop != part.data() + part.size() || !std::isfinite(value))
+      Fail(task, "'" + part + "' is not a number");
+    numbers.push_back(value);
+    begin = end + 1;
+  }
+  if (numbers.size() >= least && numbers.size() <= most) return numbers;
+  Fail(task, "takes " + std::to_string(least) + (most > least ? " to " + std::to_string(most) : "") +
+                 " numbers, found " + std::to_string(numbers.size()));
+}
+
+double Positive(const std::string& task, double value) {
+  if (value > 0 && value <= 1e6) return value;
+  Fail(task, std::to_string(value) + " is not in 0 … 1000000");
+}
+
+FlyTask ParseTask(const std::string& task) {
+  const size_t space = std::min(task.find_first_of(" \t"), task.size());
+  const std::string word = task.substr(0, space), rest = task.substr(space);
+  const auto numbers = [&](size_t least, size_t most) { return Numbers(task, Trimmed(rest), least, most); };
+  if (word == "takeoff") {
+    const auto n = numbers(0, 1);
+    return {task, TakeoffCommand{.height = n.empty() ? 2 : Positive(task, n[0])}, kLongest, true};
+  }
+  if (word == "hover") return {task, HoverCommand{}, Positive(task, numbers(1, 1)[0])};
+  if (word == "goto") {
+    const auto n = numbers(3, 4);
+    const double speed = n.size() > 3 ? Positive(task, n[3]) : 0;
+    return {task,
+            PositionCommand{.p_W = {n[0], n[1], n[2]}, .speed = speed, .yaw = {YawTarget::Mode::kForward}},
+            kLongest, true};
+  }
+  if (word == "velocity") {
+    const auto n = numbers(4, 4);
+    return {task, VelocityCommand{.v = {n[0], n[1], n[2]}}, Positive(task, n[3])};
+  }
+  if (word == "return" || word == "land") {
+    numbers(0, 0);
+    if (word == "return") return {task, ReturnCommand{}, kLongest, true};
+    return {task, LandCommand{}, kLongest, true};
+  }
+  const std::vector<std::string> words = {"takeoff", "hover", "goto", "velocity", "return", "land"};
+  throw InputError("--script: " + UnknownChoiceMessage("task", word, words));
+}
+
+}  // namespace
+
+std::vector<FlyTask> ParseFlyScript(const std::string& text) {
+  std::vector<FlyTask> tasks;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(';', begin), text.size());
+    const std::string task = Trimmed(text.substr(begin, end - begin));
+    if (!task.empty()) tasks.push_back(ParseTask(task));
+    begin = end + 1;
+  }
+  if (tasks.empty()) throw InputError("--script: nothing to do");
+  return tasks;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,123 @@
+#include "airsim360/planning/export_qgc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/math/transform.h"
+#include "airsim360/planning/number_text.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kA = 6378137.0, kF = 1 / 298.257223563, kE2 = kF * (2 - kF);  // WGS84
+
+double PrimeVertical(double latitude) {
+  const double s = std::sin(latitude);
+  return kA / std::sqrt(1 - kE2 * s * s);
+}
+
+Vec3d ToEarth(const GeoPoint& g) {
+  const double lat = g.latitude_deg * kDegree, lon = g.longitude_deg * kDegree, n = PrimeVertical(lat);
+  return {(n + g.altitude) * std::cos(lat) * std::cos(lon), (n + g.altitude) * std::cos(lat) * std::sin(lon),
+          (n * (1 - kE2) + g.altitude) * std::sin(lat)};
+}
+
+// Columns: east, north, up.
+Mat3d EastNorthUp(const GeoPoint& g) {
+  const double lat = g.latitude_deg * kDegree, lon = g.longitude_deg * kDegree;
+  const double sl = std::sin(lat), cl = std::cos(lat), so = std::sin(lon), co = std::cos(lon);
+  return Mat3d::FromColumns({-so, co, 0}, {-sl * co, -sl * so, cl}, {cl * co, cl * so, sl});
+}
+
+}  // namespace
+
+GeoPoint ToGeo(Vec3d p_W, const GeoPoint& origin) {
+  const Vec3d p = ToEarth(origin) + EastNorthUp(origin) * p_W;
+  const double r = std::hypot(p.x, p.y);
+  // Fixed point of the latitude: gains more than two digits a round near the surface.
+  double lat = std::atan2(p.z, r * (1 - kE2));
+  for (int i = 0; i < 8; ++i) lat = std::atan2(p.z + kE2 * PrimeVertical(lat) * std::sin(lat), r);
+  const double s = std::sin(lat), c = std::cos(lat);
+  // Along the normal: right at the poles too.
+  const double altitude = r * c + p.z * s - kA * std::sqrt(1 - kE2 * s * s);
+  return {lat / kDegree, std::atan2(p.y, p.x) / kDegree, altitude};
+}
+
+Vec3d FromGeo(const GeoPoint& point, const GeoPoint& origin) {
+  return EastNorthUp(origin).transpose() * (ToEarth(point) - ToEarth(origin));
+}
+
+namespace {
+
+enum Command { kWaypoint = 16, kLand = 21, kTakeOff = 22, kChangeSpeed = 178 };
+constexpr int kRelativeAltitude = 3, kMissionFrame = 2;
+
+// Appends the items of a mission one after another.
+class Items {
+ public:
+  explicit Items(const GeoPoint& origin) : origin_(origin) {}
+  void AddPlace(Command command, Vec3d p_W) {
+    const GeoPoint g = ToGeo(p_W, origin_);
+    const double altitude = g.altitude - origin_.altitude;
+    const double place[] = {g.latitude_deg, g.longitude_deg, altitude};
+    std::string params = "0, 0, 0, null, ";
+    AppendNumbers(params, place, ", ");
+    std::string extra = "\"AMSLAltAboveTerrain\": null, \"Altitude\": ";
+    AppendNumber(extra, altitude);
+    Add(command, kRelativeAltitude, params, extra + ", \"AltitudeMode\": 1, ");
+  }
+  void AddSpeed(double speed) {
+    std::string params = "1, ";
+    AppendNumber(params, speed);
+    Add(kChangeSpeed, kMissionFrame, params + ", -1, 0, 0, 0, 0", "");
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void Add(Command command, int frame, const std::string& params, const std::string& extra) {
+    if (count_++ > 0) text_ += ",\n";
+    text_ +=
+        "      {\"type\": \"SimpleItem\", \"autoContinue\": true, \"command\": " + std::to_string(command) +
+        ", \"doJumpId\": " + std::to_string(count_) + ", \"frame\": " + std::to_string(frame) + ", " + extra +
+        "\"params\": [" + params + "]}";
+  }
+  GeoPoint origin_;
+  std::string text_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::string QgcPlan(const PolynomialTrajectory& path, const QgcOptions& options) {
+  Items items(options.origin);
+  items.AddPlace(kTakeOff, path.At(0).p);
+  items.AddSpeed(options.speed);
+  for (size_t i = 0; i < path.segments(); ++i) {
+    const double duration = path.durations()[i];
+    // The longest way of a part is at most its share of the time at the highest sampled speed.
+    double speed = 0;
+    for (int k = 0; k <= 32; ++k) speed = std::max(speed, Norm(path.At(path.start(i) + duration * k / 32).v));
+    const int parts = std::max(1, static_cast<int>(std::ceil(1.05 * speed * duration / options.spacing)));
+    for (int k = 1; k <= parts; ++k)
+      items.AddPlace(kWaypoint, path.At(path.start(i) + duration * k / parts).p);
+  }
+  items.AddPlace(kLand, path.At(path.duration()).p);
+  const double home[] = {options.origin.latitude_deg, options.origin.longitude_deg, options.origin.altitude};
+  std::string out =
+      "{\n  \"fileType\": \"Plan\",\n  \"version\": 1,\n  \"groundStation\": \"QGroundControl\",\n"
+      "  \"geoFence\": {\"circles\": [], \"polygons\": [], \"version\": 2},\n"
+      "  \"rallyPoints\": {\"points\": [], \"version\": 2},\n  \"mission\": {\n    \"version\": 2,\n"
+      "    \"firmwareType\": 12,\n    \"vehicleType\": 2,\n    \"globalPlanAltitudeMode\": 1,\n"
+      "    \"cruiseSpeed\": ";
+  AppendNumber(out, options.speed);
+  out += ",\n    \"hoverSpeed\": ";
+  AppendNumber(out, options.speed);
+  out += ",\n    \"plannedHomePosition\": [";
+  AppendNumbers(out, home, ", ");
+  out += "],\n    \"items\": [\n" + items.text() + "\n    ]\n  }\n}\n";
+  return out;
+}
+
+}  // namespace airsim360
