@@ -53,6 +53,9 @@ void AddImageCalls(Api& api) {
                                             int height, const std::string& vehicle) {
     return SetPanoramaResolution(s, camera.text, width, height, vehicle);
   });
+  // Ours, for benches.
+  api.Picture("simGetRenderMilliseconds",
+              [](ImageService& images, const SnapshotPointer&) { return images.last_render_ms(); });
   // In the simulation's thread, so that the instant is that of everything said before.
   api.Change("simTriggerPanoramaCapture", [&api](Session& s, const airsim::CameraName& camera,
                                                  const std::string& vehicle) {

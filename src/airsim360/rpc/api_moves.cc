@@ -46,7 +46,7 @@ void Takeoff(Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
     }
     const Vec3d above = view.p_N - Vec3d{0, 0, kTakeoffHeight};
     return MakePathTask(view, {above}, timeout_sec,
-                        Options(s, kTakeoffSpeed, DrivetrainType::kMaxDegreeOfFreedom, {false, 0}, -1, 1));
+                        Options(s, kTakeoffSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, -1, 1));
   });
 }
 
@@ -103,7 +103,7 @@ void AddWholeCalls(Api& api) {
   });
   api.Start("goHome", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
     MoveTo(s, reply, {Vec3d{}}, timeout_sec,
-           Options(s, kHomeSpeed, DrivetrainType::kMaxDegreeOfFreedom, {false, 0}, -1, 1), vehicle);
+           Options(s, kHomeSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, -1, 1), vehicle);
   });
   api.Start("hover", [](Session& s, const Reply& reply, Text vehicle) {
     const VehicleControl& control = s.control(vehicle);

@@ -40,7 +40,8 @@ template <class ChangePlace>
 bool MoveObject(Session& s, Text name, const ChangePlace& change) {
   const ObjectIndex& objects = s.objects();
   const EntityId entity = objects.Find(name);
-  if (entity == kNoEntity || !IsThere(s.world(), entity)) return false;
+  // Vehicles have calls of their own.
+  if (entity == kNoEntity || !IsThere(s.world(), entity) || s.HasVehicle(name)) return false;
   if (objects.InstancesOf(entity).empty()) {
     NoticeOnce("'" + name + "' is part of a larger mesh and cannot be moved");
     return false;

@@ -79,7 +79,10 @@ const CameraSetup& FindCamera(const CameraMap& cameras, const std::string& name)
   const auto found = cameras.find(CanonicalCamera(name));
   if (found != cameras.end()) return found->second;
   std::string choices;
-  for (const auto& [known, setup] : cameras) choices += (choices.empty() ? "" : ", ") + known;
+  for (const auto& [known, setup] : cameras) {
+    if (!choices.empty()) choices += ", ";
+    choices += known;
+  }
   throw std::invalid_argument("Camera '" + name + "' not found or not available; the cameras are " + choices);
 }
 

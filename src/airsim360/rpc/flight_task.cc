@@ -13,7 +13,7 @@ constexpr double kDistanceAccuracy = 0.5, kStillSpeed = 0.05, kStillYawRate = 0.
 constexpr double kLandingSpeed = 0.2;
 constexpr int kLandedTurns = 10;
 constexpr double kSticksRange = 10000;  // full deflection of the remote control
-constexpr airsim::YawMode kNoTurning{true, 0}, kFacingNorth{false, 0};
+constexpr airsim::YawMode kNoTurning{true, 0};
 
 double NormalizedDegrees(double angle) {
   angle = std::fmod(angle, 360);
@@ -38,7 +38,7 @@ class LandTask : public FlightTask {
   TaskTurn Turn(const FlightView& view) override {
     // The sign counts: a drone that still climbs is also taken for landed.
     still_turns_ = view.v_N.z <= kStillSpeed ? still_turns_ + 1 : 0;
-    TaskTurn turn{NedVelocity({0, 0, kLandingSpeed}, kFacingNorth), {}};
+    TaskTurn turn{NedVelocity({0, 0, kLandingSpeed}, kNoTurning), {}};
     if (still_turns_ > kLandedTurns) turn.result = true;
     return turn;
   }

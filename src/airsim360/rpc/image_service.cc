@@ -23,6 +23,7 @@ bool SameProjection(const Camera& a, const Camera& b) {
 struct ImageService::Shot {
   Camera camera;
   RigidTransform X_WA, X_WA_next;
+  size_t self = kNobody;  // the vehicle that looks
   Products products;
   std::vector<std::pair<size_t, ImageContent>> requests;  // index and what it shows
 };
@@ -85,9 +86,11 @@ void ImageService::FollowEnvironment(const WorldView& world) {
   renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = world.environment});
 }
 
-std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot) const {
-  if (snapshot.world->places.empty()) return nullptr;
-  auto state = std::make_shared<SceneState>();
+// What has moved, as vehicle `self` sees it: objects, and the bodies of the other drones.
+std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot, size_t self) const {
+  const std::shared_ptr<const SceneState> bodies = SceneStateOf(*snapshot.model, snapshot.state, self);
+  if (snapshot.world->places.empty()) return bodies;
+  auto state = bodies ? std::make_shared<SceneState>(*bodies) : std::make_shared<SceneState>();
   state->t_ns = snapshot.state.t_ns;
   for (const auto& [entity, place] : snapshot.world->places)
     session_.objects().Move(entity, place, state->moved);
@@ -102,9 +105,9 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
   // Without colours there is no shading to be paid for.
   request.tier = shot.products.rgb ? options_.tier : Tier::kLabels;
   request.products = shot.products;
-  request.state = StateOf(snapshot);
+  request.state = StateOf(snapshot, shot.self);
   if (shot.products.flow) request.X_WC_next = shot.X_WA_next * CameraInBody();
-  renderer_->Render(request, frame_);
+  render_ms_ += renderer_->Render(request, frame_).render_ms;
   return frame_;
 }
 
@@ -162,6 +165,7 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
     } else {
       const Kinematics& body = snapshot.state.vehicles[vehicle].motion;
       shot.X_WA = body.X_WB * camera.X_BA;
+      shot.self = vehicle;
       shot.X_WA_next = Extrapolate(body, kFlowSeconds) * camera.X_BA;
     }
     const auto same = std::find_if(shots.begin(), shots.end(), [&](const Shot& other) {
@@ -199,6 +203,7 @@ std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& 
   const SnapshotPointer instant = external ? now : InstantFor(requests, now, index);
   const Vec3d origin_W = external ? session_.origin_W() : instant->vehicles[index].origin_W;
   std::vector<airsim::ImageResponse> responses(requests.size());
+  render_ms_ = 0;
   for (const Shot& shot : PlanShots(requests, *instant, index, external)) {
     RenderShot(*instant, shot);
     for (const auto& [i, content] : shot.requests) {
@@ -214,6 +219,7 @@ ImageService::View ImageService::RenderLabels(const Snapshot& snapshot, size_t v
   Shot shot;
   shot.camera = ProjectionOf(camera, type);
   shot.X_WA = CameraPoseIn(snapshot, vehicle, camera);
+  shot.self = vehicle;
   shot.products.rgb = false;
   const Frame& frame = RenderShot(snapshot, shot);
   return {&frame, shot.camera, shot.X_WA * CameraInBody()};

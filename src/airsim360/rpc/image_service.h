@@ -50,13 +50,15 @@ class ImageService {
   View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera,
                     airsim::ImageType type);
   Session& session() { return session_; }
+  /// What the renderer itself took for the last Capture.
+  double last_render_ms() const { return render_ms_; }
 
  private:
   struct Shot;
   void Run();
   const Frame& RenderShot(const Snapshot& snapshot, const Shot& shot);
   void FollowEnvironment(const WorldView& world);
-  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot) const;
+  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self) const;
   std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
                               size_t vehicle, bool external) const;
   SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
@@ -70,6 +72,7 @@ class ImageService {
   std::unique_ptr<Renderer> renderer_;
   uint64_t environment_version_ = 0;
   Frame frame_;
+  double render_ms_ = 0;
 
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;

@@ -79,7 +79,8 @@ void RecordingWriter::Write(ImageService& images, const SnapshotPointer& snapsho
       if (requests.empty()) continue;
       std::string files;
       for (const auto& image : images.Capture(snapshot, requests, vehicle.name, false)) {
-        files += (files.empty() ? "" : ";") + WriteImage(image, vehicle.name);
+        if (!files.empty()) files += ';';
+        files += WriteImage(image, vehicle.name);
       }
       const airsim::Pose pose = airsim::ToPose(snapshot->state.vehicles[v].motion.X_WB, vehicle.origin_W);
       const auto& p = pose.position;

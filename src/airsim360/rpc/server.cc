@@ -30,6 +30,18 @@ class OpenConnections {
   std::set<ConnectionId> closed_;
 };
 
+// The scene with a body for each drone of the settings, in the order of their names.
+std::shared_ptr<const Scene> WithBodies(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
+                                        std::vector<DroneBodyRef>& refs) {
+  const Vec3d somewhere = VecCast<double>(scene->spawn.value_or(scene->bounds.center()));
+  std::vector<DroneBodySpec> bodies;
+  for (const auto& [name, vehicle] : settings.vehicles) {
+    if (!vehicle.auto_create || vehicle.type == "ComputerVision") continue;
+    bodies.push_back({name, MakeDroneBody(AirSimQuad()), {{}, somewhere}});
+  }
+  return bodies.empty() ? scene : AddDroneBodies(std::move(scene), bodies, refs);
+}
+
 }  // namespace
 
 // Gone in the opposite order: the session may still hand over to pictures, and both to the socket.
@@ -61,12 +73,13 @@ struct AirSimServer::Impl {
 
 AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptions& options)
     : impl_(std::make_unique<Impl>()) {
-  impl_->tracer = std::make_shared<const RayTracer>(std::move(scene));
-  impl_->session =
-      std::make_unique<Session>(impl_->tracer, SessionOptions{.settings = options.settings,
-                                                              .lockstep = options.lockstep,
-                                                              .seed = options.seed,
-                                                              .environment = options.environment});
+  std::vector<DroneBodyRef> bodies;
+  impl_->tracer = std::make_shared<const RayTracer>(WithBodies(std::move(scene), options.settings, bodies));
+  impl_->session = std::make_unique<Session>(impl_->tracer, bodies,
+                                             SessionOptions{.settings = options.settings,
+                                                            .lockstep = options.lockstep,
+                                                            .seed = options.seed,
+                                                            .environment = options.environment});
   impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier});
   impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images);

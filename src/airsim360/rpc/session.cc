@@ -43,14 +43,16 @@ size_t Snapshot::Find(const std::string& name) const {
   throw std::runtime_error(NoVehicleText(name));
 }
 
-Session::Session(std::shared_ptr<const RayTracer> tracer, const SessionOptions& options)
+Session::Session(std::shared_ptr<const RayTracer> tracer, std::vector<DroneBodyRef> bodies,
+                 const SessionOptions& options)
     : options_(options),
       objects_(std::shared_ptr<const Scene>(tracer, &tracer->scene())),
-      origin_W_(FindOrigin(*tracer)),
       earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
                       options.settings.origin.altitude}),
-      base_tracer_(tracer),
+      bodies_(std::move(bodies)),
+      base_tracer_(WithoutBodies(tracer, bodies_)),
       dynamic_tracer_(tracer),
+      origin_W_(FindOrigin(*base_tracer_)),
       pacer_(options.lockstep, options.settings.clock_speed),
       recorder_(options.settings.recording) {
   auto world = std::make_shared<WorldView>();
@@ -94,8 +96,12 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
   const size_t index = state_.vehicles.size();
   RigidTransform start = X_WB;
   if (is_drone) {
-    model->drones.push_back(std::make_shared<const SimDrone>(
-        MakeDroneSetup(name, options_.settings, settings, {}, X_WB), model->dt_ns));
+    DroneSetup setup = MakeDroneSetup(name, options_.settings, settings, {}, X_WB);
+    if (index < bodies_.size()) {
+      setup.instance = bodies_[index].instance;
+      setup.entity = bodies_[index].entity;
+    }
+    model->drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model->dt_ns));
     model_ = model;
     // Where the file gives a height it starts there, in free fall as in AirSim; else on the ground.
     const bool on_ground = std::isnan(settings.pose.z) || settings.pose.z >= 0;
@@ -217,6 +223,11 @@ void Session::Run() {
          : wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
   }
   for (const auto& control : controls_) control->Cancel();
+}
+
+bool Session::HasVehicle(const std::string& name) const {
+  return std::any_of(controls_.begin(), controls_.end(),
+                     [&](const auto& control) { return control->status().name == name; });
 }
 
 VehicleControl& Session::control(const std::string& name) {

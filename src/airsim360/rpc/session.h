@@ -13,6 +13,7 @@
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/rpc/vehicle_control.h"
+#include "airsim360/sim/drone_bodies.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -30,7 +31,9 @@ class Session {
   /// Changes the session and returns what is to be done once the change can be seen: answering, mostly.
   using Job = std::function<std::function<void()>(Session&)>;
 
-  Session(std::shared_ptr<const RayTracer> tracer, const SessionOptions& options);
+  /// `tracer` sees the scene with `bodies`, one for each drone of the settings in the order of their names.
+  Session(std::shared_ptr<const RayTracer> tracer, std::vector<DroneBodyRef> bodies,
+          const SessionOptions& options);
   /// Ends every move with False and joins the thread.
   ~Session();
   Session(const Session&) = delete;
@@ -52,6 +55,7 @@ class Session {
   SimState& state() { return state_; }
   const SimModel& model() const { return *model_; }
   VehicleControl& control(const std::string& name);
+  bool HasVehicle(const std::string& name) const;
   Vehicle& vehicle(const VehicleControl& control) { return state_.vehicles[control.index()]; }
   /// The world, to be changed.
   WorldView& world();
@@ -83,10 +87,11 @@ class Session {
 
   SessionOptions options_;
   ObjectIndex objects_;
-  Vec3d origin_W_;
   GeoFrame earth_;
-  std::shared_ptr<const RayTracer> base_tracer_;
+  std::vector<DroneBodyRef> bodies_;
+  std::shared_ptr<const RayTracer> base_tracer_;  // without the bodies
   DynamicTracer dynamic_tracer_;
+  Vec3d origin_W_;
 
   // Of the session's thread.
   std::shared_ptr<SimModel> model_;  // replaced, never changed

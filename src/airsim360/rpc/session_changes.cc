@@ -10,10 +10,13 @@ void Session::ObjectsMoved() {
   auto scene_state = std::make_shared<SceneState>();
   scene_state->t_ns = state_.t_ns;
   for (const auto& [entity, place] : world().places) objects_.Move(entity, place, scene_state->moved);
+  const bool any = !scene_state->moved.empty();
+  // Drones meet each other otherwise.
+  for (const DroneBodyRef& body : bodies_) scene_state->moved.push_back({body.instance, {}, true});
   std::sort(scene_state->moved.begin(), scene_state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
   auto model = std::make_shared<SimModel>(*model_);
-  model->tracer = scene_state->moved.empty() ? base_tracer_ : dynamic_tracer_.At(scene_state);
+  model->tracer = any ? dynamic_tracer_.At(scene_state) : base_tracer_;
   model_ = model;
   // Free space is measured anew.
   for (Vehicle& vehicle : state_.vehicles) vehicle.contact.free_distance = 0;
@@ -33,8 +36,7 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr size_t kMostVehicles = 256;
-  const bool taken = std::any_of(controls_.begin(), controls_.end(),
-                                 [&](const auto& control) { return control->status().name == name; });
+  const bool taken = HasVehicle(name);
   // Drones come before all others in the simulation: after one of those there is no room for them.
   const bool only_drones = model_->drones.size() == state_.vehicles.size();
   if (taken || name.empty() || lower != "simpleflight" || !only_drones || controls_.size() >= kMostVehicles) {

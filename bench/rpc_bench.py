@@ -1,0 +1,195 @@
+#!/usr/bin/python3
+"""Latencies and throughput of `airsim360 serve`, as a client sees them.
+
+Usage: rpc_bench.py [--program build/bin/airsim360] [--python build/python] [--world box_room] [--soak SECONDS]
+Prints one line a figure: medians and 95th percentiles over many calls on one quiet connection; the panoramic loop; what
+the server adds to the rendering of a large capture; with --soak, many clients and drones for that long.
+"""
+import argparse
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import msgpack
+import numpy as np
+
+
+class Server:
+    def __init__(self, program, world, settings, arguments=()):
+        self.folder = tempfile.TemporaryDirectory()
+        path = os.path.join(self.folder.name, "settings.json")
+        with open(path, "w") as file:
+            json.dump(settings, file)
+        self.process = subprocess.Popen([program, "serve", "--world", world, "--settings", path, "--port", "0", *arguments],
+                                        stdout=subprocess.PIPE, text=True)
+        self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
+
+    def rss_mib(self):
+        with open(f"/proc/{self.process.pid}/status") as file:
+            return int(re.search(r"VmRSS:\s+(\d+)", file.read())[1]) / 1024
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        assert self.process.wait(60) == 0
+        self.process.stdout.close()
+
+
+class Raw:
+    """The least a client can do: what is measured is the server."""
+
+    def __init__(self, port):
+        self.socket = socket.create_connection(("127.0.0.1", port))
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.unpacker = msgpack.Unpacker(raw=False, max_buffer_size=1 << 30)
+
+    def call(self, method, *arguments):
+        self.socket.sendall(msgpack.packb([0, 1, method, arguments]))
+        while True:
+            for _, _, error, result in self.unpacker:
+                if error is not None:
+                    raise RuntimeError(error)
+                return result
+            self.unpacker.feed(self.socket.recv(1 << 20))
+
+
+def timed(call, count):
+    times = []
+    for _ in range(count):
+        start = time.perf_counter()
+        call()
+        times.append(1000 * (time.perf_counter() - start))
+    return np.median(times), np.percentile(times, 95)
+
+
+def row(name, median, p95, bar=""):
+    print(f"{name:58s} {median:9.3f} ms   p95 {p95:9.3f} ms   {bar}", flush=True)
+
+
+def latencies(server, airsim):
+    raw = Raw(server.port)
+    row("ping, raw socket", *timed(lambda: raw.call("ping"), 3000), "bar 0.1")
+    row("getMultirotorState, raw socket", *timed(lambda: raw.call("getMultirotorState", ""), 3000), "bar 0.2")
+    client = airsim.MultirotorClient(port=server.port)
+    row("ping, our client", *timed(client.ping, 2000))
+    row("getMultirotorState, our client", *timed(client.getMultirotorState, 2000))
+    request = [airsim.ImageRequest("0", airsim.ImageType.DepthPerspective, True, False)]
+    row("256x144 float image, our client, whole call", *timed(lambda: client.simGetImages(request), 100))
+    binary = msgpack.packb({"image_data_float": np.zeros(256 * 144, np.float32).tobytes()})
+    stock = msgpack.packb({"image_data_float": np.zeros(256 * 144, np.float32).tolist()}, use_single_float=True)
+    decode = airsim.ImageResponse.from_msgpack
+    row("  decoding it, our binary form", *timed(lambda: decode(msgpack.unpackb(binary)), 300), "bar 1")
+    row("  decoding it, stock floats (C msgpack)",
+        *timed(lambda: np.array(msgpack.unpackb(stock)["image_data_float"], np.float32), 100))
+
+
+def panorama_loop(server, airsim, seconds=5):
+    client = airsim.MultirotorClient(port=server.port)
+    client.enableApiControl(True)
+    client.armDisarm(True)
+    client.takeoffAsync().join()
+    client.simSetPanoramaResolution("panorama_original", 448, 224)
+    requests = [airsim.ImageRequest("panorama_original", airsim.ImageType.Scene, False, False),
+                airsim.ImageRequest("panorama_depth", airsim.ImageType.Scene, True, False)]
+    count, start = 0, time.perf_counter()
+    while time.perf_counter() - start < seconds:
+        client.simTriggerPanoramaCapture("panorama_original")
+        color, depth = client.simGetImages(requests)
+        assert len(color.image_data_uint8) == 448 * 224 * 3 and depth.image_data_float.shape == (448 * 224,)
+        client.getMultirotorState()
+        client.moveByRollPitchYawThrottleAsync(0, 0, 0, 0.587, 0.1)
+        count += 1
+    print(f"{'Fly360 loop, 448x224 RGB + range + state + command':58s} {count / (time.perf_counter() - start):9.1f} Hz   bar 15, stretch 30")
+
+
+def large_capture(server, airsim, program, world):
+    """The renderer's own time for the same picture is taken in the same minute, alternating."""
+    client = airsim.MultirotorClient(port=server.port)
+    client.simPause(True)
+    client.simSetPanoramaResolution("panorama_original", 2048, 1024)
+    client.simTriggerPanoramaCapture("panorama_original")
+    requests = [airsim.ImageRequest("panorama_original", 0, False, False), airsim.ImageRequest("panorama_depth", 0, True, False),
+                airsim.ImageRequest("panorama_entity", 0, False, False)]
+    client.simGetImages(requests)
+    raw = Raw(server.port)
+    wire = [request.to_msgpack() for request in requests]
+    calls, renders = [], []
+    for _ in range(5):
+        calls.append(timed(lambda: raw.call("simGetImages", wire, "", False), 3)[0])
+        renders.append(float(raw.call("simGetRenderMilliseconds")))
+    call, render = float(np.median(calls)), float(np.median(renders))
+    print(f"{'2048x1024 RGB + range + entity, one call':58s} {call:9.1f} ms   rendering {render:.1f} ms, "
+          f"the rest {100 * (call / render - 1):.1f} %   bar 5 %")
+
+
+def soak(program, world, airsim, seconds, clients=16, drones=10):
+    vehicles = {f"Drone{i}": {"VehicleType": "SimpleFlight", "X": -4 + 2 * (i % 5), "Y": -3 + 3 * (i // 5)} for i in range(drones)}
+    server = Server(program, world, {"Vehicles": vehicles})
+    names, problems, counts = list(vehicles), [], [0] * clients
+    stop = time.time() + seconds
+
+    def work(number):
+        try:
+            client = airsim.MultirotorClient(port=server.port, timeout_value=120)
+            name = names[number % drones]
+            client.enableApiControl(True, name)
+            client.armDisarm(True, name)
+            while time.time() < stop:
+                client.moveByVelocityZAsync(0.3, 0, -1.5, 0.5, vehicle_name=name)
+                client.getMultirotorState(name)
+                client.getImuData("", name)
+                client.simGetCollisionInfo(name)
+                if counts[number] % 10 == 0:
+                    client.simGetImages([airsim.ImageRequest("0", airsim.ImageType.DepthPerspective, True, False)], name)
+                counts[number] += 1
+                time.sleep(0.02)
+        except Exception as problem:  # pylint: disable=broad-except  # every problem is a finding
+            problems.append(f"client {number}: {problem!r}")
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(clients)]
+    for thread in threads:
+        thread.start()
+    raw = Raw(server.port)
+    time.sleep(min(10, seconds / 4))
+    first, steps, last = server.rss_mib(), [], None
+    while time.time() < stop:
+        wall, stamp = time.perf_counter(), raw.call("getMultirotorState", names[0])["timestamp"] * 1e-9
+        if last:
+            steps.append(1000 * abs((stamp - last[1]) - (wall - last[0])))
+        last = (wall, stamp)
+        time.sleep(0.05)
+    for thread in threads:
+        thread.join()
+    final = server.rss_mib()
+    server.stop()
+    print(f"soak: {clients} clients, {drones} drones, {seconds} s: {sum(counts)} loops, {len(problems)} errors {problems[:3]}")
+    print(f"      RSS {first:.1f} -> {final:.1f} MiB ({100 * (final / first - 1):+.2f} %, bar 2 %)")
+    print(f"      sim clock against wall clock over 50 ms: median {np.median(steps):.2f} ms, p95 {np.percentile(steps, 95):.2f} ms, "
+          f"largest {np.max(steps):.2f} ms")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--program", default="build/bin/airsim360")
+    parser.add_argument("--python", default="build/python")
+    parser.add_argument("--world", default="box_room")
+    parser.add_argument("--soak", type=float, default=0, help="seconds; 0 = not")
+    arguments = parser.parse_args()
+    sys.path.insert(0, arguments.python)
+    import airsim360.airsim as airsim
+    server = Server(arguments.program, arguments.world, {})
+    latencies(server, airsim)
+    panorama_loop(server, airsim)
+    large_capture(server, airsim, arguments.program, arguments.world)
+    server.stop()
+    if arguments.soak > 0:
+        soak(arguments.program, arguments.world, airsim, arguments.soak)
+
+
+if __name__ == "__main__":
+    main()
