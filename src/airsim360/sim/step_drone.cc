@@ -80,8 +80,8 @@ bool Sleeps(const StepContext& context, size_t i, const SimDrone& drone, Vec3d w
   return true;
 }
 
-// Whether a wake can be felt at p: downstream, within a generous cone. At half the distance from the axis a
-// jet has less than a thousandth of its speed there (Schlichting's profile, see downwash.h).
+// Whether a wake can be felt at p: downstream, within a cone on whose edge a jet has half a percent of the
+// speed on its axis (Schlichting's profile, see downwash.h).
 bool IsInWake(const RotorWake& wake, Vec3d p) {
   const Vec3d d = p - wake.p_W;
   const double along = Dot(d, wake.direction_W);
