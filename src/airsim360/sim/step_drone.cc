@@ -17,7 +17,7 @@ constexpr int64_t kContactGapNs = 100'000'000;
 // Drones farther away than this do not meet within a step, metres: closing at 500 m/s.
 constexpr double kMeetingRange = 2;
 // Wakes of drones farther away than this are not felt, metres.
-constexpr double kWakeReach = 15;
+constexpr double kWakeReach = 20;
 // Vehicles are kept within this distance of the scene's box, metres.
 constexpr double kWorldMargin = 1000;
 
@@ -80,11 +80,21 @@ bool Sleeps(const StepContext& context, size_t i, const SimDrone& drone, Vec3d w
   return true;
 }
 
+// Whether a wake can be felt at p: downstream, within a cone on whose edge a jet has half a percent of the
+// speed on its axis (Schlichting's profile, see downwash.h).
+bool IsInWake(const RotorWake& wake, Vec3d p) {
+  const Vec3d d = p - wake.p_W;
+  const double along = Dot(d, wake.direction_W);
+  if (!(wake.momentum > 0 && along > 0)) return false;
+  const double reach = std::sqrt(wake.disc_area) + 0.5 * along;
+  return Dot(d, d) - along * along < reach * reach;
+}
+
 // What the rotors of other drones blow at the vehicle.
 Vec3d Downwash(const StepContext& context, size_t i, const Vehicle& vehicle) {
   std::vector<RotorWake> wakes;
   context.boxes.Near(vehicle.drone.p_WB, kWakeReach, i, [&](const DroneBox& box) {
-    if (box.wake.momentum > 0) wakes.push_back(box.wake);
+    if (IsInWake(box.wake, vehicle.drone.p_WB)) wakes.push_back(box.wake);
   });
   return wakes.empty() ? Vec3d{} : DownwashOn(wakes, wakes.size(), vehicle.drone.p_WB);
 }
