@@ -105,6 +105,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const RayTracerOptions& options) {
   BuildSubScenes(scene, uses);
   AttachInstances(scene, uses);
   rtcCommitScene(top_.get());
+  if (panes_ != nullptr) rtcCommitScene(panes_.get());
   ThrowOnError();
 }
 
@@ -141,7 +142,7 @@ const Vec3f* EmbreeScene::PaddedVertices(const Mesh& mesh, const AffineTransform
 }
 
 void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry,
-                                 const Vec3f* vertices, size_t count, RTCBuildQuality quality) const {
+                                 const Vec3f* vertices, size_t count, RTCBuildQuality quality) {
   RTCGeometry g = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const std::vector<Vec3u>& indices = geometry.indices.empty() ? geometry.mesh->triangles : geometry.indices;
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(Vec3f),
@@ -157,7 +158,13 @@ void EmbreeScene::AttachGeometry(RTCScene target, unsigned id, const MeshGeometr
   }
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(target, g, id);
+  if (target == top_.get() && geometry.mask == kMaskClearPanes) AttachPanes(g, id);
   rtcReleaseGeometry(g);
+}
+
+void EmbreeScene::AttachPanes(RTCGeometry g, unsigned id) {
+  if (panes_ == nullptr) panes_ = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcAttachGeometryByID(panes_.get(), g, id);
 }
 
 void EmbreeScene::BuildSubScenes(const Scene& scene, const std::vector<uint32_t>& uses) {
@@ -212,7 +219,7 @@ const PointQueryScene& EmbreeScene::PointQueries(const Scene& scene) {
   return *point_queries_;
 }
 
-SceneHandle EmbreeScene::MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const {
+SceneHandle EmbreeScene::MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) {
   // Quality "low" of a scene is Embree's way to say: the structures of its geometries are kept and updated.
   SceneHandle scene = NewScene(device_.get(), RTC_BUILD_QUALITY_LOW);
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
@@ -263,6 +270,7 @@ void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTr
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(top_.get(), g, id);
+  if ((mask & kMaskClearPanes) != 0) AttachPanes(g, id);
   rtcReleaseGeometry(g);
   has_instances_ = true;
 }

@@ -60,6 +60,9 @@ class EmbreeScene {
   EmbreeScene(const Scene& scene, const RayTracerOptions& options);
 
   RTCScene top() const { return top_.get(); }
+  /// Whatever has clear panes, under the same ids and masks; nullptr if nothing has. Small, so that looking
+  /// for panes alone costs little.
+  RTCScene panes() const { return panes_.get(); }
   bool has_instances() const { return has_instances_; }
   bool has_clear_panes() const { return has_clear_panes_; }
   const std::vector<HitSlot>& slots() const { return slots_; }
@@ -74,7 +77,7 @@ class EmbreeScene {
   /// A scene of one mesh, in its own frame; made when first needed. May be called while others trace.
   RTCScene SubScene(const Mesh& mesh, MeshId id);
   /// A scene of one mesh with other vertices, of one more element than the mesh has; for refitting.
-  SceneHandle MakeDeformable(MeshId id, const Vec3f* vertices, size_t count) const;
+  SceneHandle MakeDeformable(MeshId id, const Vec3f* vertices, size_t count);
   unsigned GroupCount(MeshId id) const { return static_cast<unsigned>(groups_[id].size()); }
   /// The scene as built, for point queries; made when first needed. May be called while others trace.
   const PointQueryScene& PointQueries(const Scene& scene);
@@ -90,7 +93,8 @@ class EmbreeScene {
   void AttachInstances(const Scene& scene, const std::vector<uint32_t>& uses);
   void AttachInstance(unsigned id, RTCScene sub_scene, const AffineTransform& X_WM, unsigned mask);
   void AttachGeometry(RTCScene target, unsigned id, const MeshGeometry& geometry, const Vec3f* vertices,
-                      size_t count, RTCBuildQuality quality) const;
+                      size_t count, RTCBuildQuality quality);
+  void AttachPanes(RTCGeometry geometry, unsigned id);
   void BuildSubScene(const Mesh& mesh, MeshId id);
   const Vec3f* PaddedVertices(const Mesh& mesh, const AffineTransform* X_WM, std::vector<Vec3f>& own) const;
 
@@ -99,7 +103,7 @@ class EmbreeScene {
   std::vector<std::vector<Vec3f>> mesh_vertices_;      // by mesh: padded copy, where one was needed
   std::vector<std::vector<Vec3f>> instance_vertices_;  // by instance: baked or padded copy
   std::vector<SceneHandle> sub_scenes_;                // by mesh; null where not instanced
-  SceneHandle top_;
+  SceneHandle top_, panes_;
   bool has_instances_ = false, has_clear_panes_ = false;
   std::vector<HitSlot> slots_;
   std::vector<uint32_t> first_slots_;

@@ -54,6 +54,16 @@ Vec3f NormalToWorld(const Mat3f& A, Vec3f n) {
 // Embree aborts the process on an active ray that is not finite: such lanes are taken out. Returns `valid`,
 // or `fixed`.
 const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
+  // One sum over everything tells of all lanes at once: it is rarely not a number or too large.
+  float sums[16];
+  for (int i = 0; i < 16; ++i) {
+    sums[i] = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
+              rays.direction_y[i] + rays.direction_z[i];
+  }
+  for (int i = 0; i < 8; ++i) sums[i] += sums[i + 8];
+  for (int i = 0; i < 4; ++i) sums[i] += sums[i + 4];
+  const float all = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  if (all - all == 0) return valid;
   int bad[16], any = 0;
   for (int i = 0; i < 16; ++i) {
     const float sum = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
@@ -126,6 +136,14 @@ std::span<const Vec3f> RayTracer::Positions(MeshId mesh) const {
 }
 
 void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) const {
+  IntersectIn(false, valid, rays, coherent);
+}
+
+void RayTracer::IntersectClearPanes16(const int* valid, RayHit16& rays) const {
+  IntersectIn(true, valid, rays, false);
+}
+
+void RayTracer::IntersectIn(bool panes, const int* valid, RayHit16& rays, bool coherent) const {
   // valid is -1 in active lanes, so that "or" marks them as missed and leaves the others alone.
   for (int i = 0; i < 16; ++i) rays.geometry[i] |= static_cast<uint32_t>(valid[i]);
   for (int i = 0; i < 16; ++i) rays.instance[i] |= static_cast<uint32_t>(valid[i]);
@@ -133,15 +151,16 @@ void RayTracer::Intersect16(const int* valid, RayHit16& rays, bool coherent) con
   RTCIntersectContext context = Context(coherent);
   const int* lanes = FiniteLanes(valid, rays, fixed);
   auto* packet = reinterpret_cast<RTCRayHit16*>(&rays);
+  const RTCScene statics = panes ? impl_->embree->panes() : impl_->embree->top();
   if (impl_->dynamic == nullptr) {
-    rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
+    if (statics != nullptr) rtcIntersect16(lanes, statics, &context, packet);
     return;
   }
-  if (impl_->traces_static) {
+  if (impl_->traces_static && statics != nullptr) {
     uint32_t kinds[16];
     std::memcpy(kinds, rays.mask, sizeof kinds);
     for (uint32_t& mask : rays.mask) mask = impl_->StaticMask(mask);
-    rtcIntersect16(lanes, impl_->embree->top(), &context, packet);
+    rtcIntersect16(lanes, statics, &context, packet);
     std::memcpy(rays.mask, kinds, sizeof kinds);
   }
   rtcIntersect16(lanes, impl_->dynamic->top(), &context, packet);

@@ -97,6 +97,9 @@ class RayTracer {
   /// preparation of the hit fields. `valid` is aligned to 64 bytes. `coherent`: neighbouring rays, as of a
   /// camera.
   void Intersect16(const int* valid, RayHit16& rays, bool coherent) const;
+  /// Nearest clear panes: Intersect16 for rays whose masks are all kMaskClearPanes, at the cost of a scene of
+  /// panes alone.
+  void IntersectClearPanes16(const int* valid, RayHit16& rays) const;
   /// Sets occluded[i] for active lanes: whether [t_near, t_far] meets a surface (t_far is then minus
   /// infinity).
   void Occluded16(const int* valid, RayHit16& rays, bool* occluded, bool coherent) const;
@@ -130,6 +133,7 @@ class RayTracer {
  private:
   friend class DynamicTracer;
   struct Impl;
+  void IntersectIn(bool panes, const int* valid, RayHit16& rays, bool coherent) const;
   explicit RayTracer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

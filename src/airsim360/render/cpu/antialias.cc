@@ -37,8 +37,9 @@ class EdgeTile {
     kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
   }
 
-  // Adds a pixel of the tile with its kind of edge and the colour of its centre ray.
-  void AddPixel(int x, int y, uint8_t edge, Rgb8 center) {
+  // Adds a pixel of the tile with its place in the image, its kind of edge and the colour of its centre ray.
+  void AddPixel(int x, int y, int image_x, int image_y, uint8_t edge, Rgb8 center) {
+    image_x_[pixel_count_] = image_x, image_y_[pixel_count_] = image_y;
     x_[pixel_count_] = static_cast<uint8_t>(x);
     y_[pixel_count_] = static_cast<uint8_t>(y);
     edge_[pixel_count_] = edge;
@@ -106,7 +107,12 @@ class EdgeTile {
   void Shade() {
     RadianceBatch radiance;
     Rgb8 colors[HitBatch::kCapacity];
-    task_.shader->Shade(hits_, radiance);
+    int x[HitBatch::kCapacity], y[HitBatch::kCapacity];
+    for (int i = 0; i < hits_.count; ++i) x[i] = image_x_[owner_[i]], y[i] = image_y_[owner_[i]];
+    const Image<SunPixel>& sun = *task_.sun;
+    const SunNeighbours around{sun.pixels().data(),           sun.width(), sun.height(),
+                               task_.rays->field().separable, x,           y};
+    task_.shader->Shade(hits_, radiance, &around);
     task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors,
                           task_.tone);
     for (int i = 0; i < hits_.count; ++i) AddColor(owner_[i], colors[i]);
@@ -117,6 +123,7 @@ class EdgeTile {
   const TileKernels& kernels_;
   int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
   uint8_t x_[kTilePixels], y_[kTilePixels];  // of the pixels in the tile
+  int image_x_[kTilePixels], image_y_[kTilePixels];
   uint8_t edge_[kTilePixels], low_[kTilePixels], high_[kTilePixels] = {};
   float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
   int weight_[kTilePixels] = {};
@@ -189,7 +196,9 @@ int Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
     const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
     if (column + x >= field.width || row + y >= field.height) continue;
     const uint8_t edge = (*task.edges)(image_column(x), row + y);
-    if (edge != 0) tile.AddPixel(x, y, edge, (*task.colors)(image_column(x), row + y));
+    if (edge == 0) continue;
+    const int image_x = image_column(x);
+    tile.AddPixel(x, y, image_x, row + y, edge, (*task.colors)(image_x, row + y));
   }
   if (tile.pixel_count() == 0) return 0;
 

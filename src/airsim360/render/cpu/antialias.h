@@ -32,7 +32,8 @@ struct AntialiasTask {
   double exposure_ev;
   int samples;  ///< of a pixel on a silhouette, the centre ray included
   const Image<uint8_t>* edges;
-  Image<Rgb8>* colors;  ///< in: of the centre rays
+  Image<Rgb8>* colors;         ///< in: of the centre rays
+  const Image<SunPixel>* sun;  ///< of the centre rays
   ToneCurve tone = ToneCurve::kFilmic;
 };
 

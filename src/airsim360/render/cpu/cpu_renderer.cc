@@ -14,6 +14,7 @@
 #include "airsim360/render/cpu/label_tables.h"
 #include "airsim360/render/cpu/packet_tracer.h"
 #include "airsim360/render/cpu/surface_products.h"
+#include "airsim360/render/cpu/tile_pixels.h"
 #include "airsim360/render/filter/exposure.h"
 #include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/reference/path_tracer.h"
@@ -101,6 +102,7 @@ class CpuRenderer : public Renderer {
   HighFrame high_;
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
+  Image<SunPixel> sun_;     // where edges need it
   Image<Rgb32f> radiance_;  // where the frame does not want it but tier or exposure need it
 };
 
@@ -120,6 +122,7 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(entity_, width, height, (edges || products.coverage) && !products.entity);
   Resize(luma_, width, height, color);
   Resize(edges_, width, height, edges);
+  Resize(sun_, width, height, edges);
   Resize(frame.radiance, width, height, color && products.radiance);
   const bool linear =
       request.auto_exposure || request.tier == Tier::kHigh || request.tier == Tier::kReference;
@@ -183,7 +186,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
     antialiaser_.FindEdges(entity, luma_, rays_.field().separable, edges_);
     const int64_t rays =
         antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, edge_samples, &edges_, &frame.rgb, request.tone});
+                          request.exposure_ev, edge_samples, &edges_, &frame.rgb, &sun_, request.tone});
     stats.rays += static_cast<uint64_t>(rays);
   }
   if (!request.products.rgb) frame.rgb = {};
@@ -266,7 +269,14 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   RadianceBatch radiance;
   Rgb8 colors[kTilePixels];
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
-  shader_->Shade(hits, radiance);
+  SunPixel sun[kTilePixels]{};
+  shader_->Shade(hits, radiance, nullptr, sun_.empty() ? nullptr : sun);
+  if (!sun_.empty()) {
+    for (int i = 0; i < kTilePixels; ++i) {
+      const int64_t pixel = ImageIndex(target, PixelOfPacketIndex(target.shape, i));
+      if (pixel >= 0) sun_.pixels()[static_cast<size_t>(pixel)] = sun[i];
+    }
+  }
   shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors,
                    request.tone);
   if (Image<Rgb32f>& kept = RadianceOf(frame); !kept.empty()) KeepRadiance(radiance, target, kept);

@@ -211,15 +211,19 @@ void HighFrame::Impl::StoreTile(const HighTile& shaded, LabelTile& tile_labels, 
   const int rows = std::min(kTileSize, target.height - target.row);
   uint8_t smooth = 0;
   for (int y = 0; y < rows; ++y) {
-    const int64_t first = static_cast<int64_t>(target.row + y) * target.width + target.column;
-    Rgb32f* light = buffers.light.pixels().data() + first;
-    for (int x = 0; x < columns; ++x) {
-      const int slot = layout.slot_of[y * kTileSize + x];
-      light[x] = {shaded.light_r[slot], shaded.light_g[slot], shaded.light_b[slot]};
-      buffers.light_samples.pixels()[static_cast<size_t>(first + x)] = shaded.light_samples[slot];
-      buffers.sun_seen.pixels()[static_cast<size_t>(first + x)] = shaded.sun_seen[slot];
-      buffers.penumbra.pixels()[static_cast<size_t>(first + x)] = shaded.penumbra[slot];
-      smooth |= shaded.penumbra[slot];
+    const auto first =
+        static_cast<size_t>(static_cast<int64_t>(target.row + y) * target.width + target.column);
+    // Four neighbours are four in a row in either order of packets.
+    for (int x = 0; x < columns; x += 4) {
+      const int slot = layout.slot_of[y * kTileSize + x], count = std::min(4, columns - x);
+      const size_t at = first + static_cast<size_t>(x);
+      Rgb32f* light = &buffers.light.pixels()[at];
+      for (int i = 0; i < count; ++i)
+        light[i] = {shaded.light_r[slot + i], shaded.light_g[slot + i], shaded.light_b[slot + i]};
+      std::copy_n(shaded.light_samples + slot, count, &buffers.light_samples.pixels()[at]);
+      std::copy_n(shaded.sun_seen + slot, count, &buffers.sun_seen.pixels()[at]);
+      std::copy_n(shaded.penumbra + slot, count, &buffers.penumbra.pixels()[at]);
+      for (int i = 0; i < count; ++i) smooth |= shaded.penumbra[slot + i];
     }
   }
   buffers.smooth[static_cast<size_t>(tile)] = smooth;
@@ -246,24 +250,29 @@ void HighFrame::Impl::Combine() {
 void HighFrame::Impl::CombineTile(int tile) {
   const RayField& field = rays->field();
   const int column = tile % buffers.across() * kTileSize, row = tile / buffers.across() * kTileSize;
-  const TileLayout& layout = layouts[Shape(row) == PacketShape::kRow];
-  const LightTerms& t = buffers.terms[static_cast<size_t>(tile)];
+  const LightTerms& terms = buffers.terms[static_cast<size_t>(tile)];
   const bool smooth = buffers.smooth[static_cast<size_t>(tile)] != 0;
+  const int columns = std::min(kTileSize, field.width - column);
   for (int y = row; y < std::min(row + kTileSize, field.height); ++y) {
-    for (int x = column; x < std::min(column + kTileSize, field.width); ++x) {
-      const int k = layout.slot_of[(y - row) * kTileSize + x - column];
-      const Rgb32f light = buffers.light(x, y);
-      const float sun =
-          smooth && buffers.penumbra(x, y) != 0 ? SmoothSun(buffers, field, x, y) : buffers.sun_seen(x, y);
-      buffers.sun_smooth(x, y) = sun;
-      Rgb32f c{t.ambient_r[k] * light.r + t.sun_r[k] * sun + t.rest_r[k],
-               t.ambient_g[k] * light.g + t.sun_g[k] * sun + t.rest_g[k],
-               t.ambient_b[k] * light.b + t.sun_b[k] * sun + t.rest_b[k]};
-      // Pixels without a ray are black.
-      if (!field.separable && field.has_ray[static_cast<int64_t>(y) * field.stride + x] == 0) c = {};
-      buffers.radiance(x, y) = c;
-      const float exposed = exposure * (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b);
-      buffers.luma(x, y) = static_cast<uint8_t>(255 * std::sqrt(exposed / (1 + exposed)));
+    float* sun = &buffers.sun_smooth(column, y);
+    std::copy_n(&buffers.sun_seen(column, y), columns, sun);
+    for (int x = 0; smooth && x < columns; ++x) {
+      if (buffers.penumbra(column + x, y) != 0) sun[x] = SmoothSun(buffers, field, column + x, y);
+    }
+    const CombinedRow combined{Shape(row),
+                               y - row,
+                               columns,
+                               exposure,
+                               &buffers.light(column, y),
+                               sun,
+                               &buffers.radiance(column, y),
+                               &buffers.luma(column, y)};
+    kernels.combine_row(terms, combined);
+    // Pixels without a ray are black.
+    for (int x = 0; !field.separable && x < columns; ++x) {
+      if (field.has_ray[static_cast<int64_t>(y) * field.stride + column + x] != 0) continue;
+      buffers.radiance(column + x, y) = {};
+      buffers.luma(column + x, y) = 0;
     }
   }
 }

@@ -158,6 +158,18 @@ AIRSIM360_INLINE void GatherRow(const Pixel* tile, PacketShape shape, int r, Pix
   }
 }
 
+// Four points of three coordinates each.
+AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z, float* out) {
+  typedef float Quad __attribute__((vector_size(16), may_alias));
+  typedef int Order __attribute__((vector_size(16)));
+  const auto load = [](const float* p) { return *reinterpret_cast<const Quad*>(p); };
+  const Quad X = load(x), Y = load(y), Z = load(z);
+  auto* to = reinterpret_cast<Quad*>(out);
+  to[0] = __builtin_shuffle(__builtin_shuffle(X, Y, Order{0, 4, 1, 1}), Z, Order{0, 1, 4, 2});
+  to[1] = __builtin_shuffle(__builtin_shuffle(Y, Z, Order{1, 5, 2, 2}), X, Order{0, 1, 6, 2});
+  to[2] = __builtin_shuffle(__builtin_shuffle(Z, X, Order{2, 7, 3, 3}), Y, Order{0, 1, 7, 2});
+}
+
 // Image pixels of a tile row: one run, or two where it crosses the seam.
 struct Runs {
   int64_t first;   // index of the image pixel of tile column 0
@@ -314,15 +326,11 @@ void StoreLabels(const LabelTile& tile, const TileTarget& t) {
       StoreRow(narrow, runs, t.category);
     }
     if (t.normal != nullptr) {
-      alignas(64) float x[16], y[16], z[16];
-      GatherRow(tile.normal_x, t.shape, r, x);
-      GatherRow(tile.normal_y, t.shape, r, y);
-      GatherRow(tile.normal_z, t.shape, r, z);
       alignas(64) float xyz[48];
-      for (int i = 0; i < 16; ++i) {
-        xyz[3 * i] = x[i];
-        xyz[3 * i + 1] = y[i];
-        xyz[3 * i + 2] = z[i];
+      for (int b = 0; b < 4; ++b) {
+        const int first =
+            t.shape == PacketShape::kRow ? r * 16 + b * 4 : ((r >> 2) * 4 + b) * 16 + (r & 3) * 4;
+        Interleave(tile.normal_x + first, tile.normal_y + first, tile.normal_z + first, xyz + 12 * b);
       }
       struct Packed {
         float v[3];
@@ -344,6 +352,30 @@ void StoreColors(const Rgb8* colors, const TileTarget& t, Rgb8* image, uint8_t* 
     for (int i = 0; i < 16; ++i) gray[i] = Luma(row[i].v[0], row[i].v[1], row[i].v[2]);
     StoreRow(row, runs, reinterpret_cast<Packed*>(image));
     StoreRow(gray, runs, luma);
+  }
+}
+
+void CombineRow(const LightTerms& terms, const CombinedRow& row) {
+  const PacketShape shape = row.shape;
+  alignas(64) float k[9][16], shown[16], rgb[3][16];
+  const float* planes[9] = {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g,
+                            terms.sun_b,     terms.rest_r,    terms.rest_g,    terms.rest_b};
+  for (int i = 0; i < 9; ++i) GatherRow(planes[i], shape, row.tile_row, k[i]);
+  alignas(64) float light[3][16] = {}, sun[16] = {};
+  for (int i = 0; i < row.count; ++i) {
+    light[0][i] = row.light[i].r, light[1][i] = row.light[i].g, light[2][i] = row.light[i].b;
+    sun[i] = row.sun[i];
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < 16; ++i) rgb[c][i] = k[c][i] * light[c][i] + k[3 + c][i] * sun[i] + k[6 + c][i];
+  }
+  for (int i = 0; i < 16; ++i) {
+    const float exposed = row.exposure * (0.2126f * rgb[0][i] + 0.7152f * rgb[1][i] + 0.0722f * rgb[2][i]);
+    shown[i] = 255 * __builtin_sqrtf(exposed / (1 + exposed));
+  }
+  for (int i = 0; i < row.count; ++i) {
+    row.radiance[i] = {rgb[0][i], rgb[1][i], rgb[2][i]};
+    row.luma[i] = static_cast<uint8_t>(shown[i]);
   }
 }
 

@@ -21,7 +21,7 @@ void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int*
   std::copy(rays.t_far, rays.t_far + 16, t_far);
   std::fill(rays.mask, rays.mask + 16, kMaskClearPanes);
   for (int pane = 0; pane < kMostPanes; ++pane) {
-    tracer.Intersect16(active, rays, false);
+    tracer.IntersectClearPanes16(active, rays);
     bool any = false;
     for (int i = 0; i < 16; ++i) {
       if (active[i] == 0) continue;

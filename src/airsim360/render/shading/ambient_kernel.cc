@@ -7,11 +7,6 @@ namespace {
 
 constexpr float kVisibleSkin = 0.08f;  // reflectance from which a blurred reflection deserves a ray
 
-/// Surfaces of sixteen lanes, gathered.
-struct alignas(64) Gathered {
-  alignas(64) float px[16], py[16], pz[16], nx[16], ny[16], nz[16], gx[16], gy[16], gz[16], distance[16];
-};
-
 /// What sixteen rays met.
 struct alignas(64) Met {
   alignas(64) int32_t normal[16];
@@ -146,9 +141,7 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Ambient
 
 }  // namespace
 
-void AmbientRays(const RaySet& rays, const SurfaceSet& s, const int* index, const float* side,
-                 const float* sphere, RayHit16& out) {
-  Gathered at;
+void GatherOrigins(const RaySet& rays, const SurfaceSet& s, const int* index, AmbientOrigins& at) {
   for (int i = 0; i < 16; ++i) {
     const int k = index[i];
     at.px[i] = s.px[k], at.py[i] = s.py[k], at.pz[i] = s.pz[k];
@@ -156,6 +149,9 @@ void AmbientRays(const RaySet& rays, const SurfaceSet& s, const int* index, cons
     at.gx[i] = s.gx[k], at.gy[i] = s.gy[k], at.gz[i] = s.gz[k];
     at.distance[i] = rays.distance[k];
   }
+}
+
+void AmbientRays(const AmbientOrigins& at, const float* side, const float* sphere, RayHit16& out) {
   const ufloat3 w{sphere[0], sphere[1], sphere[2]};
   for (int i = 0; i < 16; i += kLanes) {
     const real flip = load(side + i);

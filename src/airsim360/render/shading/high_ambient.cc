@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "airsim360/render/shading/high_rays.h"
 #include "airsim360/render/shading/sampling.h"
@@ -14,7 +15,14 @@ class AmbientTile {
  public:
   AmbientTile(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
               const RaySet& rays, const SurfaceSet& s, HighTile& tile)
-      : shader_(shader), sun_map_(sun_map), sampling_(sampling), rays_(rays), s_(s), tile_(tile) {
+      : shader_(shader),
+        sun_map_(sun_map),
+        sampling_(sampling),
+        rays_(rays),
+        s_(s),
+        tile_(tile),
+        slots_(shader.tracer->slots()),
+        first_slots_(shader.tracer->first_slots()) {
     for (int i = 0; i < 16; ++i) {
       packet_.mask[i] = kMaskSolid;  // clear panes let light pass
       hits_.shines[i] = 1;
@@ -24,17 +32,23 @@ class AmbientTile {
 
   // All rays of up to sixteen surfaces of one phase.
   void GatherPhase(int phase, const int* surfaces, int count) {
+    any_leaf_ = false;
     for (int i = 0; i < 16; ++i) {
       index_[i] = surfaces[i < count ? i : 0];
       valid_[i] = i < count ? -1 : 0;
       leaf_[i] = s_.kind[index_[i]] == kFoliage && s_.transmission[index_[i]] > 0;
+      any_leaf_ |= leaf_[i];
     }
+    shader_.kernels.gather_origins(rays_, s_, index_, origins_);
     // A whole number of rays, right on average over the sixteen phases.
     const float turn = static_cast<float>(ReverseBits(static_cast<uint32_t>(phase)) >> 28) / 16 +
                        static_cast<float>((sampling_.seed + sampling_.tile * 0x9e3779b9u) >> 8) * 0x1p-24f;
     const int samples = std::max(1, static_cast<int>(sampling_.ambient_rays + turn - std::floor(turn)));
     const auto most = static_cast<uint32_t>(std::ceil(sampling_.ambient_rays));
     const uint32_t first = (sampling_.tile * 16 + static_cast<uint32_t>(phase)) * most;
+    std::fill(std::begin(sum_r_), std::end(sum_r_), 0.0f);
+    std::fill(std::begin(sum_g_), std::end(sum_g_), 0.0f);
+    std::fill(std::begin(sum_b_), std::end(sum_b_), 0.0f);
     for (int k = 0; k < samples; ++k) {
       const Vec3f sphere = SpherePoint(SobolPoint(first + static_cast<uint32_t>(k), sampling_.seed));
       // Leaves look to both sides in turn.
@@ -42,34 +56,43 @@ class AmbientTile {
       Trace(sphere, behind);
       // Each side stands for the rays that were not sent to the other, too.
       const int alike = (samples + 1 - (k & 1)) / 2;
-      AddLight(count, behind, samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
+      AddLight(behind, samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
     }
     constexpr float kPi = 3.14159265f;
     const float scale = kPi / static_cast<float>(samples);
     for (int i = 0; i < count; ++i) {
       const uint32_t slot = rays_.slot[index_[i]];
       tile_.light_samples[slot] = static_cast<uint8_t>(std::min(samples, 255));
-      tile_.light_r[slot] *= scale, tile_.light_g[slot] *= scale, tile_.light_b[slot] *= scale;
+      tile_.light_r[slot] = sum_r_[i] * scale, tile_.light_g[slot] = sum_g_[i] * scale,
+      tile_.light_b[slot] = sum_b_[i] * scale;
     }
   }
 
  private:
   void Trace(Vec3f sphere, bool behind) {
     for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
-    shader_.kernels.ambient_rays(rays_, s_, index_, side_, &sphere.x, packet_);
+    shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet_);
     for (int i = 0; i < 16; ++i) packet_.t_far[i] = INFINITY;
     shader_.tracer->Intersect16(valid_, packet_, false);
     for (int i = 0; i < 16; ++i) {
       hits_.instance[i] = kMiss;
       if (valid_[i] == 0 || packet_.geometry[i] == kMiss) continue;
-      const SurfaceRef ref =
-          shader_.tracer->Resolve(packet_.geometry[i], packet_.instance[i], packet_.primitive[i]);
+      const SurfaceRef ref = Resolve(i);
       hits_.instance[i] = ref.instance, hits_.triangle[i] = ref.triangle;
       __builtin_prefetch(
           &shader_.view.triangles[shader_.view.instances[ref.instance].first_triangle + ref.triangle]);
       if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref);
     }
     shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, hits_, r_, g_, b_);
+  }
+
+  // RayTracer::Resolve without a call.
+  SurfaceRef Resolve(int i) const {
+    const uint32_t geometry = packet_.geometry[i], instance = packet_.instance[i],
+                   primitive = packet_.primitive[i];
+    const HitSlot& slot =
+        slots_[instance == kMiss ? first_slots_[geometry] : first_slots_[instance] + geometry];
+    return {slot.instance, slot.triangles == nullptr ? primitive : slot.triangles[primitive]};
   }
 
   // Light of lamps on what was met.
@@ -84,19 +107,17 @@ class AmbientTile {
     hits_.lamp_r[i] = light.x, hits_.lamp_g[i] = light.y, hits_.lamp_b[i] = light.z;
   }
 
-  void AddLight(int count, bool behind, float leaf_share) {
+  void AddLight(bool behind, float leaf_share) {
     constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
-    for (int i = 0; i < count; ++i) {
-      const int k = index_[i];
-      const uint32_t slot = rays_.slot[k];
-      Vec3f weight{1, 1, 1};
-      if (leaf_[i]) weight = weight * leaf_share;
-      if (leaf_[i] && behind)
-        weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[k];
-      tile_.light_r[slot] += r_[i] * weight.x;
-      tile_.light_g[slot] += g_[i] * weight.y;
-      tile_.light_b[slot] += b_[i] * weight.z;
+    for (int i = 0; i < 16 && any_leaf_; ++i) {
+      if (!leaf_[i]) continue;
+      Vec3f weight = Vec3f{1, 1, 1} * leaf_share;
+      if (behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
+      r_[i] *= weight.x, g_[i] *= weight.y, b_[i] *= weight.z;
     }
+    for (int i = 0; i < 16; ++i) sum_r_[i] += r_[i];
+    for (int i = 0; i < 16; ++i) sum_g_[i] += g_[i];
+    for (int i = 0; i < 16; ++i) sum_b_[i] += b_[i];
   }
 
   const Shader::Impl& shader_;
@@ -107,10 +128,13 @@ class AmbientTile {
   HighTile& tile_;
   RayHit16 packet_{};
   alignas(64) int valid_[16];
-  alignas(64) float side_[16], r_[16], g_[16], b_[16];
+  alignas(64) float side_[16], r_[16], g_[16], b_[16], sum_r_[16], sum_g_[16], sum_b_[16];
+  AmbientOrigins origins_;
   AmbientHits hits_{};
   int index_[16];
-  bool leaf_[16];
+  bool leaf_[16], any_leaf_;
+  std::span<const HitSlot> slots_;
+  std::span<const uint32_t> first_slots_;
 };
 
 }  // namespace

@@ -1,8 +1,7 @@
-#include "airsim360/render/shading/high_rays.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/render/shading/high_rays.h"
 #include "airsim360/render/shading/ray_queue.h"
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/secondary_rays.h"
@@ -63,6 +62,10 @@ struct SunDirections {
   Vec2f offset[kSunSamples][16];
 
   SunDirections(Vec3f to_sun, uint32_t seed) : disc_(to_sun), seed_(seed) {}
+  void MakeFirst() {
+    for (uint32_t phase = 0; phase < 16; ++phase)
+      at[0][phase] = disc_.At(SobolPoint(phase, seed_ ^ 0x68bc21ebu));
+  }
   void Make(int first, int last) {
     for (int k = first; k < last; ++k) {
       for (int phase = 0; phase < 16; ++phase) {
@@ -107,7 +110,7 @@ class SunTile {
 
   // One ray each; true if some see the sun and some do not.
   bool TraceOne() {
-    directions_.Make(0, 1);
+    directions_.MakeFirst();
     const auto flush = [&] {
       float share[16];
       SeenShare(*shader_.tracer, shader_.tables, queue_, share);

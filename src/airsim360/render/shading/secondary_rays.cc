@@ -39,6 +39,39 @@ void Pad(RaySet& set) {
   }
 }
 
+namespace {
+
+bool AllSet(const float* flags) {
+  int unset = 0;
+  for (int k = 0; k < 16; ++k) unset |= flags[k] == 0 ? 1 : 0;
+  return unset == 0;
+}
+
+// The sun rays of sixteen surfaces from `first` on; the same numbers as one by one.
+void AddSun(const RaySet& rays, const SurfaceSet& s, int first, RayQueue& queue) {
+  RayHit16& r = queue.rays;
+  for (int k = 0; k < 16; ++k) {
+    const int i = first + k;
+    const float facing = s.gx[i] * s.lx[i] + s.gy[i] * s.ly[i] + s.gz[i] * s.lz[i];
+    const float lift =
+        1e-3f + 4e-6f * (std::fabs(s.px[i]) + std::fabs(s.py[i]) + std::fabs(s.pz[i]) + rays.distance[i]);
+    const float offset = facing < 0 ? -lift : lift;
+    r.origin_x[k] = s.px[i] + s.gx[i] * offset;
+    r.origin_y[k] = s.py[i] + s.gy[i] * offset;
+    r.origin_z[k] = s.pz[i] + s.gz[i] * offset;
+  }
+  std::copy_n(s.lx + first, 16, r.direction_x);
+  std::copy_n(s.ly + first, 16, r.direction_y);
+  std::copy_n(s.lz + first, 16, r.direction_z);
+  std::fill_n(r.t_near, 16, 0.0f);
+  std::fill_n(r.t_far, 16, INFINITY);
+  std::fill_n(r.mask, 16, queue.mask);
+  for (int k = 0; k < 16; ++k) queue.lane[k] = first + k;
+  queue.count = 16;
+}
+
+}  // namespace
+
 void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, SurfaceSet& s) {
   RayQueue queue(kMaskSolid);
   const auto flush = [&] {
@@ -48,6 +81,13 @@ void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet
     queue.count = 0;
   };
   for (int i = 0; i < rays.count; ++i) {
+    // Whole vectors of surfaces that all ask make a packet at once.
+    if (queue.count == 0 && i + 16 <= rays.count && AllSet(s.sunlit + i)) {
+      AddSun(rays, s, i, queue);
+      flush();
+      i += 15;
+      continue;
+    }
     if (s.sunlit[i] == 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, l{s.lx[i], s.ly[i], s.lz[i]};
     const float side = Dot(g, l) < 0 ? -1.0f : 1.0f;

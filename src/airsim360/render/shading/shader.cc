@@ -115,11 +115,32 @@ void Shader::Impl::LightByLamps(const RaySet& rays, int count, SurfaceSet& s) co
   internal::TraceLamps(*tracer, tables, rays, wanted, count, s);
 }
 
-void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light) const {
+void Shader::Impl::FindSun(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around,
+                           SunPixel* sun) const {
+  if (around == nullptr && sun == nullptr) {
+    internal::TraceSun(*tracer, tables, rays, s);
+    return;
+  }
+  bool asked[kBatch];
+  float known[kBatch];
+  for (int i = 0; i < rays.count; ++i) {
+    asked[i] = s.sunlit[i] != 0;
+    known[i] = asked[i] && around != nullptr ? internal::GuessSun(*around, rays, s, i) : -1;
+    if (known[i] >= 0) s.sunlit[i] = 0;
+  }
+  internal::TraceSun(*tracer, tables, rays, s);
+  for (int i = 0; i < rays.count; ++i) {
+    if (known[i] >= 0) s.sunlit[i] = known[i];
+  }
+  if (sun != nullptr) internal::KeepSun(rays, s, asked, sun);
+}
+
+void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, const SunNeighbours* around,
+                                 SunPixel* sun) const {
   SurfaceSet surfaces;
   Pad(rays);  // sets that come from tracing are not yet
   kernels.prepare(view, rays, surfaces);
-  if (sky) internal::TraceSun(*tracer, tables, rays, surfaces);
+  if (sky) FindSun(rays, surfaces, around, sun);
   // What is seen in a mirror does without rays to lamps.
   LightByLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
   if (bounce == 0) {
@@ -169,7 +190,8 @@ void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
   }
 }
 
-void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
+void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around,
+                   SunPixel* sun) const {
   RaySet surfaces, sky;
   internal::SplitHits(hits, surfaces, sky);
   const auto put = [&](const RaySet& set, const LightSet& light) {
@@ -182,10 +204,11 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance) const {
   const internal::ShadeView& view = impl_->view;
   const bool falling = view.air.rain + view.air.snow > 0;
   if (surfaces.count > 0) {
-    impl_->ShadeSurfaces(surfaces, 0, light);
+    impl_->ShadeSurfaces(surfaces, 0, light, around, sun);
     if (falling) impl_->kernels.precipitation(view, surfaces, false, hits.cone_angle, light);
     put(surfaces, light);
   }
+  for (int i = 0; sun != nullptr && i < sky.count; ++i) sun[sky.slot[i]] = {};
   if (sky.count > 0) {
     impl_->kernels.sky(view, sky, true, light);
     if (falling) impl_->kernels.precipitation(view, sky, true, hits.cone_angle, light);

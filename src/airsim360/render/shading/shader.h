@@ -7,6 +7,7 @@
 #include "airsim360/image/image.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/render/shading/sun_pixels.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -40,7 +41,10 @@ class Shader {
   /// Follows what moves, between frames: `tracer` is the one of construction or one that a DynamicTracer made
   /// of it. Light probes and lamps stay as built.
   void Apply(std::shared_ptr<const RayTracer> tracer);
-  void Shade(const HitBatch& hits, RadianceBatch& radiance) const;
+  /// `sun`, if wanted, gets what was learned of the sun at every hit; `around` spares rays to the sun where
+  /// the pixels around a hit agree about it.
+  void Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around = nullptr,
+             SunPixel* sun = nullptr) const;
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
   float Exposure() const;

@@ -21,6 +21,7 @@ struct Shader::Impl {
     decltype(&internal::isa_sse42::LightSurfaces) light = AIRSIM360_SELECT_KERNEL(LightSurfaces);
     decltype(&internal::isa_sse42::SplitLight) split = AIRSIM360_SELECT_KERNEL(SplitLight);
     decltype(&internal::isa_sse42::ScatterReflections) scatter = AIRSIM360_SELECT_KERNEL(ScatterReflections);
+    decltype(&internal::isa_sse42::GatherOrigins) gather_origins = AIRSIM360_SELECT_KERNEL(GatherOrigins);
     decltype(&internal::isa_sse42::AmbientRays) ambient_rays = AIRSIM360_SELECT_KERNEL(AmbientRays);
     decltype(&internal::isa_sse42::ShadeAmbient) shade_ambient = AIRSIM360_SELECT_KERNEL(ShadeAmbient);
     decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
@@ -40,8 +41,13 @@ struct Shader::Impl {
   /// Traces the rays that mirrors and clear panes send on (where the surfaces say so) and shades what they
   /// meet in the same way, once.
   void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces) const;
-  /// Radiance of surfaces; `bounce` 0 = seen by the camera, 1 = seen in another surface.
-  void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light) const;
+  /// Radiance of surfaces; `bounce` 0 = seen by the camera, 1 = seen in another surface. The rest as in
+  /// Shader::Shade.
+  void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light,
+                     const SunNeighbours* around = nullptr, SunPixel* sun = nullptr) const;
+  /// Sets `sunlit`.
+  void FindSun(const internal::RaySet& rays, internal::SurfaceSet& surfaces, const SunNeighbours* around,
+               SunPixel* sun) const;
 
   std::shared_ptr<const RayTracer> tracer;
   internal::SurfaceTables tables;

@@ -234,6 +234,11 @@ struct alignas(64) LightTerms {
   float rest_r[kBatch], rest_g[kBatch], rest_b[kBatch];
 };
 
+/// Sixteen surfaces that ambient rays start from.
+struct alignas(64) AmbientOrigins {
+  float px[16], py[16], pz[16], nx[16], ny[16], nz[16], gx[16], gy[16], gz[16], distance[16];
+};
+
 /// What sixteen ambient rays met.
 struct alignas(64) AmbientHits {
   uint32_t instance[16], triangle[16];       ///< kMiss = sky

@@ -20,11 +20,14 @@ AIRSIM360_DECLARE_KERNEL(void SplitLight(const ShadeView& view, const RaySet& ra
 /// microfacets (u, v in [0, 1) for each) and marks them as mirrors.
 AIRSIM360_DECLARE_KERNEL(void ScatterReflections(const RaySet& rays, const float* u, const float* v,
                                                  SurfaceSet& surfaces))
-/// Directions of sixteen rays spread as the cosine over the hemispheres of `surfaces[index[i]]`, on the front
-/// (side 1) or the back (side -1); `sphere` is a unit vector, the same for all so that rays of flat ground
-/// are parallel: normal + sphere is distributed as the cosine if sphere is even. Fills origin and direction.
-AIRSIM360_DECLARE_KERNEL(void AmbientRays(const RaySet& rays, const SurfaceSet& surfaces, const int* index,
-                                          const float* side, const float* sphere, RayHit16& out))
+/// Collects `surfaces[index[i]]` for the following.
+AIRSIM360_DECLARE_KERNEL(void GatherOrigins(const RaySet& rays, const SurfaceSet& surfaces, const int* index,
+                                            AmbientOrigins& origins))
+/// Directions of sixteen rays spread as the cosine over the hemispheres of `origins`, on the front (side 1)
+/// or the back (side -1); `sphere` is a unit vector, the same for all so that rays of flat ground are
+/// parallel: normal + sphere is distributed as the cosine if sphere is even. Fills origin and direction.
+AIRSIM360_DECLARE_KERNEL(void AmbientRays(const AmbientOrigins& origins, const float* side,
+                                          const float* sphere, RayHit16& out))
 /// Radiance that such rays bring: sky (its sharpest blurred table), or the light of what they met once
 /// reflected: sun by `sun_map`, irradiance of a probe near by, lamps, emission.
 AIRSIM360_DECLARE_KERNEL(void ShadeAmbient(const ShadeView& view, const SunMapView& sun_map,
