@@ -21,6 +21,12 @@ struct CarControls {
   }
 };
 
+/// A structure of which no field matters.
+struct AnyMap {
+  template <class V>
+  void Visit(V&) {}
+};
+
 void Notice(const char* name, const char* why) { NoticeOnce(std::string(name) + ": " + why); }
 
 void AddLensCalls(Api& api) {
@@ -154,6 +160,9 @@ void AddOtherVehicleCalls(Api& api) {
               Text) -> bool {
              throw std::invalid_argument("The setSafety call requires safety_eval_ptr_ to be set first");
            });
+  api.Read("setEchoData", [](const Snapshot&, Text sensor, Text, const AnyMap&) {
+    throw std::runtime_error("No sensor with name " + sensor + " exist on vehicle");
+  });
   for (const char* name :
        {"getEchoData", "getUWBData", "getUWBSensorData", "getWifiData", "getWifiSensorData"}) {
     api.Read(name, [](const Snapshot&, Text sensor, Text) {
