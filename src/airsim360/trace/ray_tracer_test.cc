@@ -204,6 +204,49 @@ TEST(RayTracer, SixteenRaysAgreeWithSingleOnesAndInactiveLanesStayAsTheyAre) {
   EXPECT_GT(hits, 500);
 }
 
+TEST(RayTracer, LookingForClearPanesAloneFindsThoseOfTheWholeScene) {
+  SceneBuilder builder("panes");
+  const EntityId entity = builder.AddEntity("thing", builder.tree().At("construction/building"));
+  Material solid, glass;
+  glass.kind = SurfaceKind::kGlass;
+  glass.transmission = 0.9f;
+  const MaterialId materials[2] = {builder.AddMaterial(solid), builder.AddMaterial(glass)};
+  RngStream rng(31, "panes");
+  const auto box = [&](uint32_t solid_triangles) {
+    Mesh mesh = BoxMesh({-1, -1, -1}, {1, 1, 1});
+    if (solid_triangles > 0) mesh.parts.push_back({0, solid_triangles, materials[0]});
+    if (solid_triangles < 12) mesh.parts.push_back({solid_triangles, 12 - solid_triangles, materials[1]});
+    return mesh;
+  };
+  // Half of glass, all of it and nothing, each once and several times.
+  for (const uint32_t solid_triangles : {0u, 6u, 12u}) {
+    const MeshId shared = builder.AddMesh(box(solid_triangles));
+    for (int i = 0; i < 20; ++i) builder.AddInstance({shared, RandomAffine(rng, 20), entity});
+    builder.AddInstance({builder.AddMesh(box(solid_triangles)), RandomAffine(rng, 20), entity});
+  }
+  const RayTracer tracer(builder.Build());
+  ASSERT_TRUE(tracer.has_clear_panes());
+  alignas(64) int valid[16];
+  std::fill(valid, valid + 16, -1);
+  int hits = 0;
+  for (int round = 0; round < 200; ++round) {
+    RayHit16 all = Packet({}, rng);
+    std::fill(all.mask, all.mask + 16, kMaskClearPanes);
+    RayHit16 panes = all;
+    tracer.Intersect16(valid, all, false);
+    tracer.IntersectClearPanes16(valid, panes);
+    for (int i = 0; i < 16; ++i) {
+      ASSERT_EQ(all.geometry[i], panes.geometry[i]);
+      if (all.geometry[i] == kMiss) continue;
+      ++hits;
+      ASSERT_EQ(all.instance[i], panes.instance[i]);
+      ASSERT_EQ(all.primitive[i], panes.primitive[i]);
+      ASSERT_EQ(all.t_far[i], panes.t_far[i]);
+    }
+  }
+  EXPECT_GT(hits, 300);
+}
+
 TEST(RayTracer, OcclusionAgreesWithTheNearestHit) {
   RngStream rng(5, "test");
   std::vector<AffineTransform> places;

@@ -162,8 +162,8 @@ AIRSIM360_INLINE void GatherRow(const Pixel* tile, PacketShape shape, int r, Pix
 AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z, float* out) {
   typedef float Quad __attribute__((vector_size(16), may_alias));
   typedef int Order __attribute__((vector_size(16)));
-  const auto load = [](const float* p) { return *reinterpret_cast<const Quad*>(p); };
-  const Quad X = load(x), Y = load(y), Z = load(z);
+  const Quad X = *reinterpret_cast<const Quad*>(x), Y = *reinterpret_cast<const Quad*>(y),
+             Z = *reinterpret_cast<const Quad*>(z);
   auto* to = reinterpret_cast<Quad*>(out);
   to[0] = __builtin_shuffle(__builtin_shuffle(X, Y, Order{0, 4, 1, 1}), Z, Order{0, 1, 4, 2});
   to[1] = __builtin_shuffle(__builtin_shuffle(Y, Z, Order{1, 5, 2, 2}), X, Order{0, 1, 6, 2});
@@ -356,27 +356,23 @@ void StoreColors(const Rgb8* colors, const TileTarget& t, Rgb8* image, uint8_t* 
 }
 
 void CombineRow(const LightTerms& terms, const CombinedRow& row) {
-  const PacketShape shape = row.shape;
   alignas(64) float k[9][16], shown[16], rgb[3][16];
   const float* planes[9] = {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g,
                             terms.sun_b,     terms.rest_r,    terms.rest_g,    terms.rest_b};
-  for (int i = 0; i < 9; ++i) GatherRow(planes[i], shape, row.tile_row, k[i]);
+  for (int i = 0; i < 9; ++i) GatherRow(planes[i], row.shape, row.tile_row, k[i]);
   alignas(64) float light[3][16] = {}, sun[16] = {};
   for (int i = 0; i < row.count; ++i) {
     light[0][i] = row.light[i].r, light[1][i] = row.light[i].g, light[2][i] = row.light[i].b;
     sun[i] = row.sun[i];
   }
-  for (int c = 0; c < 3; ++c) {
+  for (int c = 0; c < 3; ++c)
     for (int i = 0; i < 16; ++i) rgb[c][i] = k[c][i] * light[c][i] + k[3 + c][i] * sun[i] + k[6 + c][i];
-  }
   for (int i = 0; i < 16; ++i) {
     const float exposed = row.exposure * (0.2126f * rgb[0][i] + 0.7152f * rgb[1][i] + 0.0722f * rgb[2][i]);
     shown[i] = 255 * __builtin_sqrtf(exposed / (1 + exposed));
   }
-  for (int i = 0; i < row.count; ++i) {
-    row.radiance[i] = {rgb[0][i], rgb[1][i], rgb[2][i]};
-    row.luma[i] = static_cast<uint8_t>(shown[i]);
-  }
+  for (int i = 0; i < row.count; ++i)
+    row.radiance[i] = {rgb[0][i], rgb[1][i], rgb[2][i]}, row.luma[i] = static_cast<uint8_t>(shown[i]);
 }
 
 void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows, int width, bool wraps,
