@@ -206,6 +206,13 @@ int Soak(double hours) {
   int64_t touching = 0;
   const int64_t steps = std::llround(hours * 3.6e6);
   for (int64_t i = 0; i < steps; ++i) {
+    // Thrown anew every 20 s, or it would lie on its back most of the time.
+    if (i % 20000 == 0) {
+      s = DroneState{};
+      contact = {};
+      s.v_WB = {random.Uniform(-20, 20), random.Uniform(-20, 20), random.Uniform(-20, 20)};
+      s.rotor_speeds.fill(HoverSpeed(model));
+    }
     if (i % 200 == 0) {
       const double base = HoverSpeed(model) * random.Uniform(0.6, 1.4);
       for (double& c : commands) c = base * random.Uniform(0.9, 1.1);

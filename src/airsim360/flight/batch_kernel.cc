@@ -1,7 +1,6 @@
-#include <experimental/simd>
-
 #include "airsim360/flight/batch_blocks.h"
 #include "airsim360/flight/drone_step.h"
+#include "airsim360/flight/lane_vector.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

@@ -222,6 +222,26 @@ TEST(Batch, ThreadsSnapshotsAndCallSizesDoNotChangeTheBits) {
   }
 }
 
+TEST(Batch, ADroneDoesNotNoticeWhichOthersAreInTheBatch) {
+  const DroneModel model = AgiliciousDrone();
+  RngStream rng(2, "alone");
+  DroneState s = RandomState(rng, 900);
+  DroneSurroundings air = RandomAir(rng);
+  air.ground_distance = 9 * model.rotors[0].diameter / 2;  // just out of the ground's reach
+  DroneSurroundings low;
+  low.ground_distance = 0.05;
+  const auto end = [&](int drones) {
+    DroneBatch batch(model, drones);
+    for (int i = 1; i < drones; ++i) batch.SetSurroundings(i, low);
+    batch.SetState(0, s);
+    batch.SetSurroundings(0, air);
+    batch.SetCommands(0, {1000, 1100, 900, 950});
+    batch.Step(100);
+    return Bits(batch.state(0));
+  };
+  EXPECT_EQ(end(1), end(20));
+}
+
 // In plain float a step of 1e-6 m at 100 m would be lost.
 TEST(Batch, SmallStepsFarFromTheOriginAreKept) {
   DroneModel model = AgiliciousDrone();

@@ -227,9 +227,16 @@ TEST(Contact, FlyingFreelyAsksForNoSurfaces) {
 TEST(Contact, AnHourOfRandomCommandsStaysInTheRoomAndFinite) {
   DroneModel model = DroneWithEveryTerm();
   Experiment e(model, 2e-2);
-  e.state.p_WB = {0, 0, 1};
   RngStream random(6, "hour");
   for (int i = 0; i < 180000; ++i) {
+    // Every 20 s thrown anew, or it would lie on its back for most of the hour.
+    if (i % 1000 == 0) {
+      e.state = DroneState{};
+      e.contact = {};
+      e.state.p_WB = {random.Uniform(-4, 4), random.Uniform(-4, 4), random.Uniform(0.5, 5)};
+      e.state.v_WB = {random.Uniform(-20, 20), random.Uniform(-20, 20), random.Uniform(-20, 20)};
+      e.state.rotor_speeds.fill(HoverSpeed(model));
+    }
     if (i % 10 == 0) {
       const double base = HoverSpeed(model) * random.Uniform(0.6, 1.4);
       for (double& c : e.commands) c = random.Chance(0.02) ? 1e9 : base * random.Uniform(0.9, 1.1);

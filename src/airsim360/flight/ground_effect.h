@@ -11,7 +11,7 @@ inline constexpr int kGroundEffectRadii = 8;
 /// Whether a surface `distance` metres below the rotors is near enough to matter.
 template <class T>
 AIRSIM360_LANES bool FeelsGround(const DroneConstants<T>& c, double distance) {
-  return distance < kGroundEffectRadii * 2 * double{c.rotor[0].least_height};
+  return distance < 2 * kGroundEffectRadii * double{c.rotor[0].least_height};
 }
 
 /// Factor of thrust (Cheeseman and Bennett, ARC R&M 3021, 1955, with their term for forward flight):
@@ -36,7 +36,9 @@ AIRSIM360_LANES void FindGround(const DroneConstants<T>& c, const LaneSurroundin
   const V vx = s.v.x - around.wind.x, vy = s.v.y - around.wind.y;
   const V moving = induced2 / (induced2 + (vx * vx + vy * vy) + V(T(1e-12)));
   const V upright = V(T(1)) - V(T(2)) * (s.q[1] * s.q[1] + s.q[2] * s.q[2]);
-  const V standing = Select(upright > zero, moving, zero);
+  // Drones out of reach get exactly 1, whether or not others of the batch are near.
+  const V reach = V(T(2 * kGroundEffectRadii) * c.rotor[0].least_height);
+  const V standing = Select(upright > zero, Select(around.ground_distance < reach, moving, zero), zero);
   const int count = c.upright ? 1 : c.rotors;
   for (int i = 0; i < count; ++i) ground[i] = GroundFactor(c.rotor[i], around.ground_distance, standing);
 }
