@@ -126,23 +126,23 @@ DroneModel Hummingbird() {
   return model;
 }
 
-/// AirSim's generic frames: a box, and motors of 55 g (52 g) at the hubs 2.5 cm above it.
+/// AirSim's frames: a box, and motors at hubs `above` it; `drag` times its coefficient.
 DroneModel AirSim(int count, double mass, double motor, double arm, Vec3d box, double c_t, double c_p,
-                  double rpm) {
+                  double rpm, double above = 0.025, double drag = 1) {
   const double pi = std::numbers::pi, D = 0.2286, speed = rpm * 2 * pi / 60;
   DroneModel model;
   model.mass = mass;
-  model.rotors = internal::PlaceRotors(count, RotorLayout::kX, arm, 0.025);
+  model.rotors = internal::PlaceRotors(count, RotorLayout::kX, arm, above);
   model.inertia_B = internal::CompositeInertia(model.rotors, motor, 0, mass - count * motor, box);
   SetRotors(model, c_t * kSeaLevelAirDensity * std::pow(D, 4) / (4 * pi * pi), c_p * D / (2 * pi * c_t),
             0.005, speed, D);
   // Six faces with the propellers' discs (its disc is pi D^2) and blade edges (1 cm) shared out among them,
   // times its linear drag coefficient 1.3 / 4 and rho / 2 (folded into rho F).
   const double disc = count * pi * D * D, edge = count * pi * D * 0.01;
-  const double k = 1.3 / 4 / 2 * kSeaLevelAirDensity;
+  const double k = drag * 1.3 / 4 / 2 * kSeaLevelAirDensity;
   model.quadratic_drag_B = {(box.y * box.z + edge) * k, (box.x * box.z + edge) * k,
                             (box.x * box.y + disc) * k};
-  SetSize(model, 0.05);
+  SetSize(model, std::max(0.05, above + 0.02));
   return model;
 }
 
@@ -202,7 +202,7 @@ DroneModel CatalogModel(const std::string& name) {
     if (name == "airsim_quad") return AirSim(4, 1, 0.055, 0.2275, generic, 0.109919, 0.040164, 6396.667);
     if (name == "airsim_hexa") return AirSim(6, 1, 0.055, 0.2275, generic, 0.109919, 0.040164, 6396.667);
     if (name == "airsim_octo") return AirSim(8, 1, 0.055, 0.2275, generic, 0.109919, 0.040164, 6396.667);
-    if (name == "f450") return AirSim(4, 1.635, 0.052, 0.225, {0.16, 0.10, 0.14}, 0.11, 0.047, 9500);
+    if (name == "f450") return AirSim(4, 1.635, 0.052, 0.225, {0.16, 0.10, 0.14}, 0.11, 0.047, 9500, 0.15, 4);
     if (name == "agilicious") return Agilicious();
     if (name == "racer") return Racer();
     if (name == "f550") return F550(kDrones[found - names.begin()].prompt);
