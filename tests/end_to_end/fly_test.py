@@ -7,6 +7,13 @@ import unittest
 from program import ProgramTest, tree
 
 
+def clearance(p):
+    """Distance to the nearest surface of box_room: its faces, or the cube of 1 m at (3, 0, 0.5)."""
+    x, y, z = p
+    cube = math.hypot(max(abs(x - 3) - 0.5, 0), max(abs(y) - 0.5, 0), max(z - 1, 0))
+    return min(5 - abs(x), 5 - abs(y), z, 6 - z, cube)
+
+
 class FlyTest(ProgramTest):
     def fly(self, name, *arguments):
         out = self.folder / name
@@ -37,10 +44,12 @@ class FlyTest(ProgramTest):
 
     def test_waypoints_are_tracked_and_frames_written(self):
         points = self.folder / "points.csv"
-        points.write_text("x,y,z\n-2,-2,2\n2,-2,3\n2,2,2\n-2,2,3\n")
+        points.write_text("x,y,z\n-2,-2,3\n2,-2,3.5\n2,2,3\n-2,2,3.5\n")
         out, report = self.fly("run", "--waypoints", points, "--vmax", "2", "--amax", "2", "--frames", "2", "--size", "128x64", "--tier", "labels")
         self.assertLess(report["tracking_rms"], 0.1)
-        self.assertGreater(report["least_clearance"], 1)
+        with open(out / "trajectory.csv", newline="") as file:
+            places = [(float(row["px"]), float(row["py"]), float(row["pz"])) for row in csv.DictReader(file)]
+        self.assertAlmostEqual(report["least_clearance"], min(map(clearance, places)), delta=1e-4)
         self.assertEqual(len((out / "frames" / "frames.jsonl").read_text().splitlines()), 2)
 
     def test_a_wall_is_reported(self):

@@ -40,7 +40,7 @@ void RealTimePacer::Run(int64_t until_ns) {
       continue;
     }
     const double simulated = static_cast<double>(steps * dt_ns) * 1e-9;
-    simulated_ = simulated_ + simulated;
+    simulated_ns_ += steps * dt_ns;
     if (speed_ > 0) {
       ahead += simulated / speed_ - Seconds(Clock::now() - last);
       const Clock::time_point before = last;
@@ -63,7 +63,7 @@ void RealTimePacer::Run(int64_t until_ns) {
 }
 
 PaceReport RealTimePacer::report() const {
-  const double elapsed = elapsed_, simulated = simulated_;
+  const double elapsed = elapsed_, simulated = static_cast<double>(simulated_ns_) * 1e-9;
   return {simulated, elapsed, lost_, elapsed > 0 ? simulated / elapsed : 0};
 }
 

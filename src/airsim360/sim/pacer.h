@@ -31,7 +31,8 @@ class RealTimePacer {
   SimLoop& loop_;
   double speed_;
   std::atomic<bool> stop_ = false;
-  std::atomic<double> simulated_ = 0, elapsed_ = 0, lost_ = 0;
+  std::atomic<int64_t> simulated_ns_ = 0;
+  std::atomic<double> elapsed_ = 0, lost_ = 0;
 };
 
 }  // namespace airsim360

@@ -1,6 +1,8 @@
 // Any bytes as a recording: an error, or a recording that comes back the same.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <string>
 
 #include "airsim360/base/error.h"
