@@ -90,8 +90,9 @@ void MeasureFreeFlights(const WaypointSpace& space) {
   }
   for (auto* list : {&found, &refused}) std::sort(list->begin(), list->end());
   const auto median = [](const std::vector<double>& v) { return v.empty() ? 0 : v[v.size() / 2]; };
-  std::printf("free flights up to 150 m: %zu found (median %.1f ms, most %.1f ms), %zu refused (median %.1f ms)\n",
-              found.size(), median(found), found.empty() ? 0 : found.back(), refused.size(), median(refused));
+  std::printf(
+      "free flights up to 150 m: %zu found (median %.1f ms, most %.1f ms), %zu refused (median %.1f ms)\n",
+      found.size(), median(found), found.empty() ? 0 : found.back(), refused.size(), median(refused));
 }
 
 }  // namespace
