@@ -99,7 +99,7 @@ TEST(CheckAboveGround, RefusesPlacesBelowIt) {
 
 TEST(RoadRoute, FollowsTheMiddleOfAnAngleAtItsHeight) {
   SceneBuilder builder("roads");
-  const EntityId lawn = builder.AddEntity("lawn", builder.tree().At("vegetation/grass"));
+  const EntityId lawn = builder.AddEntity("lawn", builder.tree().At("ground/grass"));
   const EntityId road = builder.AddEntity("road", builder.tree().At("ground/road"));
   builder.AddInstance(
       {builder.AddMesh(Quad({-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0})), {}, lawn});
