@@ -103,7 +103,8 @@ class Group {
 
   const ExcessArguments& args_;
   size_t first_;
-  V8 inverse_ = {}, weight_ = {}, sum_ = {}, g_[3][kPowers] = {}, power_[kPowers] = {}, by_g_[3][kPowers] = {};
+  V8 inverse_ = {}, weight_ = {}, sum_ = {}, g_[3][kPowers] = {}, power_[kPowers] = {},
+     by_g_[3][kPowers] = {};
 };
 
 double Excess(const ExcessArguments& arguments) {

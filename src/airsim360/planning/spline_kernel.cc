@@ -30,6 +30,19 @@ AIRSIM360_INLINE void ScalePowers(V factor, V* c) {
   }
 }
 
+/// Moves the highest coefficient so that the polynomial, evaluated at the end of its duration by Horner's
+/// scheme, gives the waypoint there: rounding of the others would show as a gap at the end of a route.
+template <int kPowers, class V>
+AIRSIM360_INLINE void CloseGap(V duration, V inverse, V to, V* c) {
+  V value = c[kPowers - 1], power = inverse;
+  AIRSIM360_UNROLL
+  for (int k = kPowers - 2; k >= 0; --k) {
+    value = value * duration + c[k];
+    if (k > 0) power *= inverse;
+  }
+  c[kPowers - 1] += (to - value) * power;
+}
+
 // ---- One route: two chains, from both ends to the middle. Lanes 0 to 3 walk forwards (x y z 0), lanes 4 to
 // 7 walk backwards in time, where odd derivatives change sign.
 
@@ -173,6 +186,7 @@ class RouteSolver {
       c[i] = Halves(state[i - 1], i % 2 == 0 ? state_[i - 1] : -state_[i - 1]) * (1 / Factorial<double>(i));
     }
     ScalePowers<kPowers>(Inverse(k), c);
+    if (k == 0) CloseGap<kPowers>(Duration(0), Inverse(0), Join(Knot(1), Knot(segments_)), c);
     Store(c, k, 0);
     if (!forward_only) Store(c, b, 1);
 
@@ -301,6 +315,9 @@ class BatchSolver {
     LowCoefficients(c);
     if (Model::kIsLinear && k == 0) FreeState(saved_[1].waypoint[axis], c);
     ScalePowers<kPowers>(saved_[k].inverse, c);
+    if (k + 1 == args_.segments) {
+      CloseGap<kPowers>(saved_[k].duration, saved_[k].inverse, saved_[k + 1].waypoint[axis], c);
+    }
     Store(c, (3 * k + axis) * kPowers);
     NextCostate(start, after);
     if (k > 0) ChangeCostateUnits<V8, D>(saved_[k - 1].duration * saved_[k].inverse, after);

@@ -106,9 +106,19 @@ class ChainSolver {
       double* const out = args_.coefficients + (k * 3 + static_cast<size_t>(axis)) * kPowers;
       S power = 1;
       for (int i = 0; i < kPowers; ++i, power *= Duration(k)) out[i] = static_cast<double>(c[i] / power);
+      if (k + 1 == args_.segments) CloseGap(k, axis, out);
       for (int i = 1; i <= D; ++i) after[i - 1] = start.at[i];
       if (k > 0) ChangeCostateUnits<S, D>(Duration(k - 1) / Duration(k), after);
     }
+  }
+
+  /// As the kernels do: Horner's scheme in double precision meets the last waypoint.
+  void CloseGap(size_t k, int axis, double* c) const {
+    const double duration = args_.durations[k];
+    double value = c[kPowers - 1], power = duration;
+    for (int i = kPowers - 2; i >= 0; --i) value = value * duration + c[i];
+    for (int i = 2; i < kPowers; ++i) power *= duration;
+    c[kPowers - 1] += (args_.knots[4 * (k + 1) + static_cast<size_t>(axis)] - value) / power;
   }
 
   const RouteArguments& args_;

@@ -1,0 +1,92 @@
+#include "airsim360/planning/yaw_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Shorter horizontal vectors (m/s or m) have no heading worth following.
+constexpr double kShortest = 1e-3;
+/// Steps by which the nearest moment with a heading is looked for.
+constexpr int kSteps = 4096;
+
+double Wrapped(double yaw) {
+  const double wrapped = std::remainder(yaw, 2 * kPi);
+  return wrapped <= -kPi ? wrapped + 2 * kPi : wrapped;
+}
+
+std::optional<double> Heading(Vec3d v) {
+  if (std::hypot(v.x, v.y) < kShortest) return std::nullopt;
+  return std::atan2(v.y, v.x);
+}
+
+/// heading(t), or that of the nearest time where there is one.
+template <class F>
+double NearestHeading(double t, double duration, F heading) {
+  t = std::clamp(t, 0.0, duration);
+  if (const std::optional<double> yaw = heading(t)) return *yaw;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double away = duration * i / kSteps;
+    for (const double near : {t - away, t + away}) {
+      if (near < 0 || near > duration) continue;
+      if (const std::optional<double> yaw = heading(near)) return *yaw;
+    }
+  }
+  return 0;
+}
+
+double Interpolate(const GivenYaw& given, double t) {
+  const auto after = std::upper_bound(given.times.begin(), given.times.end(), t);
+  if (after == given.times.begin()) return Wrapped(given.yaws.front());
+  if (after == given.times.end()) return Wrapped(given.yaws.back());
+  const size_t i = static_cast<size_t>(after - given.times.begin());
+  const double share = (t - given.times[i - 1]) / (given.times[i] - given.times[i - 1]);
+  return Wrapped(given.yaws[i - 1] + share * Wrapped(given.yaws[i] - given.yaws[i - 1]));
+}
+
+void Check(const GivenYaw& given) {
+  if (given.times.empty() || given.times.size() != given.yaws.size()) {
+    throw InputError("yaw: " + std::to_string(given.times.size()) + " times and " +
+                     std::to_string(given.yaws.size()) + " headings");
+  }
+  for (size_t i = 0; i < given.times.size(); ++i) {
+    if (!std::isfinite(given.times[i]) || !std::isfinite(given.yaws[i])) {
+      throw InputError("yaw: entry " + std::to_string(i) + " is not finite");
+    }
+    if (i > 0 && !(given.times[i] > given.times[i - 1])) {
+      throw InputError("yaw: time " + std::to_string(i) + " does not come after the one before");
+    }
+  }
+}
+
+}  // namespace
+
+YawProfile::YawProfile(const PolynomialTrajectory& trajectory, YawRule rule)
+    : trajectory_(trajectory), rule_(std::move(rule)) {
+  if (const auto* constant = std::get_if<ConstantYaw>(&rule_); constant && !std::isfinite(constant->yaw)) {
+    throw InputError("yaw: the heading is not finite");
+  }
+  if (const auto* towards = std::get_if<YawTowards>(&rule_);
+      towards && !std::isfinite(Norm(towards->point))) {
+    throw InputError("yaw: the point to look at is not finite");
+  }
+  if (const auto* given = std::get_if<GivenYaw>(&rule_)) Check(*given);
+}
+
+double YawProfile::At(double t) const {
+  if (const auto* constant = std::get_if<ConstantYaw>(&rule_)) return Wrapped(constant->yaw);
+  if (const auto* given = std::get_if<GivenYaw>(&rule_)) return Interpolate(*given, t);
+  const auto* towards = std::get_if<YawTowards>(&rule_);
+  return NearestHeading(t, trajectory_.duration(), [&](double time) {
+    const TrajectoryPoint point = trajectory_.At(time);
+    return Heading(towards ? towards->point - point.p : point.v);
+  });
+}
+
+}  // namespace airsim360

@@ -1,0 +1,45 @@
+// Where a vehicle looks while it flies a path.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "airsim360/planning/polynomial_trajectory.h"
+
+namespace airsim360 {
+
+/// Always the same heading, radians, anticlockwise from east (+x of W).
+struct ConstantYaw {
+  double yaw = 0;
+};
+
+/// Along the horizontal velocity. Where it is below 1e-3 m/s (at rest, straight up) the heading is that of
+/// the nearest moment on the path where it is not; 0 if there is none.
+struct YawAlongVelocity {};
+
+/// Towards a point in W. Right above or below it as for YawAlongVelocity.
+struct YawTowards {
+  Vec3d point;
+};
+
+/// Given at increasing times, linear between them the short way round, constant before and after.
+struct GivenYaw {
+  std::vector<double> times, yaws;
+};
+
+using YawRule = std::variant<ConstantYaw, YawAlongVelocity, YawTowards, GivenYaw>;
+
+/// A rule bound to a path, which must outlive it.
+class YawProfile {
+ public:
+  /// InputError for numbers that are not finite and for times that do not increase or agree in number.
+  YawProfile(const PolynomialTrajectory& trajectory, YawRule rule);
+  /// Radians in (-pi, pi] at time t, clamped to the path.
+  double At(double t) const;
+
+ private:
+  const PolynomialTrajectory& trajectory_;
+  YawRule rule_;
+};
+
+}  // namespace airsim360

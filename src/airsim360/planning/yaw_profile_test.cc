@@ -1,0 +1,57 @@
+#include "airsim360/planning/yaw_profile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/base/error.h"
+#include "airsim360/planning/minimum_snap.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+PolynomialTrajectory Straight(Vec3d to) {
+  const std::vector<Vec3d> waypoints = {{0, 0, 0}, to};
+  const std::vector<double> durations = {4};
+  return SolveMinimumSnap({.waypoints = waypoints, .durations = durations});
+}
+
+TEST(YawProfile, FollowsTheVelocityAndHoldsItsHeadingAtRest) {
+  const PolynomialTrajectory trajectory = Straight({-3, 3, 1});
+  const YawProfile yaw(trajectory, YawAlongVelocity{});
+  for (const double t : {0.0, 1.0, 2.0, 4.0}) EXPECT_NEAR(yaw.At(t), 3 * kPi / 4, 1e-9);
+}
+
+TEST(YawProfile, StraightUpHasHeadingZero) {
+  const PolynomialTrajectory trajectory = Straight({0, 0, 5});
+  EXPECT_EQ(YawProfile(trajectory, YawAlongVelocity{}).At(2), 0);
+}
+
+TEST(YawProfile, LooksAtAPointFromEverywhere) {
+  const PolynomialTrajectory trajectory = Straight({10, 0, 0});
+  const YawProfile yaw(trajectory, YawTowards{{5, 5, 0}});
+  EXPECT_NEAR(yaw.At(0), kPi / 4, 1e-12);
+  EXPECT_NEAR(yaw.At(2), kPi / 2, 1e-9);
+  EXPECT_NEAR(yaw.At(4), 3 * kPi / 4, 1e-12);
+}
+
+TEST(YawProfile, GivenHeadingsTurnTheShortWay) {
+  const PolynomialTrajectory trajectory = Straight({1, 0, 0});
+  const YawProfile yaw(trajectory, GivenYaw{{0, 2}, {0.9 * kPi, -0.9 * kPi}});
+  EXPECT_NEAR(std::abs(yaw.At(1)), kPi, 1e-12);
+  EXPECT_NEAR(yaw.At(0.5), 0.95 * kPi, 1e-12);
+  EXPECT_NEAR(yaw.At(3), -0.9 * kPi, 1e-12);
+}
+
+TEST(YawProfile, BadRulesAreRefused) {
+  const PolynomialTrajectory trajectory = Straight({1, 0, 0});
+  EXPECT_THROW(YawProfile(trajectory, ConstantYaw{NAN}), InputError);
+  EXPECT_THROW(YawProfile(trajectory, GivenYaw{{0, 0}, {1, 2}}), InputError);
+  EXPECT_THROW(YawProfile(trajectory, GivenYaw{{0}, {}}), InputError);
+}
+
+}  // namespace
+}  // namespace airsim360
