@@ -22,7 +22,7 @@ import threading
 
 import numpy
 from exr import read_exr
-from labels import compare, near_edges, read_entities
+from labels import compare
 
 HERE = pathlib.Path(__file__).resolve().parent
 BIN = HERE.parents[1] / "build/bin"
@@ -117,8 +117,8 @@ def parse_size(text):
 
 
 def label_agreement(program, cycles, world, pose, size, threads, folder):
-    """Ids of one frame; range of the mean over frames with other jitters, which Cycles cannot switch off."""
-    out = folder / "labels"
+    """Ids and range of one frame."""
+    out = folder / f"labels_{world}"
     subprocess.run([program, "render", "--world", world, f"--pose={pose}", "--size", "x".join(map(str, size)), "--tier", "labels",
                     "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
     frame = json.loads((out / "frames.jsonl").read_text().splitlines()[0])
@@ -128,20 +128,6 @@ def label_agreement(program, cycles, world, pose, size, threads, folder):
     ask = dict(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=frame["X_WC"], out=str(exr))
     cycles.ask(**ask)
     result = compare(out, exr, sky)
-    ids = read_entities(out / "entity/000000.png")
-    ranges = read_exr(out / "range/000000.exr")["Y"].astype(numpy.float64)
-    total, count = numpy.zeros(ids.shape), numpy.zeros(ids.shape)
-    for seed in range(16):
-        cycles.ask(**{**ask, "seed": seed})
-        layers = read_exr(exr)
-        distance = next(v for k, v in layers.items() if k.endswith("Depth.Z")).astype(numpy.float64)
-        theirs = numpy.rint(next(v for k, v in layers.items() if k.endswith("IndexOB.X")))
-        same = (theirs == ids) & (distance < 1e9)
-        total[same] += distance[same]
-        count[same] += 1
-    good = (count == 16) & ~near_edges(ids) & (ranges > 0)
-    error = numpy.abs(total[good] / 16 - ranges[good]) / ranges[good]
-    result["range_p999_mean_of_16"] = float(numpy.quantile(error, 0.999))
     for name, value in result.items():
         print(f"  {name:26} {value:.3g}" if isinstance(value, float) else f"  {name:26} {value}")
     return frame["X_WC"]
