@@ -8,16 +8,15 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/plan_dataset.h"
 #include "airsim360/app/plan_output.h"
 #include "airsim360/app/plan_waypoints.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/dataset/waypoint_set.h"
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/point_to_point.h"
 #include "airsim360/sim/world_clearance.h"
 #include "airsim360/sim/world_loader.h"
-#include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
 namespace {
@@ -26,10 +25,10 @@ constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of the map around
 
 struct PlanArguments {
   WaypointArguments waypoints;
-  std::string world, out, format, dataset, shard = "0/1", worlds, origin = "47.397742,8.545594,488";
+  WaypointSetArguments set;
+  std::string world, out, format, origin = "47.397742,8.545594,488";
   double vmax = 0, amax = 0, dt = 0, clearance = 0.5, yaw_deg = 0;
   int order = 7;
-  int64_t routes = 0;
   bool avoid = false;
 };
 
@@ -181,49 +180,12 @@ void Report(const PlanArguments& arguments, const Planned& planned, const PlanRe
   for (const auto& file : files) std::printf("%s\n", file.c_str());
 }
 
-void RunDataset(const PlanArguments& arguments, const GlobalOptions& globals) {
-  if (arguments.dataset != "waypoint")
-    throw InputError("--dataset: " + UnknownChoiceMessage("dataset", arguments.dataset,
-                                                          std::vector<std::string>{"waypoint"}));
-  if (arguments.routes < 0)
-    throw InputError("--routes: " + std::to_string(arguments.routes) + " is below zero");
-  const Shard shard = ParseShard(arguments.shard);
-  WaypointSetOptions options{.out = arguments.out,
-                             .seed = globals.seed,
-                             .shard = shard.index,
-                             .shards = shard.count,
-                             .most_routes = arguments.routes,
-                             .radius = CheckPositive("--clearance", arguments.clearance)};
-  std::vector<std::string> names;
-  for (const WaypointWorld& world : WaypointWorlds()) names.push_back(world.name);
-  if (!arguments.worlds.empty()) options.worlds = ParseList("--worlds", arguments.worlds, names);
-  options.exists = [](const std::string& name) {
-    for (const WorldInfo& world : ListWorlds()) {
-      if (world.name == name) return true;
-    }
-    return false;
-  };
-  // Worlds are always those of seed 0: the seed varies the routes.
-  options.load = [](const std::string& name) { return LoadWorld({.world = name}); };
-  const WaypointSetResult result = WriteWaypointSet(options);
-  if (globals.json) {
-    PrintJson({{"out", arguments.out},
-               {"flights", result.flights},
-               {"flights_written", result.written},
-               {"worlds_missing", result.skipped},
-               {"complete", result.complete},
-               {"preparing_s", result.preparing_s},
-               {"planning_s", result.planning_s}});
-    return;
-  }
-  std::printf("%s: %lld flights of this shard, %lld written now in %.1f s after %.1f s of preparing%s\n",
-              arguments.out.c_str(), static_cast<long long>(result.flights),
-              static_cast<long long>(result.written), result.planning_s, result.preparing_s,
-              result.complete ? "; the set is complete" : "");
-}
-
 void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
-  if (!arguments.dataset.empty()) return RunDataset(arguments, globals);
+  if (!arguments.set.dataset.empty()) {
+    arguments.set.out = arguments.out;
+    arguments.set.clearance = CheckPositive("--clearance", arguments.clearance);
+    return RunWaypointSet(arguments.set, globals);
+  }
   // Everything that can be wrong with the flags is found before a world is loaded.
   PlanOutput output{.out = arguments.out, .interval = arguments.dt > 0 ? arguments.dt : 0.1};
   if (!arguments.format.empty()) output.formats = ParseList("--format", arguments.format, PlanFormats());
@@ -320,11 +282,12 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
       "commas (default: by the extension of --out)");
   command->add_option("--yaw", a->yaw_deg, "heading of the drone in exports, degrees from east (0)");
   command->add_option("--origin", a->origin, "qgc: latitude,longitude,altitude of the origin of the world");
-  command->add_option("--dataset", a->dataset, "waypoint: the Omni360-WayPoint set, into the folder --out");
-  command->add_option("--routes", a->routes,
+  command->add_option("--dataset", a->set.dataset,
+                      "waypoint: the Omni360-WayPoint set, into the folder --out");
+  command->add_option("--routes", a->set.routes,
                       "dataset: at most this many routes of each world (default: the paper's)");
-  command->add_option("--worlds", a->worlds, "dataset: only these worlds");
-  command->add_option("--shard", a->shard, "dataset: I/N, only parts with number % N == I (default 0/1)");
+  command->add_option("--worlds", a->set.worlds, "dataset: only these worlds");
+  command->add_option("--shard", a->set.shard, "dataset: I/N, only parts with number % N == I (default 0/1)");
   command->callback([a, &globals] { RunPlan(*a, globals); });
 }
 

@@ -30,14 +30,18 @@ std::string PartFile(int64_t part, const char* extension) {
   return name;
 }
 
-// Worlds to do, with their counts; names those that do not exist.
-std::vector<WaypointWorld> WorldsToDo(const WaypointSetOptions& options, std::vector<std::string>& skipped) {
+// InputError for a name that is not in the table.
+void CheckNames(const WaypointSetOptions& options) {
   std::vector<std::string> names;
   for (const WaypointWorld& world : WaypointWorlds()) names.push_back(world.name);
   for (const std::string& name : options.worlds) {
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw InputError("--worlds: " + UnknownChoiceMessage("world of the waypoint set", name, names));
   }
+}
+
+// Worlds to do, with their counts; names those that do not exist.
+std::vector<WaypointWorld> WorldsToDo(const WaypointSetOptions& options, std::vector<std::string>& skipped) {
   std::vector<WaypointWorld> worlds;
   for (WaypointWorld world : WaypointWorlds()) {
     if (!options.worlds.empty() && std::ranges::count(options.worlds, world.name) == 0) continue;
@@ -139,8 +143,9 @@ bool WriteSummary(const WaypointSetOptions& options, const std::vector<WaypointW
 
 WaypointSetResult WriteWaypointSet(const WaypointSetOptions& options) {
   WaypointSetResult result;
-  const std::vector<WaypointWorld> worlds = WorldsToDo(options, result.skipped);
+  CheckNames(options);
   CheckFolder(options);
+  const std::vector<WaypointWorld> worlds = WorldsToDo(options, result.skipped);
   // What this shard still has to do, by world.
   const auto sets = static_cast<int64_t>(KinematicSets().size());
   std::vector<std::vector<int64_t>> missing(worlds.size());

@@ -124,6 +124,7 @@ class PeakSearch {
       }
       const double at = SplitPoint(segment, part);
       Split(part, at, stack[size], stack[size + 1]);
+      Attain(stack[size + 1].control[0], segment, stack[size + 1].from);
       size += 2;
     }
     return bound;

@@ -111,6 +111,49 @@ struct MinimumSnapSolver::Impl {
       RefineUneven(kind, *checks, arguments);
     }
   }
+
+  /// Of a true optimum: by a duration less twice the Hamiltonian of the segment, here at its start; by a
+  /// waypoint twice the jump of the highest derivative.
+  void OptimumGradient(std::span<double> by_duration, std::span<Vec3d> by_waypoint) const {
+    const bool snap = kind == SplineKind::kMinimumSnap;
+    const size_t powers = snap ? 8 : 6, top = powers - 1;
+    const double factor = snap ? 2 * 5040 : -2 * 120;
+    std::fill(by_waypoint.begin(), by_waypoint.end(), Vec3d{});
+    for (size_t i = 0; i < durations.size(); ++i) {
+      const double* c = &coefficients[3 * i * powers];
+      double sum = 0;
+      for (int axis = 0; axis < 3; ++axis, c += powers) {
+        // With p_n = n! c_n: -p4^2 + 2 p3 p5 - 2 p2 p6 + 2 p1 p7, or -p3^2 + 2 p2 p4 - 2 p1 p5.
+        sum += snap ? -576 * c[4] * c[4] + 1440 * c[3] * c[5] - 2880 * c[2] * c[6] + 10080 * c[1] * c[7]
+                    : -36 * c[3] * c[3] + 96 * c[2] * c[4] - 240 * c[1] * c[5];
+        if (by_waypoint.empty()) continue;
+        by_waypoint[i][axis] += factor * c[top];
+        by_waypoint[i + 1][axis] -= factor * c[top];
+      }
+      if (!by_duration.empty()) by_duration[i] = sum;
+    }
+  }
+
+  /// Derivatives of the cost by the coefficients (cost_gradient) and, at fixed coefficients, by the durations
+  /// (direct).
+  void CostPartials() {
+    const size_t powers = static_cast<size_t>(PowersOf(kind)), order = 4;
+    cost_gradient.resize(coefficients.size());
+    for (size_t i = 0; i < durations.size(); ++i) {
+      const double duration = durations[i];
+      direct[i] = 0;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double* const c = &coefficients[(3 * i + axis) * powers];
+        double* const gradient = &cost_gradient[(3 * i + axis) * powers];
+        std::fill(gradient, gradient + order, 0.0);
+        // Snap h0 + h1 t: the cost is h0^2 T + h0 h1 T^2 + h1^2 T^3 / 3.
+        const double h0 = 24 * c[4], h1 = 120 * c[5], end = h0 + h1 * duration;
+        gradient[4] = 24 * duration * (2 * h0 + h1 * duration);
+        gradient[5] = 120 * duration * duration * (h0 + 2.0 / 3 * h1 * duration);
+        direct[i] += end * end;
+      }
+    }
+  }
 };
 
 MinimumSnapSolver::MinimumSnapSolver() : impl_(std::make_unique<Impl>()) {}
@@ -158,35 +201,13 @@ void MinimumSnapSolver::Backpropagate(std::span<const double> by_coefficient, st
 
 void MinimumSnapSolver::CostGradient(std::span<double> by_duration, std::span<Vec3d> by_waypoint) {
   Impl& impl = *impl_;
-  const size_t segments = impl.durations.size(), powers = static_cast<size_t>(PowersOf(impl.kind));
-  const size_t order = impl.kind == SplineKind::kMinimumJerk ? 3 : 4;
-  // The cost of one segment and axis is sum_jk h_j h_k T^(j + k + 1) / (j + k + 1), h the coefficients of the
-  // squared derivative; its derivative by T is the square of that derivative at the segment's end.
-  impl.cost_gradient.resize(impl.coefficients.size());
-  for (size_t i = 0; i < segments; ++i) {
-    const double duration = impl.durations[i];
-    double at_end = 0;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double* const c = &impl.coefficients[(3 * i + axis) * powers];
-      double* const gradient = &impl.cost_gradient[(3 * i + axis) * powers];
-      double h[4] = {}, factor[4] = {}, value = 0, power = 1;
-      const size_t terms = powers - order;
-      for (size_t j = 0; j < terms; ++j, power *= duration) {
-        factor[j] = 1;
-        for (size_t f = j + order; f > j; --f) factor[j] *= static_cast<double>(f);
-        h[j] = factor[j] * c[j + order];
-        value += h[j] * power;
-      }
-      at_end += value * value;
-      std::fill(gradient, gradient + order, 0.0);
-      for (size_t j = 0; j < terms; ++j) {
-        double sum = 0;
-        for (size_t k = terms; k-- > 0;) sum = sum * duration + h[k] / static_cast<double>(j + k + 1);
-        gradient[j + order] = 2 * factor[j] * sum * std::pow(duration, static_cast<double>(j + 1));
-      }
-    }
-    impl.direct[i] = at_end;
+  const size_t segments = impl.durations.size();
+  if ((!by_duration.empty() && by_duration.size() != segments) ||
+      (!by_waypoint.empty() && by_waypoint.size() != segments + 1)) {
+    Fail("sizes of the gradients do not agree with the solution");
   }
+  if (impl.kind != SplineKind::kPaperQuintic) return impl.OptimumGradient(by_duration, by_waypoint);
+  impl.CostPartials();
   Backpropagate(impl.cost_gradient, impl.direct, by_waypoint);
   std::copy(impl.direct.begin(), impl.direct.begin() + static_cast<ptrdiff_t>(by_duration.size()),
             by_duration.begin());

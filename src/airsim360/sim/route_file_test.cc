@@ -99,9 +99,10 @@ TEST(RouteAlong, IsThePlannedFlightExactlyAndLooksWhereItGoes) {
     EXPECT_EQ(route.At(t).v, path.At(t).v);
     EXPECT_EQ(fixed.At(t).yaw, 1.25);
     const Vec3d v = path.At(t).v;
-    if (std::hypot(v.x, v.y) > 1)
+    if (std::hypot(v.x, v.y) > 1) {
       EXPECT_LT(std::fabs(std::remainder(route.At(t).yaw - std::atan2(v.y, v.x), 2 * std::numbers::pi)),
                 0.15);
+    }
   }
 }
 

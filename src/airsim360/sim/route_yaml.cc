@@ -10,8 +10,8 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kFarthest = 1e7;  // metres; also the largest time and angle
-constexpr double kNotGiven = -1e9;
+constexpr double kFarthest = 1e9;  // metres; also the largest time and angle
+constexpr double kNotGiven = -kFarthest;
 
 struct Entry {
   double x = kNotGiven, y = kNotGiven, z = kNotGiven, yaw_deg = kNotGiven, t = kNotGiven;

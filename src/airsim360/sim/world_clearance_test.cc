@@ -72,7 +72,9 @@ TEST(WorldClearance, LowerBoundsAreBoundsAndExactWhereTheMapIsNotEnough) {
     const double exact = tracer->Clearance(VecCast<float>(p), 20);
     const double bound = world.LowerBound(p, 1.2, 5);
     EXPECT_LE(bound, exact + 1e-5);
-    if (bound < 1.2) EXPECT_NEAR(bound, std::min(exact, 5.0), 1e-3);
+    if (bound < 1.2) {
+      EXPECT_NEAR(bound, std::min(exact, 5.0), 1e-3);
+    }
     EXPECT_LE(world.Clearance(p, 20), exact + 1e-5);
   }
 }
@@ -97,7 +99,7 @@ TEST(CheckAboveGround, RefusesPlacesBelowIt) {
 
 TEST(RoadRoute, FollowsTheMiddleOfAnAngleAtItsHeight) {
   SceneBuilder builder("roads");
-  const EntityId lawn = builder.AddEntity("lawn", builder.tree().At("vegetation/grass"));
+  const EntityId lawn = builder.AddEntity("lawn", builder.tree().At("ground/grass"));
   const EntityId road = builder.AddEntity("road", builder.tree().At("ground/road"));
   builder.AddInstance(
       {builder.AddMesh(Quad({-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0})), {}, lawn});
