@@ -185,8 +185,14 @@ bool WithinLimits(const PolynomialTrajectory& trajectory, const TrajectoryLimits
 
 PolynomialTrajectory ScaleToLimits(const PolynomialTrajectory& trajectory, const TrajectoryLimits& limits) {
   CheckLimits(limits);
-  // A hair slower than the exact factor, for the rounding of the scaled coefficients.
-  const double exact = ExactScale(trajectory, limits) * (1 + 0x1p-40);
+  // A hair slower than the exact factor, for the rounding of the scaled coefficients; certified again,
+  // because two certificates of one path may differ by their width.
+  double exact = ExactScale(trajectory, limits) * (1 + 0x1p-40);
+  for (int i = 0; exact > 0 && i < 4; ++i) {
+    const double again = ExactScale(Slowed(trajectory, exact), limits);
+    if (again <= 1) break;
+    exact *= again * (1 + 0x1p-40);
+  }
   const bool drone = Finite(limits.thrust_per_mass) || Finite(limits.body_rate);
   double low = exact, high = exact > 0 ? exact : drone ? 1 : 0;
   if (high == 0) return trajectory;
