@@ -52,8 +52,11 @@ RoadGrid FindRoads(const RayTracer& tracer) {
   const Scene& scene = tracer.scene();
   std::vector<bool> is_road(scene.entities.size() + 1);
   for (const Entity& entity : scene.entities) {
+    // What cars drive on, paint and lids in it included.
     const std::string& path = scene.tree[entity.category].path;
-    is_road[entity.id] = path.ends_with("/road") || path.find("/road/") != std::string::npos;
+    for (const char* kind : {"ground/road", "ground/crosswalk", "ground/lane_marking", "ground/manhole",
+                             "ground/bike_lane", "ground/parking"})
+      is_road[entity.id] = is_road[entity.id] || path.starts_with(kind);
   }
   const Box3d box = FlightBox(tracer);
   RoadGrid grid;
@@ -149,9 +152,25 @@ void Simplify(const std::vector<Vec3d>& way, size_t first, size_t last, double t
 
 std::vector<Vec3d> RoadRoute(const RayTracer& tracer, const RoadRouteOptions& options) {
   const RoadGrid grid = FindRoads(tracer);
-  const auto widest = std::max_element(grid.inside.begin(), grid.inside.end());
-  if (*widest == 0) throw InputError("world '" + tracer.scene().name + "' has no road to follow");
-  const int start = FindWays(grid, static_cast<int>(widest - grid.inside.begin())).farthest;
+  // The largest network, from one of its far ends.
+  std::vector<bool> seen(grid.inside.size());
+  int start = -1;
+  int64_t largest = 0;
+  for (int cell = 0; cell < static_cast<int>(seen.size()); ++cell) {
+    if (seen[cell] || grid.inside[cell] == 0) continue;
+    const Ways ways = FindWays(grid, cell);
+    int64_t size = 0;
+    for (int other = cell; other < static_cast<int>(seen.size()); ++other) {
+      if (ways.cost[other] == kInfinity) continue;
+      seen[other] = true;
+      ++size;
+    }
+    if (size > largest) {
+      largest = size;
+      start = ways.farthest;
+    }
+  }
+  if (start < 0) throw InputError("world '" + tracer.scene().name + "' has no road to follow");
   const Ways ways = FindWays(grid, start);
   std::vector<Vec3d> way;
   for (int cell = ways.farthest; cell >= 0; cell = ways.previous[cell])
