@@ -97,7 +97,11 @@ std::vector<SimCommand> RandomCommands(RngStream& random, const SimModel& model)
       health.health[random.Index(4)] = random.Uniform();
       commands.push_back({i, health});
     }
-    if (random.Chance(0.05)) commands.push_back({i, ResetCommand{.airborne = random.Chance(0.5)}});
+    if (random.Chance(0.05)) {
+      SimCommand& reset = commands.emplace_back();
+      reset.vehicle = i;
+      reset.action.emplace<ResetCommand>().airborne = random.Chance(0.5);
+    }
   }
   if (random.Chance(0.02)) {
     Vec3d wind = RandomVector(random, 8);
