@@ -37,7 +37,7 @@ std::shared_ptr<const Scene> WithBodies(std::shared_ptr<const Scene> scene, cons
   std::vector<DroneBodySpec> bodies;
   for (const auto& [name, vehicle] : settings.vehicles) {
     if (!vehicle.auto_create || vehicle.type == "ComputerVision") continue;
-    bodies.push_back({name, MakeDroneBody(AirSimQuad()), {{}, somewhere}});
+    bodies.push_back({name, DroneBodyModel(AirSimQuad()), {{}, somewhere}});
   }
   return bodies.empty() ? scene : AddDroneBodies(std::move(scene), bodies, refs);
 }
