@@ -51,7 +51,7 @@ WorldWind ReadWind(const std::string& text) {
 // The waypoints as a trajectory within the limits, and where it begins.
 std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& arguments) {
   std::vector<Vec3d> points;
-  for (const Waypoint& waypoint : ReadRouteCsv(arguments.waypoints)) points.push_back(waypoint.p);
+  for (const Waypoint& waypoint : ReadRouteFile(arguments.waypoints)) points.push_back(waypoint.p);
   if (points.size() < 2) throw InputError("--waypoints: " + arguments.waypoints + " holds one point only");
   TrajectoryLimits limits;
   limits.speed = arguments.vmax;

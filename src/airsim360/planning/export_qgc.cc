@@ -1,54 +1,10 @@
 #include "airsim360/planning/export_qgc.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include "airsim360/math/transform.h"
 #include "airsim360/planning/number_text.h"
 
 namespace airsim360 {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kA = 6378137.0, kF = 1 / 298.257223563, kE2 = kF * (2 - kF);  // WGS84
-
-double PrimeVertical(double latitude) {
-  const double s = std::sin(latitude);
-  return kA / std::sqrt(1 - kE2 * s * s);
-}
-
-Vec3d ToEarth(const GeoPoint& g) {
-  const double lat = g.latitude_deg * kDegree, lon = g.longitude_deg * kDegree, n = PrimeVertical(lat);
-  return {(n + g.altitude) * std::cos(lat) * std::cos(lon), (n + g.altitude) * std::cos(lat) * std::sin(lon),
-          (n * (1 - kE2) + g.altitude) * std::sin(lat)};
-}
-
-// Columns: east, north, up.
-Mat3d EastNorthUp(const GeoPoint& g) {
-  const double lat = g.latitude_deg * kDegree, lon = g.longitude_deg * kDegree;
-  const double sl = std::sin(lat), cl = std::cos(lat), so = std::sin(lon), co = std::cos(lon);
-  return Mat3d::FromColumns({-so, co, 0}, {-sl * co, -sl * so, cl}, {cl * co, cl * so, sl});
-}
-
-}  // namespace
-
-GeoPoint ToGeo(Vec3d p_W, const GeoPoint& origin) {
-  const Vec3d p = ToEarth(origin) + EastNorthUp(origin) * p_W;
-  const double r = std::hypot(p.x, p.y);
-  // Fixed point of the latitude: gains more than two digits a round near the surface.
-  double lat = std::atan2(p.z, r * (1 - kE2));
-  for (int i = 0; i < 8; ++i) lat = std::atan2(p.z + kE2 * PrimeVertical(lat) * std::sin(lat), r);
-  const double s = std::sin(lat), c = std::cos(lat);
-  // Along the normal: right at the poles too.
-  const double altitude = r * c + p.z * s - kA * std::sqrt(1 - kE2 * s * s);
-  return {lat / kDegree, std::atan2(p.y, p.x) / kDegree, altitude};
-}
-
-Vec3d FromGeo(const GeoPoint& point, const GeoPoint& origin) {
-  return EastNorthUp(origin).transpose() * (ToEarth(point) - ToEarth(origin));
-}
-
 namespace {
 
 enum Command { kWaypoint = 16, kLand = 21, kTakeOff = 22, kChangeSpeed = 178 };
@@ -57,10 +13,10 @@ constexpr int kRelativeAltitude = 3, kMissionFrame = 2;
 // Appends the items of a mission one after another.
 class Items {
  public:
-  explicit Items(const GeoPoint& origin) : origin_(origin) {}
+  explicit Items(const GeoPoint& origin) : frame_(origin) {}
   void AddPlace(Command command, Vec3d p_W) {
-    const GeoPoint g = ToGeo(p_W, origin_);
-    const double altitude = g.altitude - origin_.altitude;
+    const GeoPoint g = frame_.ToGeodetic(p_W);
+    const double altitude = g.altitude - frame_.origin().altitude;
     const double place[] = {g.latitude_deg, g.longitude_deg, altitude};
     std::string params = "0, 0, 0, null, ";
     AppendNumbers(params, place, ", ");
@@ -83,7 +39,7 @@ class Items {
         ", \"doJumpId\": " + std::to_string(count_) + ", \"frame\": " + std::to_string(frame) + ", " + extra +
         "\"params\": [" + params + "]}";
   }
-  GeoPoint origin_;
+  GeoFrame frame_;
   std::string text_;
   int count_ = 0;
 };

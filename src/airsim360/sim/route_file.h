@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "airsim360/planning/export_qgc.h"
+#include "airsim360/math/geodesy.h"
 #include "airsim360/sim/route.h"
 
 namespace airsim360 {

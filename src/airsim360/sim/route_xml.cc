@@ -151,11 +151,11 @@ std::vector<Waypoint> ParseRouteXml(std::string_view text, std::string_view name
   const std::vector<Found> points = FindPoints(reader);
   if (points.empty()) throw InputError(std::string(name) + ": no points (wpt, rtept, trkpt or coordinates)");
   const GeoPoint first = points.front().point;
-  const GeoPoint around = origin.value_or(GeoPoint{first.latitude_deg, first.longitude_deg, 0});
+  const GeoFrame frame(origin.value_or(GeoPoint{first.latitude_deg, first.longitude_deg, 0}));
   std::vector<Waypoint> waypoints;
   for (const Found& found : points) {
     Waypoint w;
-    w.p = FromGeo(found.point, around);
+    w.p = frame.ToWorld(found.point);
     w.line = found.line;
     waypoints.push_back(w);
   }
