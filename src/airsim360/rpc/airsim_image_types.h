@@ -91,4 +91,14 @@ struct ImageResponse {
   }
 };
 
+inline size_t WireSizeHint(const std::vector<ImageResponse>& images) {
+  constexpr size_t kFields = 1000, kFloatBytes = 5;
+  size_t bytes = 100;
+  for (const ImageResponse& image : images) {
+    bytes +=
+        kFields + image.image_data_uint8.bytes.size() + kFloatBytes * image.image_data_float.values.size();
+  }
+  return bytes;
+}
+
 }  // namespace airsim360::airsim

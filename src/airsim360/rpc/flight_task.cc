@@ -168,7 +168,9 @@ class PathTask : public FlightTask {
     }
     if (along > 0) s_ = std::min(s_ + along, lengths_.back());
     const bool carrot_at_end = carrot_s_ >= lengths_.back();
-    return carrot_at_end && along <= 0 && Norm(points_.back() - p_N) <= kDistanceAccuracy;
+    // Near enough to the end and as good as standing: no longer on its way.
+    const bool stands = along <= kStillSpeed * kTaskPeriod;
+    return carrot_at_end && stands && Norm(points_.back() - p_N) <= kDistanceAccuracy;
   }
 
   Command Chase(const FlightView& view, Vec3d goal) const {

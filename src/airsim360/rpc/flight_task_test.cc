@@ -60,6 +60,20 @@ TEST(FlightTask, NowhereToGoEndsAtOnce) {
   EXPECT_EQ(task->Turn(drone.view).result, true);
 }
 
+TEST(FlightTask, CreepingWithinTheAccuracyOfTheEndIsTheEnd) {
+  FlightView view;
+  view.p_N = {0, 0, -2};
+  const auto task = MakePathTask(view, {{0, 0, 0}}, 1e9, {.velocity = 0.5, .drivetrain = {}, .yaw = kYaw});
+  task->Turn(view);
+  view.p_N.z = -0.48;
+  EXPECT_FALSE(task->Turn(view).result);
+  for (int i = 0; i < 3; ++i) {
+    view.p_N.z += 1e-4;
+    if (task->Turn(view).result) return;
+  }
+  FAIL() << "it goes on";
+}
+
 TEST(FlightTask, SlowingDownOvershootsLess) {
   const auto overshoot = [](bool slow_down) {
     ToyDrone drone;

@@ -178,6 +178,38 @@ void AddProducts(ImageContent content, Products& products) {
   products.flow |= content == ImageContent::kFlow || content == ImageContent::kFlowShade;
 }
 
+namespace {
+
+// The three pictures that are asked for most, without a choice at every pixel. False: another one.
+bool CommonRow(ImageContent content, const Frame& frame, int y, char* out) {
+  const auto put = [&](int r, int g, int b) {
+    *out++ = static_cast<char>(b);
+    *out++ = static_cast<char>(g);
+    *out++ = static_cast<char>(r);
+  };
+  if (content == ImageContent::kColor) {
+    for (const Rgb8 c : frame.rgb.row(y)) put(c.r, c.g, c.b);
+    return true;
+  }
+  if (content == ImageContent::kEntity) {
+    for (const EntityId id : frame.entity.row(y)) {
+      put(static_cast<uint8_t>(id), static_cast<uint8_t>(id >> 8), static_cast<uint8_t>(id >> 16));
+    }
+    return true;
+  }
+  return false;
+}
+
+bool CommonRow(ImageContent content, const Frame& frame, int y, bool half, float* out) {
+  if (content != ImageContent::kRange) return false;
+  for (const float range : frame.range.row(y)) {
+    *out++ = range <= 0 ? kSkyDepth : half ? RoundToHalf(range) : std::min(range, kSkyDepth);
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options) {
   const int width = Width(camera), height = Height(camera);
@@ -189,6 +221,7 @@ std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const
   std::vector<float> pixels(static_cast<size_t>(width) * static_cast<size_t>(height));
   ForRows(camera, [&](int y) {
     float* row = pixels.data() + static_cast<size_t>(y) * static_cast<size_t>(width);
+    if (CommonRow(content, frame, y, options.half_depth, row)) return;
     for (int x = 0; x < width; ++x) row[x] = FloatAt(content, frame, camera, options, x, y);
   });
   return pixels;
@@ -200,6 +233,7 @@ std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& 
   std::string pixels(3 * static_cast<size_t>(width) * static_cast<size_t>(height), '\0');
   ForRows(camera, [&](int y) {
     char* out = pixels.data() + 3 * static_cast<size_t>(y) * static_cast<size_t>(width);
+    if (CommonRow(content, frame, y, out)) return;
     for (int x = 0; x < width; ++x, out += 3) {
       const Rgb8 c = ColorAt(content, frame, camera, options, x, y);
       out[0] = static_cast<char>(c.b), out[1] = static_cast<char>(c.g), out[2] = static_cast<char>(c.r);

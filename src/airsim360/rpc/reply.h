@@ -25,6 +25,7 @@ class Reply {
   void Result(const T& value) const {
     WireWriter writer;
     if (Begin(writer)) {
+      writer.bytes().reserve(WireSizeHint(value));
       ToWire(writer, value);
       Send(std::move(writer.bytes()));
     }

@@ -22,6 +22,12 @@ struct WireBytes {
   std::string bytes;
 };
 
+/// About how many bytes an answer will take, where that is much.
+template <class T>
+size_t WireSizeHint(const T&) {
+  return 64;
+}
+
 /// A struct that lists its fields: `template <class V> void Visit(V& v) { v("key", field); … }`.
 namespace internal {
 struct FieldCounter {
