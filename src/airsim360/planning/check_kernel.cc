@@ -61,8 +61,27 @@ bool AnyUneven(const double* durations, size_t n) {
   return uneven || UnevenHere(durations[n - 2], durations[n - 1], durations[n - 1]);
 }
 
+/// Whole vectors are written, for the solvers read them so: narrower stores would not be forwarded.
+bool PadPoints(const double* points, size_t n, double* out) {
+  V4 sum = {};
+  for (size_t i = 0; i < n; ++i) {
+    const double* const p = points + 3 * i;
+    // Beyond the last point nothing may be read.
+    const V4 point =
+        i + 1 < n ? __builtin_shufflevector(Load4(p), V4{}, 0, 1, 2, 4) : V4{p[0], p[1], p[2], 0};
+    sum += point - point;
+    *reinterpret_cast<V4Memory*>(out + 4 * i) = point;
+  }
+  return sum[0] + sum[1] + sum[2] == 0;
+}
+
+DurationCheck CopyDurations(const double* durations, size_t n, double* out) {
+  __builtin_memcpy(out, durations, n * sizeof(double));
+  return {AllFinite(durations, n) && AllPositive(durations, n), AnyUneven(durations, n)};
+}
+
 }  // namespace
 
-const CheckKernels kCheckKernels = {AllFinite, AllPositive, AnyUneven};
+const CheckKernels kCheckKernels = {AllFinite, AllPositive, AnyUneven, PadPoints, CopyDurations};
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

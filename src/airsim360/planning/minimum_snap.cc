@@ -24,14 +24,9 @@ void CheckCounts(size_t waypoints, size_t durations) {
   }
 }
 
-/// Cheap test of all numbers first; the culprit is looked for only if there is one.
-void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
-                  std::span<const double> durations) {
-  if (kernels.all_finite(&waypoints[0].x, 3 * waypoints.size()) &&
-      kernels.all_finite(durations.data(), durations.size()) &&
-      kernels.all_positive(durations.data(), durations.size())) {
-    return;
-  }
+/// Names the number that is wrong.
+[[noreturn]] void FailOnNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
+                                std::span<const double> durations) {
   for (size_t i = 0; i < durations.size(); ++i) {
     if (!(durations[i] > 0) || !std::isfinite(durations[i])) {
       Fail("duration " + std::to_string(i) + " is " + std::to_string(durations[i]) +
@@ -41,20 +36,18 @@ void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
   for (size_t i = 0; i < waypoints.size(); ++i) {
     if (!kernels.all_finite(&waypoints[i].x, 3)) Fail("waypoint " + std::to_string(i) + " is not finite");
   }
+  Fail("numbers are not finite");
 }
 
-void CheckEnds(const CheckKernels& kernels, const MinimumSnapProblem& problem) {
-  static_assert(sizeof(BoundaryDerivatives) == 9 * sizeof(double));
-  if (!kernels.all_finite(&problem.start.v.x, 9)) Fail("derivatives at the start are not finite");
-  if (!kernels.all_finite(&problem.end.v.x, 9)) Fail("derivatives at the end are not finite");
-}
-
-/// Four lanes per vector.
-void Pad(Vec3d v, double* out) {
-  out[0] = v.x;
-  out[1] = v.y;
-  out[2] = v.z;
-  out[3] = 0;
+/// Cheap test of all numbers first; the culprit is looked for only if there is one.
+void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
+                  std::span<const double> durations) {
+  if (kernels.all_finite(&waypoints[0].x, 3 * waypoints.size()) &&
+      kernels.all_finite(durations.data(), durations.size()) &&
+      kernels.all_positive(durations.data(), durations.size())) {
+    return;
+  }
+  FailOnNumbers(kernels, waypoints, durations);
 }
 
 }  // namespace
@@ -64,30 +57,34 @@ struct MinimumSnapSolver::Impl {
   const AdjointKernels* adjoints = AIRSIM360_SELECT_KERNEL(kAdjointKernels);
   const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
-  bool free = false;
+  bool free = false, refine = false;
   std::vector<double> durations, coefficients;
   std::vector<double> cost_gradient, direct;
   AlignedBuffer waypoint_gradient;
   AlignedBuffer knots, workspace;
-  double start[12] = {}, end[12] = {};
+  alignas(64) double start[12] = {};
+  alignas(64) double end[12] = {};
 
+  /// Takes the numbers and looks at them on the way.
   void Copy(const MinimumSnapProblem& problem) {
+    static_assert(sizeof(BoundaryDerivatives) == 9 * sizeof(double));
+    const size_t segments = problem.durations.size();
+    durations.resize(segments);
+    const DurationCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
+    const bool points =
+        checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.Reserve(4 * segments + 4));
+    const bool start_finite = checks->pad_points(&problem.start.v.x, 3, start);
+    const bool end_finite = checks->pad_points(&problem.end.v.x, 3, end);
+    if (!points || !check.valid || !start_finite || !end_finite) {
+      durations.clear();
+      coefficients.clear();
+      if (!points || !check.valid) FailOnNumbers(*checks, problem.waypoints, problem.durations);
+      Fail(std::string("derivatives at the ") + (start_finite ? "end" : "start") + " are not finite");
+    }
     kind = problem.kind;
     free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
-    durations.assign(problem.durations.begin(), problem.durations.end());
-    double* out = knots.Reserve(4 * problem.waypoints.size());
-    for (const Vec3d& waypoint : problem.waypoints) {
-      Pad(waypoint, out);
-      out += 4;
-    }
-    Pad(problem.start.v, start);
-    Pad(problem.start.a, start + 4);
-    Pad(problem.start.jerk, start + 8);
-    Pad(problem.end.v, end);
-    Pad(problem.end.a, end + 4);
-    Pad(problem.end.jerk, end + 8);
-    direct.resize(durations.size());
-    coefficients.resize(durations.size() * 3 * static_cast<size_t>(PowersOf(kind)));
+    refine = problem.refine && check.uneven;
+    coefficients.resize(segments * 3 * static_cast<size_t>(PowersOf(kind)));
   }
 
   RouteArguments Arguments() {
@@ -103,13 +100,11 @@ struct MinimumSnapSolver::Impl {
             .coefficients = coefficients.data()};
   }
 
-  void Solve(bool refine) {
+  void Solve() {
     const RouteArguments arguments = Arguments();
     if (arguments.segments == 1) return SolveRouteWide(kind, arguments);
     kernels->route[static_cast<int>(kind)](arguments);
-    if (refine && checks->any_uneven(durations.data(), arguments.segments)) {
-      RefineUneven(kind, *checks, arguments);
-    }
+    if (refine) RefineUneven(kind, *checks, arguments);
   }
 
   /// Of a true optimum: by a duration less twice the Hamiltonian of the segment, here at its start; by a
@@ -139,6 +134,7 @@ struct MinimumSnapSolver::Impl {
   void CostPartials() {
     const size_t powers = static_cast<size_t>(PowersOf(kind)), order = 4;
     cost_gradient.resize(coefficients.size());
+    direct.resize(durations.size());
     for (size_t i = 0; i < durations.size(); ++i) {
       const double duration = durations[i];
       direct[i] = 0;
@@ -163,10 +159,8 @@ MinimumSnapSolver& MinimumSnapSolver::operator=(MinimumSnapSolver&&) noexcept = 
 
 void MinimumSnapSolver::Solve(const MinimumSnapProblem& problem) {
   CheckCounts(problem.waypoints.size(), problem.durations.size());
-  CheckNumbers(*impl_->checks, problem.waypoints, problem.durations);
-  CheckEnds(*impl_->checks, problem);
   impl_->Copy(problem);
-  impl_->Solve(problem.refine);
+  impl_->Solve();
 }
 
 int MinimumSnapSolver::degree() const { return PowersOf(impl_->kind) - 1; }

@@ -45,7 +45,7 @@ class MinimumSnapSolver {
 
   /// InputError for fewer than two waypoints, counts that disagree, numbers that are not finite, durations
   /// that are not positive. Equal neighbouring waypoints are fine here: a loop through a point is a valid
-  /// path.
+  /// path. After an error there is no last solution.
   void Solve(const MinimumSnapProblem& problem);
 
   int degree() const;

@@ -56,6 +56,23 @@ AIRSIM360_INLINE constexpr S Noise(int i, int j) {
   return S(1) / (Factorial<S>(D - i) * Factorial<S>(D - j) * S(2 * D + 1 - i - j));
 }
 
+/// Gain, information and posterior covariance after the first segment when its start is known exactly.
+template <class Model>
+AIRSIM360_INLINE constexpr double KnownGain(int i) {
+  using S = long double;
+  return static_cast<double>(Noise<S, Model>(0, i) / Noise<S, Model>(0, 0));
+}
+template <class Model>
+AIRSIM360_INLINE constexpr double KnownInformation() {
+  return static_cast<double>(1 / Noise<long double, Model>(0, 0));
+}
+template <class Model>
+AIRSIM360_INLINE constexpr double KnownCovariance(int i, int j) {
+  using S = long double;
+  return static_cast<double>(Noise<S, Model>(i, j) -
+                             Noise<S, Model>(0, i) / Noise<S, Model>(0, 0) * Noise<S, Model>(0, j));
+}
+
 /// Gain and posterior covariance after the first segment when the highest state is free at its start.
 template <class S, int D>
 AIRSIM360_INLINE constexpr S FreeGain(int i) {
@@ -190,6 +207,20 @@ AIRSIM360_INLINE void StepFreeCovariance(SegmentRecord<V, A, Model::kStates>& re
     for (int j = i; j <= D; ++j) {
       next.covariance[Packed(i, j, D)] = V{} + FreeCovariance<S, Model>(i, j);
     }
+  }
+}
+
+/// The same for a first segment whose start is known exactly: covariance zero there.
+template <class Model, class V, int A>
+AIRSIM360_INLINE void StepKnownCovariance(SegmentRecord<V, A, Model::kStates>& record,
+                                          KnotBelief<V, A, Model::kStates>& next) {
+  constexpr int D = Model::kStates;
+  record.information = V{} + KnownInformation<Model>();
+  AIRSIM360_UNROLL
+  for (int i = 1; i <= D; ++i) {
+    record.gain[i - 1] = V{} + KnownGain<Model>(i);
+    AIRSIM360_UNROLL
+    for (int j = i; j <= D; ++j) next.covariance[Packed(i, j, D)] = V{} + KnownCovariance<Model>(i, j);
   }
 }
 

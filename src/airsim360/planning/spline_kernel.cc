@@ -5,15 +5,24 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-/// One forward step: fills the record of a segment, moves the belief to its end.
+/// One forward step: fills the record of a segment, moves the belief to its end. The first segments start
+/// with known derivatives, but for the highest where that is free.
 template <class Model, class V, int A>
-AIRSIM360_INLINE void Step(bool free_start, const V* delta, SegmentRecord<V, A, Model::kStates>& record,
+AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& record,
                            KnotBelief<V, A, Model::kStates>& belief) {
+  record.start = belief;
+  StepCovariance<double, Model>(record, belief);
+  const V zero[A] = {};
+  StepMean<double, Model>(zero, delta, record, belief);
+}
+template <class Model, class V, int A>
+AIRSIM360_INLINE void FirstStep(bool free_start, const V* delta, SegmentRecord<V, A, Model::kStates>& record,
+                                KnotBelief<V, A, Model::kStates>& belief) {
   record.start = belief;
   if (free_start) {
     StepFreeCovariance<double, Model>(record, belief);
   } else {
-    StepCovariance<double, Model>(record, belief);
+    StepKnownCovariance<Model>(record, belief);
   }
   const V zero[A] = {};
   StepMean<double, Model>(zero, delta, record, belief);
@@ -60,17 +69,19 @@ class RouteSolver {
     for (size_t i = 0; i < segments_; ++i) inverse_[i] = 1.0 / args_.durations[i];
     Belief belief = StartBelief();
     const bool ragged = segments_ % 2 != 0;
-    for (size_t k = 0; k < common_; ++k) {
-      if (k > 0) ToNextUnits(k, belief);
+    const V8 first_delta = Delta(0);
+    FirstStep<Model>(args_.free_start, &first_delta, records_[0], belief);
+    for (size_t k = 1; k < common_; ++k) {
+      ToNextUnits(k, belief);
       const V8 delta = Delta(k);
-      Step<Model>(args_.free_start && k == 0, &delta, records_[k], belief);
+      Step<Model>(&delta, records_[k], belief);
     }
     if (ragged) {
       // The forward chain alone takes the middle segment.
       const Belief before = belief;
       ToNextUnits(common_, belief);
       const V8 delta = Delta(common_);
-      Step<Model>(false, &delta, records_[common_], belief);
+      Step<Model>(&delta, records_[common_], belief);
       AIRSIM360_UNROLL
       for (int i = 0; i < D; ++i) belief.mean[0][i] = Halves(belief.mean[0][i], before.mean[0][i]);
       AIRSIM360_UNROLL
@@ -249,7 +260,8 @@ class BatchSolver {
   AIRSIM360_INLINE void Run() {
     Belief belief = {};  // at rest the mean starts at zero
     LoadWaypoint(0);
-    for (size_t k = 0; k < args_.segments; ++k) ForwardStep(k, belief);
+    ForwardStep(0, true, belief);
+    for (size_t k = 1; k < args_.segments; ++k) ForwardStep(k, false, belief);
     V8 after[3][D];
     EndCostates(belief, after);
     for (size_t k = args_.segments; k-- > 0;) BackwardStep(k, after);
@@ -276,16 +288,20 @@ class BatchSolver {
     return V8{d[0][k], d[1][k], d[2][k], d[3][k], d[4][k], d[5][k], d[6][k], d[7][k]};
   }
 
-  AIRSIM360_INLINE void ForwardStep(size_t k, Belief& belief) {
+  AIRSIM360_INLINE void ForwardStep(size_t k, bool first, Belief& belief) {
     const V8 duration = Duration(k), inverse = 1.0 / duration;
     saved_[k].duration = duration;
     saved_[k].inverse = inverse;
-    if (k > 0) ChangeUnits(duration * saved_[k - 1].inverse, saved_[k - 1].duration * inverse, belief);
+    if (!first) ChangeUnits(duration * saved_[k - 1].inverse, saved_[k - 1].duration * inverse, belief);
     LoadWaypoint(k + 1);
     const V8 delta[3] = {saved_[k + 1].waypoint[0] - saved_[k].waypoint[0],
                          saved_[k + 1].waypoint[1] - saved_[k].waypoint[1],
                          saved_[k + 1].waypoint[2] - saved_[k].waypoint[2]};
-    Step<Model>(Model::kIsLinear && k == 0, delta, saved_[k].record, belief);
+    if (first) {
+      FirstStep<Model>(Model::kIsLinear, delta, saved_[k].record, belief);
+    } else {
+      Step<Model>(delta, saved_[k].record, belief);
+    }
   }
 
   /// At rest: mean - covariance costate = 0 for the clamped derivatives.

@@ -54,12 +54,20 @@ struct AdjointKernels {
   void (*adjoint[kSplineKinds])(const AdjointArguments&);
 };
 
+struct DurationCheck {
+  bool valid;   ///< all are positive and finite
+  bool uneven;  ///< CheckKernels::any_uneven
+};
+
 struct CheckKernels {
   bool (*all_finite)(const double* x, size_t n);
   bool (*all_positive)(const double* x, size_t n);
   /// A duration is more than 16 times its neighbour, or more than 8 times both of the next two on one side:
   /// double precision would lose more than about five digits there.
   bool (*any_uneven)(const double* durations, size_t n);
+  /// Points [n][3] to [n][4], the fourth zero; whether all are finite.
+  bool (*pad_points)(const double* points, size_t n, double* out);
+  DurationCheck (*copy_durations)(const double* durations, size_t n, double* out);
 };
 
 }  // namespace airsim360::internal

@@ -61,39 +61,36 @@ AIRSIM360_INLINE void StoreHalf(const V8* c, int half, double* const* out, int l
   }
 }
 
-/// x = A^-1 b in place, A symmetric positive definite of n <= D rows in packed form, for several b.
+/// x = A^-1 b in place, A symmetric positive definite of n <= D <= 3 rows in packed form, for several b.
+/// Elimination without fractions: no division waits for another.
 template <int D, int A, class V>
 AIRSIM360_INLINE void SolveSymmetric(const V* a, int n, V (*b)[D]) {
-  V l[D][D], inverse[D];
-  AIRSIM360_UNROLL
-  for (int j = 0; j < n; ++j) {
-    V d = a[Packed(j + 1, j + 1, D)];
-    AIRSIM360_UNROLL
-    for (int k = 0; k < j; ++k) d -= l[k][j] * l[j][k];
-    inverse[j] = 1.0 / d;
-    AIRSIM360_UNROLL
-    for (int i = j + 1; i < n; ++i) {
-      V sum = a[Packed(j + 1, i + 1, D)];
-      AIRSIM360_UNROLL
-      for (int k = 0; k < j; ++k) sum -= l[k][i] * l[j][k];
-      l[j][i] = sum;               // upper: not yet divided by the pivot
-      l[i][j] = sum * inverse[j];  // lower
-    }
+  const V inverse_1 = 1.0 / a[0];
+  const V minor_22 = a[0] * a[Packed(2, 2, D)] - a[1] * a[1], inverse_2 = 1.0 / minor_22;
+  V minor_23 = V{}, inverse_3 = V{};
+  if constexpr (D == 3) {
+    minor_23 = a[0] * a[Packed(2, 3, D)] - a[1] * a[2];
+    const V minor_33 = a[0] * a[Packed(3, 3, D)] - a[2] * a[2];
+    if (n == 3) inverse_3 = 1.0 / (minor_22 * minor_33 - minor_23 * minor_23);
   }
   AIRSIM360_UNROLL
   for (int axis = 0; axis < A; ++axis) {
-    V* x = b[axis];
-    AIRSIM360_UNROLL
-    for (int i = 0; i < n; ++i) {
-      AIRSIM360_UNROLL
-      for (int k = 0; k < i; ++k) x[i] -= l[i][k] * x[k];
+    V* const x = b[axis];
+    if (n == 1) {
+      x[0] *= inverse_1;
+      continue;
     }
-    AIRSIM360_UNROLL
-    for (int i = n; i-- > 0;) {
-      x[i] *= inverse[i];
-      AIRSIM360_UNROLL
-      for (int k = i + 1; k < n; ++k) x[i] -= l[k][i] * x[k];
+    V rest_2 = a[0] * x[1] - a[1] * x[0], rest_1 = x[0];
+    if constexpr (D == 3) {
+      if (n == 3) {
+        const V rest_3 = a[0] * x[2] - a[2] * x[0];
+        x[2] = (minor_22 * rest_3 - minor_23 * rest_2) * inverse_3;
+        rest_2 -= minor_23 * x[2];
+        rest_1 -= a[2] * x[2];
+      }
     }
+    x[1] = rest_2 * inverse_2;
+    x[0] = (rest_1 - a[1] * x[1]) * inverse_1;
   }
 }
 
