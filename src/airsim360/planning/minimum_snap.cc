@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/planning/aligned_buffer.h"
+#include "airsim360/planning/spline_chunks.h"
 #include "airsim360/planning/spline_kernel.h"
 #include "airsim360/planning/spline_wide.h"
 
@@ -54,6 +55,7 @@ void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
 
 struct MinimumSnapSolver::Impl {
   const SplineKernels* kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  const BatchKernels* batches = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   const AdjointKernels* adjoints = AIRSIM360_SELECT_KERNEL(kAdjointKernels);
   const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
@@ -89,21 +91,26 @@ struct MinimumSnapSolver::Impl {
 
   RouteArguments Arguments() {
     const size_t segments = durations.size();
-    return {.knots = knots.data(),
-            .durations = durations.data(),
-            .segments = segments,
-            .start = start,
-            .end = end,
-            .free_start = free,
-            .free_end = free,
-            .workspace = workspace.Reserve(std::max(RouteWorkspace(segments), AdjointWorkspace(segments))),
-            .coefficients = coefficients.data()};
+    return {
+        .knots = knots.data(),
+        .durations = durations.data(),
+        .segments = segments,
+        .start = start,
+        .end = end,
+        .free_start = free,
+        .free_end = free,
+        .workspace = workspace.Reserve(std::max({RouteWorkspace(segments), AdjointWorkspace(segments),
+                                                 segments < kLeastChunkedSegments ? 0 : ChunkWorkspace()})),
+        .coefficients = coefficients.data()};
   }
 
   void Solve() {
     const RouteArguments arguments = Arguments();
     if (arguments.segments == 1) return SolveRouteWide(kind, arguments);
-    kernels->route[static_cast<int>(kind)](arguments);
+    const bool try_chunks = arguments.segments >= kLeastChunkedSegments && !free;
+    if (!try_chunks || !SolveRouteInChunks(kind, *batches, arguments)) {
+      kernels->route[static_cast<int>(kind)](arguments);
+    }
     if (refine) RefineUneven(kind, *checks, arguments);
   }
 
@@ -226,9 +233,10 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
   CheckNumbers(checks, waypoints, durations);
 
-  const SplineKernels* const kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  const BatchKernels* const kernels = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   static thread_local AlignedBuffer workspace;
   BatchArguments arguments = {};
+  arguments.stride = 3;
   arguments.segments = segments;
   arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
   std::vector<size_t> uneven;
