@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -64,8 +65,7 @@ struct MinimumSnapSolver::Impl {
   std::vector<double> cost_gradient, direct;
   AlignedBuffer waypoint_gradient;
   AlignedBuffer knots, workspace;
-  alignas(64) double start[12] = {};
-  alignas(64) double end[12] = {};
+  alignas(64) double ends[2][12] = {};
 
   /// Takes the numbers and looks at them on the way.
   void Copy(const MinimumSnapProblem& problem) {
@@ -75,13 +75,15 @@ struct MinimumSnapSolver::Impl {
     const DurationCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
     const bool points =
         checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.Reserve(4 * segments + 4));
-    const bool start_finite = checks->pad_points(&problem.start.v.x, 3, start);
-    const bool end_finite = checks->pad_points(&problem.end.v.x, 3, end);
-    if (!points || !check.valid || !start_finite || !end_finite) {
+    static_assert(offsetof(MinimumSnapProblem, end) ==
+                  offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives));
+    const bool ends_finite = checks->pad_points(&problem.start.v.x, 6, ends[0]);
+    if (!points || !check.valid || !ends_finite) {
       durations.clear();
       coefficients.clear();
       if (!points || !check.valid) FailOnNumbers(*checks, problem.waypoints, problem.durations);
-      Fail(std::string("derivatives at the ") + (start_finite ? "end" : "start") + " are not finite");
+      const bool at_end = checks->all_finite(&problem.start.v.x, 9);
+      Fail(std::string("derivatives at the ") + (at_end ? "end" : "start") + " are not finite");
     }
     kind = problem.kind;
     free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
@@ -95,8 +97,8 @@ struct MinimumSnapSolver::Impl {
         .knots = knots.data(),
         .durations = durations.data(),
         .segments = segments,
-        .start = start,
-        .end = end,
+        .start = ends[0],
+        .end = ends[1],
         .free_start = free,
         .free_end = free,
         .workspace = workspace.Reserve(std::max({RouteWorkspace(segments), AdjointWorkspace(segments),
