@@ -76,8 +76,19 @@ bool PadPoints(const double* points, size_t n, double* out) {
 }
 
 DurationCheck CopyDurations(const double* durations, size_t n, double* out) {
-  __builtin_memcpy(out, durations, n * sizeof(double));
-  return {AllFinite(durations, n) && AllPositive(durations, n), AnyUneven(durations, n)};
+  constexpr size_t kShort = 16;  // calls would cost more than the work
+  if (n >= kShort) {
+    __builtin_memcpy(out, durations, n * sizeof(double));
+    return {AllFinite(durations, n) && AllPositive(durations, n), AnyUneven(durations, n)};
+  }
+  bool valid = true, uneven = false;
+  for (size_t i = 0; i < n; ++i) {
+    const double duration = durations[i];
+    valid &= (duration > 0) & (duration - duration == 0);
+    if (i > 0) uneven |= UnevenHere(durations[i - 1], duration, durations[i + 1 < n ? i + 1 : i]);
+    out[i] = duration;
+  }
+  return {valid, uneven};
 }
 
 }  // namespace

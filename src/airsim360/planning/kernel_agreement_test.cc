@@ -14,17 +14,19 @@ namespace {
 
 struct Kernels {
   const SplineKernels* spline;
+  const BatchKernels* batch;
   const AdjointKernels* adjoint;
   const ExcessKernels* excess;
   const HullKernels* hull;
 };
 
-const Kernels kSse42 = {&isa_sse42::kSplineKernels, &isa_sse42::kAdjointKernels, &isa_sse42::kExcessKernels,
-                        &isa_sse42::kHullKernels};
-const Kernels kAvx2 = {&isa_avx2::kSplineKernels, &isa_avx2::kAdjointKernels, &isa_avx2::kExcessKernels,
-                       &isa_avx2::kHullKernels};
-const Kernels kAvx512 = {&isa_avx512::kSplineKernels, &isa_avx512::kAdjointKernels,
-                         &isa_avx512::kExcessKernels, &isa_avx512::kHullKernels};
+const Kernels kSse42 = {&isa_sse42::kSplineKernels, &isa_sse42::kBatchKernels, &isa_sse42::kAdjointKernels,
+                        &isa_sse42::kExcessKernels, &isa_sse42::kHullKernels};
+const Kernels kAvx2 = {&isa_avx2::kSplineKernels, &isa_avx2::kBatchKernels, &isa_avx2::kAdjointKernels,
+                       &isa_avx2::kExcessKernels, &isa_avx2::kHullKernels};
+const Kernels kAvx512 = {&isa_avx512::kSplineKernels, &isa_avx512::kBatchKernels,
+                         &isa_avx512::kAdjointKernels, &isa_avx512::kExcessKernels,
+                         &isa_avx512::kHullKernels};
 
 /// Everything the kernels compute for one route and kind.
 std::vector<double> Results(const Kernels& kernels, const Route& route, int kind) {
@@ -50,6 +52,7 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
   std::vector<double> all = coefficients;
 
   BatchArguments batch = {.waypoints = {},
+                          .stride = 3,
                           .durations = {},
                           .segments = segments,
                           .workspace = workspace.data(),
@@ -60,7 +63,7 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
     batch.durations[lane] = route.durations.data();
     batch.coefficients[lane] = &eight[lane * coefficients.size()];
   }
-  kernels.spline->batch[kind](batch);
+  kernels.batch->batch[kind](batch);
   all.insert(all.end(), eight.begin(), eight.end());
 
   std::vector<double> by_c(coefficients.size()), by_t(segments), by_w(4 * (segments + 1)),

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "airsim360/base/error.h"
 #include "airsim360/planning/aligned_buffer.h"
+#include "airsim360/planning/spline_chunks.h"
 #include "airsim360/planning/spline_kernel.h"
 #include "airsim360/planning/spline_wide.h"
 
@@ -54,6 +56,7 @@ void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
 
 struct MinimumSnapSolver::Impl {
   const SplineKernels* kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  const BatchKernels* batches = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   const AdjointKernels* adjoints = AIRSIM360_SELECT_KERNEL(kAdjointKernels);
   const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
@@ -62,8 +65,7 @@ struct MinimumSnapSolver::Impl {
   std::vector<double> cost_gradient, direct;
   AlignedBuffer waypoint_gradient;
   AlignedBuffer knots, workspace;
-  alignas(64) double start[12] = {};
-  alignas(64) double end[12] = {};
+  alignas(64) double ends[2][12] = {};
 
   /// Takes the numbers and looks at them on the way.
   void Copy(const MinimumSnapProblem& problem) {
@@ -73,13 +75,15 @@ struct MinimumSnapSolver::Impl {
     const DurationCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
     const bool points =
         checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.Reserve(4 * segments + 4));
-    const bool start_finite = checks->pad_points(&problem.start.v.x, 3, start);
-    const bool end_finite = checks->pad_points(&problem.end.v.x, 3, end);
-    if (!points || !check.valid || !start_finite || !end_finite) {
+    static_assert(offsetof(MinimumSnapProblem, end) ==
+                  offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives));
+    const bool ends_finite = checks->pad_points(&problem.start.v.x, 6, ends[0]);
+    if (!points || !check.valid || !ends_finite) {
       durations.clear();
       coefficients.clear();
       if (!points || !check.valid) FailOnNumbers(*checks, problem.waypoints, problem.durations);
-      Fail(std::string("derivatives at the ") + (start_finite ? "end" : "start") + " are not finite");
+      const bool at_end = checks->all_finite(&problem.start.v.x, 9);
+      Fail(std::string("derivatives at the ") + (at_end ? "end" : "start") + " are not finite");
     }
     kind = problem.kind;
     free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
@@ -89,21 +93,26 @@ struct MinimumSnapSolver::Impl {
 
   RouteArguments Arguments() {
     const size_t segments = durations.size();
-    return {.knots = knots.data(),
-            .durations = durations.data(),
-            .segments = segments,
-            .start = start,
-            .end = end,
-            .free_start = free,
-            .free_end = free,
-            .workspace = workspace.Reserve(std::max(RouteWorkspace(segments), AdjointWorkspace(segments))),
-            .coefficients = coefficients.data()};
+    return {
+        .knots = knots.data(),
+        .durations = durations.data(),
+        .segments = segments,
+        .start = ends[0],
+        .end = ends[1],
+        .free_start = free,
+        .free_end = free,
+        .workspace = workspace.Reserve(std::max({RouteWorkspace(segments), AdjointWorkspace(segments),
+                                                 segments < kLeastChunkedSegments ? 0 : ChunkWorkspace()})),
+        .coefficients = coefficients.data()};
   }
 
   void Solve() {
     const RouteArguments arguments = Arguments();
     if (arguments.segments == 1) return SolveRouteWide(kind, arguments);
-    kernels->route[static_cast<int>(kind)](arguments);
+    const bool try_chunks = arguments.segments >= kLeastChunkedSegments && !free;
+    if (!try_chunks || !SolveRouteInChunks(kind, *batches, arguments)) {
+      kernels->route[static_cast<int>(kind)](arguments);
+    }
     if (refine) RefineUneven(kind, *checks, arguments);
   }
 
@@ -226,9 +235,10 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
   CheckNumbers(checks, waypoints, durations);
 
-  const SplineKernels* const kernels = AIRSIM360_SELECT_KERNEL(kSplineKernels);
+  const BatchKernels* const kernels = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   static thread_local AlignedBuffer workspace;
   BatchArguments arguments = {};
+  arguments.stride = 3;
   arguments.segments = segments;
   arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
   std::vector<size_t> uneven;

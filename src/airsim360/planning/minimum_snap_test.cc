@@ -200,6 +200,18 @@ TEST(MinimumSnap, VeryUnevenTimesKeepTwelveDigits) {
   }
 }
 
+TEST(MinimumSnap, LongUnevenRoutesKeepTwelveDigits) {
+  RngStream random(6, "long uneven");
+  Route route = RandomRoute(1000, 1, true);
+  for (double& duration : route.durations) duration = 0.05 * std::pow(100, random.Uniform());
+  for (const SplineKind kind : {SplineKind::kMinimumSnap, SplineKind::kMinimumJerk}) {
+    const MinimumSnapProblem problem = route.Problem(kind, false);
+    const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
+    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)),
+              1e-12 * LargestCoefficient(trajectory));
+  }
+}
+
 TEST(MinimumSnap, BatchGivesEachRouteItsOwnSolution) {
   for (const SplineKind kind : kKinds) {
     for (const size_t segments : {1, 2, 10}) {

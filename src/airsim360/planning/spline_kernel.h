@@ -26,7 +26,8 @@ constexpr size_t RouteWorkspace(size_t segments) { return segments * 8 * 8 + 256
 
 /// Eight routes of equally many segments, from rest to rest.
 struct BatchArguments {
-  const double* waypoints[8];  ///< [segments + 1][3]
+  const double* waypoints[8];  ///< [segments + 1][stride]
+  size_t stride;               ///< 3 or 4 doubles from a waypoint to the next
   const double* durations[8];
   size_t segments;
   double* workspace;  ///< BatchWorkspace(segments) doubles, 64-byte aligned
@@ -35,9 +36,23 @@ struct BatchArguments {
 
 constexpr size_t BatchWorkspace(size_t segments) { return (segments + 1) * 27 * 8; }
 
+/// Eight chunks of one long route whose ends are prescribed completely. Each has `overlap` segments before
+/// and behind those that are written; there the lanes of the route's ends repeat the end's waypoint and
+/// duration.
+struct ChunkArguments {
+  BatchArguments lanes;  ///< segments: with both overlaps; coefficients: of the first one written
+  size_t overlap;
+  bool has_start, has_end;    ///< lane 0 starts where the route does, lane 7 ends where it ends
+  const double *start, *end;  ///< [3][4], as in RouteArguments
+};
+
 struct SplineKernels {
   void (*route[kSplineKinds])(const RouteArguments&);  ///< at least 2 segments
+};
+
+struct BatchKernels {
   void (*batch[kSplineKinds])(const BatchArguments&);
+  void (*chunks[kSplineKinds])(const ChunkArguments&);  ///< none for the paper's quintic
 };
 
 /// Derivatives of a function of coefficients and durations, through the optimum.
@@ -73,5 +88,6 @@ struct CheckKernels {
 }  // namespace airsim360::internal
 
 AIRSIM360_DECLARE_KERNEL(extern const SplineKernels kSplineKernels)
+AIRSIM360_DECLARE_KERNEL(extern const BatchKernels kBatchKernels)
 AIRSIM360_DECLARE_KERNEL(extern const AdjointKernels kAdjointKernels)
 AIRSIM360_DECLARE_KERNEL(extern const CheckKernels kCheckKernels)

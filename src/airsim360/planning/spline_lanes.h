@@ -94,4 +94,51 @@ AIRSIM360_INLINE void SolveSymmetric(const V* a, int n, V (*b)[D]) {
   }
 }
 
+/// One forward step: fills the record of a segment, moves the belief to its end. The first segments start
+/// with known derivatives, but for the highest where that is free.
+template <class Model, class V, int A>
+AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& record,
+                           KnotBelief<V, A, Model::kStates>& belief) {
+  record.start = belief;
+  StepCovariance<double, Model>(record, belief);
+  const V zero[A] = {};
+  StepMean<double, Model>(zero, delta, record, belief);
+}
+template <class Model, class V, int A>
+AIRSIM360_INLINE void FirstStep(bool free_start, const V* delta, SegmentRecord<V, A, Model::kStates>& record,
+                                KnotBelief<V, A, Model::kStates>& belief) {
+  record.start = belief;
+  if (free_start) {
+    StepFreeCovariance<double, Model>(record, belief);
+  } else {
+    StepKnownCovariance<Model>(record, belief);
+  }
+  const V zero[A] = {};
+  StepMean<double, Model>(zero, delta, record, belief);
+}
+
+/// Multiplies c[k] by factor^k.
+template <int kPowers, class V>
+AIRSIM360_INLINE void ScalePowers(V factor, V* c) {
+  V power = factor;
+  AIRSIM360_UNROLL
+  for (int k = 1; k < kPowers; ++k) {
+    c[k] *= power;
+    if (k + 1 < kPowers) power *= factor;
+  }
+}
+
+/// Moves the highest coefficient so that the polynomial, evaluated at the end of its duration by Horner's
+/// scheme, gives the waypoint there: rounding of the others would show as a gap at the end of a route.
+template <int kPowers, class V>
+AIRSIM360_INLINE void CloseGap(V duration, V inverse, V to, V* c) {
+  V value = c[kPowers - 1], power = inverse;
+  AIRSIM360_UNROLL
+  for (int k = kPowers - 2; k >= 0; --k) {
+    value = value * duration + c[k];
+    if (k > 0) power *= inverse;
+  }
+  c[kPowers - 1] += (to - value) * power;
+}
+
 }  // namespace airsim360::internal::AIRSIM360_ISA
