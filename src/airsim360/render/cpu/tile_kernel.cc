@@ -161,13 +161,12 @@ AIRSIM360_INLINE void GatherRow(const Pixel* tile, PacketShape shape, int r, Pix
 // Four points of three coordinates each.
 AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z, float* out) {
   typedef float Quad __attribute__((vector_size(16), may_alias));
-  typedef int Order __attribute__((vector_size(16)));
   const Quad X = *reinterpret_cast<const Quad*>(x), Y = *reinterpret_cast<const Quad*>(y),
              Z = *reinterpret_cast<const Quad*>(z);
   auto* to = reinterpret_cast<Quad*>(out);
-  to[0] = __builtin_shuffle(__builtin_shuffle(X, Y, Order{0, 4, 1, 1}), Z, Order{0, 1, 4, 2});
-  to[1] = __builtin_shuffle(__builtin_shuffle(Y, Z, Order{1, 5, 2, 2}), X, Order{0, 1, 6, 2});
-  to[2] = __builtin_shuffle(__builtin_shuffle(Z, X, Order{2, 7, 3, 3}), Y, Order{0, 1, 7, 2});
+  to[0] = __builtin_shufflevector(__builtin_shufflevector(X, Y, 0, 4, 1, 1), Z, 0, 1, 4, 2);
+  to[1] = __builtin_shufflevector(__builtin_shufflevector(Y, Z, 1, 5, 2, 2), X, 0, 1, 6, 2);
+  to[2] = __builtin_shufflevector(__builtin_shufflevector(Z, X, 2, 7, 3, 3), Y, 0, 1, 7, 2);
 }
 
 // Image pixels of a tile row: one run, or two where it crosses the seam.
