@@ -111,7 +111,8 @@ Ways FindWays(const RoadGrid& grid, int from) {
   ways.cost[from] = 0;
   open.emplace(0, from);
   while (!open.empty()) {
-    const auto [cost, cell] = open.top();
+    const double cost = open.top().first;
+    const int cell = open.top().second;
     open.pop();
     if (cost > ways.cost[cell]) continue;
     ways.farthest = cell;
