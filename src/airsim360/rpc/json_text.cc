@@ -72,9 +72,9 @@ class Parser {
     if (Take('}')) return;
     do {
       if (Peek() != '"') Fail("expected a key in quotation marks");
-      std::string key = String();
+      node.keys.push_back(String());
       Expect(':');
-      node.members.emplace_back(std::move(key), Value(depth + 1));
+      node.items.push_back(Value(depth + 1));
     } while (Take(','));
     Expect('}');
   }
@@ -168,8 +168,8 @@ class Parser {
 }  // namespace
 
 const JsonNode* JsonNode::Find(std::string_view key) const {
-  for (size_t i = members.size(); i-- > 0;) {
-    if (members[i].first == key) return &members[i].second;
+  for (size_t i = keys.size(); i-- > 0;) {
+    if (keys[i] == key) return &items[i];
   }
   return nullptr;
 }

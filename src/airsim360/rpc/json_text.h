@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace airsim360 {
@@ -15,8 +14,8 @@ struct JsonNode {
   bool flag = false;
   double number = 0;
   std::string text;
-  std::vector<JsonNode> items;                            ///< of an array
-  std::vector<std::pair<std::string, JsonNode>> members;  ///< of an object, in their order
+  std::vector<JsonNode> items;    ///< of an array; the values of an object's members
+  std::vector<std::string> keys;  ///< of an object's members, in their order, as many as items
   int line = 1;
 
   /// The member of a key; nullptr if there is none or this is no object. Of repeated keys the last counts.

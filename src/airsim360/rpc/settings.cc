@@ -131,7 +131,7 @@ template <class T, class ReadOne>
 std::map<std::string, T> ReadNamed(SettingsObject& parent, const char* key, const ReadOne& read_one) {
   std::map<std::string, T> named;
   if (const JsonNode* node = parent.TakeObject(key)) {
-    for (const auto& [name, member] : node->members) named[name] = read_one(member, parent);
+    for (size_t i = 0; i < node->keys.size(); ++i) named[node->keys[i]] = read_one(node->items[i], parent);
   }
   return named;
 }
@@ -175,7 +175,7 @@ VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
 
 void ReadRecordingCameras(SettingsObject& object, RecordingSettings& recording) {
   const JsonNode* list = object.Take("Cameras");
-  if (list == nullptr) return;
+  if (list == nullptr || list->kind != JsonNode::Kind::kArray) return;
   for (const JsonNode& item : list->items) {
     SettingsObject entry(item, object.file(), object.notices());
     RecordingSettings::Camera camera;

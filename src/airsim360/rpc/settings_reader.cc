@@ -64,9 +64,10 @@ void SettingsObject::Ignore(std::span<const char* const> keys) {
 
 void SettingsObject::Finish() {
   const std::vector<std::string> known(asked_.begin(), asked_.end());
-  for (const auto& [key, member] : node_.members) {
+  for (size_t i = 0; i < node_.keys.size(); ++i) {
+    const std::string& key = node_.keys[i];
     if (asked_.contains(key)) continue;
-    notices_.push_back(std::string(file_) + ":" + std::to_string(member.line) + ": '" + key +
+    notices_.push_back(std::string(file_) + ":" + std::to_string(node_.items[i].line) + ": '" + key +
                        "' is not known here and counts for nothing; the nearest known key is '" +
                        NearestChoice(key, known) + "'");
   }
