@@ -71,15 +71,7 @@ class EdgeTile {
 
   void Trace() {
     alignas(64) int valid[16];
-    for (int i = 0; i < 16; ++i) {
-      valid[i] = i < lanes_ ? -1 : 0;
-      packet_.t_far[i] = std::numeric_limits<float>::infinity();
-      if (i < lanes_) continue;
-      packet_.direction_x[i] = packet_.direction_x[0];
-      packet_.direction_y[i] = packet_.direction_y[0];
-      packet_.direction_z[i] = packet_.direction_z[0];
-    }
-    TracePacket(*task_.tracer, task_.labels.sky_entity != kNoEntity, valid, packet_);
+    TraceLanes(*task_.tracer, task_.labels.sky_entity != kNoEntity, lanes_, valid, packet_);
     const int p = hits_.count / 16;
     kernels_.append_hits(task_.labels, packet_, valid, p, hits_);
     kernels_.resolve(task_.labels, packet_, valid, p, true, labels_);

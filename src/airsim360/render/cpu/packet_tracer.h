@@ -1,6 +1,8 @@
 // Tracing a packet of camera rays, with the kernels this machine runs.
 #pragma once
 
+#include <limits>
+
 #include "airsim360/render/cpu/tile_kernel.h"
 
 namespace airsim360::internal {
@@ -41,6 +43,20 @@ inline void TracePacket(const RayTracer& tracer, bool has_sky, const int* valid,
     }
     tracer.Intersect16(again, rays, false);
   }
+}
+
+/// TracePacket of the first `lanes` rays (1 to 16), to any distance; `valid` is set. The other lanes repeat
+/// the first, for packets must be finite.
+inline void TraceLanes(const RayTracer& tracer, bool has_sky, int lanes, int* valid, RayHit16& rays) {
+  for (int i = 0; i < 16; ++i) {
+    valid[i] = i < lanes ? -1 : 0;
+    rays.t_far[i] = std::numeric_limits<float>::infinity();
+    if (i < lanes) continue;
+    rays.direction_x[i] = rays.direction_x[0];
+    rays.direction_y[i] = rays.direction_y[0];
+    rays.direction_z[i] = rays.direction_z[0];
+  }
+  TracePacket(tracer, has_sky, valid, rays);
 }
 
 }  // namespace airsim360::internal
