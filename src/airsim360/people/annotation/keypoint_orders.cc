@@ -7,15 +7,15 @@
 namespace airsim360 {
 namespace {
 
-// Index of a socket; a name that no body has does not compile.
-consteval int8_t S(std::string_view name) {
+// Index of a socket; a name that no body has does not compile: everything below is constexpr.
+constexpr int8_t S(std::string_view name) {
   for (int i = 0; i < kSocketCount; ++i) {
     if (kSocketNames[i] == name) return static_cast<int8_t>(i);
   }
   throw "no such socket";
 }
 
-consteval std::array<int8_t, kCocoSocketCount> MakeCoco17() {
+constexpr std::array<int8_t, kCocoSocketCount> MakeCoco17() {
   std::array<int8_t, kCocoSocketCount> order{};
   for (int8_t i = 0; i < kCocoSocketCount; ++i) order[static_cast<size_t>(i)] = i;
   return order;
@@ -25,7 +25,7 @@ static_assert(kCoco17[5] == S("left_shoulder") && kCoco17[16] == S("right_ankle"
 
 // COCO-WholeBody: 0-16 body, 17-22 feet, 23-90 face (iBUG's 68 points), 91-111 and 112-132 hands: the root,
 // then four points a finger from the thumb on, each from its base to its tip.
-consteval std::array<int8_t, 133> MakeCoco133() {
+constexpr std::array<int8_t, 133> MakeCoco133() {
   std::array<int8_t, 133> order{};
   order.fill(-1);
   for (size_t i = 0; i < kCoco17.size(); ++i) order[i] = kCoco17[i];
@@ -54,7 +54,7 @@ struct Columns {
   std::array<std::string_view, N> names{};
 };
 template <size_t N>
-consteval Columns<N> Split(const Entry (&entries)[N]) {
+constexpr Columns<N> Split(const Entry (&entries)[N]) {
   Columns<N> columns;
   for (size_t i = 0; i < N; ++i) {
     columns.sockets[i] = entries[i].socket;

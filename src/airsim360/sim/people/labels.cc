@@ -91,6 +91,7 @@ PersonBox3d BoxAround(const Shared& shared, size_t i, std::span<const Vec3d> ski
   box.center_W = state.p_WP + ahead * middle.x + left * middle.y + Vec3d{0, 0, middle.z};
   box.length = size.x, box.width = size.y, box.height = size.z;
   box.center_C = X_CW * box.center_W;
+  box.bottom_C = X_CW * (box.center_W - Vec3d{0, 0, box.height / 2});
   const Vec3d ahead_C = X_CW.R * ahead;
   box.rotation_y = Wrapped(std::atan2(-ahead_C.z, ahead_C.x));
   box.alpha = Wrapped(box.rotation_y - std::atan2(box.center_C.x, box.center_C.z));
@@ -204,6 +205,7 @@ std::vector<PersonLabel> LabelPeople(const PeoplePicture& picture, const LabelOp
   ParallelFor(static_cast<int64_t>(labels.size()), [&](int64_t k) {
     PersonLabel& label = labels[static_cast<size_t>(k)];
     label.pose = picture.poses.poses[label.person];
+    label.R_CW = shared.X_CW.R;
     label.keypoints = Keypoints(shared, label.person);
     if (options.boxes) AddBoxes(shared, label.person, label);
   });

@@ -9,6 +9,7 @@
 #include "airsim360/people/annotation/sphere_box.h"
 #include "airsim360/people/person_state.h"
 #include "airsim360/people/skeleton.h"
+#include "airsim360/math/transform.h"
 #include "airsim360/scene/mesh.h"
 
 namespace airsim360 {
@@ -44,6 +45,7 @@ struct PictureBox {
 /// An upright box around a body: length along the heading, then width, then height.
 struct PersonBox3d {
   Vec3d center_W, center_C;
+  Vec3d bottom_C;         ///< middle of the lower face
   double length = 0, width = 0, height = 0;  ///< metres
   double yaw = 0;         ///< of the heading about +Z of W, 0 = +X
   double rotation_y = 0;  ///< KITTI: of the heading about +Y (down) of C, 0 = +X (right); exact where C is level
@@ -63,6 +65,7 @@ struct PersonLabel {
   EntityId entity = kNoEntity;
   PersonState state;
   SkeletonPose pose;
+  Mat3d R_CW;                            ///< from W to the camera, for rotations of joints
   std::vector<KeypointLabel> keypoints;  ///< sockets of the body (kSocketNames), then those of users
   PersonBox3d box3d;
   AmodalLabel amodal;
