@@ -52,7 +52,9 @@ TEST(NavMesh, NobodyMovesThroughWalls) {
     ASSERT_FALSE(in_car) << q.p_W.x << " " << q.p_W.y;
     ASSERT_TRUE(q.p_W.x > 0.1 && q.p_W.x < 29.9 && q.p_W.y > 0.1 && q.p_W.y < 29.9);
     // What says that a line is free agrees with where the move ends.
-    if (mesh->Straight(p, target)) ASSERT_NEAR(std::hypot(q.p_W.x - target.x, q.p_W.y - target.y), 0, 1e-6);
+    if (mesh->Straight(p, target)) {
+      ASSERT_NEAR(std::hypot(q.p_W.x - target.x, q.p_W.y - target.y), 0, 1e-6);
+    }
     p = q;
   }
 }
