@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "airsim360/base/random.h"
 #include "airsim360/math/box.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/scene/scene.h"
@@ -23,14 +24,14 @@ double GroundCost(GroundKind kind);
 GroundKind GroundKindOf(const SemanticTree& tree, CategoryId category);
 
 struct NavMeshOptions {
-  double cell = 0.15;            ///< metres: raster of the ground
+  double cell = 0.125;           ///< metres: raster of the ground
   double person_radius = 0.25;   ///< the mesh keeps that far from everything solid
   double person_height = 1.9;    ///< of free space that is needed
   double step_height = 0.28;     ///< highest step
   double steepest_deg = 38;      ///< slope
   double tile = 24;              ///< metres: edge of what is rastered at a time, which bounds memory
-  std::optional<Box3f> region;   ///< only this part of the world (x and y count)
-  uint64_t max_triangles = 40'000'000;  ///< of the ground and of what stands on it; InputError above
+  std::optional<Box3f> region;   ///< only this part of the world (x and y count); default: up to 1 km around
+                                 ///< its spawn or its middle
 };
 
 /// A place on the mesh.
@@ -51,7 +52,16 @@ struct NavPath {
 /// An edge of the mesh that nobody crosses; the walkable side is to the left of a -> b.
 struct NavWall {
   Vec2d a, b;
-  float z = 0;  ///< of its middle
+  double za = 0, zb = 0;  ///< heights of the ground at its ends
+};
+
+/// Where to draw places from.
+struct NavArea {
+  std::vector<Vec2d> outline;
+  std::vector<uint32_t> polygons;
+  std::vector<double> cumulative;  ///< square metres up to and with each polygon, whole polygons
+  double square_metres = 0;        ///< inside the outline, about
+  uint32_t component = 0;
 };
 
 class NavMesh {
@@ -78,14 +88,14 @@ class NavMesh {
   double GroundHeight(double x, double y, double z) const;
   /// Share of the disc of 1.5 m around (x, y) that is walkable ground, in [0.1, 1].
   double OpenShare(Vec2d p) const;
-  /// Appends indices of walls() that may come within `range` (at most 2.5 m) of p; neither sorted nor unique.
-  void WallsNear(Vec2d p, double range, std::vector<uint32_t>& found) const;
+  /// Indices of all walls() within 2 m of p over the ground, and of some farther ones.
+  std::span<const uint32_t> WallsNear(Vec2d p) const;
 
-  /// Uniform over the part of the mesh inside a polygon (empty = everywhere) whose kinds are in `kinds` (bit
-  /// 1 << kind); `u` are three numbers in [0, 1). Invalid if there is no such place.
-  NavPoint Pick(std::span<const Vec2d> polygon, uint32_t kinds, const double u[3]) const;
-  /// Walkable square metres inside a polygon (empty = all), of those kinds.
-  double Area(std::span<const Vec2d> polygon, uint32_t kinds = ~0u) const;
+  /// The part of the mesh inside a polygon (empty = everywhere) whose kinds are in `kinds` (bit 1 << kind) and
+  /// that hangs together: the largest such part. May be empty.
+  NavArea AreaOf(std::span<const Vec2d> outline, uint32_t kinds) const;
+  /// Uniform over an area that is not empty.
+  NavPoint Pick(const NavArea& area, RngStream& rng) const;
 
   /// Painted way over a road.
   struct Crossing {
