@@ -140,6 +140,20 @@ std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& st
   return boxes;
 }
 
+bool IsPerson(const SimPeople& people, EntityId entity) {
+  return std::ranges::any_of(people.refs, [&](const PersonRef& ref) { return ref.entity == entity; });
+}
+
+std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const PeopleState& state, int64_t t_ns,
+                                            EntityId entity) {
+  const auto found = std::ranges::find(people.refs, entity, &PersonRef::entity);
+  if (found == people.refs.end()) return std::nullopt;
+  const PersonState& person = state.crowd.people[static_cast<size_t>(found - people.refs.begin())];
+  if (!person.visible) return std::nullopt;
+  const double later = static_cast<double>(t_ns - state.crowd.t_ns) * 1e-9;
+  return RigidTransform{RotationZ(person.yaw), person.p_WP + person.v_WP * later};
+}
+
 const char* BehaviourName(Behaviour behaviour) {
   static constexpr const char* kNames[] = {"idle",       "walk",    "jog",   "run",   "talk",         "listen", "phone_call",
                                            "texting",    "take_photo", "wave", "sit", "carry",        "push_stroller",

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -67,6 +68,13 @@ struct PersonBox {
 /// of crowd time.
 std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& state, int64_t t_ns, Vec3d p_W,
                                   double reach);
+
+/// Where the person of an entity stands at t_ns of crowd time: ground point and heading. nullopt for entities
+/// that are nobody's body, and people who are not in the world.
+std::optional<RigidTransform> PlaceOfPerson(const SimPeople& people, const PeopleState& state, int64_t t_ns,
+                                            EntityId entity);
+/// Whether an entity is the body of one of the people, in the world or not.
+bool IsPerson(const SimPeople& people, EntityId entity);
 
 /// Name of a behaviour in labels: "walk", "phone_call".
 const char* BehaviourName(Behaviour behaviour);
