@@ -56,7 +56,18 @@ std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& inde
 // True if all frames and all files that describe them are there: SHA256SUMS is the last file written.
 bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   if (spec.material && !fs::exists(folder / "materials.json")) return false;
-  if (!spec.people.empty() && !fs::exists(folder / "people.jsonl")) return false;
+  if (!spec.people.empty()) {
+    const std::map<std::string, std::string> made = {{"coco_keypoints", "person_keypoints.json"},
+                                                     {"kitti", "kitti/label_2"},
+                                                     {"nuscenes", "nuscenes/v1.0-airsim360/sample.json"},
+                                                     {"monoloco", "monoloco.json"}};
+    for (const char* name : {"people.jsonl", "keypoint_orders.json"}) {
+      if (!fs::exists(folder / name)) return false;
+    }
+    for (const std::string& format : spec.people_formats) {
+      if (!fs::exists(folder / made.at(format))) return false;
+    }
+  }
   for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "trajectory.csv",
                            "README.md", "contact_sheet.png"}) {
     if (!fs::exists(folder / name)) return false;
