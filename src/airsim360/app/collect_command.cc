@@ -6,6 +6,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/plan_file.h"
 #include "airsim360/app/session.h"
@@ -32,6 +33,7 @@ struct CollectArguments {
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
   PictureArguments picture;
+  PeopleArguments people;
 };
 
 // A choice among two or more words.
@@ -40,6 +42,23 @@ size_t ParseChoice(const char* flag, const std::string& value, const std::vector
   if (found == choices.end())
     throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("value", value, choices));
   return static_cast<size_t>(found - choices.begin());
+}
+
+// People, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
+void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
+  const std::vector<std::string> formats = ParseList(
+      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops"});
+  spec.people = arguments.people.Describe();
+  const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
+  for (const std::string format : kPeopleFormats) {
+    const bool coco = format == "coco_keypoints" && wanted("coco") && !spec.people.empty();
+    if (wanted(format) || coco) spec.people_formats.push_back(format);
+  }
+  spec.crops = wanted("crops");
+  if (spec.people.empty() && (spec.crops || !spec.people_formats.empty()))
+    throw InputError("--format: '" + arguments.format + "' is about people; add --people N");
+  if (spec.crops && spec.tier == Tier::kLabels)
+    throw InputError("--format: crops need colours; use --tier fast instead of labels");
 }
 
 DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
@@ -57,8 +76,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
   if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
-  ParseList("--format", arguments.format,
-            {"native", "coco"});  // the native layout holds panoptic.json in any case
+  SetPeople(arguments, spec);
   spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
                                                                                            : RgbFormat::kPng;
   spec.pano_frame = ParseChoice("--pano-frame", arguments.pano_frame, {"body", "level"}) == 1
@@ -127,12 +145,15 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
   if (!arguments.plan.empty() && arguments.route != "auto")
     throw InputError("--plan: give either --plan or --route, not both");
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment,
+                                     arguments.people.Request(globals.seed));
   spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
-  const Flight flight = FlyRoute({.tracer = world.tracer, .dt_ns = kRouteStepNs}, plan.route, plan.shot_times_ns);
+  const Flight flight = FlyRoute(world.Model(kRouteStepNs), plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
   CollectInput input{spec, *world.scene, flight, arguments.out};
+  input.people = world.people;
+  input.tracer = world.tracer;
   if (const auto* path = plan.route->path()) {
     const PlannedPath planned = ReadPlanFile(arguments.plan);
     input.trajectory_json = TrajectoryJson({.trajectory = *path,
@@ -169,10 +190,12 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
-                      "native,coco (default native, which includes COCO panoptic)");
+                      "native,coco (default native, which includes COCO panoptic and people.jsonl); of people also "
+                      "coco_keypoints,kitti,nuscenes,monoloco,crops");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,

@@ -8,6 +8,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
@@ -23,6 +24,7 @@ struct RenderArguments {
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
   PictureArguments picture;
+  PeopleArguments people;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -103,18 +105,24 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
                                                              std::vector<std::string>{"body", "level"}));
   }
   spec.pano_frame = arguments.pano_frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
+  spec.people = arguments.people.Describe();
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment,
+                                     arguments.people.Request(globals.seed));
   spec.environment = DescribeEnvironment(world.environment);
   if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
   constexpr double kRadians = std::numbers::pi / 180;
-  const Flight flight =
+  Flight flight =
       Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
-  const CollectResult result = Collect({spec, *world.scene, flight, arguments.out}, *world.renderer);
+  if (world.people) flight.shots[0].people = world.people->start;
+  CollectInput input{spec, *world.scene, flight, arguments.out};
+  input.people = world.people;
+  input.tracer = world.tracer;
+  const CollectResult result = Collect(input, *world.renderer);
   ReportRun(world, spec, result, arguments.out, globals.json);
 }
 
@@ -144,6 +152,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,

@@ -13,8 +13,7 @@ constexpr size_t kMostLayers = 64;
 std::vector<std::string> ObjectNames(const Api& api, const Snapshot& now) {
   std::vector<std::string> names;
   for (const Entity& entity : const_cast<Api&>(api).session().objects().scene().entities) {
-    const auto place = now.world->places.find(entity.id);
-    if (place == now.world->places.end() || !place->second.hidden) names.push_back(entity.name);
+    if (!PlaceNow(now, const_cast<Api&>(api).session().objects(), entity.id).hidden) names.push_back(entity.name);
   }
   return names;
 }
@@ -23,8 +22,7 @@ std::vector<airsim::Pose> ObjectPoses(Api& api, const Snapshot& now) {
   std::vector<airsim::Pose> poses;
   const ObjectIndex& objects = api.session().objects();
   for (const Entity& entity : objects.scene().entities) {
-    const auto found = now.world->places.find(entity.id);
-    const ObjectPlace place = found == now.world->places.end() ? objects.PlaceOf(entity.id) : found->second;
+    const ObjectPlace place = PlaceNow(now, objects, entity.id);
     if (place.hidden) continue;
     poses.push_back({airsim::ToVector(NedFromWorld(place.X_WO.p - api.session().origin_W())),
                      airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))});

@@ -5,6 +5,7 @@
 
 #include "airsim360/rpc/api.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 namespace {
@@ -42,6 +43,10 @@ bool MoveObject(Session& s, Text name, const ChangePlace& change) {
   const EntityId entity = objects.Find(name);
   // Vehicles have calls of their own.
   if (entity == kNoEntity || !IsThere(s.world(), entity) || s.HasVehicle(name)) return false;
+  if (s.model().people && IsPerson(*s.model().people, entity)) {
+    NoticeOnce("'" + name + "' is a person and walks by itself");
+    return false;
+  }
   if (objects.InstancesOf(entity).empty()) {
     NoticeOnce("'" + name + "' is part of a larger mesh and cannot be moved");
     return false;
@@ -63,8 +68,9 @@ void AddPoseCalls(Api& api) {
         if (VehicleNamed(now, name, index))
           return airsim::ToPose(now.state.vehicles[index].motion.X_WB, origin_W);
         const EntityId entity = api.session().objects().Find(name);
-        if (entity == kNoEntity || !IsThere(*now.world, entity)) return NoPose();
-        const ObjectPlace place = PlaceIn(*now.world, api.session().objects(), entity);
+        if (entity == kNoEntity) return NoPose();
+        const ObjectPlace place = PlaceNow(now, api.session().objects(), entity);
+        if (place.hidden) return NoPose();
         // An unturned object has the unit quaternion, whatever the axes.
         return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)),
                             airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))};

@@ -4,6 +4,9 @@
 #include <regex>
 #include <stdexcept>
 
+#include "airsim360/rpc/snapshot.h"
+#include "airsim360/sim/people/people.h"
+
 namespace airsim360 {
 
 ObjectIndex::ObjectIndex(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
@@ -62,6 +65,16 @@ void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<Mo
   for (const uint32_t instance : InstancesOf(entity)) {
     moved.push_back({instance, X * scene_->instances[instance].X_WM, place.hidden});
   }
+}
+
+ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
+  if (now.model->people && now.state.people && IsPerson(*now.model->people, entity)) {
+    const SimPeople& people = *now.model->people;
+    const auto X = PlaceOfPerson(people, *now.state.people, now.state.t_ns + people.epoch_ns, entity);
+    return X ? ObjectPlace{.X_WO = *X} : ObjectPlace{.X_WO = {}, .hidden = true};
+  }
+  const auto found = now.world->places.find(entity);
+  return found == now.world->places.end() ? objects.PlaceOf(entity) : found->second;
 }
 
 int DefaultSegmentationId(const std::string& name) {

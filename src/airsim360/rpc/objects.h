@@ -40,6 +40,11 @@ class ObjectIndex {
   std::vector<std::vector<uint32_t>> instances_;  // by entity - 1
 };
 
+struct Snapshot;
+/// Where an object is in a snapshot: people walk, other things stay where calls have put them. `hidden` for
+/// people who are not in the world.
+ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity);
+
 /// AirSim's id of a name: a sum of its letters (Unreal/Plugins/AirSim/Source/AirBlueprintLib.h).
 int DefaultSegmentationId(const std::string& name);
 /// AirSim's SegmentationSettings.InitMethod: "None" gives 0 to all.

@@ -79,7 +79,8 @@ AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptio
                                              SessionOptions{.settings = options.settings,
                                                             .lockstep = options.lockstep,
                                                             .seed = options.seed,
-                                                            .environment = options.environment});
+                                                            .environment = options.environment,
+                                                            .people = options.people});
   impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier});
   impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images);

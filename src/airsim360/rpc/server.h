@@ -8,6 +8,7 @@
 #include "airsim360/render/renderer.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/tcp_server.h"
+#include "airsim360/sim/step.h"
 
 namespace airsim360 {
 
@@ -20,6 +21,7 @@ struct ServerOptions {
   Tier tier = Tier::kFast;
   uint64_t seed = 0;
   TcpLimits limits;
+  std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene (Populate); null = nobody
 };
 
 /// Serves from its construction to its end. See docs/rpc.md for what each function does.

@@ -6,6 +6,7 @@
 
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 namespace {
@@ -50,7 +51,7 @@ Session::Session(std::shared_ptr<const RayTracer> tracer, std::vector<DroneBodyR
       earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
                       options.settings.origin.altitude}),
       bodies_(std::move(bodies)),
-      base_tracer_(WithoutBodies(tracer, bodies_)),
+      base_tracer_(WithoutBodies(tracer, bodies_, options.people.get())),
       dynamic_tracer_(tracer),
       origin_W_(FindOrigin(*base_tracer_)),
       pacer_(options.lockstep, options.settings.clock_speed),
@@ -125,8 +126,10 @@ void Session::BuildVehicles() {
   model->world.frame = earth_;
   model->world.seed = options_.seed;
   model->wind.mean_W = NedFromWorld(airsim::FromVector(options_.settings.wind));
+  model->people = options_.people;
   model_ = model;
   state_.wind_W = model->wind.mean_W;
+  if (model->people) state_.people = model->people->start;
   // Drones come first in the simulation, in the order of their names as AirSim has them.
   for (const bool drones : {true, false}) {
     for (const auto& [name, settings] : options_.settings.vehicles) {

@@ -23,6 +23,7 @@ struct SessionOptions {
   bool lockstep = false;  ///< time passes only in simContinueForTime and simContinueForFrames
   uint64_t seed = 0;
   Environment environment;
+  std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene; null = nobody
 };
 
 /// What runs in the session's thread.

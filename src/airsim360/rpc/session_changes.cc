@@ -3,6 +3,7 @@
 
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/session.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 
@@ -13,6 +14,9 @@ void Session::ObjectsMoved() {
   const bool any = !scene_state->moved.empty();
   // Drones meet each other otherwise.
   for (const DroneBodyRef& body : bodies_) scene_state->moved.push_back({body.instance, {}, true});
+  if (options_.people) {
+    for (const PersonRef& person : options_.people->refs) scene_state->moved.push_back({person.instance, {}, true});
+  }
   std::sort(scene_state->moved.begin(), scene_state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
   auto model = std::make_shared<SimModel>(*model_);

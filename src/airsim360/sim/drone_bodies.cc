@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/body/drone_body.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 namespace {
@@ -92,15 +93,23 @@ std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimS
     if (instance != kMiss)
       scene_state->moved.push_back({instance, PlaceOf(state.vehicles[i].motion.X_WB), i == self});
   }
+  if (model.people && state.people) {
+    ShowPeople(*model.people, PosesAt(*model.people, *state.people, state.t_ns + model.people->epoch_ns),
+               *scene_state);
+  }
   std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
   return scene_state;
 }
 
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
-                                               std::span<const DroneBodyRef> bodies) {
-  if (bodies.empty()) return base;
+                                               std::span<const DroneBodyRef> bodies,
+                                               const SimPeople* people) {
+  const bool anybody = people != nullptr && !people->refs.empty();
+  if (bodies.empty() && !anybody) return base;
   auto state = std::make_shared<SceneState>();
   for (const DroneBodyRef& body : bodies) state->moved.push_back({body.instance, {}, true});
+  for (size_t i = 0; anybody && i < people->refs.size(); ++i)
+    state->moved.push_back({people->refs[i].instance, {}, true});
   std::ranges::sort(state->moved, {}, &MovedInstance::instance);
   return DynamicTracer(base).At(state);
 }

@@ -37,11 +37,13 @@ std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
 inline constexpr size_t kNobody = SIZE_MAX;
 
 /// What has moved, as sensors of vehicle `self` see it: bodies where the drones are, its own hidden (kNobody:
-/// all are shown). Drones without a body are left out.
+/// all are shown), and the people as they stand at state.t_ns. Drones without a body are left out.
 std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self);
 
-/// The scene of `base` without any of the bodies, for SimModel::tracer; `base` itself if there are none.
+/// The scene of `base` without any of the bodies and people, for SimModel::tracer; `base` itself if there are
+/// none.
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
-                                               std::span<const DroneBodyRef> bodies);
+                                               std::span<const DroneBodyRef> bodies,
+                                               const SimPeople* people = nullptr);
 
 }  // namespace airsim360
