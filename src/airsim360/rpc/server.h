@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/tcp_server.h"
 
@@ -20,6 +21,7 @@ struct ServerOptions {
   Tier tier = Tier::kFast;
   uint64_t seed = 0;
   TcpLimits limits;
+  std::vector<SpawnAsset> assets = ShapeAssets();  ///< what simSpawnObject can make
 };
 
 /// Serves from its construction to its end. See docs/rpc.md for what each function does.

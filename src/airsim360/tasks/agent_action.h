@@ -79,11 +79,11 @@ struct AgentPose {
 
 /// An action as the autopilot flies it.
 struct ActionPlan {
-  bool stops = false;               ///< ends the episode
+  bool stops = false;                    ///< ends the episode
   Command command = HoverCommand{};
-  std::optional<AgentPose> target;  ///< over when it is reached; none: over after `seconds`
-  double seconds = 0;               ///< how long it takes; with a target: at the longest
-  int64_t timeout_ns = 0;           ///< of the command, when nothing follows it
+  std::optional<AgentPose> target = {};  ///< over when it is reached; none: over after `seconds`
+  double seconds = 0;                    ///< how long it takes; with a target: at the longest
+  int64_t timeout_ns = 0;                ///< of the command, when nothing follows it
 };
 
 /// Longest time of one action, seconds.

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <map>
 
+#include "airsim360/flight/catalog.h"
 #include "airsim360/tasks/json_fields.h"
 
 namespace airsim360 {
@@ -252,6 +253,9 @@ CreateRequest DecodeCreate(std::string_view text) {
   fields.Vectors("reference_path", spec.reference_path, kMostReferencePoints, kFarthest);
   fields.Seed("seed", spec.seed);
   fields.Text("drone", spec.drone, 256);
+  std::vector<std::string> drones;
+  for (const CatalogDrone& drone : DroneCatalog()) drones.emplace_back(drone.name);
+  internal::FindChoice("drone", "drone", spec.drone, drones);
   if (const Json* success = fields.Find("success")) ReadSuccess({*success, "success"}, spec);
   fields.Number("speed", spec.speed, 0.05, kFastest);
   if (const Json* presets = fields.Find("presets")) ReadPresets({*presets, "presets"}, spec.presets);

@@ -59,8 +59,8 @@ struct StepRequest {
 /// One message of a WebSocket: a request in a text.
 struct SocketRequest {
   std::string id;  ///< JSON, to be repeated in the answer; "null" if there is none
-  std::string method, path;
-  std::string body;  ///< JSON; "" if there is none
+  std::string method = {}, path = {};
+  std::string body = {};  ///< JSON; "" if there is none
 };
 
 /// Empty texts are empty objects. RequestError for anything else that is not one JSON object of the right
