@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
@@ -180,21 +181,30 @@ void AddProducts(ImageContent content, Products& products) {
 
 namespace {
 
+// The third, second and first byte of each of `count` values that begin `stride` bytes apart, without gaps.
+// Four bytes are written at a time; the last value of a row by itself, so that nothing beyond it is touched.
+void SwapTriples(const void* from, size_t stride, size_t count, char* out) {
+  const char* in = static_cast<const char*>(from);
+  for (size_t i = 0; i + 1 < count; ++i, in += stride, out += 3) {
+    uint32_t value;
+    std::memcpy(&value, in, sizeof value);
+    value = __builtin_bswap32(value) >> 8;
+    std::memcpy(out, &value, sizeof value);
+  }
+  if (count > 0) out[0] = in[2], out[1] = in[1], out[2] = in[0];
+}
+
 // The three pictures that are asked for most, without a choice at every pixel. False: another one.
 bool CommonRow(ImageContent content, const Frame& frame, int y, char* out) {
-  const auto put = [&](int r, int g, int b) {
-    *out++ = static_cast<char>(b);
-    *out++ = static_cast<char>(g);
-    *out++ = static_cast<char>(r);
-  };
+  static_assert(sizeof(Rgb8) == 3 && sizeof(EntityId) == 4 && std::endian::native == std::endian::little);
   if (content == ImageContent::kColor) {
-    for (const Rgb8 c : frame.rgb.row(y)) put(c.r, c.g, c.b);
+    const auto row = frame.rgb.row(y);
+    SwapTriples(row.data(), sizeof(Rgb8), row.size(), out);
     return true;
   }
   if (content == ImageContent::kEntity) {
-    for (const EntityId id : frame.entity.row(y)) {
-      put(static_cast<uint8_t>(id), static_cast<uint8_t>(id >> 8), static_cast<uint8_t>(id >> 16));
-    }
+    const auto row = frame.entity.row(y);
+    SwapTriples(row.data(), sizeof(EntityId), row.size(), out);
     return true;
   }
   return false;

@@ -36,7 +36,10 @@ TEST(ImageProducts, BytesAreBlueGreenRed) {
   const WireBlock block = BgrPixelsOf(ImageContent::kColor, frame, camera, {}, pool);
   const std::string_view bytes = block.view();
   ASSERT_EQ(bytes.size(), 24u);
-  EXPECT_EQ(bytes.substr(0, 3), std::string_view("\3\2\1"));
+  for (size_t i = 0; i < 24; i += 3) EXPECT_EQ(bytes.substr(i, 3), std::string_view("\3\2\1"));
+  const WireBlock entities = BgrPixelsOf(ImageContent::kEntity, frame, camera, {}, pool);
+  EXPECT_EQ(entities.view().substr(0, 6), std::string_view("\0\0\2\0\0\2", 6));
+  EXPECT_EQ(entities.view().substr(21, 3), std::string_view("\0\0\2", 3));
   const std::vector<uint32_t> ids = {0, 5, 1};
   const WireBlock labels = BgrPixelsOf(ImageContent::kSegmentation, frame, camera, {.segmentation = &ids}, pool);
   EXPECT_EQ(static_cast<uint8_t>(labels.view()[0]), kSegmentationPalette[1].b);

@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{kMake, R"({"drone": "humingbird"})", "drone", "hummingbird"},
                     Mistake{kMake, R"({"goal": [1, 2]})", "goal", ""},
                     Mistake{kMake, R"({"goal": [1, 2, "x"]})", "goal[2]", ""},
-                    Mistake{kMake, R"({"start": {"p": [0, 0, -1]}})", "start.p", ""},
+                    Mistake{kMake, R"({"start": {"p": [3, 0, 0.9]}})", "start.p", ""},
                     Mistake{kMake, R"({"limits": {"max_steps": 0}})", "limits.max_steps", "1"},
                     Mistake{kMake, R"({"success": {"rule": "stopp"}})", "success.rule", "stop"},
                     Mistake{kMake, R"({"seed": -1})", "seed", ""}, Mistake{kMake, "[]", "", ""},
