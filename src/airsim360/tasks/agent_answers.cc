@@ -81,7 +81,8 @@ Answer ScoreOf(const Episode& episode) {
           {"navigation_error", score.navigation_error},
           {"path_length", score.path_length},
           {"shortest_length", score.shortest_length},
-          {"spl", score.spl}};
+          {"spl", score.spl},
+          {"ndtw", score.ndtw}};
 }
 
 Answer SpecOf(const Episode& episode) {

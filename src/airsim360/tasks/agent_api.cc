@@ -1,38 +1,17 @@
 #include "airsim360/tasks/agent_api.h"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
-#include "airsim360/tasks/agent_answers.h"
+#include "airsim360/tasks/agent_slot.h"
 
 namespace airsim360 {
 namespace {
 
 using internal::Answer;
-
-// An answer other than 200 that is no mistake in a field.
-class StatusError : public std::runtime_error {
- public:
-  StatusError(int status, const std::string& what) : std::runtime_error(what), status_(status) {}
-  int status() const { return status_; }
-
- private:
-  int status_;
-};
-
-AgentResponse JsonResponse(const Answer& answer, int status = 200) {
-  return {status, "application/json", internal::TextOf(answer)};
-}
-
-AgentResponse JpegResponse(const Image<Rgb8>& image, int quality) {
-  return {200, "image/jpeg", internal::JpegOf(image, quality)};
-}
-
-void RequireMethod(const AgentRequest& request, const char* method) {
-  if (request.method != method)
-    throw StatusError(405, request.method.substr(0, 16) + " is not answered here; use " + method);
-}
+using internal::JsonResponse;
+using internal::RequireMethod;
+using internal::StatusError;
 
 // "goal: …" as field and message.
 AgentResponse Refusal(const std::string& what) {
@@ -43,41 +22,6 @@ AgentResponse Refusal(const std::string& what) {
 }
 
 }  // namespace
-
-// One episode and who may touch it.
-struct AgentApi::Slot {
-  std::string id, world;
-  std::mutex mutex;  // of the episode
-  std::unique_ptr<Episode> episode;
-  double answered = 0;       // when its agent got the last answer
-  double latency = 0;        // seconds of thinking charged so far
-  std::atomic<double> touched{0};
-};
-
-// The right to use an episode for one request. In real time what has passed since the last answer passes in
-// the episode too.
-class AgentApi::Turn {
- public:
-  enum class Creates { kNo, kYes };
-  Turn(AgentApi& api, Slot& slot, Creates creates = Creates::kNo)
-      : api_(api), slot_(slot), lock_(slot.mutex, std::try_to_lock) {
-    if (!lock_) throw StatusError(409, "episode '" + slot.id + "' is busy: one request at a time");
-    slot_.touched = api_.Now();
-    if (creates == Creates::kYes) return;
-    if (slot_.episode == nullptr) throw StatusError(404, "episode '" + slot.id + "' could not be made");
-    if (!api_.options_.realtime) return;
-    const double waited = std::max(0.0, slot_.touched - slot_.answered);
-    const double before = slot_.episode->seconds();
-    slot_.episode->Wait(waited);
-    slot_.latency += slot_.episode->seconds() - before;
-  }
-  ~Turn() { slot_.answered = slot_.touched = api_.Now(); }
-
- private:
-  AgentApi& api_;
-  Slot& slot_;
-  std::unique_lock<std::mutex> lock_;
-};
 
 AgentApi::AgentApi(AgentApiOptions options) : options_(std::move(options)) {
   if (std::ranges::find(options_.worlds, options_.world) == options_.worlds.end())
@@ -177,79 +121,6 @@ AgentResponse AgentApi::List() {
   Answer list = Answer::array();
   for (const auto& [id, slot] : episodes_) list.push_back({{"episode", id}, {"world", slot->world}});
   return JsonResponse({{"episodes", list}, {"most", options_.max_episodes}});
-}
-
-AgentResponse AgentApi::Delete(const std::string& id) {
-  const std::shared_ptr<Slot> slot = Find(id);
-  const std::lock_guard lock(mutex_);
-  episodes_.erase(id);
-  return JsonResponse({{"deleted", id}});
-}
-
-AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& action, std::string_view query,
-                                  const AgentRequest& request) {
-  if (action.empty() && request.method == "DELETE") return Delete(id);
-  const std::vector<std::string> actions = {"",           "reset",        "step",     "observe",
-                                            "range_grid", "panorama.jpg", "view.jpg", "path"};
-  if (std::ranges::find(actions, action) == actions.end()) {
-    throw StatusError(404, UnknownChoiceMessage("resource of an episode", action.substr(0, 64),
-                                                {actions.begin() + 1, actions.end()}));
-  }
-  const bool changes = action == "reset" || action == "step" || action == "observe";
-  RequireMethod(request, changes ? "POST" : "GET");
-  const std::shared_ptr<Slot> slot = Find(id);
-
-  // What can be wrong with the request is found before time passes.
-  if (action == "reset") {
-    const ResetRequest reset = DecodeReset(request.body);
-    const Turn turn(*this, *slot);
-    slot->episode->Reset(reset.seed);
-    slot->latency = 0;
-    return JsonResponse({{"episode", id},
-                         {"task", internal::SpecOf(*slot->episode)},
-                         {"observation", internal::ObservationOf(*slot->episode, reset.observe)}});
-  }
-  if (action == "step" || action == "observe") {
-    StepRequest step;
-    action == "step" ? (void)(step = DecodeStep(request.body)) : (void)(step.observe = DecodeObserve(request.body));
-    const Turn turn(*this, *slot);
-    Episode& episode = *slot->episode;
-    if (action == "step") episode.Act(step.action);
-    Answer answer = {{"episode", id}, {"observation", internal::ObservationOf(episode, step.observe)}};
-    if (options_.realtime) answer["latency"] = slot->latency;
-    if (episode.end() != EpisodeEnd::kRunning) answer["score"] = internal::ScoreOf(episode);
-    return JsonResponse(answer);
-  }
-  const auto X_WB = [&]() -> const RigidTransform& { return slot->episode->vehicle().motion.X_WB; };
-  if (action == "panorama.jpg") {
-    const PanoramaRequest panorama = DecodePanoramaQuery(query);
-    const Turn turn(*this, *slot);
-    return JpegResponse(slot->episode->world().Panorama(X_WB(), panorama.width, panorama.frame),
-                        panorama.quality);
-  }
-  if (action == "view.jpg") {
-    const ViewRequest view = DecodeViewQuery(query);
-    const Turn turn(*this, *slot);
-    return JpegResponse(slot->episode->world().View(X_WB(), view.azimuth, view.elevation, view.fov, view.width,
-                                                    view.height),
-                        view.quality);
-  }
-  if (action == "range_grid") {
-    const GridRequest grid = DecodeGridQuery(query);
-    const Turn turn(*this, *slot);
-    return JsonResponse(internal::GridOf(slot->episode->world().Grid(X_WB(), grid.rows, grid.columns)));
-  }
-  const Turn turn(*this, *slot);
-  if (action == "path") {
-    Answer points = Answer::array();
-    for (const Vec3d& p : slot->episode->path()) points.push_back(internal::VectorOf(p));
-    return JsonResponse({{"period", 1e-9 * Episode::kPathPeriodNs}, {"p", std::move(points)}});
-  }
-  return JsonResponse({{"episode", id},
-                       {"world", slot->world},
-                       {"task", internal::SpecOf(*slot->episode)},
-                       {"observation", internal::ObservationOf(*slot->episode, {})},
-                       {"score", internal::ScoreOf(*slot->episode)}});
 }
 
 AgentResponse AgentApi::Route(const AgentRequest& request) {

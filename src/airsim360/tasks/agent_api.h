@@ -57,8 +57,15 @@ class AgentApi {
   AgentResponse Create(const std::string& body);
   AgentResponse List();
   AgentResponse Delete(const std::string& id);
-  AgentResponse OnEpisode(const std::string& id, const std::string& action, std::string_view query,
+  AgentResponse OnEpisode(const std::string& id, const std::string& call, std::string_view query,
                           const AgentRequest& request);
+  AgentResponse Describe(Slot& slot);
+  AgentResponse Reset(Slot& slot, const std::string& body);
+  AgentResponse Step(Slot& slot, const std::string& body);
+  AgentResponse Observe(Slot& slot, const std::string& body);
+  AgentResponse Look(Slot& slot, const ObserveRequest& request);
+  AgentResponse Picture(Slot& slot, const std::string& name, std::string_view query);
+  AgentResponse Path(Slot& slot);
   std::shared_ptr<AgentWorld> WorldOf(const std::string& name, uint64_t seed);
   std::shared_ptr<Slot> Find(const std::string& id);
   void MakeRoom();

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/eval/navigation_metrics.h"
 #include "airsim360/flight/catalog.h"
 
 namespace airsim360 {
@@ -13,12 +14,30 @@ namespace {
 constexpr double kOpenRadius = 20, kRoomRadius = 1;           // metres: default radius of success
 constexpr double kNear = 0.25, kSlow = 0.35, kTurned = 0.04;  // at a target: metres, m/s, rad
 constexpr size_t kMostReferencePoints = 4096;
+constexpr double kSpacing = 1;                                // metres between points compared
 constexpr int64_t kLengthPeriodNs = 20'000'000;  // how often the way flown is measured
 
-double LengthOf(const std::vector<Vec3d>& points) {
-  double length = 0;
-  for (size_t i = 1; i < points.size(); ++i) length += Norm(points[i] - points[i - 1]);
-  return length;
+// Points every `spacing` metres of a polyline, its ends among them; at most about a thousand.
+std::vector<Vec3d> Spaced(const std::vector<Vec3d>& points, double spacing) {
+  constexpr double kMost = 1000;
+  spacing = std::max(spacing, PathLength(points) / kMost);
+  std::vector<Vec3d> spaced = {points.front()};
+  for (size_t i = 1; i < points.size(); ++i) {
+    const Vec3d way = points[i] - points[i - 1];
+    const auto parts = static_cast<int>(std::ceil(Norm(way) / spacing));
+    for (int k = 1; k < parts; ++k) spaced.push_back(points[i - 1] + way * (static_cast<double>(k) / parts));
+    if (parts > 0) spaced.push_back(points[i]);
+  }
+  return spaced;
+}
+
+// About a thousand places of a path, its ends among them.
+std::vector<Vec3d> Thinned(const std::vector<Vec3d>& path) {
+  const size_t step = path.size() / 1000 + 1;
+  std::vector<Vec3d> thinned;
+  for (size_t i = 0; i + 1 < path.size(); i += step) thinned.push_back(path[i]);
+  thinned.push_back(path.back());
+  return thinned;
 }
 
 }  // namespace
@@ -178,9 +197,10 @@ EpisodeScore Episode::Score() const {
   score.path_length = length_ + Norm(vehicle().motion.X_WB.p - last_p_W_);
   std::vector<Vec3d> reference = spec_.reference_path;
   if (reference.empty()) reference = {start_W_, goal_W_};
-  score.shortest_length = LengthOf(reference);
-  const double longer = std::max(score.path_length, score.shortest_length);
-  score.spl = score.success ? (longer > 0 ? score.shortest_length / longer : 1) : 0;
+  score.shortest_length = PathLength(reference);
+  score.spl = SuccessByLength(score.success, score.shortest_length, score.path_length);
+  // Both by way, not by time: an agent that thinks in mid-air loses nothing.
+  score.ndtw = NormalizedTimeWarping(Spaced(Thinned(path_), kSpacing), Spaced(reference, kSpacing), radius_);
   return score;
 }
 

@@ -47,6 +47,7 @@ struct EpisodeScore {
   double navigation_error = 0;     ///< metres from the last place to the goal
   double path_length = 0;          ///< metres flown
   double shortest_length = 0;      ///< of the reference path, or straight to the goal
+  double ndtw = 0;                 ///< NormalizedTimeWarping to the reference, by the radius of success
   double spl = 0;                  ///< success * shortest / max(path, shortest)
 };
 

@@ -97,6 +97,8 @@ TEST(Episode, StoppingNearTheGoalIsSuccessAndElsewhereIsNot) {
   EXPECT_NEAR(good.Score().shortest_length, 2, 1e-9);
   EXPECT_NEAR(good.Score().path_length, 2, 0.4);
   EXPECT_NEAR(good.Score().spl, 2 / std::max(2.0, good.Score().path_length), 1e-12);
+  EXPECT_GT(good.Score().ndtw, 0.6);
+  EXPECT_LT(bad.Score().ndtw, good.Score().ndtw);
   EXPECT_FALSE(bad.Score().success || bad.Score().oracle_success);
   EXPECT_EQ(bad.Score().spl, 0);
   EXPECT_THROW(good.Act(PresetAction{Preset::kForward}), InputError);
