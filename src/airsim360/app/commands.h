@@ -27,6 +27,7 @@ void AddStitchCommand(CLI::App& app, GlobalOptions& globals);
 void AddEvalCommand(CLI::App& app, GlobalOptions& globals);
 void AddFlyCommand(CLI::App& app, GlobalOptions& globals);
 void AddServeCommand(CLI::App& app, GlobalOptions& globals);
+void AddAgentCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
 

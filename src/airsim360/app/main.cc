@@ -128,6 +128,7 @@ int ParseAndRun(int argc, char** argv) {
   AddEvalCommand(app, globals);
   AddFlyCommand(app, globals);
   AddServeCommand(app, globals);
+  AddAgentCommand(app, globals);
   AddDroneCommand(app, globals);
   AddDoctorCommand(app, globals);
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {

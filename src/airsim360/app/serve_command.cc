@@ -12,6 +12,7 @@
 #include "airsim360/rpc/server.h"
 #include "airsim360/sim/world_environment.h"
 #include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/props.h"
 
 namespace airsim360 {
 namespace {
@@ -35,6 +36,18 @@ void Check(const ServeArguments& arguments) {
   }
 }
 
+// Shapes, and props of our worlds that need no pictures: what simSpawnObject can make.
+std::vector<SpawnAsset> AssetsOf(uint64_t seed) {
+  std::vector<SpawnAsset> assets = ShapeAssets();
+  for (const char* name : {"bench_wood", "dining_chair", "dining_table", "fire_hydrant", "mailbox", "trash_can",
+                           "traffic_barrel", "road_block", "car", "van"}) {
+    const PropKind& kind = FindPropKind(name);
+    Model model = MakeProp(kind, 0, seed, nullptr);
+    if (model.textures.empty()) assets.push_back({name, std::string(kind.category), std::move(model)});
+  }
+  return assets;
+}
+
 ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& globals) {
   ServerOptions options;
   if (!arguments.settings.empty()) options.settings = ReadSettings(arguments.settings);
@@ -43,6 +56,7 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
   options.lockstep = arguments.lockstep;
   options.tier = ParseTierArgument(arguments.tier);
   options.seed = globals.seed;
+  options.assets = AssetsOf(globals.seed);
   return options;
 }
 

@@ -26,9 +26,17 @@ ObjectIndex::ObjectIndex(std::shared_ptr<const Scene> scene) : scene_(std::move(
   }
 }
 
-EntityId ObjectIndex::Find(const std::string& name) const {
+EntityId ObjectIndex::Find(const std::string& name, const ObjectNames& given) const {
+  for (const auto& [entity, other] : given) {
+    if (other == name) return entity;
+  }
   const auto found = by_name_.find(name);
-  return found == by_name_.end() ? kNoEntity : found->second;
+  return found == by_name_.end() || given.contains(found->second) ? kNoEntity : found->second;
+}
+
+const std::string& ObjectIndex::NameOf(EntityId entity, const ObjectNames& given) const {
+  const auto found = given.find(entity);
+  return found == given.end() ? scene_->entity(entity).name : found->second;
 }
 
 const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const {
@@ -42,13 +50,14 @@ ObjectPlace ObjectIndex::PlaceOf(EntityId entity) const {
   return place;
 }
 
-std::vector<EntityId> ObjectIndex::Match(const std::string& regex) const {
+std::vector<EntityId> ObjectIndex::Match(const std::string& regex, const ObjectNames& given) const {
   std::vector<EntityId> matches;
   // Patterns of any length are a client's: the library's recursion is kept small.
   if (regex.size() > 1000) throw std::invalid_argument("regular expression of more than 1000 characters");
   const std::regex pattern(regex, std::regex::icase);
   for (const Entity& entity : scene_->entities) {
-    if (entity.name.size() <= 200 && std::regex_match(entity.name, pattern)) matches.push_back(entity.id);
+    const std::string& name = NameOf(entity.id, given);
+    if (name.size() <= 200 && std::regex_match(name, pattern)) matches.push_back(entity.id);
   }
   return matches;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/tcp_server.h"
 #include "airsim360/sim/step.h"
@@ -22,6 +23,7 @@ struct ServerOptions {
   uint64_t seed = 0;
   TcpLimits limits;
   std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene (Populate); null = nobody
+  std::vector<SpawnAsset> assets = ShapeAssets();     ///< what simSpawnObject can make
 };
 
 /// Serves from its construction to its end. See docs/rpc.md for what each function does.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,11 @@ namespace airsim360 {
 
 /// A body to be added: `model` is in B (origin at the centre of mass, +X forward, +Z up).
 struct DroneBodySpec {
-  std::string name;  ///< of the entity; category uav/other
+  std::string name;  ///< of the entity
   Model model;
   RigidTransform X_WB;  ///< where it stands in the scene as built
+  std::string category = "uav/other";
+  std::optional<size_t> same_as = {};  ///< an earlier body whose model it shares; `model` then counts for nothing
 };
 
 /// The body that stands for a drone of this model (MakeDroneBody, turning propellers as discs).
