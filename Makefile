@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo test bench fuzz install-packages clean
+.PHONY: build demo test bench wheel fuzz install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -16,6 +16,10 @@ test: build
 
 bench: build
 	@tools/bench.sh $(BUILD)
+
+# dist/airsim360-*.whl, for Debian's python3; offline
+wheel: install-packages
+	@AIRSIM360_BUILD=$(BUILD) /usr/bin/python3 python/build_backend.py dist
 
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: install-packages

@@ -1,8 +1,23 @@
 # PYTHONPATH=build/python finds the packages of python/: links, so that nothing needs to be built again after an edit.
-# build/python/airsim360 is a folder of its own, where compiled modules have a place beside the linked sources.
+# build/python/airsim360 is a folder of its own, where the compiled module lies beside the linked sources.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/python/airsim360)
 file(GLOB python_parts CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/python ${CMAKE_SOURCE_DIR}/python/msgpackrpc
      ${CMAKE_SOURCE_DIR}/python/airsim360/*)
+list(FILTER python_parts EXCLUDE REGEX "__pycache__")
 foreach(part ${python_parts})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/python/${part} ${CMAKE_BINARY_DIR}/python/${part} SYMBOLIC)
 endforeach()
+
+# airsim360._native. Debian's Python unless told otherwise (a wheel is built for the Python that builds it).
+if(AIRSIM360_PYTHON)
+  if(NOT DEFINED PYTHON_EXECUTABLE)
+    set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that the module is for")
+  endif()
+  find_package(pybind11 REQUIRED)
+  file(GLOB native_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/python/src/*.cc)
+  pybind11_add_module(airsim360_native MODULE NO_EXTRAS ${native_sources})
+  set_target_properties(airsim360_native PROPERTIES OUTPUT_NAME _native LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/airsim360)
+  target_link_libraries(airsim360_native PRIVATE airsim360_tasks airsim360_planning airsim360_eval)
+  # Our libraries are inside and invisible to others; that also lets their kernels be linked without -fPIC.
+  target_link_options(airsim360_native PRIVATE -Wl,--exclude-libs,ALL)
+endif()

@@ -1,0 +1,212 @@
+# Types of the compiled module; shapes, units and frames are in the docstrings and docs/python.md.
+from typing import Any, Literal, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+Vector = Union[Sequence[float], npt.NDArray[np.float64]]
+Points = Union[Sequence[Sequence[float]], npt.NDArray[np.float64]]
+DroneRef = Union[int, str]
+Yaw = Union[None, float, Literal["forward"]]
+Tier = Literal["labels", "fast", "high", "reference"]
+F64 = npt.NDArray[np.float64]
+F32 = npt.NDArray[np.float32]
+
+def worlds() -> list[dict[str, Any]]: ...
+def drone_catalog() -> dict[str, str]: ...
+def thread_count() -> int: ...
+def plan_minimum_snap(waypoints: Points, times: Optional[Sequence[float]] = None, vmax: float = 4.0, amax: float = 4.0,
+                      order: Literal[5, 7] = 7, world: Optional[World] = None, clearance: float = 0.5,
+                      avoid: bool = False) -> Plan: ...
+
+class Threads:
+    def __init__(self, threads: int) -> None: ...
+    def __enter__(self) -> None: ...
+    def __exit__(self, *args: Any) -> None: ...
+
+class Rig:
+    width: int
+    height: int
+    def __init__(self, width: int = 1024, height: int = 0, tier: Tier = "fast",
+                 products: Sequence[str] = ("rgb", "range", "semantic", "entity"),
+                 projection: Literal["erp", "pinhole", "fisheye"] = "erp", fov: float = ..., position: Vector = (0, 0, 0),
+                 yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0, level: bool = False,
+                 lens: Literal["ideal", "real360"] = "ideal", tone: Literal["filmic", "agx", "linear"] = "filmic",
+                 exposure_ev: float = 0.0, samples: int = 0, seed: int = 0, flow_dt: float = 0.1) -> None: ...
+
+class Capture:
+    rgb: Optional[npt.NDArray[np.uint8]]  # (H, W, 3)
+    range: Optional[F32]  # (H, W) metres
+    semantic: Optional[npt.NDArray[np.uint16]]  # (H, W)
+    entity: Optional[npt.NDArray[np.uint32]]  # (H, W)
+    normal: Optional[F32]  # (H, W, 3)
+    position: Optional[F32]  # (H, W, 3)
+    albedo: Optional[F32]  # (H, W, 3)
+    material: Optional[npt.NDArray[np.uint16]]  # (H, W)
+    radiance: Optional[F32]  # (H, W, 3)
+    flow: Optional[F32]  # (H, W, 2)
+    pose: F64  # (4, 4) X_WC
+    body_pose: F64  # (4, 4) X_WB
+    q_wxyz: F64  # (4,)
+    p: F64  # (3,)
+    t_ns: int
+    render_ms: float
+    rays: int
+
+class World:
+    name: str
+    entities: list[dict[str, Any]]
+    categories: dict[int, str]
+    bounds: F64  # (2, 3)
+    spawn: F64  # (3,)
+    triangles: int
+    def __init__(self, name: str, seed: int = 0, models: bool = True) -> None: ...
+    def raycast(self, origins: Points, directions: Points) -> tuple[F32, npt.NDArray[np.uint32]]: ...
+    def clearance(self, points: Points, most: float = 100.0) -> F32: ...
+    def export(self, path: str) -> None: ...
+    def capture(self, position: Vector, rig: Rig = ..., yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> Capture: ...
+
+class Drone:
+    model: str
+    name: str
+    mass: float
+    inertia: F64  # (3, 3)
+    rotors: list[dict[str, Any]]
+    max_thrust: float
+    hover_speed: float
+    half_size: F64  # (3,)
+    laws: dict[str, str]
+    yaml: str
+    def __init__(self, model: str = "hummingbird", name: str = "", position: Optional[Vector] = None, yaw: float = 0.0,
+                 airborne: bool = False, controller: Literal["simple_flight", "px4", "se3", "indi"] = "indi",
+                 sensors: str = "") -> None: ...
+    @staticmethod
+    def from_words(words: str) -> Drone: ...
+
+class Plan:
+    times: F64  # (S + 1,)
+    waypoints: F64  # (S + 1, 3)
+    coefficients: F64  # (S, 3, order + 1)
+    order: int
+    duration: float
+    cost_snap: float
+    max_speed: float
+    max_acceleration: float
+    certificate: Optional[dict[str, Any]]
+    def at(self, times: Sequence[float]) -> dict[str, F64]: ...
+    def sample(self, dt: float = 0.1) -> dict[str, F64]: ...
+
+class DroneState:
+    t: float
+    t_ns: int
+    position: F64  # (3,)
+    velocity: F64  # (3,)
+    angular_velocity: F64  # (3,)
+    acceleration: F64  # (3,)
+    orientation: F64  # (4,) w, x, y, z
+    euler: F64  # (3,) roll, pitch, yaw
+    pose: F64  # (4, 4)
+    rotor_speeds: F64
+    charge: float
+    clearance: float
+    mode: str
+    touching: bool
+    collision: Optional[dict[str, Any]]
+    sensors: dict[str, dict[str, Any]]
+
+class Snapshot:
+    t: float
+    step: int
+    hash: int
+    def state(self, drone: int = 0) -> DroneState: ...
+
+class Recording:
+    note: str
+    steps: int
+    def write(self, path: str) -> None: ...
+    @staticmethod
+    def read(path: str) -> Recording: ...
+
+class Simulation:
+    t: float
+    t_ns: int
+    dt: float
+    world: World
+    drones: list[str]
+    def __init__(self, world: World, drones: Union[int, str, Drone, Sequence[Union[str, Drone]]] = 1, people: int = 0,
+                 seed: int = 0, dt: float = 0.001, wind: Vector = (0, 0, 0)) -> None: ...
+    def step(self, n: int = 1) -> None: ...
+    def run(self, seconds: float) -> None: ...
+    def state(self, drone: DroneRef = 0) -> DroneState: ...
+    def capture(self, rig: Rig = ..., drone: DroneRef = 0) -> Capture: ...
+    def snapshot(self) -> Snapshot: ...
+    def restore(self, snapshot: Snapshot) -> None: ...
+    def start_recording(self, note: str = "") -> None: ...
+    def stop_recording(self) -> Recording: ...
+    def replay(self, recording: Recording, start: Snapshot) -> dict[str, Any]: ...
+    def hash(self) -> int: ...
+    def events(self) -> list[dict[str, Any]]: ...
+    def arm(self, drone: DroneRef = 0) -> None: ...
+    def disarm(self, drone: DroneRef = 0) -> None: ...
+    def takeoff(self, height: float = 2.0, speed: float = 1.0, drone: DroneRef = 0) -> None: ...
+    def land(self, speed: float = 0.7, drone: DroneRef = 0) -> None: ...
+    def hover(self, yaw: Yaw = None, yaw_rate: Optional[float] = None, drone: DroneRef = 0) -> None: ...
+    def return_home(self, height: float = 5.0, speed: float = 0.0, land: bool = True, drone: DroneRef = 0) -> None: ...
+    def fly_velocity(self, velocity: Vector, body_heading: bool = False, altitude: Optional[float] = None, yaw: Yaw = None,
+                     yaw_rate: Optional[float] = None, drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def fly_to(self, position: Vector, speed: float = 0.0, yaw: Yaw = None, yaw_rate: Optional[float] = None,
+               drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def fly_path(self, waypoints: Points, speed: float = 0.0, lookahead: float = 0.0, yaw: Yaw = None,
+                 yaw_rate: Optional[float] = None, drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def fly_trajectory(self, plan: Plan, yaw: Optional[float] = None, drone: DroneRef = 0) -> None: ...
+    def set_attitude(self, roll: float, pitch: float, throttle: Optional[float] = None, altitude: Optional[float] = None,
+                     yaw: Yaw = None, yaw_rate: Optional[float] = None, drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def set_rates(self, rates: Vector, throttle: Optional[float] = None, altitude: Optional[float] = None,
+                  drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def set_rotor_speeds(self, speeds: Sequence[float], drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def set_rotor_signals(self, signals: Sequence[float], drone: DroneRef = 0, timeout: float = 0.0) -> None: ...
+    def set_rotor_health(self, health: Sequence[float], drone: DroneRef = 0) -> None: ...
+    def set_wind(self, wind: Vector) -> None: ...
+    def reset_drone(self, position: Optional[Vector] = None, yaw: float = 0.0, airborne: Optional[bool] = None,
+                    drone: DroneRef = 0) -> None: ...
+
+class VectorEnvironment:
+    count: int
+    action_size: int
+    width: int
+    height: int
+    rgb: Optional[npt.NDArray[np.uint8]]  # (count, H, W, 3)
+    range: Optional[F32]  # (count, H, W)
+    semantic: Optional[npt.NDArray[np.uint16]]
+    entity: Optional[npt.NDArray[np.uint32]]
+    state: F32  # (count, 17)
+    reward: F32  # (count,)
+    distance: F32
+    steps: npt.NDArray[np.int64]
+    terminated: npt.NDArray[np.bool_]
+    truncated: npt.NDArray[np.bool_]
+    reached: npt.NDArray[np.bool_]
+    crashed: npt.NDArray[np.bool_]
+    def __init__(self, world: World, task: Literal["reach", "avoid", "search"] = "reach", task_options: dict[str, Any] = ...,
+                 count: int = 1, drone: Union[str, Drone] = "hummingbird",
+                 action: Literal["velocity", "rates", "rotors"] = "velocity", width: int = 128, height: int = 0,
+                 tier: Tier = "fast", observations: Sequence[str] = ("rgb", "range"), period: float = 0.1,
+                 max_speed: float = 3.0, max_turn: float = 1.5, max_rate: float = 6.0, level: bool = False,
+                 auto_reset: bool = True, seed: int = 0) -> None: ...
+    def reset(self, seed: Optional[int] = None) -> None: ...
+    def step(self, actions: Any) -> None: ...
+    def pose_of(self, environment: int) -> F64: ...
+    def goal_of(self, environment: int) -> F64: ...
+    def hash(self) -> int: ...
+
+class metrics:
+    """The submodule airsim360.metrics."""
+    @staticmethod
+    def psnr(a: npt.NDArray[np.uint8], b: npt.NDArray[np.uint8]) -> float: ...
+    @staticmethod
+    def ws_psnr(a: npt.NDArray[np.uint8], b: npt.NDArray[np.uint8]) -> float: ...
+    @staticmethod
+    def ssim(a: npt.NDArray[np.uint8], b: npt.NDArray[np.uint8]) -> float: ...
+    @staticmethod
+    def flip(reference: npt.NDArray[np.uint8], test: npt.NDArray[np.uint8], pixels_per_degree: float = ...,
+             wrap: bool = False) -> F32: ...

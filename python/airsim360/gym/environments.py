@@ -1,0 +1,150 @@
+"""Env and VectorEnv over the native vector environment."""
+from __future__ import annotations
+
+from typing import Any, Optional, Sequence
+
+import numpy as np
+
+import airsim360
+
+from . import spaces
+
+try:
+    import gymnasium
+    _EnvBase, _VectorBase = gymnasium.Env, gymnasium.vector.VectorEnv
+except ImportError:
+    _EnvBase = _VectorBase = object
+
+_IMAGES = {"rgb": (0, 255, np.uint8), "range": (0, np.inf, np.float32),
+           "semantic": (0, 2**16 - 1, np.uint16), "entity": (0, 2**32 - 1, np.uint32)}
+_STATE_SIZE = 17
+
+
+def _metadata():
+    """Gymnasium's word for what auto_reset does here, where it has one."""
+    try:
+        from gymnasium.vector import AutoresetMode
+        return {"render_modes": ["rgb_array"], "autoreset_mode": AutoresetMode.NEXT_STEP}
+    except ImportError:
+        return {"render_modes": ["rgb_array"], "autoreset_mode": "NextStep"}
+
+
+class _Base:
+    """What both have: the native environment, its spaces and observations."""
+
+    def _open(self, task, world, count, seed, copy, observations, options, auto_reset):
+        world = airsim360.World(world) if isinstance(world, str) else world
+        native_names = ("drone", "action", "width", "height", "tier", "period", "max_speed", "max_turn", "max_rate",
+                        "level")
+        native = {name: options.pop(name) for name in native_names if name in options}
+        self.native = airsim360.VectorEnvironment(world, task, options, count=count, seed=seed or 0,
+                                                  observations=list(observations), auto_reset=auto_reset, **native)
+        self.world, self.task, self._copy = world, task, copy
+        # Views stay valid: each step writes into the same memory.
+        self._views = {name: view for name in _IMAGES if (view := getattr(self.native, name)) is not None}
+        self._views["state"] = self.native.state
+        boxes = {name: spaces.Box(_IMAGES[name][0], _IMAGES[name][1], view.shape[1:], _IMAGES[name][2])
+                 for name, view in self._views.items() if name != "state"}
+        boxes["state"] = spaces.Box(-np.inf, np.inf, (_STATE_SIZE,), np.float32)
+        self._one_observation = spaces.Dict(boxes)
+        self._one_action = spaces.Box(-1.0, 1.0, (self.native.action_size,), np.float32)
+
+    def _observe(self, row=None):
+        views = self._views if row is None else {name: view[row] for name, view in self._views.items()}
+        if self._copy:
+            return {name: np.array(view) for name, view in views.items()}
+        return dict(views)
+
+    @property
+    def unwrapped(self):
+        return self
+
+    def close(self, **kwargs):
+        """Nothing to be closed: memory goes with the object and its views."""
+
+
+class VectorEnv(_Base, _VectorBase):
+    """`num_envs` copies of a task, all in one call. Where one has ended the next step begins its next episode.
+
+    options: drone, action ("velocity", "rates", "rotors"), width, height, tier, period, max_speed, max_turn, max_rate,
+    level, and those of the task (docs/python.md); ValueError names the nearest for an unknown one.
+    """
+
+    metadata = _metadata()
+    render_mode = "rgb_array"
+    spec = None
+    closed = False
+
+    def __init__(self, task: str = "reach", world: Any = "box_room", num_envs: int = 8, seed: Optional[int] = None,
+                 observations: Sequence[str] = ("rgb", "range"), copy: bool = False, **options: Any):
+        self._open(task, world, num_envs, seed, copy, observations, options, auto_reset=True)
+        self.num_envs = num_envs
+        self.single_observation_space, self.single_action_space = self._one_observation, self._one_action
+        self.observation_space = spaces.batch_space(self._one_observation, num_envs)
+        self.action_space = spaces.batch_space(self._one_action, num_envs)
+        self._seed = seed
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
+        """All begin: with the first episodes of `seed`, or with the next ones. Returns observations and info."""
+        self.native.reset(seed)
+        return self._observe(), self._info()
+
+    def step(self, actions):
+        """actions: (num_envs, n) in -1 … 1. Returns observations, rewards, terminated, truncated, info."""
+        native = self.native
+        native.step(np.asarray(actions, np.float32))
+        return (self._observe(), np.array(native.reward), np.array(native.terminated), np.array(native.truncated),
+                self._info())
+
+    def render(self):
+        """Pictures of all, (num_envs, H, W, 3) uint8."""
+        return self._views.get("rgb")
+
+    def _info(self):
+        native = self.native
+        return {"success": np.array(native.reached), "crashed": np.array(native.crashed),
+                "distance": np.array(native.distance), "episode_step": np.array(native.steps)}
+
+
+class Env(_Base, _EnvBase):
+    """One drone with one task; options as VectorEnv. A step after the end is a ValueError: reset first."""
+
+    metadata = _metadata()
+    render_mode = "rgb_array"
+    spec = None
+
+    def __init__(self, task: str = "reach", world: Any = "box_room", seed: Optional[int] = None,
+                 observations: Sequence[str] = ("rgb", "range"), copy: bool = True, **options: Any):
+        self._open(task, world, 1, seed, copy, observations, options, auto_reset=False)
+        self.observation_space, self.action_space = self._one_observation, self._one_action
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
+        """Begins the first episode of `seed`, or the next one. Returns observation and info."""
+        self.native.reset(seed)
+        return self._observe(0), self._info()
+
+    def step(self, action):
+        """Returns observation, reward, terminated, truncated, info."""
+        native = self.native
+        native.step(np.asarray(action, np.float32).reshape(1, -1))
+        return (self._observe(0), float(native.reward[0]), bool(native.terminated[0]), bool(native.truncated[0]),
+                self._info())
+
+    def render(self):
+        """(H, W, 3) uint8, or None without "rgb"."""
+        return self._views["rgb"][0].copy() if "rgb" in self._views else None
+
+    def _info(self):
+        native = self.native
+        return {"success": bool(native.reached[0]), "crashed": bool(native.crashed[0]),
+                "distance": float(native.distance[0]), "episode_step": int(native.steps[0])}
+
+
+def make(task: str = "reach", **options: Any) -> Env:
+    """One environment."""
+    return Env(task, **options)
+
+
+def make_vec(task: str = "reach", num_envs: int = 8, **options: Any) -> VectorEnv:
+    """A vector of environments."""
+    return VectorEnv(task, num_envs=num_envs, **options)

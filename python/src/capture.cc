@@ -1,0 +1,135 @@
+// The panoramic rig and what it captures: arrays are views of the capture's own memory.
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/render/filter/tone_map.h"
+#include "handles.h"
+
+namespace airsim360::python {
+namespace {
+
+struct ProductName {
+  const char* name;
+  bool Products::*wanted;
+};
+constexpr ProductName kProducts[] = {
+    {"rgb", &Products::rgb},           {"range", &Products::range},       {"semantic", &Products::semantic},
+    {"entity", &Products::entity},     {"normal", &Products::normal},     {"position", &Products::position},
+    {"albedo", &Products::albedo},     {"material", &Products::material}, {"flow", &Products::flow},
+    {"radiance", &Products::radiance},
+};
+
+Products ToProducts(const std::vector<std::string>& names) {
+  Products products{.rgb = false, .range = false, .semantic = false, .entity = false};
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(kProducts, name, &ProductName::name);
+    if (found == std::end(kProducts)) {
+      std::vector<std::string> choices;
+      for (const ProductName& p : kProducts) choices.emplace_back(p.name);
+      throw InputError(UnknownChoiceMessage("product", name, choices));
+    }
+    products.*(found->wanted) = true;
+  }
+  return products;
+}
+
+Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
+            const std::vector<std::string>& products, const std::string& projection, double fov,
+            const py::object& position, double yaw, double pitch, double roll, bool level,
+            const std::string& lens, const std::string& tone, double exposure_ev, int samples, uint64_t seed,
+            double flow_dt) {
+  CameraSpec spec;
+  spec.projection = projection;
+  spec.width = width;
+  spec.height = height == 0 ? (projection == "erp" ? width / 2 : width) : height;
+  spec.fov_deg = fov * 180 / M_PI;
+  spec.tier = tier;
+  spec.pano_frame = level ? "level" : "body";
+  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt")};
+  if (!(flow_dt > 0)) throw InputError("flow_dt: " + std::to_string(flow_dt) + " is not positive");
+  CheckCamera(rig.rig.camera);
+  rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"),
+                          Finite(roll, "roll")) *
+                 CameraInBody();
+  rig.rig.products = ToProducts(products);
+  if (rig.rig.tier == Tier::kLabels) rig.rig.products.rgb = false;
+  rig.rig.lens = ParseLensModel(lens);
+  rig.rig.tone = ParseToneCurve(tone);
+  rig.rig.exposure_ev = Finite(exposure_ev, "exposure_ev");
+  rig.rig.samples = samples;
+  rig.rig.seed = seed;
+  return rig;
+}
+
+py::object Flow(const py::object& self) {
+  const auto& image = self.cast<const Capture&>().frame.flow;
+  return ImageView<float>(image, 2, self);  // dx, dy are first in the pixel
+}
+
+template <class T, class Pixel>
+auto Picture(Image<Pixel> Frame::*image, int channels) {
+  return [image, channels](const py::object& self) {
+    return ImageView<T>(self.cast<const Capture&>().frame.*image, channels, self);
+  };
+}
+
+}  // namespace
+
+void BindCapture(py::module_& m) {
+  py::class_<Rig>(m, "Rig", R"(A camera on a drone, panoramic unless told otherwise, and what it captures.
+
+width, height: pixels (height 0: half the width for panoramas, else the width). tier: labels, fast, high or reference.
+products: any of rgb, range, semantic, entity, normal, position, albedo, material, flow, radiance. projection: erp,
+pinhole or fisheye (fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B.
+level: the horizon stays level. flow_dt: seconds that optical flow leads on by.)")
+      .def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::arg("tier") = "fast",
+           py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"},
+           py::arg("projection") = "erp", py::arg("fov") = M_PI / 2,
+           py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
+           py::arg("roll") = 0.0, py::arg("level") = false, py::arg("lens") = "ideal",
+           py::arg("tone") = "filmic", py::arg("exposure_ev") = 0.0, py::arg("samples") = 0,
+           py::arg("seed") = 0, py::arg("flow_dt") = 0.1)
+      .def_property_readonly("width", [](const Rig& r) { return Width(r.rig.camera); })
+      .def_property_readonly("height", [](const Rig& r) { return Height(r.rig.camera); });
+
+  py::class_<Capture, std::shared_ptr<Capture>>(
+      m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
+
+Pictures are views of this object's memory (no copies); those that the rig was not asked for are None.)")
+      .def_property_readonly("rgb", Picture<uint8_t>(&Frame::rgb, 3), "(H, W, 3) uint8, sRGB.")
+      .def_property_readonly("range", Picture<float>(&Frame::range, 0),
+                             "(H, W) float32, metres along the ray, 0 = nothing hit (sky).")
+      .def_property_readonly("semantic", Picture<CategoryId>(&Frame::semantic, 0),
+                             "(H, W) uint16, category id (World.categories).")
+      .def_property_readonly("entity", Picture<EntityId>(&Frame::entity, 0),
+                             "(H, W) uint32, entity id (World.entities).")
+      .def_property_readonly("normal", Picture<float>(&Frame::normal, 3),
+                             "(H, W, 3) float32, unit normal in W towards the camera.")
+      .def_property_readonly("position", Picture<float>(&Frame::position, 3),
+                             "(H, W, 3) float32, point hit, metres in W.")
+      .def_property_readonly("albedo", Picture<float>(&Frame::albedo, 3),
+                             "(H, W, 3) float32, linear base colour.")
+      .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0),
+                             "(H, W) uint16, material index plus 1.")
+      .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3),
+                             "(H, W, 3) float32, linear light.")
+      .def_property_readonly("flow", &Flow,
+                             "(H, W, 2) float32, pixels to where the point is flow_dt later; x wraps.")
+      .def_property_readonly(
+          "pose", [](const Capture& c) { return FromPose(c.X_WC); },
+          "(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward.")
+      .def_property_readonly(
+          "body_pose", [](const Capture& c) { return FromPose(c.body.X_WB); }, "(4, 4) X_WB.")
+      .def_property_readonly(
+          "q_wxyz", [](const Capture& c) { return FromQuaternion(ToQuaternion(c.X_WC.R)); },
+          "(4,) rotation of the camera in W as w, x, y, z.")
+      .def_property_readonly(
+          "p", [](const Capture& c) { return FromVec3(c.X_WC.p); }, "(3,) place of the camera in W, metres.")
+      .def_readonly("t_ns", &Capture::t_ns, "Time of the trigger, nanoseconds.")
+      .def_property_readonly(
+          "render_ms", [](const Capture& c) { return c.stats.render_ms; }, "Rays and shading alone.")
+      .def_property_readonly("rays", [](const Capture& c) { return c.stats.rays; });
+}
+
+}  // namespace airsim360::python

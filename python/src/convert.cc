@@ -1,0 +1,97 @@
+#include "convert.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360::python {
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Doubles ToDoubles(const py::handle& value, const char* what) {
+  Doubles array = Doubles::ensure(value);
+  if (!array) {
+    PyErr_Clear();
+    throw InputError(std::string(what) + ": not an array of numbers");
+  }
+  for (py::ssize_t i = 0; i < array.size(); ++i) Finite(array.data()[i], what);
+  return array;
+}
+
+std::string ShapeText(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) text += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
+  return text + ")";
+}
+
+}  // namespace
+
+double Finite(double value, const char* what) {
+  if (!std::isfinite(value))
+    throw InputError(std::string(what) + ": " + std::to_string(value) + " is not a finite number");
+  return value;
+}
+
+Vec3d ToVec3(const py::handle& value, const char* what) {
+  const Doubles a = ToDoubles(value, what);
+  if (a.ndim() != 1 || a.shape(0) != 3)
+    throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is not (3,)");
+  return {a.data()[0], a.data()[1], a.data()[2]};
+}
+
+std::vector<Vec3d> ToPoints(const py::handle& value, const char* what) {
+  const Doubles a = ToDoubles(value, what);
+  if (a.ndim() != 2 || a.shape(1) != 3)
+    throw InputError(std::string(what) + ": shape " + ShapeText(a) + " is not (N, 3)");
+  std::vector<Vec3d> points(static_cast<size_t>(a.shape(0)));
+  for (size_t i = 0; i < points.size(); ++i)
+    points[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
+  return points;
+}
+
+py::array_t<double> FromVec3(Vec3d v) {
+  py::array_t<double> a(3);
+  for (int i = 0; i < 3; ++i) a.mutable_data()[i] = v[i];
+  return a;
+}
+
+py::array_t<double> FromQuaternion(const Quaternion& q) {
+  py::array_t<double> a(4);
+  const double values[4] = {q.w, q.x, q.y, q.z};
+  std::memcpy(a.mutable_data(), values, sizeof(values));
+  return a;
+}
+
+py::array_t<double> FromPose(const RigidTransform& X) {
+  py::array_t<double> a({4, 4});
+  double* out = a.mutable_data();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out[4 * i + j] = X.R.m[i][j];
+    out[4 * i + 3] = X.p[i];
+    out[12 + i] = 0;
+  }
+  out[15] = 1;
+  return a;
+}
+
+py::array_t<double> FromPoints(const std::vector<Vec3d>& points) {
+  py::array_t<double> a({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+  static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+  if (!points.empty()) std::memcpy(a.mutable_data(), points.data(), points.size() * sizeof(Vec3d));
+  return a;
+}
+
+Image<Rgb8> ToRgb(const py::handle& value, const char* what) {
+  const auto a = py::array_t<uint8_t, py::array::c_style>::ensure(value);
+  if (!a || a.ndim() != 3 || a.shape(2) != 3 || !py::isinstance<py::array_t<uint8_t>>(value)) {
+    PyErr_Clear();
+    throw InputError(std::string(what) + ": not a picture of shape (H, W, 3) and type uint8");
+  }
+  Image<Rgb8> image(static_cast<int>(a.shape(1)), static_cast<int>(a.shape(0)));
+  if (!image.empty()) std::memcpy(image.pixels().data(), a.data(), image.size() * sizeof(Rgb8));
+  return image;
+}
+
+}  // namespace airsim360::python

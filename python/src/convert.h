@@ -1,0 +1,64 @@
+// Between Python values and ours. Vectors, poses and points are arrays of float64; pictures are views.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "airsim360/image/image.h"
+#include "airsim360/math/transform.h"
+
+namespace airsim360::python {
+
+namespace py = pybind11;
+
+/// Three finite numbers; ValueError naming `what` otherwise.
+Vec3d ToVec3(const py::handle& value, const char* what);
+/// (N, 3) finite numbers; ValueError naming `what` otherwise.
+std::vector<Vec3d> ToPoints(const py::handle& value, const char* what);
+/// A finite number; ValueError naming `what` otherwise.
+double Finite(double value, const char* what);
+
+py::array_t<double> FromVec3(Vec3d v);                             ///< (3,)
+py::array_t<double> FromQuaternion(const Quaternion& q);           ///< (4,): w, x, y, z
+py::array_t<double> FromPose(const RigidTransform& X);             ///< (4, 4)
+py::array_t<double> FromPoints(const std::vector<Vec3d>& points);  ///< (N, 3)
+
+/// An array that shows `data`, which `owner` keeps alive; nothing is copied.
+template <class T>
+py::array View(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+               const py::handle& owner) {
+  return py::array(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
+}
+
+/// A picture of scalars as (H, W), or of `channels` scalars T a pixel as (H, W, channels); None if empty.
+template <class T, class Pixel>
+py::object ImageView(const Image<Pixel>& image, int channels, const py::handle& owner) {
+  if (image.empty()) return py::none();
+  const auto pixel = static_cast<py::ssize_t>(sizeof(Pixel));
+  std::vector<py::ssize_t> shape = {image.height(), image.width()}, strides = {pixel * image.width(), pixel};
+  if (channels > 0) {
+    shape.push_back(channels);
+    strides.push_back(sizeof(T));
+  }
+  return View(reinterpret_cast<const T*>(image.pixels().data()), shape, strides, owner);
+}
+
+/// (H, W, 3) uint8 as a picture (copied); ValueError naming `what` otherwise.
+Image<Rgb8> ToRgb(const py::handle& value, const char* what);
+
+// One function for each file of the module.
+void BindWorld(py::module_& m);
+void BindDrone(py::module_& m);
+void BindCapture(py::module_& m);
+void BindState(py::module_& m);
+void BindSimulation(py::module_& m);
+void BindPlanning(py::module_& m);
+void BindMetrics(py::module_& m);
+void BindVectorEnvironment(py::module_& m);
+
+}  // namespace airsim360::python

@@ -1,0 +1,79 @@
+// Objects that several files of the module know.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "airsim360/planning/certificate.h"
+#include "airsim360/planning/polynomial_trajectory.h"
+#include "airsim360/planning/trajectory_limits.h"
+#include "airsim360/sensors/rig.h"
+#include "airsim360/sim/sim_loop.h"
+#include "convert.h"
+
+namespace airsim360::python {
+
+/// A world with its tracer and renderers, made when first asked for.
+class World {
+ public:
+  World(const std::string& name, uint64_t seed, bool models);
+  const Scene& scene() const { return *scene_; }
+  const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
+  const std::string& name() const { return name_; }
+  /// Both without the GIL.
+  std::shared_ptr<const RayTracer> tracer();
+  std::shared_ptr<Capture> Render(const PanoramicRig& rig, const Kinematics& body);
+
+ private:
+  std::string name_;
+  std::shared_ptr<const Scene> scene_;
+  std::mutex mutex_;  // of what follows; never waited for with the GIL held
+  std::shared_ptr<const RayTracer> tracer_;
+  std::map<Tier, std::unique_ptr<Renderer>> renderers_;
+  std::shared_ptr<const RayTracer> TracerLocked();
+};
+
+/// What and how a trigger captures.
+struct Rig {
+  PanoramicRig rig;
+  double flow_dt = 0.1;  ///< seconds that optical flow leads on by
+};
+
+/// A kind of drone and where it starts.
+struct Drone {
+  DroneModel model;
+  std::map<std::string, std::string> laws;
+  std::string yaml, name;
+  std::optional<Vec3d> p_WB;
+  double yaw = 0;
+  bool airborne = false;
+  ControllerKind controller = ControllerKind::kIndi;
+  std::optional<SensorSet> sensors;
+};
+/// Catalogue name, YAML file, or words.
+Drone MakeDrone(const std::string& what);
+/// A Drone, or what MakeDrone takes.
+Drone ToDrone(const py::handle& value);
+
+/// A vehicle of a snapshot, as Python looks at it.
+struct StateView {
+  std::shared_ptr<const SimModel> model;
+  std::shared_ptr<const SimState> state;
+  size_t i = 0;
+  const Vehicle& vehicle() const { return state->vehicles[i]; }
+};
+
+/// A planned flight.
+struct Plan {
+  std::shared_ptr<const PolynomialTrajectory> trajectory;
+  TrajectoryPeaks peaks;
+  std::vector<Vec3d> waypoints;
+  std::optional<Certificate> certificate;
+  double cost_snap = 0;
+};
+
+}  // namespace airsim360::python

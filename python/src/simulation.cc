@@ -1,0 +1,155 @@
+// The simulation: drones in a world, commands, steps, snapshots, captures.
+#include "simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/sim/capture.h"
+#include "airsim360/sim/trajectory_reference.h"
+
+namespace airsim360::python {
+namespace {
+
+constexpr double kSpacing = 2;  // metres between drones whose place is not given
+
+std::vector<Drone> ToDrones(const py::object& drones) {
+  if (py::isinstance<py::int_>(drones)) {
+    const auto count = drones.cast<int64_t>();
+    if (count < 0 || count > 10000)
+      throw InputError("drones: " + std::to_string(count) + " is not in 0 ... 10000");
+    return std::vector<Drone>(static_cast<size_t>(count), count > 0 ? MakeDrone("hummingbird") : Drone{});
+  }
+  if (py::isinstance<py::str>(drones) || py::isinstance<Drone>(drones)) return {ToDrone(drones)};
+  if (!py::isinstance<py::sequence>(drones))
+    throw InputError("drones: give a number, a drone, or a list of drones");
+  std::vector<Drone> list;
+  for (const py::handle& drone : drones) list.push_back(ToDrone(drone));
+  return list;
+}
+
+// Side by side around the spawn, in a square, unless a place is given.
+RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& scene) {
+  if (drone.p_WB) return BodyPose(*drone.p_WB, drone.yaw, 0, 0);
+  const auto columns = static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+  const auto half = 0.5 * static_cast<double>(columns - 1);
+  const Vec3d spawn = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  const Vec3d offset{static_cast<double>(i % columns) - half, static_cast<double>(i / columns) - half, 0};
+  return BodyPose(spawn + kSpacing * offset, drone.yaw != 0 ? drone.yaw : scene.spawn_yaw_deg * M_PI / 180, 0,
+                  0);
+}
+
+}  // namespace
+
+Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
+                       double dt, const py::object& wind)
+    : world_(std::move(world)) {
+  if (people != 0)
+    throw InputError("people: this build of airsim360 has no people in simulations yet; give 0");
+  if (!(dt >= 1e-5 && dt <= 0.1))
+    throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
+  const std::vector<Drone> list = ToDrones(drones);
+  auto model = std::make_shared<SimModel>();
+  model->dt_ns = std::llround(dt * 1e9);
+  model->world.seed = seed;
+  model->wind.mean_W = ToVec3(wind, "wind");
+  std::vector<DroneSetup> setups;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Drone& drone = list[i];
+    DroneSetup setup{.name = drone.name.empty() ? "drone" + std::to_string(i) : drone.name,
+                     .model = drone.model};
+    setup.autopilot.controller = drone.controller;
+    if (drone.sensors) setup.sensors = *drone.sensors;
+    setup.X_WB = StartOf(drone, i, list.size(), world_->scene());
+    setup.airborne = drone.airborne;
+    for (const DroneSetup& other : setups) {
+      if (other.name == setup.name) throw InputError("drones: the name '" + setup.name + "' is given twice");
+    }
+    setups.push_back(std::move(setup));
+  }
+  const py::gil_scoped_release release;
+  Build(std::move(model), std::move(setups));
+}
+
+void Simulation::Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups) {
+  base_ = world_->tracer();
+  model->tracer = base_;
+  // One drone never sees itself; several need bodies.
+  if (setups.size() > 1) {
+    std::vector<DroneBodySpec> bodies;
+    for (const DroneSetup& setup : setups)
+      bodies.push_back({setup.name, DroneBodyModel(setup.model), setup.X_WB});
+    std::vector<DroneBodyRef> refs;
+    scene_ = AddDroneBodies(world_->shared_scene(), bodies, refs);
+    base_ = std::make_shared<const RayTracer>(scene_);
+    model->tracer = WithoutBodies(base_, refs);
+    for (size_t i = 0; i < setups.size(); ++i) {
+      setups[i].instance = refs[i].instance;
+      setups[i].entity = refs[i].entity;
+    }
+  }
+  for (DroneSetup& setup : setups) {
+    names_.push_back(setup.name);
+    model->drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model->dt_ns));
+  }
+  model_ = std::move(model);
+  loop_ = std::make_unique<SimLoop>(model_);
+}
+
+size_t Simulation::Find(const py::object& drone) const {
+  if (py::isinstance<py::str>(drone)) {
+    const auto name = drone.cast<std::string>();
+    const auto found = std::ranges::find(names_, name);
+    if (found == names_.end()) throw InputError(UnknownChoiceMessage("drone", name, names_));
+    return static_cast<size_t>(found - names_.begin());
+  }
+  const auto i = drone.cast<int64_t>();
+  if (i < 0 || i >= static_cast<int64_t>(names_.size()))
+    throw InputError("drone " + std::to_string(i) + " of " + std::to_string(names_.size()) + " (from 0)");
+  return static_cast<size_t>(i);
+}
+
+void Simulation::Post(const py::object& drone, Command command, double timeout) {
+  const size_t i = Find(drone);
+  if (!(timeout >= 0 && timeout < 1e9))
+    throw InputError("timeout: " + std::to_string(timeout) + " s is not 0 (none) or more");
+  // What the drone cannot fly is told here and not by an event later.
+  const std::string problem = CommandProblem(command, model_->drones[i]->model());
+  if (!problem.empty()) throw InputError(problem);
+  loop_->Post({i, FlightCommand{std::move(command), std::llround(timeout * 1e9)}});
+}
+
+std::shared_ptr<Capture> Simulation::Take(const Rig& given, size_t i) {
+  const std::shared_ptr<const SimState> state = loop_->Snapshot();
+  PanoramicRig rig = given.rig;
+  rig.state = SceneStateOf(*model_, *state, i);
+  const Kinematics& body = state->vehicles[i].motion;
+  const NextTrigger next{Extrapolate(body, given.flow_dt), nullptr};
+  auto capture = std::make_shared<Capture>();
+  const std::lock_guard lock(render_mutex_);
+  std::unique_ptr<Renderer>& renderer = renderers_[rig.tier];
+  if (!renderer) renderer = MakeCpuRenderer(base_, {.tier = rig.tier});
+  CaptureRig(rig, body, state->t_ns, *renderer, *capture, rig.products.flow ? &next : nullptr);
+  return capture;
+}
+
+py::list Simulation::Events() {
+  py::list list;
+  for (const SimEvent& event : loop_->TakeEvents()) {
+    py::dict d;
+    d["event"] = kSimEventNames[static_cast<size_t>(event.kind)];
+    d["drone"] = event.vehicle;
+    d["t_ns"] = event.t_ns;
+    if (event.collision.count > 0) {
+      d["entity"] = event.collision.entity;
+      d["point"] = FromVec3(event.collision.p_W);
+      d["normal"] = FromVec3(event.collision.normal_W);
+      d["impact_speed"] = event.collision.impact_speed;
+    }
+    if (!event.text.empty()) d["text"] = event.text;
+    list.append(std::move(d));
+  }
+  return list;
+}
+
+}  // namespace airsim360::python

@@ -1,0 +1,41 @@
+// The simulation that Python holds.
+#pragma once
+
+#include "handles.h"
+
+namespace airsim360::python {
+
+class Simulation {
+ public:
+  Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
+             const py::object& wind);
+
+  SimLoop& loop() { return *loop_; }
+  const std::shared_ptr<const SimModel>& model() const { return model_; }
+  const std::shared_ptr<World>& world() const { return world_; }
+  const std::vector<std::string>& names() const { return names_; }
+  /// Index of a drone by number or name; InputError naming the nearest.
+  size_t Find(const py::object& drone) const;
+  /// InputError for a command that the drone cannot fly.
+  void Post(const py::object& drone, Command command, double timeout);
+  /// Without the GIL.
+  std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
+  py::list Events();
+
+ private:
+  void Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups);
+
+  std::shared_ptr<World> world_;
+  std::shared_ptr<const Scene> scene_;     ///< with bodies, if there are several drones
+  std::shared_ptr<const RayTracer> base_;  ///< what cameras see
+  std::shared_ptr<const SimModel> model_;
+  std::unique_ptr<SimLoop> loop_;
+  std::vector<std::string> names_;
+  std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
+  std::map<Tier, std::unique_ptr<Renderer>> renderers_;
+};
+
+/// The commands of Simulation (simulation_commands.cc).
+void BindCommands(py::class_<Simulation>& simulation);
+
+}  // namespace airsim360::python

@@ -1,0 +1,145 @@
+// Simulation's names in Python, but for the commands.
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "simulation.h"
+
+namespace airsim360::python {
+namespace {
+
+/// A copy of everything that changes.
+struct Snapshot {
+  std::shared_ptr<const SimModel> model;
+  std::shared_ptr<const SimState> state;
+};
+
+int64_t StepsOf(const Simulation& sim, double seconds) {
+  if (!(seconds >= 0 && seconds < 1e8))
+    throw InputError("seconds: " + std::to_string(seconds) + " is not 0 or more");
+  return std::llround(seconds * 1e9 / static_cast<double>(sim.model()->dt_ns));
+}
+
+std::shared_ptr<Recording> StopRecording(Simulation& sim) {
+  std::optional<Recording> recording = sim.loop().StopRecording();
+  if (!recording) throw InputError("stop_recording: nothing is being recorded");
+  return std::make_shared<Recording>(std::move(*recording));
+}
+
+py::dict ReplayFrom(const Simulation& sim, const Recording& recording, const Snapshot& start) {
+  SimState state = *start.state;
+  ReplayResult result;
+  {
+    const py::gil_scoped_release release;
+    result = Replay(*sim.model(), recording, state);
+  }
+  py::dict d;
+  d["same"] = result.same;
+  d["steps"] = result.steps;
+  d["differs_at"] = result.differs_at < 0 ? py::object(py::none()) : py::int_(result.differs_at);
+  d["hash"] = result.hash;
+  return d;
+}
+
+}  // namespace
+
+void BindSimulation(py::module_& m) {
+  py::class_<Snapshot>(
+      m, "Snapshot",
+      "Everything that changes in a simulation, at one instant. Simulation.restore goes back to it exactly.")
+      .def_property_readonly("t", [](const Snapshot& s) { return static_cast<double>(s.state->t_ns) * 1e-9; })
+      .def_property_readonly("step", [](const Snapshot& s) { return s.state->step; })
+      .def_property_readonly(
+          "hash", [](const Snapshot& s) { return HashState(*s.state); },
+          "64 bits over every number of the state.")
+      .def(
+          "state",
+          [](const Snapshot& s, size_t i) {
+            if (i >= s.state->vehicles.size())
+              throw InputError("drone " + std::to_string(i) + " of " +
+                               std::to_string(s.state->vehicles.size()));
+            return StateView{s.model, s.state, i};
+          },
+          py::arg("drone") = 0);
+
+  py::class_<Recording, std::shared_ptr<Recording>>(m, "Recording",
+                                                    "The commands of a run with hashes of its states.")
+      .def_readonly("note", &Recording::note)
+      .def_readonly("steps", &Recording::steps)
+      .def(
+          "write", [](const Recording& r, const std::string& path) { WriteRecording(path, r); },
+          py::arg("path"))
+      .def_static(
+          "read", [](const std::string& path) { return std::make_shared<Recording>(ReadRecording(path)); },
+          py::arg("path"), "ValueError for anything but a recording.");
+
+  py::class_<Simulation> sim(
+      m, "Simulation", R"(Drones in a world, advanced in fixed steps of dt seconds; no clock but the steps.
+
+drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
+commands give the same bytes with any number of threads. wind: (3,) m/s in W.)");
+  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
+          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
+          py::arg("dt") = 0.001, py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
+      .def(
+          "step",
+          [](Simulation& s, int64_t n) {
+            if (n < 0) throw InputError("step: " + std::to_string(n) + " is negative");
+            const py::gil_scoped_release release;
+            s.loop().Advance(n);
+          },
+          py::arg("n") = 1, "Takes n steps of dt.")
+      .def(
+          "run",
+          [](Simulation& s, double seconds) {
+            const int64_t n = StepsOf(s, seconds);
+            const py::gil_scoped_release release;
+            s.loop().Advance(n);
+          },
+          py::arg("seconds"), "Takes the steps of so many simulated seconds.")
+      .def(
+          "state",
+          [](Simulation& s, const py::object& drone) {
+            return StateView{s.model(), s.loop().Snapshot(), s.Find(drone)};
+          },
+          py::arg("drone") = 0, "DroneState of a drone by number or name.")
+      .def(
+          "capture",
+          [](Simulation& s, const Rig& rig, const py::object& drone) {
+            const size_t i = s.Find(drone);
+            const py::gil_scoped_release release;
+            return s.Take(rig, i);
+          },
+          py::arg("rig") = Rig{}, py::arg("drone") = 0,
+          "What the rig on a drone sees now; its own body is hidden. Changes nothing.")
+      .def(
+          "snapshot",
+          [](Simulation& s) {
+            return Snapshot{s.model(), s.loop().Snapshot()};
+          },
+          "A copy of everything that changes.")
+      .def(
+          "restore",
+          [](Simulation& s, const Snapshot& snapshot) {
+            if (snapshot.model != s.model())
+              throw InputError("restore: the snapshot is of another simulation");
+            const py::gil_scoped_release release;
+            s.loop().Restore(*snapshot.state);
+          },
+          py::arg("snapshot"),
+          "Goes back to a snapshot of this simulation; commands not yet applied are dropped.")
+      .def(
+          "hash", [](Simulation& s) { return HashState(*s.loop().Snapshot()); },
+          "64 bits over every number of the state.")
+      .def("events", &Simulation::Events,
+           "What happened since the last call: dictionaries with event, drone, t_ns, …")
+      .def_property_readonly(
+          "t", [](Simulation& s) { return static_cast<double>(s.loop().t_ns()) * 1e-9; },
+          "Seconds since the start.")
+      .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); })
+      .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; })
+      .def_property_readonly("world", &Simulation::world)
+      .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
+  BindCommands(sim);
+}
+
+}  // namespace airsim360::python

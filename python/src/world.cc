@@ -1,0 +1,177 @@
+// Worlds: what they hold, rays into them, pictures of them.
+#include "airsim360/assets/export.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/sensors/surface_label.h"
+#include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/worlds.h"
+#include "handles.h"
+
+namespace airsim360::python {
+
+World::World(const std::string& name, uint64_t seed, bool models)
+    : name_(name), scene_(LoadWorld({.world = name, .seed = seed, .use_models = models})) {}
+
+std::shared_ptr<const RayTracer> World::TracerLocked() {
+  if (!tracer_) tracer_ = std::make_shared<const RayTracer>(scene_);
+  return tracer_;
+}
+
+std::shared_ptr<const RayTracer> World::tracer() {
+  const std::lock_guard lock(mutex_);
+  return TracerLocked();
+}
+
+std::shared_ptr<Capture> World::Render(const PanoramicRig& rig, const Kinematics& body) {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<Renderer>& renderer = renderers_[rig.tier];
+  if (!renderer) renderer = MakeCpuRenderer(TracerLocked(), {.tier = rig.tier});
+  auto capture = std::make_shared<Capture>();
+  CaptureRig(rig, body, 0, *renderer, *capture);
+  return capture;
+}
+
+namespace {
+
+py::array_t<double> BoundsOf(const Box3f& box) {
+  return FromPoints({VecCast<double>(box.min), VecCast<double>(box.max)});
+}
+
+py::list Entities(const World& world) {
+  py::list list;
+  for (const Entity& entity : world.scene().entities) {
+    const Category& category = world.scene().tree[entity.category];
+    py::dict d;
+    d["id"] = entity.id;
+    d["name"] = entity.name;
+    d["category"] = entity.category;
+    d["category_path"] = category.path;
+    d["kind"] = category.thing ? "thing" : "stuff";
+    d["bounds"] = entity.bounds.empty() ? py::object(py::none()) : BoundsOf(entity.bounds);
+    list.append(std::move(d));
+  }
+  return list;
+}
+
+py::tuple Raycast(World& world, const py::object& origins, const py::object& directions) {
+  const std::vector<Vec3d> from = ToPoints(origins, "origins"), along = ToPoints(directions, "directions");
+  if (from.size() != along.size())
+    throw InputError("raycast: " + std::to_string(from.size()) + " origins and " +
+                     std::to_string(along.size()) + " directions");
+  const auto n = static_cast<py::ssize_t>(from.size());
+  py::array_t<float> range(n);
+  py::array_t<EntityId> entity(n);
+  float* ranges = range.mutable_data();
+  EntityId* entities = entity.mutable_data();
+  {
+    const py::gil_scoped_release release;
+    const auto tracer = world.tracer();
+    const Scene& scene = world.scene();
+    constexpr int64_t kRaysPerTask = 256;
+    ParallelFor((n + kRaysPerTask - 1) / kRaysPerTask, [&](int64_t task) {
+      for (auto i = static_cast<size_t>(task * kRaysPerTask);
+           i < std::min(from.size(), static_cast<size_t>((task + 1) * kRaysPerTask)); ++i) {
+        const double length = Norm(along[i]);
+        const auto hit = length > 0
+                             ? tracer->Intersect(VecCast<float>(from[i]), VecCast<float>(along[i] / length))
+                             : std::nullopt;
+        ranges[i] = hit ? hit->distance : 0;
+        entities[i] = scene.sky_entity;
+        if (hit) entities[i] = LabelOf(*tracer, hit->surface).entity;
+      }
+    });
+  }
+  return py::make_tuple(range, entity);
+}
+
+py::array_t<float> Clearance(World& world, const py::object& points, float most) {
+  const std::vector<Vec3d> places = ToPoints(points, "points");
+  py::array_t<float> distance(static_cast<py::ssize_t>(places.size()));
+  float* out = distance.mutable_data();
+  const py::gil_scoped_release release;
+  const auto tracer = world.tracer();
+  ParallelFor(static_cast<int64_t>(places.size()), [&](int64_t i) {
+    out[i] = tracer->Clearance(VecCast<float>(places[static_cast<size_t>(i)]), most);
+  });
+  return distance;
+}
+
+py::list ListOfWorlds() {
+  py::list list;
+  for (const WorldInfo& info : ListWorlds()) {
+    py::dict d;
+    d["name"] = info.name;
+    d["setting"] = info.setting;
+    d["area_m2"] = info.area_m2;
+    d["categories"] = info.categories;
+    d["description"] = info.description;
+    list.append(std::move(d));
+  }
+  return list;
+}
+
+}  // namespace
+
+void BindWorld(py::module_& m) {
+  m.def("worlds", &ListOfWorlds,
+        "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
+  py::class_<World, std::shared_ptr<World>>(
+      m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm or world .yaml.
+
+ValueError names the nearest world where there is none of that name.)")
+      .def(py::init<const std::string&, uint64_t, bool>(), py::arg("name"), py::arg("seed") = 0,
+           py::arg("models") = true, py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("name", &World::name)
+      .def_property_readonly(
+          "entities", &Entities,
+          "Entities by id (ids begin at 1): dictionaries with id, name, category, category_path, kind, "
+          "bounds ((2, 3) metres in W, or None for the sky).")
+      .def_property_readonly(
+          "categories",
+          [](const World& w) {
+            py::dict d;
+            for (const auto& [id, category] : w.scene().tree.categories()) d[py::int_(id)] = category.path;
+            return d;
+          },
+          "Category id -> path.")
+      .def_property_readonly(
+          "bounds", [](const World& w) { return BoundsOf(w.scene().bounds); },
+          "(2, 3) least and greatest corner in W, metres.")
+      .def_property_readonly(
+          "spawn",
+          [](const World& w) {
+            return FromVec3(VecCast<double>(w.scene().spawn.value_or(w.scene().bounds.center())));
+          },
+          "(3,) a good first viewpoint in W, metres.")
+      .def_property_readonly("triangles",
+                             [](const World& w) { return w.scene().Count().instanced_triangles; })
+      .def("raycast", &Raycast, py::arg("origins"), py::arg("directions"),
+           "Nearest surfaces along rays: origins and directions (N, 3) in W -> range (N,) float32 metres (0 "
+           "= nothing), "
+           "entity (N,) uint32.")
+      .def("clearance", &Clearance, py::arg("points"), py::arg("most") = 100.0f,
+           "Distance (N,) float32 from points (N, 3) of W to the nearest surface, at most `most` metres.")
+      .def(
+          "export",
+          [](const World& w, const std::string& path) { WriteFileAtomically(path, EncodeGlb(w.scene())); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+          "Writes the world as binary glTF (.glb).")
+      .def(
+          "capture",
+          [](World& w, const py::object& position, const Rig& rig, double yaw, double pitch, double roll) {
+            const Kinematics body{BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"),
+                                           Finite(pitch, "pitch"), Finite(roll, "roll")),
+                                  {},
+                                  {}};
+            const py::gil_scoped_release release;
+            return w.Render(rig.rig, body);
+          },
+          py::arg("position"), py::arg("rig") = Rig{}, py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
+          py::arg("roll") = 0.0,
+          "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and "
+          "grows "
+          "counter-clockwise, pitch is positive nose up, roll right side down.");
+}
+
+}  // namespace airsim360::python

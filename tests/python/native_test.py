@@ -1,0 +1,354 @@
+"""The compiled module: arrays, frames, errors, determinism. Standard library and NumPy only."""
+import gc
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import airsim360
+from airsim360 import Drone, Rig, Simulation, World
+
+ROOM = World("box_room")
+SMALL = Rig(width=256)
+
+
+def airborne(position=(0, 0, 2), **options):
+    return Drone("hummingbird", position=position, airborne=True, **options)
+
+
+class Worlds(unittest.TestCase):
+    def test_box_room_is_the_one_of_the_contracts(self):
+        np.testing.assert_allclose(ROOM.bounds, [[-5, -5, 0], [5, 5, 6]], atol=1e-6)
+        self.assertEqual(len(ROOM.entities), 7)
+        self.assertEqual([e["id"] for e in ROOM.entities], list(range(1, 8)))
+        paths = ROOM.categories
+        for entity in ROOM.entities:
+            self.assertEqual(paths[entity["category"]], entity["category_path"])
+
+    def test_rays_and_clearance_agree_with_the_room(self):
+        origins = np.array([[0, 0, 3]] * 3, float)
+        distance, entity = ROOM.raycast(origins, [[0, 0, -1], [0, 2, 0], [0, 0, 1]])
+        np.testing.assert_allclose(distance, [3, 5, 3], atol=1e-5)
+        self.assertEqual(len(set(entity)), 3)
+        np.testing.assert_allclose(ROOM.clearance([[0, 0, 3], [-4, 0, 3]]), [3, 1], atol=1e-5)
+
+    def test_worlds_are_listed_and_exported(self):
+        self.assertIn("box_room", [w["name"] for w in airsim360.worlds()])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "room.glb")
+            ROOM.export(path)
+            self.assertEqual(len(World(path).entities), 7)
+
+    def test_a_misspelt_world_is_a_value_error_that_names_the_nearest(self):
+        with self.assertRaisesRegex(ValueError, "box_room"):
+            World("box_rom")
+
+
+class Captures(unittest.TestCase):
+    def test_shapes_types_and_the_room_itself(self):
+        c = ROOM.capture([0, 0, 3], Rig(width=256, products=["rgb", "range", "semantic", "entity", "normal", "position"]))
+        for name, shape, kind in (("rgb", (128, 256, 3), np.uint8), ("range", (128, 256), np.float32),
+                                  ("semantic", (128, 256), np.uint16), ("entity", (128, 256), np.uint32),
+                                  ("normal", (128, 256, 3), np.float32), ("position", (128, 256, 3), np.float32)):
+            picture = getattr(c, name)
+            self.assertEqual((picture.shape, picture.dtype), (shape, np.dtype(kind)), name)
+        self.assertIsNone(c.flow)
+        # Range times ray is the point, in W, for every pixel: the pose and the frames fit together.
+        x, y = np.meshgrid(np.arange(256) + 0.5, np.arange(128) + 0.5)
+        theta, phi = 2 * np.pi * (x / 256 - 0.5), np.pi * (0.5 - y / 128)
+        ray = np.stack([np.cos(phi) * np.sin(theta), -np.sin(phi), np.cos(phi) * np.cos(theta)], -1)
+        points = (c.range[..., None] * ray) @ c.pose[:3, :3].T + c.pose[:3, 3]
+        np.testing.assert_allclose(points, c.position, atol=1e-4)
+        self.assertLess(np.abs(np.maximum(np.abs(points[..., 0]), np.abs(points[..., 1]))).max(), 5 + 1e-3)
+        # Normals look towards the camera.
+        self.assertLess((c.normal * (points - c.pose[:3, 3])).sum(-1).max(), 0)
+
+    def test_pictures_are_views_that_keep_their_memory(self):
+        c = ROOM.capture([0, 0, 3], SMALL)
+        self.assertFalse(c.rgb.flags.owndata)
+        self.assertEqual(c.rgb.__array_interface__["data"], c.rgb.__array_interface__["data"])
+        rgb, before = c.rgb, c.rgb.copy()
+        del c
+        gc.collect()
+        for _ in range(4):
+            ROOM.capture([1, 1, 3], SMALL)  # would take the memory if it were free
+        np.testing.assert_array_equal(rgb, before)
+
+    def test_pose_is_camera_to_world_and_the_quaternion_is_the_same_rotation(self):
+        c = ROOM.capture([1, 2, 3], SMALL, yaw=0.3, pitch=0.1, roll=-0.2)
+        w, x, y, z = c.q_wxyz
+        rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+        np.testing.assert_allclose(c.pose[:3, :3], rotation, atol=1e-12)
+        np.testing.assert_allclose(c.p, [1, 2, 3])
+        # The middle of the panorama is the body's forward axis.
+        np.testing.assert_allclose(c.pose[:3, 2], c.body_pose[:3, 0], atol=1e-12)
+
+    def test_turning_by_columns_rolls_every_product(self):
+        a = ROOM.capture([0, 1, 2], SMALL, yaw=0.0)
+        b = ROOM.capture([0, 1, 2], SMALL, yaw=2 * math.pi * 5 / 256)
+        for name in ("rgb", "range", "entity", "semantic"):
+            np.testing.assert_array_equal(np.roll(getattr(a, name), 5, axis=1), getattr(b, name))
+
+    def test_flow_follows_the_motion(self):
+        sim = Simulation(ROOM, airborne())
+        sim.fly_velocity([1, 0, 0])
+        sim.run(2)
+        c = sim.capture(Rig(width=256, tier="labels", products=["range", "flow"], flow_dt=0.1))
+        self.assertEqual(c.flow.shape, (64 * 2, 256, 2))
+        # Flying east, what lies north and south moves towards the back: to the left on the left side.
+        middle = c.flow[64]
+        self.assertLess(middle[64, 0], -0.2)
+        self.assertGreater(middle[192, 0], 0.2)
+
+    def test_wrong_rigs_are_value_errors(self):
+        for options in ({"width": 255}, {"tier": "fsat"}, {"products": ["rgbb"]}, {"projection": "cube"},
+                        {"position": [0, 0]}, {"yaw": math.nan}, {"flow_dt": 0}):
+            with self.subTest(options), self.assertRaises(ValueError):
+                Rig(**options)
+
+
+class Flights(unittest.TestCase):
+    def test_takeoff_velocity_position_and_landing(self):
+        sim = Simulation(ROOM, 1)
+        sim.takeoff(height=1.5)
+        ground = sim.state().position[2]
+        sim.run(4)
+        self.assertAlmostEqual(sim.state().position[2], ground + 1.5, delta=0.1)
+        sim.fly_to([2, -1, 2])
+        sim.run(6)
+        np.testing.assert_allclose(sim.state().position, [2, -1, 2], atol=0.1)
+        sim.fly_velocity([-1, 0, 0], yaw_rate=0.5)
+        sim.run(2)
+        np.testing.assert_allclose(sim.state().velocity, [-1, 0, 0], atol=0.15)
+        self.assertAlmostEqual(sim.state().angular_velocity[2], 0.5, delta=0.05)
+        sim.land()
+        sim.run(8)
+        self.assertAlmostEqual(sim.state().position[2], ground, delta=0.02)
+        self.assertIn("command done", [e["event"] for e in sim.events()])
+
+    def test_hover_speed_carries_the_weight(self):
+        drone = airborne()
+        sim = Simulation(ROOM, drone)
+        sim.set_rotor_speeds([drone.hover_speed] * 4)
+        sim.run(1)
+        self.assertLess(np.abs(sim.state().velocity).max(), 0.05)
+        sim.set_rotor_signals([0, 0, 0, 0])
+        sim.run(0.3)
+        self.assertLess(sim.state().velocity[2], -1.5)
+
+    def test_attitude_and_rates(self):
+        sim = Simulation(ROOM, airborne())
+        sim.set_attitude(0.1, 0.0, altitude=2.0)
+        sim.run(0.8)
+        self.assertAlmostEqual(sim.state().euler[0], 0.1, delta=0.02)
+        self.assertLess(sim.state().velocity[1], -0.3, "right side down flies to the right, which is -y here")
+        sim.set_rates([0, 0, 1.0], altitude=2.0)
+        sim.run(0.8)
+        self.assertAlmostEqual(sim.state().angular_velocity[2], 1.0, delta=0.1)
+
+    def test_same_seed_same_bytes_with_any_number_of_threads(self):
+        def run(threads):
+            with airsim360.Threads(threads):
+                sim = Simulation(ROOM, [airborne([x, 0, 2], name=f"d{x}") for x in (-2, 2)], seed=5, wind=[1, 0, 0])
+                sim.fly_velocity([0.5, 0.5, 0], drone="d2")
+                sim.step(800)
+                c = sim.capture(SMALL, drone="d-2")
+                return sim.hash(), bytes(c.rgb.data), bytes(c.entity.data)
+        self.assertEqual(run(1), run(2))
+
+    def test_a_snapshot_is_restored_exactly(self):
+        sim = Simulation(ROOM, airborne())
+        sim.fly_velocity([0.7, 0.2, 0.1])
+        sim.run(0.5)
+        snapshot = sim.snapshot()
+        sim.run(0.5)
+        after = sim.hash()
+        sim.restore(snapshot)
+        self.assertEqual(sim.hash(), snapshot.hash)
+        self.assertEqual(sim.t, snapshot.t)
+        sim.run(0.5)
+        self.assertEqual(sim.hash(), after)
+        with self.assertRaises(ValueError):
+            Simulation(ROOM, airborne()).restore(snapshot)
+
+    def test_drones_see_each_other_but_not_themselves(self):
+        sim = Simulation(ROOM, [airborne([-1, 0, 2], name="a"), airborne([1, 0, 2], name="b")])
+        rig = Rig(width=512, tier="labels")
+        seen = sim.capture(rig, "a").entity
+        others = set(np.unique(seen)) - set(range(1, 8))
+        self.assertEqual(len(others), 1)
+        self.assertNotEqual(others, set(np.unique(sim.capture(rig, "b").entity)) - set(range(1, 8)))
+        self.assertEqual(set(np.unique(Simulation(ROOM, airborne()).capture(rig).entity)) - set(range(1, 8)), set())
+
+    def test_a_recording_repeats_the_flight(self):
+        sim = Simulation(ROOM, airborne())
+        start = sim.snapshot()
+        sim.start_recording("test")
+        sim.fly_velocity([1, 0, 0])
+        sim.run(0.5)
+        recording = sim.stop_recording()
+        with tempfile.TemporaryDirectory() as folder:
+            recording.write(os.path.join(folder, "run.a360"))
+            read = airsim360.Recording.read(os.path.join(folder, "run.a360"))
+        result = sim.replay(read, start)
+        self.assertEqual((result["same"], result["hash"], result["steps"]), (True, sim.hash(), 500))
+
+    def test_collisions_are_told(self):
+        sim = Simulation(ROOM, airborne([3, 3, 3]))
+        sim.fly_velocity([3, 0, 0])
+        sim.run(2)
+        collision = sim.state().collision
+        np.testing.assert_allclose(collision["normal"], [-1, 0, 0], atol=1e-6)
+        self.assertAlmostEqual(collision["point"][0], 5, delta=1e-3)
+        self.assertEqual(ROOM.entities[collision["entity"] - 1]["id"], collision["entity"])
+
+    def test_bad_commands_are_value_errors_and_change_nothing(self):
+        sim = Simulation(ROOM, airborne())
+        before = sim.hash()
+        for wrong in (lambda: sim.fly_velocity([math.nan, 0, 0]), lambda: sim.fly_to([0, 0]), lambda: sim.hover(drone=1),
+                      lambda: sim.set_rotor_speeds([1, 2]), lambda: sim.set_attitude(0, 0), lambda: sim.step(-1),
+                      lambda: sim.hover(yaw=1.0, yaw_rate=1.0), lambda: sim.state("drone9"),
+                      lambda: Simulation(ROOM, 1, people=3), lambda: Simulation(ROOM, 1, dt=0),
+                      lambda: Simulation(ROOM, ["hummingbrid"])):
+            with self.assertRaises(ValueError):
+                wrong()
+        self.assertEqual(sim.hash(), before)
+
+    def test_other_threads_run_while_it_steps(self):
+        sim = Simulation(ROOM, airborne())
+        turns = 0
+        worker = threading.Thread(target=lambda: sim.step(20000))
+        worker.start()
+        while worker.is_alive():
+            turns += 1
+            sim.t_ns
+        self.assertGreater(turns, 10)
+
+    def test_sensors_read(self):
+        sim = Simulation(ROOM, airborne())
+        sim.run(0.5)
+        sensors = sim.state().sensors
+        np.testing.assert_allclose(sensors["imu"]["specific_force"], [0, 0, 9.81], atol=0.5)
+        self.assertGreater(sensors["barometer"]["pressure"], 9e4)
+
+
+class Drones(unittest.TestCase):
+    def test_words_name_and_file_give_drones(self):
+        words = Drone.from_words("a 250 g five-inch racing quad with a 4S battery")
+        self.assertAlmostEqual(words.mass, 0.25)
+        self.assertEqual(len(words.rotors), 4)
+        self.assertTrue(words.laws)
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+            file.write(words.yaml)
+            file.flush()
+            self.assertEqual(Drone(file.name).yaml.split("prompt")[0], words.yaml.split("prompt")[0])
+        self.assertIn("hummingbird", airsim360.drone_catalog())
+        with self.assertRaisesRegex(ValueError, "hummingbird"):
+            Drone("humingbird")
+        with self.assertRaises(ValueError):
+            Drone.from_words("a drone with eleven rotors and a piano")
+
+
+class Planning(unittest.TestCase):
+    def test_one_segment_from_rest_to_rest_is_the_known_septic(self):
+        plan = airsim360.plan_minimum_snap([[0, 0, 0], [1, -2, 0]], times=[0, 2])
+        self.assertEqual(plan.coefficients.shape, (1, 3, 8))
+        s = np.array([0, 0, 0, 0, 35, -84, 70, -20]) / 2.0 ** np.arange(8)
+        np.testing.assert_allclose(plan.coefficients[0, 0], s, atol=1e-12)
+        np.testing.assert_allclose(plan.coefficients[0, 1], -2 * s, atol=1e-12)
+        self.assertAlmostEqual(plan.cost_snap, 100800 * 5 / 2 ** 7, places=6)
+        np.testing.assert_allclose(plan.times, [0, 2])
+
+    def test_limits_hold_and_samples_are_the_polynomials(self):
+        points = np.array([[-3, -3, 2], [3, -3, 3], [3, 3, 2], [-3, 3, 3]], float)
+        plan = airsim360.plan_minimum_snap(points, vmax=3, amax=4, world=ROOM, clearance=0.4)
+        self.assertLessEqual(plan.max_speed, 3 * (1 + 1e-9))
+        self.assertLessEqual(plan.max_acceleration, 4 * (1 + 1e-9))
+        np.testing.assert_allclose(plan.at(plan.times)["p"], points, atol=1e-9)
+        samples = plan.sample(0.01)
+        t, v = samples["t"], samples["v"]
+        np.testing.assert_allclose(np.gradient(samples["p"], t, axis=0)[5:-5], v[5:-5], atol=2e-3)
+        self.assertTrue(plan.certificate["certified"])
+
+    def test_avoid_goes_around_the_cube(self):
+        ends = [[1.5, 0, 0.5], [4.5, 0, 0.5]]
+        through = airsim360.plan_minimum_snap(ends, world=ROOM, clearance=0.3)
+        self.assertFalse(through.certificate["certified"])
+        around = airsim360.plan_minimum_snap(ends, world=ROOM, clearance=0.3, avoid=True)
+        self.assertTrue(around.certificate["certified"])
+        self.assertGreaterEqual(ROOM.clearance(around.sample(0.02)["p"]).min(), 0.3 - 1e-3)
+
+    def test_a_drone_flies_it(self):
+        plan = airsim360.plan_minimum_snap([[-3, -3, 2], [0, 3, 3], [3, -2, 2]], vmax=3, amax=3)
+        sim = Simulation(ROOM, airborne([-3, -3, 2]))
+        sim.fly_trajectory(plan, yaw=0.0)
+        errors = []
+        while sim.t < plan.duration:
+            sim.step(50)
+            errors.append(np.linalg.norm(sim.state().position - plan.at([sim.t])["p"][0]))
+        self.assertLess(max(errors), 0.15)
+
+    def test_bad_problems_are_value_errors(self):
+        for arguments in (dict(waypoints=[[0, 0, 0]]), dict(waypoints=[[0, 0, 0], [1, 0, math.inf]]),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], times=[0, 0]), dict(waypoints=[[0, 0], [1, 0]]),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], order=6), dict(waypoints=[[0, 0, 0], [1, 0, 0]], vmax=-1),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], avoid=True)):
+            with self.subTest(arguments), self.assertRaises(ValueError):
+                airsim360.plan_minimum_snap(**arguments)
+
+
+class Metrics(unittest.TestCase):
+    def test_psnr_is_its_formula(self):
+        random = np.random.default_rng(1)
+        a, b = (random.integers(0, 256, (32, 64, 3), np.uint8) for _ in range(2))
+        error = ((a.astype(float) - b) ** 2).mean()
+        self.assertAlmostEqual(airsim360.metrics.psnr(a, b), 10 * math.log10(255 ** 2 / error), places=9)
+        weights = np.cos(np.pi * ((np.arange(32) + 0.5) / 32 - 0.5))
+        weighted = (((a.astype(float) - b) ** 2).mean((1, 2)) * weights).sum() / weights.sum()
+        self.assertAlmostEqual(airsim360.metrics.ws_psnr(a, b), 10 * math.log10(255 ** 2 / weighted), places=6)
+        self.assertEqual(airsim360.metrics.psnr(a, a), math.inf)
+        self.assertAlmostEqual(airsim360.metrics.ssim(a, a), 1)
+        self.assertEqual(airsim360.metrics.flip(a, a).max(), 0)
+        # A part of a picture is a strided array.
+        self.assertAlmostEqual(airsim360.metrics.psnr(a[:, ::2], a[:, ::2]), math.inf)
+
+    def test_wrong_pictures_are_value_errors(self):
+        a = np.zeros((16, 32, 3), np.uint8)
+        for other in (np.zeros((16, 30, 3), np.uint8), np.zeros((16, 32), np.uint8), np.zeros((16, 32, 3))):
+            with self.assertRaises(ValueError):
+                airsim360.metrics.psnr(a, other)
+
+
+class Package(unittest.TestCase):
+    def test_every_public_name_is_there_and_typed(self):
+        folder = os.path.dirname(airsim360.__file__)
+        with open(os.path.join(folder, "_native.pyi")) as file:
+            hints = file.read()
+        for name in dir(airsim360._native):
+            if name.startswith("_"):
+                continue
+            self.assertTrue(hasattr(airsim360, name), name)
+            self.assertRegex(hints, rf"(class|def) {name}\b|^{name}:")
+            if isinstance(getattr(airsim360._native, name), type):
+                for member in vars(getattr(airsim360._native, name)):
+                    if not member.startswith("_"):
+                        self.assertRegex(hints, rf"(def {member}\b|\b{member}:)", f"{name}.{member}")
+
+    def test_the_airsim_client_needs_no_compiled_module(self):
+        code = ("import sys; sys.modules['airsim360._native'] = None\n"
+                "import airsim360.airsim as airsim; airsim.MultirotorClient\n"
+                "import airsim360\n"
+                "try: airsim360.World\nexcept ImportError: print('told')")
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(done.stdout.strip(), "told", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
