@@ -1,0 +1,145 @@
+#include "airsim360/render/vulkan/gpu_cameras.h"
+
+#include <cmath>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr size_t kMostTables = 64;
+
+int Padded(int n) { return (n + kTileSize - 1) / kTileSize * kTileSize; }
+
+bool IsFinite(const RigidTransform& X) {
+  double sum = X.p.x + X.p.y + X.p.z;
+  for (int i = 0; i < 9; ++i) sum += X.R.m[i / 3][i % 3];
+  return std::isfinite(sum);
+}
+
+// All that makes a camera, in one list.
+std::vector<double> KeyOf(const Camera& camera) {
+  std::vector<double> key{static_cast<double>(camera.index()), static_cast<double>(Width(camera)),
+                          static_cast<double>(Height(camera))};
+  if (const auto* c = std::get_if<CubeFace>(&camera)) key.push_back(static_cast<double>(c->face));
+  if (const auto* c = std::get_if<Pinhole>(&camera)) key.insert(key.end(), {c->fx, c->fy, c->cx, c->cy});
+  if (const auto* c = std::get_if<Fisheye>(&camera)) {
+    key.insert(key.end(), {c->fx, c->fy, c->cx, c->cy, c->max_theta});
+    key.insert(key.end(), c->k.begin(), c->k.end());
+  }
+  return key;
+}
+
+void PutMatrix(const Mat3d& R, float* out) {
+  for (int i = 0; i < 9; ++i) out[i] = static_cast<float>(R.m[i / 3][i % 3]);
+}
+
+void PutVector(Vec3d v, float* out) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+// Planes of `count` numbers in double precision to single, one after another.
+void PutPlanes(std::initializer_list<const double*> planes, int count, std::byte* to) {
+  auto* out = reinterpret_cast<float*>(to);
+  for (const double* plane : planes) {
+    for (int i = 0; i < count; ++i) *out++ = static_cast<float>(plane[i]);
+  }
+}
+
+void PutProjection(const Camera& camera, GpuCamera& out) {
+  const auto pinhole = [&](double fx, double fy, double cx, double cy) {
+    out.focal[0] = static_cast<float>(fx), out.focal[1] = static_cast<float>(fy);
+    out.center[0] = static_cast<float>(cx), out.center[1] = static_cast<float>(cy);
+  };
+  out.projection = kProjectEquirectangular;
+  if (const auto* c = std::get_if<CubeFace>(&camera)) {
+    out.projection = kProjectPinhole;
+    pinhole(c->size / 2.0, c->size / 2.0, c->size / 2.0, c->size / 2.0);
+  } else if (const auto* p = std::get_if<Pinhole>(&camera)) {
+    out.projection = kProjectPinhole;
+    pinhole(p->fx, p->fy, p->cx, p->cy);
+  } else if (const auto* f = std::get_if<Fisheye>(&camera)) {
+    out.projection = kProjectFisheye;
+    pinhole(f->fx, f->fy, f->cx, f->cy);
+    for (size_t i = 0; i < 4; ++i) out.distortion[i] = static_cast<float>(f->k[i]);
+    out.max_theta = static_cast<float>(f->max_theta);
+  }
+}
+
+}  // namespace
+
+std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
+  std::byte* to = mapped + next;
+  where = address + next;
+  next += (bytes + 63) / 64 * 64;
+  if (next > size) throw RuntimeError("GPU: a frame's parameters do not fit");
+  return to;
+}
+
+size_t GpuCameras::Size(const Camera& camera) {
+  if (!std::holds_alternative<Equirectangular>(camera)) return 0;
+  return sizeof(float) * static_cast<size_t>(3 * Padded(Width(camera)) + 4 * Padded(Height(camera))) + 128;
+}
+
+void GpuCameras::Trim() {
+  if (tables_.size() > kMostTables) tables_.clear();
+}
+
+VkDeviceAddress GpuCameras::Table(const Camera& camera, const RayField& field) {
+  GpuBuffer& buffer = tables_[KeyOf(camera)];
+  if (buffer.size() > 0) return buffer.address();
+  buffer = GpuBuffer(device_, 12 * static_cast<size_t>(field.width) * field.height + 16, MemoryKind::kUpload);
+  auto* out = reinterpret_cast<float*>(buffer.mapped());
+  for (int y = 0; y < field.height; ++y) {
+    for (int x = 0; x < field.width; ++x) {
+      const int64_t i = static_cast<int64_t>(y) * field.stride + x;
+      const bool sees = field.has_ray[i] != 0;
+      *out++ = sees ? field.ray_x[i] : 0.0f;
+      *out++ = sees ? field.ray_y[i] : 0.0f;
+      *out++ = sees ? field.ray_z[i] : 0.0f;
+    }
+  }
+  return buffer.address();
+}
+
+void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCamera& out) {
+  if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
+  rays_.Update(request.camera, request.X_WC.R);
+  const RayField& field = rays_.field();
+  out.width = static_cast<uint32_t>(field.width), out.height = static_cast<uint32_t>(field.height);
+  out.separable = field.separable ? 1 : 0;
+  out.column_shift = rays_.column_shift();
+  out.cone_angle = static_cast<float>(rays_.cone_angle());
+  PutVector(request.X_WC.p, out.origin);
+  for (int i = 0; i < 9; ++i) out.R[i] = static_cast<float>(field.R[i]);
+  PutProjection(request.camera, out);
+  if (field.separable) {
+    const int columns = Padded(field.width), rows = Padded(field.height);
+    out.stride = static_cast<uint32_t>(columns), out.stride_rows = static_cast<uint32_t>(rows);
+    PutPlanes({field.column_x, field.column_y, field.column_z}, columns,
+              upload.Take(12 * static_cast<size_t>(columns), out.columns));
+    PutPlanes({field.row_scale, field.row_x, field.row_y, field.row_z}, rows,
+              upload.Take(16 * static_cast<size_t>(rows), out.rows));
+  } else {
+    out.rays = Table(request.camera, field);
+  }
+  if (request.products.flow) FillNext(request, out);
+}
+
+void GpuCameras::FillNext(const RenderRequest& request, GpuCamera& out) {
+  if (!request.X_WC_next) throw InputError("flow needs the pose of the next frame (X_WC_next)");
+  if (!IsFinite(*request.X_WC_next)) throw InputError("next camera pose is not finite");
+  next_rays_.Update(request.camera, request.X_WC_next->R);
+  const int width = rays_.field().width;
+  out.column_turn = ((rays_.column_shift() - next_rays_.column_shift()) % width + width) % width;
+  // Rays start from positions in single precision.
+  const Vec3d eye = VecCast<double>(VecCast<float>(request.X_WC_next->p));
+  PutVector(eye, out.next_origin);
+  PutVector(VecCast<double>(VecCast<float>(request.X_WC.p)) - eye, out.eye_offset);
+  Mat3d R;
+  for (int i = 0; i < 9; ++i) R.m[i / 3][i % 3] = next_rays_.field().R[i];
+  if (const auto* face = std::get_if<CubeFace>(&request.camera)) R = R * CubeFaceRotation(face->face);
+  PutMatrix(R, out.next_R);
+}
+
+}  // namespace airsim360::internal
