@@ -30,7 +30,7 @@ std::string LowerExtension(const fs::path& path) {
 
 bool IsModelFile(const fs::path& path) {
   const std::string extension = LowerExtension(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".json" || extension == ".jsonl";
 }
 
 bool IsPath(const fs::path& path) { return IsModelFile(path) || IsOsmFile(path); }
@@ -79,15 +79,16 @@ CacheKey KeyOf(const WorldRequest& request) {
   return key;
 }
 
-std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request) {
+std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* report = nullptr) {
   const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
   if (!IsOsmFile(request.world)) return BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
   std::optional<HeightGrid> heights;
   if (!request.heights.empty()) heights = ReadHeights(request.heights);
-  return BuildOsmWorld(fs::path(request.world), {.seed = request.seed,
-                                                 .models = models.get(),
-                                                 .heights = heights ? &*heights : nullptr,
-                                                 .fill = request.fill});
+  const OsmOptions options{.seed = request.seed,
+                           .models = models.get(),
+                           .heights = heights ? &*heights : nullptr,
+                           .fill = request.fill};
+  return BuildOsmWorld(fs::path(request.world), options, report);
 }
 
 // Built, or as built by an earlier run.
@@ -107,6 +108,10 @@ std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
 
 }  // namespace
 
+std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
+  return Relabelled(BuildAnew(request, report), request.labels);
+}
+
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   const fs::path path = request.world;
   if (IsWorldFile(path)) {
@@ -120,7 +125,7 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
-  return LoadBuilt(request);
+  return Relabelled(LoadBuilt(request), request.labels);
 }
 
 }  // namespace airsim360

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "airsim360/scene/scene.h"
+#include "airsim360/worlds/osm_world.h"
 
 namespace airsim360 {
 
@@ -21,5 +22,8 @@ struct WorldRequest {
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request);
+
+/// A map (.osm, .osm.pbf, …), built anew, with what became of it.
+std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report);
 
 }  // namespace airsim360
