@@ -21,6 +21,8 @@ OWNERS = {  # third-party header prefix -> modules whose .cc files may include i
     "png.h": {"image"},
     "jpeglib.h": {"image"},
     "webp/": {"image"},
+    "osmium/": {"worlds"},
+    "boost/": {"worlds"},
     "OpenEXR/": {"image"},
     "Imf": {"image"},
     "sqlite3.h": {"dataset"},

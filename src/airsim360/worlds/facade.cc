@@ -21,7 +21,7 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
                       EntityId entity, EdgeKind kind, RngStream& rng) {
   const float height = MetricsOf(plan.style).ground_height, length = pen.length();
   pen.UseEntity(entity);
-  if (kind == EdgeKind::kStreet && length > 2.6f) {
+  if (kind == EdgeKind::kStreet && plan.shops && length > 2.6f) {
     const internal::GroundFloor floor{plan, entity, height, dress.wall, dress.trim, dress.frame};
     const bool office = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
                         plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone;
@@ -64,7 +64,7 @@ void BuildBands(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, Ed
   if (kind != EdgeKind::kStreet) return;
   pen.Use(dress.trim);
   pen.Bar(-0.14f, L + 0.14f, ground - 0.10f, ground + 0.14f, -0.14f, 0);
-  const float s = dress.cornice;
+  const float s = dress.cornice * plan.cornice;
   if (s <= 0) return;
   pen.Bar(-0.16f * s, L + 0.16f * s, top - 0.62f * s, top - 0.34f * s, -0.16f * s, 0);
   pen.Bar(-0.40f * s, L + 0.40f * s, top - 0.34f * s, top - 0.12f * s, -0.40f * s, 0);
@@ -136,6 +136,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
 void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId entity,
                   const std::vector<FacadeDetail>& detail) {
   FacadePen pen(context.mesh, context.surfaces);
+  pen.SetHeights(context.base, context.stretch);
   const Dress dress = DressOf(plan);
   context.building = entity;
   for (size_t e = 0; e < plan.edges.size(); ++e) {

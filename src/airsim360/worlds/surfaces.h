@@ -92,6 +92,12 @@ enum class Surface {
 class Surfaces {
  public:
   MaterialId operator[](Surface surface) const { return materials_[static_cast<size_t>(surface)]; }
+  /// The same but for one surface.
+  Surfaces With(Surface surface, MaterialId material) const {
+    Surfaces changed = *this;
+    changed.materials_[static_cast<size_t>(surface)] = material;
+    return changed;
+  }
 
  private:
   friend Surfaces AddSurfaces(SceneBuilder& builder);
