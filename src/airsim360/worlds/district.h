@@ -41,6 +41,12 @@ void BuildPlaza(District& district, const Block& block);
 void BuildPark(District& district, const Block& block);
 /// Ground and planting inside a built block.
 void BuildYard(District& district, const Block& block);
+/// Signals and a row of bollards on the kerb return at the far end of a side.
+void FurnishCorner(District& district, const Block& block, const BlockSide& side, std::string_view bollard);
+/// A cover on the crown of every core crossing.
+void LayCrossingCovers(District& district);
+/// The street along a side of a block is one of the core's, perhaps on its way out.
+bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side);
 /// Lamps, trees, meters, bins … along the pavements, by rule.
 void FurnishPavements(District& district);
 /// Cars at the kerb and in the lanes, buses, manholes.

@@ -1,49 +1,11 @@
 // downtown_west: a downtown of European and American make around a plaza and a park, people-free.
 #include <algorithm>
 
+#include "airsim360/worlds/buildings.h"
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/district.h"
-#include "airsim360/worlds/facade.h"
-#include "airsim360/worlds/roofs.h"
 
 namespace airsim360::internal {
-namespace {
-
-// Full dress where a wall can be seen from close by, less beyond.
-std::vector<FacadeDetail> DetailOf(const StreetPlan& plan, const BuildingPlan& building) {
-  const GroundRect reach = plan.reach().Inset(-0.5f);
-  std::vector<FacadeDetail> detail;
-  for (size_t i = 0; i < building.outline.size(); ++i) {
-    const Vec2f middle = (building.outline[i] + building.outline[(i + 1) % building.outline.size()]) * 0.5f;
-    detail.push_back(reach.Contains(middle)              ? FacadeDetail::kFull
-                     : reach.Inset(-40).Contains(middle) ? FacadeDetail::kSimple
-                                                         : FacadeDetail::kFlat);
-  }
-  return detail;
-}
-
-// Buildings block by block, one merged mesh each.
-void BuildBuildings(District& d, PropShelf& shelf, const std::vector<BuildingPlan>& buildings) {
-  MeshBuilder mesh;
-  FacadeContext context{d.builder, d.surfaces, mesh, AddBalconyMesh(d.builder, d.surfaces),
-                        AddWindowBoxMesh(d.builder, d.surfaces)};
-  for (size_t i = 0; i < buildings.size(); ++i) {
-    const BuildingPlan& building = buildings[i];
-    const EntityId walls = d.builder.AddEntity("building", d.builder.tree().At("construction/building"));
-    const EntityId roof = d.builder.AddEntity("roof", d.builder.tree().At("construction/building/roof"));
-    BuildFacades(context, building, walls, DetailOf(d.plan, building));
-    BuildRoof(d.builder, mesh, d.surfaces, &shelf, building, walls, roof);
-    const bool last = i + 1 == buildings.size() || buildings[i + 1].block != building.block;
-    if (!last) continue;
-    d.builder.AddInstance(
-        {d.builder.AddMesh(mesh.Finish("buildings of block " + std::to_string(building.block))),
-         {},
-         kNoEntity});
-  }
-}
-
-}  // namespace
-
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) {
   return BuildDowntownWest(options, nullptr);
 }
@@ -71,7 +33,7 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
     if (block.kind == BlockKind::kPark) BuildPark(district, block);
     if (!open) BuildYard(district, block);
   }
-  BuildBuildings(district, shelf, PlanBuildings(plan, options.seed));
+  BuildBuildings(district, PlanBuildings(plan, options.seed));
   FurnishPavements(district);
   FurnishStreets(district, streets);
   ground.Finish("ground");

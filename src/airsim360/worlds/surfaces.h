@@ -83,6 +83,14 @@ enum class Surface {
   kMountain,
   kMountainFar,
   kPlain,
+  kBusLane,
+  kDirt,
+  kBrownstone,
+  kBrownstoneTrim,
+  kBronze,
+  kGlassBlack,
+  kGlassRedCurtain,
+  kIronBlack,
   kCarriageway,  ///< its u runs across the street, 0 in the middle, so that the shader finds the wheel tracks
   kCarriagewayOld,
   kCount
