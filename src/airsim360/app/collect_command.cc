@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/collect_human.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
@@ -27,7 +28,7 @@ constexpr double kTouching = 0.05;     // metres: a route closer to a surface is
 
 struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out, products, plan;
+  std::string pano_frame = "body", shard = "0/1", out, products, plan, recipe, subset;
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
@@ -138,7 +139,27 @@ Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, Datase
   return plan;
 }
 
+// A dataset for each subset of a table.
+void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
+  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.people.people.empty())
+    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan and --people");
+  CollectArguments with_people = arguments;
+  with_people.people.people = "1";
+  CollectHumanSets({.recipe = arguments.recipe,
+                    .world = arguments.world,
+                    .out = arguments.out,
+                    .subset = arguments.subset,
+                    .frames = arguments.frames,
+                    .spec = MakeSpec(with_people, globals.seed),
+                    .environment = arguments.environment,
+                    .people = arguments.people},
+                   globals);
+}
+
 void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals) {
+  if (!arguments.recipe.empty()) return RunRecipe(arguments, globals);
+  if (arguments.world.empty()) throw InputError("--world is required");
+  if (!arguments.subset.empty()) throw InputError("--subset: it is about --recipe; add --recipe omni360-human");
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
   if (arguments.route != "auto") ReadRouteFile(arguments.route);
@@ -171,10 +192,11 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand(
       "collect", "collect a labelled dataset along a route; run again to finish an interrupted one");
   auto arguments = std::make_shared<CollectArguments>();
-  command
-      ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
-      ->required();
+  command->add_option("--world", arguments->world,
+                      "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml; with --recipe only its subsets");
+  command->add_option("--recipe", arguments->recipe,
+                      "omni360-human, or a file like data/omni360_human.yaml: a dataset for each subset of its table");
+  command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_west/03");
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
                       "auto (a survey through free space), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "

@@ -43,7 +43,7 @@ PopulatedScene Populate(std::shared_ptr<const Scene> scene, const PeopleRequest&
   people->seed = request.seed;
   people->epoch_ns = std::llround(request.warm_up * 1e9) / kCrowdTickNs * kCrowdTickNs;
   people->crowd = BuildCrowd(
-      *scene, NavMesh::Build(*scene),
+      *scene, request.navmesh ? request.navmesh : NavMesh::Build(*scene),
       {.file = request.file, .count = request.count, .reserve = request.reserve, .seed = request.seed});
 
   const std::vector<PersonTraits>& traits = people->crowd->people;
