@@ -29,13 +29,14 @@ class Ground {
 struct FootMotion {
   enum class Mode : uint32_t { kPlanted, kSwing, kStep };  // swing: by the gait's phase; step: by time
   Mode mode = Mode::kPlanted;
-  float u = 0;        ///< of a step: 0 at lift-off, 1 at landing
-  Vec3d p_W;          ///< planted: ball of the foot on the ground; else where it left the ground
-  Vec3d p_W_to;       ///< of a step: where it lands
+  double u = 0;            ///< of a step: 0 at lift-off, 1 at landing
+  Vec3d p_W;               ///< planted: ball of the foot on the ground; else where it left the ground
+  Vec3d p_W_to;            ///< where it is going to land
   double yaw = 0, yaw_to = 0;
-  Vec3d offset;       ///< swing: planted place less the gait's own at lift-off, axes of the person
-  float pitch = 0;    ///< at lift-off, radians, toe down positive
-  float slope_x = 0, slope_y = 0;  ///< tangent of the ground's rise along W's x and y
+  Vec3d offset;            ///< swing: ankle less the gait's own at lift-off, axes of P
+  double pitch = 0;        ///< at lift-off, radians, toe down positive
+  double phase = 0;        ///< of its stride at lift-off
+  Vec3d normal{0, 0, 1};   ///< of the ground it stands on
 };
 
 inline constexpr int kBlendedJoints = 14;  ///< pelvis, spine, neck, head, clavicles, arms
@@ -51,6 +52,8 @@ struct MotionState {
   double run = 0;           ///< 0 walks, 1 runs
   double yaw_rate = 0;      ///< smoothed, rad/s
   double last_yaw = 0;
+  Vec3d last_p_WP, gaze;    ///< of the step before
+  uint32_t speaking = 0, has_gaze = 0;
   Behaviour lower = Behaviour::kIdle, upper = Behaviour::kIdle;
   int64_t lower_since_ns = 0, upper_since_ns = 0;
   std::array<FootMotion, 2> feet;  ///< left, right
@@ -59,8 +62,7 @@ struct MotionState {
   int64_t blend_since_ns = 0;
   float blend_rate = 0;  ///< 1/s; 0 = no transition under way
   std::array<Vec3f, kBlendedJoints> turn, turn_rate;  ///< rotation vectors
-  Vec3f shift, shift_rate;                            ///< of the pelvis, metres
-  float curl[2] = {0, 0};                             ///< of the fingers
+  Vec3f shift, shift_rate;                            ///< of the pelvis in P, metres
 };
 
 /// A person who has just come into the world and stands at state.p_WP.
@@ -79,7 +81,7 @@ SkeletonPose PoseOf(const Body& body, const MotionState& motion, const PersonSta
 void HashMotion(const MotionState& motion, StateHasher& hasher);
 
 /// Step length of a walk at `speed` for a leg of `leg` metres: L = sqrt(W v), W = 0.0064 m per step/min,
-/// scaled by equal Froude numbers (Bohannon; PMC5430280).
+/// scaled by equal Froude numbers (PMC5430280).
 double WalkStepLength(double speed, double leg);
 /// Likewise of a run: cadence 2.5 to 2.9 steps/s.
 double RunStepLength(double speed, double leg);
