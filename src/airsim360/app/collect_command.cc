@@ -48,7 +48,7 @@ size_t ParseChoice(const char* flag, const std::string& value, const std::vector
 // People, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
 void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
   const std::vector<std::string> formats = ParseList(
-      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops"});
+      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
   spec.people = arguments.people.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
   for (const std::string format : kPeopleFormats) {
@@ -56,10 +56,11 @@ void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
     if (wanted(format) || coco) spec.people_formats.push_back(format);
   }
   spec.crops = wanted("crops");
-  if (spec.people.empty() && (spec.crops || !spec.people_formats.empty()))
+  spec.overlay = wanted("overlay");
+  if (spec.people.empty() && (spec.crops || spec.overlay || !spec.people_formats.empty()))
     throw InputError("--format: '" + arguments.format + "' is about people; add --people N");
-  if (spec.crops && spec.tier == Tier::kLabels)
-    throw InputError("--format: crops need colours; use --tier fast instead of labels");
+  if ((spec.crops || spec.overlay) && spec.tier == Tier::kLabels)
+    throw InputError("--format: crops and overlay need colours; use --tier fast instead of labels");
 }
 
 DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
@@ -213,7 +214,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic and people.jsonl); of people also "
-                      "coco_keypoints,kitti,nuscenes,monoloco,crops");
+                      "coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");

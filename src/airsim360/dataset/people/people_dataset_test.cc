@@ -72,7 +72,7 @@ class PeopleDatasetTest : public ::testing::Test {
     fs::create_directories(folder_);
     spec_ = {.world = "box_room", .width = 256, .height = 128, .frames = 3, .route = "test"};
     spec_.people = "5";
-    spec_.crops = true;
+    spec_.crops = spec_.overlay = true;
     for (const char* format : kPeopleFormats) spec_.people_formats.push_back(format);
   }
   ~PeopleDatasetTest() override { fs::remove_all(folder_); }
