@@ -124,7 +124,7 @@ HumanArea PickArea(const NavMesh& mesh, const HumanSubset& subset, uint64_t seed
 std::string PeopleFileOf(const HumanArea& area, uint64_t people) {
   char text[512];
   std::snprintf(text, sizeof text,
-                "areas:\n  - name: area\n    outline: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f, %.2f, %.2f]\n    count: %llu\n",
+                "areas:\n  - name: area\n    polygon: [[%.2f, %.2f], [%.2f, %.2f], [%.2f, %.2f], [%.2f, %.2f]]\n    count: %llu\n",
                 area.low.x, area.low.y, area.high.x, area.low.y, area.high.x, area.high.y, area.low.x, area.high.y,
                 static_cast<unsigned long long>(people));
   return text;
