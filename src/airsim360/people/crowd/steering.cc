@@ -48,13 +48,6 @@ double WeidmannSpeed(double density) {
   return 1.34 * std::max(0.0, 1 - std::exp(-1.913 * (1 / density - 1 / 5.4)));
 }
 
-struct Steering::Seen {
-  Vec2d p, v;
-  double z;
-  uint32_t index;
-  bool still;
-};
-
 struct Steering::Plan {
   Vec2d v;
   int close_count = 0;
@@ -63,11 +56,12 @@ struct Steering::Plan {
 
 Steering::Steering() = default;
 Steering::~Steering() = default;
+Steering::Steering(const Steering&) {}
+Steering& Steering::operator=(const Steering&) { return *this; }
 
 void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles,
                     double dt) {
   // Everybody chooses a velocity from where all stand now; then they move one after the other.
-  Sort(walkers);
   plans_.resize(walkers.size());
   const auto n = static_cast<int64_t>(walkers.size());
   const auto chunk = [&](int64_t c) {
@@ -116,7 +110,7 @@ void Steering::Sort(std::span<const Walker> walkers) {
   for (uint32_t i = 0; i < walkers.size(); ++i) {
     const Walker& w = walkers[i];
     if (!w.present) continue;
-    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, w.at.p_W.z, i, w.still};
+    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, w.at.p_W.z, i};
   }
   for (size_t k = first_.size() - 1; k > 0; --k) first_[k] = first_[k - 1];
   first_[0] = 0;
@@ -204,7 +198,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
     const Seen& other = *near[static_cast<size_t>(i)].other;
     const Vec2d d = other.p - self.p;
     planes[planes_used++] =
-        AvoidDisc(d, self.v, other.v, 2 * kSpaceRadius, kHorizon, dt, other.still ? 1 : 0.5);
+        AvoidDisc(d, self.v, other.v, 2 * kSpaceRadius, kHorizon, dt, walkers[other.index].still ? 1 : 0.5);
     const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
     if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
   }
