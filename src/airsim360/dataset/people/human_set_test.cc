@@ -5,7 +5,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/people/human_set.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/worlds/worlds.h"
+#include "airsim360/sim/world_loader.h"
 
 namespace airsim360 {
 namespace {
@@ -40,7 +40,7 @@ TEST(HumanRecipe, ASubsetIsFilmedInFreeSpaceWithItsPeople) {
   recipe.highest = 4;
   recipe.frames_a_view = 2;
   HumanSubset subset{.world = "box_room", .name = "box_room/01", .width = 8, .depth = 10, .people = 4, .pitch_deg = 20, .frames = 4};
-  const auto scene = BuildWorld("box_room", {});
+  const auto scene = LoadWorld({.world = "box_room"});
   const auto mesh = NavMesh::Build(*scene);
   const HumanArea area = PickArea(*mesh, subset, 1);
   EXPECT_NEAR(area.high.x - area.low.x, 8, 1e-9);

@@ -14,7 +14,7 @@
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/worlds/worlds.h"
+#include "airsim360/sim/world_loader.h"
 
 namespace airsim360 {
 namespace {
@@ -63,7 +63,7 @@ TEST(CocoRle, ComesBackByTheRulesOfCocoapi) {
 class PeopleDatasetTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    populated_ = new PopulatedScene(Populate(BuildWorld("box_room", {}), {.count = 5, .warm_up = 1, .level = 2, .seed = 4}));
+    populated_ = new PopulatedScene(Populate(LoadWorld({.world = "box_room"}), {.count = 5, .warm_up = 1, .level = 2, .seed = 4}));
     tracer_ = new std::shared_ptr<const RayTracer>(std::make_shared<const RayTracer>(populated_->scene));
   }
   PeopleDatasetTest() {
