@@ -97,6 +97,4 @@ std::shared_ptr<const Body> MakeProceduralBody(const BodySpec& spec) {
   return body;
 }
 
-std::shared_ptr<const Body> MakeBody(const BodySpec& spec) { return MakeProceduralBody(spec); }
-
 }  // namespace airsim360
