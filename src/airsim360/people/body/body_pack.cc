@@ -148,7 +148,7 @@ const PackCharacter& Nearest(const BodyPack& pack, const BodySpec& spec) {
 
 }  // namespace
 
-std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& spec) {
+std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& spec, int finest_level) {
   const PackCharacter& c = Nearest(pack, spec);
   const double scale = spec.stature / c.spec.stature;
   auto body = std::make_shared<Body>();
@@ -186,6 +186,10 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
   for (const auto index : {internal::kPropDark, internal::kPropLight, internal::kPropColor}) body->materials.push_back(props.materials[index]);
 
   for (const BodyLevel& level : c.levels) {
+    if (static_cast<int>(body->levels.size()) < finest_level) {
+      body->levels.emplace_back();
+      continue;
+    }
     BodyLevel copy = level;
     copy.mesh.name = c.name;
     for (Vec3f& p : copy.mesh.positions) p *= static_cast<float>(scale);
@@ -197,9 +201,9 @@ std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& s
   return body;
 }
 
-std::shared_ptr<const Body> MakeBody(const BodySpec& spec) {
+std::shared_ptr<const Body> MakeBody(const BodySpec& spec, int finest_level) {
   const BodyPack* pack = InstalledBodyPack();
-  return pack == nullptr ? MakeProceduralBody(spec) : MakePackBody(*pack, spec);
+  return pack == nullptr ? MakeProceduralBody(spec, finest_level) : MakePackBody(*pack, spec, finest_level);
 }
 
 }  // namespace airsim360

@@ -43,7 +43,7 @@ std::optional<std::filesystem::path> BodyPackPath();
 
 /// The body of the character nearest in sex, age and stature, scaled to `spec.stature`, in colours of
 /// `spec.look`. `pack` must outlive nothing: everything is copied or shared.
-std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& spec);
+std::shared_ptr<const Body> MakePackBody(const BodyPack& pack, const BodySpec& spec, int finest_level = 0);
 
 /// The pack of BodyPackPath, read once; null if there is none. A file that cannot be read is told once on
 /// stderr and counts as none.

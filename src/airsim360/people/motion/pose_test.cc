@@ -118,6 +118,7 @@ struct SlideCheck {
   Vec3d ball[2];
   FootMotion::Mode mode[2] = {};
   double worst = 0, deepest = 0;
+  std::string where, where_deep;
 
   void See(const Walker& walker) {
     const SkeletonPose pose = walker.Pose();
@@ -128,7 +129,7 @@ struct SlideCheck {
       // While the foot tips over its heel the ball has not come down yet.
       const double phase = walker.motion.phase + (k == 0 ? 0 : 0.5), own = phase - std::floor(phase);
       const bool down = foot.mode == FootMotion::Mode::kPlanted && (walker.motion.gait == 0 || own > 0.08);
-      if (down && mode[k] == FootMotion::Mode::kPlanted) worst = std::max(worst, Norm(now - ball[k]));
+      if (down && mode[k] == FootMotion::Mode::kPlanted) Worse(Norm(now - ball[k]), walker, own, worst, where);
       if (!down || mode[k] != FootMotion::Mode::kPlanted) ball[k] = now;
       mode[k] = down ? FootMotion::Mode::kPlanted : FootMotion::Mode::kSwing;
       // The sole, by heel and toe tip.
@@ -136,8 +137,14 @@ struct SlideCheck {
       const double H = walker.body->spec.stature;
       const Vec3d rest = walker.body->p_PJ[At(ankle)];
       const Vec3d heel = pose[ankle] * Vec3d{-0.036 * H, 0, -rest.z};
-      deepest = std::max({deepest, floor - heel.z, floor - (now.z - walker.body->p_PJ[At(toes)].z)});
+      Worse(std::max(floor - heel.z, floor - (now.z - walker.body->p_PJ[At(toes)].z)), walker, own, deepest, where_deep);
     }
+  }
+  static void Worse(double value, const Walker& walker, double phase, double& worst, std::string& where) {
+    if (value <= worst) return;
+    worst = value;
+    where = "at " + std::to_string(walker.t_ns / 10'000'000) + " phase " + std::to_string(phase) + " gait " + std::to_string(walker.motion.gait) + " run " +
+            std::to_string(walker.motion.run) + " speed " + std::to_string(walker.motion.speed);
   }
 };
 
@@ -171,8 +178,8 @@ TEST(FootLock, FeetDoNotSlideInMixedMotion) {
         }
       }
     }
-    EXPECT_LT(check.worst, 0.003) << stature;
-    EXPECT_LT(check.deepest, 0.010) << stature;
+    EXPECT_LT(check.worst, 0.003) << stature << check.where;
+    EXPECT_LT(check.deepest, 0.010) << stature << check.where_deep;
   }
 }
 
