@@ -61,7 +61,7 @@ void SwingArms(const PostureInput& in, double share, Posture& posture) {
     ArmAngles a;
     a.flex = personal * (swing * c - 5 + 6 * run) + 2 * (1 - g) + 0.8 * Sway(seed, 31 + left, 0.2, in.t);
     a.abduct = 7 + 5 * run * g + (in.body.spec.build > 0 ? 5 * in.body.spec.build : 0);
-    a.rotate = 10 + 22 * run * g;
+    a.rotate = 8 + 8 * run * g;
     a.elbow = (1 - g) * 14 + g * (base + personal * 9 * std::max(0.0, c) + 6 * run * c);
     Hang(left, a, posture);
     posture.curl[left ? 0 : 1] = 0.3 + 0.35 * run * g;

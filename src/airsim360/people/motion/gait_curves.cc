@@ -28,9 +28,9 @@ constexpr std::array<double, 13> kRunHip{23.82, 24.15, -18.24, -6.52, 3.81, -1.0
 constexpr std::array<double, 13> kRunKnee{49.46, -8.47, -29.45, -15.88, 12.11, -3.93, -0.03,
                                           -0.63, 1.36, -1.07, 0.32, -0.05, 0.39};
 
-// Phase, degrees toe down: heel contact, flat, (heel-off is solved from the leg), swing, contact.
-constexpr double kWalkPitch[][2] = {{0, -18}, {0.07, 0}, {0.62, 0}, {0.70, 60}, {0.78, 38}, {0.86, 8}, {0.93, -14}, {1, -18}};
-constexpr double kRunPitch[][2] = {{0, -4}, {0.05, 0}, {0.40, 0}, {0.50, 75}, {0.65, 80}, {0.80, 40}, {0.92, 2}, {1, -4}};
+// Phase, degrees toe down: heel contact, flat, heel-off (there the leg decides), swing, contact.
+constexpr double kWalkPitch[][2] = {{0, -18}, {0.07, 0}, {0.30, 0}, {0.62, 48}, {0.70, 60}, {0.80, 30}, {0.92, -12}, {1, -18}};
+constexpr double kRunPitch[][2] = {{0, -4}, {0.05, 0}, {0.25, 0}, {0.38, 50}, {0.50, 75}, {0.65, 80}, {0.85, 25}, {1, -4}};
 
 double Table(const double (&table)[8][2], double phase) {
   for (int i = 0; i < 7; ++i) {
