@@ -55,6 +55,8 @@ struct Agent {
   bool hold = false;        ///< red light ahead
   int32_t place = -1;       ///< index into CrowdPlan::places that is theirs
   bool at_place = false;    ///< stands or sits there, perhaps beside the mesh
+  Vec3d offset;             ///< of the feet from where they belong, dying out
+  int64_t offset_ns = -1'000'000'000'000;
   // State machine
   uint8_t state = kWalking;
   int64_t state_since_ns = 0, state_until_ns = 0;  ///< until 0 = open
@@ -135,6 +137,10 @@ void RunGroups(CrowdTick& tick);
 void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed, double reach);
 void DropGoal(CrowdTick& tick, PersonIndex i);
 void LeavePlace(CrowdTick& tick, PersonIndex i);
+/// On to the place that is theirs, or off it: the feet get there within a moment.
+void MoveFeet(CrowdTick& tick, PersonIndex i, bool to_place);
+/// Where the feet are: on the mesh, or at a place beside it.
+Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i, int64_t t_ns);
 /// Paths for those who wait for one.
 void FindWays(CrowdTick& tick);
 /// At 5 Hz: crossings, short cuts, progress.

@@ -9,6 +9,7 @@ namespace {
 constexpr double kCornerReach = 0.4;       // metres
 constexpr double kAheadOfRoad = 1.4;       // metres: where people stop at a red light
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
+constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
 constexpr int64_t kNoProgress = 4 * kSecond, kGiveUp = 30 * kSecond;
 
 double Length(Vec2d a) { return std::sqrt(a.x * a.x + a.y * a.y); }
@@ -26,10 +27,26 @@ void LeavePlace(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   if (agent.place < 0) return;
   tick.in.place_taken[static_cast<size_t>(agent.place)] = kNoPerson;
-  if (agent.at_place) tick.in.walkers[i].at = tick.plan.places[static_cast<size_t>(agent.place)].approach;
+  if (agent.at_place) MoveFeet(tick, i, false);
   agent.place = -1;
-  agent.at_place = false;
   agent.has_face = false;
+}
+
+void MoveFeet(CrowdTick& tick, PersonIndex i, bool to_place) {
+  Agent& agent = tick.in.agents[i];
+  const Vec3d before = FeetOf(tick.plan, tick.in, i, tick.t_ns);
+  agent.at_place = to_place;
+  agent.offset = {};
+  agent.offset = before - FeetOf(tick.plan, tick.in, i, tick.t_ns);
+  agent.offset_ns = tick.t_ns;
+}
+
+Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i, int64_t t_ns) {
+  const Agent& agent = in.agents[i];
+  const Vec3d base = agent.at_place ? plan.places[static_cast<size_t>(agent.place)].p_W : in.walkers[i].at.p_W;
+  const int64_t since = t_ns - agent.offset_ns;
+  if (since >= kShift) return base;
+  return base + agent.offset * (1 - static_cast<double>(since) / static_cast<double>(kShift));
 }
 
 void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed, double reach) {
@@ -101,8 +118,12 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   const int64_t still = tick.t_ns - agent.progress_ns;
   if (still > kGiveUp) {
     AddEvent(tick, {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
-    agent.walk = Walk::kFailed;
-    agent.has_errand = false;
+    if (agent.commanded) {
+      SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
+    } else {
+      agent.walk = Walk::kFailed;
+      agent.has_errand = false;
+    }
     agent.progress_ns = tick.t_ns;
   } else if (still > kNoProgress && still % kNoProgress < kThinkEvery * kCrowdTickNs) {
     // Another way from here; those who only stroll go somewhere else after a while.
