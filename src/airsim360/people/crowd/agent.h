@@ -49,7 +49,9 @@ struct Agent {
   std::vector<Vec3d> corners;
   uint32_t corner = 0;
   Vec3d progress_p;         ///< place of the last progress
-  int64_t progress_ns = 0, goal_ns = 0;
+  int64_t progress_ns = 0;
+  Vec3d stuck_p;            ///< the same, whatever the goals
+  int64_t stuck_ns = 0;
   NavPoint errand;          ///< of WanderTo, until it is reached
   bool has_errand = false;
   bool hold = false;        ///< red light ahead
@@ -77,7 +79,6 @@ struct Agent {
   bool has_face = false;
   int32_t gaze_drone = -1;
   uint64_t near_drones = 0;  ///< bits: a near pass goes on
-  bool stuck_told = false;
 };
 
 }  // namespace internal
@@ -145,6 +146,8 @@ Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i, int
 void FindWays(CrowdTick& tick);
 /// At 5 Hz: crossings, short cuts, progress.
 void WatchWay(CrowdTick& tick, PersonIndex i);
+/// Reports who has not moved for 30 s though they want to.
+void WatchStuck(CrowdTick& tick, PersonIndex i);
 /// Velocities wanted by all.
 void WantVelocities(CrowdTick& tick);
 

@@ -111,7 +111,7 @@ double TimeToEmpty(bool four_exits) {
   ground.Floor("ground/floor", 0, -3, 15, 13);
   for (const float y : {0.0f, 10.0f}) {
     const bool open = y == 0 || four_exits;
-    for (const auto& [from, to] : {std::pair{-0.5f, 4.0f}, std::pair{5.0f, 10.0f}, std::pair{11.0f, 15.5f}}) ground.Wall(from, y, to, y);
+    for (const auto& [from, to] : {std::pair{-0.5f, 3.9f}, std::pair{5.1f, 9.9f}, std::pair{11.1f, 15.5f}}) ground.Wall(from, y, to, y);
     if (open) continue;
     ground.Wall(4, y, 5, y);
     ground.Wall(10, y, 11, y);

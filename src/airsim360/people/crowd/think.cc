@@ -415,6 +415,7 @@ void Think(CrowdTick& tick, PersonIndex i) {
   ForgetOld(agent, tick.t_ns);
   RunStateMachine(tick, i);
   WatchWay(tick, i);
+  WatchStuck(tick, i);
   if (agent.commanded) return;
   Mind mind(tick, i);
   TickTree(tick.plan.trees.trees[agent.tree], agent.run, tick.t_ns, mind);

@@ -10,10 +10,26 @@ constexpr double kCornerReach = 0.4;       // metres
 constexpr double kAheadOfRoad = 1.4;       // metres: where people stop at a red light
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
 constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
-constexpr int64_t kNoProgress = 4 * kSecond, kGiveUp = 30 * kSecond;
+constexpr int64_t kNoProgress = 4 * kSecond, kStuck = 30 * kSecond;
 
 double Length(Vec2d a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 Vec2d Flat(Vec3d p) { return {p.x, p.y}; }
+
+/// The crossing that the way enters within kAheadOfRoad; -1 = none.
+int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
+  double left = kAheadOfRoad;
+  for (size_t k = agent.corner; k < agent.corners.size() && left > 0; ++k) {
+    const Vec2d to = Flat(agent.corners[k]) - p;
+    const double distance = Length(to), most = std::min(distance, left);
+    for (double s = 0.35; s < most + 0.35 && distance > 1e-6; s += 0.35) {
+      const int crossing = mesh.CrossingAt(p + to * (std::min(s, most) / distance));
+      if (crossing >= 0) return crossing;
+    }
+    left -= distance;
+    p = Flat(agent.corners[k]);
+  }
+  return -1;
+}
 
 /// Walkers have green for 15 s of each cycle, the two directions by turns.
 bool Green(const NavMesh::Crossing& crossing, int64_t t_ns) {
@@ -54,11 +70,10 @@ void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed,
   agent.goal = goal;
   agent.goal_speed = speed;
   agent.goal_reach = reach;
-  agent.goal_ns = agent.progress_ns = tick.t_ns;
+  agent.progress_ns = tick.t_ns;
   agent.progress_p = tick.in.walkers[i].at.p_W;
   agent.corners.clear();
   agent.corner = 0;
-  agent.stuck_told = false;
   if (agent.walk != Walk::kWaitsForPath) tick.in.path_queue.push_back(i);
   agent.walk = Walk::kWaitsForPath;
 }
@@ -97,9 +112,9 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   const double distance = Length(to);
 
   // At the kerb of a crossing whose light is red.
-  if (!mesh.crossings().empty() && distance > 1e-6) {
-    const int ahead = mesh.CrossingAt(p + to * (std::min(kAheadOfRoad, distance) / distance));
-    if (ahead >= 0 && mesh.CrossingAt(p) < 0) {
+  if (!mesh.crossings().empty() && mesh.CrossingAt(p) < 0) {
+    const int ahead = CrossingAhead(mesh, agent, p);
+    if (ahead >= 0) {
       const NavMesh::Crossing& crossing = mesh.crossings()[static_cast<size_t>(ahead)];
       agent.hold = crossing.signal && !Green(crossing, tick.t_ns);
     }
@@ -116,25 +131,31 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
     return;
   }
   const int64_t still = tick.t_ns - agent.progress_ns;
-  if (still > kGiveUp) {
+  if (still <= kNoProgress || still % kNoProgress >= kThinkEvery * kCrowdTickNs) return;
+  if (still > 2 * kNoProgress && !agent.commanded) {
+    // Somewhere else, then; a tree hears that it failed.
+    agent.walk = Walk::kFailed;
+    agent.has_errand = false;
+    return;
+  }
+  // Another way from here.
+  const int64_t since = agent.progress_ns;
+  SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
+  agent.progress_ns = since;
+}
+
+void WatchStuck(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  const Vec3d& p = tick.in.walkers[i].at.p_W;
+  // Whoever stands on purpose is not stuck; whatever the goals in between were.
+  const bool stands = agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
+                      (agent.commanded && agent.walk != Walk::kOnTheWay);
+  if (stands || Norm(p - agent.stuck_p) > 0.5) {
+    agent.stuck_p = p;
+    agent.stuck_ns = tick.t_ns;
+  } else if (tick.t_ns - agent.stuck_ns > kStuck) {
     AddEvent(tick, {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
-    if (agent.commanded) {
-      SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
-    } else {
-      agent.walk = Walk::kFailed;
-      agent.has_errand = false;
-    }
-    agent.progress_ns = tick.t_ns;
-  } else if (still > kNoProgress && still % kNoProgress < kThinkEvery * kCrowdTickNs) {
-    // Another way from here; those who only stroll go somewhere else after a while.
-    if (agent.has_errand && still > 2 * kNoProgress) {
-      agent.walk = Walk::kFailed;
-      agent.has_errand = false;
-      return;
-    }
-    const int64_t since = agent.progress_ns;
-    SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
-    agent.progress_ns = since;
+    agent.stuck_ns = tick.t_ns;
   }
 }
 
