@@ -68,7 +68,7 @@ std::string_view DefaultTreesXml() {
       </Sequence>
       <Sequence>
         <DroneWithin distance="12"/>
-        <Every seconds="40"/>
+        <Every seconds="40" first_s="8"/>
         <Send message="drone_near" to="radius" distance="8"/>
         <LookAtDrone distance="16" min_s="3" max_s="9"/>
       </Sequence>

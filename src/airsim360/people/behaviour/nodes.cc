@@ -61,7 +61,8 @@ const std::vector<NodeInfo>& Table() {
       {kDroneWithin, "DroneWithin", kCondition, {{"distance", 'n', nullptr}}, "metres from the head"},
       {kPersonWithin, "PersonWithin", kCondition, {{"distance", 'n', nullptr}, {"person", 'o', "", true}}, "nearest person"},
       {kMessageWaiting, "MessageWaiting", kCondition, {{"message", 'm', nullptr}}, ""},
-      {kEvery, "Every", kCondition, {{"seconds", 'n', nullptr}}, "true once, then not for that long; first after a part of it"},
+      {kEvery, "Every", kCondition, {{"seconds", 'n', nullptr}, {"first_s", 'n', "-1", false, "-1: as seconds"}},
+       "true once, then not for that long; the first time within first_s, at random"},
   };
   return table;
 }

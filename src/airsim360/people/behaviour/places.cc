@@ -40,18 +40,11 @@ std::map<EntityId, std::vector<Vec3f>> Vertices(const Scene& scene, const std::m
 /// Seats of a bench side by side. Its back rest, if it has one, says where its front is.
 void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
   const Vec2d centre{box.center().x, box.center().y};
-  Vec2d mean{}, back{};
-  double n = 0, n_back = 0;
-  for (const Vec3f& v : vertices) {
-    mean = mean + Vec2d{v.x, v.y};
-    ++n;
-    if (v.z < box.min.z + 0.6f) continue;
-    back = back + Vec2d{v.x, v.y};
-    ++n_back;
-  }
-  if (n == 0) return;
+  Box3f back;
+  for (const Vec3f& v : vertices)
+    if (v.z > box.min.z + 0.6f) back.Add(v);
   Vec2d front{};
-  if (n_back > 0) front = centre - back * (1 / n_back);
+  if (!back.empty()) front = centre - Vec2d{back.center().x, back.center().y};
   if (std::hypot(front.x, front.y) < 0.04) {
     // No back rest: towards the nearest ground to walk on.
     const NavPoint near = mesh.Nearest({centre.x, centre.y, box.min.z}, 1.5);

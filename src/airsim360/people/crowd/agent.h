@@ -49,12 +49,16 @@ struct Agent {
   std::vector<Vec3d> corners;
   uint32_t corner = 0;
   Vec3d progress_p;         ///< place of the last progress
-  int64_t progress_ns = 0, goal_ns = 0;
+  int64_t progress_ns = 0;
+  Vec3d stuck_p;            ///< the same, whatever the goals
+  int64_t stuck_ns = 0;
   NavPoint errand;          ///< of WanderTo, until it is reached
   bool has_errand = false;
   bool hold = false;        ///< red light ahead
   int32_t place = -1;       ///< index into CrowdPlan::places that is theirs
   bool at_place = false;    ///< stands or sits there, perhaps beside the mesh
+  Vec3d offset;             ///< of the feet from where they belong, dying out
+  int64_t offset_ns = -1'000'000'000'000;
   // State machine
   uint8_t state = kWalking;
   int64_t state_since_ns = 0, state_until_ns = 0;  ///< until 0 = open
@@ -75,7 +79,6 @@ struct Agent {
   bool has_face = false;
   int32_t gaze_drone = -1;
   uint64_t near_drones = 0;  ///< bits: a near pass goes on
-  bool stuck_told = false;
 };
 
 }  // namespace internal
@@ -135,10 +138,16 @@ void RunGroups(CrowdTick& tick);
 void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed, double reach);
 void DropGoal(CrowdTick& tick, PersonIndex i);
 void LeavePlace(CrowdTick& tick, PersonIndex i);
+/// On to the place that is theirs, or off it: the feet get there within a moment.
+void MoveFeet(CrowdTick& tick, PersonIndex i, bool to_place);
+/// Where the feet are: on the mesh, or at a place beside it.
+Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i, int64_t t_ns);
 /// Paths for those who wait for one.
 void FindWays(CrowdTick& tick);
 /// At 5 Hz: crossings, short cuts, progress.
 void WatchWay(CrowdTick& tick, PersonIndex i);
+/// Reports who has not moved for 30 s though they want to.
+void WatchStuck(CrowdTick& tick, PersonIndex i);
 /// Velocities wanted by all.
 void WantVelocities(CrowdTick& tick);
 

@@ -20,11 +20,6 @@ Behaviour ByMotion(const Agent& agent, double speed, Behaviour now) {
 
 }  // namespace
 
-Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i) {
-  const Agent& agent = in.agents[i];
-  return agent.at_place ? plan.places[static_cast<size_t>(agent.place)].p_W : in.walkers[i].at.p_W;
-}
-
 void Show(CrowdTick& tick, PersonIndex i, double dt) {
   Agent& agent = tick.in.agents[i];
   const Walker& walker = tick.in.walkers[i];

@@ -89,6 +89,7 @@ class Commander {
     }
     walker_.at = point;
     walker_.v = {};
+    agent_.offset = {};
     tick_.in.from[i_] = point.p_W;
     tick_.in.from_yaw[i_] = tick_.in.to_yaw[i_] = yaw;
     tick_.state.people[i_].p_WP = point.p_W;

@@ -86,12 +86,11 @@ void RunTick(const CrowdModel& model, CrowdState& state, std::span<const CrowdDr
 
   // Walk.
   internal::WantVelocities(tick);
-  for (size_t i = 0; i < in.walkers.size(); ++i) in.from[i] = internal::FeetOf(tick, static_cast<PersonIndex>(i));
+  for (size_t i = 0; i < in.walkers.size(); ++i) in.from[i] = internal::FeetOf(*model.plan, in, static_cast<PersonIndex>(i), tick.t_ns);
   in.from_yaw = in.to_yaw;
   std::vector<internal::SteeringObstacle> obstacles;
   for (const CrowdDrone& drone : drones)
     obstacles.push_back({{drone.p_W.x, drone.p_W.y}, {drone.v_W.x, drone.v_W.y}, drone.p_W.z, drone.radius});
-  in.steering.Sort(in.walkers);  // who left a place stands elsewhere
   in.steering.Step(*model.navmesh, in.walkers, obstacles, kTickSeconds);
 
   // What is seen of it.
@@ -110,7 +109,7 @@ void Interpolate(const CrowdModel& model, CrowdState& state) {
   const double f = 1 - static_cast<double>(end - state.t_ns) / static_cast<double>(kCrowdTickNs);
   for (PersonIndex i = 0; i < state.people.size(); ++i) {
     PersonState& person = state.people[i];
-    const Vec3d to = internal::FeetOf(*model.plan, in, i);
+    const Vec3d to = internal::FeetOf(*model.plan, in, i, end);
     person.p_WP = in.from[i] + (to - in.from[i]) * f;
     person.yaw = std::remainder(in.from_yaw[i] + std::remainder(in.to_yaw[i] - in.from_yaw[i], 2 * internal::kPi) * f, 2 * internal::kPi);
   }

@@ -54,6 +54,7 @@ void RunStateMachine(CrowdTick& tick, PersonIndex i) {
       cause = "message: " + tick.plan.messages[transition.message];
       if (message.from != kNoPerson) cause += " from " + tick.model.people[message.from].name;
     } else {
+      if (agent.commanded) continue;  // whoever obeys does nothing by chance
       if (!agent.rng.Chance(transition.rate_per_min * kMinutes)) continue;
       cause = "chance";
     }

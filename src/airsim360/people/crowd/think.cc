@@ -6,7 +6,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kRightHere = 0.25;  // metres: reach of a place
+constexpr double kRightHere = 0.15;  // metres: reach of a place
 
 Vec2d Flat(Vec3d p) { return {p.x, p.y}; }
 double Distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -98,7 +98,8 @@ class Mind : public Leaves {
         // The first time comes at a random part of the period, so that a crowd does not move as one.
         if (memory.flags == 0) {
           memory.flags = 1;
-          memory.t_ns = tick_.t_ns - Seconds(agent_.rng.Uniform() * number(0));
+          const double first = number(1) < 0 ? number(0) : number(1);
+          memory.t_ns = tick_.t_ns - Seconds(number(0) - agent_.rng.Uniform() * first);
         }
         if (tick_.t_ns - memory.t_ns < Seconds(number(0))) return Status::kFailure;
         memory.t_ns = tick_.t_ns;
@@ -108,7 +109,7 @@ class Mind : public Leaves {
     }
   }
 
-  void Halt(const Tree&, const TreeNode& node, NodeMemory& memory, TreeRun&) override {
+  void Halt(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) override {
     switch (node.node) {
       case Node::kWanderTo:
       case Node::kGoTo:
@@ -120,11 +121,14 @@ class Mind : public Leaves {
         LeavePlace(tick_, self_);
         break;
       case Node::kSetState:
-        if (agent_.state_until_ns > 0) EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, "tree: interrupted");
+        // What breaks it off may have entered another state already.
+        if (agent_.state == static_cast<uint8_t>(PortOf(tree, node, run, 0).number) && agent_.state_until_ns > 0)
+          EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, "tree: interrupted");
         break;
       case Node::kChat:
         LeaveGroup(tick_, self_);
-        EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
+        if (agent_.state == kChatting)
+          EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
         break;
       case Node::kMeet: agent_.greeted = kNoPerson; break;
       case Node::kLookAtDrone: agent_.gaze_drone = -1; break;
@@ -201,7 +205,7 @@ class Mind : public Leaves {
       if (status == Status::kFailure) LeavePlace(tick_, self_);
       if (status != Status::kSuccess) return status;
       const Place& place = tick_.plan.places[static_cast<size_t>(agent_.place)];
-      agent_.at_place = true;
+      MoveFeet(tick_, self_, true);
       agent_.has_face = true;
       agent_.face_yaw = place.yaw;
     }
@@ -411,6 +415,7 @@ void Think(CrowdTick& tick, PersonIndex i) {
   ForgetOld(agent, tick.t_ns);
   RunStateMachine(tick, i);
   WatchWay(tick, i);
+  WatchStuck(tick, i);
   if (agent.commanded) return;
   Mind mind(tick, i);
   TickTree(tick.plan.trees.trees[agent.tree], agent.run, tick.t_ns, mind);

@@ -9,10 +9,27 @@ namespace {
 constexpr double kCornerReach = 0.4;       // metres
 constexpr double kAheadOfRoad = 1.4;       // metres: where people stop at a red light
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
-constexpr int64_t kNoProgress = 4 * kSecond, kGiveUp = 30 * kSecond;
+constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
+constexpr int64_t kNoProgress = 4 * kSecond, kStuck = 30 * kSecond;
 
 double Length(Vec2d a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 Vec2d Flat(Vec3d p) { return {p.x, p.y}; }
+
+/// The crossing that the way enters within kAheadOfRoad; -1 = none.
+int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
+  double left = kAheadOfRoad;
+  for (size_t k = agent.corner; k < agent.corners.size() && left > 0; ++k) {
+    const Vec2d to = Flat(agent.corners[k]) - p;
+    const double distance = Length(to), most = std::min(distance, left);
+    for (double s = 0.35; s < most + 0.35 && distance > 1e-6; s += 0.35) {
+      const int crossing = mesh.CrossingAt(p + to * (std::min(s, most) / distance));
+      if (crossing >= 0) return crossing;
+    }
+    left -= distance;
+    p = Flat(agent.corners[k]);
+  }
+  return -1;
+}
 
 /// Walkers have green for 15 s of each cycle, the two directions by turns.
 bool Green(const NavMesh::Crossing& crossing, int64_t t_ns) {
@@ -26,10 +43,26 @@ void LeavePlace(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   if (agent.place < 0) return;
   tick.in.place_taken[static_cast<size_t>(agent.place)] = kNoPerson;
-  if (agent.at_place) tick.in.walkers[i].at = tick.plan.places[static_cast<size_t>(agent.place)].approach;
+  if (agent.at_place) MoveFeet(tick, i, false);
   agent.place = -1;
-  agent.at_place = false;
   agent.has_face = false;
+}
+
+void MoveFeet(CrowdTick& tick, PersonIndex i, bool to_place) {
+  Agent& agent = tick.in.agents[i];
+  const Vec3d before = FeetOf(tick.plan, tick.in, i, tick.t_ns);
+  agent.at_place = to_place;
+  agent.offset = {};
+  agent.offset = before - FeetOf(tick.plan, tick.in, i, tick.t_ns);
+  agent.offset_ns = tick.t_ns;
+}
+
+Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i, int64_t t_ns) {
+  const Agent& agent = in.agents[i];
+  const Vec3d base = agent.at_place ? plan.places[static_cast<size_t>(agent.place)].p_W : in.walkers[i].at.p_W;
+  const int64_t since = t_ns - agent.offset_ns;
+  if (since >= kShift) return base;
+  return base + agent.offset * (1 - static_cast<double>(since) / static_cast<double>(kShift));
 }
 
 void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed, double reach) {
@@ -37,11 +70,10 @@ void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed,
   agent.goal = goal;
   agent.goal_speed = speed;
   agent.goal_reach = reach;
-  agent.goal_ns = agent.progress_ns = tick.t_ns;
+  agent.progress_ns = tick.t_ns;
   agent.progress_p = tick.in.walkers[i].at.p_W;
   agent.corners.clear();
   agent.corner = 0;
-  agent.stuck_told = false;
   if (agent.walk != Walk::kWaitsForPath) tick.in.path_queue.push_back(i);
   agent.walk = Walk::kWaitsForPath;
 }
@@ -80,9 +112,9 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   const double distance = Length(to);
 
   // At the kerb of a crossing whose light is red.
-  if (!mesh.crossings().empty() && distance > 1e-6) {
-    const int ahead = mesh.CrossingAt(p + to * (std::min(kAheadOfRoad, distance) / distance));
-    if (ahead >= 0 && mesh.CrossingAt(p) < 0) {
+  if (!mesh.crossings().empty() && mesh.CrossingAt(p) < 0) {
+    const int ahead = CrossingAhead(mesh, agent, p);
+    if (ahead >= 0) {
       const NavMesh::Crossing& crossing = mesh.crossings()[static_cast<size_t>(ahead)];
       agent.hold = crossing.signal && !Green(crossing, tick.t_ns);
     }
@@ -99,21 +131,31 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
     return;
   }
   const int64_t still = tick.t_ns - agent.progress_ns;
-  if (still > kGiveUp) {
-    AddEvent(tick, {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
+  if (still <= kNoProgress || still % kNoProgress >= kThinkEvery * kCrowdTickNs) return;
+  if (still > 2 * kNoProgress && !agent.commanded) {
+    // Somewhere else, then; a tree hears that it failed.
     agent.walk = Walk::kFailed;
     agent.has_errand = false;
-    agent.progress_ns = tick.t_ns;
-  } else if (still > kNoProgress && still % kNoProgress < kThinkEvery * kCrowdTickNs) {
-    // Another way from here; those who only stroll go somewhere else after a while.
-    if (agent.has_errand && still > 2 * kNoProgress) {
-      agent.walk = Walk::kFailed;
-      agent.has_errand = false;
-      return;
-    }
-    const int64_t since = agent.progress_ns;
-    SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
-    agent.progress_ns = since;
+    return;
+  }
+  // Another way from here.
+  const int64_t since = agent.progress_ns;
+  SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
+  agent.progress_ns = since;
+}
+
+void WatchStuck(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  const Vec3d& p = tick.in.walkers[i].at.p_W;
+  // Whoever stands on purpose is not stuck; whatever the goals in between were.
+  const bool stands = agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
+                      (agent.commanded && agent.walk != Walk::kOnTheWay);
+  if (stands || Norm(p - agent.stuck_p) > 0.5) {
+    agent.stuck_p = p;
+    agent.stuck_ns = tick.t_ns;
+  } else if (tick.t_ns - agent.stuck_ns > kStuck) {
+    AddEvent(tick, {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
+    agent.stuck_ns = tick.t_ns;
   }
 }
 
