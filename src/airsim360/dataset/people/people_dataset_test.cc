@@ -115,7 +115,7 @@ TEST_F(PeopleDatasetTest, EveryLineAgreesWithThePictures) {
     const Image<EntityId> entity = DecodeIdPng(ReadFile(folder_ / "a/entity" / (line["stem"].get<std::string>() + ".png")), "entity");
     for (const Json& person : line["persons"]) {
       const EntityId id = person["entity_id"];
-      EXPECT_EQ(person["track_id"].get<uint32_t>() + 7, id);
+      EXPECT_EQ(populated_->people->refs.at(person["track_id"].get<size_t>() - 1).entity, id);
       const auto pixels = std::ranges::count(entity.pixels(), id);
       EXPECT_EQ(person["area"], pixels);
       ASSERT_EQ(person["keypoints"].size(), 51u);
