@@ -99,16 +99,17 @@ HumanArea PickArea(const NavMesh& mesh, const HumanSubset& subset, uint64_t seed
   constexpr int kTries = 64;
   constexpr double kRoom = 2;  // m^2 a person
   RngStream rng(seed, "omni360_human " + subset.name);
+  const NavArea everywhere = mesh.AreaOf({}, ~0u);
   HumanArea best;
   double largest = 0;
   for (int i = 0; i < kTries; ++i) {
-    const double u[3] = {rng.Uniform(), rng.Uniform(), rng.Uniform()};
-    const NavPoint center = mesh.Pick({}, ~0u, u);
+    const NavPoint center = mesh.Pick(everywhere, rng);
     if (!center.valid()) continue;
     const Vec2d half{subset.width / 2, subset.depth / 2}, c{center.p_W.x, center.p_W.y};
     const Vec2d low = c - half, high = c + half;
     const Vec2d outline[] = {low, {high.x, low.y}, high, {low.x, high.y}};
-    const double area = mesh.Area(outline);
+    const NavArea inside = mesh.AreaOf(outline, ~0u);
+    const double area = inside.cumulative.empty() ? 0 : inside.cumulative.back();
     if (area <= largest) continue;
     largest = area;
     best = {low, high, center.p_W.z};

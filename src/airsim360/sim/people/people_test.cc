@@ -1,6 +1,8 @@
 // People as part of the simulation: stepped, copied, hashed, recorded, seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/sim/capture.h"
