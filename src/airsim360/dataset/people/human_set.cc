@@ -109,7 +109,7 @@ HumanArea PickArea(const NavMesh& mesh, const HumanSubset& subset, uint64_t seed
     const Vec2d low = c - half, high = c + half;
     const Vec2d outline[] = {low, {high.x, low.y}, high, {low.x, high.y}};
     const NavArea inside = mesh.AreaOf(outline, ~0u);
-    const double area = inside.cumulative.empty() ? 0 : inside.cumulative.back();
+    const double area = inside.square_metres;
     if (area <= largest) continue;
     largest = area;
     best = {low, high, center.p_W.z};
