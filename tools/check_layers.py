@@ -11,7 +11,7 @@ import sys
 OWNERS = {  # third-party header prefix -> modules whose .cc files may include it
     "embree3/": {"trace"},
     "tbb/": {"base"},
-    "yaml-cpp/": {"base", "assets"},
+    "yaml-cpp/": {"base", "assets", "people"},
     "openssl/": {"base"},
     "nlohmann/": {"assets", "dataset", "tasks", "app"},
     "boost/": {"tasks"},
@@ -27,6 +27,8 @@ OWNERS = {  # third-party header prefix -> modules whose .cc files may include i
     "Imf": {"image"},
     "sqlite3.h": {"dataset"},
     "CLI/": {"app"},
+    "recastnavigation/": {"people"},
+    "expat.h": {"people"},
 }
 
 

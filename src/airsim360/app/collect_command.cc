@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/collect_human.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
@@ -27,7 +28,7 @@ constexpr double kTouching = 0.05;     // metres: a route closer to a surface is
 
 struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out, products, plan;
+  std::string pano_frame = "body", shard = "0/1", out, products, plan, recipe, subset;
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
@@ -47,7 +48,7 @@ size_t ParseChoice(const char* flag, const std::string& value, const std::vector
 // People, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
 void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
   const std::vector<std::string> formats = ParseList(
-      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops"});
+      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
   spec.people = arguments.people.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
   for (const std::string format : kPeopleFormats) {
@@ -55,10 +56,11 @@ void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
     if (wanted(format) || coco) spec.people_formats.push_back(format);
   }
   spec.crops = wanted("crops");
-  if (spec.people.empty() && (spec.crops || !spec.people_formats.empty()))
+  spec.overlay = wanted("overlay");
+  if (spec.people.empty() && (spec.crops || spec.overlay || !spec.people_formats.empty()))
     throw InputError("--format: '" + arguments.format + "' is about people; add --people N");
-  if (spec.crops && spec.tier == Tier::kLabels)
-    throw InputError("--format: crops need colours; use --tier fast instead of labels");
+  if ((spec.crops || spec.overlay) && spec.tier == Tier::kLabels)
+    throw InputError("--format: crops and overlay need colours; use --tier fast instead of labels");
 }
 
 DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
@@ -138,7 +140,27 @@ Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, Datase
   return plan;
 }
 
+// A dataset for each subset of a table.
+void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
+  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.people.people.empty())
+    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan and --people");
+  CollectArguments with_people = arguments;
+  with_people.people.people = "1";
+  CollectHumanSets({.recipe = arguments.recipe,
+                    .world = arguments.world,
+                    .out = arguments.out,
+                    .subset = arguments.subset,
+                    .frames = arguments.frames,
+                    .spec = MakeSpec(with_people, globals.seed),
+                    .environment = arguments.environment,
+                    .people = arguments.people},
+                   globals);
+}
+
 void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals) {
+  if (!arguments.recipe.empty()) return RunRecipe(arguments, globals);
+  if (arguments.world.empty()) throw InputError("--world is required");
+  if (!arguments.subset.empty()) throw InputError("--subset: it is about --recipe; add --recipe omni360-human");
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
   if (arguments.route != "auto") ReadRouteFile(arguments.route);
@@ -171,10 +193,11 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand(
       "collect", "collect a labelled dataset along a route; run again to finish an interrupted one");
   auto arguments = std::make_shared<CollectArguments>();
-  command
-      ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
-      ->required();
+  command->add_option("--world", arguments->world,
+                      "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml; with --recipe only its subsets");
+  command->add_option("--recipe", arguments->recipe,
+                      "omni360-human, or a file like data/omni360_human.yaml: a dataset for each subset of its table");
+  command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_west/03");
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
                       "auto (a survey through free space), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
@@ -191,7 +214,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic and people.jsonl); of people also "
-                      "coco_keypoints,kitti,nuscenes,monoloco,crops");
+                      "coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");

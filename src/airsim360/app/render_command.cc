@@ -25,6 +25,7 @@ struct RenderArguments {
   EnvironmentFlags environment;
   PictureArguments picture;
   PeopleArguments people;
+  bool overlay = false;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -106,6 +107,9 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   }
   spec.pano_frame = arguments.pano_frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
   spec.people = arguments.people.Describe();
+  spec.overlay = arguments.overlay;
+  if (spec.overlay && (spec.people.empty() || spec.tier == Tier::kLabels))
+    throw InputError("--overlay: draws the labels of people into the colours: it needs --people and a tier with colours");
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
@@ -153,6 +157,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
   arguments->people.AddTo(*command);
+  command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,

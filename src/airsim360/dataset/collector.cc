@@ -216,6 +216,7 @@ CollectResult Collect(const CollectInput& input, Renderer& renderer) {
   if (!fs::exists(input.out / kMetaName)) WriteFileAtomically(input.out / kMetaName, meta);
   for (const ProductFolder& folder : ProductFolders(input.spec))
     CreateWritableFolder(input.out / folder.name);
+  if (input.spec.overlay) CreateWritableFolder(input.out / "overlay");
   if (input.spec.crops) CreateWritableFolder(input.out / "crops");
   {
     DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);

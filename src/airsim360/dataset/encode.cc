@@ -104,6 +104,14 @@ void EncodePeople(const EncodeContext& context, int64_t index, const std::vector
       if (view.persons[i].pixels > 0) crops.push_back({v, &people[v][i]});
     }
   }
+  for (size_t v = 0; v < people.size() && context.spec.overlay; ++v) {
+    const View& view = context.views[v];
+    EncodedFile file;
+    file.bytes = EncodePng(DrawPeople(captures[v].frame.rgb, view.camera, people[v]), std::nullopt);
+    file.record = {"overlay" + view.suffix, "overlay/" + Stem(index) + view.suffix + ".png",
+                   static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
+    frame.files.push_back(std::move(file));
+  }
   const size_t first = frame.files.size();
   frame.files.resize(first + crops.size());
   ParallelFor(static_cast<int64_t>(crops.size()), [&](int64_t task) {

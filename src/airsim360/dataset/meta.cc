@@ -39,6 +39,7 @@ Json ParametersJson(const DatasetSpec& spec) {
   if (!spec.people.empty()) {
     json["people"] = spec.people;
     json["crops"] = spec.crops;
+    json["overlay"] = spec.overlay;
     json["people_formats"] = spec.people_formats;
   }
   return json;

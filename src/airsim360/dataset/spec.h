@@ -42,6 +42,7 @@ struct DatasetSpec {
   bool position = false, albedo = false, material = false, sky = false, flow = false, coverage = false;
   std::string people;        ///< who they are, in words with the SHA-256 of their files; empty = nobody
   bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
+  bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
   std::vector<std::string> people_formats;  ///< of kPeopleFormats, in that order
 };
 

@@ -74,7 +74,7 @@ AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptio
   impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,
-                         AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls,
+                         AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls,
                          AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
     add(*impl_->api);
   }

@@ -14,7 +14,7 @@
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/worlds/worlds.h"
+#include "airsim360/sim/world_loader.h"
 
 namespace airsim360 {
 namespace {
@@ -63,7 +63,7 @@ TEST(CocoRle, ComesBackByTheRulesOfCocoapi) {
 class PeopleDatasetTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    populated_ = new PopulatedScene(Populate(BuildWorld("box_room", {}), {.count = 5, .warm_up = 1, .level = 2, .seed = 4}));
+    populated_ = new PopulatedScene(Populate(LoadWorld({.world = "box_room"}), {.count = 5, .warm_up = 1, .level = 2, .seed = 4}));
     tracer_ = new std::shared_ptr<const RayTracer>(std::make_shared<const RayTracer>(populated_->scene));
   }
   PeopleDatasetTest() {
@@ -72,7 +72,7 @@ class PeopleDatasetTest : public ::testing::Test {
     fs::create_directories(folder_);
     spec_ = {.world = "box_room", .width = 256, .height = 128, .frames = 3, .route = "test"};
     spec_.people = "5";
-    spec_.crops = true;
+    spec_.crops = spec_.overlay = true;
     for (const char* format : kPeopleFormats) spec_.people_formats.push_back(format);
   }
   ~PeopleDatasetTest() override { fs::remove_all(folder_); }
@@ -115,7 +115,7 @@ TEST_F(PeopleDatasetTest, EveryLineAgreesWithThePictures) {
     const Image<EntityId> entity = DecodeIdPng(ReadFile(folder_ / "a/entity" / (line["stem"].get<std::string>() + ".png")), "entity");
     for (const Json& person : line["persons"]) {
       const EntityId id = person["entity_id"];
-      EXPECT_EQ(person["track_id"].get<uint32_t>() + 7, id);
+      EXPECT_EQ(populated_->people->refs.at(person["track_id"].get<size_t>() - 1).entity, id);
       const auto pixels = std::ranges::count(entity.pixels(), id);
       EXPECT_EQ(person["area"], pixels);
       ASSERT_EQ(person["keypoints"].size(), 51u);

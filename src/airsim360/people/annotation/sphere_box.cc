@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kLargest = 175 * kPi / 180;
-constexpr int kCentering = 8;  // each pass cuts what is left of the asymmetry about tenfold
+constexpr int kCentering = 16;  // each pass cuts what is left of the asymmetry about tenfold, less near the poles
 
 // Extents of directions along two axes of the tangent plane, as angles from its centre.
 struct Extent {

@@ -27,7 +27,8 @@ struct ViewAxes {
 ViewAxes AxesOf(const FieldOfView& view);
 
 /// The field of view with gamma = 0 whose four sides all touch the directions: the centre is moved until the
-/// extremes are symmetric. Things that span more than a hemisphere get 175 degrees. Zero angles without
+/// extremes are symmetric. Around the zenith and the nadir, where north turns with the centre, there may be no
+/// such one; what is given contains them all. Things that span more than a hemisphere get 175 degrees. Zero angles without
 /// directions.
 FieldOfView FitFieldOfView(std::span<const Vec3d> directions);
 /// The one of least solid angle over all gamma, in [-pi/2, pi/2): one of its sides lies along an edge of the

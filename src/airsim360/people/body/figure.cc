@@ -68,7 +68,7 @@ void AddProps(const std::array<Vec3d, kJointCount>& q, double H, uint32_t first_
 
 }  // namespace internal
 
-std::shared_ptr<const Body> MakeProceduralBody(const BodySpec& spec) {
+std::shared_ptr<const Body> MakeProceduralBody(const BodySpec& spec, int finest_level) {
   if (!(spec.stature >= 0.9 && spec.stature <= 2.3) || !(spec.age >= 2 && spec.age <= 110))
     throw InputError("a body of " + std::to_string(spec.stature) + " m and " + std::to_string(spec.age) +
                      " years: stature must be 0.9 to 2.3 m, age 2 to 110 years");
@@ -84,7 +84,8 @@ std::shared_ptr<const Body> MakeProceduralBody(const BodySpec& spec) {
   body->size.radius = 0.155 * spec.stature / 1.0 * (0.9 + 0.1 * p.girth);
   body->sockets = ProceduralSockets(*body, p);
   PaintBody(wear, spec, *body);
-  for (int level = 0; level < kBodyLevels; ++level) {
+  body->levels.resize(static_cast<size_t>(std::clamp(finest_level, 0, kBodyLevels - 1)));
+  for (int level = static_cast<int>(body->levels.size()); level < kBodyLevels; ++level) {
     LoftMesh mesh;
     const FigureContext context{*body, p, wear, level};
     AddTrunk(context, mesh);
@@ -96,7 +97,5 @@ std::shared_ptr<const Body> MakeProceduralBody(const BodySpec& spec) {
   }
   return body;
 }
-
-std::shared_ptr<const Body> MakeBody(const BodySpec& spec) { return MakeProceduralBody(spec); }
 
 }  // namespace airsim360

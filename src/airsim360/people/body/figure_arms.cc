@@ -20,7 +20,7 @@ void AddArmLayer(const FigureContext& f, const Side& s, double from, double to, 
   const double H = f.H(), g = 0.5 + 0.5 * f.p.girth, slim = f.p.female ? 0.90 : 1;
   const Vec3d a = f.joint(s.shoulder), b = f.joint(s.elbow), c = f.joint(s.wrist), d = Normalized(b - a);
   // Position, radius across (in the plane of the palm), radius before and behind.
-  const double rows[][3] = {{-0.30, 0.016, 0.020}, {-0.16, 0.030, 0.034}, {0.0, 0.036, 0.039}, {0.18, 0.035, 0.038}, {0.45, 0.030, 0.033}, {0.75, 0.026, 0.028}, {1.0, 0.0235, 0.025},
+  const double rows[][3] = {{-0.36, 0.010, 0.016}, {-0.18, 0.019, 0.029}, {0.0, 0.026, 0.034}, {0.18, 0.029, 0.035}, {0.45, 0.0285, 0.032}, {0.75, 0.026, 0.028}, {1.0, 0.0235, 0.025},
                             {1.22, 0.024, 0.026}, {1.5, 0.021, 0.0225}, {1.8, 0.0155, 0.018}, {2.03, 0.0125, 0.0165}};
   std::vector<LoftRing> rings;
   for (const auto& row : rows) {
@@ -77,9 +77,9 @@ void AddArms(const FigureContext& f, LoftMesh& mesh) {
     const double end = top == Top::kTShirt ? 0.75 : top == Top::kVest ? -0.16 : 2.03;
     const double cloth = top == Top::kJacket ? 0.009 : top == Top::kPullover ? 0.006 : top == Top::kShirt ? 0.0045 : 0.0045;
     if (top == Top::kVest)
-      AddArmLayer(f, s, -0.30, 2.03, 0, kSkinMaterial, mesh);
+      AddArmLayer(f, s, -0.36, 2.03, 0, kSkinMaterial, mesh);
     else
-      AddArmLayer(f, s, -0.30, end, cloth, kTopMaterial, mesh);
+      AddArmLayer(f, s, -0.36, end, cloth, kTopMaterial, mesh);
     if (top == Top::kTShirt) AddArmLayer(f, s, 0.18, 2.03, 0, kSkinMaterial, mesh);
     AddHand(f, s, mesh);
   }

@@ -106,8 +106,9 @@ void AddSeat(const FigureContext& f, LoftMesh& mesh) {
   mesh.Loft(rings, style);
 }
 
-// One layer of a leg from the hip to `bottom` (share of stature); radii grow by `cloth`.
-void AddLegLayer(const FigureContext& f, bool left, double bottom, double cloth, double flare, uint32_t material, LoftMesh& mesh) {
+// One layer of a leg from position `from` (0 hip, 1 knee) to the height `bottom` (share of stature); radii grow by
+// `cloth`.
+void AddLegLayer(const FigureContext& f, bool left, double bottom, double cloth, double flare, uint32_t material, double from, LoftMesh& mesh) {
   const double H = f.H(), g = f.p.girth, k = f.p.female ? 0.002 : 0;
   const Joint hip = left ? Joint::kLeftHip : Joint::kRightHip, knee = left ? Joint::kLeftKnee : Joint::kRightKnee;
   const Joint ankle = left ? Joint::kLeftAnkle : Joint::kRightAnkle;
@@ -119,6 +120,7 @@ void AddLegLayer(const FigureContext& f, bool left, double bottom, double cloth,
   std::vector<LoftRing> rings;
   for (const auto& row : rows) {
     const double t = row[0];
+    if (t < from) continue;
     const Vec3d q = t < 1 ? a + (b - a) * t : b + (c - b) * (t - 1);
     if (q.z < bottom * H && rings.size() > 3) break;
     // Hip to thigh over the upper fifth, knee and ankle over short ways.
@@ -163,10 +165,10 @@ void AddLegs(const FigureContext& f, LoftMesh& mesh) {
   for (const bool left : {true, false}) {
     const Bottom b = f.wear.bottom;
     if (b == Bottom::kTrousers || b == Bottom::kJeans) {
-      AddLegLayer(f, left, 0.028, 0.005, b == Bottom::kTrousers ? 0.008 : 0.003, kBottomMaterial, mesh);
+      AddLegLayer(f, left, 0.028, 0.005, b == Bottom::kTrousers ? 0.008 : 0.003, kBottomMaterial, -1, mesh);
     } else {
-      AddLegLayer(f, left, 0.0, 0, 0, kSkinMaterial, mesh);
-      if (b == Bottom::kShorts) AddLegLayer(f, left, 0.33 * f.p.hip / 0.53, 0.008, 0, kBottomMaterial, mesh);
+      AddLegLayer(f, left, 0.0, 0, 0, kSkinMaterial, 0.2, mesh);  // the rest is under cloth
+      if (b == Bottom::kShorts) AddLegLayer(f, left, 0.33 * f.p.hip / 0.53, 0.008, 0, kBottomMaterial, -1, mesh);
     }
     AddShoe(f, left, mesh);
   }

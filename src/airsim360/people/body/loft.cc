@@ -220,4 +220,24 @@ BodyLevel LoftMesh::Finish(std::string name) {
   return std::move(level_);
 }
 
+void AppendLevel(const BodyLevel& props, BodyLevel& level) {
+  Mesh& mesh = level.mesh;
+  const auto vertices = static_cast<uint32_t>(mesh.positions.size());
+  const auto triangles = static_cast<uint32_t>(mesh.triangles.size());
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(mesh.positions, props.mesh.positions);
+  append(mesh.normals, props.mesh.normals);
+  append(mesh.uvs, props.mesh.uvs);
+  append(level.influences, props.influences);
+  for (const Vec3u& t : props.mesh.triangles) mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
+  for (MeshPart part : props.mesh.parts) {
+    part.first_triangle += triangles;
+    mesh.parts.push_back(part);
+  }
+  for (PropRange range : props.props) {
+    range.first_vertex += vertices;
+    level.props.push_back(range);
+  }
+}
+
 }  // namespace airsim360::internal

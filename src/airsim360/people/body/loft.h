@@ -67,4 +67,7 @@ class LoftMesh {
   uint8_t prop_bone_ = 0;
 };
 
+/// Adds a level that holds only props behind the vertices and parts of another.
+void AppendLevel(const BodyLevel& props, BodyLevel& level);
+
 }  // namespace airsim360::internal

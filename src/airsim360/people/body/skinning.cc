@@ -95,7 +95,8 @@ constexpr std::string_view kPropCategories[] = {"", "object/phone", "object/bag"
 
 PersonRef AddPerson(const PersonInScene& person, Scene& scene, TextureIds& known) {
   const Body& body = *person.body;
-  const int level = std::clamp(person.level, 0, static_cast<int>(body.levels.size()) - 1);
+  int level = std::clamp(person.level, 0, static_cast<int>(body.levels.size()) - 1);
+  while (body.levels[static_cast<size_t>(level)].mesh.triangles.empty()) ++level;  // finer ones may be left out
   PersonRef ref{static_cast<uint32_t>(scene.instances.size()), static_cast<MeshId>(scene.meshes.size()),
                 AddEntity(scene, person.name, "human/person"), level, {}};
 

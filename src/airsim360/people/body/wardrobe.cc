@@ -72,7 +72,7 @@ std::shared_ptr<const Texture> PaintFace(const Wardrobe& w, const BodySpec& spec
   const Vec3f lips = Blend(w.skin * 0.75f, {0.32f, 0.07f, 0.06f}, spec.sex == Sex::kFemale ? 0.55f : 0.25f);
   const Vec3f iris = seed % 3 == 0 ? Vec3f{0.06f, 0.10f, 0.16f} : Vec3f{0.05f, 0.025f, 0.012f};
   const bool stubble = spec.sex == Sex::kMale && spec.age > 17;
-  return Paint("face", 256, [&, lips, iris, stubble](float u, float v, int x, int y) {
+  return Paint("face", 128, [&, lips, iris, stubble](float u, float v, int x, int y) {
     const float a = std::abs(u - 0.5f);  // both halves are alike
     Vec3f c = w.skin * (1 + 0.03f * Grain(seed, x / 2, y / 2));
     c = Blend(c, c * Vec3f{1.12f, 0.80f, 0.76f}, 0.55f * Spot(a, v, 0.085f, 0.33f, 0.05f, 0.09f, 1));
@@ -93,7 +93,7 @@ std::shared_ptr<const Texture> PaintFace(const Wardrobe& w, const BodySpec& spec
 }
 
 std::shared_ptr<const Texture> PaintTop(const Wardrobe& w, uint64_t seed) {
-  return Paint("top", 128, [&, seed](float u, float v, int x, int y) {
+  return Paint("top", 64, [&, seed](float u, float v, int x, int y) {
     Vec3f c = w.top_color;
     const auto wave = [](float t, float n) { return std::fmod(t * n, 1.0f) < 0.5f; };
     if (w.pattern == 1 && wave(v, 4)) c = w.second_color;
@@ -106,7 +106,7 @@ std::shared_ptr<const Texture> PaintTop(const Wardrobe& w, uint64_t seed) {
 
 std::shared_ptr<const Texture> PaintBottom(const Wardrobe& w, uint64_t seed) {
   const float grain = w.bottom == Bottom::kJeans ? 0.16f : 0.05f;
-  return Paint("bottom", 128, [&, seed, grain](float u, float, int x, int y) {
+  return Paint("bottom", 64, [&, seed, grain](float u, float, int x, int y) {
     Vec3f c = w.bottom_color * (1 + grain * Grain(seed, x, y) + 0.5f * grain * Grain(seed, x / 8, y / 8));
     // Jeans are worn in front.
     if (w.bottom == Bottom::kJeans) c = c * (0.9f + 0.35f * Spot(u, 0, 0.5f, 0, 0.25f, 1, 1));

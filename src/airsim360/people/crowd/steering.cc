@@ -48,13 +48,6 @@ double WeidmannSpeed(double density) {
   return 1.34 * std::max(0.0, 1 - std::exp(-1.913 * (1 / density - 1 / 5.4)));
 }
 
-struct Steering::Seen {
-  Vec2d p, v;
-  double z;
-  uint32_t index;
-  bool still;
-};
-
 struct Steering::Plan {
   Vec2d v;
   int close_count = 0;
@@ -63,11 +56,12 @@ struct Steering::Plan {
 
 Steering::Steering() = default;
 Steering::~Steering() = default;
+Steering::Steering(const Steering&) {}
+Steering& Steering::operator=(const Steering&) { return *this; }
 
 void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles,
                     double dt) {
   // Everybody chooses a velocity from where all stand now; then they move one after the other.
-  Sort(walkers);
   plans_.resize(walkers.size());
   const auto n = static_cast<int64_t>(walkers.size());
   const auto chunk = [&](int64_t c) {
@@ -116,7 +110,7 @@ void Steering::Sort(std::span<const Walker> walkers) {
   for (uint32_t i = 0; i < walkers.size(); ++i) {
     const Walker& w = walkers[i];
     if (!w.present) continue;
-    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, w.at.p_W.z, i, w.still};
+    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, w.at.p_W.z, i};
   }
   for (size_t k = first_.size() - 1; k > 0; --k) first_[k] = first_[k - 1];
   first_[0] = 0;
@@ -138,6 +132,8 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   std::array<Near, kMaxNeighbours + 1> near;
   int count = 0;
   double around = 0;
+  const double wanted_speed = Norm2(walker.wanted);
+  const Vec2d forward = wanted_speed > 1e-6 ? walker.wanted * (1 / wanted_speed) : Vec2d{};
   const int column = static_cast<int>((self.p.x - min_.x) / cell_), row = static_cast<int>((self.p.y - min_.y) / cell_);
   const auto look = [&](int r, int c0, int c1) {
     if (r < 0 || r >= rows_) return;
@@ -149,7 +145,8 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
       const Vec2d d = other.p - self.p;
       const double d2 = Dot2(d, d);
       if (d2 > kSight * kSight || i == k || std::abs(other.z - self.z) > kLevel) continue;
-      if (d2 < kDensityRadius * kDensityRadius) around += 1;
+      // Who is ahead counts double, who is behind not at all: the first of a queue see the way free.
+      if (d2 < kDensityRadius * kDensityRadius) around += 1 + Dot2(d, forward) / std::sqrt(d2 + 1e-12);
       if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose)
         plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
       // Those behind matter less.
@@ -174,10 +171,11 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
 
   // Walkers slow down in a crowd, all by the same law.
   const double disc = kPi * kDensityRadius * kDensityRadius * mesh.OpenShare(self.p);
-  const double cap = kSpeed(kDensityFactor * (around + kSelfShare) / disc) / 1.34 * std::max(walker.free_speed, Norm2(walker.wanted));
-  Vec2d wanted = walker.wanted;
-  const double speed = Norm2(wanted);
-  if (speed > cap) wanted = wanted * (cap / speed);
+  const double density = kDensityFactor * (around + kSelfShare) / disc;
+  const double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
+  Vec2d wanted = wanted_speed > cap ? walker.wanted * (cap / wanted_speed) : walker.wanted;
+  // In a throng they come closer.
+  const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * std::clamp((density - 1.2) / 1.3, 0.0, 1.0);
 
   // Walls first, for they do not give way.
   std::array<HalfPlane, kMaxWalls + kMaxNeighbours + 4> planes;
@@ -204,7 +202,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
     const Seen& other = *near[static_cast<size_t>(i)].other;
     const Vec2d d = other.p - self.p;
     planes[planes_used++] =
-        AvoidDisc(d, self.v, other.v, 2 * kSpaceRadius, kHorizon, dt, other.still ? 1 : 0.5);
+        AvoidDisc(d, self.v, other.v, 2 * space, kHorizon, dt, walkers[other.index].still ? 1 : 0.5);
     const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
     if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
   }

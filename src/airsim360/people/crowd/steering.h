@@ -39,13 +39,36 @@ class Steering {
  public:
   Steering();
   ~Steering();
-  /// Advances all by dt seconds. Does not depend on the number of threads.
+  Steering(const Steering&);             ///< a new one
+  Steering& operator=(const Steering&);  ///< changes nothing
+  /// Sorts those who are present by place: first part of a step, and what Near looks at.
+  void Sort(std::span<const Walker> walkers);
+  /// Calls visit(number, p, z) for all who may be within `range` of p, in a fixed order.
+  template <class Visit>
+  void Near(Vec2d p, double range, const Visit& visit) const {
+    const auto index = [&](double v, double low, int n) {
+      const double k = (v - low) / cell_;
+      return k < 0 ? 0 : k >= n ? n - 1 : static_cast<int>(k);
+    };
+    if (seen_.empty()) return;
+    const int c0 = index(p.x - range, min_.x, columns_), c1 = index(p.x + range, min_.x, columns_);
+    const int r0 = index(p.y - range, min_.y, rows_), r1 = index(p.y + range, min_.y, rows_);
+    for (int r = r0; r <= r1; ++r) {
+      const size_t base = static_cast<size_t>(r) * static_cast<size_t>(columns_);
+      for (uint32_t i = first_[base + static_cast<size_t>(c0)]; i < first_[base + static_cast<size_t>(c1) + 1]; ++i)
+        visit(seen_[i].index, seen_[i].p, seen_[i].z);
+    }
+  }
+  /// Advances all by dt seconds from the places that Sort saw. Does not depend on the number of threads.
   void Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles, double dt);
 
  private:
-  struct Seen;
+  struct Seen {
+    Vec2d p, v;
+    double z;
+    uint32_t index;
+  };
   struct Plan;
-  void Sort(std::span<const Walker> walkers);
   void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles,
               uint32_t self, double dt);
   void Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t self, double dt);

@@ -101,6 +101,7 @@ TEST(Steering, NobodyOverlapsAndThreadsDoNotMatter) {
         const double n = std::sqrt(Dot2(to, to));
         walkers[i].wanted = n > 0.3 ? to * (1.34 / n) : Vec2d{};
       }
+      steering.Sort(walkers);
       steering.Step(*mesh, walkers, {}, 0.05);
       if (!closest) continue;
       for (size_t i = 0; i < walkers.size(); ++i)

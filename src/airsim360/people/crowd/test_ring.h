@@ -64,6 +64,7 @@ inline double RingSpeed(const NavMesh& mesh, double density, double seconds) {
       const double r = std::hypot(w.at.p_W.x, w.at.p_W.y);
       w.wanted = Vec2d{-w.at.p_W.y, w.at.p_W.x} * (w.free_speed / r);
     }
+    steering.Sort(walkers);
     steering.Step(mesh, walkers, {}, 0.05);
     if (i < steps / 2) continue;
     for (const Walker& w : walkers) {

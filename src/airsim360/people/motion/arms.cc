@@ -61,7 +61,7 @@ void SwingArms(const PostureInput& in, double share, Posture& posture) {
     ArmAngles a;
     a.flex = personal * (swing * c - 5 + 6 * run) + 2 * (1 - g) + 0.8 * Sway(seed, 31 + left, 0.2, in.t);
     a.abduct = 7 + 5 * run * g + (in.body.spec.build > 0 ? 5 * in.body.spec.build : 0);
-    a.rotate = 10 + 22 * run * g;
+    a.rotate = 8 + 8 * run * g;
     a.elbow = (1 - g) * 14 + g * (base + personal * 9 * std::max(0.0, c) + 6 * run * c);
     Hang(left, a, posture);
     posture.curl[left ? 0 : 1] = 0.3 + 0.35 * run * g;
@@ -125,7 +125,7 @@ void SetArms(const PostureInput& in, Posture& posture) {
       Gesture(in, posture);
       break;
     case Behaviour::kPhoneCall:
-      Place(in, false, AtHead(in, {-0.05, 0.95, -0.12}), posture, {0.25, 0.8, -1});
+      Place(in, false, AtHead(in, {-0.02, 0.80, -0.25}), posture, {0.45, 0.30, -1});
       TurnHand(false, -20, -12, posture);
       posture.curl[1] = 0.55;
       posture.props |= 1u << static_cast<int>(Prop::kPhone);
@@ -140,7 +140,7 @@ void SetArms(const PostureInput& in, Posture& posture) {
       break;
     case Behaviour::kTakePhoto:
       for (const bool left : {true, false}) {
-        Place(in, left, AtHead(in, {0, 0, 0.25}) + Vec3d{0.62, 0.06, 0}, posture, {-0.1, 0.9, -1});
+        Place(in, left, AtHead(in, {0, 0, -0.05}) + Vec3d{0.62, 0.05, 0}, posture, {-0.1, 0.6, -1});
         TurnHand(left, 5, -8, posture);
         posture.curl[left ? 0 : 1] = 0.5;
       }

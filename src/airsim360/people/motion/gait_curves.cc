@@ -22,15 +22,15 @@ constexpr double kTurn = 2 * std::numbers::pi, kDegree = std::numbers::pi / 180;
 
 // Mean, then cosine and sine coefficients of the harmonics, degrees.
 constexpr std::array<double, 13> kWalkHip{14.68, 21.24, -6.61, -4.16, -2.86, -0.39, 1.74, -0.34, 0.08, -0.08, 0.35};
-constexpr std::array<double, 13> kWalkKnee{28.31, -1.98, -23.22, -15.48, 6.78, -0.58, 4.65,
-                                           -0.99, 0.70, 0.07, 0.68, 0.25, 0.02};
+constexpr std::array<double, 13> kWalkKnee{29.44, -1.97, -24.20, -15.81, 6.75, -0.57, 4.69,
+                                           -1.01, 0.72, 0.23, 0.67, 0.30, -0.02};
 constexpr std::array<double, 13> kRunHip{23.82, 24.15, -18.24, -6.52, 3.81, -1.04, -1.16, -0.59, 0.64, -0.79, -0.10};
 constexpr std::array<double, 13> kRunKnee{49.46, -8.47, -29.45, -15.88, 12.11, -3.93, -0.03,
                                           -0.63, 1.36, -1.07, 0.32, -0.05, 0.39};
 
-// Phase, degrees toe down: heel contact, flat, (heel-off is solved from the leg), swing, contact.
-constexpr double kWalkPitch[][2] = {{0, -18}, {0.07, 0}, {0.62, 0}, {0.70, 60}, {0.78, 38}, {0.86, 8}, {0.93, -14}, {1, -18}};
-constexpr double kRunPitch[][2] = {{0, -4}, {0.05, 0}, {0.40, 0}, {0.50, 75}, {0.65, 80}, {0.80, 40}, {0.92, 2}, {1, -4}};
+// Phase, degrees toe down: heel contact, flat, heel-off (there the leg decides), swing, contact.
+constexpr double kWalkPitch[][2] = {{0, -18}, {0.07, 0}, {0.30, 0}, {0.62, 48}, {0.70, 60}, {0.80, 30}, {0.92, -12}, {1, -18}};
+constexpr double kRunPitch[][2] = {{0, -4}, {0.05, 0}, {0.25, 0}, {0.38, 50}, {0.50, 75}, {0.65, 80}, {0.85, 25}, {1, -4}};
 
 double Table(const double (&table)[8][2], double phase) {
   for (int i = 0; i < 7; ++i) {

@@ -81,7 +81,8 @@ class Solver {
       foot.motion = &in.motion.feet[k];
       foot.planted = foot.motion->mode == FootMotion::Mode::kPlanted;
       foot.phase = PhaseOf(in.motion, k);
-      foot.curve = LegCurves(gait_, foot.phase);
+      // A foot that is still down when its stance is over (the person stops) stands.
+      foot.curve = LegCurves(gait_, foot.planted && foot.phase > gait_.duty + 0.1 ? 0.3 : foot.phase);
       hip_[k] = in.A_WPelvis * (in.body.p_PJ[At(kLegs[k].hip)] - in.body.p_PJ[At(Joint::kPelvis)]);
     }
   }
@@ -146,7 +147,7 @@ class Solver {
     const double phase = feet_[a].phase;
     const double carried = feet_[a].planted ? HeightOver(a, feet_[a].curve.knee)
                                             : CurveHeight(a, phase, in_.state.p_WP.z);
-    const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.36;
+    const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.43;
     const double mix = SmoothStep(from, 0.5, phase);
     double height = carried;
     if (mix > 0) {
@@ -201,7 +202,7 @@ class Solver {
     Foot& foot = feet_[k];
     const FootMotion& m = *foot.motion;
     const double u = std::clamp((foot.phase < m.phase - 0.3 ? 1.0 : foot.phase - m.phase) / std::max(0.05, 1 - m.phase), 0.0, 1.0);
-    const double keep = 1 - SmoothStep(0, 1, u), early = 1 - SmoothStep(0, 0.45, u);
+    const double keep = 1 - SmoothStep(0, 0.6, u), early = 1 - SmoothStep(0, 0.45, u);
     const LegAngles lift = LegCurves(gait_, m.phase);
     foot.pitch = foot.curve.pitch + (m.pitch - lift.pitch) * early;
     foot.toes = 1 - SmoothStep(0, 0.25, u);
@@ -221,7 +222,7 @@ class Solver {
     foot.ankle = p + in_.X_WP.R * (m.offset * keep);
     // Landing: onto the ground that is there; before, clear of it.
     const double sole = shapes_[k].AnkleAt(foot.pitch).z, ground = m.p_W_to.z;
-    const double landing = SmoothStep(0.72, 1, u);
+    const double landing = SmoothStep(0.86, 1, u);
     foot.ankle.z += (ground + sole - foot.ankle.z) * landing;
     const double clear = 0.018 * SmoothStep(0, 0.25, u) * (1 - landing);
     const double floor = std::max(ground, in_.state.p_WP.z + (m.p_W.z - in_.state.p_WP.z) * (1 - u));
@@ -232,8 +233,7 @@ class Solver {
   double LowestPoint(size_t k, double pitch) const {
     const FootShape& shape = shapes_[k];
     const double c = std::cos(pitch), s = std::sin(pitch);
-    return std::max({c * shape.ankle_height - s * shape.heel, c * shape.ankle_height + s * shape.ball.x,
-                     c * shape.ankle_height + s * shape.ball.x});
+    return std::max(c * shape.ankle_height - s * shape.heel, c * shape.ankle_height + s * shape.ball.x);
   }
 
   // A step of a standing person, by time.
@@ -307,6 +307,8 @@ Vec3d LandingPlace(const Body& body, const Gait& gait, size_t side) {
   const double x = body.p_PJ[At(kLegs[side].hip)].x + Forward(body.size, contact).x - shape.AnkleAt(std::min(0.0, contact.pitch)).x;
   return {x, AnkleSide(body, gait, side) + shape.ball.y, 0};
 }
+
+Vec3d AnkleOverBall(const Body& body, size_t side, double pitch) { return FootShape(body, side).AnkleAt(pitch); }
 
 double ToeOut(size_t side) { return (side == 0 ? 1 : -1) * 5 * kDegree; }
 

@@ -49,6 +49,8 @@ Gait GaitOf(const Body& body, const MotionState& motion);
 Vec3d LandingPlace(const Body& body, const Gait& gait, size_t side);
 /// Where the ball of a foot is when standing, in P.
 Vec3d HomePlace(const Body& body, size_t side);
+/// Ankle against the ground under the ball of the flat foot, in the frame of a foot at this pitch.
+Vec3d AnkleOverBall(const Body& body, size_t side, double pitch);
 /// How far feet are turned out, radians, to the left.
 double ToeOut(size_t side);
 

@@ -104,12 +104,14 @@ class Stepper {
     FootMotion& foot = m_.feet[k];
     const double phase = PhaseOf(m_, k), cadence = std::max(rate_, 0.2);
     if (foot.mode == Mode::kStep) return Step(k);
-    if (foot.mode == Mode::kPlanted && phase >= gait_.duty && phase < 0.97) LiftOff(k, phase);
-    if (foot.mode == Mode::kSwing && phase < gait_.duty) return Land(k, phase / cadence);
+    // A foot comes off when its stance is over, or when the leg is too short to hold it.
+    if (foot.mode == Mode::kPlanted && phase < 0.97 && (phase >= gait_.duty || (phase > 0.25 && Away(k) > 0.58 * leg_)))
+      LiftOff(k, phase);
+    if (foot.mode == Mode::kSwing && phase < foot.phase) return Land(k, phase / cadence);
     if (foot.mode == Mode::kSwing) {
       // Where it is going to land, and the ground there.
       Aim(k, -(1 - phase) / cadence);
-    } else if (TooFar(k) && m_.feet[1 - k].mode == Mode::kPlanted) {
+    } else if (Away(k) > 0.85 * leg_ && m_.feet[1 - k].mode == Mode::kPlanted) {
       BeginStep(k);
     }
   }
@@ -156,26 +158,20 @@ class Stepper {
     foot.offset = R_.transpose() * (leg.ankle - swing.ankle);
   }
 
-  bool TooFar(size_t k) const {
+  // How far a planted foot is from under the person.
+  double Away(size_t k) const {
     const Vec3d d = m_.feet[k].p_W - state_.p_WP;
-    return std::hypot(d.x, d.y) > 0.85 * leg_;
+    return std::hypot(d.x, d.y);
   }
 
   void BeginStep(size_t k) {
     FootMotion& foot = m_.feet[k];
-    if (foot.mode == Mode::kSwing) {
-      // From where it hangs: the ball under the ankle.
-      const SolvedLeg leg = Solved().leg[k];
-      const Vec3d home = HomePlace(body_, k);
-      const double yaw = std::atan2(leg.A_foot.m[1][0], leg.A_foot.m[0][0]);
-      const Vec3d ankle = body_.p_PJ[At(k == 0 ? Joint::kLeftAnkle : Joint::kRightAnkle)];
-      foot.p_W = leg.ankle + RotationZ(yaw) * Vec3d{home.x - ankle.x, home.y - ankle.y, -ankle.z};
-      foot.p_W.z = std::max(foot.p_W.z, foot.p_W_to.z);
-      foot.yaw = yaw;
-      foot.pitch = 0;
-    } else {
-      foot.pitch = 0;
-    }
+    // From where it is, as it is turned.
+    const SolvedLeg leg = Solved().leg[k];
+    const Vec3d toe = leg.A_foot.column(0);
+    foot.yaw = std::atan2(toe.y, toe.x);
+    foot.pitch = leg.pitch;
+    foot.p_W = leg.ankle - RotationZ(foot.yaw) * AnkleOverBall(body_, k, leg.pitch);
     foot.mode = Mode::kStep;
     foot.u = 0;
     AimHome(k);

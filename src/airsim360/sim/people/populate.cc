@@ -43,7 +43,7 @@ PopulatedScene Populate(std::shared_ptr<const Scene> scene, const PeopleRequest&
   people->seed = request.seed;
   people->epoch_ns = std::llround(request.warm_up * 1e9) / kCrowdTickNs * kCrowdTickNs;
   people->crowd = BuildCrowd(
-      *scene, NavMesh::Build(*scene),
+      *scene, request.navmesh ? request.navmesh : NavMesh::Build(*scene),
       {.file = request.file, .count = request.count, .reserve = request.reserve, .seed = request.seed});
 
   const std::vector<PersonTraits>& traits = people->crowd->people;
@@ -51,7 +51,7 @@ PopulatedScene Populate(std::shared_ptr<const Scene> scene, const PeopleRequest&
   people->cast.resize(traits.size());
   ParallelFor(static_cast<int64_t>(traits.size()), [&](int64_t task) {
     const auto i = static_cast<size_t>(task);
-    auto body = MakeBody(SpecOf(traits[i]));
+    auto body = MakeBody(SpecOf(traits[i]), level);
     const int coarsest = static_cast<int>(body->levels.size()) - 1;
     people->cast[i] = {PersonName(i), std::move(body), std::min(level, coarsest)};
   });

@@ -18,6 +18,7 @@ struct PeopleRequest {
   double warm_up = 15;                 ///< seconds that people live before the simulation begins
   int level = -1;                      ///< of detail of all bodies; -1: finer for fewer people
   uint64_t seed = 0;
+  std::shared_ptr<const NavMesh> navmesh = nullptr;  ///< of the scene, if there is one already
 
   /// Whether there are any.
   bool any() const { return count.value_or(0) > 0 || !file.empty() || reserve > 0; }
