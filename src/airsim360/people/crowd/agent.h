@@ -151,7 +151,7 @@ void WatchStuck(CrowdTick& tick, PersonIndex i);
 /// Velocities wanted by all.
 void WantVelocities(CrowdTick& tick);
 
-// think.cc
+// mind.cc
 void Think(CrowdTick& tick, PersonIndex i);
 void HaltPerson(CrowdTick& tick, PersonIndex i);
 /// The drone nearest to someone's head; -1 = none.
