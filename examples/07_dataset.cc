@@ -23,7 +23,9 @@ int main(int argc, char** argv) {
   const auto scene = LoadWorld({.world = "box_room"});
   const auto tracer = std::make_shared<const RayTracer>(scene);
   const auto route = std::make_shared<const Route>(PlanSurvey(*tracer, {.viewpoints = 8}));
-  const DatasetSpec spec{.world = "box_room", .width = 256, .height = 128, .frames = 8, .route = "auto"};
+  DatasetSpec spec;
+  spec.world = "box_room", spec.route = "auto";
+  spec.width = 256, spec.height = 128, spec.frames = 8;
   const SimModel model{.tracer = tracer, .dt_ns = kRouteStepNs};
   const Flight flight = FlyRoute(model, route, EvenTimes(*route, spec.frames));
   const auto renderer = MakeCpuRenderer(tracer, {.tier = spec.tier});

@@ -15,13 +15,13 @@ namespace airsim360 {
 
 struct ServerOptions {
   AirSimSettings settings = DefaultSettings();
-  Environment environment;
+  Environment environment = {};
   std::string address = "127.0.0.1";
   int port = 41451;  ///< 0 = any free one
   bool lockstep = false;
   Tier tier = Tier::kFast;
   uint64_t seed = 0;
-  TcpLimits limits;
+  TcpLimits limits = {};
   std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene (Populate); null = nobody
   std::vector<SpawnAsset> assets = ShapeAssets();     ///< what simSpawnObject can make
 };

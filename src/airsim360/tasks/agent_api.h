@@ -28,11 +28,11 @@ struct AgentResponse {
 struct AgentApiOptions {
   std::string world;  ///< of episodes that name none
   uint64_t world_seed = 0;
-  std::vector<std::string> worlds;  ///< names that episodes may ask for
+  std::vector<std::string> worlds = {};  ///< names that episodes may ask for
   /// Builds a world; slow.
-  std::function<std::shared_ptr<AgentWorld>(const std::string& name, uint64_t seed)> open;
+  std::function<std::shared_ptr<AgentWorld>(const std::string& name, uint64_t seed)> open = {};
   bool realtime = false;          ///< what an agent takes to think passes in its episode
-  std::function<double()> clock;  ///< seconds, for idle episodes and `realtime`; none: stands still
+  std::function<double()> clock = {};  ///< seconds, for idle episodes and `realtime`; none: stands still
   size_t max_episodes = 64;
   size_t max_worlds = 4;       ///< kept in memory
   double idle_seconds = 3600;  ///< after which an episode that nobody touches is forgotten, where room is needed
