@@ -128,6 +128,14 @@ commands give the same bytes with any number of threads. wind: (3,) m/s in W.)")
           py::arg("snapshot"),
           "Goes back to a snapshot of this simulation; commands not yet applied are dropped.")
       .def(
+          "start_recording", [](Simulation& s, const std::string& note) { s.loop().StartRecording(note); },
+          py::arg("note") = "", "Notes commands and hashes from now on.")
+      .def("stop_recording", &StopRecording, "The Recording since start_recording.")
+      .def("replay", &ReplayFrom, py::arg("recording"), py::arg("start"),
+           "Repeats a recording from the snapshot it began with, beside this simulation: dictionary with "
+           "same, "
+           "steps, differs_at (step, or None), hash.")
+      .def(
           "hash", [](Simulation& s) { return HashState(*s.loop().Snapshot()); },
           "64 bits over every number of the state.")
       .def("events", &Simulation::Events,
