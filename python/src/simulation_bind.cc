@@ -109,7 +109,7 @@ commands give the same bytes with any number of threads. wind: (3,) m/s in W.)")
             const py::gil_scoped_release release;
             return s.Take(rig, i);
           },
-          py::arg("rig") = Rig{}, py::arg("drone") = 0,
+          py::arg_v("rig", Rig{{.camera = Equirectangular{1024, 512}}}, "Rig()"), py::arg("drone") = 0,
           "What the rig on a drone sees now; its own body is hidden. Changes nothing.")
       .def(
           "snapshot",

@@ -108,6 +108,10 @@ class Captures(unittest.TestCase):
         self.assertLess(middle[64, 0], -0.2)
         self.assertGreater(middle[192, 0], 0.2)
 
+    def test_without_a_rig_it_is_the_default_one(self):
+        self.assertEqual(ROOM.capture([0, 0, 3]).rgb.shape, (512, 1024, 3))
+        self.assertEqual((Rig().width, Rig().height), (1024, 512))
+
     def test_wrong_rigs_are_value_errors(self):
         for options in ({"width": 255}, {"tier": "fsat"}, {"products": ["rgbb"]}, {"projection": "cube"},
                         {"position": [0, 0]}, {"yaw": math.nan}, {"flow_dt": 0}):
