@@ -7,3 +7,5 @@ for command in "traversal_bench" "traversal_bench --isa avx2" "traversal_bench -
   # shellcheck disable=SC2086
   "$build"/bin/$command
 done
+echo "== gym_bench.py"
+PYTHONPATH="$build/python" /usr/bin/python3 "$(dirname "$0")/../bench/gym_bench.py"

@@ -109,7 +109,7 @@ commands give the same bytes with any number of threads. wind: (3,) m/s in W.)")
             const py::gil_scoped_release release;
             return s.Take(rig, i);
           },
-          py::arg("rig") = Rig{}, py::arg("drone") = 0,
+          py::arg_v("rig", Rig{{.camera = Equirectangular{1024, 512}}}, "Rig()"), py::arg("drone") = 0,
           "What the rig on a drone sees now; its own body is hidden. Changes nothing.")
       .def(
           "snapshot",
@@ -127,6 +127,14 @@ commands give the same bytes with any number of threads. wind: (3,) m/s in W.)")
           },
           py::arg("snapshot"),
           "Goes back to a snapshot of this simulation; commands not yet applied are dropped.")
+      .def(
+          "start_recording", [](Simulation& s, const std::string& note) { s.loop().StartRecording(note); },
+          py::arg("note") = "", "Notes commands and hashes from now on.")
+      .def("stop_recording", &StopRecording, "The Recording since start_recording.")
+      .def("replay", &ReplayFrom, py::arg("recording"), py::arg("start"),
+           "Repeats a recording from the snapshot it began with, beside this simulation: dictionary with "
+           "same, "
+           "steps, differs_at (step, or None), hash.")
       .def(
           "hash", [](Simulation& s) { return HashState(*s.loop().Snapshot()); },
           "64 bits over every number of the state.")

@@ -167,10 +167,9 @@ ValueError names the nearest world where there is none of that name.)")
             const py::gil_scoped_release release;
             return w.Render(rig.rig, body);
           },
-          py::arg("position"), py::arg("rig") = Rig{}, py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
-          py::arg("roll") = 0.0,
-          "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and "
-          "grows "
+          py::arg("position"), py::arg_v("rig", Rig{{.camera = Equirectangular{1024, 512}}}, "Rig()"),
+          py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
+          "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and grows "
           "counter-clockwise, pitch is positive nose up, roll right side down.");
 }
 

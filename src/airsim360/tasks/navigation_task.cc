@@ -1,8 +1,8 @@
 #include "airsim360/tasks/navigation_task.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "airsim360/base/error.h"
@@ -13,7 +13,7 @@ namespace airsim360 {
 namespace {
 
 constexpr int kCandidates = 500;       // places tried in a world
-constexpr int kTries = 64;             // draws of a pair before the best so far is taken
+constexpr int kTries = 512;            // draws of a pair before the best so far is taken
 constexpr float kEverydaySize = 25;    // metres: longest extent of a target that was not asked for by name
 constexpr int kLeastTargetPixels = 3;  // of a panorama: fewer do not count as seen
 
@@ -125,32 +125,32 @@ NavigationEpisode NavigationWorld::SampleSearch(RngStream& random) const {
 
 NavigationEpisode NavigationWorld::Sample(uint64_t seed, uint64_t environment, uint64_t number) const {
   RngStream random(seed, "navigation episode", MixBits(environment) ^ number);
-  const auto place = [&] { return places_[random.Index(static_cast<uint32_t>(places_.size()))]; };
+  const auto place = [&] {
+    const Vec3d middle = places_[random.Index(static_cast<uint32_t>(places_.size()))];
+    const double u = random.Uniform(), v = random.Uniform(), w = random.Uniform();
+    return Near(middle, u, v, w);
+  };
   const bool search = task_.kind == NavigationKind::kSearch;
   NavigationEpisode episode;
   if (search) episode = SampleSearch(random);
 
   // Draw pairs until one fits; else take the one whose distance misses the wanted ones least.
-  Vec3d start = places_.front(), goal = episode.goal_W;
   double least_miss = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTries && least_miss > 0; ++i) {
-    const Vec3d a = place(), b = search ? episode.goal_W : place();
-    const double distance = Norm(b - a);
+    const Vec3d start = place(), goal = search ? episode.goal_W : place();
+    const double distance = Norm(goal - start);
     double miss = std::max({task_.least_distance - distance, distance - task_.most_distance, 0.0});
     if (distance == 0) continue;
     // What is to be avoided must be there.
-    if (task_.kind == NavigationKind::kAvoid && !tracer_->Occluded(VecCast<float>(a), VecCast<float>(b)))
+    if (task_.kind == NavigationKind::kAvoid &&
+        !tracer_->Occluded(VecCast<float>(start), VecCast<float>(goal)))
       miss += 1e-3;
     if (miss >= least_miss) continue;
     least_miss = miss;
-    start = a;
-    goal = b;
+    episode.X_WB.p = start;
+    episode.goal_W = goal;
   }
-  const double yaw = random.Uniform(-std::numbers::pi, std::numbers::pi);
-  std::array<double, 6> u;
-  for (double& value : u) value = random.Uniform();
-  episode.X_WB = BodyPose(Near(start, u[0], u[1], u[2]), yaw, 0, 0);
-  episode.goal_W = search ? goal : Near(goal, u[3], u[4], u[5]);
+  episode.X_WB = BodyPose(episode.X_WB.p, random.Uniform(-std::numbers::pi, std::numbers::pi), 0, 0);
   return episode;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/sensors/rig.h"
 #include "airsim360/tasks/navigation_task.h"
 
 namespace airsim360 {
@@ -102,7 +103,10 @@ class VectorEnvironment {
     bool ended = false;
   };
   /// One thread's renderer.
-  struct Slot;
+  struct Slot {
+    std::unique_ptr<Renderer> renderer;
+    Capture capture;
+  };
 
   void Begin(size_t i);
   Command CommandOf(std::span<const float> action) const;

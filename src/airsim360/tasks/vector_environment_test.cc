@@ -19,8 +19,10 @@ std::shared_ptr<const RayTracer> Room() {
   return tracer;
 }
 
-VectorEnvironmentOptions Options(int count) {
+// Labels are made quickly; one test looks at colours.
+VectorEnvironmentOptions Options(int count, Tier tier = Tier::kLabels) {
   VectorEnvironmentOptions options;
+  options.tier = tier;
   options.count = count;
   options.drone = CatalogModel("hummingbird");
   options.width = 64;
@@ -59,7 +61,7 @@ Seen Look(const VectorEnvironment& e) {
 TEST(VectorEnvironment, SameSeedAndActionsGiveTheSameBytesWithAnyNumberOfThreads) {
   const auto run = [](int threads) {
     const ThreadLimit limit(threads);
-    VectorEnvironment e(Room(), Task(NavigationKind::kAvoid), Options(3));
+    VectorEnvironment e(Room(), Task(NavigationKind::kAvoid), Options(3, Tier::kFast));
     std::vector<Seen> seen = {Look(e)};
     RngStream random(7, "test");
     for (int step = 0; step < 12; ++step) {
@@ -94,7 +96,7 @@ TEST(VectorEnvironment, AnEnvironmentDoesNotDependOnHowManyThereAre) {
   VectorEnvironment many(Room(), Task(NavigationKind::kReach), Options(4));
   few.Step(Repeat(few, {0.5f, 0, 0, 0.3f}));
   many.Step(Repeat(many, {0.5f, 0, 0, 0.3f}));
-  EXPECT_TRUE(std::ranges::equal(few.rgb(), many.rgb().first(few.rgb().size())));
+  EXPECT_TRUE(std::ranges::equal(few.range(), many.range().first(few.range().size())));
   EXPECT_TRUE(std::ranges::equal(few.state(), many.state().first(few.state().size())));
 }
 
@@ -244,7 +246,7 @@ TEST(NavigationWorld, SomethingIsInTheWayOfMostAvoidEpisodes) {
     const NavigationEpisode episode = world.Sample(5, 0, i);
     blocked += Room()->Occluded(VecCast<float>(episode.X_WB.p), VecCast<float>(episode.goal_W));
   }
-  EXPECT_GE(blocked, 50);  // ends are moved a little after the pair was chosen
+  EXPECT_GE(blocked, 80);
 }
 
 TEST(NavigationWorld, WrongTasksAreNamed) {
