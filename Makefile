@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo test bench fuzz install-packages clean
+.PHONY: build demo test bench bench-gpu fuzz install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -16,6 +16,10 @@ test: build
 
 bench: build
 	@tools/bench.sh $(BUILD)
+
+# the GPU renderer alone: builds, checks and times it in under ten minutes and names the device
+bench-gpu: install-packages
+	@tools/bench_gpu.sh $(BUILD) $(JOBS)
 
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: install-packages

@@ -163,7 +163,7 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   if (!arguments.pose.empty()) ParsePose(arguments.pose);
 
   const OpenedWorld world =
-      OpenWorld(arguments.world, globals.seed, arguments.frames > 0 ? tier : Tier::kLabels);
+      OpenWorld(arguments.world, globals, arguments.frames > 0 ? tier : Tier::kLabels);
   SetStart(arguments, *world.scene, trajectory.get(), setup);
   SimModel model{.tracer = world.tracer, .wind = wind};
   model.world.seed = globals.seed;

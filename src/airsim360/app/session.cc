@@ -4,18 +4,21 @@
 #include <cstdio>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/world_loader.h"
 
 namespace airsim360 {
 
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags) {
+OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
+                      const EnvironmentFlags& flags) {
   ApplyFlags(flags, {});  // wrong ones are found before the world is loaded
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
-  opened.scene = LoadWorld({.world = world, .seed = seed});
+  opened.scene = LoadWorld({.world = world, .seed = globals.seed});
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
   opened.environment = ApplyFlags(flags, opened.scene->environment);
-  opened.renderer = MakeCpuRenderer(opened.tracer, {.tier = tier, .environment = opened.environment});
+  opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
+                                 {globals.device, globals.gpu});
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;

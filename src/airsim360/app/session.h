@@ -21,7 +21,9 @@ struct OpenedWorld {
   Environment environment;  ///< the world's own with what the flags say
   double load_ms = 0;       ///< building or importing the scene and its ray tracing structure
 };
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags = {});
+/// Seed and device are those of `globals`.
+OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
+                      const EnvironmentFlags& flags = {});
 
 /// Prints what a run did: JSON or a few lines of text.
 void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,
