@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo people test bench wheel fuzz install-packages clean
+.PHONY: build demo people test bench bench-gpu wheel fuzz install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -24,6 +24,10 @@ bench: build
 # dist/airsim360-*.whl, for Debian's python3; offline
 wheel: install-packages
 	@AIRSIM360_BUILD=$(BUILD) /usr/bin/python3 python/build_backend.py dist
+
+# the GPU renderer alone: builds, checks and times it in under ten minutes and names the device
+bench-gpu: install-packages
+	@tools/bench_gpu.sh $(BUILD) $(JOBS)
 
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: install-packages

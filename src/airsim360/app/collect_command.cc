@@ -167,8 +167,8 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
   if (!arguments.plan.empty() && arguments.route != "auto")
     throw InputError("--plan: give either --plan or --route, not both");
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment,
-                                     arguments.people.Request(globals.seed));
+  const OpenedWorld world =
+      OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
   spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
   const Flight flight = FlyRoute(world.Model(kRouteStepNs), plan.route, plan.shot_times_ns);

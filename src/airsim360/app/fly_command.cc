@@ -169,7 +169,7 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   if (!arguments.pose.empty()) ParsePose(arguments.pose);
 
   const OpenedWorld world =
-      OpenWorld(arguments.world, globals.seed, arguments.frames > 0 ? tier : Tier::kLabels, {},
+      OpenWorld(arguments.world, globals, arguments.frames > 0 ? tier : Tier::kLabels, {},
                 arguments.people.Request(globals.seed));
   SetStart(arguments, *world.scene, trajectory.get(), setup);
   SimModel model = world.Model(SimModel{}.dt_ns);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/world_loader.h"
 
@@ -15,12 +16,12 @@ SimModel OpenedWorld::Model(int64_t dt_ns) const {
   return model;
 }
 
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags,
-                      const PeopleRequest& people) {
+OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
+                      const EnvironmentFlags& flags, const PeopleRequest& people) {
   ApplyFlags(flags, {});  // wrong ones are found before the world is loaded
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
-  opened.scene = LoadWorld({.world = world, .seed = seed});
+  opened.scene = LoadWorld({.world = world, .seed = globals.seed});
   if (people.any()) {
     PopulatedScene populated = Populate(std::move(opened.scene), people);
     opened.scene = std::move(populated.scene);
@@ -28,7 +29,8 @@ OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const 
   }
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
   opened.environment = ApplyFlags(flags, opened.scene->environment);
-  opened.renderer = MakeCpuRenderer(opened.tracer, {.tier = tier, .environment = opened.environment});
+  opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
+                                 {globals.device, globals.gpu});
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;

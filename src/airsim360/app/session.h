@@ -27,8 +27,9 @@ struct OpenedWorld {
   /// A simulation of it without drones.
   SimModel Model(int64_t dt_ns) const;
 };
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags = {},
-                      const PeopleRequest& people = {});
+/// Seed and device are those of `globals`.
+OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
+                      const EnvironmentFlags& flags = {}, const PeopleRequest& people = {});
 
 /// Prints what a run did: JSON or a few lines of text.
 void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,

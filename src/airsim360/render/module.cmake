@@ -8,7 +8,6 @@ file(GLOB shaders CONFIGURE_DEPENDS ${shader_dir}/*.rgen ${shader_dir}/*.rchit $
      ${shader_dir}/*.comp)
 file(GLOB shader_parts CONFIGURE_DEPENDS ${shader_dir}/*.glsl ${shader_dir}/*.h
      ${CMAKE_CURRENT_SOURCE_DIR}/src/airsim360/render/shading/*.h)
- 
 set(spirv "")
 foreach(shader ${shaders})
   get_filename_component(shader_name ${shader} NAME)
@@ -21,3 +20,7 @@ endforeach()
 target_sources(airsim360_render PRIVATE ${spirv})
 target_include_directories(airsim360_render PRIVATE ${spirv_dir})
 target_link_libraries(airsim360_render PRIVATE Vulkan::Vulkan)
+
+# Vulkan's structures are made of their type, the rest zero.
+file(GLOB vulkan_sources ${CMAKE_CURRENT_SOURCE_DIR}/src/airsim360/render/vulkan/*.cc)
+set_source_files_properties(${vulkan_sources} TARGET_DIRECTORY airsim360_render PROPERTIES COMPILE_OPTIONS -Wno-missing-field-initializers)

@@ -1,8 +1,10 @@
 #include "airsim360/render/vulkan/gpu_cameras.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/cpu/antialias.h"
 
 namespace airsim360::internal {
 namespace {
@@ -68,6 +70,11 @@ void PutProjection(const Camera& camera, GpuCamera& out) {
 
 }  // namespace
 
+int EdgeSamples(const RenderRequest& request) {
+  if (request.tier != Tier::kFast || !request.products.rgb) return 1;
+  return std::clamp(request.aa_samples, 1, kMaxSamples);
+}
+
 std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
   std::byte* to = mapped + next;
   where = address + next;
@@ -76,9 +83,13 @@ std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
   return to;
 }
 
-size_t GpuCameras::Size(const Camera& camera) {
-  if (!std::holds_alternative<Equirectangular>(camera)) return 0;
-  return sizeof(float) * static_cast<size_t>(3 * Padded(Width(camera)) + 4 * Padded(Height(camera))) + 128;
+size_t GpuCameras::Size(const RenderRequest& request) {
+  const int samples = EdgeSamples(request);
+  size_t size = 256 + (samples > 1 ? static_cast<size_t>(8 * 6 * 4 * (samples - 1)) : 0);
+  const Camera& camera = request.camera;
+  if (std::holds_alternative<Equirectangular>(camera))
+    size += sizeof(float) * 5 * static_cast<size_t>(Padded(Width(camera)) + Padded(Height(camera)));
+  return size;
 }
 
 void GpuCameras::Trim() {
@@ -116,14 +127,35 @@ void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCam
   if (field.separable) {
     const int columns = Padded(field.width), rows = Padded(field.height);
     out.stride = static_cast<uint32_t>(columns), out.stride_rows = static_cast<uint32_t>(rows);
-    PutPlanes({field.column_x, field.column_y, field.column_z}, columns,
-              upload.Take(12 * static_cast<size_t>(columns), out.columns));
-    PutPlanes({field.row_scale, field.row_x, field.row_y, field.row_z}, rows,
-              upload.Take(16 * static_cast<size_t>(rows), out.rows));
+    // Sines and cosines from the turned tables: right . h = sin theta, forward . h = cos theta, down . v = -sin phi.
+    std::vector<double> sine(static_cast<size_t>(columns)), cosine(sine.size()), up(static_cast<size_t>(rows));
+    const double* R = field.R;
+    for (int x = 0; x < columns; ++x) {
+      const double hx = field.column_x[x], hy = field.column_y[x], hz = field.column_z[x];
+      sine[static_cast<size_t>(x)] = R[0] * hx + R[3] * hy + R[6] * hz;
+      cosine[static_cast<size_t>(x)] = R[2] * hx + R[5] * hy + R[8] * hz;
+    }
+    for (int y = 0; y < rows; ++y)
+      up[static_cast<size_t>(y)] = -(R[1] * field.row_x[y] + R[4] * field.row_y[y] + R[7] * field.row_z[y]);
+    PutPlanes({field.column_x, field.column_y, field.column_z, sine.data(), cosine.data()}, columns,
+              upload.Take(20 * static_cast<size_t>(columns), out.columns));
+    PutPlanes({field.row_scale, field.row_x, field.row_y, field.row_z, up.data()}, rows,
+              upload.Take(20 * static_cast<size_t>(rows), out.rows));
   } else {
     out.rays = Table(request.camera, field);
   }
+  if (const int samples = EdgeSamples(request); samples > 1) FillOffsets(samples, upload, out);
   if (request.products.flow) FillNext(request, out);
+}
+
+void GpuCameras::FillOffsets(int samples, UploadCursor& upload, GpuCamera& out) {
+  std::vector<PixelOffset> offsets;
+  MakeSampleOffsets(rays_, samples, offsets);
+  auto* to = reinterpret_cast<float*>(upload.Take(24 * offsets.size(), out.offsets));
+  for (const PixelOffset& o : offsets) {
+    for (const double x : {o.dx, o.dy, o.sin_theta, o.cos_theta, o.sin_phi, o.cos_phi}) *to++ = static_cast<float>(x);
+  }
+  out.samples = static_cast<uint32_t>(samples);
 }
 
 void GpuCameras::FillNext(const RenderRequest& request, GpuCamera& out) {

@@ -19,11 +19,14 @@ struct UploadCursor {
   std::byte* Take(size_t bytes, uint64_t& where);
 };
 
+/// Colour samples of a pixel on an edge; 1 = no antialiasing.
+int EdgeSamples(const RenderRequest& request);
+
 class GpuCameras {
  public:
   explicit GpuCameras(GpuDevice& device) : device_(device) {}
-  /// Bytes that Fill takes for a camera.
-  static size_t Size(const Camera& camera);
+  /// Bytes that Fill takes for a request.
+  static size_t Size(const RenderRequest& request);
   /// Fills all of `out` but the addresses of pictures. InputError for a camera without pixels, a pose that is not finite, flow
   /// without the next pose.
   void Fill(const RenderRequest& request, UploadCursor& upload, GpuCamera& out);
@@ -32,6 +35,7 @@ class GpuCameras {
 
  private:
   VkDeviceAddress Table(const Camera& camera, const RayField& field);
+  void FillOffsets(int samples, UploadCursor& upload, GpuCamera& out);
   void FillNext(const RenderRequest& request, GpuCamera& out);
 
   GpuDevice& device_;

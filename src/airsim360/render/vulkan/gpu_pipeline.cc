@@ -13,14 +13,14 @@ namespace {
 
 // Groups in the order of the shader binding table. Hit groups are by geometry (opaque, alpha-tested, clear pane), first for
 // rays that see panes, then for rays of light that pass them.
-enum Stage : uint32_t { kRaygen, kMissStage, kHit, kAlpha, kPane, kStages };
-constexpr uint32_t kNone = VK_SHADER_UNUSED_KHR, kGroups = 8, kHitGroups = 6;
+enum Stage : uint32_t { kRaygen, kMissStage, kLightMiss, kHit, kAlpha, kPane, kStages };
+constexpr uint32_t kNone = VK_SHADER_UNUSED_KHR, kGroups = 9, kMissGroups = 2, kHitGroups = 6;
 struct Group {
   uint32_t general, closest, any;
 };
-constexpr Group kTable[kGroups] = {{kRaygen, kNone, kNone}, {kMissStage, kNone, kNone}, {kNone, kHit, kNone},
-                                   {kNone, kHit, kAlpha},   {kNone, kHit, kNone},       {kNone, kHit, kNone},
-                                   {kNone, kHit, kAlpha},   {kNone, kHit, kPane}};
+constexpr Group kTable[kGroups] = {{kRaygen, kNone, kNone}, {kMissStage, kNone, kNone}, {kLightMiss, kNone, kNone},
+                                   {kNone, kHit, kNone},    {kNone, kHit, kAlpha},      {kNone, kHit, kNone},
+                                   {kNone, kHit, kNone},    {kNone, kHit, kAlpha},      {kNone, kHit, kPane}};
 constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
                                           VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR;
 
@@ -63,6 +63,7 @@ void GpuPipeline::MakePipeline(std::span<const uint32_t> raygen) {
   const std::pair<VkShaderStageFlagBits, std::span<const uint32_t>> codes[kStages] = {
       {VK_SHADER_STAGE_RAYGEN_BIT_KHR, raygen},
       {VK_SHADER_STAGE_MISS_BIT_KHR, MissShader()},
+      {VK_SHADER_STAGE_MISS_BIT_KHR, LightMissShader()},
       {VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, HitShader()},
       {VK_SHADER_STAGE_ANY_HIT_BIT_KHR, AlphaAnyHit()},
       {VK_SHADER_STAGE_ANY_HIT_BIT_KHR, PaneAnyHit()}};
@@ -102,17 +103,17 @@ void GpuPipeline::MakeTable() {
   CheckVk(device_.rt().group_handles(device_.device(), pipeline_, 0, kGroups, handles.size(), handles.data()),
           "reading shader handles");
 
-  const VkDeviceSize miss_at = up(stride, base), hit_at = miss_at + up(stride, base);
+  const VkDeviceSize miss_at = up(stride, base), hit_at = miss_at + up(stride * kMissGroups, base);
   table_ = GpuBuffer(device_, hit_at + stride * kHitGroups + base, MemoryKind::kUpload);
   const VkDeviceAddress start = up(table_.address(), base);
   std::byte* to = table_.mapped() + (start - table_.address());
   for (uint32_t g = 0; g < kGroups; ++g) {
-    const VkDeviceSize at = g == 0 ? 0 : g == 1 ? miss_at : hit_at + stride * (g - 2);
+    const VkDeviceSize at = g == 0 ? 0 : g <= kMissGroups ? miss_at + stride * (g - 1) : hit_at + stride * (g - 1 - kMissGroups);
     std::memcpy(to + at, handles.data() + size_t{handle} * g, handle);
   }
   const VkDeviceSize raygen_size = up(stride, base);
   raygen_ = {start, raygen_size, raygen_size};
-  miss_ = {start + miss_at, stride, stride};
+  miss_ = {start + miss_at, stride, stride * kMissGroups};
   hit_ = {start + hit_at, stride, stride * kHitGroups};
 }
 

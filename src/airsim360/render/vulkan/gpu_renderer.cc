@@ -1,19 +1,25 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/filter/exposure.h"
+#include "airsim360/render/shading/shader.h"
 #include "airsim360/render/vulkan/gpu.h"
+#include "airsim360/render/vulkan/gpu_shade.h"
 #include "airsim360/render/vulkan/gpu_shaders.h"
 #include "airsim360/render/vulkan/gpu_slot.h"
 
 namespace airsim360 {
 
-std::string GpuCannot(const RenderRequest& request) {
-  const bool color = (request.products.rgb || request.products.radiance) && request.tier != Tier::kLabels;
-  if (color) return std::string("tier '") + kTierNames[static_cast<int>(request.tier)] + "'";
-  if (request.products.albedo) return "product 'albedo'";
-  if (request.products.coverage) return "product 'coverage'";
+std::string GpuCannot(Tier tier, const Environment& environment, const Products& products) {
+  const bool color = (products.rgb || products.radiance) && tier != Tier::kLabels;
+  if (color && tier != Tier::kFast) return std::string("tier '") + kTierNames[static_cast<int>(tier)] + "'";
+  if (color && (environment.wetness > 0 || environment.snow_depth > 0 || environment.rain_mm_h > 0 ||
+                environment.snowfall_mm_h > 0))
+    return "rain, snow and wet surfaces";
+  if (products.coverage) return "product 'coverage'";
   return "";
 }
 
@@ -51,8 +57,10 @@ void CopyFrame(const GpuFrame& from, Frame& to) {
 
 class VulkanRenderer : public GpuRenderer {
  public:
-  VulkanRenderer(std::shared_ptr<const RayTracer> tracer, const GpuOptions& options)
+  VulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& what,
+                 const GpuOptions& options)
       : tracer_(std::move(tracer)),
+        environment_(what.environment.value_or(tracer_->scene().environment)),
         device_(options),
         scene_(device_, std::shared_ptr<const Scene>(tracer_, &tracer_->scene())),
         cameras_(device_),
@@ -61,14 +69,17 @@ class VulkanRenderer : public GpuRenderer {
       throw InputError("frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 … 16");
     for (int i = 0; i < options.frames_in_flight; ++i)
       slots_.push_back(std::make_unique<GpuSlot>(device_, scene_));
+    if (what.tier != Tier::kLabels) PrepareColor();
   }
 
-  RenderStats Render(const RenderRequest& request, Frame& frame) override {
+  RenderStats Render(const RenderRequest& asked, Frame& frame) override {
     const auto start = std::chrono::steady_clock::now();
+    RenderRequest request = asked;
+    if (request.auto_exposure && WantsColor(request)) request.exposure_ev += AutoEv(request);
     const uint64_t ticket = Submit({&request, 1});
     CopyFrame(Wait(ticket).front(), frame);
     Release(ticket);
-    frame.exposure = 1;
+    frame.exposure = WantsColor(request) ? Exposure(request) : 1;
     RenderStats stats;
     stats.rays = static_cast<uint64_t>(Width(request.camera)) * static_cast<uint64_t>(Height(request.camera));
     stats.render_ms =
@@ -83,7 +94,17 @@ class VulkanRenderer : public GpuRenderer {
       throw RuntimeError("GPU: all " + std::to_string(slots_.size()) + " frames in flight are taken; release one");
     const bool idle = std::ranges::all_of(slots_, [](const auto& slot) { return slot->ticket == 0; });
     if (idle) cameras_.Trim();
-    (*free)->Submit(requests, cameras_, labels_, 0, 1);
+    const bool shaded = std::ranges::any_of(
+        requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
+    if (shaded) {
+      PrepareColor();
+      const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return EdgeSamples(r) > 1; });
+      if (antialias && !edges_) edges_ = std::make_unique<GpuPipeline>(device_, EdgesRaygen());
+      (*free)->Submit(requests, cameras_,
+                      {color_.get(), edges_.get(), shade_->address(requests.front().tone), shader_->Exposure()});
+    } else {
+      (*free)->Submit(requests, cameras_, {&labels_});
+    }
     return (*free)->ticket = ++last_ticket_;
   }
 
@@ -105,6 +126,29 @@ class VulkanRenderer : public GpuRenderer {
   std::vector<std::string> messages() const override { return device_.messages(); }
 
  private:
+  // Stops to add so that the picture is exposed by its own histogram: it is rendered once for that alone.
+  double AutoEv(RenderRequest request) {
+    request.products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true};
+    Image<Rgb32f> radiance;
+    const uint64_t ticket = Submit({&request, 1});
+    const GpuFrame frame = Wait(ticket).front();
+    Take(frame.radiance, frame.width, frame.height, radiance);
+    Release(ticket);
+    return AutoExposureEv(radiance, request.camera, shader_->Exposure());
+  }
+  static bool WantsColor(const RenderRequest& r) {
+    return r.tier != Tier::kLabels && (r.products.rgb || r.products.radiance);
+  }
+  float Exposure(const RenderRequest& r) const {
+    return shader_->Exposure() * static_cast<float>(std::exp2(r.exposure_ev));
+  }
+  // The CPU's shader bakes sky, probes and lamps; its tables go to the GPU.
+  void PrepareColor() {
+    if (color_) return;
+    if (!shader_) shader_ = std::make_unique<Shader>(tracer_, environment_);
+    if (!shade_) shade_ = std::make_unique<GpuShadeTables>(device_, *shader_, tracer_->scene());
+    color_ = std::make_unique<GpuPipeline>(device_, ColorRaygen());
+  }
   GpuSlot& SlotOf(uint64_t ticket) {
     for (const auto& slot : slots_) {
       if (ticket != 0 && slot->ticket == ticket) return *slot;
@@ -117,7 +161,7 @@ class VulkanRenderer : public GpuRenderer {
     const RenderRequest& first = requests.front();
     const Scene& scene = tracer_->scene();
     for (const RenderRequest& r : requests) {
-      if (const std::string what = GpuCannot(r); !what.empty())
+      if (const std::string what = GpuCannot(r.tier, environment_, r.products); !what.empty())
         throw RuntimeError("device 'vulkan' cannot draw " + what + " yet; use --device cpu");
       if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)
         throw InputError("GPU: the cameras of a submission must share state, tier and tone curve");
@@ -130,10 +174,14 @@ class VulkanRenderer : public GpuRenderer {
   }
 
   std::shared_ptr<const RayTracer> tracer_;
+  Environment environment_;
   GpuDevice device_;
   GpuScene scene_;
   GpuCameras cameras_;
   GpuPipeline labels_;
+  std::unique_ptr<Shader> shader_;  // this and the next two: made when colour is first wanted
+  std::unique_ptr<GpuShadeTables> shade_;
+  std::unique_ptr<GpuPipeline> color_, edges_;
   std::vector<std::unique_ptr<GpuSlot>> slots_;
   uint64_t last_ticket_ = 0;
   double gpu_ms_ = 0;
@@ -141,9 +189,9 @@ class VulkanRenderer : public GpuRenderer {
 
 }  // namespace
 
-std::unique_ptr<GpuRenderer> MakeVulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions&,
+std::unique_ptr<GpuRenderer> MakeVulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                                                 const GpuOptions& gpu) {
-  return std::make_unique<VulkanRenderer>(std::move(tracer), gpu);
+  return std::make_unique<VulkanRenderer>(std::move(tracer), options, gpu);
 }
 
 }  // namespace airsim360

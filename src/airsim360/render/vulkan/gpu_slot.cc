@@ -1,6 +1,7 @@
 #include "airsim360/render/vulkan/gpu_slot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -77,6 +78,18 @@ void GpuSlot::Arrange(std::span<const RenderRequest> requests) {
     height_ = std::max(height_, static_cast<uint32_t>(place.height));
     places_.push_back(place);
   }
+  // What edges are found by, for the GPU alone.
+  size_t all_bytes = bytes_;
+  antialiases_ = false;
+  for (size_t i = 0; i < requests.size(); ++i) {
+    Place& place = places_[i];
+    place.entity = place.offset[kEntity], place.centers = kNowhere;
+    if (EdgeSamples(requests[i]) < 2) continue;
+    antialiases_ = true;
+    const size_t bytes = (4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height) + 63) / 64 * 64;
+    place.centers = all_bytes, all_bytes += bytes;
+    if (place.entity == kNowhere) place.entity = all_bytes, all_bytes += bytes;
+  }
   const uint64_t invocations = uint64_t{width_} * height_ * requests.size();
   if (invocations > device_.pipeline_limits().maxRayDispatchInvocationCount)
     throw RuntimeError("GPU: " + std::to_string(invocations) + " rays at once are more than " +
@@ -86,15 +99,15 @@ void GpuSlot::Arrange(std::span<const RenderRequest> requests) {
 
   // Software renders straight to memory that the CPU reads.
   const size_t size = std::max<size_t>(bytes_, 64);
-  if (read_back_.size() < size) read_back_ = GpuBuffer(device_, size, MemoryKind::kReadBack);
-  if (!device_.info().software && pictures_.size() < size)
-    pictures_ = GpuBuffer(device_, size, MemoryKind::kDevice);
+  const size_t all = std::max<size_t>(all_bytes, 64);
+  const bool software = device_.info().software;
+  if (read_back_.size() < (software ? all : size)) read_back_ = GpuBuffer(device_, software ? all : size, MemoryKind::kReadBack);
+  if (!software && pictures_.size() < all) pictures_ = GpuBuffer(device_, all, MemoryKind::kDevice);
 }
 
-void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras& cameras, VkDeviceAddress shade,
-                             float exposure) {
+void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work) {
   size_t size = sizeof(GpuFrameParams) + requests.size() * sizeof(GpuCamera) + 256;
-  for (const RenderRequest& request : requests) size += GpuCameras::Size(request.camera);
+  for (const RenderRequest& request : requests) size += GpuCameras::Size(request);
   if (upload_.size() < size) upload_ = GpuBuffer(device_, size, MemoryKind::kUpload);
   UploadCursor cursor{upload_.mapped(), upload_.address(), 0, upload_.size()};
   auto* params = reinterpret_cast<GpuFrameParams*>(cursor.Take(sizeof(GpuFrameParams), parameters_));
@@ -111,7 +124,14 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
       *to[k] = base + places_[i].offset[k];
       camera.wanted |= kWant[k];
     }
-    camera.exposure = exposure * static_cast<float>(std::exp2(requests[i].exposure_ev));
+    if (places_[i].centers != kNowhere) {
+      camera.centers = base + places_[i].centers;
+      camera.entity = base + places_[i].entity;
+      camera.wanted |= kWantEntity;
+    } else {
+      camera.samples = 0;
+    }
+    camera.exposure = work.exposure * static_cast<float>(std::exp2(requests[i].exposure_ev));
     list[i] = camera;
   }
   params->meshes = scene_.meshes();
@@ -119,14 +139,14 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
   params->next_instances = flows_ ? next_->instances() : now_.instances();
   params->category_of = scene_.categories();
   params->alphas = scene_.alphas();
-  params->shade = shade;
+  params->shade = work.shade;
   const auto split = [](VkDeviceAddress a) { return uvec2{static_cast<uint32_t>(a), static_cast<uint32_t>(a >> 32)}; };
   params->tlas = split(now_.tlas());
   params->next_tlas = split(flows_ ? next_->tlas() : now_.tlas());
   params->sky_entity = scene_.scene().sky_entity;
 }
 
-void GpuSlot::Record(const GpuPipeline& pipeline) {
+void GpuSlot::Record(const Work& work) {
   CheckVk(vkResetCommandPool(device_.device(), pool_, 0), "recording");
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
@@ -137,7 +157,15 @@ void GpuSlot::Record(const GpuPipeline& pipeline) {
     vkCmdResetQueryPool(commands_, clock_, 0, 2);
     vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, clock_, 0);
   }
-  pipeline.Trace(commands_, parameters_, width_, height_, static_cast<uint32_t>(places_.size()));
+  const auto cameras = static_cast<uint32_t>(places_.size());
+  constexpr VkPipelineStageFlags kTracing = VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR;
+  work.pixels->Trace(commands_, parameters_, width_, height_, cameras);
+  if (antialiases_ && work.edges != nullptr) {
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
+                                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    vkCmdPipelineBarrier(commands_, kTracing, kTracing, 0, 1, &memory, 0, nullptr, 0, nullptr);
+    work.edges->Trace(commands_, parameters_, width_, height_, cameras);
+  }
   if (clock_ != VK_NULL_HANDLE) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_, 1);
 
   // To memory that the CPU reads.
@@ -146,7 +174,7 @@ void GpuSlot::Record(const GpuPipeline& pipeline) {
     const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, wrote, reads};
     vkCmdPipelineBarrier(commands_, from, to, 0, 1, &memory, 0, nullptr, 0, nullptr);
   };
-  VkPipelineStageFlags last = VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR;
+  VkPipelineStageFlags last = kTracing;
   VkAccessFlags wrote = VK_ACCESS_SHADER_WRITE_BIT;
   if (!device_.info().software && bytes_ > 0) {
     barrier(last, wrote, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
@@ -158,16 +186,15 @@ void GpuSlot::Record(const GpuPipeline& pipeline) {
   CheckVk(vkEndCommandBuffer(commands_), "recording");
 }
 
-void GpuSlot::Submit(std::span<const RenderRequest> requests, GpuCameras& cameras, const GpuPipeline& pipeline,
-                     VkDeviceAddress shade, float exposure) {
+void GpuSlot::Submit(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work) {
   const RenderRequest& first = requests.front();
   flows_ = std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.flow; });
   Arrange(requests);
   if (flows_ && !next_) next_ = std::make_unique<GpuInstant>(device_, scene_);
-  FillParameters(requests, cameras, shade, exposure);
+  FillParameters(requests, cameras, work);
   now_.Set(first.state);
   if (flows_) next_->Set(first.next_state ? first.next_state : first.state);
-  Record(pipeline);
+  Record(work);
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr};
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;

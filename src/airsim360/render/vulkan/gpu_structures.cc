@@ -64,8 +64,10 @@ void GpuScene::Describe(MeshId mesh, VkDeviceAddress positions, VkBuildAccelerat
     VkAccelerationStructureGeometryKHR& geometry = out.geometries[g];
     geometry = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR, nullptr};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-    // Panes are opaque to rays that ask for it (their any-hit shader lets rays of light pass).
-    geometry.flags = g == 0 ? VK_GEOMETRY_OPAQUE_BIT_KHR : 0;
+    // A pane tints a ray of light once (pane.rahit).
+    geometry.flags = g == 0   ? VK_GEOMETRY_OPAQUE_BIT_KHR
+                     : g == 2 ? VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR
+                              : 0;
     auto& triangles = geometry.geometry.triangles;
     triangles = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR, nullptr};
     triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;

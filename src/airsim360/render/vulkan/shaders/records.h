@@ -34,8 +34,8 @@ struct GpuAlpha {
 
 // One picture.
 struct GpuCamera {
-  ADDRESS(Floats) columns;      // equirectangular: x y z planes of `stride` columns ...
-  ADDRESS(Floats) rows;         // ... and scale x y z planes of `stride_rows` rows
+  ADDRESS(Floats) columns;      // equirectangular: x y z sin cos planes of `stride` columns ...
+  ADDRESS(Floats) rows;         // ... and scale x y z sin planes of `stride_rows` rows
   ADDRESS(Floats) rays;         // others: x y z of every pixel in C; 0 0 0 = no ray
   ADDRESS(Floats) range;        // the pictures; 0 = not wanted
   ADDRESS(Uints) entity;
@@ -47,6 +47,8 @@ struct GpuCamera {
   ADDRESS(Floats) albedo;
   ADDRESS(Floats) radiance;
   ADDRESS(Bytes) rgb;
+  ADDRESS(Uints) centers;       // antialiasing: colours of the centre rays, 8 bits a channel ...
+  ADDRESS(Floats) offsets;      // ... and 8 sets of samples - 1 points of a pixel: dx dy sin cos sin cos
   float origin[3];
   float R[9];                   // camera to W
   uint width, height, stride, stride_rows;
@@ -64,6 +66,7 @@ struct GpuCamera {
   float distortion[4];
   float max_theta;
   float exposure;
+  uint samples;                 // of a pixel on an edge; 0, 1 = no antialiasing
 };
 
 struct GpuFlow {
