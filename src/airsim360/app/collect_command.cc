@@ -152,7 +152,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<CollectArguments>();
   command
       ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
