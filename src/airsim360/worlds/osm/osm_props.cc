@@ -121,7 +121,9 @@ class Dresser {
       RngStream rng(scene_.options.seed, "street " + segment.id);
       for (int side : {1, -1}) {
         const double pavement = segment.pavement[side > 0 ? 0 : 1];
-        if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : 14), s1, 28, side, 0.55, "street_light", rng);
+        // Staggered, so that the nearest lamp is 19 to 20 m away, over the street.
+        const double across = 2 * (segment.half + 0.55), stagger = std::sqrt(std::max(19.7 * 19.7 - across * across, 150.0));
+        if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : stagger), s1, 2 * stagger, side, 0.55, "street_light", rng);
         if (trees_ == 0 && pavement > 2.6 && rng.Chance(0.8)) TreeRow(segment, s0 + 5, s1, side, rng);
         if (pavement > 2.2) {
           Row(segment, s0 + rng.Uniform(4, 60), s1, 80, side, 0.7, "trash_can", rng);
@@ -467,7 +469,7 @@ class Dresser {
 
   void TreeRow(const RoadSegment& segment, double s0, double s1, int side, RngStream& rng) {
     int number = 0;
-    for (double s = s0; s < s1; s += rng.Uniform(8, 13)) {
+    for (double s = s0; s < s1; s += rng.Uniform(8.0, 9.6)) {
       const LinePoint at = PointAt(segment.line, s);
       const Vec2d p = at.p + Vec2d{-at.along.y, at.along.x} * (side * (segment.half + 1.0));
       const Footprint place{ToFloat(p), {0.7f, 0.7f}, 0};
