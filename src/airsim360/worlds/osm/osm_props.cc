@@ -369,6 +369,7 @@ class Dresser {
     RngStream rng(scene_.options.seed, "plant " + area.id);
     const double cell = std::sqrt(each);
     int number = 0;
+    if (std::max(area.bounds.max.x - area.bounds.min.x, area.bounds.max.y - area.bounds.min.y) > 2e5) return;
     for (double y = area.bounds.min.y; y < area.bounds.max.y; y += cell)
       for (double x = area.bounds.min.x; x < area.bounds.max.x; x += cell) {
         const Vec2d p{x + cell * rng.Uniform(0.1, 0.9), y + cell * rng.Uniform(0.1, 0.9)};
@@ -386,6 +387,7 @@ class Dresser {
 
   void Shrubs(const OsmArea& area) {
     RngStream rng(scene_.options.seed, "scrub " + area.id);
+    if (std::max(area.bounds.max.x - area.bounds.min.x, area.bounds.max.y - area.bounds.min.y) > 3000) return;
     int number = 0;
     for (double y = area.bounds.min.y; y < area.bounds.max.y && number < 400; y += 3)
       for (double x = area.bounds.min.x; x < area.bounds.max.x && number < 400; x += 3) {
@@ -421,6 +423,7 @@ class Dresser {
     }
     const Vec2d across{-along.y, along.x}, middle = (area.bounds.min + area.bounds.max) * 0.5;
     const double reach = std::hypot(area.bounds.max.x - area.bounds.min.x, area.bounds.max.y - area.bounds.min.y) / 2;
+    if (reach > 400) return;
     int number = 0, row = 0;
     for (double v = -reach; v < reach; v += row % 2 ? 5.2 : 11.4, ++row)
       for (double u = -reach; u < reach && number < 300; u += 2.7) {

@@ -160,7 +160,7 @@ EdgeFacts FactsOf(const Neighbours& near, const OsmVolume& self, Vec2d a, Vec2d 
   facts.front = Front::kStreet;
   const int rank = near.graph->segments[road.owner].rank;
   facts.shops = rank >= 1 && rank <= 3;
-  for (Vec2d shop : near.shops) facts.shops = facts.shops || std::hypot(shop.x - middle.x, shop.y - middle.y) < 14;
+  facts.shops = facts.shops || near.shops.Find(middle, 14).owner != UINT32_MAX;
   return facts;
 }
 
