@@ -31,6 +31,13 @@ MaterialId Tints::Get(MaterialId base, Vec3f colour, float mean, float metallic,
 
 Relief::Relief(const HeightGrid* grid, const GeoPoint& origin) : grid_(grid), origin_(origin) {
   if (!grid_) return;
+  const double east = grid_->longitude_west + grid_->cell_lon * grid_->columns,
+               south = grid_->latitude_north - grid_->cell_lat * grid_->rows;
+  if (origin.longitude_deg < grid_->longitude_west || origin.longitude_deg > east ||
+      origin.latitude_deg < south || origin.latitude_deg > grid_->latitude_north)
+    throw InputError("the heights cover latitude " + std::to_string(south) + " to " + std::to_string(grid_->latitude_north) +
+                     ", longitude " + std::to_string(grid_->longitude_west) + " to " + std::to_string(east) +
+                     "; the map lies at " + std::to_string(origin.latitude_deg) + ", " + std::to_string(origin.longitude_deg));
   const GeoFrame frame(origin);
   metres_per_lat_ = frame.ToWorld({origin.latitude_deg + 0.01, origin.longitude_deg, 0}).y * 100;
   metres_per_lon_ = frame.ToWorld({origin.latitude_deg, origin.longitude_deg + 0.01, 0}).x * 100;
