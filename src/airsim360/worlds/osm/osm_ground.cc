@@ -20,6 +20,7 @@ Vec2f PlainUv(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(-p.
 struct Piece {
   Patches patches;
   EntityId entity = kNoEntity;
+  std::string id;  // of the map, without what people call it
   bool green = false;
   bool sunk = false;  // a carriageway or water: lies lower than its neighbours
 };
@@ -51,7 +52,7 @@ class GroundBuilder {
     mesh_.SetMaterial(scene_.surfaces[surface]);
     Cover(free, z, uv);
     index_.Add(box, static_cast<uint32_t>(pieces_.size()));
-    pieces_.push_back({std::move(free), entity, surface == Surface::kLawn, sunk});
+    pieces_.push_back({std::move(free), entity, name.substr(0, name.find(' ')), surface == Surface::kLawn, sunk});
     return entity;
   }
   const Piece& last() const { return pieces_.back(); }
@@ -445,8 +446,7 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   }
   const size_t carriageways = ground.pieces().size();
   for (size_t i = 0; i < carriageways; ++i) {
-    const std::string& name = "kerb " + std::to_string(i + 1);
-    ground.mesh().SetEntity(scene.builder.AddEntity(name, tree.At("ground/kerb")));
+    ground.mesh().SetEntity(scene.builder.AddEntity(ground.pieces()[i].id + "/kerb", tree.At("ground/kerb")));
     ground.mesh().SetMaterial(scene.surfaces[Surface::kKerb]);
     ground.Rim(i, kRoadDrop, 0.15);
   }
