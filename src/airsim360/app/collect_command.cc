@@ -194,7 +194,8 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       "collect", "collect a labelled dataset along a route; run again to finish an interrupted one");
   auto arguments = std::make_shared<CollectArguments>();
   command->add_option("--world", arguments->world,
-                      "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml; with --recipe only its subsets");
+                      "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml; "
+                      "with --recipe only its subsets");
   command->add_option("--recipe", arguments->recipe,
                       "omni360-human, or a file like data/omni360_human.yaml: a dataset for each subset of its table");
   command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_west/03");

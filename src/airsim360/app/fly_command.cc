@@ -203,7 +203,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<FlyArguments>();
   command
       ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of trajectory.csv, sensors/ and frames/")->required();
   command->add_option("--drone", arguments->drone,

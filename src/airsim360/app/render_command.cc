@@ -137,7 +137,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<RenderArguments>();
   command
       ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option(

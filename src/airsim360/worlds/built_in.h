@@ -39,4 +39,8 @@ std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options);
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements);
 WorldInfo CityParkInfo();
 
+/// A town of wall-to-wall houses, drawn as a map (osm/town_map.h) and built as maps are.
+std::shared_ptr<const Scene> BuildMapTown(const WorldOptions& options);
+WorldInfo MapTownInfo();
+
 }  // namespace airsim360::internal

@@ -31,6 +31,13 @@ MaterialId Tints::Get(MaterialId base, Vec3f colour, float mean, float metallic,
 
 Relief::Relief(const HeightGrid* grid, const GeoPoint& origin) : grid_(grid), origin_(origin) {
   if (!grid_) return;
+  const double east = grid_->longitude_west + grid_->cell_lon * grid_->columns,
+               south = grid_->latitude_north - grid_->cell_lat * grid_->rows;
+  if (origin.longitude_deg < grid_->longitude_west || origin.longitude_deg > east ||
+      origin.latitude_deg < south || origin.latitude_deg > grid_->latitude_north)
+    throw InputError("the heights cover latitude " + std::to_string(south) + " to " + std::to_string(grid_->latitude_north) +
+                     ", longitude " + std::to_string(grid_->longitude_west) + " to " + std::to_string(east) +
+                     "; the map lies at " + std::to_string(origin.latitude_deg) + ", " + std::to_string(origin.longitude_deg));
   const GeoFrame frame(origin);
   metres_per_lat_ = frame.ToWorld({origin.latitude_deg + 0.01, origin.longitude_deg, 0}).y * 100;
   metres_per_lon_ = frame.ToWorld({origin.latitude_deg, origin.longitude_deg + 0.01, 0}).x * 100;
@@ -76,11 +83,14 @@ void ChooseSpawn(OsmScene& scene, const Neighbours& near) {
   scene.builder.SetSpawn(scene.On(road.point, 4.5), static_cast<float>(std::atan2(along.y, along.x) * 180 / M_PI));
 }
 
-std::shared_ptr<const Scene> Build(const std::string& name, const OsmData& data, const OsmOptions& options, OsmReport* report) {
+}  // namespace
+
+std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
+                                           const std::string& attribution, OsmReport* report) {
   SceneBuilder builder(std::filesystem::path(name).filename().string());
   builder.AddSky();
   builder.environment() = {.sun_azimuth_deg = 215, .sun_elevation_deg = 46, .turbidity = 2.8, .cloud_cover = 0.35};
-  builder.AddAttribution("map data (c) OpenStreetMap contributors, Open Database License 1.0 (openstreetmap.org/copyright)");
+  if (!attribution.empty()) builder.AddAttribution(attribution);
   const Surfaces surfaces = AddSurfaces(builder);
   PropShelf shelf(builder, options.models, options.seed);
   Occupancy occupancy;
@@ -105,7 +115,7 @@ std::shared_ptr<const Scene> Build(const std::string& name, const OsmData& data,
   for (const OsmNode& node : data.nodes) {
     const std::string_view amenity = node.tags.Get("amenity");
     if (node.tags.Has("shop") || amenity == "cafe" || amenity == "restaurant" || amenity == "fast_food" || amenity == "bar" || amenity == "pub" || amenity == "bank" || amenity == "pharmacy")
-      near.shops.push_back(node.p);
+      near.shops.Add(node.p, node.p, 0);
   }
   BuildOsmGround(scene, buildings, near);
   const std::vector<EntityId> entities = BuildOsmBuildings(scene, buildings, near);
@@ -124,14 +134,15 @@ std::shared_ptr<const Scene> Build(const std::string& name, const OsmData& data,
   return built;
 }
 
-}  // namespace
 }  // namespace internal
 
 bool IsOsmFile(const std::filesystem::path& file) { return internal::IsOsmName(file.string()); }
 
 std::shared_ptr<const Scene> BuildOsmWorld(const std::string& name, std::span<const std::byte> bytes, const OsmOptions& options,
                                            OsmReport* report) {
-  return internal::Build(name, internal::ReadOsm(name, bytes), options, report);
+  return internal::BuildMapScene(
+      name, internal::ReadOsm(name, bytes), options,
+      "map data (c) OpenStreetMap contributors, Open Database License 1.0 (openstreetmap.org/copyright)", report);
 }
 
 std::shared_ptr<const Scene> BuildOsmWorld(const std::filesystem::path& file, const OsmOptions& options, OsmReport* report) {

@@ -7,19 +7,19 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kCell = 16;      // metres
-constexpr int kMaxCells = 40000;  // a box takes at most; more than that is a box of the whole world
+constexpr double kMaxCells = 40000;  // a box takes at most; larger ones are kept apart
 
 int64_t Key(int64_t x, int64_t y) { return x * 0x100000000ll ^ (y & 0xffffffffll); }
 int64_t CellOf(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e6, 1e6) / kCell)); }
 
+bool IsLarge(const Bounds2d& box) {
+  return ((box.max.x - box.min.x) / kCell + 2) * ((box.max.y - box.min.y) / kCell + 2) > kMaxCells;
+}
+
 template <class Visit>
 void ForCells(const Bounds2d& box, const Visit& visit) {
-  int left = kMaxCells;
   for (int64_t y = CellOf(box.min.y); y <= CellOf(box.max.y); ++y)
-    for (int64_t x = CellOf(box.min.x); x <= CellOf(box.max.x); ++x) {
-      if (--left < 0) return;
-      visit(Key(x, y));
-    }
+    for (int64_t x = CellOf(box.min.x); x <= CellOf(box.max.x); ++x) visit(Key(x, y));
 }
 
 }  // namespace
@@ -68,17 +68,29 @@ LineIndex::Near LineIndex::Find(Vec2d p, double radius, uint32_t except) const {
 void BoxIndex::Add(const Bounds2d& box, uint32_t owner) {
   const auto index = static_cast<uint32_t>(boxes_.size());
   boxes_.emplace_back(box, owner);
+  if (!(box.min.x <= box.max.x)) return;
+  if (IsLarge(box)) {
+    large_.push_back(index);
+    return;
+  }
   ForCells(box, [&](int64_t key) { cells_[key].push_back(index); });
 }
 
 std::vector<uint32_t> BoxIndex::Find(const Bounds2d& box) const {
   std::vector<uint32_t> found;
-  ForCells(box, [&](int64_t key) {
-    const auto it = cells_.find(key);
-    if (it == cells_.end()) return;
-    for (uint32_t i : it->second)
-      if (boxes_[i].first.Overlaps(box)) found.push_back(i);
-  });
+  const auto take = [&](uint32_t i) {
+    if (boxes_[i].first.Overlaps(box)) found.push_back(i);
+  };
+  for (uint32_t i : large_) take(i);
+  if (IsLarge(box)) {
+    for (uint32_t i = 0; i < boxes_.size(); ++i) take(i);
+  } else if (box.min.x <= box.max.x) {
+    ForCells(box, [&](int64_t key) {
+      const auto it = cells_.find(key);
+      if (it == cells_.end()) return;
+      for (uint32_t i : it->second) take(i);
+    });
+  }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   for (uint32_t& i : found) i = boxes_[i].second;

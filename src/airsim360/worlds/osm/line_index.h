@@ -42,6 +42,7 @@ class BoxIndex {
 
  private:
   std::vector<std::pair<Bounds2d, uint32_t>> boxes_;
+  std::vector<uint32_t> large_;  // boxes over more cells than are worth listing
   std::unordered_map<int64_t, std::vector<uint32_t>> cells_;
 };
 

@@ -20,6 +20,7 @@ Vec2f PlainUv(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(-p.
 struct Piece {
   Patches patches;
   EntityId entity = kNoEntity;
+  std::string id;  // of the map, without what people call it
   bool green = false;
   bool sunk = false;  // a carriageway or water: lies lower than its neighbours
 };
@@ -51,7 +52,7 @@ class GroundBuilder {
     mesh_.SetMaterial(scene_.surfaces[surface]);
     Cover(free, z, uv);
     index_.Add(box, static_cast<uint32_t>(pieces_.size()));
-    pieces_.push_back({std::move(free), entity, surface == Surface::kLawn, sunk});
+    pieces_.push_back({std::move(free), entity, name.substr(0, name.find(' ')), surface == Surface::kLawn, sunk});
     return entity;
   }
   const Piece& last() const { return pieces_.back(); }
@@ -368,6 +369,49 @@ void LayCountry(OsmScene& scene, GroundBuilder& ground, bool paved) {
   ground.Cover(ground.clip(), -kUnderlay, PlainUv);
 }
 
+// Around a built-up extract the town goes on: blocks of plain houses as high as those inside, thinning out.
+void RaiseBackdrop(OsmScene& scene, MeshBuilder& mesh, const std::vector<OsmBuilding>& buildings) {
+  std::vector<double> heights;
+  for (const OsmBuilding& building : buildings)
+    if (!building.orphan && building.height > 3) heights.push_back(building.height);
+  if (heights.size() < 20) return;
+  std::sort(heights.begin(), heights.end());
+  const OsmBox& e = scene.data.extent;
+  SemanticTree& tree = scene.builder.tree();
+  const CategoryId category = tree.Add("construction/building/backdrop");
+  // Mapped houses that stand outside the extract keep their ground.
+  LineIndex mapped;
+  for (const OsmBuilding& building : buildings)
+    for (const Patch& patch : building.outline) mapped.AddRing(patch.outer, 0);
+  constexpr double kReach = 1300, kPitchX = 78, kPitchY = 52, kStreet = 14;
+  static constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls1, Surface::kFarWalls0, Surface::kFarWalls2};
+  RngStream rng(scene.options.seed, "backdrop");
+  for (double y = e.y0 - kReach; y < e.y1 + kReach; y += kPitchY) {
+    for (double x = e.x0 - kReach; x < e.x1 + kReach; x += kPitchX) {
+      const double out = std::max({e.x0 - kClip - x - kPitchX, x - e.x1 - kClip, e.y0 - kClip - y - kPitchY, y - e.y1 - kClip});
+      const bool keep = rng.Chance(1.05 - out / kReach);
+      if (out < 4 || out > kReach || !keep) continue;
+      EntityId entity = kNoEntity;
+      for (int i = 0; i < 4; ++i) {
+        // Houses wall to wall along the block, each with its height.
+        const double w = (kPitchX - kStreet) / 4, x0 = x + w * i, depth = kPitchY - kStreet - rng.Uniform(0, 12);
+        const double h = heights[rng.Index(static_cast<uint32_t>(heights.size() * 97 / 100) + 1)];
+        const Surface wall = kWalls[rng.Index(4)];
+        if (mapped.Find({x0 + w / 2, y + depth / 2}, 30).owner != UINT32_MAX) continue;
+        if (entity == kNoEntity) entity = scene.builder.AddEntity("backdrop block", category);
+        const double z = scene.relief.At({x0, y}) * std::max(0.0, 1 - out / 3000);
+        const std::vector<Vec2f> outline{ToFloat({x0, y}), ToFloat({x0 + w, y}), ToFloat({x0 + w, y + depth}), ToFloat({x0, y + depth})};
+        mesh.SetTransform({});
+        mesh.SetEntity(entity);
+        mesh.SetMaterial(scene.surfaces[wall]);
+        mesh.Walls(outline, static_cast<float>(z - 4), static_cast<float>(z + h));
+        mesh.SetMaterial(scene.surfaces[Surface::kFarRoof]);
+        mesh.Polygon(outline, static_cast<float>(z + h));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, Neighbours& near) {
@@ -402,8 +446,7 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   }
   const size_t carriageways = ground.pieces().size();
   for (size_t i = 0; i < carriageways; ++i) {
-    const std::string& name = "kerb " + std::to_string(i + 1);
-    ground.mesh().SetEntity(scene.builder.AddEntity(name, tree.At("ground/kerb")));
+    ground.mesh().SetEntity(scene.builder.AddEntity(ground.pieces()[i].id + "/kerb", tree.At("ground/kerb")));
     ground.mesh().SetMaterial(scene.surfaces[Surface::kKerb]);
     ground.Rim(i, kRoadDrop, 0.15);
   }
@@ -435,7 +478,9 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   near.lawns = ground.Lawns();
   double built = 0;
   for (const OsmBuilding& building : buildings) built += Area(building.outline);
-  LayCountry(scene, ground, built > 0.2 * scene.data.extent.width() * scene.data.extent.depth());
+  const bool town = built > 0.2 * scene.data.extent.width() * scene.data.extent.depth();
+  LayCountry(scene, ground, town);
+  if (town && scene.options.fill) RaiseBackdrop(scene, ground.mesh(), buildings);
   ground.Finish("ground");
   near.graph = std::make_shared<RoadGraph>(std::move(graph));
 }

@@ -51,6 +51,7 @@ class Brush {
     }
   }
   void Quad(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
+    if (!scene_.data.extent.Contains(a, 29) || !scene_.data.extent.Contains(c, 29)) return;
     const auto at = [&](Vec2d p) { return scene_.On(p, z_ + kLift); };
     const auto uv = [](Vec2d p) { return Vec2f{static_cast<float>(p.x), static_cast<float>(-p.y)}; };
     mesh_.QuadUv(at(a), at(b), at(c), at(d), uv(a), uv(b), uv(c), uv(d));

@@ -112,8 +112,8 @@ class Dresser {
 
   // Along the streets: lamps and trees where the map has none at all, cars at the kerb, manholes.
   void Fill() {
-    bool lamps = false;
-    for (const OsmNode& node : scene_.data.nodes) lamps = lamps || node.tags.Is("highway", "street_lamp");
+    const bool lamps = HasAny("highway", "street_lamp"), bins = HasAny("amenity", "waste_basket"),
+               hydrants = HasAny("emergency", "fire_hydrant");
     for (const RoadSegment& segment : near_.graph->segments) {
       const double length = segment.Length(), s0 = segment.start + 6, s1 = length - segment.end - 6;
       if (segment.rank == 0 || segment.rank > 5 || s1 - s0 < 8 || segment.half < 2.6) continue;
@@ -121,11 +121,13 @@ class Dresser {
       RngStream rng(scene_.options.seed, "street " + segment.id);
       for (int side : {1, -1}) {
         const double pavement = segment.pavement[side > 0 ? 0 : 1];
-        if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : 14), s1, 28, side, 0.55, "street_light", rng);
+        // Staggered, so that the nearest lamp is 19 to 20 m away, over the street.
+        const double across = 2 * (segment.half + 0.55), stagger = std::sqrt(std::max(19.7 * 19.7 - across * across, 150.0));
+        if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : stagger), s1, 2 * stagger, side, 0.55, "street_light", rng);
         if (trees_ == 0 && pavement > 2.6 && rng.Chance(0.8)) TreeRow(segment, s0 + 5, s1, side, rng);
         if (pavement > 2.2) {
-          Row(segment, s0 + rng.Uniform(4, 60), s1, 80, side, 0.7, "trash_can", rng);
-          Row(segment, s0 + rng.Uniform(4, 90), s1, 110, side, 0.55, "fire_hydrant", rng);
+          if (!bins) Row(segment, s0 + rng.Uniform(4, 60), s1, 80, side, 0.7, "trash_can", rng);
+          if (!hydrants) Row(segment, s0 + rng.Uniform(4, 90), s1, 110, side, 0.55, "fire_hydrant", rng);
           Row(segment, s0 + rng.Uniform(4, 70), s1, 70, side, 0.5, "traffic_sign", rng);
         }
         if (segment.rank >= 2 && segment.rank <= 4 && segment.half > 3.6) Cars(segment, s0 + 3, s1 - 3, side, rng);
@@ -133,6 +135,7 @@ class Dresser {
       for (double s = s0 + rng.Uniform(0, 30); s < s1; s += rng.Uniform(30, 60)) {
         const LinePoint at = PointAt(segment.line, s);
         const Vec2d p = at.p + Vec2d{-at.along.y, at.along.x} * rng.Uniform(-1, 1);
+        if (!Here(p)) continue;
         scene_.Put(segment.id + "/manhole", "manhole", scene_.On(p, -0.127), rng.Uniform(0, kTau), 1, rng.Index(2));
       }
     }
@@ -155,6 +158,10 @@ class Dresser {
   }
 
  private:
+  bool Here(Vec2d p) const { return scene_.data.extent.Contains(p, 24); }
+  bool HasAny(std::string_view key, std::string_view value) const {
+    return std::any_of(scene_.data.nodes.begin(), scene_.data.nodes.end(), [&](const OsmNode& node) { return node.tags.Is(key, value); });
+  }
   bool OnRoad(Vec2d p, double margin) const {
     const LineIndex::Near road = near_.roads.Find(p, 16);
     return road.owner != UINT32_MAX && road.distance < near_.graph->segments[road.owner].half + margin;
@@ -362,6 +369,7 @@ class Dresser {
     RngStream rng(scene_.options.seed, "plant " + area.id);
     const double cell = std::sqrt(each);
     int number = 0;
+    if (std::max(area.bounds.max.x - area.bounds.min.x, area.bounds.max.y - area.bounds.min.y) > 2e5) return;
     for (double y = area.bounds.min.y; y < area.bounds.max.y; y += cell)
       for (double x = area.bounds.min.x; x < area.bounds.max.x; x += cell) {
         const Vec2d p{x + cell * rng.Uniform(0.1, 0.9), y + cell * rng.Uniform(0.1, 0.9)};
@@ -379,6 +387,7 @@ class Dresser {
 
   void Shrubs(const OsmArea& area) {
     RngStream rng(scene_.options.seed, "scrub " + area.id);
+    if (std::max(area.bounds.max.x - area.bounds.min.x, area.bounds.max.y - area.bounds.min.y) > 3000) return;
     int number = 0;
     for (double y = area.bounds.min.y; y < area.bounds.max.y && number < 400; y += 3)
       for (double x = area.bounds.min.x; x < area.bounds.max.x && number < 400; x += 3) {
@@ -414,6 +423,7 @@ class Dresser {
     }
     const Vec2d across{-along.y, along.x}, middle = (area.bounds.min + area.bounds.max) * 0.5;
     const double reach = std::hypot(area.bounds.max.x - area.bounds.min.x, area.bounds.max.y - area.bounds.min.y) / 2;
+    if (reach > 400) return;
     int number = 0, row = 0;
     for (double v = -reach; v < reach; v += row % 2 ? 5.2 : 11.4, ++row)
       for (double u = -reach; u < reach && number < 300; u += 2.7) {
@@ -440,7 +450,7 @@ class Dresser {
       const LinePoint at = PointAt(segment.line, s);
       const Vec2d left{-at.along.y, at.along.x};
       const Vec2d p = at.p + left * (side * (segment.half - 1.15));
-      if (OnOther(p, segment)) continue;
+      if (!Here(p) || OnOther(p, segment)) continue;
       const Vec2d heading = at.along * (side > 0 && !segment.oneway ? -1.0 : 1.0);
       Car(segment.id + (side > 0 ? "/car_left " : "/car_right ") + std::to_string(++number), p, heading, -0.13, rng);
     }
@@ -459,7 +469,7 @@ class Dresser {
       const Vec2d left{-at.along.y, at.along.x}, p = at.p + left * (side * (segment.half + gap));
       const Vec2d front = left * -static_cast<double>(side);
       const Footprint place = FootprintOf(kind, ToFloat(p), static_cast<float>(Yaw(front)));
-      if (OnOther(p, segment) || InBuilding(p) || !scene_.occupancy.IsFree(place)) continue;
+      if (!Here(p) || OnOther(p, segment) || InBuilding(p) || !scene_.occupancy.IsFree(place)) continue;
       scene_.occupancy.Add(place);
       scene_.Put(segment.id + "/" + kind + (side > 0 ? " left " : " right ") + std::to_string(++number), kind, scene_.On(p), Yaw(front), 1, rng.Index(8));
     }
@@ -467,11 +477,11 @@ class Dresser {
 
   void TreeRow(const RoadSegment& segment, double s0, double s1, int side, RngStream& rng) {
     int number = 0;
-    for (double s = s0; s < s1; s += rng.Uniform(8, 13)) {
+    for (double s = s0; s < s1; s += rng.Uniform(8.0, 9.6)) {
       const LinePoint at = PointAt(segment.line, s);
       const Vec2d p = at.p + Vec2d{-at.along.y, at.along.x} * (side * (segment.half + 1.0));
       const Footprint place{ToFloat(p), {0.7f, 0.7f}, 0};
-      if (planted_ >= kMostPlanted || OnOther(p, segment) || InBuilding(p) || !scene_.occupancy.IsFree(place)) continue;
+      if (planted_ >= kMostPlanted || !Here(p) || OnOther(p, segment) || InBuilding(p) || !scene_.occupancy.IsFree(place)) continue;
       scene_.occupancy.Add(place);
       const std::string name = segment.id + (side > 0 ? "/tree left " : "/tree right ") + std::to_string(++number);
       // Crowns keep off the walls.

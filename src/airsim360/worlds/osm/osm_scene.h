@@ -79,7 +79,7 @@ struct Neighbours {
   std::vector<Other> volumes;
   BoxIndex boxes;
   LineIndex roads;                 ///< centre lines; owner = index into graph->segments
-  std::vector<Vec2d> shops;        ///< places of shops and cafés
+  LineIndex shops;                 ///< places of shops and cafés
   std::shared_ptr<const RoadGraph> graph;  ///< set by BuildOsmGround
   std::vector<std::pair<EntityId, Patches>> lawns;  ///< near the focus, set by BuildOsmGround
 };
@@ -90,6 +90,9 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
 /// The roof of a volume, and its walls above the eaves (as `walls`); `base` is the z of its foot.
 void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof,
                   MaterialId wall, MaterialId cover);
+/// The world of a map that has been read or drawn.
+std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
+                                           const std::string& attribution, OsmReport* report = nullptr);
 /// What a roof is made of.
 MaterialId RoofCover(OsmScene& scene, const OsmVolume& volume, const OsmTags& building, uint64_t seed);
 

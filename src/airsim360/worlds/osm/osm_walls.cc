@@ -13,6 +13,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kFullDetail = 230, kSimpleDetail = 480;  // metres from the focus
+constexpr double kSetBack = 0.1;                                // of dressed walls from the outline
 constexpr double kChunk = 120;                            // metres of one merged mesh
 
 // How one volume is dressed.
@@ -160,7 +161,7 @@ EdgeFacts FactsOf(const Neighbours& near, const OsmVolume& self, Vec2d a, Vec2d 
   facts.front = Front::kStreet;
   const int rank = near.graph->segments[road.owner].rank;
   facts.shops = rank >= 1 && rank <= 3;
-  for (Vec2d shop : near.shops) facts.shops = facts.shops || std::hypot(shop.x - middle.x, shop.y - middle.y) < 14;
+  facts.shops = facts.shops || near.shops.Find(middle, 14).owner != UINT32_MAX;
   return facts;
 }
 
@@ -169,6 +170,28 @@ void PlainWall(MeshBuilder& mesh, Vec2f a, Vec2f b, float z0, float z1, float u)
   const float w = std::hypot(b.x - a.x, b.y - a.y);
   mesh.QuadUv({a.x, a.y, z0}, {b.x, b.y, z0}, {b.x, b.y, z1}, {a.x, a.y, z1}, {u, -z0}, {u + w, -z0}, {u + w, -z1},
               {u, -z1});
+}
+
+// The outline with each edge moved inwards by its own distance.
+std::vector<Vec2f> SetBack(const Ring& ring, const std::vector<double>& back) {
+  const size_t n = ring.size();
+  std::vector<Vec2f> moved;
+  for (size_t i = 0; i < n; ++i) {
+    const size_t k = (i + n - 1) % n;
+    const Vec2d p = ring[i], before = ring[k], after = ring[(i + 1) % n];
+    const auto inward = [](Vec2d a, Vec2d b) {
+      const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1e-9);
+      return Vec2d{-(b.y - a.y) / length, (b.x - a.x) / length};
+    };
+    // Where the two moved edges meet: n0 q = d0, n1 q = d1 from the corner.
+    const Vec2d n0 = inward(before, p), n1 = inward(p, after);
+    const double det = n0.x * n1.y - n0.y * n1.x;
+    Vec2d q = (n0 * back[k] + n1 * back[i]) * 0.5;
+    if (std::abs(det) > 0.15)
+      q = {(back[k] * n1.y - back[i] * n0.y) / det, (n0.x * back[i] - n1.x * back[k]) / det};
+    moved.push_back(ToFloat(p + q));
+  }
+  return moved;
 }
 
 // One low storey: windows and a door by turns, at heights that people need.
@@ -229,52 +252,69 @@ class WallBuilder {
     const auto z0 = static_cast<float>(base), z1 = static_cast<float>(base + walls), height = static_cast<float>(walls);
     const double area = Area(volume.footprint), per_edge = area / std::max(1.0, Perimeter(ring));
     Look own = look;
-    own.plan.outline.clear();
-    for (Vec2d p : ring) own.plan.outline.push_back(ToFloat(p));
     const size_t n = ring.size();
-    own.plan.edges.assign(n, EdgeKind::kRear);
-    own.plan.party_height.assign(n, 0);
-    own.plan.cornice = static_cast<float>(std::clamp(0.014 * per_edge / 0.58, 0.08, 1.0));
+    own.plan.edges.assign(n, EdgeKind::kParty);
+    own.plan.party_height.assign(n, 1e6f);  // left as it is, BuildFacades draws nothing there
+    own.plan.cornice = static_cast<float>(std::clamp(0.014 * per_edge / 0.58, 0.2, 1.0));
     std::vector<FacadeDetail> detail(n, FacadeDetail::kSimple);
-    float u = 0;
+
+    // What each edge is; dressed walls stand back a hand's breadth, so that sills and courses stay in the outline.
+    enum class Kind { kParty, kPlain, kLow, kDressed };
+    std::vector<Kind> kinds(n);
+    std::vector<EdgeFacts> facts(n);
+    std::vector<double> back(n, 0.0);
     for (size_t i = 0; i < n; ++i) {
       const Vec2d a = ring[i], b = ring[(i + 1) % n];
       const double length = std::hypot(b.x - a.x, b.y - a.y), far = scene_.Far((a + b) * 0.5);
-      const EdgeFacts facts = look.plain || length < 0.02 ? EdgeFacts() : FactsOf(near_, volume, a, b);
-      // Left to BuildFacades: a hidden party wall draws nothing.
-      own.plan.edges[i] = EdgeKind::kParty;
-      own.plan.party_height[i] = 1e6f;
+      if (!look.plain && length > 0.02) facts[i] = FactsOf(near_, volume, a, b);
       const bool distant = far > kSimpleDetail;
+      if (facts[i].front == Front::kParty) {
+        kinds[i] = Kind::kParty;
+      } else if (look.plain || length < 2.2 || (distant && height < 5)) {
+        kinds[i] = Kind::kPlain;
+      } else if (height < 4.4f || look.stretch < 0.72f) {
+        kinds[i] = Kind::kLow;
+      } else {
+        kinds[i] = Kind::kDressed;
+        back[i] = kSetBack;
+        own.plan.edges[i] = facts[i].front == Front::kStreet ? EdgeKind::kStreet : EdgeKind::kRear;
+        own.plan.party_height[i] = 0;
+        own.plan.shops = own.plan.shops && (facts[i].front != Front::kStreet || facts[i].shops);
+        detail[i] = distant ? FacadeDetail::kFlat
+                    : far > kFullDetail || facts[i].front != Front::kStreet ? FacadeDetail::kSimple
+                                                                            : FacadeDetail::kFull;
+      }
+    }
+    own.plan.outline = SetBack(ring, back);
+
+    float u = 0;
+    for (size_t i = 0; i < n; ++i) {
+      const Vec2f a = own.plan.outline[i], b = own.plan.outline[(i + 1) % n];
+      const float length = std::hypot(b.x - a.x, b.y - a.y);
+      const bool distant = scene_.Far(ring[i]) > kSimpleDetail;
       mesh_.SetTransform({});
       mesh_.SetEntity(entity);
       if (foot > 0) {
         mesh_.SetMaterial(own.surfaces[Surface::kConcrete]);
-        PlainWall(mesh_, ToFloat(a), ToFloat(b), static_cast<float>(base - foot), z0, u);
+        PlainWall(mesh_, a, b, static_cast<float>(base - foot), z0, u);
       }
-      if (facts.front == Front::kParty) {
-        const float hidden = std::min(facts.hidden, height);
+      if (kinds[i] == Kind::kParty) {
+        const float hidden = std::min(facts[i].hidden, height);
         if (height - hidden > 3.5f && length > 3 && !distant) {
           own.plan.party_height[i] = hidden / look.stretch;
         } else if (height - hidden > 0.01f) {
           mesh_.SetMaterial(own.surfaces[DressOf(own.plan).party]);
-          PlainWall(mesh_, ToFloat(a), ToFloat(b), z0 + hidden, z1, u);
+          PlainWall(mesh_, a, b, z0 + hidden, z1, u);
         }
-      } else if (look.plain || length < 2.2 || (distant && height < 5)) {
+      } else if (kinds[i] == Kind::kPlain) {
         const bool pictured = !look.plain && height > 4.5f && Perimeter(ring) > 25;
         mesh_.SetMaterial(own.surfaces[pictured ? DressOf(own.plan).far : look.wall]);
-        PlainWall(mesh_, ToFloat(a), ToFloat(b), z0, z1, u);
-      } else if (height < 4.4f || look.stretch < 0.72f) {
+        PlainWall(mesh_, a, b, z0, z1, u);
+      } else if (kinds[i] == Kind::kLow) {
         RngStream rng(look.plan.seed, "low wall", i);
-        LowWall(mesh_, own, ToFloat(a), ToFloat(b), z0, height, entity, rng);
-      } else {
-        own.plan.edges[i] = facts.front == Front::kStreet ? EdgeKind::kStreet : EdgeKind::kRear;
-        own.plan.party_height[i] = 0;
-        own.plan.shops = own.plan.shops && (facts.front != Front::kStreet || facts.shops);
-        detail[i] = distant ? FacadeDetail::kFlat
-                    : far > kFullDetail || facts.front != Front::kStreet ? FacadeDetail::kSimple
-                                                                        : FacadeDetail::kFull;
+        LowWall(mesh_, own, a, b, z0, height, entity, rng);
       }
-      u += static_cast<float>(length);
+      u += length;
     }
     FacadeContext context{scene_.builder, own.surfaces, mesh_, balcony_, window_box_};
     context.base = z0;
