@@ -44,12 +44,14 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
     v.Field("seed", "seed of the world", request.seed);
     v.Field("labels", "label override file for imports", labels);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
+    request.additions.Visit(v);
     v.Group("environment", "sun, sky and weather",
             [&](ConfigVisitor& group) { VisitEnvironment(group, file.parent_path(), environment); });
   });
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
   request.world = IsModelFile(world) ? (file.parent_path() / world).string() : world;
+  request.additions.Resolve(file);
   if (!labels.empty()) request.labels = file.parent_path() / labels;
   return request;
 }
@@ -58,6 +60,7 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
 CacheKey KeyOf(const WorldRequest& request) {
   CacheKey key("scene", 1);
   key.AddProgram().Add(request.world).Add(request.seed).Add(request.use_models);
+  request.additions.AddTo(key);
   if (!request.use_models) return key;
   std::vector<fs::path> libraries;
   std::error_code error;
@@ -79,7 +82,10 @@ std::shared_ptr<const Scene> LoadBuiltIn(const WorldRequest& request) {
     }
   }
   const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
-  auto built = BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
+  auto built = BuildWorld(request.world, {.seed = request.seed,
+                                          .models = models.get(),
+                                          .city = request.additions.city,
+                                          .props = request.additions.LoadModels()});
   if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
   return WithCacheKey(std::move(built), key.Name());
 }
@@ -96,6 +102,9 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
     ReadWorldFile(path, request, environment);
     return WithEnvironment(std::move(scene), environment);
   }
+  if (!request.additions.empty() && request.world != "new_york_city" &&
+      (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
+    throw InputError("'" + request.world + "': 'city' is for new_york_city, 'props' for it and downtown_west");
   if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
   return LoadBuiltIn(request);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "airsim360/scene/scene.h"
+#include "airsim360/sim/world_city.h"
 
 namespace airsim360 {
 
@@ -14,6 +15,7 @@ struct WorldRequest {
   uint64_t seed = 0;
   std::filesystem::path labels = {};  ///< label override file for imports, see docs/importing.md
   bool use_models = true;             ///< use sweethome3d-furniture where installed
+  WorldAdditions additions = {};      ///< what a world file adds
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.

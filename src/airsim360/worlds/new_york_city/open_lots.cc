@@ -157,6 +157,11 @@ void BuildOpenLots(District& d, const Manhattan& city) {
   for (const Lot& lot : city.lots) {
     if (lot.use == LotUse::kPlaza) BuildPocketPlaza(d, lot);
     if (lot.use == LotUse::kDirt) BuildSite(d, lot);
+    if (lot.role == "deco corner") {
+      // Its round corner leaves a piece of pavement.
+      d.ground.Begin("round corner", "ground/sidewalk", Surface::kSlabs);
+      d.ground.Rect({lot.rect.x0, lot.rect.y0, lot.rect.x0 + 4, lot.rect.y0 + 4}, 0.004f);
+    }
   }
 }
 

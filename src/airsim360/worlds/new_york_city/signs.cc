@@ -57,7 +57,7 @@ EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f 
   return entity;
 }
 
-void HangSigns(District& d, const Manhattan& city) {
+void HangSigns(District& d, const Manhattan& city, bool more) {
   Boards boards{d};
   const auto lot = [&](const char* role) -> const Lot& { return LotOf(city, role); };
   const auto hang = [&](const char* role, bool avenue, std::string name, std::string_view kind, uint32_t variant, float s,
@@ -71,6 +71,7 @@ void HangSigns(District& d, const Manhattan& city) {
   hang("brown tower", true, "billboard red car", "billboard", 2, 16, 9, 1.2f);
   hang("brown tower", false, "billboard black and white portrait", "billboard", 3, 11, 9, 1.0f);
   hang("braced corner", false, "blue billboard", "billboard", 4, 14, 9, 1.1f);
+  if (!more) return;
   // And more of the same street life.
   hang("grid tower", false, "banner", "banner", 0, 4, 7.5f, 1.0f);
   hang("grid tower", false, "light box", "light_box", 1, 14, 5.6f, 0.9f);
