@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/world_sheet.h"
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
 #include "airsim360/scene/entity_table.h"
@@ -211,7 +212,8 @@ constexpr const char* kWorldHelp = "name (airsim360 worlds) or path of a model, 
 }  // namespace
 
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand("world", "worlds in and out: world export, world import, world entities");
+  CLI::App* command = app.add_subcommand(
+      "world", "worlds in and out: world export, world import, world entities, world sheet");
   command->require_subcommand(1);
   CLI::App* to_file = command->add_subcommand("export", "write a world with its names and labels as binary glTF");
   auto arguments = std::make_shared<ExportArguments>();
@@ -237,6 +239,16 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   entities->add_option("--labels", table->labels, "label file: categories by name patterns (docs/importing.md)");
   entities->add_flag("--csv", table->csv, "comma-separated values");
   entities->callback([table, &globals] { RunEntities(*table, globals); });
+  CLI::App* sheet = command->add_subcommand(
+      "sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
+  auto view = std::make_shared<SheetArguments>();
+  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")->required();
+  sheet->add_option("--out", view->out, "the .jpg or .png file to write")->required();
+  sheet->add_option("--poses", view->poses, "places, 1 … 64 (16)");
+  sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');
+  sheet->add_option("--width", view->width, "of one panorama in pixels (512)");
+  sheet->add_option("--tier", view->tier, "labels, fast, high or reference (fast)");
+  sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
 }
 
 }  // namespace airsim360

@@ -50,12 +50,14 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
     v.Field("heights", "maps: GeoTIFF of the ground's heights", heights);
     v.Field("fill", "maps: add parked cars, lamps and trees where the map has none", request.fill);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
+    request.additions.Visit(v);
     v.Group("environment", "sun, sky and weather",
             [&](ConfigVisitor& group) { VisitEnvironment(group, file.parent_path(), environment); });
   });
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
   request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
+  request.additions.Resolve(file);
   if (!labels.empty()) request.labels = file.parent_path() / labels;
   if (!heights.empty()) request.heights = file.parent_path() / heights;
   return request;
@@ -69,6 +71,7 @@ CacheKey KeyOf(const WorldRequest& request) {
     key.AddFile(request.world).Add(request.fill).Add(request.heights.string());
     if (!request.heights.empty()) key.AddFile(request.heights);
   }
+  request.additions.AddTo(key);
   if (!request.use_models) return key;
   std::vector<fs::path> libraries;
   std::error_code error;
@@ -81,7 +84,12 @@ CacheKey KeyOf(const WorldRequest& request) {
 
 std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* report = nullptr) {
   const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
-  if (!IsOsmFile(request.world)) return BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
+  if (!IsOsmFile(request.world)) {
+    return BuildWorld(request.world, {.seed = request.seed,
+                                      .models = models.get(),
+                                      .city = request.additions.city,
+                                      .props = request.additions.LoadModels()});
+  }
   std::optional<HeightGrid> heights;
   if (!request.heights.empty()) heights = ReadHeights(request.heights);
   const OsmOptions options{.seed = request.seed,
@@ -122,6 +130,9 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
     ReadWorldFile(path, request, environment);
     return WithEnvironment(std::move(scene), environment);
   }
+  if (!request.additions.empty() && request.world != "new_york_city" &&
+      (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
+    throw InputError("'" + request.world + "': 'city' is for new_york_city, 'props' for it and downtown_west");
   if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "airsim360/scene/scene.h"
+#include "airsim360/sim/world_city.h"
 #include "airsim360/worlds/osm_world.h"
 
 namespace airsim360 {
@@ -17,7 +18,8 @@ struct WorldRequest {
   std::filesystem::path labels = {};  ///< label override file, see docs/importing.md
   bool use_models = true;             ///< use sweethome3d-furniture where installed
   std::filesystem::path heights = {};  ///< of the ground of maps: a GeoTIFF, read through GDAL's gdalwarp
-  bool fill = true;  ///< maps: add by rule what they seldom hold, see docs/importing.md
+  bool fill = true;              ///< maps: add by rule what they seldom hold, see docs/importing.md
+  WorldAdditions additions = {};  ///< what a world file adds
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.

@@ -315,6 +315,35 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
   }
 }
 
+// A boulevard's lines through a crossing: green bars of the bike lane, dashes between the lanes, arcs for those
+// who turn left; draped over the fan.
+void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew,
+                       const std::string& name) {
+  const auto on = [&](float x, float y) { return Vec3f{x, y, fan.Height({x, y}) + 0.012f}; };
+  const auto rect = [&](float x0, float x1, float y0, float y1) {
+    ground.Quad(on(x0, y0), on(x1, y0), on(x1, y1), on(x0, y1));
+  };
+  const float reach = ew.half_width + 4.6f;
+  ground.Begin("bike lane crossing " + name, "ground/bike_lane", Surface::kBikeLane);
+  for (float y = -reach; y < reach - 0.6f; y += 1.2f)
+    rect(ns.center + 8.8f, ns.center + 10.4f, ew.center + y, ew.center + y + 0.62f);
+  ground.Begin("guide lines " + name, "ground/lane_marking", Surface::kPaintWhite);
+  for (float d : {5.5f, -5.9f}) {
+    for (float y = -reach; y < reach - 0.6f; y += 1.9f)
+      rect(ns.center + d - 0.06f, ns.center + d + 0.06f, ew.center + y, ew.center + y + 0.65f);
+  }
+  for (float side : {-1.0f, 1.0f}) {
+    const Vec2f c{ns.center - side * 11, ew.center - side * reach};
+    for (int i = 1; i < 13; i += 2) {
+      const auto at = [&](float r, float a) {
+        return on(c.x + side * r * std::cos(a), c.y + side * r * std::sin(a));
+      };
+      const float a0 = 0.11f * static_cast<float>(i), a1 = a0 + 0.07f;
+      for (float r : {9.0f, 12.2f}) ground.Quad(at(r - 0.06f, a0), at(r + 0.06f, a0), at(r + 0.06f, a1), at(r - 0.06f, a1));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed) {
@@ -349,7 +378,10 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
     for (size_t k = 0; k < plan.east_west.size(); ++k) {
       const Fan fan = LayJunction(ground, plan.north_south[i], plan.east_west[k],
                                   std::to_string(i) + "." + std::to_string(k), Surface::kAsphalt);
-      if (is_core(i) && is_core(k)) LayJunctionWear(ground, fan, rng);
+      if (!is_core(i) || !is_core(k)) continue;
+      LayJunctionWear(ground, fan, rng);
+      if (plan.north_south[i].kind == StreetKind::kBoulevard)
+        LayJunctionGuides(ground, fan, plan.north_south[i], plan.east_west[k], std::to_string(i) + "." + std::to_string(k));
     }
   }
   return core;

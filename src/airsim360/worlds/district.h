@@ -35,6 +35,9 @@ bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);
 /// Distance from p to the nearest edge of the outline.
 float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p);
 
+/// What flight instructions name: on walls, and on and around the plaza.
+void HangDowntownSigns(District& district, const std::vector<BuildingPlan>& buildings);
+void PlaceDowntownLandmarks(District& district, const Block& plaza);
 /// The plaza: paving, fountain, terrace with café, market, allées.
 void BuildPlaza(District& district, const Block& block);
 /// The park: pond, ring walk, curved paths, lawns with trees, rocks and wooden fence.

@@ -4,6 +4,7 @@
 #include "airsim360/worlds/buildings.h"
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/district.h"
+#include "airsim360/worlds/placed_models.h"
 
 namespace airsim360::internal {
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) {
@@ -29,17 +30,23 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
   for (const Block& block : plan.blocks) {
     const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
     LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs);
-    if (block.kind == BlockKind::kPlaza) BuildPlaza(district, block);
+    if (block.kind == BlockKind::kPlaza) {
+      PlaceDowntownLandmarks(district, block);
+      BuildPlaza(district, block);
+    }
     if (block.kind == BlockKind::kPark) BuildPark(district, block);
     if (!open) BuildYard(district, block);
   }
-  BuildBuildings(district, PlanBuildings(plan, options.seed));
+  const std::vector<BuildingPlan> buildings = PlanBuildings(plan, options.seed);
+  BuildBuildings(district, buildings);
+  HangDowntownSigns(district, buildings);
   FurnishPavements(district);
   FurnishStreets(district, streets);
   ground.Finish("ground");
   BuildBackdrop(district);
   ground.Finish("backdrop");
 
+  AddPlacedModels(builder, shelf, options.props);
   // Over the plaza, the fountain ahead to the east.
   const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(),
                                   [](const Block& b) { return b.kind == BlockKind::kPlaza; });
@@ -62,6 +69,7 @@ WorldInfo DowntownWestInfo() {
            "construction/building",
            "construction/building/roof",
            "construction/fountain",
+           "construction/phone_booth",
            "construction/rooftop/air_conditioner",
            "construction/rooftop/antenna",
            "construction/rooftop/ventilation_tube",
@@ -97,21 +105,26 @@ WorldInfo DowntownWestInfo() {
            "ground/terrain/landscape",
            "nature/mountain",
            "nature/rock",
+           "signage/billboard",
+           "signage/flag/usa",
            "signage/poster_stand",
            "signage/shop_sign",
            "signage/traffic_sign",
            "sky",
+           "traffic/barrier/barrier",
            "traffic/bollard/car_pillar",
            "traffic/control/traffic_light",
            "vegetation/flower",
            "vegetation/hedge",
            "vegetation/shrub/bush",
            "vegetation/tree/broadleaf/generic",
+           "vegetation/tree/broadleaf/maple",
            "vegetation/tree/broadleaf/narrowleaf",
            "vegetation/tree/conifer/pine",
            "vehicle/bicycle",
            "vehicle/bus",
            "vehicle/car",
+           "vehicle/food_truck",
            "vehicle/van",
            "water/water_plane"},
           "A downtown of seven built blocks around a plaza with market, café terrace and fountain, and a "

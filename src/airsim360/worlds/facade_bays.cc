@@ -292,7 +292,7 @@ void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const D
     case FacadeStyle::kBrickLoft:
       return LoftBay(pen, dress, bay, o, rng);
     case FacadeStyle::kBrownstone:
-      return BuildBrownstoneBay(pen, dress, bay, o, rng);
+      return BuildBrownstoneBay(pen, dress, o, rng);
     default:
       return RibbonBay(pen, dress, bay, o, rng);
   }

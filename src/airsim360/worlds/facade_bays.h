@@ -39,7 +39,7 @@ void SimpleOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float
 
 /// Bays of the New York styles; the wall around a brownstone's opening stands already.
 void BuildDecoBay(FacadePen& pen, const Dress& dress, const Bay& bay, RngStream& rng);
-void BuildBrownstoneBay(FacadePen& pen, const Dress& dress, const Bay& bay, const Opening& o, RngStream& rng);
+void BuildBrownstoneBay(FacadePen& pen, const Dress& dress, const Opening& o, RngStream& rng);
 /// Ground floor of a brownstone: raised entrance with a stoop, parlour windows, cellar windows.
 void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStream& rng);
 /// What hangs on a whole street wall: fire escapes, braces.

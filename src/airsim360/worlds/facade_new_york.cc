@@ -37,7 +37,7 @@ void BuildDecoBay(FacadePen& pen, const Dress& dress, const Bay& b, RngStream& r
     pen.Bar(b.x0, b.x1, b.z1 - 0.3f, b.z1 - 0.02f, -kProud - 0.12f, -kProud + 0.02f, false, true);
 }
 
-void BuildBrownstoneBay(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {
+void BuildBrownstoneBay(FacadePen& pen, const Dress& dress, const Opening& o, RngStream& rng) {
   FacadePen::Sash sash{.t = 0.06f, .nx = 0, .nz = 1, .frame = dress.frame, .glass = dress.glass};
   Furnish(sash, rng);
   pen.Window(o.x0, o.x1, o.z0, o.z1, o.depth, sash);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
 namespace {
@@ -148,6 +150,24 @@ void HidePartyWalls(std::vector<BuildingPlan>& out, size_t first) {
       }
     }
   }
+}
+
+const std::vector<std::string>& FacadeStyleNames() {
+  static const std::vector<std::string> names = {"brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid",
+                                                 "curtain_wall",  "brick_loft",    "ribbon",          "deco",
+                                                 "brownstone",    "braced_glass"};
+  return names;
+}
+
+std::vector<FacadeStyle> StylesOf(const std::vector<std::string>& names) {
+  std::vector<FacadeStyle> styles;
+  for (const std::string& name : names) {
+    const auto& all = FacadeStyleNames();
+    const auto it = std::find(all.begin(), all.end(), name);
+    if (it == all.end()) throw InputError(UnknownChoiceMessage("facade style", name, all));
+    styles.push_back(static_cast<FacadeStyle>(it - all.begin()));
+  }
+  return styles;
 }
 
 const StyleMetrics& MetricsOf(FacadeStyle style) {

@@ -24,6 +24,9 @@ enum class FacadeStyle {
   kCount
 };
 
+/// Styles by their names (FacadeStyleNames); InputError naming the nearest.
+std::vector<FacadeStyle> StylesOf(const std::vector<std::string>& names);
+
 enum class EdgeKind {
   kStreet,  ///< full dress, shops below
   kRear,    ///< windows without ornament

@@ -6,6 +6,11 @@
 
 namespace airsim360::internal {
 
+/// How much of everything, from CityOptions.
+struct Density {
+  double traffic = 1, trees = 1, furniture = 1;
+};
+
 /// A prop as an entity with a name of its own.
 EntityId PlaceNamed(District& district, std::string name, std::string_view kind, Vec3f p, float yaw,
                     uint32_t variant = 0, float scale = 1, Vec3f tint = {1, 1, 1});
@@ -17,13 +22,13 @@ void BuildOpenLots(District& district, const Manhattan& city);
 /// The park with the lake, the island and the red bridge.
 void BuildLakePark(District& district, const Block& block);
 /// Billboards, banners, light boxes and flags on walls and roofs.
-void HangSigns(District& district, const Manhattan& city);
+void HangSigns(District& district, const Manhattan& city, bool more);
 /// What flight instructions name, each once; before the rest of the furniture.
 void PlaceLandmarks(District& district, const Manhattan& city);
 /// Lamps, trees, bins, newspaper boxes, carts, road works … along the pavements.
-void FurnishNewYorkPavements(District& district, const Manhattan& city);
+void FurnishNewYorkPavements(District& district, const Manhattan& city, const Density& density);
 /// Cabs, cars, vans and buses in lanes and bays; covers.
-void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets);
+void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets, const Density& density);
 /// Far blocks to 640 m, a skyline to the horizon, the rivers.
 void BuildFarManhattan(District& district);
 

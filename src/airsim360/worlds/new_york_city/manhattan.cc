@@ -24,10 +24,10 @@ struct Role {
 };
 using F = FacadeStyle;
 constexpr Role kRoles[] = {
-    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 52, 2},
+    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
     {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kConcreteGrid, 2, 76, 2},
     {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBracedGlass, 0, 31, 1},
-    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 80, 3},
+    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
     {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kCurtainWall, 1, 116, 2},
     {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
     {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kCurtainWall, 0, 122, 2},
@@ -250,6 +250,13 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
       for (Lot& lot : CutRow(block, i, row, west, east, rng)) {
         Design design = DrawDesign(lot, core, options.height_scale, rng);
         const uint64_t seed = rng.Bits();
+        if (!options.styles.empty() &&
+            std::find(options.styles.begin(), options.styles.end(), design.style) == options.styles.end()) {
+          design.style = options.styles[rng.Index(static_cast<uint32_t>(options.styles.size()))];
+          design.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
+          if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20))
+            design.style = FacadeStyle::kBrickWalkUp;
+        }
         if (const Role* role = RoleOf(block, row, lot.index, lot.count)) {
           lot.role = role->name;
           lot.use = role->use;

@@ -38,6 +38,7 @@ struct Manhattan {
 struct ManhattanOptions {
   uint64_t seed = 0;
   float height_scale = 1;
+  std::vector<FacadeStyle> styles = {};  ///< of lots that are not hand-set; empty = all
 };
 Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options);
 

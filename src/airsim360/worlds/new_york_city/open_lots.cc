@@ -26,7 +26,10 @@ void LayYards(District& d, const Block& block, size_t index) {
   const float y = inner.center().y;
   for (float x = inner.x0 + 30; x < inner.x1 - 30; x += 5.5f) {
     const double pick = rng.Uniform();
-    if (pick < 0.3) {
+    if (pick < 0.28) {
+      const float at = y + static_cast<float>(rng.Uniform(-0.6, 0.6));
+      d.placer.Try("tree_narrowleaf", {x, at, -0.02f}, static_cast<float>(rng.Uniform(0, kTau)), 0.72f, {1, 1, 1}, rng.Index(3));
+    } else if (pick < 0.36) {
       d.placer.Try("plant", {x, y + static_cast<float>(rng.Uniform(-1.8, 1.8)), 0}, static_cast<float>(rng.Uniform(0, kTau)), 1.2f);
     } else if (pick < 0.5) {
       d.placer.Try("trash_can", {x, y + 1.9f, 0});
@@ -157,6 +160,11 @@ void BuildOpenLots(District& d, const Manhattan& city) {
   for (const Lot& lot : city.lots) {
     if (lot.use == LotUse::kPlaza) BuildPocketPlaza(d, lot);
     if (lot.use == LotUse::kDirt) BuildSite(d, lot);
+    if (lot.role == "deco corner") {
+      // Its round corner leaves a piece of pavement.
+      d.ground.Begin("round corner", "ground/sidewalk", Surface::kSlabs);
+      d.ground.Rect({lot.rect.x0, lot.rect.y0, lot.rect.x0 + 4, lot.rect.y0 + 4}, 0.004f);
+    }
   }
 }
 

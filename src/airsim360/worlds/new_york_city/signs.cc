@@ -57,7 +57,7 @@ EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f 
   return entity;
 }
 
-void HangSigns(District& d, const Manhattan& city) {
+void HangSigns(District& d, const Manhattan& city, bool more) {
   Boards boards{d};
   const auto lot = [&](const char* role) -> const Lot& { return LotOf(city, role); };
   const auto hang = [&](const char* role, bool avenue, std::string name, std::string_view kind, uint32_t variant, float s,
@@ -71,11 +71,17 @@ void HangSigns(District& d, const Manhattan& city) {
   hang("brown tower", true, "billboard red car", "billboard", 2, 16, 9, 1.2f);
   hang("brown tower", false, "billboard black and white portrait", "billboard", 3, 11, 9, 1.0f);
   hang("braced corner", false, "blue billboard", "billboard", 4, 14, 9, 1.1f);
+  if (!more) return;
   // And more of the same street life.
   hang("grid tower", false, "banner", "banner", 0, 4, 7.5f, 1.0f);
   hang("grid tower", false, "light box", "light_box", 1, 14, 5.6f, 0.9f);
   hang("deco corner", false, "light box", "light_box", 0, 17.5f, 5.7f, 1.0f);
   hang("deco corner", true, "billboard", "billboard", 5, 9, 11, 1.1f);
+  hang("deco corner", true, "banner", "banner", 1, 22, 9, 0.9f);
+  hang("grid tower", false, "billboard", "billboard", 11, 14, 9, 0.9f);
+  hang("brown tower", false, "light box", "light_box", 5, 11, 6.2f, 0.9f);
+  hang("braced corner", false, "billboard", "billboard", 9, 5.5f, 17.5f, 0.8f);
+  hang("braced corner", true, "billboard", "billboard", 8, 18, 10.5f, 1.15f);
   hang("braced corner", true, "banner", "banner", 0, 5, 8.5f, 1.3f);
   hang("braced corner", true, "light box", "light_box", 4, 15, 6.0f, 0.9f);
   hang("brown tower", true, "light box", "light_box", 2, 8, 6.1f, 1.0f);

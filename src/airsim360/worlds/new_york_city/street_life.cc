@@ -42,7 +42,7 @@ constexpr Rule kRules[] = {
     {"concrete_block", 90, 0.9f, true, 2},  {"parking_meter", 14, 0.5f, false, 1},
 };
 
-void FurnishSide(District& d, const Side& side, bool avenue, RngStream& rng) {
+void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, RngStream& rng) {
   const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
   const float length = side.s1 - side.s0;
   const int lamps = std::max(2, static_cast<int>(std::lround(length / 27)) + 1);
@@ -51,7 +51,7 @@ void FurnishSide(District& d, const Side& side, bool avenue, RngStream& rng) {
     d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
   }
   // Trees in pits; few on narrow streets of towers.
-  const double planted = avenue ? 0.8 : 0.62;
+  const double planted = density.trees * (avenue ? 0.92 : 0.74);
   for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += 8.6f) {
     if (!rng.Chance(planted)) continue;
     struct Tree {
@@ -67,7 +67,9 @@ void FurnishSide(District& d, const Side& side, bool avenue, RngStream& rng) {
       LayTreePit(d.ground, {p.x, p.y});
   }
   for (const Rule& rule : kRules) {
-    for (float s = side.s0 + uniform(0.05, 0.9) * rule.spacing; s < side.s1; s += rule.spacing * uniform(0.8, 1.2)) {
+    if (density.furniture < 0.05) break;
+    const float spacing = rule.spacing / static_cast<float>(density.furniture);
+    for (float s = side.s0 + uniform(0.05, 0.9) * spacing; s < side.s1; s += spacing * uniform(0.8, 1.2)) {
       const float step = rule.kind == std::string_view("concrete_block") ? 2.6f : 0.62f;
       for (int i = 0; i < rule.group; ++i)
         d.placer.Try(rule.kind, side.At(s + step * static_cast<float>(i), rule.depth),
@@ -157,12 +159,21 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
   const Vec3f mast = se_west.At(se_west.s0 + 4, 1.6f);
   d.placer.Reserve({{mast.x, mast.y}, {0.4f, 0.4f}, 0});
   PlaceNamed(d, "american flag on a mast", "us_flag", mast, 0.4f);
+  // Three hot dog carts by the crossing, three flags on the bank.
+  for (float s : {10.0f, 14.5f, 19.0f}) {
+    const Vec3f cart = se_west.At(se_west.s0 + s, 1.7f);
+    const float yaw = FacingYaw(se_west.line.inward);
+    d.placer.Reserve(FootprintOf("hotdog_cart", {cart.x, cart.y}, yaw));
+    PlaceNamed(d, "hot dog cart", "hotdog_cart", cart, yaw, s > 12);
+  }
+  for (float s : {0.15f, 0.5f, 0.85f})
+    PlaceNamed(d, "american flag", "us_flag", {r.x0 + r.width() * s, r.y0 - 0.3f, 9.4f}, FacingYaw({0, -1}), 1, 1.3f);
   const Lot& bottle = LotOf(city, "bottle roof");
   const Vec2f top = bottle.rect.center();
   PlaceNamed(d, "giant cola bottle", "giant_bottle", {top.x, bottle.rect.y0 + 3.4f, bottle.podium}, kTau / 8);
 }
 
-void FurnishNewYorkPavements(District& d, const Manhattan& city) {
+void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& density) {
   const GroundRect reach = d.plan.reach();
   // Stoops keep their place.
   for (const BuildingPlan& plan : city.buildings) {
@@ -188,7 +199,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city) {
         const Vec3f p = side.At((side.s0 + side.s1) / 2 + 3, 1.35f);
         d.placer.Try("bus_stop", p, FacingYaw(side.street()));
       }
-      FurnishSide(d, side, OnAvenue(k), rng);
+      FurnishSide(d, side, OnAvenue(k), density, rng);
     }
   }
   // Sheds stand in front of the lots whose shops have no awnings.
@@ -203,7 +214,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city) {
   }
 }
 
-void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& streets) {
+void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& streets, const Density& density) {
   LayCrossingCovers(d);
   for (size_t i = 0; i < streets.size(); ++i) {
     const StreetStretch& street = streets[i];
@@ -215,7 +226,7 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
     for (float side : {-1.0f, 1.0f}) {
       const Vec2f heading = forward * -side;
       for (float s = s0 + 3.1f; (!boulevard || side < 0) && s + 3.1f < s1 + 0.1f; s += 6.2f) {
-        if (!rng.Chance(0.8)) continue;
+        if (!rng.Chance(0.8 * density.traffic)) continue;
         const double pick = rng.Uniform();
         d.placer.Try(pick < 0.78 ? "car" : pick < 0.9 ? "van" : "taxi",
                      street.At(s + uniform(-0.25, 0.25), side * (hw - 1.22f), -0.004f),
@@ -228,12 +239,14 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
         if (avenue && !boulevard && std::abs(lane) > 8) continue;
         // Queues at the line, then gaps.
         const float stop = side < 0 ? s1 - 3 : s0 + 3, back = side < 0 ? -1.0f : 1.0f;
+        if (density.traffic < 0.05) continue;
+        const auto gaps = static_cast<float>(1 / density.traffic);
         float s = rng.Chance(0.55) ? stop : stop + back * uniform(8, 25);
         while (s > s0 + 2.5f && s < s1 - 2.5f) {
           const double pick = rng.Uniform();
           const char* kind = pick < 0.40 ? "taxi" : pick < 0.88 ? "car" : pick < 0.97 ? "van" : "bus";
           d.placer.Try(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f), FacingYaw(heading) + uniform(-0.02, 0.02));
-          s += back * (kind[0] == 'b' ? 15.0f : rng.Chance(0.5) ? uniform(6.5, 9) : uniform(14, 38));
+          s += back * (kind[0] == 'b' ? 15.0f : rng.Chance(0.5) ? uniform(6.5, 9) : gaps * uniform(14, 38));
         }
       }
       if (boulevard && side > 0 && rng.Chance(0.7)) d.placer.Try("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
