@@ -21,7 +21,9 @@ struct Shared {
 };
 
 KeypointLabel Place(const PeoplePicture& picture, const RigidTransform& X_CW, Vec3d p_W) {
-  KeypointLabel label{.p_W = p_W, .p_C = X_CW * p_W};
+  KeypointLabel label;
+  label.p_W = p_W;
+  label.p_C = X_CW * p_W;
   const Vec2d place = LonLat(label.p_C);
   label.lon = place.x;
   label.lat = place.y;
@@ -80,7 +82,8 @@ std::vector<Vec3d> SkinOf(const PeoplePicture& picture, size_t i) {
 PersonBox3d BoxAround(const Shared& shared, size_t i, std::span<const Vec3d> skin) {
   const RigidTransform& X_CW = shared.X_CW;
   const PersonState& state = shared.picture.poses.states[i];
-  PersonBox3d box{.yaw = state.yaw};
+  PersonBox3d box;
+  box.yaw = state.yaw;
   const Vec3d ahead{std::cos(box.yaw), std::sin(box.yaw), 0}, left{-ahead.y, ahead.x, 0};
   Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
   for (const Vec3d& p : skin) {
