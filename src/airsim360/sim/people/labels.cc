@@ -203,7 +203,10 @@ std::vector<PersonLabel> LabelPeople(const PeoplePicture& picture, const LabelOp
   for (size_t i = 0; i < picture.poses.states.size() && !picture.people.refs.empty(); ++i) {
     const PersonState& state = picture.poses.states[i];
     if (!state.visible || Norm(state.p_WP - picture.X_WC.p) > options.farthest) continue;
-    labels.push_back({.person = static_cast<PersonIndex>(i), .entity = picture.people.refs[i].entity, .state = state});
+    PersonLabel& label = labels.emplace_back();
+    label.person = static_cast<PersonIndex>(i);
+    label.entity = picture.people.refs[i].entity;
+    label.state = state;
   }
   ParallelFor(static_cast<int64_t>(labels.size()), [&](int64_t k) {
     PersonLabel& label = labels[static_cast<size_t>(k)];
