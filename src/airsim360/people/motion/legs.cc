@@ -212,12 +212,9 @@ class Solver {
 
     const Vec3d fk = Forward(in_.body.size, foot.curve);
     const Vec3d hip = pelvis_ + hip_[k];
-    const Vec3d level = in_.X_WP.R * Vec3d{fk.x, 0, 0};
-    Vec3d p = Vec3d{hip.x, hip.y, 0} + level;
-    // Across, the foot is where walkers set it, not under the hip.
-    const Vec3d left = in_.X_WP.R.column(1);
-    const double aside = AnkleSide(in_.body, gait_, k) - Dot(left, p - Vec3d{in_.X_WP.p.x, in_.X_WP.p.y, 0});
-    p += left * aside;
+    // Against the person, not the hip, so that it ends where LandingPlace says.
+    const double rest = in_.body.p_PJ[At(kLegs[k].hip)].x;
+    Vec3d p = in_.X_WP * Vec3d{rest + fk.x, AnkleSide(in_.body, gait_, k), 0};
     p.z = hip.z + fk.z;
     foot.ankle = p + in_.X_WP.R * (m.offset * keep);
     // Landing: onto the ground that is there; before, clear of it.
@@ -304,8 +301,10 @@ Vec3d HomePlace(const Body& body, size_t side) {
 Vec3d LandingPlace(const Body& body, const Gait& gait, size_t side) {
   const LegAngles contact = LegCurves(gait, 0);
   const FootShape shape(body, side);
-  const double x = body.p_PJ[At(kLegs[side].hip)].x + Forward(body.size, contact).x - shape.AnkleAt(std::min(0.0, contact.pitch)).x;
-  return {x, AnkleSide(body, gait, side) + shape.ball.y, 0};
+  const double x = body.p_PJ[At(kLegs[side].hip)].x + Forward(body.size, contact).x;
+  // From the ankle to the ball of a foot that is turned out.
+  const Vec3d ball = RotationZ(ToeOut(side)) * -shape.AnkleAt(std::min(0.0, contact.pitch));
+  return {x + ball.x, AnkleSide(body, gait, side) + ball.y, 0};
 }
 
 Vec3d AnkleOverBall(const Body& body, size_t side, double pitch) { return FootShape(body, side).AnkleAt(pitch); }
