@@ -147,7 +147,7 @@ class Solver {
     const double phase = feet_[a].phase;
     const double carried = feet_[a].planted ? HeightOver(a, feet_[a].curve.knee)
                                             : CurveHeight(a, phase, in_.state.p_WP.z);
-    const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.43;
+    const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.475;
     const double mix = SmoothStep(from, 0.5, phase);
     double height = carried;
     if (mix > 0) {
@@ -193,7 +193,7 @@ class Solver {
     const double wanted = (Dot(h, h) + Dot(v, v) - reach * reach) / 2 - h.y * v.y;
     if (wanted <= along) return;  // near enough with the foot flat
     const double pitch = delta - (wanted >= size ? 0 : std::acos(wanted / size));
-    foot.pitch = std::clamp(pitch, 0.0, 1.25);
+    foot.pitch = std::clamp(pitch, 0.0, 1.2);
     foot.ankle = foot.motion->p_W + foot.frame * shape.AnkleAt(foot.pitch);
   }
 
@@ -202,7 +202,7 @@ class Solver {
     Foot& foot = feet_[k];
     const FootMotion& m = *foot.motion;
     const double u = std::clamp((foot.phase < m.phase - 0.3 ? 1.0 : foot.phase - m.phase) / std::max(0.05, 1 - m.phase), 0.0, 1.0);
-    const double keep = 1 - SmoothStep(0, 0.6, u), early = 1 - SmoothStep(0, 0.45, u);
+    const double keep = 1 - SmoothStep(0, 0.38 + 0.2 * gait_.run, u), early = 1 - SmoothStep(0, 0.45, u);
     const LegAngles lift = LegCurves(gait_, m.phase);
     foot.pitch = foot.curve.pitch + (m.pitch - lift.pitch) * early;
     foot.toes = 1 - SmoothStep(0, 0.25, u);
@@ -219,7 +219,7 @@ class Solver {
     foot.ankle = p + in_.X_WP.R * (m.offset * keep);
     // Landing: onto the ground that is there; before, clear of it.
     const double sole = shapes_[k].AnkleAt(foot.pitch).z, ground = m.p_W_to.z;
-    const double landing = SmoothStep(0.86, 1, u);
+    const double landing = SmoothStep(0.95 - 0.07 * gait_.run, 1, u);
     foot.ankle.z += (ground + sole - foot.ankle.z) * landing;
     const double clear = 0.018 * SmoothStep(0, 0.25, u) * (1 - landing);
     const double floor = std::max(ground, in_.state.p_WP.z + (m.p_W.z - in_.state.p_WP.z) * (1 - u));
