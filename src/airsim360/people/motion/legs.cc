@@ -193,7 +193,7 @@ class Solver {
     const double wanted = (Dot(h, h) + Dot(v, v) - reach * reach) / 2 - h.y * v.y;
     if (wanted <= along) return;  // near enough with the foot flat
     const double pitch = delta - (wanted >= size ? 0 : std::acos(wanted / size));
-    foot.pitch = std::clamp(pitch, 0.0, 1.2);
+    foot.pitch = std::clamp(pitch, 0.0, std::min(1.2, std::max(0.0, foot.curve.pitch) + 0.2));
     foot.ankle = foot.motion->p_W + foot.frame * shape.AnkleAt(foot.pitch);
   }
 
