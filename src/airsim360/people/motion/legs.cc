@@ -186,14 +186,16 @@ class Solver {
     const Vec3d pivot = foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height};
     const Vec3d h = foot.frame.transpose() * (pelvis_ + hip_[k] - pivot), v = -shape.ball;
     const double knee = in_.sink > 0 || gait_.weight < 0.1 ? 0.03 : foot.curve.knee;
-    const double reach = Reach(in_.body.size, knee);
-    // h . R_y(pitch) v = (h^2 + v^2 - reach^2) / 2.
+    // h . R_y(pitch) v = (h^2 + v^2 - reach^2) / 2; 0 where the foot may stay flat.
     const double along = h.x * v.x + h.z * v.z, across = h.x * v.z - h.z * v.x;
     const double size = std::hypot(along, across), delta = std::atan2(across, along);
-    const double wanted = (Dot(h, h) + Dot(v, v) - reach * reach) / 2 - h.y * v.y;
-    if (wanted <= along) return;  // near enough with the foot flat
-    const double pitch = delta - (wanted >= size ? 0 : std::acos(wanted / size));
-    foot.pitch = std::clamp(pitch, 0.0, std::min(1.2, std::max(0.0, foot.curve.pitch) + 0.2));
+    const auto pitch_for = [&](double reach) {
+      const double wanted = (Dot(h, h) + Dot(v, v) - reach * reach) / 2 - h.y * v.y;
+      return wanted <= along ? 0 : std::max(0.0, delta - (wanted >= size ? 0 : std::acos(wanted / size)));
+    };
+    // Not faster than heels rise, unless the leg would be too short.
+    const double usual = std::min(pitch_for(Reach(in_.body.size, knee)), std::max(0.0, foot.curve.pitch) + 0.2);
+    foot.pitch = std::min(1.25, std::max(usual, pitch_for(0.998 * (in_.body.size.thigh + in_.body.size.shank))));
     foot.ankle = foot.motion->p_W + foot.frame * shape.AnkleAt(foot.pitch);
   }
 
