@@ -52,6 +52,7 @@ struct Agent {
   int64_t progress_ns = 0;
   Vec3d stuck_p;            ///< the same, whatever the goals
   int64_t stuck_ns = 0;
+  int64_t way_ns = 0;       ///< when they last had somewhere to go
   NavPoint errand;          ///< of WanderTo, until it is reached
   bool has_errand = false;
   bool hold = false;        ///< red light ahead

@@ -147,8 +147,9 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
 void WatchStuck(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   const Vec3d& p = tick.in.walkers[i].at.p_W;
-  // Whoever stands on purpose is not stuck; whatever the goals in between were.
-  const bool stands = agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
+  // Whoever stands on purpose is not stuck; goals may have changed meanwhile.
+  if (agent.walk == Walk::kOnTheWay || agent.walk == Walk::kWaitsForPath) agent.way_ns = tick.t_ns;
+  const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
                       (agent.commanded && agent.walk != Walk::kOnTheWay);
   if (stands || Norm(p - agent.stuck_p) > 0.5) {
     agent.stuck_p = p;
