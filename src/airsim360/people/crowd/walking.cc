@@ -176,7 +176,7 @@ void WantVelocities(CrowdTick& tick) {
       if (!group) continue;
       const Vec2d to = SlotOf(*group, i) - p;
       const double d = Length(to);
-      walker.still = d < 0.12 || tick.t_ns - group->since_ns > 6 * kSecond;
+      walker.still = d < 0.12 || tick.t_ns - group->changed_ns > 6 * kSecond;
       if (!walker.still) walker.wanted = to * (std::min(0.9, 2 * d) / d);
       agent.has_face = true;
       agent.face_yaw = std::atan2(group->centre.y - p.y, group->centre.x - p.x);
