@@ -163,6 +163,10 @@ class Compiler {
       if (IsKey(value)) {
         port.is_slot = true;
         port.slot = Slot(element, scope, value.substr(1, value.size() - 2));
+        // A word that a SubTree was given is read as what this port takes.
+        Value& initial = tree_.initial[port.slot];
+        if (initial.kind == Value::Kind::kText && info_port.kind != 't' && info_port.kind != 'o')
+          initial = Literal(element, info_port, std::string(set_.texts[initial.index]));
       } else if (info_port.kind == 'o') {
         if (text && !value.empty()) Fail(element, tag + " " + info_port.name + ": expected a {key}, found '" + value.substr(0, 100) + "'");
       } else if (text || *info_port.fallback) {

@@ -249,7 +249,7 @@ TEST(Crowd, PeopleWaitAtTheKerbUntilTheirLightIsGreen) {
   std::vector<double> entered(6, -1);
   int waiting = 0;
   for (PersonIndex i = 0; i < 6; ++i) crowd.Do(i, SpawnPerson{{5.0 + 3 * i, 2, 0}, 0});
-  crowd.Run(60, [&] {
+  crowd.Run(100, [&] {
     for (PersonIndex i = 0; i < 6; ++i) {
       if (crowd.state.t_ns == static_cast<int64_t>(i) * 8'000'000'000) crowd.Do(i, SendPerson{{15, 20, 0}, 0});
       const double y = crowd[i].p_WP.y, t = static_cast<double>(crowd.state.t_ns) * 1e-9;
@@ -319,6 +319,9 @@ TEST_F(CrowdFiles, BadInputNamesFileLineAndTheNearestChoice) {
   EXPECT_NE(ErrorOf("people:\n  - {at: [-5, 3]}\n").find("people.yaml:2: nobody can stand there; the nearest place is ["), std::string::npos);
   EXPECT_NE(ErrorOf("trees: [none.xml]\n").find("people.yaml:1:"), std::string::npos);
   EXPECT_NE(ErrorOf("trees: [trees.xml]\n", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\"><SetState state=\"waiving\"/></BehaviorTree></root>").find("trees.xml:1: SetState state: unknown state 'waiving'; did you mean 'waving'?"), std::string::npos);
+  const std::string pass = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\">\n<SubTree ID=\"b\" what=\"WAVE\"/></BehaviorTree><BehaviorTree ID=\"b\">\n<SetState state=\"{what}\"/></BehaviorTree></root>";
+  EXPECT_NE(ErrorOf("trees: [trees.xml]\n", pass).find("trees.xml:3: SetState state: unknown state 'WAVE'; did you mean"), std::string::npos);
+  EXPECT_EQ(ErrorOf("trees: [trees.xml]\n", std::string(pass).replace(pass.find("WAVE"), 4, "waving")), "none");
   EXPECT_NE(ErrorOf("trees: [trees.xml]\n", "<root BTCPP_format=\"4\">\n<Behavior").find("trees.xml:2:"), std::string::npos);
   EXPECT_NE(ErrorOf("areas:\n  - {count: [1}\n").find("people.yaml:"), std::string::npos);
   CrowdRequest many = Default(100000);
