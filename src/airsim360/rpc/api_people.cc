@@ -66,7 +66,10 @@ void AddReading(Api& api) {
     std::vector<PersonInfo> list;
     for (size_t i = 0; i < people.cast.size(); ++i) {
       const PersonState& state = now.state.people->crowd.people[i];
-      PersonInfo info{people.cast[i].name, BehaviourName(state.upper), BehaviourName(state.lower)};
+      PersonInfo info;
+      info.name = people.cast[i].name;
+      info.behaviour = BehaviourName(state.upper);
+      info.locomotion = BehaviourName(state.lower);
       info.entity_id = people.refs[i].entity;
       info.track_id = static_cast<uint32_t>(i + 1);
       info.group_id = state.group;

@@ -35,6 +35,7 @@ struct Group {
   Vec2d centre;
   double angle = 0;   ///< of the first member as seen from the centre
   int64_t ends_ns = 0, since_ns = 0, silent_since_ns = 0;
+  int64_t changed_ns = 0;  ///< when somebody came or went: all take their places anew
 };
 
 enum class Walk : uint8_t { kNone, kWaitsForPath, kOnTheWay, kArrived, kFailed };
@@ -52,6 +53,7 @@ struct Agent {
   int64_t progress_ns = 0;
   Vec3d stuck_p;            ///< the same, whatever the goals
   int64_t stuck_ns = 0;
+  int64_t way_ns = 0;       ///< when they last had somewhere to go
   NavPoint errand;          ///< of WanderTo, until it is reached
   bool has_errand = false;
   bool hold = false;        ///< red light ahead

@@ -249,7 +249,7 @@ TEST(Crowd, PeopleWaitAtTheKerbUntilTheirLightIsGreen) {
   std::vector<double> entered(6, -1);
   int waiting = 0;
   for (PersonIndex i = 0; i < 6; ++i) crowd.Do(i, SpawnPerson{{5.0 + 3 * i, 2, 0}, 0});
-  crowd.Run(60, [&] {
+  crowd.Run(100, [&] {
     for (PersonIndex i = 0; i < 6; ++i) {
       if (crowd.state.t_ns == static_cast<int64_t>(i) * 8'000'000'000) crowd.Do(i, SendPerson{{15, 20, 0}, 0});
       const double y = crowd[i].p_WP.y, t = static_cast<double>(crowd.state.t_ns) * 1e-9;

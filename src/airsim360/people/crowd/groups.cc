@@ -38,7 +38,7 @@ uint32_t FoundGroup(CrowdTick& tick, PersonIndex a, PersonIndex b) {
   const Vec2d pa = PlaceOf(tick, a), pb = PlaceOf(tick, b);
   group.centre = (pa + pb) * 0.5;
   group.angle = std::atan2(pa.y - group.centre.y, pa.x - group.centre.x);
-  group.since_ns = group.silent_since_ns = tick.t_ns;
+  group.since_ns = group.silent_since_ns = group.changed_ns = tick.t_ns;
   group.ends_ns = 0;
   tick.in.groups.push_back(group);
   tick.in.agents[a].group = group.id;
@@ -49,6 +49,7 @@ bool JoinGroup(CrowdTick& tick, PersonIndex i, uint32_t id) {
   Group* group = FindGroup(tick.in, id);
   if (!group || group->members.size() >= kMaxGroup) return false;
   group->members.push_back(i);
+  group->changed_ns = tick.t_ns;
   tick.in.agents[i].group = id;
   return true;
 }
@@ -58,6 +59,7 @@ void LeaveGroup(CrowdTick& tick, PersonIndex i) {
   EndTalk(tick, i);
   if (!group) return;
   std::erase(group->members, i);
+  group->changed_ns = tick.t_ns;
   for (const PersonIndex other : group->members) Post(tick, i, other, kBye);
 }
 

@@ -157,7 +157,7 @@ TEST(Rimea, Test12TheQueueFormsAtTheFirstBottleneckAndNotAtTheSecond) {
       at_first += p.x > 7 && p.x < 10;
       at_second += p.x > 22 && p.x < 25;
     }
-    if (crowd.state.t_ns > 15'000'000'000 && crowd.state.t_ns < 50'000'000'000) {
+    if (crowd.state.t_ns > 8'000'000'000 && crowd.state.t_ns < 30'000'000'000) {
       first += at_first;
       second += at_second;
       ++samples;

@@ -23,7 +23,7 @@ constexpr int64_t kChunk = 128;        // people a task
 
 // People stand apart and away from walls, so a disc around one of them holds more people than one anywhere; both
 // numbers come from the ring of steering_test.cc.
-constexpr double kDensityFactor = 0.86;
+constexpr double kDensityFactor = 0.85;
 constexpr double kSelfShare = 0.55;
 
 double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }

@@ -147,8 +147,9 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
 void WatchStuck(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   const Vec3d& p = tick.in.walkers[i].at.p_W;
-  // Whoever stands on purpose is not stuck; whatever the goals in between were.
-  const bool stands = agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
+  // Whoever stands on purpose is not stuck; goals may have changed meanwhile.
+  if (agent.walk == Walk::kOnTheWay || agent.walk == Walk::kWaitsForPath) agent.way_ns = tick.t_ns;
+  const bool stands = tick.t_ns - agent.way_ns > kSecond || agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
                       (agent.commanded && agent.walk != Walk::kOnTheWay);
   if (stands || Norm(p - agent.stuck_p) > 0.5) {
     agent.stuck_p = p;
@@ -175,7 +176,7 @@ void WantVelocities(CrowdTick& tick) {
       if (!group) continue;
       const Vec2d to = SlotOf(*group, i) - p;
       const double d = Length(to);
-      walker.still = d < 0.12 || tick.t_ns - group->since_ns > 6 * kSecond;
+      walker.still = d < 0.12 || tick.t_ns - group->changed_ns > 6 * kSecond;
       if (!walker.still) walker.wanted = to * (std::min(0.9, 2 * d) / d);
       agent.has_face = true;
       agent.face_yaw = std::atan2(group->centre.y - p.y, group->centre.x - p.x);

@@ -21,7 +21,7 @@ struct LegAngles {
 };
 
 /// Angles of a leg at `phase` of its own stride (0 = heel strike). Walk: hip of Olshen et al. 1989 (39 boys,
-/// pelvic tilt of 12 degrees taken off), knee of the same mixed with Schwartz et al. 2008 (11.5 : 1), Fourier
+/// pelvic tilt of 11.5 of the 12 degrees taken off), knee of the same mixed with Schwartz et al. 2008 (11.5 : 1), Fourier
 /// series through the 20 phases. Run: key figures of Novacheck 1998.
 LegAngles LegCurves(const Gait& gait, double phase);
 

@@ -147,7 +147,7 @@ class Solver {
     const double phase = feet_[a].phase;
     const double carried = feet_[a].planted ? HeightOver(a, feet_[a].curve.knee)
                                             : CurveHeight(a, phase, in_.state.p_WP.z);
-    const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.43;
+    const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.475;
     const double mix = SmoothStep(from, 0.5, phase);
     double height = carried;
     if (mix > 0) {
@@ -186,14 +186,16 @@ class Solver {
     const Vec3d pivot = foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height};
     const Vec3d h = foot.frame.transpose() * (pelvis_ + hip_[k] - pivot), v = -shape.ball;
     const double knee = in_.sink > 0 || gait_.weight < 0.1 ? 0.03 : foot.curve.knee;
-    const double reach = Reach(in_.body.size, knee);
-    // h . R_y(pitch) v = (h^2 + v^2 - reach^2) / 2.
+    // h . R_y(pitch) v = (h^2 + v^2 - reach^2) / 2; 0 where the foot may stay flat.
     const double along = h.x * v.x + h.z * v.z, across = h.x * v.z - h.z * v.x;
     const double size = std::hypot(along, across), delta = std::atan2(across, along);
-    const double wanted = (Dot(h, h) + Dot(v, v) - reach * reach) / 2 - h.y * v.y;
-    if (wanted <= along) return;  // near enough with the foot flat
-    const double pitch = delta - (wanted >= size ? 0 : std::acos(wanted / size));
-    foot.pitch = std::clamp(pitch, 0.0, 1.25);
+    const auto pitch_for = [&](double reach) {
+      const double wanted = (Dot(h, h) + Dot(v, v) - reach * reach) / 2 - h.y * v.y;
+      return wanted <= along ? 0 : std::max(0.0, delta - (wanted >= size ? 0 : std::acos(wanted / size)));
+    };
+    // Not faster than heels rise, unless the leg would be too short.
+    const double usual = std::min(pitch_for(Reach(in_.body.size, knee)), std::max(0.0, foot.curve.pitch) + 0.2);
+    foot.pitch = std::min(1.25, std::max(usual, pitch_for(0.998 * (in_.body.size.thigh + in_.body.size.shank))));
     foot.ankle = foot.motion->p_W + foot.frame * shape.AnkleAt(foot.pitch);
   }
 
@@ -202,7 +204,7 @@ class Solver {
     Foot& foot = feet_[k];
     const FootMotion& m = *foot.motion;
     const double u = std::clamp((foot.phase < m.phase - 0.3 ? 1.0 : foot.phase - m.phase) / std::max(0.05, 1 - m.phase), 0.0, 1.0);
-    const double keep = 1 - SmoothStep(0, 0.6, u), early = 1 - SmoothStep(0, 0.45, u);
+    const double keep = 1 - SmoothStep(0, 0.38 + 0.2 * gait_.run, u), early = 1 - SmoothStep(0, 0.45, u);
     const LegAngles lift = LegCurves(gait_, m.phase);
     foot.pitch = foot.curve.pitch + (m.pitch - lift.pitch) * early;
     foot.toes = 1 - SmoothStep(0, 0.25, u);
@@ -212,17 +214,14 @@ class Solver {
 
     const Vec3d fk = Forward(in_.body.size, foot.curve);
     const Vec3d hip = pelvis_ + hip_[k];
-    const Vec3d level = in_.X_WP.R * Vec3d{fk.x, 0, 0};
-    Vec3d p = Vec3d{hip.x, hip.y, 0} + level;
-    // Across, the foot is where walkers set it, not under the hip.
-    const Vec3d left = in_.X_WP.R.column(1);
-    const double aside = AnkleSide(in_.body, gait_, k) - Dot(left, p - Vec3d{in_.X_WP.p.x, in_.X_WP.p.y, 0});
-    p += left * aside;
+    // Against the person, not the hip, so that it ends where LandingPlace says.
+    const double rest = in_.body.p_PJ[At(kLegs[k].hip)].x;
+    Vec3d p = in_.X_WP * Vec3d{rest + fk.x, AnkleSide(in_.body, gait_, k), 0};
     p.z = hip.z + fk.z;
     foot.ankle = p + in_.X_WP.R * (m.offset * keep);
     // Landing: onto the ground that is there; before, clear of it.
     const double sole = shapes_[k].AnkleAt(foot.pitch).z, ground = m.p_W_to.z;
-    const double landing = SmoothStep(0.86, 1, u);
+    const double landing = SmoothStep(0.95 - 0.07 * gait_.run, 1, u);
     foot.ankle.z += (ground + sole - foot.ankle.z) * landing;
     const double clear = 0.018 * SmoothStep(0, 0.25, u) * (1 - landing);
     const double floor = std::max(ground, in_.state.p_WP.z + (m.p_W.z - in_.state.p_WP.z) * (1 - u));
@@ -304,8 +303,10 @@ Vec3d HomePlace(const Body& body, size_t side) {
 Vec3d LandingPlace(const Body& body, const Gait& gait, size_t side) {
   const LegAngles contact = LegCurves(gait, 0);
   const FootShape shape(body, side);
-  const double x = body.p_PJ[At(kLegs[side].hip)].x + Forward(body.size, contact).x - shape.AnkleAt(std::min(0.0, contact.pitch)).x;
-  return {x, AnkleSide(body, gait, side) + shape.ball.y, 0};
+  const double x = body.p_PJ[At(kLegs[side].hip)].x + Forward(body.size, contact).x;
+  // From the ankle to the ball of a foot that is turned out.
+  const Vec3d ball = RotationZ(ToeOut(side)) * -shape.AnkleAt(std::min(0.0, contact.pitch));
+  return {x + ball.x, AnkleSide(body, gait, side) + ball.y, 0};
 }
 
 Vec3d AnkleOverBall(const Body& body, size_t side, double pitch) { return FootShape(body, side).AnkleAt(pitch); }

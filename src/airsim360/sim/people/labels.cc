@@ -21,7 +21,9 @@ struct Shared {
 };
 
 KeypointLabel Place(const PeoplePicture& picture, const RigidTransform& X_CW, Vec3d p_W) {
-  KeypointLabel label{.p_W = p_W, .p_C = X_CW * p_W};
+  KeypointLabel label;
+  label.p_W = p_W;
+  label.p_C = X_CW * p_W;
   const Vec2d place = LonLat(label.p_C);
   label.lon = place.x;
   label.lat = place.y;
@@ -80,7 +82,8 @@ std::vector<Vec3d> SkinOf(const PeoplePicture& picture, size_t i) {
 PersonBox3d BoxAround(const Shared& shared, size_t i, std::span<const Vec3d> skin) {
   const RigidTransform& X_CW = shared.X_CW;
   const PersonState& state = shared.picture.poses.states[i];
-  PersonBox3d box{.yaw = state.yaw};
+  PersonBox3d box;
+  box.yaw = state.yaw;
   const Vec3d ahead{std::cos(box.yaw), std::sin(box.yaw), 0}, left{-ahead.y, ahead.x, 0};
   Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
   for (const Vec3d& p : skin) {
@@ -200,7 +203,10 @@ std::vector<PersonLabel> LabelPeople(const PeoplePicture& picture, const LabelOp
   for (size_t i = 0; i < picture.poses.states.size() && !picture.people.refs.empty(); ++i) {
     const PersonState& state = picture.poses.states[i];
     if (!state.visible || Norm(state.p_WP - picture.X_WC.p) > options.farthest) continue;
-    labels.push_back({.person = static_cast<PersonIndex>(i), .entity = picture.people.refs[i].entity, .state = state});
+    PersonLabel& label = labels.emplace_back();
+    label.person = static_cast<PersonIndex>(i);
+    label.entity = picture.people.refs[i].entity;
+    label.state = state;
   }
   ParallelFor(static_cast<int64_t>(labels.size()), [&](int64_t k) {
     PersonLabel& label = labels[static_cast<size_t>(k)];

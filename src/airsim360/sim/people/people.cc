@@ -93,7 +93,8 @@ uint64_t HashPeople(const PeopleState& state) {
 }
 
 PeoplePoses PosesAt(const SimPeople& people, const PeopleState& state, int64_t t_ns) {
-  PeoplePoses poses{.t_ns = t_ns};
+  PeoplePoses poses;
+  poses.t_ns = t_ns;
   std::vector<MotionState> motions = state.motions;
   if (t_ns > state.crowd.t_ns) {
     // Steps shorter than a tick only move people along.

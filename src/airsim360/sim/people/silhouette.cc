@@ -73,13 +73,35 @@ class WindowFinder {
     window.x0 += middle, window.x1 += middle;
     return window;
   }
+  // Where the plane of the picture, continued beyond its borders, sees a point; nullopt behind it.
+  std::optional<Vec2d> Project(Vec3d p) const {
+    constexpr double kNear = 1e-3;
+    if (const auto* fisheye = std::get_if<Fisheye>(&camera_)) {
+      const double across = std::hypot(p.x, p.y);
+      if (across < 1e-12) return Vec2d{fisheye->cx, fisheye->cy};
+      const double theta = std::min(std::atan2(across, p.z), fisheye->max_theta), t2 = theta * theta;
+      const auto& k = fisheye->k;
+      const double r = theta * (1 + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3]))));
+      return Vec2d{fisheye->cx + fisheye->fx * r * p.x / across, fisheye->cy + fisheye->fy * r * p.y / across};
+    }
+    Pinhole pinhole;
+    if (const auto* face = std::get_if<CubeFace>(&camera_)) {
+      p = CubeFaceRotation(face->face).transpose() * p;
+      const double half = 0.5 * face->size;
+      pinhole = {face->size, face->size, half, half, half, half};
+    } else {
+      pinhole = std::get<Pinhole>(camera_);
+    }
+    if (p.z < kNear * Norm(p)) return std::nullopt;
+    return Vec2d{pinhole.fx * p.x / p.z + pinhole.cx, pinhole.fy * p.y / p.z + pinhole.cy};
+  }
   // By the corners in the picture. Triangles partly behind the camera are left to the whole picture.
   Window OnPlane(const Vec3u& t) const {
     constexpr int kMargin = 2;  // pixels: edges of fisheye pictures are bent
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     int inside = 0;
     for (const uint32_t i : {t.x, t.y, t.z}) {
-      const auto pixel = RayToPixel(Unbounded(), VecCast<double>(p_C_[i]));
+      const auto pixel = Project(VecCast<double>(p_C_[i]));
       if (!pixel) continue;
       ++inside;
       x0 = std::min(x0, pixel->x), x1 = std::max(x1, pixel->x);
@@ -91,7 +113,6 @@ class WindowFinder {
     return {std::max(0, bound(x0 - kMargin, width_)), std::min(width_ - 1, bound(x1 + kMargin, width_)),
             std::max(0, bound(y0 - kMargin, height_)), std::min(height_ - 1, bound(y1 + kMargin, height_))};
   }
-  const Camera& Unbounded() const { return camera_; }
 
   const Camera& camera_;
   int width_, height_;
