@@ -24,8 +24,7 @@ std::vector<airsim::Pose> ObjectPoses(Api& api, const Snapshot& now) {
   std::vector<airsim::Pose> poses;
   const ObjectIndex& objects = api.session().objects();
   for (const Entity& entity : objects.scene().entities) {
-    const auto found = now.world->places.find(entity.id);
-    const ObjectPlace place = found == now.world->places.end() ? objects.PlaceOf(entity.id) : found->second;
+    const ObjectPlace place = PlaceIn(now, objects, entity.id);
     if (place.hidden) continue;
     poses.push_back({airsim::ToVector(NedFromWorld(place.X_WO.p - api.session().origin_W())),
                      airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))});

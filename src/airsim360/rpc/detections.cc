@@ -80,8 +80,7 @@ std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, 
         std::any_of(filter.patterns.begin(), filter.patterns.end(),
                     [&](const std::string& pattern) { return MatchesWildcard(pattern, name); });
     if (!wanted || id == objects.scene().sky_entity) continue;
-    const auto moved = now.world->places.find(id);
-    const ObjectPlace place = moved == now.world->places.end() ? objects.PlaceOf(id) : moved->second;
+    const ObjectPlace place = PlaceIn(now, objects, id);
     if (Norm(place.X_WO.p - X_WA.p) > filter.radius) continue;
     detections.push_back(Describe(entity, name, place, pixels, X_WA, now));
   }

@@ -14,7 +14,7 @@ namespace airsim360 {
 /// Where an object has been put. Its pose is that of the centre of its bounds, unturned as the scene has it.
 struct ObjectPlace {
   RigidTransform X_WO;
-  Vec3d scale{1, 1, 1};
+  Vec3d scale = {1, 1, 1};
   bool hidden = false;
 };
 

@@ -50,6 +50,14 @@ size_t Snapshot::Find(const std::string& name) const {
   throw std::runtime_error(NoVehicleText(name));
 }
 
+ObjectPlace PlaceIn(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
+  for (size_t i = 0; i < now.model->drones.size(); ++i) {
+    if (now.model->drones[i]->setup().entity == entity) return {.X_WO = now.state.vehicles[i].motion.X_WB};
+  }
+  const auto found = now.world->places.find(entity);
+  return found == now.world->places.end() ? objects.PlaceOf(entity) : found->second;
+}
+
 Session::Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options)
     : options_(options),
       objects_(std::shared_ptr<const Scene>(tracer, &tracer->scene())),

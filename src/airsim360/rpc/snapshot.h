@@ -74,6 +74,9 @@ struct Snapshot {
 };
 using SnapshotPointer = std::shared_ptr<const Snapshot>;
 
+/// Where an object is at that instant: drones where they fly, others where the scene or a call has put them.
+ObjectPlace PlaceIn(const Snapshot& now, const ObjectIndex& objects, EntityId entity);
+
 /// What AirSim says of a vehicle that it does not have.
 std::string NoVehicleText(const std::string& name);
 
