@@ -222,6 +222,7 @@ class Added(RoomTest):
         self.assertTrue(c.simAddVehicle("Late1", "SimpleFlight", self.place(-2, 2, 0.5)))
         found = c.simGetDetections("0", 0)
         self.assertEqual([item.name for item in found], ["Late1"])
+        self.assertAlmostEqual(found[0].relative_pose.position.x_val, 2 - 0.25, delta=0.05)
         c.simClearDetectionMeshNames("0", 0)
 
 

@@ -77,6 +77,9 @@ void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<Mo
 }
 
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
+  for (size_t i = 0; i < now.model->drones.size(); ++i) {
+    if (now.model->drones[i]->setup().entity == entity) return {.X_WO = now.state.vehicles[i].motion.X_WB};
+  }
   if (now.model->people && now.state.people && IsPerson(*now.model->people, entity)) {
     const SimPeople& people = *now.model->people;
     const auto X = PlaceOfPerson(people, *now.state.people, now.state.t_ns + people.epoch_ns, entity);

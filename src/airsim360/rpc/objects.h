@@ -14,7 +14,7 @@ namespace airsim360 {
 /// Where an object has been put. Its pose is that of the centre of its bounds, unturned as the scene has it.
 struct ObjectPlace {
   RigidTransform X_WO;
-  Vec3d scale{1, 1, 1};
+  Vec3d scale = {1, 1, 1};
   bool hidden = false;
 };
 
@@ -45,8 +45,8 @@ class ObjectIndex {
 };
 
 struct Snapshot;
-/// Where an object is in a snapshot: people walk, other things stay where calls have put them. `hidden` for
-/// people who are not in the world.
+/// Where an object is in a snapshot: drones where they fly, people where they walk, other things where the scene
+/// or a call has put them. `hidden` for people who are not in the world.
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity);
 
 /// AirSim's id of a name: a sum of its letters (Unreal/Plugins/AirSim/Source/AirBlueprintLib.h).

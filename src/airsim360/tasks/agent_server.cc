@@ -5,6 +5,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -24,6 +25,8 @@ using tcp = asio::ip::tcp;
 using Code = boost::system::error_code;
 
 constexpr uint32_t kHeaderBytes = 16384;
+constexpr int kLingerSeconds = 5;
+constexpr size_t kLingerBytes = size_t{8} << 20;
 
 // Threads that answer requests, apart from the one that reads and writes.
 class Workers {
@@ -227,9 +230,19 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     });
   }
 
+  // What the client is still sending is read and dropped for a while: closing at once would reset the
+  // connection, and the last answer with it.
   void Close() {
     Code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(std::chrono::seconds(kLingerSeconds));
+    Drop();
+  }
+  void Drop() {
+    stream_.async_read_some(asio::buffer(dropped_), [self = shared_from_this()](Code error, size_t size) {
+      self->dropped_bytes_ += size;
+      if (!error && self->dropped_bytes_ < kLingerBytes) self->Drop();
+    });
   }
 
   beast::tcp_stream stream_;
@@ -237,6 +250,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
   std::optional<http::request_parser<http::string_body>> parser_;
   http::request<http::string_body> request_;
   http::response<http::string_body> response_;
+  std::array<char, 4096> dropped_;
+  size_t dropped_bytes_ = 0;
 };
 
 }  // namespace
