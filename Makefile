@@ -19,7 +19,7 @@ bench: build
 
 # dist/airsim360-*.whl, for Debian's python3; offline
 wheel: install-packages
-	@AIRSIM360_BUILD=$(BUILD) /usr/bin/python3 python/build_backend.py dist
+	@AIRSIM360_BUILD=$(BUILD) JOBS=$(JOBS) /usr/bin/python3 python/build_backend.py dist
 
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: install-packages
