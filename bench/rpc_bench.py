@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Latencies and throughput of `airsim360 serve`, as a client sees them.
 
-Usage: rpc_bench.py [--program build/bin/airsim360] [--python build/python] [--world box_room] [--soak SECONDS]
+Usage: rpc_bench.py [--program build/bin/airsim360] [--python build/python] [--world box_room] [--soak SECONDS] [--kills N] [--no-latencies]
 Prints one line a figure: medians and 95th percentiles over many calls on one quiet connection; the panoramic loop; what
-the server adds to the rendering of a large capture; with --soak, many clients and drones for that long.
+the server adds to the rendering of a large capture; with --soak, many clients and drones for that long; with --kills, clients that die.
 """
 import argparse
 import json
@@ -194,20 +194,68 @@ def soak(program, world, airsim, seconds, clients=16, drones=10):
           f"largest {np.max(steps):.2f} ms")
 
 
+# A client in the middle of everything: a move that is pending, large pictures that nobody reads.
+VICTIM = """
+import socket, sys
+import msgpack
+s = socket.create_connection(("127.0.0.1", int(sys.argv[1])))
+call = lambda i, method, *arguments: s.sendall(msgpack.packb([0, i, method, arguments]))
+call(1, "enableApiControl", True, "")
+call(2, "armDisarm", True, "")
+call(3, "moveByVelocity", 0.2, 0.0, -0.2, 30.0, 0, {"is_rate": True, "yaw_or_rate": 0.0}, "")
+image = {"camera_name": "panorama_original", "image_type": 0, "pixels_as_float": False, "compress": False}
+print("busy", flush=True)
+for i in range(10, 200):
+    call(i, "simGetImages", [image], "", False)
+    if i % 3 == 0:
+        s.recv(100000)
+"""
+
+
+def kills(program, world, count):
+    """Clients die in the middle of calls; the server must not notice."""
+    server = Server(program, world, {})
+    raw = Raw(server.port)
+    raw.call("simSetPanoramaResolution", "panorama_original", 512, 256, "")
+    rss, slowest = [], 0.0
+    for i in range(count):
+        victim = subprocess.Popen([sys.executable, "-c", VICTIM, str(server.port)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        victim.stdout.readline()
+        time.sleep(0.002 * (i % 50))
+        victim.kill()
+        victim.wait()
+        victim.stdout.close()
+        start = time.perf_counter()
+        assert raw.call("ping") is True
+        slowest = max(slowest, 1000 * (time.perf_counter() - start))
+        rss.append(server.rss_mib())
+    raw.call("reset")
+    assert raw.call("simGetImages", [{"camera_name": "0", "image_type": 0, "pixels_as_float": False, "compress": True}], "", False)
+    server.stop()
+    warm = rss[len(rss) // 5]
+    print(f"kill -9: {count} clients killed in the middle of calls, the server answers (slowest ping {slowest:.1f} ms); "
+          f"RSS {warm:.1f} -> {rss[-1]:.1f} MiB ({100 * (rss[-1] / warm - 1):+.2f} % after the first fifth)")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", default="build/bin/airsim360")
     parser.add_argument("--python", default="build/python")
     parser.add_argument("--world", default="box_room")
-    parser.add_argument("--soak", type=float, default=0, help="seconds; 0 = not")
+    parser.add_argument("--soak", type=float, default=0, help="seconds of 16 clients and 10 drones; 0 = not")
+    parser.add_argument("--kills", type=int, default=0, help="clients killed in the middle of calls; 0 = none")
+    parser.add_argument("--no-latencies", action="store_true", help="leave out the figures of a quiet connection")
     arguments = parser.parse_args()
     sys.path.insert(0, arguments.python)
     import airsim360.airsim as airsim
-    server = Server(arguments.program, arguments.world, {})
-    latencies(server, airsim)
-    panorama_loop(server, airsim)
-    large_capture(server, airsim, arguments.program, arguments.world)
-    server.stop()
+    if not arguments.no_latencies:
+        server = Server(arguments.program, arguments.world, {})
+        latencies(server, airsim)
+        panorama_loop(server, airsim)
+        large_capture(server, airsim, arguments.program, arguments.world)
+        server.stop()
+    if arguments.kills > 0:
+        kills(arguments.program, arguments.world, arguments.kills)
     if arguments.soak > 0:
         soak(arguments.program, arguments.world, airsim, arguments.soak)
 

@@ -11,20 +11,23 @@ import sys
 OWNERS = {  # third-party header prefix -> modules whose .cc files may include it
     "embree3/": {"trace"},
     "tbb/": {"base"},
-    "yaml-cpp/": {"base", "assets"},
+    "yaml-cpp/": {"base", "assets", "people"},
     "openssl/": {"base"},
     "nlohmann/": {"assets", "dataset", "tasks", "app"},
-    "boost/": {"tasks"},
+    "boost/": {"tasks", "worlds"},
     "draco/": {"assets"},
     "meshoptimizer": {"assets"},
     "zip.h": {"assets"},
     "png.h": {"image"},
     "jpeglib.h": {"image"},
     "webp/": {"image"},
+    "osmium/": {"worlds"},
     "OpenEXR/": {"image"},
     "Imf": {"image"},
     "sqlite3.h": {"dataset"},
     "CLI/": {"app"},
+    "recastnavigation/": {"people"},
+    "expat.h": {"people"},
 }
 
 

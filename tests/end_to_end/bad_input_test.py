@@ -25,7 +25,7 @@ class BadFlags(ProgramTest):
             (["render", *ROOM, "--products", "rgb,flwo", "--out", out], ["--products", "flwo", "did you mean 'flow'"]),
             (["collect", *ROOM, "--products", "albeda", "--out", out], ["albeda", "did you mean 'albedo'"]),
             (["worlds", "--device", "cup"], ["--device", "did you mean 'cpu'"]),
-            (["worlds", "--device", "vulkan"], ["vulkan", "not built yet"]),
+            (["worlds", "--gpu", "-3"], ["--gpu", "0 … 255"]),
         ]:
             self.run_bad(2, *arguments, says=says)
         self.assertFalse(out.exists())

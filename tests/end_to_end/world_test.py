@@ -1,7 +1,11 @@
-"""`world export` writes a file that opens again as the same world."""
+"""`world export`, `import`, `entities`: files that open again as the same world, and tables of what they hold."""
+import csv
+import io
+import json
+import shutil
 import unittest
 
-from program import ProgramTest, tree
+from program import ROOT, ProgramTest, tree
 
 
 class WorldTest(ProgramTest):
@@ -21,6 +25,44 @@ class WorldTest(ProgramTest):
     def test_other_endings_are_refused_with_the_right_one(self):
         self.run_bad(2, "world", "export", "box_room", "--out", self.folder / "room.gltf", says=["room.glb"])
         self.assertFalse((self.folder / "room.gltf").exists())
+
+    def test_a_map_is_a_world_and_survives_the_way_through_gltf(self):
+        osm = self.folder / "crossing.osm"
+        shutil.copy(ROOT / "data/osm/crossing.osm", osm)
+        glb = self.folder / "crossing.glb"
+        report = json.loads(self.run_ok("world", "import", osm, "--out", glb, "--json", "--buildings").stdout)
+        self.assertEqual(report["buildings"]["ways"], 17)
+        self.assertEqual(report["buildings"]["relations"], 1)
+        self.assertEqual(report["buildings"]["nodes"], 1)
+        heights = {b["id"]: b["height"] for b in report["buildings"]["list"]}
+        self.assertEqual(heights["way/10"], 9)
+        # The same entities, by name and category, from the map and from the exported file.
+        def table(world):
+            return {(e["name"], e["category_path"]) for e in json.loads(self.run_ok("world", "entities", world, "--json").stdout)}
+        self.assertEqual(table(osm), table(glb))
+        rows = list(csv.DictReader(io.StringIO(self.run_ok("world", "entities", osm, "--csv").stdout)))
+        lamp = next(row for row in rows if row["name"] == "node/220")
+        self.assertEqual(lamp["category_path"], "furniture/lighting/street_light")
+        self.assertAlmostEqual(float(lamp["x"]), 10, delta=1.5)
+
+    def test_label_files_change_categories_of_any_world(self):
+        labels = self.folder / "mine.labels.yaml"
+        labels.write_text("rules:\n  - match: way/10*\n    category: construction/house/gabled\n  - match: 'node/22?'\n    category: furniture/misc\n")
+        world = self.folder / "town.yaml"
+        world.write_text(f"world: {ROOT / 'data/osm/crossing.osm'}\nlabels: mine.labels.yaml\nfill: false\n")
+        rows = {e["name"]: e["category_path"] for e in json.loads(self.run_ok("world", "entities", world, "--json").stdout)}
+        self.assertEqual(rows["way/10 Gable House"], "construction/house/gabled")
+        self.assertEqual(rows["node/220"], "furniture/misc")
+
+    def test_damaged_maps_are_told_with_their_place(self):
+        bad = self.folder / "bad.osm"
+        bad.write_text("<osm version='0.6'>\n<node id='1' lat='1' lon='1'></way></osm>")
+        self.run_bad(2, "world", "import", bad, says=["bad.osm:2:"])
+        self.run_bad(2, "render", "--world", bad, "--pose", "0,0,2", "--out", self.folder / "x", says=["bad.osm:2:"])
+        self.run_bad(2, "world", "import", self.folder / "none.osm.pbf", says=["none.osm.pbf"])
+        city = self.folder / "bad.city.json"
+        city.write_text('{"type": "CityJSON", "version": "2.0"}')
+        self.run_bad(2, "world", "import", city, says=["bad.city.json", "vertices"])
 
 
 if __name__ == "__main__":

@@ -175,6 +175,56 @@ class Labels(RoomTest):
         self.assertFalse(self.airsim.simTestLineOfSightToPoint(behind_box))
 
 
+class Added(RoomTest):
+    """What calls add to the world is seen, named, met and taken away again."""
+
+    def place(self, x, y, z):
+        """East, north, up as a pose of the global frame."""
+        box = self.airsim.simGetObjectPose("box").position
+        return airsim.Pose(airsim.Vector3r(y + box.x_val, x - 3 + box.y_val, 0.5 - z + box.z_val), airsim.Quaternionr())
+
+    def test_objects_are_spawned_where_and_as_large_as_asked(self):
+        c = self.airsim
+        self.assertIn("Cube", c.simListAssets())
+        before = c.simListSceneObjects()
+        self.put(0, 0, 3)
+        self.assertAlmostEqual(self.picture("0", 1)[72, 128], 4.75, delta=0.01)
+        self.assertEqual(c.simSpawnObject("thing", "Cube", self.place(0, 3, 3), airsim.Vector3r(2, 2, 2)), "thing")
+        self.assertAlmostEqual(self.picture("0", 1)[72, 128], 1.75, delta=0.01)
+        self.assertEqual(set(c.simListSceneObjects()) - set(before), {"thing"})
+        np.testing.assert_allclose(c.simGetObjectPose("thing").position.to_numpy_array(), self.place(0, 3, 3).position.to_numpy_array(), atol=1e-3)
+        # A name that is taken gets a number; shapes are what they are called.
+        self.assertEqual(c.simSpawnObject("thing", "Sphere", self.place(0, 1.5, 3), airsim.Vector3r(1, 1, 1)), "thing2")
+        self.assertAlmostEqual(self.picture("0", 2)[72, 128], 0.75, delta=0.01)
+        self.assertTrue(c.simDestroyObject("thing2"))
+        # A drone meets it.
+        self.put(0, 1.95, 3)
+        c.simContinueForTime(0.1)
+        self.assertEqual(c.simGetCollisionInfo().object_name, "thing")
+        self.assertTrue(c.simDestroyObject("thing"))
+        self.put(0, 0, 3)
+        self.assertAlmostEqual(self.picture("0", 1)[72, 128], 4.75, delta=0.01)
+        self.assertEqual(c.simListSceneObjects(), before)
+        raw = self.raw()
+        pose, scale = self.place(0, 0, 0).to_msgpack(), airsim.Vector3r(1, 1, 1).to_msgpack()
+        self.assertError(lambda: raw.call("simSpawnObject", "a", "Teapot", pose, scale, False, False),
+                         "There were no assets with name Teapot found in the Registry")
+        for _ in range(8):
+            raw.call("simSpawnObject", "a", "Cone", pose, scale, False, False)
+        self.assertError(lambda: raw.call("simSpawnObject", "a", "Cone", pose, scale, False, False), "All 8 objects of asset Cone")
+
+    def test_a_drone_that_is_added_later_is_seen_by_the_others(self):
+        c = self.airsim
+        self.put(-2, 0, 0.2)
+        c.simAddDetectionFilterMeshName("0", 0, "Late*")
+        c.simSetDetectionFilterRadius("0", 0, 200 * 100)
+        self.assertEqual(c.simGetDetections("0", 0), [])
+        self.assertTrue(c.simAddVehicle("Late1", "SimpleFlight", self.place(-2, 2, 0.5)))
+        found = c.simGetDetections("0", 0)
+        self.assertEqual([item.name for item in found], ["Late1"])
+        c.simClearDetectionMeshNames("0", 0)
+
+
 class Rays(RoomTest):
     def test_lidar_points_are_on_the_walls(self):
         self.put(0, 0, 3)
@@ -212,7 +262,7 @@ class WorldCalls(RoomTest):
         c.simFlushPersistentMarkers()
         c.simSetTraceLine([1.0, 0.0, 0.0, 1.0])
         self.assertFalse(c.simRunConsoleCommand("stat fps"))
-        self.assertEqual(c.simListAssets(), [])
+        self.assertEqual(c.simSwapTextures("box", 0), [])
         self.assertEqual(c.simGetPresetLensSettings("0"), [])
         self.assertIn("Vehicles", c.getSettingsString())
         self.assertFalse(c.isRecording())

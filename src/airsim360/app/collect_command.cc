@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/collect_human.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/plan_file.h"
 #include "airsim360/app/session.h"
@@ -26,12 +28,13 @@ constexpr double kTouching = 0.05;     // metres: a route closer to a surface is
 
 struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out, products, plan;
+  std::string pano_frame = "body", shard = "0/1", out, products, plan, recipe, subset;
   int64_t frames = 0;  // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
   PictureArguments picture;
+  PeopleArguments people;
 };
 
 // A choice among two or more words.
@@ -40,6 +43,24 @@ size_t ParseChoice(const char* flag, const std::string& value, const std::vector
   if (found == choices.end())
     throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("value", value, choices));
   return static_cast<size_t>(found - choices.begin());
+}
+
+// People, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
+void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
+  const std::vector<std::string> formats = ParseList(
+      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
+  spec.people = arguments.people.Describe();
+  const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
+  for (const std::string format : kPeopleFormats) {
+    const bool coco = format == "coco_keypoints" && wanted("coco") && !spec.people.empty();
+    if (wanted(format) || coco) spec.people_formats.push_back(format);
+  }
+  spec.crops = wanted("crops");
+  spec.overlay = wanted("overlay");
+  if (spec.people.empty() && (spec.crops || spec.overlay || !spec.people_formats.empty()))
+    throw InputError("--format: '" + arguments.format + "' is about people; add --people N");
+  if ((spec.crops || spec.overlay) && spec.tier == Tier::kLabels)
+    throw InputError("--format: crops and overlay need colours; use --tier fast instead of labels");
 }
 
 DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
@@ -57,8 +78,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
   if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
-  ParseList("--format", arguments.format,
-            {"native", "coco"});  // the native layout holds panoptic.json in any case
+  SetPeople(arguments, spec);
   spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
                                                                                            : RgbFormat::kPng;
   spec.pano_frame = ParseChoice("--pano-frame", arguments.pano_frame, {"body", "level"}) == 1
@@ -120,19 +140,42 @@ Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, Datase
   return plan;
 }
 
+// A dataset for each subset of a table.
+void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
+  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.people.people.empty())
+    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan and --people");
+  CollectArguments with_people = arguments;
+  with_people.people.people = "1";
+  CollectHumanSets({.recipe = arguments.recipe,
+                    .world = arguments.world,
+                    .out = arguments.out,
+                    .subset = arguments.subset,
+                    .frames = arguments.frames,
+                    .spec = MakeSpec(with_people, globals.seed),
+                    .environment = arguments.environment,
+                    .people = arguments.people},
+                   globals);
+}
+
 void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals) {
+  if (!arguments.recipe.empty()) return RunRecipe(arguments, globals);
+  if (arguments.world.empty()) throw InputError("--world is required");
+  if (!arguments.subset.empty()) throw InputError("--subset: it is about --recipe; add --recipe omni360-human");
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals.seed);
   if (arguments.route != "auto") ReadRouteFile(arguments.route);
   if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
   if (!arguments.plan.empty() && arguments.route != "auto")
     throw InputError("--plan: give either --plan or --route, not both");
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  const OpenedWorld world =
+      OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
   spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
-  const Flight flight = FlyRoute({.tracer = world.tracer, .dt_ns = kRouteStepNs}, plan.route, plan.shot_times_ns);
+  const Flight flight = FlyRoute(world.Model(kRouteStepNs), plan.route, plan.shot_times_ns);
   if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
   CollectInput input{spec, *world.scene, flight, arguments.out};
+  input.people = world.people;
+  input.tracer = world.tracer;
   if (const auto* path = plan.route->path()) {
     const PlannedPath planned = ReadPlanFile(arguments.plan);
     input.trajectory_json = TrajectoryJson({.trajectory = *path,
@@ -150,10 +193,12 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand(
       "collect", "collect a labelled dataset along a route; run again to finish an interrupted one");
   auto arguments = std::make_shared<CollectArguments>();
-  command
-      ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
-      ->required();
+  command->add_option("--world", arguments->world,
+                      "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml; "
+                      "with --recipe only its subsets");
+  command->add_option("--recipe", arguments->recipe,
+                      "omni360-human, or a file like data/omni360_human.yaml: a dataset for each subset of its table");
+  command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_west/03");
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
                       "auto (a survey through free space), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
@@ -169,10 +214,12 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
-                      "native,coco (default native, which includes COCO panoptic)");
+                      "native,coco (default native, which includes COCO panoptic and people.jsonl); of people also "
+                      "coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,

@@ -13,6 +13,7 @@ struct GlobalOptions {
   uint64_t seed = 0;            ///< of the world, the route and everything random
   int threads = 0;              ///< 0 = all cores
   std::string device = "auto";  ///< auto, cpu or vulkan
+  int gpu = -1;                 ///< index of a GPU; -1 = the best
 };
 
 /// Each adds one subcommand to `app`. The command runs in its callback, after all flags are parsed; `globals`
@@ -27,6 +28,7 @@ void AddStitchCommand(CLI::App& app, GlobalOptions& globals);
 void AddEvalCommand(CLI::App& app, GlobalOptions& globals);
 void AddFlyCommand(CLI::App& app, GlobalOptions& globals);
 void AddServeCommand(CLI::App& app, GlobalOptions& globals);
+void AddAgentCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
 

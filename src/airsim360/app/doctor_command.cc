@@ -7,6 +7,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/version.h"
+#include "airsim360/render/vulkan/gpu.h"
 
 namespace airsim360 {
 namespace {
@@ -29,6 +30,19 @@ const char* InstructionSet() {
   return "SSE2: tracing is several times slower than with AVX2";
 }
 
+// What --device vulkan and --gpu would find.
+Check CheckGpus() {
+  std::string why, list;
+  bool usable = false;
+  for (const GpuInfo& gpu : ListGpus(&why)) {
+    usable |= gpu.missing.empty();
+    list += (list.empty() ? "" : "; ") + std::to_string(gpu.index) + " = " + gpu.name + " (" + gpu.driver + ")" +
+            (gpu.software ? ", software" : "") + (gpu.missing.empty() ? "" : ", cannot trace rays: " + gpu.missing);
+  }
+  return {"gpu", usable, list.empty() ? why : list,
+          usable ? "" : "sudo apt-get install -t bookworm-backports mesa-vulkan-drivers  # in software"};
+}
+
 std::vector<Check> RunChecks() {
   const bool models = Exists("/usr/share/sweethome3d/furniture");
   const bool exiftool = Exists("/usr/bin/exiftool");
@@ -37,6 +51,7 @@ std::vector<Check> RunChecks() {
       {"threads", true,
        std::to_string(ThreadCount()) + " of " + std::to_string(std::thread::hardware_concurrency()), ""},
       {"instruction set", true, InstructionSet(), ""},
+      CheckGpus(),
       {"sweethome3d-furniture", models,
        "furniture and vehicles of the worlds; without it procedural ones are used",
        models ? "" : "sudo apt-get install sweethome3d-furniture"},

@@ -8,6 +8,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/fly_run.h"
+#include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -28,6 +29,7 @@ struct FlyArguments {
   double vmax = 4, amax = 4, speed = 0;
   int64_t frames = 0;
   bool record = false;
+  PeopleArguments people;
 };
 
 // A name of the catalogue, a YAML file, or words.
@@ -144,7 +146,11 @@ void WriteFrames(const FlyArguments& arguments, uint64_t seed, const OpenedWorld
   spec.tier = ParseTierArgument(arguments.tier);
   spec.frames = arguments.frames;
   spec.route = "flight of " + arguments.drone;
-  Collect({spec, *world.scene, result.flight, fs::path(arguments.out) / "frames"}, *world.renderer);
+  spec.people = arguments.people.Describe();
+  CollectInput input{spec, *world.scene, result.flight, fs::path(arguments.out) / "frames"};
+  input.people = world.people;
+  input.tracer = world.tracer;
+  Collect(input, *world.renderer);
 }
 
 void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
@@ -163,9 +169,11 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   if (!arguments.pose.empty()) ParsePose(arguments.pose);
 
   const OpenedWorld world =
-      OpenWorld(arguments.world, globals.seed, arguments.frames > 0 ? tier : Tier::kLabels);
+      OpenWorld(arguments.world, globals, arguments.frames > 0 ? tier : Tier::kLabels, {},
+                arguments.people.Request(globals.seed));
   SetStart(arguments, *world.scene, trajectory.get(), setup);
-  SimModel model{.tracer = world.tracer, .wind = wind};
+  SimModel model = world.Model(SimModel{}.dt_ns);
+  model.wind = wind;
   model.world.seed = globals.seed;
   model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));
   job.model = std::make_shared<const SimModel>(std::move(model));
@@ -195,7 +203,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<FlyArguments>();
   command
       ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of trajectory.csv, sensors/ and frames/")->required();
   command->add_option("--drone", arguments->drone,
@@ -224,6 +232,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(int64_t{0}, int64_t{1000000}));
   command->add_option("--size", arguments->size, "WxH of the panoramas (default 1024x512)");
   command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
+  arguments->people.AddTo(*command);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
   command->callback([arguments, &globals] { RunFly(*arguments, globals); });
 }

@@ -40,6 +40,9 @@ class Pilot {
     Note(*loop_.Snapshot());
   }
 
+  /// The people at each sample of the trajectory, if frames are wanted of it.
+  const std::vector<std::shared_ptr<const PeopleState>>& people() const { return people_; }
+
   void Run() {
     for (const FlyTask& task : job_.tasks) RunTask(task);
     const auto state = loop_.Snapshot();
@@ -80,6 +83,7 @@ class Pilot {
     NoteSensors(drone.sensors);
     if (state.t_ns % kRecordPeriodNs != 0) return;
     result_.flight.trajectory.push_back({state.t_ns, drone.motion, drone.a_WB});
+    if (job_.frames > 0) people_.push_back(state.people);
     const float clearance =
         job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
     result_.flight.least_clearance = std::min<double>(result_.flight.least_clearance, clearance);
@@ -121,6 +125,7 @@ class Pilot {
 
   const FlyJob& job_;
   FlyResult& result_;
+  std::vector<std::shared_ptr<const PeopleState>> people_;
   SimLoop loop_;
   RealTimePacer pacer_;
   int64_t slice_ns_ = kRecordPeriodNs;  // the loop is looked at so often that no sample of a sensor is missed
@@ -133,14 +138,15 @@ class Pilot {
 
 FlyResult RunFlight(const FlyJob& job) {
   FlyResult result;
-  Pilot(job, result).Run();
+  Pilot pilot(job, result);
+  pilot.Run();
   // Frames at samples of the trajectory, evenly spread.
   const auto& trajectory = result.flight.trajectory;
   for (int64_t i = 0; i < job.frames; ++i) {
     const size_t last = trajectory.size() - 1;
     const size_t at =
         job.frames > 1 ? static_cast<size_t>(i) * last / static_cast<size_t>(job.frames - 1) : last;
-    result.flight.shots.push_back({trajectory[at].t_ns, trajectory[at].body});
+    result.flight.shots.push_back({trajectory[at].t_ns, trajectory[at].body, pilot.people()[at]});
   }
   return result;
 }

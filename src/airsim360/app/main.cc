@@ -31,7 +31,6 @@ void CheckDevice(const std::string& device) {
   if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end()) {
     throw InputError("--device: " + UnknownChoiceMessage("device", device, kDevices));
   }
-  if (device == "vulkan") throw InputError("--device: 'vulkan' is not built yet; use 'cpu'");
 }
 
 uint64_t ParseSeed(const std::string& text) {
@@ -76,7 +75,16 @@ void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<T
             CheckDevice(device);
             globals.device = device;
           },
-          "auto, cpu or vulkan (default auto)")
+          "auto, cpu or vulkan (default auto: a GPU where one traces rays)")
+      ->group("Common");
+  command
+      .add_option_function<int>(
+          "--gpu",
+          [&](int gpu) {
+            if (gpu < 0 || gpu > 255) throw InputError("--gpu: " + std::to_string(gpu) + " is not in 0 … 255");
+            globals.gpu = gpu;
+          },
+          "index of the GPU to use, as 'airsim360 doctor' lists them (default: the best)")
       ->group("Common");
 }
 
@@ -128,6 +136,7 @@ int ParseAndRun(int argc, char** argv) {
   AddEvalCommand(app, globals);
   AddFlyCommand(app, globals);
   AddServeCommand(app, globals);
+  AddAgentCommand(app, globals);
   AddDroneCommand(app, globals);
   AddDoctorCommand(app, globals);
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {

@@ -26,8 +26,8 @@ constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of the map around
 struct PlanArguments {
   WaypointArguments waypoints;
   WaypointSetArguments set;
-  std::string world, out, format, origin = "47.397742,8.545594,488";
-  double vmax = 0, amax = 0, dt = 0, clearance = 0.5, yaw_deg = 0;
+  std::string world, out, format, yaw, origin = "47.397742,8.545594,488";
+  double vmax = 0, amax = 0, dt = 0, clearance = 0.5;
   int order = 7;
   bool avoid = false;
 };
@@ -53,6 +53,19 @@ GeoPoint ParseOrigin(const std::string& text) {
       !(std::fabs(p.altitude) <= 1e5))
     throw InputError("--origin: '" + text + "' is not latitude,longitude,altitude in degrees and metres");
   return p;
+}
+
+// Empty: east.
+YawRule ParseYaw(const std::string& text) {
+  if (text.empty()) return ConstantYaw{};
+  if (text == "velocity") return YawAlongVelocity{};
+  Vec3d p;
+  char rest;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &rest) == 3 && std::isfinite(Norm(p)))
+    return YawTowards{p};
+  if (std::sscanf(text.c_str(), "%lf%c", &p.x, &rest) == 1 && std::isfinite(p.x))
+    return ConstantYaw{p.x * std::numbers::pi / 180};
+  throw InputError("--yaw: '" + text + "' is neither degrees nor 'velocity' nor a point x,y,z");
 }
 
 // A world with its distances and a map around the waypoints.
@@ -195,7 +208,8 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
     throw InputError("--order: " + std::to_string(arguments.order) + " is not 5 or 7; did you mean 7?");
   if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
   CheckPositive("--clearance", arguments.clearance);
-  if (!std::isfinite(arguments.yaw_deg)) throw InputError("--yaw: not a finite number");
+  const YawRule yaw = ParseYaw(arguments.yaw);
+  output.has_yaw = !arguments.yaw.empty();
   arguments.avoid |= !arguments.waypoints.from.empty();
   const bool needs_world = arguments.avoid || NeedsWorld(arguments.waypoints);
   if (needs_world && arguments.world.empty()) throw InputError("--world: it is needed to find a free way");
@@ -212,7 +226,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
     if (value != 0 || !timed) CheckPositive(flag, value);
   }
   if (!arguments.world.empty()) {
-    world = OpenPlanWorld(arguments.world, 0);
+    world = OpenPlanWorld(arguments.world, globals.seed);
     if (waypoints.points.empty()) {
       waypoints = FindWaypoints(arguments.waypoints, world.tracer, globals.seed, arguments.clearance);
       CheckWaypoints(waypoints);
@@ -230,7 +244,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
                           .cost_snap = IntegralOfSquaredDerivative(path, 4),
                           .lower_bound = planned.flight.lower_bound,
                           .start_time = timed ? waypoints.points.front().t : 0,
-                          .yaw = arguments.yaw_deg * std::numbers::pi / 180,
+                          .yaw = yaw,
                           .radius = arguments.clearance,
                           .certificate = planned.certificate,
                           .waypoints = planned.waypoints};
@@ -280,7 +294,9 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
       "--format", a->format,
       "csv, json, npz, yaml, crazyflie, crazyflie-compressed, qgc, mavlink, svg; several with "
       "commas (default: by the extension of --out)");
-  command->add_option("--yaw", a->yaw_deg, "heading of the drone in exports, degrees from east (0)");
+  command->add_option("--yaw", a->yaw,
+                      "heading of the drone in exports: degrees anticlockwise from east (0), 'velocity' (the "
+                      "way it flies) or x,y,z (towards a point)");
   command->add_option("--origin", a->origin, "qgc: latitude,longitude,altitude of the origin of the world");
   command->add_option("--dataset", a->set.dataset,
                       "waypoint: the Omni360-WayPoint set, into the folder --out");

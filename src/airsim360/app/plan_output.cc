@@ -57,12 +57,19 @@ std::string Encode(const std::string& format, const PlanRecord& plan, const Plan
   if (format == "svg") return PlotFlight(plan.trajectory, output.plot);
   if (format == "qgc")
     return QgcPlan(plan.trajectory,
-                   {.origin = output.origin, .spacing = kMissionSpacing, .speed = plan.peaks.speed.value});
+                   {.origin = output.origin,
+                    .spacing = kMissionSpacing,
+                    .speed = plan.peaks.speed.value,
+                    .yaw = output.has_yaw ? std::optional(plan.yaw) : std::nullopt});
   if (format == "crazyflie") {
     const Poly4dRows rows = ToPoly4d(plan.trajectory, plan.yaw);
     if (rows.worst_error > 1e-3) {
       LogWarning("crazyflie: in single precision the flight is off by up to " +
                  std::to_string(rows.worst_error) + " m");
+    }
+    if (rows.worst_yaw_error > 0.02) {
+      LogWarning("crazyflie: where the heading turns suddenly the polynomials are off by up to " +
+                 std::to_string(rows.worst_yaw_error) + " rad");
     }
     return Poly4dCsv(rows.rows);
   }

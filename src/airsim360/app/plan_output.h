@@ -19,6 +19,7 @@ struct PlanOutput {
   std::vector<std::string> formats = {};  ///< empty: by the extension of `out`
   double interval = 0.1;                  ///< seconds between samples
   GeoPoint origin = {};                   ///< of W, for QGroundControl
+  bool has_yaw = false;                   ///< a heading was asked for: QGroundControl gets it too
   PlotOptions plot = {};
 };
 

@@ -8,6 +8,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/base/error.h"
@@ -23,6 +24,8 @@ struct RenderArguments {
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
   PictureArguments picture;
+  PeopleArguments people;
+  bool overlay = false;
 };
 
 Projection ParseProjection(const std::string& text) {
@@ -103,18 +106,27 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
                                                              std::vector<std::string>{"body", "level"}));
   }
   spec.pano_frame = arguments.pano_frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
+  spec.people = arguments.people.Describe();
+  spec.overlay = arguments.overlay;
+  if (spec.overlay && (spec.people.empty() || spec.tier == Tier::kLabels))
+    throw InputError("--overlay: draws the labels of people into the colours: it needs --people and a tier with colours");
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, spec.tier, arguments.environment);
+  const OpenedWorld world =
+      OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
   spec.environment = DescribeEnvironment(world.environment);
   if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
   constexpr double kRadians = std::numbers::pi / 180;
-  const Flight flight =
+  Flight flight =
       Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
-  const CollectResult result = Collect({spec, *world.scene, flight, arguments.out}, *world.renderer);
+  if (world.people) flight.shots[0].people = world.people->start;
+  CollectInput input{spec, *world.scene, flight, arguments.out};
+  input.people = world.people;
+  input.tracer = world.tracer;
+  const CollectResult result = Collect(input, *world.renderer);
   ReportRun(world, spec, result, arguments.out, globals.json);
 }
 
@@ -125,7 +137,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<RenderArguments>();
   command
       ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj or world .yaml")
+                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option(
@@ -144,6 +156,8 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
+  arguments->people.AddTo(*command);
+  command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,

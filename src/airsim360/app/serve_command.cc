@@ -6,11 +6,13 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/server.h"
 #include "airsim360/sim/world_environment.h"
 #include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/props.h"
 
 namespace airsim360 {
 namespace {
@@ -18,17 +20,13 @@ namespace {
 struct ServeArguments {
   std::string world, settings, tier = "fast", host;
   int port = -1;
-  int people = 0;
+  PeopleArguments people;
   bool realtime = false, lockstep = false;
   EnvironmentFlags environment;
 };
 
 // What can be wrong with the flags.
 void Check(const ServeArguments& arguments) {
-  if (arguments.people != 0) {
-    throw InputError("--people: " + std::to_string(arguments.people) +
-                     ": people are not in this build; use 0");
-  }
   if (arguments.realtime && arguments.lockstep) {
     throw InputError(
         "--lockstep: time passes by the wall clock (--realtime) or by calls (--lockstep), not both");
@@ -36,6 +34,18 @@ void Check(const ServeArguments& arguments) {
   if (arguments.port < -1 || arguments.port > 65535) {
     throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
   }
+}
+
+// Shapes, and props of our worlds that need no pictures: what simSpawnObject can make.
+std::vector<SpawnAsset> AssetsOf(uint64_t seed) {
+  std::vector<SpawnAsset> assets = ShapeAssets();
+  for (const char* name : {"bench_wood", "dining_chair", "dining_table", "fire_hydrant", "mailbox", "trash_can",
+                           "traffic_barrel", "road_block", "car", "van"}) {
+    const PropKind& kind = FindPropKind(name);
+    Model model = MakeProp(kind, 0, seed, nullptr);
+    if (model.textures.empty()) assets.push_back({name, std::string(kind.category), std::move(model)});
+  }
+  return assets;
 }
 
 ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& globals) {
@@ -46,6 +56,7 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
   options.lockstep = arguments.lockstep;
   options.tier = ParseTierArgument(arguments.tier);
   options.seed = globals.seed;
+  options.assets = AssetsOf(globals.seed);
   return options;
 }
 
@@ -53,8 +64,14 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   Check(arguments);
   ServerOptions options = OptionsOf(arguments, globals);
   ApplyFlags(arguments.environment, {});
+  arguments.people.Request(globals.seed);
   std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed});
   options.environment = ApplyFlags(arguments.environment, scene->environment);
+  if (const PeopleRequest people = arguments.people.Request(globals.seed); people.any()) {
+    PopulatedScene populated = Populate(std::move(scene), people);
+    scene = std::move(populated.scene);
+    options.people = std::move(populated.people);
+  }
 
   // Before any thread exists, so that the signals come to sigwait alone.
   sigset_t signals;
@@ -88,7 +105,7 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--port", arguments->port,
                       "TCP port, 0 = any free one (default: of the settings, 41451)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
-  command->add_option("--people", arguments->people, "people in the world");
+  arguments->people.AddTo(*command);
   command->add_option("--tier", arguments->tier,
                       "quality of colour pictures: fast, high or reference (default fast)");
   command->add_flag("--realtime", arguments->realtime, "time passes with the wall clock (default)");

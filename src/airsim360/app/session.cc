@@ -4,18 +4,33 @@
 #include <cstdio>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
+#include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/world_loader.h"
 
 namespace airsim360 {
 
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags) {
+SimModel OpenedWorld::Model(int64_t dt_ns) const {
+  SimModel model{.tracer = WithoutBodies(tracer, {}, people.get()), .dt_ns = dt_ns};
+  model.people = people;
+  return model;
+}
+
+OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
+                      const EnvironmentFlags& flags, const PeopleRequest& people) {
   ApplyFlags(flags, {});  // wrong ones are found before the world is loaded
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
-  opened.scene = LoadWorld({.world = world, .seed = seed});
+  opened.scene = LoadWorld({.world = world, .seed = globals.seed});
+  if (people.any()) {
+    PopulatedScene populated = Populate(std::move(opened.scene), people);
+    opened.scene = std::move(populated.scene);
+    opened.people = std::move(populated.people);
+  }
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
   opened.environment = ApplyFlags(flags, opened.scene->environment);
-  opened.renderer = MakeCpuRenderer(opened.tracer, {.tier = tier, .environment = opened.environment});
+  opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
+                                 {globals.device, globals.gpu});
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;
@@ -44,6 +59,7 @@ void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectR
                {"rays", static_cast<uint64_t>(static_cast<double>(result.rays) / written + 0.5)},
                {"triangles", counts.instanced_triangles},
                {"entities", counts.entities},
+               {"people", world.people ? world.people->cast.size() : 0},
                {"peak_rss_mib", PeakRssMib()}});
     return;
   }

@@ -8,6 +8,8 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/dataset/collector.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/sim/people/populate.h"
+#include "airsim360/sim/step.h"
 #include "airsim360/sim/world_environment.h"
 #include "airsim360/trace/ray_tracer.h"
 
@@ -20,8 +22,14 @@ struct OpenedWorld {
   std::unique_ptr<Renderer> renderer;
   Environment environment;  ///< the world's own with what the flags say
   double load_ms = 0;       ///< building or importing the scene and its ray tracing structure
+  std::shared_ptr<const SimPeople> people;  ///< null: nobody
+
+  /// A simulation of it without drones.
+  SimModel Model(int64_t dt_ns) const;
 };
-OpenedWorld OpenWorld(const std::string& world, uint64_t seed, Tier tier, const EnvironmentFlags& flags = {});
+/// Seed and device are those of `globals`.
+OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
+                      const EnvironmentFlags& flags = {}, const PeopleRequest& people = {});
 
 /// Prints what a run did: JSON or a few lines of text.
 void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,

@@ -1,58 +1,254 @@
-// airsim360 world export: a world as a model file.
+// airsim360 world export, import, entities: worlds in and out, and what they hold.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/world_sheet.h"
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
+#include "airsim360/scene/entity_table.h"
 #include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/osm_world.h"
 
 namespace airsim360 {
 namespace {
 
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
 struct ExportArguments {
-  std::string world, out;
+  std::string world, out, labels;
 };
 
-void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
-  const std::filesystem::path out = arguments.out;
-  if (out.extension() != ".glb")
-    throw InputError("--out: '" + arguments.out + "': worlds are exported as .glb; did you mean '" +
-                     std::filesystem::path(out).replace_extension(".glb").string() + "'?");
-  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed});
-  const Bytes bytes = EncodeGlb(*scene);
+void WriteGlb(const Scene& scene, const fs::path& out) {
+  const Bytes bytes = EncodeGlb(scene);
   if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
   WriteFileAtomically(out, bytes);
+}
+
+void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
+  const fs::path out = arguments.out;
+  if (out.extension() != ".glb")
+    throw InputError("--out: '" + arguments.out + "': worlds are exported as .glb; did you mean '" +
+                     fs::path(out).replace_extension(".glb").string() + "'?");
+  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = arguments.labels});
+  WriteGlb(*scene, out);
   const SceneCounts counts = scene->Count();
+  const uint64_t bytes = fs::file_size(out);
   if (globals.json) {
     PrintJson({{"out", out.string()},
-               {"bytes", bytes.size()},
+               {"bytes", bytes},
                {"entities", counts.entities},
                {"instances", counts.instances},
                {"triangles", counts.unique_triangles}});
     return;
   }
   std::printf("%s: %.1f MB, %llu entities, %llu instances, %llu triangles\n", out.c_str(),
-              static_cast<double>(bytes.size()) / 1e6, static_cast<unsigned long long>(counts.entities),
+              static_cast<double>(bytes) / 1e6, static_cast<unsigned long long>(counts.entities),
               static_cast<unsigned long long>(counts.instances),
               static_cast<unsigned long long>(counts.unique_triangles));
 }
 
+struct ImportArguments {
+  std::string file, out, labels, heights;
+  bool no_fill = false, buildings = false;
+};
+
+// Counts of what a map's buildings became.
+Json BuildingsJson(const OsmReport& report, bool list) {
+  std::map<std::string, int> kinds, sources;
+  int parts = 0, shapeless = 0;
+  Json rows = Json::array();
+  for (const OsmBuildingReport& building : report.buildings) {
+    if (building.part) {
+      ++parts;
+    } else {
+      ++kinds[building.id.substr(0, building.id.find('/'))];
+      ++sources[building.source];
+      shapeless += building.area <= 0;
+    }
+    if (list)
+      rows.push_back({{"id", building.id},
+                      {"entity", building.entity},
+                      {"height", building.height},
+                      {"height_from", building.source},
+                      {"area_m2", building.area}});
+  }
+  Json json{{"nodes", kinds["node"]},         {"ways", kinds["way"]},
+            {"relations", kinds["relation"]}, {"parts_outside_buildings", parts},
+            {"without_shape", shapeless},     {"heights_from_tag", sources["tag"]},
+            {"heights_from_levels", sources["levels"]}, {"heights_guessed", sources["guess"]}};
+  if (list) json["list"] = std::move(rows);
+  return json;
+}
+
+Json CategoriesJson(const Scene& scene) {
+  std::map<std::string, int> counts;
+  for (const Entity& entity : scene.entities) ++counts[scene.tree[entity.category].path];
+  Json json = Json::object();
+  for (const auto& entry : counts) json[entry.first] = entry.second;
+  return json;
+}
+
+// A world file that names the imported one, so that its settings need not be repeated.
+std::string WorldFileOf(const ImportArguments& arguments, const fs::path& out) {
+  const auto path = [&](const std::string& file) {
+    std::error_code error;
+    const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
+    const fs::path relative = fs::relative(file, folder, error);
+    return "'" + (error || relative.empty() ? fs::absolute(file) : relative).string() + "'";
+  };
+  std::string text = "world: " + path(arguments.file) + "\n";
+  if (!arguments.heights.empty()) text += "heights: " + path(arguments.heights) + "\n";
+  if (!arguments.labels.empty()) text += "labels: " + path(arguments.labels) + "\n";
+  if (arguments.no_fill) text += "fill: false\n";
+  return text;
+}
+
+void RunImport(const ImportArguments& arguments, const GlobalOptions& globals) {
+  fs::path out = arguments.out;
+  if (!out.empty() && out.extension().empty()) out += ".yaml";
+  if (!out.empty() && out.extension() != ".glb" && out.extension() != ".yaml")
+    throw InputError("--out: '" + arguments.out + "': a .glb file, or a name or .yaml file for a world file");
+  if (!fs::is_regular_file(arguments.file)) throw InputError(arguments.file + ": no such file");
+  OsmReport report;
+  std::shared_ptr<const Scene> scene;
+  const bool map = IsOsmFile(arguments.file);
+  const WorldRequest request{.world = arguments.file,
+                             .seed = globals.seed,
+                             .labels = arguments.labels,
+                             .heights = arguments.heights,
+                             .fill = !arguments.no_fill};
+  scene = map ? LoadMap(request, &report) : LoadWorld(request);
+  if (out.extension() == ".glb") WriteGlb(*scene, out);
+  if (out.extension() == ".yaml") {
+    if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
+    WriteFileAtomically(out, std::string_view(WorldFileOf(arguments, out)));
+  }
+  const SceneCounts counts = scene->Count();
+  Json json{{"file", arguments.file},
+            {"entities", counts.entities},
+            {"instances", counts.instances},
+            {"triangles", counts.unique_triangles},
+            {"instanced_triangles", counts.instanced_triangles}};
+  if (map) {
+    json["origin"] = {{"latitude_deg", report.origin.latitude_deg}, {"longitude_deg", report.origin.longitude_deg}};
+    json["extent_m"] = {report.width, report.depth};
+    json["buildings"] = BuildingsJson(report, arguments.buildings);
+  }
+  json["categories"] = CategoriesJson(*scene);
+  if (!out.empty()) json["out"] = out.string();
+  if (globals.json) return PrintJson(json);
+  std::printf("%s: %llu entities, %llu triangles (%llu with instances)\n", arguments.file.c_str(),
+              static_cast<unsigned long long>(counts.entities), static_cast<unsigned long long>(counts.unique_triangles),
+              static_cast<unsigned long long>(counts.instanced_triangles));
+  if (map)
+    std::printf("  %.0f x %.0f m around %.6f, %.6f; buildings %s\n", report.width, report.depth, report.origin.latitude_deg,
+                report.origin.longitude_deg, BuildingsJson(report, false).dump().c_str());
+  for (const auto& entry : json["categories"].items())
+    std::printf("  %6d %s\n", entry.value().get<int>(), entry.key().c_str());
+  if (out.extension() == ".yaml") std::printf("use it as --world %s\n", out.c_str());
+  if (out.empty()) std::printf("use it as --world %s\n", arguments.file.c_str());
+}
+
+struct EntitiesArguments {
+  std::string world, labels;
+  bool csv = false;
+};
+
+std::string CsvText(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& globals) {
+  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = arguments.labels});
+  const std::vector<EntityRow> rows = EntityTable(*scene);
+  if (globals.json) {
+    Json list = Json::array();
+    for (const EntityRow& row : rows) {
+      const Quaternion q = ToQuaternion(row.X_WE.R);
+      Json json{{"id", row.id},
+                {"name", row.name},
+                {"category", row.category},
+                {"category_path", row.path},
+                {"kind", row.thing ? "thing" : "stuff"},
+                {"pose", {{"p", {row.X_WE.p.x, row.X_WE.p.y, row.X_WE.p.z}}, {"q_wxyz", {q.w, q.x, q.y, q.z}}}}};
+      json["box"] = nullptr;
+      if (row.has_box)
+        json["box"] = {{"min", {row.box.min.x, row.box.min.y, row.box.min.z}}, {"max", {row.box.max.x, row.box.max.y, row.box.max.z}}};
+      list.push_back(std::move(json));
+    }
+    return PrintJson(list);
+  }
+  if (arguments.csv) {
+    std::printf("id,name,category,category_path,kind,x,y,z,qw,qx,qy,qz,min_x,min_y,min_z,max_x,max_y,max_z\n");
+    for (const EntityRow& row : rows) {
+      const Quaternion q = ToQuaternion(row.X_WE.R);
+      std::printf("%u,%s,%u,%s,%s,%.3f,%.3f,%.3f,%.5f,%.5f,%.5f,%.5f", row.id, CsvText(row.name).c_str(), row.category,
+                  row.path.c_str(), row.thing ? "thing" : "stuff", row.X_WE.p.x, row.X_WE.p.y, row.X_WE.p.z, q.w, q.x, q.y, q.z);
+      if (row.has_box)
+        std::printf(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f\n", static_cast<double>(row.box.min.x), static_cast<double>(row.box.min.y),
+                    static_cast<double>(row.box.min.z), static_cast<double>(row.box.max.x), static_cast<double>(row.box.max.y),
+                    static_cast<double>(row.box.max.z));
+      else
+        std::printf(",,,,,,\n");
+    }
+    return;
+  }
+  for (const EntityRow& row : rows)
+    std::printf("%7u  %-44s %-40s %9.2f %9.2f %8.2f\n", row.id, row.name.c_str(), row.path.c_str(), row.X_WE.p.x, row.X_WE.p.y,
+                row.X_WE.p.z);
+}
+
+constexpr const char* kWorldHelp = "name (airsim360 worlds) or path of a model, map or world .yaml";
+
 }  // namespace
 
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand("world", "worlds in and out: world export WORLD --out FILE.glb");
+  CLI::App* command = app.add_subcommand(
+      "world", "worlds in and out: world export, world import, world entities, world sheet");
   command->require_subcommand(1);
-  CLI::App* to_file =
-      command->add_subcommand("export", "write a world with its names and labels as binary glTF");
+  CLI::App* to_file = command->add_subcommand("export", "write a world with its names and labels as binary glTF");
   auto arguments = std::make_shared<ExportArguments>();
-  to_file->add_option("world", arguments->world, "name (airsim360 worlds) or path of a model or world .yaml")
-      ->required();
+  to_file->add_option("world", arguments->world, kWorldHelp)->required();
   to_file->add_option("--out", arguments->out, "the .glb file to write")->required();
+  to_file->add_option("--labels", arguments->labels, "label file: categories by name patterns (docs/importing.md)");
   to_file->callback([arguments, &globals] { RunExport(*arguments, globals); });
+
+  CLI::App* from_file = command->add_subcommand(
+      "import", "read .osm, .osm.pbf, .osm.gz, .osm.bz2, .city.json, .glb, .gltf or .obj, and say what it holds");
+  auto importing = std::make_shared<ImportArguments>();
+  from_file->add_option("file", importing->file, "the file")->required();
+  from_file->add_option("--out", importing->out, "FILE.glb: write it as glTF; NAME or FILE.yaml: write a world file that names it");
+  from_file->add_option("--labels", importing->labels, "label file: categories by name patterns (docs/importing.md)");
+  from_file->add_option("--heights", importing->heights, "maps: GeoTIFF with the heights of the ground (needs gdal-bin)");
+  from_file->add_flag("--no-fill", importing->no_fill, "maps: add no parked cars, lamps and trees by rule");
+  from_file->add_flag("--buildings", importing->buildings, "maps: with --json, list every building with its height");
+  from_file->callback([importing, &globals] { RunImport(*importing, globals); });
+
+  CLI::App* entities = command->add_subcommand("entities", "the table of entities: id, name, category, pose, 3D box");
+  auto table = std::make_shared<EntitiesArguments>();
+  entities->add_option("world", table->world, kWorldHelp)->required();
+  entities->add_option("--labels", table->labels, "label file: categories by name patterns (docs/importing.md)");
+  entities->add_flag("--csv", table->csv, "comma-separated values");
+  entities->callback([table, &globals] { RunEntities(*table, globals); });
+  CLI::App* sheet = command->add_subcommand(
+      "sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
+  auto view = std::make_shared<SheetArguments>();
+  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")->required();
+  sheet->add_option("--out", view->out, "the .jpg or .png file to write")->required();
+  sheet->add_option("--poses", view->poses, "places, 1 … 64 (16)");
+  sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');
+  sheet->add_option("--width", view->width, "of one panorama in pixels (512)");
+  sheet->add_option("--tier", view->tier, "labels, fast, high or reference (fast)");
+  sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
 }
 
 }  // namespace airsim360

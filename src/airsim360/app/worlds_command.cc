@@ -1,8 +1,12 @@
 // airsim360 worlds: the built-in worlds, without building them.
 #include <cstdio>
+#include <memory>
+#include <string>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/world_survey.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -25,12 +29,47 @@ void PrintWorlds(bool json) {
   if (json) PrintJson(list);
 }
 
+// What a world holds, counted on the built scene.
+nlohmann::ordered_json CountsOf(const std::string& name, uint64_t seed) {
+  const auto scene = LoadWorld({.world = name, .seed = seed});
+  const WorldSurvey s = SurveyWorld(*scene);
+  return {{"name", name},
+          {"ground_area_m2", s.ground_area_m2},
+          {"buildings_inside", s.buildings_inside},
+          {"buildings_backdrop_600_m", s.buildings_backdrop},
+          {"lamp_posts", s.lamp_posts},
+          {"cars", s.cars},
+          {"manholes", s.manholes},
+          {"trees", s.trees},
+          {"tree_species", s.tree_species},
+          {"tree_meshes", s.tree_meshes},
+          {"road_m", s.road_m},
+          {"pavement_m", s.pavement_m},
+          {"entities", s.counts.entities},
+          {"instances", s.counts.instances},
+          {"unique_triangles", s.counts.unique_triangles},
+          {"instanced_triangles", s.counts.instanced_triangles},
+          {"entities_by_category", s.categories}};
+}
+
+void PrintCounts(const std::string& name, const GlobalOptions& globals) {
+  const nlohmann::ordered_json counts = CountsOf(name, globals.seed);
+  if (globals.json) return PrintJson(counts);
+  for (const auto& [key, value] : counts.items()) {
+    if (!value.is_object()) std::printf("%-26s %s\n", key.c_str(), value.dump().c_str());
+  }
+  for (const auto& [path, count] : counts["entities_by_category"].items())
+    std::printf("  %-48s %s\n", path.c_str(), count.dump().c_str());
+}
+
 }  // namespace
 
 void AddWorldsCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command =
       app.add_subcommand("worlds", "list the built-in worlds: name, setting, area, categories");
-  command->callback([&globals] { PrintWorlds(globals.json); });
+  auto count = std::make_shared<std::string>();
+  command->add_option("--count", *count, "builds this world and counts what it holds");
+  command->callback([&globals, count] { count->empty() ? PrintWorlds(globals.json) : PrintCounts(*count, globals); });
 }
 
 }  // namespace airsim360

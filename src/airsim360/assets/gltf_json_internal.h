@@ -22,6 +22,8 @@ class JsonRef {
   const std::string& pointer() const { return pointer_; }
 
   bool IsObject() const;
+  bool IsArray() const;
+  bool IsNumber() const;
   /// Members of an object.
   bool Has(std::string_view key) const { return Find(key).has_value(); }
   std::optional<JsonRef> Find(std::string_view key) const;

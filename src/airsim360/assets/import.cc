@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "airsim360/assets/cityjson.h"
 #include "airsim360/assets/gltf.h"
 #include "airsim360/assets/imported.h"
 #include "airsim360/assets/label_rules.h"
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 ImportedFile ReadModelFile(const fs::path& path) {
-  static const std::array<std::string, 3> kChoices = {".glb", ".gltf", ".obj"};
+  static const std::array<std::string, 6> kChoices = {".glb", ".gltf", ".obj", ".city.json", ".json", ".jsonl"};
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
@@ -33,8 +34,11 @@ ImportedFile ReadModelFile(const fs::path& path) {
   }
   const Bytes bytes = ReadFile(path);
   const ResourceLoader load = FolderLoader(path.string(), path.parent_path());
-  ImportedFile file = extension == ".obj" ? ReadObj(path.string(), AsText(bytes), load)
-                                          : ReadGltf(path.string(), bytes, load);
+  const bool city = extension == ".json" || extension == ".jsonl";
+  if (city && !LooksLikeCityJson(AsText(bytes))) throw InputError(path.string() + ": not CityJSON");
+  ImportedFile file = city                  ? ReadCityJson(path.string(), AsText(bytes))
+                      : extension == ".obj" ? ReadObj(path.string(), AsText(bytes), load)
+                                            : ReadGltf(path.string(), bytes, load);
   for (const std::string& warning : file.warnings) LogWarning(warning);
   return file;
 }

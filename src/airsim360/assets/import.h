@@ -1,4 +1,4 @@
-// glTF 2.0 (.glb, .gltf) and Wavefront OBJ/MTL into a Scene. Files are untrusted: any damage is an InputError
+// glTF 2.0 (.glb, .gltf), Wavefront OBJ/MTL and CityJSON (.city.json, .json, .jsonl) into a Scene. Files are untrusted: any damage is an InputError
 // that names the file, the place in it and the value; sizes and depths are bounded; nothing crashes.
 #pragma once
 
@@ -24,6 +24,11 @@ struct ImportOptions {
 /// viewpoint. InputError if there is nothing to see.
 std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
                                          const ImportOptions& options = {});
+
+/// The scene with the categories and names that a label file gives its entities by their names: for worlds that
+/// are not imported models. Patterns are held against the whole name ('/' is a character like any other);
+/// `keywords`, `default` and `merge` do not count. An empty path changes nothing. InputError as ParseLabelRules.
+std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels);
 
 /// One model file as a single prop (all nodes merged), in metres, +Z up, standing on z = 0 and centred on the
 /// z axis.

@@ -9,6 +9,8 @@
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/frame_writer.h"
+#include "airsim360/dataset/people/people_export.h"
+#include "airsim360/sim/people/labels.h"
 #include "airsim360/dataset/summaries.h"
 
 namespace airsim360 {
@@ -54,6 +56,18 @@ std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& inde
 // True if all frames and all files that describe them are there: SHA256SUMS is the last file written.
 bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   if (spec.material && !fs::exists(folder / "materials.json")) return false;
+  if (!spec.people.empty()) {
+    const std::map<std::string, std::string> made = {{"coco_keypoints", "person_keypoints.json"},
+                                                     {"kitti", "kitti/label_2"},
+                                                     {"nuscenes", "nuscenes/v1.0-airsim360/sample.json"},
+                                                     {"monoloco", "monoloco.json"}};
+    for (const char* name : {"people.jsonl", "keypoint_orders.json"}) {
+      if (!fs::exists(folder / name)) return false;
+    }
+    for (const std::string& format : spec.people_formats) {
+      if (!fs::exists(folder / made.at(format))) return false;
+    }
+  }
   for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "trajectory.csv",
                            "README.md", "contact_sheet.png"}) {
     if (!fs::exists(folder / name)) return false;
@@ -87,22 +101,64 @@ RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
   return Extrapolate(shots[frame].body, dt);
 }
 
+/// The people of the frames: what they look like, and their labels.
+class PeopleSource {
+ public:
+  explicit PeopleSource(const CollectInput& input) : input_(input) {
+    if (input.people) dynamic_.emplace(input.tracer);
+  }
+  /// The scene at a shot; nullptr without people.
+  std::shared_ptr<const SceneState> StateOf(const Shot& shot) {
+    if (!input_.people || !shot.people) return nullptr;
+    auto state = std::make_shared<SceneState>();
+    state->t_ns = shot.t_ns;
+    ShowPeople(*input_.people, PosesOf(shot), *state);
+    return state;
+  }
+  FrameLabels Label(const Shot& shot, const std::shared_ptr<const SceneState>& state,
+                    const EncodeContext& context, const std::vector<Capture>& captures) {
+    FrameLabels labels;
+    if (!state) return labels;
+    const PeoplePoses poses = PosesOf(shot);
+    const std::shared_ptr<const RayTracer> tracer = dynamic_->At(state);
+    for (size_t v = 0; v < captures.size(); ++v) {
+      labels.push_back(
+          LabelPeople({*input_.people, poses, *tracer, context.views[v].camera, captures[v].X_WC}));
+    }
+    return labels;
+  }
+
+ private:
+  PeoplePoses PosesOf(const Shot& shot) const {
+    return PosesAt(*input_.people, *shot.people, shot.t_ns + input_.people->epoch_ns);
+  }
+  const CollectInput& input_;
+  std::optional<DynamicTracer> dynamic_;
+};
+
 // Renders and writes the missing frames.
 void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, Renderer& renderer,
                  DatasetIndex& index, CollectResult& result) {
-  const EncodeContext context = MakeEncodeContext(input.spec, input.scene);
+  const EncodeContext context = MakeEncodeContext(input.spec, input.scene, input.people.get());
+  PeopleSource people(input);
   FrameWriter writer(context, index, input.out);
   ProgressBar progress("collect", static_cast<int64_t>(frames.size()));
   for (int64_t frame : frames) {
     const Shot& shot = input.flight.shots.at(static_cast<size_t>(frame));
-    const NextTrigger next{NextPose(input.flight.shots, static_cast<size_t>(frame)), nullptr};
+    const auto i = static_cast<size_t>(frame);
+    const std::shared_ptr<const SceneState> state = people.StateOf(shot);
+    NextTrigger next{NextPose(input.flight.shots, i), state};
+    if (input.spec.flow && i + 1 < input.flight.shots.size()) next.state = people.StateOf(input.flight.shots[i + 1]);
     std::vector<Capture> captures = writer.Acquire();
     for (size_t v = 0; v < captures.size(); ++v) {
-      CaptureRig(MakeRig(input.spec, context.views[v]), shot.body, shot.t_ns, renderer, captures[v], &next);
+      PanoramicRig rig = MakeRig(input.spec, context.views[v]);
+      rig.state = state;
+      CaptureRig(rig, shot.body, shot.t_ns, renderer, captures[v], &next);
       result.render_ms += captures[v].stats.render_ms;
       result.rays += captures[v].stats.rays;
     }
-    writer.Submit(frame, std::move(captures));
+    FrameLabels labels = people.Label(shot, state, context, captures);
+    writer.Submit(frame, std::move(captures), std::move(labels));
     progress.Update(++result.written);
   }
   writer.Finish();
@@ -121,6 +177,14 @@ void WriteSummaries(const CollectInput& input) {
   write("frames.jsonl", AsBytes(FramesJsonl(index)));
   write("entities.json", AsBytes(EntitiesJson(index, input.scene)));
   if (input.spec.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
+  if (input.people) {
+    const std::string people = PeopleJsonl(index, input.spec);
+    write("people.jsonl", AsBytes(people));
+    for (const ExportedFile& file : ExportPeople(people, input.spec)) {
+      CreateWritableFolder((input.out / file.path).parent_path());
+      write(file.path.c_str(), AsBytes(file.text));
+    }
+  }
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
   write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
   if (!input.trajectory_json.empty()) write("trajectory.json", AsBytes(input.trajectory_json));
@@ -152,6 +216,8 @@ CollectResult Collect(const CollectInput& input, Renderer& renderer) {
   if (!fs::exists(input.out / kMetaName)) WriteFileAtomically(input.out / kMetaName, meta);
   for (const ProductFolder& folder : ProductFolders(input.spec))
     CreateWritableFolder(input.out / folder.name);
+  if (input.spec.overlay) CreateWritableFolder(input.out / "overlay");
+  if (input.spec.crops) CreateWritableFolder(input.out / "crops");
   {
     DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
     const std::vector<int64_t> missing = MissingFrames(input, index);

@@ -7,6 +7,7 @@
 
 #include "airsim360/dataset/spec.h"
 #include "airsim360/sim/fly_route.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 
@@ -17,6 +18,9 @@ struct CollectInput {
   std::filesystem::path out;
   std::string trajectory_json =
       {};  ///< content of trajectory.json beside trajectory.csv; empty = no such file
+  /// Of the scene, whose states the shots hold; null = nobody. `tracer` is of the scene too.
+  std::shared_ptr<const SimPeople> people = nullptr;
+  std::shared_ptr<const RayTracer> tracer = nullptr;
 };
 
 /// What a run did.

@@ -8,6 +8,7 @@
 #include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/encode_extra.h"
+#include "airsim360/dataset/people/person_record.h"
 #include "airsim360/image/codecs.h"
 
 namespace airsim360 {
@@ -79,13 +80,55 @@ void FillRangeFigures(const std::vector<Capture>& captures, FrameRecord& record)
 
 }  // namespace
 
-EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene) {
-  EncodeContext context{spec, scene, Views(spec), {}};
+EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene, const SimPeople* people) {
+  EncodeContext context{spec, scene, Views(spec), {}, people};
   for (const View& view : context.views) context.solid_angles.emplace_back(view.camera);
   return context;
 }
 
-EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures) {
+namespace {
+
+// Rows of the persons of every view, and a picture of everyone who can be seen.
+void EncodePeople(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures,
+                  const FrameLabels& people, EncodedFrame& frame) {
+  struct Crop {
+    size_t view;
+    const PersonLabel* label;
+  };
+  std::vector<Crop> crops;
+  for (size_t v = 0; v < people.size(); ++v) {
+    ViewRecord& view = frame.record.views[v];
+    view.persons = PersonRows({*context.people, context.views[v].camera, captures[v].frame.entity, view.segments},
+                              people[v]);
+    for (size_t i = 0; i < people[v].size() && context.spec.crops; ++i) {
+      if (view.persons[i].pixels > 0) crops.push_back({v, &people[v][i]});
+    }
+  }
+  for (size_t v = 0; v < people.size() && context.spec.overlay; ++v) {
+    const View& view = context.views[v];
+    EncodedFile file;
+    file.bytes = EncodePng(DrawPeople(captures[v].frame.rgb, view.camera, people[v]), std::nullopt);
+    file.record = {"overlay" + view.suffix, "overlay/" + Stem(index) + view.suffix + ".png",
+                   static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
+    frame.files.push_back(std::move(file));
+  }
+  const size_t first = frame.files.size();
+  frame.files.resize(first + crops.size());
+  ParallelFor(static_cast<int64_t>(crops.size()), [&](int64_t task) {
+    const Crop& crop = crops[static_cast<size_t>(task)];
+    const View& view = context.views[crop.view];
+    const std::string stem = CropStem(index, view.suffix, crop.label->person);
+    EncodedFile& file = frame.files[first + static_cast<size_t>(task)];
+    file.bytes =
+        EncodePng(RenderCrop(captures[crop.view].frame.rgb, view.camera, CropOf(*crop.label)), std::nullopt);
+    file.record = {stem, stem + ".png", static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
+  });
+}
+
+}  // namespace
+
+EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures,
+                    const FrameLabels& people) {
   const std::vector<ProductFolder> folders = ProductFolders(context.spec);
   const size_t views = context.views.size();
   EncodedFrame frame;
@@ -121,6 +164,7 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
       FillRangeFigures(captures, frame.record);
     }
   });
+  EncodePeople(context, index, captures, people, frame);
   for (const EncodedFile& file : frame.files) frame.record.files.push_back(file.record);
   return frame;
 }

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/record.h"
+#include "airsim360/sim/people/labels.h"
 
 namespace airsim360 {
 
@@ -26,10 +27,17 @@ struct EncodeContext {
   const Scene& scene;
   std::vector<View> views;
   std::vector<PixelSolidAngles> solid_angles;  ///< one for each view
+  const SimPeople* people = nullptr;           ///< null: nobody
 };
-EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene);
+EncodeContext MakeEncodeContext(const DatasetSpec& spec, const Scene& scene,
+                                const SimPeople* people = nullptr);
+
+/// Labels of the people in one frame: of each view those who are in it.
+using FrameLabels = std::vector<std::vector<PersonLabel>>;
 
 /// Encodes the captures of one frame (one for each view of the context) on all threads of ParallelFor.
-EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures);
+/// `people`: as many lists as views, or none.
+EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vector<Capture>& captures,
+                    const FrameLabels& people = {});
 
 }  // namespace airsim360

@@ -33,8 +33,8 @@ std::vector<Capture> FrameWriter::Acquire() {
   return captures;
 }
 
-void FrameWriter::Submit(int64_t index, std::vector<Capture> captures) {
-  Job job{index, std::move(captures)};
+void FrameWriter::Submit(int64_t index, std::vector<Capture> captures, FrameLabels people) {
+  Job job{index, std::move(captures), std::move(people)};
   if (!background_) {
     Write(job);
     free_.push_back(std::move(job.captures));
@@ -79,7 +79,7 @@ void FrameWriter::Loop() {
 
 void FrameWriter::Write(const Job& job) {
   const auto start = std::chrono::steady_clock::now();
-  const EncodedFrame frame = Encode(context_, job.index, job.captures);
+  const EncodedFrame frame = Encode(context_, job.index, job.captures, job.people);
   ParallelFor(static_cast<int64_t>(frame.files.size()), [&](int64_t i) {
     const EncodedFile& file = frame.files[static_cast<size_t>(i)];
     WriteFileAtomically(folder_ / file.record.path, file.bytes);

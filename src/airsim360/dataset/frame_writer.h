@@ -26,7 +26,7 @@ class FrameWriter {
   /// writing.
   std::vector<Capture> Acquire();
   /// Hands over a frame; after an error in an earlier frame it is dropped.
-  void Submit(int64_t index, std::vector<Capture> captures);
+  void Submit(int64_t index, std::vector<Capture> captures, FrameLabels people = {});
   /// Waits until everything is written; rethrows what went wrong.
   void Finish();
   /// Milliseconds of encoding and writing so far; call after Finish.
@@ -36,6 +36,7 @@ class FrameWriter {
   struct Job {
     int64_t index;
     std::vector<Capture> captures;
+    FrameLabels people;
   };
   void Write(const Job& job);
   void Loop();

@@ -54,12 +54,20 @@ void DatasetIndex::AddFrame(const FrameRecord& frame, const std::string& json) {
       segment.Bind(11, s.solid_angle).Run();
     }
   }
+  Statement person(impl_->database, "INSERT INTO persons VALUES(?,?,?,?,?,?,?,?,?)");
+  for (const ViewRecord& view : frame.views) {
+    for (const PersonRow& p : view.persons) {
+      person.Bind(0, frame.index).Bind(1, view.suffix).Bind(2, int64_t{p.entity}).Bind(3, p.track);
+      person.Bind(4, p.behaviour).Bind(5, p.range).Bind(6, p.pixels).Bind(7, p.visible_fraction);
+      person.Bind(8, p.json).Run();
+    }
+  }
   transaction.Commit();
 }
 
 void DatasetIndex::RemoveFrame(int64_t index) {
   Transaction transaction(impl_->database);
-  for (const char* table : {"frames", "files", "segments"}) {
+  for (const char* table : {"frames", "files", "segments", "persons"}) {
     Statement(impl_->database, std::string("DELETE FROM ") + table + " WHERE frame=?").Bind(0, index).Run();
   }
   transaction.Commit();
@@ -104,6 +112,14 @@ std::vector<Segment> DatasetIndex::Segments(int64_t frame, const std::string& vi
                         rows.Real(9)});
   }
   return segments;
+}
+
+std::vector<std::string> DatasetIndex::Persons(int64_t frame, const std::string& view) const {
+  std::vector<std::string> persons;
+  Statement rows(impl_->database, "SELECT json FROM persons WHERE frame=? AND view=? ORDER BY entity");
+  rows.Bind(0, frame).Bind(1, view);
+  while (rows.Next()) persons.push_back(rows.Text(0));
+  return persons;
 }
 
 std::vector<CategoryTotal> DatasetIndex::CategoryTotals() const {

@@ -1,5 +1,5 @@
 // index.sqlite: the journal of a collection while it runs and the queryable index of the finished dataset.
-// Tables: frames, files, segments, entities, categories; view frame_categories (docs/datasets.md has the
+// Tables: frames, files, segments, persons, entities, categories; view frame_categories (docs/datasets.md has the
 // columns).
 #pragma once
 
@@ -44,6 +44,7 @@ class DatasetIndex {
   std::vector<FileRecord> Files(int64_t frame) const;  ///< in the order in which they were added
   std::string FrameLine(int64_t frame) const;          ///< line of frames.jsonl
   std::vector<Segment> Segments(int64_t frame, const std::string& view) const;  ///< by entity id
+  std::vector<std::string> Persons(int64_t frame, const std::string& view) const;  ///< texts, by entity id
   std::vector<CategoryTotal> CategoryTotals() const;                            ///< by category id
   std::vector<SeenEntity> SeenEntities() const;                                 ///< by entity id
 

@@ -58,6 +58,7 @@ void DatasetIndex::Finish(const std::filesystem::path& folder, const Scene& scen
       database.Run("INSERT INTO main.frames SELECT * FROM journal.frames ORDER BY frame");
       database.Run("INSERT INTO main.files SELECT * FROM journal.files ORDER BY frame, position");
       database.Run("INSERT INTO main.segments SELECT * FROM journal.segments ORDER BY frame, view, entity");
+      database.Run("INSERT INTO main.persons SELECT * FROM journal.persons ORDER BY frame, view, entity");
       InsertNames(database, scene);
       transaction.Commit();
     }

@@ -13,6 +13,8 @@ CREATE TABLE files(frame INTEGER, position INTEGER, key TEXT, path TEXT, bytes I
 CREATE TABLE segments(frame INTEGER, view TEXT, entity INTEGER, category INTEGER, area INTEGER,
   x INTEGER, y INTEGER, w INTEGER, h INTEGER, wrap_x INTEGER, wrap_w INTEGER, solid_angle REAL,
   PRIMARY KEY(frame, view, entity)) WITHOUT ROWID;
+CREATE TABLE persons(frame INTEGER, view TEXT, entity INTEGER, track INTEGER, behaviour TEXT, range REAL,
+  pixels INTEGER, visible_fraction REAL, json TEXT, PRIMARY KEY(frame, view, entity)) WITHOUT ROWID;
 CREATE TABLE categories(category INTEGER PRIMARY KEY, path TEXT, parent INTEGER, kind TEXT);
 CREATE TABLE entities(entity INTEGER PRIMARY KEY, name TEXT, category INTEGER, first_frame INTEGER);
 CREATE VIEW frame_categories AS SELECT frame, category, path, SUM(area) AS pixels, SUM(solid_angle) AS solid_angle,

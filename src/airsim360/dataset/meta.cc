@@ -36,6 +36,12 @@ Json ParametersJson(const DatasetSpec& spec) {
   json["exposure"] = spec.auto_exposure ? Json("auto") : Json(spec.exposure_ev);
   json["radiance"] = spec.radiance;
   json["lens"] = kLensModelNames[static_cast<int>(spec.lens)];
+  if (!spec.people.empty()) {
+    json["people"] = spec.people;
+    json["crops"] = spec.crops;
+    json["overlay"] = spec.overlay;
+    json["people_formats"] = spec.people_formats;
+  }
   return json;
 }
 

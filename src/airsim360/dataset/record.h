@@ -19,9 +19,21 @@ struct FileRecord {
   std::string sha256;
 };
 
+/// A person in one picture.
+struct PersonRow {
+  EntityId entity = kNoEntity;
+  int64_t track = 0;
+  std::string behaviour;
+  double range = 0;  ///< metres to the middle of the body
+  int64_t pixels = 0;  ///< that show the person
+  double visible_fraction = 0;
+  std::string json;  ///< entry of people.jsonl
+};
+
 struct ViewRecord {
   std::string suffix;
   std::vector<Segment> segments;
+  std::vector<PersonRow> persons = {};  ///< by entity id
 };
 
 /// A finished frame.

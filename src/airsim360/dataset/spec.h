@@ -40,7 +40,15 @@ struct DatasetSpec {
   bool radiance = false;       ///< linear light, radiance/STEM.exr
   LensModel lens = LensModel::kIdeal;
   bool position = false, albedo = false, material = false, sky = false, flow = false, coverage = false;
+  std::string people;        ///< who they are, in words with the SHA-256 of their files; empty = nobody
+  bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
+  bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
+  std::vector<std::string> people_formats;  ///< of kPeopleFormats, in that order
 };
+
+/// Further files made of people.jsonl.
+inline constexpr const char* kPeopleFormats[] = {"coco_keypoints", "kitti", "nuscenes", "monoloco"};
+
 
 /// A product that a dataset holds only if it is asked for.
 struct OptionalProduct {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "airsim360/base/random.h"
+#include "airsim360/dataset/people/person_record.h"
 
 namespace airsim360 {
 namespace {
@@ -37,6 +38,15 @@ Json SegmentJson(const Segment& segment) {
 }
 
 }  // namespace
+
+std::string PeopleJsonl(const DatasetIndex& index, const DatasetSpec& spec) {
+  std::string text;
+  for (const int64_t frame : index.Frames()) {
+    const std::string line = index.FrameLine(frame);
+    for (const View& view : Views(spec)) text += PeopleLine(line, spec, view, index.Persons(frame, view.suffix)) + "\n";
+  }
+  return text;
+}
 
 std::string FramesJsonl(const DatasetIndex& index) {
   std::string text;

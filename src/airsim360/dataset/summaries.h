@@ -15,6 +15,8 @@ std::string FramesJsonl(const DatasetIndex& index);
 std::string EntitiesJson(const DatasetIndex& index, const Scene& scene);
 /// panoptic.json: COCO panoptic over entity/*.png, with bbox_wrap and solid_angle beside the standard keys.
 std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
+/// people.jsonl: one line for each picture, in order.
+std::string PeopleJsonl(const DatasetIndex& index, const DatasetSpec& spec);
 /// materials.json: value in material/*.png -> name and appearance of every material of the scene.
 std::string MaterialsJson(const Scene& scene);
 /// README.md: the dataset card.

@@ -31,11 +31,25 @@ Joint JointByName(std::string_view name);
 /// Parent of a joint; the pelvis is its own.
 Joint ParentOf(Joint joint);
 
+/// What a person may hold or push. Part of the person's mesh, but an entity of its own; shown by some
+/// behaviours only.
+enum class Prop : uint8_t { kNone, kPhone, kBag, kUmbrella, kStroller, kCount };
+inline constexpr int kPropCount = static_cast<int>(Prop::kCount);
+
 /// World poses of all joints of one person at one instant. The axes of every joint in the rest pose (upright,
 /// arms hanging down 45 degrees from horizontal as MakeHuman's, palms down) are those of the person frame P: +X forward,
 /// +Y left, +Z up, origin on the ground between the feet.
 struct SkeletonPose {
   std::array<RigidTransform, kJointCount> X_WJ;
+  RigidTransform X_WP;  ///< the person frame; carries what stands on the ground (stroller)
+  uint32_t props = 0;   ///< bit 1 << Prop: what is shown
+
+  const RigidTransform& operator[](Joint joint) const { return X_WJ[static_cast<size_t>(joint)]; }
+  RigidTransform& operator[](Joint joint) { return X_WJ[static_cast<size_t>(joint)]; }
+  bool Shows(Prop prop) const { return (props >> static_cast<int>(prop) & 1) != 0; }
 };
+
+/// Snake-case name of a prop ("phone").
+std::string_view PropName(Prop prop);
 
 }  // namespace airsim360

@@ -39,6 +39,7 @@ void Append16(std::vector<uint8_t>& out, int64_t value) {
 int64_t Quantized(double value, double unit) {
   const double steps = std::round(value / unit);
   if (!(std::fabs(steps) <= 32767)) {
+    if (unit == kYawUnit) throw InputError("Crazyflie compressed: the heading turns more than nine times");
     throw InputError("Crazyflie compressed: a coordinate of " + std::to_string(value) +
                      " m is beyond the ±32.767 m that this form can hold; use the format 'crazyflie'");
   }
@@ -66,11 +67,13 @@ std::vector<Cut> Cuts(const PolynomialTrajectory& path) {
 
 }  // namespace
 
-std::vector<uint8_t> CompressTrajectory(const PolynomialTrajectory& path, double yaw, Vec3d origin) {
+std::vector<uint8_t> CompressTrajectory(const PolynomialTrajectory& path, const YawRule& rule, Vec3d origin) {
+  const YawProfile yaw(path, rule);
   std::vector<uint8_t> out;
   const Vec3d start = path.At(0).p - origin;
   for (int axis = 0; axis < 3; ++axis) Append16(out, Quantized(start[axis], kPositionUnit));
-  Append16(out, Quantized(std::remainder(yaw, 2 * std::numbers::pi), kYawUnit));
+  double last_yaw = std::remainder(yaw.At(0), 2 * std::numbers::pi);
+  Append16(out, Quantized(last_yaw, kYawUnit));
   for (const Cut& cut : Cuts(path)) {
     // A segment goes on beyond its end by less than a millisecond, where its neighbour is the same to the
     // power of the continuity.
@@ -91,6 +94,16 @@ std::vector<uint8_t> CompressTrajectory(const PolynomialTrajectory& path, double
       types |= static_cast<uint8_t>((constant ? kConstant : kDegree7) << (2 * axis));
       for (int i = 1; !constant && i < kPowers; ++i)
         Append16(body, Quantized(points[i] - origin[axis], kPositionUnit));
+    }
+    if (!yaw.is_constant()) {
+      const std::array<double, kPowers> powers =
+          yaw.Powers(static_cast<double>(cut.from) * 1e-3, duration, last_yaw);
+      double c[kPowers], points[kPowers];
+      std::copy(powers.begin(), powers.end(), c);
+      ToBezier(c, duration, points);
+      types |= static_cast<uint8_t>(kDegree7 << 6);
+      for (int i = 1; i < kPowers; ++i) Append16(body, Quantized(points[i], kYawUnit));
+      last_yaw = points[kPowers - 1];
     }
     out.push_back(types);
     Append16(out, cut.to - cut.from);

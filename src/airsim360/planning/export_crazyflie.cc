@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kPowers = 8, kColumns = 33;
 constexpr int kChecks = 64;  // times a row at which its error is measured
-constexpr int kMaxHalvings = 12;
+constexpr int kMaxHalvings = 12, kMaxYawHalvings = 4;
+constexpr double kYawTolerance = 0.5 * std::numbers::pi / 180;
 constexpr size_t kMaxRows = 100'000;
 
 // Coefficients of one segment about local time `from`, padded to degree 7.
@@ -41,12 +42,12 @@ Number Horner(const Number* c, Number t) {
   return sum;
 }
 
-Poly4d Rounded(const Piece& piece, double yaw) {
+Poly4d Rounded(const Piece& piece, const std::array<double, kPowers>& yaw) {
   Poly4d row;
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < kPowers; ++i) row.p[axis][i] = static_cast<float>(piece.c[axis][i]);
   }
-  row.p[3][0] = static_cast<float>(yaw);
+  for (int i = 0; i < kPowers; ++i) row.p[3][i] = static_cast<float>(yaw[static_cast<size_t>(i)]);
   row.duration = static_cast<float>(piece.duration);
   return row;
 }
@@ -63,6 +64,17 @@ double ErrorOf(const Poly4d& row, const Piece& piece) {
   return worst;
 }
 
+double YawErrorOf(const Poly4d& row, const YawProfile& yaw, double from) {
+  if (yaw.is_constant()) return 0;
+  double worst = 0;
+  for (int k = 0; k <= kChecks; ++k) {
+    const double t = static_cast<double>(row.duration) * k / kChecks;
+    const double error = Horner(row.p[3], static_cast<float>(t)) - yaw.At(from + t);
+    worst = std::max(worst, std::fabs(std::remainder(error, 2 * std::numbers::pi)));
+  }
+  return worst;
+}
+
 }  // namespace
 
 Vec3d EvaluatePoly4d(std::span<const Poly4d> rows, double t) {
@@ -72,20 +84,28 @@ Vec3d EvaluatePoly4d(std::span<const Poly4d> rows, double t) {
   return {Horner(rows[i].p[0], local), Horner(rows[i].p[1], local), Horner(rows[i].p[2], local)};
 }
 
-Poly4dRows ToPoly4d(const PolynomialTrajectory& path, double yaw, double tolerance) {
+Poly4dRows ToPoly4d(const PolynomialTrajectory& path, const YawRule& rule, double tolerance) {
   Poly4dRows out;
+  const YawProfile yaw(path, rule);
+  double last_yaw = yaw.At(0);
   for (size_t s = 0; s < path.segments(); ++s) {
     for (int halvings = 0;; ++halvings) {
       const int parts = 1 << halvings;
       const double duration = path.durations()[s] / parts;
       std::vector<Poly4d> rows;
-      double worst = 0;
+      double worst = 0, worst_yaw = 0, end_yaw = last_yaw;
       for (int k = 0; k < parts; ++k) {
         const Piece piece = PieceOf(path, s, k * duration, duration);
-        rows.push_back(Rounded(piece, yaw));
+        const double from = path.start(s) + k * duration;
+        rows.push_back(Rounded(piece, yaw.Powers(from, duration, end_yaw)));
+        end_yaw = Horner(rows.back().p[3], rows.back().duration);
         worst = std::max(worst, ErrorOf(rows.back(), piece));
+        worst_yaw = std::max(worst_yaw, YawErrorOf(rows.back(), yaw, from));
       }
       if (worst > tolerance / 2 && halvings < kMaxHalvings) continue;
+      if (worst_yaw > kYawTolerance && halvings < kMaxYawHalvings) continue;
+      last_yaw = end_yaw;
+      out.worst_yaw_error = std::max(out.worst_yaw_error, worst_yaw);
       out.rows.insert(out.rows.end(), rows.begin(), rows.end());
       out.worst_error = std::max(out.worst_error, worst);
       break;

@@ -1,6 +1,8 @@
 #include "airsim360/planning/export_qgc.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "airsim360/planning/number_text.h"
 
@@ -14,11 +16,19 @@ constexpr int kRelativeAltitude = 3, kMissionFrame = 2;
 class Items {
  public:
   explicit Items(const GeoPoint& origin) : frame_(origin) {}
-  void AddPlace(Command command, Vec3d p_W) {
+  void AddPlace(Command command, Vec3d p_W, std::optional<double> yaw) {
     const GeoPoint g = frame_.ToGeodetic(p_W);
     const double altitude = g.altitude - frame_.origin().altitude;
     const double place[] = {g.latitude_deg, g.longitude_deg, altitude};
-    std::string params = "0, 0, 0, null, ";
+    std::string params = "0, 0, 0, ";
+    if (yaw) {
+      // Degrees from north, clockwise.
+      const double heading = std::fmod(450 - *yaw * 180 / std::numbers::pi, 360);
+      AppendNumber(params, heading);
+    } else {
+      params += "null";
+    }
+    params += ", ";
     AppendNumbers(params, place, ", ");
     std::string extra = "\"AMSLAltAboveTerrain\": null, \"Altitude\": ";
     AppendNumber(extra, altitude);
@@ -48,7 +58,12 @@ class Items {
 
 std::string QgcPlan(const PolynomialTrajectory& path, const QgcOptions& options) {
   Items items(options.origin);
-  items.AddPlace(kTakeOff, path.At(0).p);
+  std::optional<YawProfile> profile;
+  if (options.yaw) profile.emplace(path, *options.yaw);
+  const auto add = [&](Command command, double t) {
+    items.AddPlace(command, path.At(t).p, profile ? std::optional(profile->At(t)) : std::nullopt);
+  };
+  add(kTakeOff, 0);
   items.AddSpeed(options.speed);
   for (size_t i = 0; i < path.segments(); ++i) {
     const double duration = path.durations()[i];
@@ -56,10 +71,9 @@ std::string QgcPlan(const PolynomialTrajectory& path, const QgcOptions& options)
     double speed = 0;
     for (int k = 0; k <= 32; ++k) speed = std::max(speed, Norm(path.At(path.start(i) + duration * k / 32).v));
     const int parts = std::max(1, static_cast<int>(std::ceil(1.05 * speed * duration / options.spacing)));
-    for (int k = 1; k <= parts; ++k)
-      items.AddPlace(kWaypoint, path.At(path.start(i) + duration * k / parts).p);
+    for (int k = 1; k <= parts; ++k) add(kWaypoint, path.start(i) + duration * k / parts);
   }
-  items.AddPlace(kLand, path.At(path.duration()).p);
+  add(kLand, path.duration());
   const double home[] = {options.origin.latitude_deg, options.origin.longitude_deg, options.origin.altitude};
   std::string out =
       "{\n  \"fileType\": \"Plan\",\n  \"version\": 1,\n  \"groundStation\": \"QGroundControl\",\n"

@@ -50,7 +50,7 @@ TEST(Poly4d, ReadsBackExactlyAndFliesWithinAMillimetre) {
   for (uint64_t seed = 0; seed < 12; ++seed) {
     const PolynomialTrajectory path = Flight(seed, 50 + 10 * static_cast<double>(seed),
                                              seed % 2 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap);
-    const Poly4dRows rows = ToPoly4d(path, 0.3);
+    const Poly4dRows rows = ToPoly4d(path, ConstantYaw{0.3});
     const std::vector<Poly4d> back = ParsePoly4dCsv(Poly4dCsv(rows.rows), "test.csv");
     ASSERT_EQ(back.size(), rows.rows.size());
     for (size_t i = 0; i < back.size(); ++i) {
@@ -72,7 +72,7 @@ TEST(Poly4d, LongPiecesAreHalvedUntilSinglePrecisionIsEnough) {
   const Vec3d points[] = {{0, 0, 5}, {3000, 100, 50}};
   const double durations[] = {400};
   const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
-  const Poly4dRows coarse = ToPoly4d(path, 0, 0.1), fine = ToPoly4d(path, 0, 2e-3);
+  const Poly4dRows coarse = ToPoly4d(path, ConstantYaw{}, 0.1), fine = ToPoly4d(path, ConstantYaw{}, 2e-3);
   EXPECT_LE(coarse.worst_error, 0.05);
   EXPECT_GE(fine.rows.size(), coarse.rows.size());
 }
@@ -98,7 +98,7 @@ TEST(Compressed, FliesWithinTwoMillimetresAtEveryTime) {
     const PolynomialTrajectory path =
         Flight(seed, 28, seed % 2 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap);
     const Vec3d origin = path.At(0).p;
-    const std::vector<uint8_t> bytes = CompressTrajectory(path, -1.2, origin);
+    const std::vector<uint8_t> bytes = CompressTrajectory(path, ConstantYaw{-1.2}, origin);
     const CompressedTrajectory back(bytes);
     EXPECT_NEAR(back.duration(), path.duration(), 5.1e-4);
     double worst = 0;
@@ -113,11 +113,65 @@ TEST(Compressed, FliesWithinTwoMillimetresAtEveryTime) {
 }
 
 TEST(Compressed, RefusesWhatItCannotHold) {
-  EXPECT_THROW(CompressTrajectory(Flight(1, 150), 0, {}), InputError);
-  std::vector<uint8_t> bytes = CompressTrajectory(Flight(1, 20), 0, {});
+  EXPECT_THROW(CompressTrajectory(Flight(1, 150), ConstantYaw{}, {}), InputError);
+  std::vector<uint8_t> bytes = CompressTrajectory(Flight(1, 20), ConstantYaw{}, {});
   bytes.pop_back();
   EXPECT_THROW(CompressedTrajectory{bytes}, InputError);
   EXPECT_THROW(CompressedTrajectory{std::vector<uint8_t>{}}, InputError);
+}
+
+// A level circle of four corners flown twice round: the heading turns through more than two whole turns.
+PolynomialTrajectory Rounds() {
+  std::vector<Vec3d> points;
+  for (int i = 0; i <= 8; ++i)
+    points.push_back({9 * std::cos(i * std::numbers::pi / 2), 9 * std::sin(i * std::numbers::pi / 2), 5});
+  return AllocateTimes(points, {.speed = 6, .acceleration = 3}).trajectory;
+}
+
+double YawGap(double a, double b) { return std::fabs(std::remainder(a - b, 2 * std::numbers::pi)); }
+
+TEST(Heading, AlongTheVelocityInEveryFormat) {
+  const PolynomialTrajectory path = Rounds();
+  const YawProfile yaw(path, YawAlongVelocity{});
+  PlanRecord record = RecordOf(path);
+  record.yaw = YawAlongVelocity{};
+
+  // Crazyflie rows and their compressed form, half a degree; without a jump of a turn between pieces.
+  const std::vector<Poly4d> rows = ToPoly4d(path, YawAlongVelocity{}).rows;
+  const CompressedTrajectory compressed(CompressTrajectory(path, YawAlongVelocity{}, path.At(0).p));
+  double from = 0, last = rows[0].p[3][0];
+  for (const Poly4d& row : rows) {
+    EXPECT_NEAR(row.p[3][0], last, 1e-3);
+    for (int k = 0; k <= 20; ++k) {
+      const double t = static_cast<double>(row.duration) * k / 20;
+      double value = 0;
+      for (int i = 8; i-- > 0;) value = value * t + static_cast<double>(row.p[3][i]);
+      EXPECT_LT(YawGap(value, yaw.At(from + t)), 0.01);
+      EXPECT_LT(YawGap(compressed.At(from + t).yaw, yaw.At(from + t)), 0.05);
+      last = value;
+    }
+    from += static_cast<double>(row.duration);
+  }
+  EXPECT_GT(std::fabs(last - static_cast<double>(rows[0].p[3][0])), 3.5 * std::numbers::pi);
+
+  // Samples: radians from east; MAVLink: from north, clockwise, with its rate.
+  for (const auto& row : ParseNumbers(TrajectorySamplesCsv(record, 0.25))) {
+    ASSERT_EQ(row.size(), 11u);
+    EXPECT_LT(YawGap(row[10], yaw.At(row[0])), 1e-12);
+  }
+  const auto setpoints = ParseNumbers(MavlinkSetpointsCsv(record, 0.02));
+  for (size_t i = 1; i + 1 < setpoints.size(); ++i) {
+    EXPECT_LT(YawGap(setpoints[i][12], std::atan2(setpoints[i][7], setpoints[i][6])), 0.02);
+    const double difference = std::remainder(setpoints[i + 1][12] - setpoints[i - 1][12], 2 * std::numbers::pi);
+    if (i > 25 && i + 27 < setpoints.size()) EXPECT_NEAR(setpoints[i][13], difference / 0.04, 0.1);
+  }
+}
+
+TEST(Heading, MissionsLookAtAPointIfAsked) {
+  const PolynomialTrajectory path = Flight(5, 80);
+  const std::string plan = QgcPlan(path, {.origin = {47.4, 8.5, 488}, .yaw = ConstantYaw{0}});
+  EXPECT_NE(plan.find("\"params\": [0, 0, 0, 90, "), std::string::npos);  // east
+  EXPECT_EQ(plan.find("null, 47"), std::string::npos);
 }
 
 TEST(Csv, SamplesAreTheTrajectoryToTheLastDigit) {
@@ -139,7 +193,7 @@ TEST(Csv, SamplesAreTheTrajectoryToTheLastDigit) {
 TEST(Mavlink, SetpointsAreNorthEastDownWithYawClockwiseFromNorth) {
   const PolynomialTrajectory path = Flight(4, 60);
   PlanRecord record = RecordOf(path);
-  record.yaw = std::numbers::pi / 2;  // north
+  record.yaw = ConstantYaw{std::numbers::pi / 2};  // north
   const auto rows = ParseNumbers(MavlinkSetpointsCsv(record, 0.02));
   for (const auto& row : rows) {
     ASSERT_EQ(row.size(), 14u);

@@ -26,16 +26,35 @@ void AppendList(std::string& out, std::span<const double> values) {
   out += ']';
 }
 
+/// Powers of the heading in every segment; neighbours meet without a jump of a turn.
+std::vector<std::array<double, 8>> YawSegments(const PolynomialTrajectory& path, const YawProfile& yaw) {
+  std::vector<std::array<double, 8>> segments;
+  double at_end = yaw.At(0);
+  for (size_t i = 0; i < path.segments(); ++i) {
+    const double duration = path.durations()[i];
+    segments.push_back(yaw.Powers(path.start(i), duration, at_end));
+    at_end = 0;
+    for (size_t k = 8; k-- > 0;) at_end = at_end * duration + segments.back()[k];
+  }
+  return segments;
+}
+
 }  // namespace
 
 std::string TrajectorySamplesCsv(const PlanRecord& plan, double interval) {
-  std::string out = "t_s,px,py,pz,vx,vy,vz,ax,ay,az\n";
+  const YawProfile yaw(plan.trajectory, plan.yaw);
+  std::string out = "t_s,px,py,pz,vx,vy,vz,ax,ay,az";
+  out += yaw.is_constant() ? "\n" : ",yaw\n";
   for (const double t : SampleTimes(plan.trajectory.duration(), interval)) {
     const TrajectoryPoint point = plan.trajectory.At(t);
     AppendNumber(out, plan.start_time + t);
     for (const Vec3d v : {point.p, point.v, point.a}) {
       out += ',';
       AppendVector(out, v, ",");
+    }
+    if (!yaw.is_constant()) {
+      out += ',';
+      AppendNumber(out, yaw.At(t));
     }
     out += '\n';
   }
@@ -79,7 +98,17 @@ std::string TrajectoryJson(const PlanRecord& plan) {
   AppendField(out, "max_acceleration", plan.peaks.acceleration.value);
   AppendField(out, "max_acceleration_time", plan.start_time + plan.peaks.acceleration.time);
   if (plan.lower_bound > 0) AppendField(out, "time_lower_bound", plan.lower_bound);
-  AppendField(out, "yaw", plan.yaw);
+  const YawProfile yaw(path, plan.yaw);
+  if (yaw.is_constant()) {
+    AppendField(out, "yaw", yaw.At(0));
+  } else {
+    out += "  \"yaw_coefficients\": [";
+    for (const auto& powers : YawSegments(path, yaw)) {
+      out += out.back() == '[' ? "\n    " : ",\n    ";
+      AppendList(out, powers);
+    }
+    out += "],\n";
+  }
   if (plan.certificate) {
     AppendField(out, "radius", plan.radius);
     out += std::string("  \"collision_free\": ") + (plan.certificate->certified ? "true" : "false") + ",\n";
@@ -99,17 +128,21 @@ std::string PolynomialTrajectoryYaml(const PlanRecord& plan) {
       "# mav_planning_msgs/PolynomialTrajectory\nheader: {seq: 0, stamp: {secs: 0, nsecs: 0}, frame_id: "
       "world}\nsegments:\n";
   const char* names[] = {"x", "y", "z"};
+  const YawProfile profile(path, plan.yaw);
+  const auto yaws = YawSegments(path, profile);
+  const size_t powers = profile.is_constant() ? static_cast<size_t>(path.degree()) + 1 : 8;
   for (size_t i = 0; i < path.segments(); ++i) {
-    out += "- num_coeffs: " + std::to_string(path.degree() + 1) + "\n  segment_time: ";
+    out += "- num_coeffs: " + std::to_string(powers) + "\n  segment_time: ";
     AppendNumber(out, path.durations()[i]);
     for (int axis = 0; axis < 3; ++axis) {
       out += std::string("\n  ") + names[axis] + ": ";
-      AppendList(out, path.coefficients(i, axis));
+      const auto c = path.coefficients(i, axis);
+      std::vector<double> padded(c.begin(), c.end());
+      padded.resize(powers);
+      AppendList(out, padded);
     }
-    std::vector<double> yaw(static_cast<size_t>(path.degree() + 1), 0.0);
-    yaw[0] = plan.yaw;
     out += "\n  yaw: ";
-    AppendList(out, yaw);
+    AppendList(out, std::span(yaws[i]).first(powers));
     out += '\n';
   }
   return out;
@@ -117,7 +150,8 @@ std::string PolynomialTrajectoryYaml(const PlanRecord& plan) {
 
 std::string MavlinkSetpointsCsv(const PlanRecord& plan, double interval) {
   std::string out = "time_boot_ms,coordinate_frame,type_mask,x,y,z,vx,vy,vz,afx,afy,afz,yaw,yaw_rate\n";
-  const double yaw = std::remainder(std::numbers::pi / 2 - plan.yaw, 2 * std::numbers::pi);
+  constexpr double kTurn = 2 * std::numbers::pi, kStep = 1e-3;  // s, of the rate's difference
+  const YawProfile yaw(plan.trajectory, plan.yaw);
   for (const double t : SampleTimes(plan.trajectory.duration(), interval)) {
     const TrajectoryPoint point = plan.trajectory.At(t);
     out += std::to_string(std::llround(t * 1000)) + ",1,0";
@@ -126,8 +160,11 @@ std::string MavlinkSetpointsCsv(const PlanRecord& plan, double interval) {
       AppendVector(out, {v.y, v.x, -v.z}, ",");
     }
     out += ',';
-    AppendNumber(out, yaw);
-    out += ",0\n";
+    AppendNumber(out, std::remainder(std::numbers::pi / 2 - yaw.At(t), kTurn));
+    out += ',';
+    // Anticlockwise seen from above is negative in NED; 0.0 instead of -0.
+    AppendNumber(out, 0.0 - std::remainder(yaw.At(t + kStep) - yaw.At(t - kStep), kTurn) / (2 * kStep));
+    out += '\n';
   }
   return out;
 }

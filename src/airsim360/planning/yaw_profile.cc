@@ -89,4 +89,36 @@ double YawProfile::At(double t) const {
   });
 }
 
+std::array<double, 8> YawProfile::Powers(double from, double duration, double near) const {
+  constexpr int kNodes = 8, kBetween = 16;  // samples from one node to the next, so that no turn is missed
+  double place[kNodes], difference[kNodes];
+  double yaw = near;
+  for (int i = 0; i < kNodes; ++i) {
+    place[i] = 0.5 * (1 - std::cos(kPi * i / (kNodes - 1)));
+    for (int k = i == 0 ? kBetween : 1; k <= kBetween; ++k) {
+      const double before = i == 0 ? 0 : place[i - 1];
+      const double at = before + (place[i] - before) * k / kBetween;
+      yaw += std::remainder(At(from + at * duration) - yaw, 2 * kPi);
+    }
+    difference[i] = yaw;
+  }
+  // Newton's divided differences, then his form expanded from the last node to the first.
+  for (int order = 1; order < kNodes; ++order) {
+    for (int i = kNodes - 1; i >= order; --i) {
+      difference[i] = (difference[i] - difference[i - 1]) / (place[i] - place[i - order]);
+    }
+  }
+  std::array<double, kNodes> powers = {};
+  for (int node = kNodes - 1; node >= 0; --node) {
+    for (int i = kNodes - 1; i >= 0; --i) powers[i] = (i > 0 ? powers[i - 1] : 0) - place[node] * powers[i];
+    powers[0] += difference[node];
+  }
+  double scale = 1;
+  for (double& power : powers) {
+    power *= scale;
+    scale /= duration;
+  }
+  return powers;
+}
+
 }  // namespace airsim360

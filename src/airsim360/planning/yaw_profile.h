@@ -1,6 +1,7 @@
 // Where a vehicle looks while it flies a path.
 #pragma once
 
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -36,6 +37,13 @@ class YawProfile {
   YawProfile(const PolynomialTrajectory& trajectory, YawRule rule);
   /// Radians in (-pi, pi] at time t, clamped to the path.
   double At(double t) const;
+
+  /// Ascending powers (degree 7) of t - from over [from, from + duration], for formats that hold headings as
+  /// polynomials: interpolates the heading, unwrapped, at Chebyshev-Lobatto points, so that neighbouring
+  /// pieces meet. The turn is chosen so that the heading at `from` is within half a turn of `near`.
+  std::array<double, 8> Powers(double from, double duration, double near) const;
+
+  bool is_constant() const { return std::holds_alternative<ConstantYaw>(rule_); }
 
  private:
   const PolynomialTrajectory& trajectory_;

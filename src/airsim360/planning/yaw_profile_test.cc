@@ -46,6 +46,15 @@ TEST(YawProfile, GivenHeadingsTurnTheShortWay) {
   EXPECT_NEAR(yaw.At(3), -0.9 * kPi, 1e-12);
 }
 
+TEST(YawProfile, PowersReproduceAHeadingThatIsAPolynomialInTime) {
+  const PolynomialTrajectory trajectory = Straight({1, 0, 0});
+  const YawProfile yaw(trajectory, GivenYaw{{0, 4}, {3.0, 4.2}});  // crosses pi
+  const std::array<double, 8> powers = yaw.Powers(1, 2, 3.3 - 2 * kPi);
+  EXPECT_NEAR(powers[0], 3.3 - 2 * kPi, 1e-12);
+  EXPECT_NEAR(powers[1], 0.3, 1e-12);
+  for (size_t i = 2; i < 8; ++i) EXPECT_NEAR(powers[i], 0, 1e-10);
+}
+
 TEST(YawProfile, BadRulesAreRefused) {
   const PolynomialTrajectory trajectory = Straight({1, 0, 0});
   EXPECT_THROW(YawProfile(trajectory, ConstantYaw{NAN}), InputError);

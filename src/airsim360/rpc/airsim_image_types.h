@@ -61,12 +61,13 @@ struct ImageRequest {
 
 /// Floats as AirSim sends them, or as the bytes that ImageRequest::binary_float asks for.
 struct FloatPixels {
-  std::vector<float> values;
+  size_t count = 0;
   bool binary = false;
+  WireBlock bytes;  ///< binary: little-endian floats; else StoreWireFloats
 };
 inline void ToWire(WireWriter& writer, const FloatPixels& pixels) {
-  if (!pixels.binary) return writer.Floats(pixels.values);
-  writer.Binary({reinterpret_cast<const char*>(pixels.values.data()), pixels.values.size() * sizeof(float)});
+  pixels.binary ? writer.BinaryHeader(pixels.bytes.size()) : writer.ArrayHeader(pixels.count);
+  writer.Append(pixels.bytes);
 }
 
 struct ImageResponse {
@@ -90,15 +91,5 @@ struct ImageResponse {
     v("image_type", image_type), v("annotation_name", annotation_name);
   }
 };
-
-inline size_t WireSizeHint(const std::vector<ImageResponse>& images) {
-  constexpr size_t kFields = 1000, kFloatBytes = 5;
-  size_t bytes = 100;
-  for (const ImageResponse& image : images) {
-    bytes +=
-        kFields + image.image_data_uint8.bytes.size() + kFloatBytes * image.image_data_float.values.size();
-  }
-  return bytes;
-}
 
 }  // namespace airsim360::airsim

@@ -99,7 +99,8 @@ class Api {
   MethodTable table_;
 };
 
-// Each adds one family of functions; together all of AirSim's, AirSim360's and Cosys-AirSim's.
+// Each adds one family of functions; together all of AirSim's, AirSim360's and Cosys-AirSim's, and those
+// for people.
 void AddConnectionCalls(Api& api);
 void AddVehicleCalls(Api& api);
 void AddMoveCalls(Api& api);
@@ -110,6 +111,7 @@ void AddSensorCalls(Api& api);
 void AddObjectCalls(Api& api);
 void AddWorldCalls(Api& api);
 void AddWeatherCalls(Api& api);
+void AddPeopleCalls(Api& api);
 void AddPlotCalls(Api& api);
 void AddCosysCalls(Api& api);
 void AddUnavailableCalls(Api& api);

@@ -10,11 +10,12 @@ namespace {
 using Text = const std::string&;
 constexpr size_t kMostLayers = 64;
 
-std::vector<std::string> ObjectNames(const Api& api, const Snapshot& now) {
+std::vector<std::string> ListedNames(const Api& api, const Snapshot& now) {
   std::vector<std::string> names;
   for (const Entity& entity : const_cast<Api&>(api).session().objects().scene().entities) {
-    const auto place = now.world->places.find(entity.id);
-    if (place == now.world->places.end() || !place->second.hidden) names.push_back(entity.name);
+    const ObjectIndex& objects = const_cast<Api&>(api).session().objects();
+    if (!PlaceNow(now, objects, entity.id).hidden)
+      names.push_back(objects.NameOf(entity.id, now.world->names));
   }
   return names;
 }
@@ -23,8 +24,7 @@ std::vector<airsim::Pose> ObjectPoses(Api& api, const Snapshot& now) {
   std::vector<airsim::Pose> poses;
   const ObjectIndex& objects = api.session().objects();
   for (const Entity& entity : objects.scene().entities) {
-    const auto found = now.world->places.find(entity.id);
-    const ObjectPlace place = found == now.world->places.end() ? objects.PlaceOf(entity.id) : found->second;
+    const ObjectPlace place = PlaceNow(now, objects, entity.id);
     if (place.hidden) continue;
     poses.push_back({airsim::ToVector(NedFromWorld(place.X_WO.p - api.session().origin_W())),
                      airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))});
@@ -45,8 +45,8 @@ std::vector<uint32_t>& LayerToChange(Session& s, Text layer) {
 bool SetAnnotation(Session& s, Text layer, Text mesh, uint32_t value, bool is_regex) {
   std::vector<EntityId> entities;
   if (is_regex) {
-    entities = s.objects().Match(mesh);
-  } else if (const EntityId entity = s.objects().Find(mesh); entity != kNoEntity) {
+    entities = s.objects().Match(mesh, s.world().names);
+  } else if (const EntityId entity = s.objects().Find(mesh, s.world().names); entity != kNoEntity) {
     entities.push_back(entity);
   }
   auto& values = LayerToChange(s, layer);
@@ -55,7 +55,7 @@ bool SetAnnotation(Session& s, Text layer, Text mesh, uint32_t value, bool is_re
 }
 
 uint32_t AnnotationOf(const Api& api, const Snapshot& now, Text layer, Text mesh) {
-  const EntityId entity = const_cast<Api&>(api).session().objects().Find(mesh);
+  const EntityId entity = const_cast<Api&>(api).session().objects().Find(mesh, now.world->names);
   const auto values = now.world->annotations.find(layer);
   return entity == kNoEntity || values == now.world->annotations.end() ? 0 : values->second[entity];
 }
@@ -93,7 +93,7 @@ void AddAnnotationCalls(Api& api) {
   api.Read("simGetAnnotationObjectValue", [&api](const Snapshot& now, Text layer, Text mesh) {
     return static_cast<float>(AnnotationOf(api, now, layer, mesh) & 255) / 255;
   });
-  api.Read("simListAnnotationObjects", [&api](const Snapshot& now, Text) { return ObjectNames(api, now); });
+  api.Read("simListAnnotationObjects", [&api](const Snapshot& now, Text) { return ListedNames(api, now); });
   api.Read("simListAnnotationPoses",
            [&api](const Snapshot& now, Text, bool, bool) { return ObjectPoses(api, now); });
 }
@@ -103,15 +103,18 @@ void AddAnnotationCalls(Api& api) {
 void AddCosysCalls(Api& api) {
   AddAnnotationCalls(api);
   api.Read("simListInstanceSegmentationObjects",
-           [&api](const Snapshot& now) { return ObjectNames(api, now); });
+           [&api](const Snapshot& now) { return ListedNames(api, now); });
   api.Read(
       "simListInstanceSegmentationPoses",
       [&api](const Snapshot& now, bool /*ned*/, bool /*only_visible*/) { return ObjectPoses(api, now); });
   // Colour of instance i: its bytes, as panorama_entity shows them.
-  api.Read("simGetInstanceSegmentationColorMap", [&api](const Snapshot&) {
+  api.Read("simGetInstanceSegmentationColorMap", [&api](const Snapshot& now) {
+    // In the order of the names above.
     std::vector<airsim::Vector3r> colors;
     const size_t count = api.session().objects().scene().entities.size();
     for (uint32_t id = 1; id <= count; ++id) {
+      const auto place = now.world->places.find(id);
+      if (place != now.world->places.end() && place->second.hidden) continue;
       colors.push_back({static_cast<float>(id & 255), static_cast<float>(id >> 8 & 255),
                         static_cast<float>(id >> 16 & 255)});
     }

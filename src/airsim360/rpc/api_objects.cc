@@ -5,6 +5,7 @@
 
 #include "airsim360/rpc/api.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 namespace {
@@ -39,9 +40,13 @@ airsim::Pose NoPose() {
 template <class ChangePlace>
 bool MoveObject(Session& s, Text name, const ChangePlace& change) {
   const ObjectIndex& objects = s.objects();
-  const EntityId entity = objects.Find(name);
+  const EntityId entity = objects.Find(name, s.world().names);
   // Vehicles have calls of their own.
   if (entity == kNoEntity || !IsThere(s.world(), entity) || s.HasVehicle(name)) return false;
+  if (s.model().people && IsPerson(*s.model().people, entity)) {
+    NoticeOnce("'" + name + "' is a person and walks by itself");
+    return false;
+  }
   if (objects.InstancesOf(entity).empty()) {
     NoticeOnce("'" + name + "' is part of a larger mesh and cannot be moved");
     return false;
@@ -53,6 +58,16 @@ bool MoveObject(Session& s, Text name, const ChangePlace& change) {
   return true;
 }
 
+Vec3d CheckedScale(const airsim::Vector3r& scale) {
+  constexpr double kLargest = 1e4;
+  const Vec3d factor = airsim::FromVector(scale);
+  for (int i = 0; i < 3; ++i) {
+    if (!(factor[i] > 0 && factor[i] < kLargest))
+      throw std::invalid_argument("scale must be in 0 ... 10000");
+  }
+  return factor;
+}
+
 void AddPoseCalls(Api& api) {
   api.Read(
       "simGetObjectPose",
@@ -62,9 +77,10 @@ void AddPoseCalls(Api& api) {
         const Vec3d origin_W = api.session().origin_W();
         if (VehicleNamed(now, name, index))
           return airsim::ToPose(now.state.vehicles[index].motion.X_WB, origin_W);
-        const EntityId entity = api.session().objects().Find(name);
-        if (entity == kNoEntity || !IsThere(*now.world, entity)) return NoPose();
-        const ObjectPlace place = PlaceIn(*now.world, api.session().objects(), entity);
+        const EntityId entity = api.session().objects().Find(name, now.world->names);
+        if (entity == kNoEntity) return NoPose();
+        const ObjectPlace place = PlaceNow(now, api.session().objects(), entity);
+        if (place.hidden) return NoPose();
         // An unturned object has the unit quaternion, whatever the axes.
         return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)),
                             airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))};
@@ -76,17 +92,12 @@ void AddPoseCalls(Api& api) {
     return MoveObject(s, name, [&](ObjectPlace& place) { place.X_WO = {R, p_W}; });
   });
   api.Read("simGetObjectScale", [&api](const Snapshot& now, Text name) {
-    const EntityId entity = api.session().objects().Find(name);
+    const EntityId entity = api.session().objects().Find(name, now.world->names);
     if (entity == kNoEntity) return NoPose().position;
     return airsim::ToVector(PlaceIn(*now.world, api.session().objects(), entity).scale);
   });
   api.Change("simSetObjectScale", [](Session& s, Text name, const airsim::Vector3r& scale) {
-    const Vec3d factor = airsim::FromVector(scale);
-    constexpr double kLargest = 1e4;
-    for (int i = 0; i < 3; ++i) {
-      if (!(factor[i] > 0 && factor[i] < kLargest))
-        throw std::invalid_argument("scale must be in 0 ... 10000");
-    }
+    const Vec3d factor = CheckedScale(scale);
     return MoveObject(s, name, [&](ObjectPlace& place) { place.scale = factor; });
   });
 }
@@ -95,17 +106,19 @@ void AddListCalls(Api& api) {
   api.Picture("simListSceneObjects", [&api](ImageService&, const SnapshotPointer& now, Text regex) {
     std::vector<std::string> names;
     const ObjectIndex& objects = api.session().objects();
-    for (const EntityId entity : objects.Match(regex)) {
-      if (IsThere(*now->world, entity)) names.push_back(objects.scene().entity(entity).name);
+    for (const EntityId entity : objects.Match(regex, now->world->names)) {
+      if (!PlaceNow(*now, objects, entity).hidden) names.push_back(objects.NameOf(entity, now->world->names));
     }
     return names;
   });
   api.Picture("simListSceneObjectsTags", [&api](ImageService&, const SnapshotPointer& now, Text regex) {
     std::vector<std::pair<std::string, std::string>> tags;
     const Scene& scene = api.session().objects().scene();
-    for (const EntityId id : api.session().objects().Match(regex)) {
+    for (const EntityId id : api.session().objects().Match(regex, now->world->names)) {
       const Entity& entity = scene.entity(id);
-      if (IsThere(*now->world, id)) tags.emplace_back(entity.name, scene.tree[entity.category].path);
+      const ObjectIndex& objects = api.session().objects();
+      if (!PlaceNow(*now, objects, id).hidden)
+        tags.emplace_back(objects.NameOf(id, now->world->names), scene.tree[entity.category].path);
     }
     return tags;
   });
@@ -114,9 +127,9 @@ void AddListCalls(Api& api) {
   });
 }
 
-std::vector<EntityId> Named(const ObjectIndex& objects, Text name, bool is_regex) {
-  if (is_regex) return objects.Match(name);
-  const EntityId entity = objects.Find(name);
+std::vector<EntityId> Named(Session& s, Text name, bool is_regex) {
+  if (is_regex) return s.objects().Match(name, s.world().names);
+  const EntityId entity = s.objects().Find(name, s.world().names);
   return entity == kNoEntity ? std::vector<EntityId>{} : std::vector<EntityId>{entity};
 }
 
@@ -124,19 +137,31 @@ void AddSegmentationCalls(Api& api) {
   api.Change("simSetSegmentationObjectID", [](Session& s, Text name, int id, bool is_regex) {
     // Ids beyond 255 are ours; 24 bits fit the colours.
     if (id < 0 || id >= 1 << 24) throw std::invalid_argument("object_id must be in 0 ... 16777215");
-    const std::vector<EntityId> entities = Named(s.objects(), name, is_regex);
+    const std::vector<EntityId> entities = Named(s, name, is_regex);
     for (const EntityId entity : entities) s.world().segmentation[entity] = static_cast<uint32_t>(id);
     return !entities.empty();
   });
   api.Read("simGetSegmentationObjectID", [&api](const Snapshot& now, Text name) {
-    const EntityId entity = api.session().objects().Find(name);
+    const EntityId entity = api.session().objects().Find(name, now.world->names);
     return entity == kNoEntity ? -1 : static_cast<int>(now.world->segmentation[entity]);
+  });
+}
+
+void AddSpawnCalls(Api& api) {
+  api.Read("simListAssets", [&api](const Snapshot&) { return api.session().AssetNames(); });
+  api.Change("simSpawnObject", [](Session& s, Text name, Text asset, const airsim::Pose& pose,
+                                  const airsim::Vector3r& scale, bool physics, bool /*is_blueprint*/) {
+    if (physics) NoticeOnce("simSpawnObject: objects stay where they are put, also with physics_enabled");
+    const Vec3d p_W = airsim::FromPose(pose, s.origin_W()).p;
+    const Mat3d R = ObjectRotation(airsim::FromQuaternionr(pose.orientation));
+    return s.Spawn(name, asset, {{R, p_W}, CheckedScale(scale)});
   });
 }
 
 }  // namespace
 
 void AddObjectCalls(Api& api) {
+  AddSpawnCalls(api);
   AddPoseCalls(api);
   AddListCalls(api);
   AddSegmentationCalls(api);

@@ -107,14 +107,6 @@ void AddEngineCalls(Api& api) {
   api.Read("simLoadLevel", [](const Snapshot&, Text) {
     return Notice("simLoadLevel", "the world is chosen with airsim360 serve --world"), false;
   });
-  api.Read("simListAssets", [](const Snapshot&) {
-    return Notice("simListAssets", "nothing can be spawned"), std::vector<std::string>{};
-  });
-  api.Read("simSpawnObject",
-           [](const Snapshot&, Text, Text asset, const airsim::Pose&, const airsim::Vector3r&, bool,
-              bool) -> std::string {
-             throw std::runtime_error("There were no assets with name " + asset + " found in the Registry");
-           });
   api.Read("simGetMeshPositionVertexBuffers", [](const Snapshot&) {
     Notice("simGetMeshPositionVertexBuffers", "use airsim360 world export");
     return std::vector<airsim::MeshPositionVertexBuffersResponse>{};

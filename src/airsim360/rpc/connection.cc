@@ -1,14 +1,18 @@
 #include "airsim360/rpc/connection.h"
 
 #include <sys/socket.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdint>
 
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kReadBytes = size_t{64} << 10;  // in one turn
+constexpr size_t kReadBytes = size_t{64} << 10;   // in one turn
+constexpr size_t kFlushBytes = size_t{1} << 20;  // in one turn of the server's thread
 
 bool WouldBlock(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
@@ -43,13 +47,14 @@ Connection::Read Connection::ReadSome(const std::function<void(std::string)>& on
   return Read::kOpen;
 }
 
-bool Connection::Send(std::string bytes) {
+bool Connection::Send(WireBlocks bytes) {
   const std::lock_guard lock(mutex_);
   if (broken_) return false;
-  queued_ += bytes.size();
-  total_output_ += bytes.size();
-  output_.push_back(std::move(bytes));
-  if (!FlushLocked()) return false;
+  const size_t size = SizeOf(bytes);
+  queued_ += size;
+  total_output_ += size;
+  for (WireBlock& block : bytes) output_.push_back(std::move(block));
+  if (!FlushLocked(SIZE_MAX)) return false;
   if (queued_ > limits_.output_bytes || (queued_ > 0 && total_output_ > limits_.total_output_bytes))
     broken_ = true;
   return !broken_;
@@ -57,24 +62,37 @@ bool Connection::Send(std::string bytes) {
 
 bool Connection::Flush() {
   const std::lock_guard lock(mutex_);
-  return FlushLocked();
+  return FlushLocked(kFlushBytes);
 }
 
-bool Connection::FlushLocked() {
-  while (!output_.empty() && !broken_) {
-    const std::string& front = output_.front();
-    const ssize_t put = ::send(fd_, front.data() + sent_, front.size() - sent_, MSG_DONTWAIT | MSG_NOSIGNAL);
+// Sends about `most` bytes of the queue, as far as the socket takes them.
+bool Connection::FlushLocked(size_t most) {
+  size_t sent = 0;
+  while (!output_.empty() && !broken_ && sent < most) {
+    std::array<iovec, 16> pieces;
+    size_t count = 0;
+    for (auto block = output_.begin(); block != output_.end() && count < pieces.size(); ++block, ++count) {
+      const size_t skip = count == 0 ? sent_ : 0;
+      pieces[count] = {const_cast<char*>(block->data()) + skip, block->size() - skip};
+    }
+    msghdr message{};
+    message.msg_iov = pieces.data();
+    message.msg_iovlen = count;
+    const ssize_t put = ::sendmsg(fd_, &message, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (put < 0) {
       if (WouldBlock(errno)) return true;
       broken_ = true;
       break;
     }
-    sent_ += static_cast<size_t>(put);
+    sent += static_cast<size_t>(put);
     queued_ -= static_cast<size_t>(put);
     total_output_ -= static_cast<size_t>(put);
-    if (sent_ < front.size()) continue;
-    output_.pop_front();
-    sent_ = 0;
+    // Blocks that have gone wholly are let go.
+    sent_ += static_cast<size_t>(put);
+    while (!output_.empty() && sent_ >= output_.front().size()) {
+      sent_ -= output_.front().size();
+      output_.pop_front();
+    }
   }
   return !broken_;
 }

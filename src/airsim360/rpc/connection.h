@@ -28,8 +28,8 @@ class Connection {
   /// WireError when the client sends what is not msgpack.
   Read ReadSome(const std::function<void(std::string)>& on_message);
 
-  /// Sends or queues `bytes`. False: the client is too slow, or gone; the connection is then of no use.
-  bool Send(std::string bytes);
+  /// Sends or queues an answer. False: the client is too slow, or gone; the connection is then of no use.
+  bool Send(WireBlocks bytes);
   /// Sends more of the queue. False as above.
   bool Flush();
   bool output_waits() const { return queued_ > 0; }
@@ -40,7 +40,7 @@ class Connection {
   uint32_t events = 0;
 
  private:
-  bool FlushLocked();
+  bool FlushLocked(size_t most);
 
   const ConnectionId id_;
   const int fd_;
@@ -50,7 +50,7 @@ class Connection {
   std::string input_;
 
   std::mutex mutex_;  // of what follows
-  std::deque<std::string> output_;
+  std::deque<WireBlock> output_;
   size_t sent_ = 0;  // of output_.front()
   std::atomic<size_t> queued_{0};
   bool broken_ = false;

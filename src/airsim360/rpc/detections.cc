@@ -18,10 +18,10 @@ struct Pixels {
 };
 
 // What one object looks like to AirSim's clients: its box in the camera's body-like frame.
-airsim::DetectionInfo Describe(const Entity& entity, const ObjectPlace& place, const Pixels& pixels,
+airsim::DetectionInfo Describe(const Entity& entity, const std::string& name, const ObjectPlace& place, const Pixels& pixels,
                                const RigidTransform& X_WA, const Snapshot& now) {
   airsim::DetectionInfo info;
-  info.name = entity.name;
+  info.name = name;
   info.geo_point = GeoPointOf(now, place.X_WO.p);
   info.box2D.min = {static_cast<float>(pixels.left), static_cast<float>(pixels.top)};
   info.box2D.max = {static_cast<float>(pixels.right + 1), static_cast<float>(pixels.bottom + 1)};
@@ -75,14 +75,14 @@ std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, 
   std::vector<airsim::DetectionInfo> detections;
   for (const auto& [id, pixels] : seen) {
     const Entity& entity = objects.scene().entity(id);
+    const std::string& name = objects.NameOf(id, now.world->names);
     const bool wanted =
         std::any_of(filter.patterns.begin(), filter.patterns.end(),
-                    [&](const std::string& pattern) { return MatchesWildcard(pattern, entity.name); });
+                    [&](const std::string& pattern) { return MatchesWildcard(pattern, name); });
     if (!wanted || id == objects.scene().sky_entity) continue;
-    const auto moved = now.world->places.find(id);
-    const ObjectPlace place = moved == now.world->places.end() ? objects.PlaceOf(id) : moved->second;
+    const ObjectPlace place = PlaceNow(now, objects, id);
     if (Norm(place.X_WO.p - X_WA.p) > filter.radius) continue;
-    detections.push_back(Describe(entity, place, pixels, X_WA, now));
+    detections.push_back(Describe(entity, name, place, pixels, X_WA, now));
   }
   return detections;
 }

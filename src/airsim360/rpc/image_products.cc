@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
@@ -180,21 +181,30 @@ void AddProducts(ImageContent content, Products& products) {
 
 namespace {
 
+// The third, second and first byte of each of `count` values that begin `stride` bytes apart, without gaps.
+// Four bytes are written at a time; the last value of a row by itself, so that nothing beyond it is touched.
+void SwapTriples(const void* from, size_t stride, size_t count, char* out) {
+  const char* in = static_cast<const char*>(from);
+  for (size_t i = 0; i + 1 < count; ++i, in += stride, out += 3) {
+    uint32_t value;
+    std::memcpy(&value, in, sizeof value);
+    value = __builtin_bswap32(value) >> 8;
+    std::memcpy(out, &value, sizeof value);
+  }
+  if (count > 0) out[0] = in[2], out[1] = in[1], out[2] = in[0];
+}
+
 // The three pictures that are asked for most, without a choice at every pixel. False: another one.
 bool CommonRow(ImageContent content, const Frame& frame, int y, char* out) {
-  const auto put = [&](int r, int g, int b) {
-    *out++ = static_cast<char>(b);
-    *out++ = static_cast<char>(g);
-    *out++ = static_cast<char>(r);
-  };
+  static_assert(sizeof(Rgb8) == 3 && sizeof(EntityId) == 4 && std::endian::native == std::endian::little);
   if (content == ImageContent::kColor) {
-    for (const Rgb8 c : frame.rgb.row(y)) put(c.r, c.g, c.b);
+    const auto row = frame.rgb.row(y);
+    SwapTriples(row.data(), sizeof(Rgb8), row.size(), out);
     return true;
   }
   if (content == ImageContent::kEntity) {
-    for (const EntityId id : frame.entity.row(y)) {
-      put(static_cast<uint8_t>(id), static_cast<uint8_t>(id >> 8), static_cast<uint8_t>(id >> 16));
-    }
+    const auto row = frame.entity.row(y);
+    SwapTriples(row.data(), sizeof(EntityId), row.size(), out);
     return true;
   }
   return false;
@@ -208,38 +218,69 @@ bool CommonRow(ImageContent content, const Frame& frame, int y, bool half, float
   return true;
 }
 
+bool IsFlow(ImageContent content) {
+  return content == ImageContent::kFlow || content == ImageContent::kFlowShade;
+}
+
+// Row y as floats, one a pixel or two of flow.
+void FloatRow(ImageContent content, const Frame& frame, const Camera& camera, const PixelOptions& options, int y,
+              float* out) {
+  if (CommonRow(content, frame, y, options.half_depth, out)) return;
+  for (int x = 0; x < Width(camera); ++x) {
+    if (IsFlow(content)) {
+      const FlowPixel& flow = frame.flow(x, y);
+      *out++ = flow.dx, *out++ = flow.dy;
+    } else {
+      *out++ = FloatAt(content, frame, camera, options, x, y);
+    }
+  }
+}
+
+size_t FloatsInRow(ImageContent content, const Camera& camera) {
+  return static_cast<size_t>(Width(camera)) * (IsFlow(content) ? 2 : 1);
+}
+
 }  // namespace
 
 std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options) {
-  const int width = Width(camera), height = Height(camera);
-  if (content == ImageContent::kFlow || content == ImageContent::kFlowShade) {
-    std::vector<float> pixels;
-    for (const FlowPixel& flow : frame.flow.pixels()) pixels.insert(pixels.end(), {flow.dx, flow.dy});
-    return pixels;
-  }
-  std::vector<float> pixels(static_cast<size_t>(width) * static_cast<size_t>(height));
+  const size_t row = FloatsInRow(content, camera);
+  std::vector<float> pixels(row * static_cast<size_t>(Height(camera)));
   ForRows(camera, [&](int y) {
-    float* row = pixels.data() + static_cast<size_t>(y) * static_cast<size_t>(width);
-    if (CommonRow(content, frame, y, options.half_depth, row)) return;
-    for (int x = 0; x < width; ++x) row[x] = FloatAt(content, frame, camera, options, x, y);
+    FloatRow(content, frame, camera, options, y, pixels.data() + row * static_cast<size_t>(y));
   });
   return pixels;
 }
 
-std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                        const PixelOptions& options) {
-  const int width = Width(camera), height = Height(camera);
-  std::string pixels(3 * static_cast<size_t>(width) * static_cast<size_t>(height), '\0');
+airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
+                                 const PixelOptions& options, bool binary, BlockPool& pool) {
+  const size_t row = FloatsInRow(content, camera), count = row * static_cast<size_t>(Height(camera));
+  const size_t size = binary ? sizeof(float) : kWireFloatBytes;
+  const std::shared_ptr<char[]> bytes = pool.Take(count * size);
   ForRows(camera, [&](int y) {
-    char* out = pixels.data() + 3 * static_cast<size_t>(y) * static_cast<size_t>(width);
+    char* out = bytes.get() + size * row * static_cast<size_t>(y);
+    if (binary) return FloatRow(content, frame, camera, options, y, reinterpret_cast<float*>(out));
+    std::vector<float> values(row);
+    FloatRow(content, frame, camera, options, y, values.data());
+    StoreWireFloats(values, out);
+  });
+  return {count, binary, {bytes, count * size}};
+}
+
+WireBlock BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+                      const PixelOptions& options, BlockPool& pool) {
+  const int width = Width(camera), height = Height(camera);
+  const size_t size = 3 * static_cast<size_t>(width) * static_cast<size_t>(height);
+  const std::shared_ptr<char[]> pixels = pool.Take(size);
+  ForRows(camera, [&](int y) {
+    char* out = pixels.get() + 3 * static_cast<size_t>(y) * static_cast<size_t>(width);
     if (CommonRow(content, frame, y, out)) return;
     for (int x = 0; x < width; ++x, out += 3) {
       const Rgb8 c = ColorAt(content, frame, camera, options, x, y);
       out[0] = static_cast<char>(c.b), out[1] = static_cast<char>(c.g), out[2] = static_cast<char>(c.r);
     }
   });
-  return pixels;
+  return {pixels, size};
 }
 
 std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,

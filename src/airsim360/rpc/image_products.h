@@ -42,9 +42,12 @@ inline constexpr float kSkyDepth = 65504;
 /// One float a pixel, two of flow.
 std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options);
+/// The same as it is sent; see airsim::FloatPixels.
+airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
+                                 const PixelOptions& options, bool binary, BlockPool& pool);
 /// Three bytes a pixel in the order B, G, R.
-std::string BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                        const PixelOptions& options);
+WireBlock BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+                      const PixelOptions& options, BlockPool& pool);
 /// A PNG of the same picture.
 std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
                   const PixelOptions& options);

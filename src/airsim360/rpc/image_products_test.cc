@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "airsim360/rpc/detections.h"
 #include "airsim360/rpc/segmentation_palette.h"
@@ -31,13 +32,18 @@ Frame TinyFrame() {
 TEST(ImageProducts, BytesAreBlueGreenRed) {
   const Frame frame = TinyFrame();
   const Camera camera = PinholeOf({4, 2, 90});
-  const std::string bytes = BgrPixelsOf(ImageContent::kColor, frame, camera, {});
+  BlockPool pool;
+  const WireBlock block = BgrPixelsOf(ImageContent::kColor, frame, camera, {}, pool);
+  const std::string_view bytes = block.view();
   ASSERT_EQ(bytes.size(), 24u);
-  EXPECT_EQ(bytes.substr(0, 3), std::string("\3\2\1"));
+  for (size_t i = 0; i < 24; i += 3) EXPECT_EQ(bytes.substr(i, 3), std::string_view("\3\2\1"));
+  const WireBlock entities = BgrPixelsOf(ImageContent::kEntity, frame, camera, {}, pool);
+  EXPECT_EQ(entities.view().substr(0, 6), std::string_view("\0\0\2\0\0\2", 6));
+  EXPECT_EQ(entities.view().substr(21, 3), std::string_view("\0\0\2", 3));
   const std::vector<uint32_t> ids = {0, 5, 1};
-  const std::string labels = BgrPixelsOf(ImageContent::kSegmentation, frame, camera, {.segmentation = &ids});
-  EXPECT_EQ(static_cast<uint8_t>(labels[0]), kSegmentationPalette[1].b);
-  EXPECT_EQ(static_cast<uint8_t>(labels[2]), kSegmentationPalette[1].r);
+  const WireBlock labels = BgrPixelsOf(ImageContent::kSegmentation, frame, camera, {.segmentation = &ids}, pool);
+  EXPECT_EQ(static_cast<uint8_t>(labels.view()[0]), kSegmentationPalette[1].b);
+  EXPECT_EQ(static_cast<uint8_t>(labels.view()[2]), kSegmentationPalette[1].r);
 }
 
 TEST(ImageProducts, DepthIsRangeTimesTheCosine) {
@@ -48,8 +54,40 @@ TEST(ImageProducts, DepthIsRangeTimesTheCosine) {
   EXPECT_EQ(planar[7], kSkyDepth);
   const auto range = FloatPixelsOf(ImageContent::kRange, frame, camera, {.half_depth = false});
   EXPECT_EQ(range[0], 10);
-  const std::string centimetres = BgrPixelsOf(ImageContent::kRange, frame, camera, {.centimetres = true});
-  EXPECT_EQ(static_cast<uint8_t>(centimetres[0]), 255);
+  BlockPool pool;
+  const WireBlock centimetres = BgrPixelsOf(ImageContent::kRange, frame, camera, {.centimetres = true}, pool);
+  EXPECT_EQ(static_cast<uint8_t>(centimetres.view()[0]), 255);
+}
+
+TEST(ImageProducts, FloatsOnTheWireAreTheFloatsOfTheImage) {
+  const Frame frame = TinyFrame();
+  const Camera camera = PinholeOf({4, 2, 90});
+  BlockPool pool;
+  const auto expected = FloatPixelsOf(ImageContent::kPlanarDepth, frame, camera, {});
+  const auto stock = FloatBytesOf(ImageContent::kPlanarDepth, frame, camera, {}, false, pool);
+  const auto ours = FloatBytesOf(ImageContent::kPlanarDepth, frame, camera, {}, true, pool);
+  WireWriter writer;
+  ToWire(writer, stock);
+  std::string bytes;
+  for (const WireBlock& block : writer.Take()) bytes += block.view();
+  const WireValue value = DecodeWire({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+  ASSERT_EQ(value.items.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(static_cast<float>(value.items[i].real), expected[i]);
+  ASSERT_EQ(ours.bytes.size(), expected.size() * sizeof(float));
+  EXPECT_EQ(std::memcmp(ours.bytes.data(), expected.data(), ours.bytes.size()), 0);
+}
+
+TEST(BlockPool, MemoryIsUsedAgainOnceItsLastHolderHasLetGo) {
+  BlockPool pool;
+  constexpr size_t kSize = size_t{1} << 20;
+  std::shared_ptr<char[]> first = pool.Take(kSize);
+  const char* place = first.get();
+  WireBlock held(first, kSize);
+  first.reset();
+  EXPECT_NE(pool.Take(kSize).get(), place);  // still held
+  held = {};
+  const auto a = pool.Take(kSize), b = pool.Take(kSize);
+  EXPECT_TRUE(a.get() == place || b.get() == place);
 }
 
 TEST(Palette, IdsHaveColoursOfTheirOwn) {

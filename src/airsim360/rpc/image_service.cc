@@ -113,7 +113,7 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
 
 airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request, ImageContent content,
                                             const Snapshot& snapshot, const Shot& shot,
-                                            Vec3d origin_W) const {
+                                            Vec3d origin_W) {
   airsim::ImageResponse response;
   response.camera_name = request.camera_name.text;
   response.image_type = request.image_type;
@@ -135,11 +135,12 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
   const auto layer = snapshot.world->annotations.find(request.annotation_name);
   if (layer != snapshot.world->annotations.end()) options.annotation = &layer->second;
   if (request.pixels_as_float) {
-    response.image_data_float = {FloatPixelsOf(content, frame_, shot.camera, options), request.binary_float};
+    response.image_data_float =
+        FloatBytesOf(content, frame_, shot.camera, options, request.binary_float, pool_);
   } else if (request.compress) {
-    response.image_data_uint8.bytes = PngOf(content, frame_, shot.camera, options);
+    response.image_data_uint8.bytes = WireBlock(PngOf(content, frame_, shot.camera, options));
   } else {
-    response.image_data_uint8.bytes = BgrPixelsOf(content, frame_, shot.camera, options);
+    response.image_data_uint8.bytes = BgrPixelsOf(content, frame_, shot.camera, options, pool_);
   }
   return response;
 }

@@ -64,7 +64,7 @@ class ImageService {
   SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
                              size_t vehicle);
   airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content,
-                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W) const;
+                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W);
 
   Session& session_;
   std::shared_ptr<const RayTracer> tracer_;
@@ -72,6 +72,7 @@ class ImageService {
   std::unique_ptr<Renderer> renderer_;
   uint64_t environment_version_ = 0;
   Frame frame_;
+  BlockPool pool_;  // of the answers
   double render_ms_ = 0;
 
   std::mutex mutex_;  // of what follows

@@ -26,7 +26,11 @@ class Caller {
     const RpcMessage message = ParseMessage(value);
     {
       const Reply reply(
-          message.id, method, count, [this](std::string bytes) { answer = bytes, ++answers; },
+          message.id, method, count, [this](WireBlocks blocks) {
+            answer.clear();
+            for (const WireBlock& block : blocks) answer += block.view();
+            ++answers;
+          },
           [] { return true; });
       table.Call(message, reply);
     }

@@ -4,6 +4,9 @@
 #include <regex>
 #include <stdexcept>
 
+#include "airsim360/rpc/snapshot.h"
+#include "airsim360/sim/people/people.h"
+
 namespace airsim360 {
 
 ObjectIndex::ObjectIndex(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
@@ -23,9 +26,17 @@ ObjectIndex::ObjectIndex(std::shared_ptr<const Scene> scene) : scene_(std::move(
   }
 }
 
-EntityId ObjectIndex::Find(const std::string& name) const {
+EntityId ObjectIndex::Find(const std::string& name, const ObjectNames& given) const {
+  for (const auto& [entity, other] : given) {
+    if (other == name) return entity;
+  }
   const auto found = by_name_.find(name);
-  return found == by_name_.end() ? kNoEntity : found->second;
+  return found == by_name_.end() || given.contains(found->second) ? kNoEntity : found->second;
+}
+
+const std::string& ObjectIndex::NameOf(EntityId entity, const ObjectNames& given) const {
+  const auto found = given.find(entity);
+  return found == given.end() ? scene_->entity(entity).name : found->second;
 }
 
 const std::vector<uint32_t>& ObjectIndex::InstancesOf(EntityId entity) const {
@@ -39,13 +50,14 @@ ObjectPlace ObjectIndex::PlaceOf(EntityId entity) const {
   return place;
 }
 
-std::vector<EntityId> ObjectIndex::Match(const std::string& regex) const {
+std::vector<EntityId> ObjectIndex::Match(const std::string& regex, const ObjectNames& given) const {
   std::vector<EntityId> matches;
   // Patterns of any length are a client's: the library's recursion is kept small.
   if (regex.size() > 1000) throw std::invalid_argument("regular expression of more than 1000 characters");
   const std::regex pattern(regex, std::regex::icase);
   for (const Entity& entity : scene_->entities) {
-    if (entity.name.size() <= 200 && std::regex_match(entity.name, pattern)) matches.push_back(entity.id);
+    const std::string& name = NameOf(entity.id, given);
+    if (name.size() <= 200 && std::regex_match(name, pattern)) matches.push_back(entity.id);
   }
   return matches;
 }
@@ -62,6 +74,16 @@ void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<Mo
   for (const uint32_t instance : InstancesOf(entity)) {
     moved.push_back({instance, X * scene_->instances[instance].X_WM, place.hidden});
   }
+}
+
+ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
+  if (now.model->people && now.state.people && IsPerson(*now.model->people, entity)) {
+    const SimPeople& people = *now.model->people;
+    const auto X = PlaceOfPerson(people, *now.state.people, now.state.t_ns + people.epoch_ns, entity);
+    return X ? ObjectPlace{.X_WO = *X} : ObjectPlace{.X_WO = {}, .hidden = true};
+  }
+  const auto found = now.world->places.find(entity);
+  return found == now.world->places.end() ? objects.PlaceOf(entity) : found->second;
 }
 
 int DefaultSegmentationId(const std::string& name) {

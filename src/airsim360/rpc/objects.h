@@ -18,6 +18,9 @@ struct ObjectPlace {
   bool hidden = false;
 };
 
+/// Names that calls have given to objects of the scene that were held ready without one.
+using ObjectNames = std::map<EntityId, std::string>;
+
 /// What never changes of a scene's objects.
 class ObjectIndex {
  public:
@@ -25,12 +28,13 @@ class ObjectIndex {
 
   const Scene& scene() const { return *scene_; }
   /// Entity of a name; kNoEntity if there is none.
-  EntityId Find(const std::string& name) const;
+  EntityId Find(const std::string& name, const ObjectNames& given = {}) const;
+  const std::string& NameOf(EntityId entity, const ObjectNames& given) const;
   /// Instances that are wholly this entity's: what can be moved. Empty for parts of larger meshes.
   const std::vector<uint32_t>& InstancesOf(EntityId entity) const;
   ObjectPlace PlaceOf(EntityId entity) const;
   /// Names that a regular expression matches as a whole, letters of either case; of existing things only.
-  std::vector<EntityId> Match(const std::string& regex) const;
+  std::vector<EntityId> Match(const std::string& regex, const ObjectNames& given = {}) const;
   /// Where the instances of an entity are when it is put elsewhere.
   void Move(EntityId entity, const ObjectPlace& place, std::vector<MovedInstance>& moved) const;
 
@@ -39,6 +43,11 @@ class ObjectIndex {
   std::map<std::string, EntityId, std::less<>> by_name_;
   std::vector<std::vector<uint32_t>> instances_;  // by entity - 1
 };
+
+struct Snapshot;
+/// Where an object is in a snapshot: people walk, other things stay where calls have put them. `hidden` for
+/// people who are not in the world.
+ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity);
 
 /// AirSim's id of a name: a sum of its letters (Unreal/Plugins/AirSim/Source/AirBlueprintLib.h).
 int DefaultSegmentationId(const std::string& name);

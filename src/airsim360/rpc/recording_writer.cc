@@ -25,8 +25,11 @@ std::filesystem::path NewFolder(const std::filesystem::path& parent) {
 // Portable float map, as AirSim writes it: little-endian, top row first.
 std::string Pfm(const airsim::ImageResponse& image) {
   std::string text = "Pf\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
-  const auto& values = image.image_data_float.values;
-  text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  // Taken out of their form on the wire: tag, then big-endian.
+  const std::string_view bytes = image.image_data_float.bytes.view();
+  for (size_t i = 0; i + kWireFloatBytes <= bytes.size(); i += kWireFloatBytes) {
+    for (size_t k = kWireFloatBytes - 1; k > 0; --k) text += bytes[i + k];
+  }
   return text;
 }
 
@@ -57,7 +60,7 @@ std::string RecordingWriter::WriteImage(const airsim::ImageResponse& image, cons
                            std::to_string(static_cast<int>(image.image_type)) + "_" +
                            std::to_string(image.time_stamp) + (image.pixels_as_float ? ".pfm" : ".png");
   WriteFileAtomically(folder_ / "images" / name,
-                      image.pixels_as_float ? Pfm(image) : image.image_data_uint8.bytes);
+                      image.pixels_as_float ? Pfm(image) : std::string(image.image_data_uint8.bytes.view()));
   return name;
 }
 

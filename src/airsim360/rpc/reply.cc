@@ -3,6 +3,16 @@
 #include <atomic>
 
 namespace airsim360 {
+namespace {
+
+// The answer to a call that has failed; notifications get none.
+WireBlocks Failure(std::optional<uint32_t> id, std::string_view text) {
+  WireBlocks blocks;
+  if (id) blocks.emplace_back(ErrorAnswer(*id, text));
+  return blocks;
+}
+
+}  // namespace
 
 struct Reply::State {
   std::optional<uint32_t> id;
@@ -13,7 +23,7 @@ struct Reply::State {
   std::atomic<bool> answered{false};
 
   ~State() {
-    if (!answered) sink(id ? ErrorAnswer(*id, "rpclib: the server is going down") : std::string());
+    if (!answered) sink(Failure(id, "rpclib: the server is going down"));
   }
 };
 
@@ -31,18 +41,18 @@ bool Reply::Begin(WireWriter& writer) const {
   return false;
 }
 
-void Reply::Send(std::string bytes) const { state_->sink(std::move(bytes)); }
+void Reply::Send(WireBlocks bytes) const { state_->sink(std::move(bytes)); }
 
 void Reply::Nil() const {
   WireWriter writer;
   if (!Begin(writer)) return;
   writer.Nil();
-  Send(std::move(writer.bytes()));
+  Send(writer.Take());
 }
 
 void Reply::Error(std::string_view text) const {
   if (state_->answered.exchange(true)) return;
-  state_->sink(state_->id ? ErrorAnswer(*state_->id, text) : std::string());
+  state_->sink(Failure(state_->id, text));
 }
 
 void Reply::Exception(std::string_view what) const {

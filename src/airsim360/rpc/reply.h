@@ -11,8 +11,8 @@
 
 namespace airsim360 {
 
-/// Where finished answers go: the bytes, or empty for a notification that is done.
-using AnswerSink = std::function<void(std::string bytes)>;
+/// Where finished answers go: the bytes, or none for a notification that is done.
+using AnswerSink = std::function<void(WireBlocks bytes)>;
 
 /// Copies share one answer; the first wins. A call whose last copy goes without an answer is told so.
 class Reply {
@@ -25,9 +25,8 @@ class Reply {
   void Result(const T& value) const {
     WireWriter writer;
     if (Begin(writer)) {
-      writer.bytes().reserve(WireSizeHint(value));
       ToWire(writer, value);
-      Send(std::move(writer.bytes()));
+      Send(writer.Take());
     }
   }
   void Nil() const;
@@ -42,7 +41,7 @@ class Reply {
  private:
   struct State;
   bool Begin(WireWriter& writer) const;
-  void Send(std::string bytes) const;
+  void Send(WireBlocks bytes) const;
   std::shared_ptr<State> state_;
 };
 

@@ -30,18 +30,6 @@ class OpenConnections {
   std::set<ConnectionId> closed_;
 };
 
-// The scene with a body for each drone of the settings, in the order of their names.
-std::shared_ptr<const Scene> WithBodies(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
-                                        std::vector<DroneBodyRef>& refs) {
-  const Vec3d somewhere = VecCast<double>(scene->spawn.value_or(scene->bounds.center()));
-  std::vector<DroneBodySpec> bodies;
-  for (const auto& [name, vehicle] : settings.vehicles) {
-    if (!vehicle.auto_create || vehicle.type == "ComputerVision") continue;
-    bodies.push_back({name, DroneBodyModel(AirSimQuad()), {{}, somewhere}});
-  }
-  return bodies.empty() ? scene : AddDroneBodies(std::move(scene), bodies, refs);
-}
-
 }  // namespace
 
 // Gone in the opposite order: the session may still hand over to pictures, and both to the socket.
@@ -61,30 +49,32 @@ struct AirSimServer::Impl {
     const RpcMessage call = ParseMessage(value);
     const Reply reply(
         call.id, std::string(call.method), call.arguments->items.size(),
-        [this, id](std::string answer) { Send(id, std::move(answer)); },
+        [this, id](WireBlocks answer) { Send(id, std::move(answer)); },
         [this, id] { return connections.IsOpen(id); });
     api->table().Call(call, reply);
   }
 
-  void Send(ConnectionId id, std::string answer) {
+  void Send(ConnectionId id, WireBlocks answer) {
     answer.empty() ? tcp->Done(id) : tcp->Answer(id, std::move(answer));
   }
 };
 
 AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptions& options)
     : impl_(std::make_unique<Impl>()) {
-  std::vector<DroneBodyRef> bodies;
-  impl_->tracer = std::make_shared<const RayTracer>(WithBodies(std::move(scene), options.settings, bodies));
-  impl_->session = std::make_unique<Session>(impl_->tracer, bodies,
+  SceneExtras extras;
+  impl_->tracer = std::make_shared<const RayTracer>(
+      AddExtras(std::move(scene), options.settings, options.assets, extras));
+  impl_->session = std::make_unique<Session>(impl_->tracer, std::move(extras),
                                              SessionOptions{.settings = options.settings,
                                                             .lockstep = options.lockstep,
                                                             .seed = options.seed,
-                                                            .environment = options.environment});
+                                                            .environment = options.environment,
+                                                            .people = options.people});
   impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier});
   impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,
-                         AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls,
+                         AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls,
                          AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
     add(*impl_->api);
   }

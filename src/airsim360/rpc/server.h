@@ -6,20 +6,24 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/tcp_server.h"
+#include "airsim360/sim/step.h"
 
 namespace airsim360 {
 
 struct ServerOptions {
   AirSimSettings settings = DefaultSettings();
-  Environment environment;
+  Environment environment = {};
   std::string address = "127.0.0.1";
   int port = 41451;  ///< 0 = any free one
   bool lockstep = false;
   Tier tier = Tier::kFast;
   uint64_t seed = 0;
-  TcpLimits limits;
+  TcpLimits limits = {};
+  std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene (Populate); null = nobody
+  std::vector<SpawnAsset> assets = ShapeAssets();     ///< what simSpawnObject can make
 };
 
 /// Serves from its construction to its end. See docs/rpc.md for what each function does.

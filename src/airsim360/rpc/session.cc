@@ -6,6 +6,7 @@
 
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 namespace {
@@ -27,6 +28,13 @@ uint64_t WallClockNs() {
                                    .count());
 }
 
+std::vector<DroneBodyRef> AllBodies(const SceneExtras& extras) {
+  std::vector<DroneBodyRef> bodies = extras.drones;
+  for (const SpawnStock& stock : extras.stock)
+    bodies.insert(bodies.end(), stock.copies.begin(), stock.copies.end());
+  return bodies;
+}
+
 }  // namespace
 
 std::string NoVehicleText(const std::string& name) {
@@ -43,20 +51,22 @@ size_t Snapshot::Find(const std::string& name) const {
   throw std::runtime_error(NoVehicleText(name));
 }
 
-Session::Session(std::shared_ptr<const RayTracer> tracer, std::vector<DroneBodyRef> bodies,
-                 const SessionOptions& options)
+Session::Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options)
     : options_(options),
       objects_(std::shared_ptr<const Scene>(tracer, &tracer->scene())),
       earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
                       options.settings.origin.altitude}),
-      bodies_(std::move(bodies)),
-      base_tracer_(WithoutBodies(tracer, bodies_)),
+      extras_(std::move(extras)),
+      base_tracer_(WithoutBodies(tracer, AllBodies(extras_), options.people.get())),
       dynamic_tracer_(tracer),
       origin_W_(FindOrigin(*base_tracer_)),
       pacer_(options.lockstep, options.settings.clock_speed),
       recorder_(options.settings.recording) {
   auto world = std::make_shared<WorldView>();
   world->segmentation = InitialSegmentation(objects_.scene(), options_.settings.segmentation_init);
+  // What is held ready is not there yet.
+  for (const DroneBodyRef& body : AllBodies(extras_))
+    world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
   world->external_cameras = MakeExternalCameras(options_.settings);
   world->environment = world->base_environment = options_.environment;
   world_ = std::move(world);
@@ -97,9 +107,18 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
   RigidTransform start = X_WB;
   if (is_drone) {
     DroneSetup setup = MakeDroneSetup(name, options_.settings, settings, {}, X_WB);
-    if (index < bodies_.size()) {
-      setup.instance = bodies_[index].instance;
-      setup.entity = bodies_[index].entity;
+    if (index < extras_.drones.size()) {
+      const DroneBodyRef& body = extras_.drones[index];
+      setup.instance = body.instance;
+      setup.entity = body.entity;
+      // From now on it is where the simulation has it.
+      world().places.erase(body.entity);
+      world().names[body.entity] = name;
+      if (options_.settings.segmentation_init != "None")
+        world().segmentation[body.entity] = static_cast<uint32_t>(DefaultSegmentationId(name));
+    } else {
+      LogWarning("vehicle '" + name + "' is not seen by others: " + std::to_string(extras_.drones.size()) +
+                 " drones have bodies");
     }
     model->drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model->dt_ns));
     model_ = model;
@@ -125,8 +144,10 @@ void Session::BuildVehicles() {
   model->world.frame = earth_;
   model->world.seed = options_.seed;
   model->wind.mean_W = NedFromWorld(airsim::FromVector(options_.settings.wind));
+  model->people = options_.people;
   model_ = model;
   state_.wind_W = model->wind.mean_W;
+  if (model->people) state_.people = model->people->start;
   // Drones come first in the simulation, in the order of their names as AirSim has them.
   for (const bool drones : {true, false}) {
     for (const auto& [name, settings] : options_.settings.vehicles) {

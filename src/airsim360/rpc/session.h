@@ -10,6 +10,7 @@
 
 #include "airsim360/rpc/pacer.h"
 #include "airsim360/rpc/recorder.h"
+#include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/rpc/vehicle_control.h"
@@ -23,6 +24,7 @@ struct SessionOptions {
   bool lockstep = false;  ///< time passes only in simContinueForTime and simContinueForFrames
   uint64_t seed = 0;
   Environment environment;
+  std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene; null = nobody
 };
 
 /// What runs in the session's thread.
@@ -31,9 +33,8 @@ class Session {
   /// Changes the session and returns what is to be done once the change can be seen: answering, mostly.
   using Job = std::function<std::function<void()>(Session&)>;
 
-  /// `tracer` sees the scene with `bodies`, one for each drone of the settings in the order of their names.
-  Session(std::shared_ptr<const RayTracer> tracer, std::vector<DroneBodyRef> bodies,
-          const SessionOptions& options);
+  /// `tracer` sees the scene with everything of `extras`.
+  Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options);
   /// Ends every move with False and joins the thread.
   ~Session();
   Session(const Session&) = delete;
@@ -46,6 +47,7 @@ class Session {
   SnapshotPointer snapshot() const;
   const AirSimSettings& settings() const { return options_.settings; }
   const ObjectIndex& objects() const { return objects_; }
+  std::vector<std::string> AssetNames() const;
   /// Origin of the global N frame in W, and W on the Earth.
   Vec3d origin_W() const { return origin_W_; }
   const GeoFrame& earth() const { return earth_; }
@@ -67,6 +69,9 @@ class Session {
   void GainsChanged(const VehicleControl& control);
   /// A drone added at a place; false if the name is taken or the type unknown.
   bool AddVehicle(const std::string& name, const std::string& type, const RigidTransform& X_WB);
+  /// Brings an object of an asset into the world; its name, which is another one if `name` is taken.
+  /// std::runtime_error with AirSim's text for an asset that there is not, or when all copies are in use.
+  std::string Spawn(const std::string& name, const std::string& asset, const ObjectPlace& place);
   /// Puts a vehicle somewhere else, at the speed it has.
   void Teleport(const VehicleControl& control, const RigidTransform& X_WB);
   void Reset();
@@ -88,7 +93,7 @@ class Session {
   SessionOptions options_;
   ObjectIndex objects_;
   GeoFrame earth_;
-  std::vector<DroneBodyRef> bodies_;
+  SceneExtras extras_;
   std::shared_ptr<const RayTracer> base_tracer_;  // without the bodies
   DynamicTracer dynamic_tracer_;
   Vec3d origin_W_;

@@ -1,22 +1,32 @@
 // What calls change in a session, beyond commands to vehicles.
 #include <algorithm>
+#include <set>
 
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/session.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 
 void Session::ObjectsMoved() {
   auto scene_state = std::make_shared<SceneState>();
   scene_state->t_ns = state_.t_ns;
-  for (const auto& [entity, place] : world().places) objects_.Move(entity, place, scene_state->moved);
-  const bool any = !scene_state->moved.empty();
-  // Drones meet each other otherwise.
-  for (const DroneBodyRef& body : bodies_) scene_state->moved.push_back({body.instance, {}, true});
+  // Drones meet each other otherwise: their bodies are not there. Nor do people stand in the way of free space.
+  std::set<EntityId> drones;
+  for (const DroneBodyRef& body : extras_.drones) {
+    drones.insert(body.entity);
+    scene_state->moved.push_back({body.instance, {}, true});
+  }
+  if (options_.people) {
+    for (const PersonRef& person : options_.people->refs) scene_state->moved.push_back({person.instance, {}, true});
+  }
+  for (const auto& [entity, place] : world().places) {
+    if (!drones.contains(entity)) objects_.Move(entity, place, scene_state->moved);
+  }
   std::sort(scene_state->moved.begin(), scene_state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
   auto model = std::make_shared<SimModel>(*model_);
-  model->tracer = any ? dynamic_tracer_.At(scene_state) : base_tracer_;
+  model->tracer = dynamic_tracer_.At(scene_state);
   model_ = model;
   // Free space is measured anew.
   for (Vehicle& vehicle : state_.vehicles) vehicle.contact.free_distance = 0;
@@ -44,6 +54,42 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
   }
   AddToModel(name, VehicleSettings{}, X_WB);
   return true;
+}
+
+std::vector<std::string> Session::AssetNames() const {
+  std::vector<std::string> names;
+  for (const SpawnStock& stock : extras_.stock) names.push_back(stock.asset);
+  return names;
+}
+
+std::string Session::Spawn(const std::string& name, const std::string& asset, const ObjectPlace& place) {
+  constexpr size_t kLongestName = 200;
+  const auto stock = std::ranges::find(extras_.stock, asset, &SpawnStock::asset);
+  if (stock == extras_.stock.end())
+    throw std::runtime_error("There were no assets with name " + asset + " found in the Registry");
+  if (name.empty() || name.size() > kLongestName)
+    throw std::invalid_argument("object_name has 1 ... 200 bytes");
+  const auto free = std::ranges::find_if(stock->copies, [&](const DroneBodyRef& copy) {
+    const auto at = world().places.find(copy.entity);
+    return at != world().places.end() && at->second.hidden;
+  });
+  if (free == stock->copies.end()) {
+    throw std::runtime_error("All " + std::to_string(stock->copies.size()) + " objects of asset " + asset +
+                             " are in the world already; destroy one first");
+  }
+  // Taken names get a number, as in AirSim.
+  const auto taken = [&](const std::string& text) {
+    const EntityId entity = objects_.Find(text, world().names);
+    return entity != kNoEntity && entity != free->entity;
+  };
+  std::string given = name;
+  for (int number = 2; taken(given) || HasVehicle(given); ++number) given = name + std::to_string(number);
+  world().names[free->entity] = given;
+  world().places[free->entity] = place;
+  if (options_.settings.segmentation_init != "None")
+    world().segmentation[free->entity] = static_cast<uint32_t>(DefaultSegmentationId(given));
+  ObjectsMoved();
+  return given;
 }
 
 void Session::Teleport(const VehicleControl& control, const RigidTransform& X_WB) {

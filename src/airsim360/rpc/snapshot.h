@@ -33,6 +33,7 @@ struct PlotCounts {
 /// The part of the world that calls change and steps do not. Copied when it changes.
 struct WorldView {
   std::map<EntityId, ObjectPlace> places;  ///< objects that are not where the scene has them
+  ObjectNames names;                       ///< of drones and objects that calls have added
   std::vector<uint32_t> segmentation;      ///< id by entity; [0] for what is none
   std::map<std::string, std::vector<uint32_t>> annotations;  ///< Cosys layers: value by entity
   std::vector<CameraMap> cameras;                            ///< by vehicle

@@ -205,7 +205,7 @@ void TcpServer::Stop() {
 
 int TcpServer::port() const { return impl_->port; }
 
-void TcpServer::Answer(ConnectionId id, std::string bytes) {
+void TcpServer::Answer(ConnectionId id, WireBlocks bytes) {
   const auto connection = impl_->Find(id);
   if (!connection) return;
   --connection->unanswered;

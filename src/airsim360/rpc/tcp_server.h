@@ -46,7 +46,7 @@ class TcpServer {
   int port() const;
   /// Sends the answer to one message; from any thread, never waits. Nothing happens if the connection is
   /// gone.
-  void Answer(ConnectionId connection, std::string bytes);
+  void Answer(ConnectionId connection, WireBlocks bytes);
   /// One message will get no answer (a notification); counts against TcpLimits::unanswered no longer.
   void Done(ConnectionId connection);
   size_t connections() const;

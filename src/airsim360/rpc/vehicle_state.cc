@@ -35,7 +35,9 @@ airsim::CollisionInfo CollisionOf(const Snapshot& now, size_t vehicle, bool has_
   info.impact_point = ToVector(NedFromWorld(last.p_W - origin_W));
   info.position = ToVector(NedFromWorld(last.p_WB - origin_W));
   if (last.entity != kNoEntity) {
-    info.object_name = now.model->tracer->scene().entity(last.entity).name;
+    const auto given = now.world->names.find(last.entity);
+    info.object_name = given != now.world->names.end() ? given->second
+                                                       : now.model->tracer->scene().entity(last.entity).name;
     info.object_id = static_cast<int>(now.world->segmentation[last.entity]);
   }
   return info;

@@ -19,14 +19,8 @@ class BadCast : public std::bad_cast {};
 
 /// Raw bytes of a picture, sent as a binary.
 struct WireBytes {
-  std::string bytes;
+  WireBlock bytes;
 };
-
-/// About how many bytes an answer will take, where that is much.
-template <class T>
-size_t WireSizeHint(const T&) {
-  return 64;
-}
 
 /// A struct that lists its fields: `template <class V> void Visit(V& v) { v("key", field); … }`.
 namespace internal {
@@ -110,7 +104,10 @@ template <class T>
 requires std::is_enum_v<T>
 void ToWire(WireWriter& writer, T value) { writer.Int(static_cast<int64_t>(value)); }
 inline void ToWire(WireWriter& writer, const std::string& value) { writer.String(value); }
-inline void ToWire(WireWriter& writer, const WireBytes& value) { writer.Binary(value.bytes); }
+inline void ToWire(WireWriter& writer, const WireBytes& value) {
+  writer.BinaryHeader(value.bytes.size());
+  writer.Append(value.bytes);
+}
 inline void ToWire(WireWriter& writer, const std::vector<float>& value) { writer.Floats(value); }
 template <class A, class B>
 void ToWire(WireWriter& writer, const std::pair<A, B>& value) {

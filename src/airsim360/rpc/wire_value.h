@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "airsim360/rpc/wire_block.h"
+
 namespace airsim360 {
 
 /// The bytes are not one complete msgpack object within the limits.
@@ -62,6 +64,10 @@ class WireScanner {
 /// Decodes exactly one object that fills `bytes`. WireError otherwise.
 WireValue DecodeWire(std::span<const uint8_t> bytes, const WireLimits& limits = {});
 
+/// Floats as elements of an array, `kWireFloatBytes` each, at `out`.
+inline constexpr size_t kWireFloatBytes = 5;
+void StoreWireFloats(std::span<const float> values, char* out);
+
 /// Appends msgpack to a string. Integers take their shortest form; floats are 4 bytes, doubles 8.
 class WireWriter {
  public:
@@ -80,11 +86,18 @@ class WireWriter {
   /// An array of floats, as one block.
   void Floats(std::span<const float> values);
 
+  /// Bytes that are sent as they are, without being copied: what a header before them has announced.
+  void Append(WireBlock block);
+
+  /// What has been written since the last Append.
   std::string& bytes() { return bytes_; }
+  /// Everything; the writer is empty afterwards.
+  WireBlocks Take();
 
  private:
   void Byte(uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
   void Number(uint8_t tag, uint64_t value, int size);
+  WireBlocks blocks_;
   std::string bytes_;
 };
 

@@ -1,5 +1,7 @@
 #include <bit>
+#include <cstring>
 #include <limits>
+#include <utility>
 
 #include "airsim360/rpc/wire_value.h"
 
@@ -79,12 +81,26 @@ void WireWriter::MapHeader(size_t count) {
 void WireWriter::Floats(std::span<const float> values) {
   ArrayHeader(values.size());
   const size_t start = bytes_.size();
-  bytes_.resize(start + 5 * values.size());
-  char* out = bytes_.data() + start;
+  bytes_.resize(start + kWireFloatBytes * values.size());
+  StoreWireFloats(values, bytes_.data() + start);
+}
+
+void WireWriter::Append(WireBlock block) {
+  if (!bytes_.empty()) blocks_.emplace_back(std::exchange(bytes_, {}));
+  if (block.size() > 0) blocks_.push_back(std::move(block));
+}
+
+WireBlocks WireWriter::Take() {
+  Append({});
+  return std::exchange(blocks_, {});
+}
+
+void StoreWireFloats(std::span<const float> values, char* out) {
   for (const float value : values) {
     *out = static_cast<char>(0xca);
-    StoreBigEndian(std::bit_cast<uint32_t>(value), 4, out + 1);
-    out += 5;
+    const uint32_t bits = __builtin_bswap32(std::bit_cast<uint32_t>(value));
+    std::memcpy(out + 1, &bits, sizeof bits);
+    out += kWireFloatBytes;
   }
 }
 

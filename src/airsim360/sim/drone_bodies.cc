@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/body/drone_body.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 namespace {
@@ -31,21 +32,24 @@ std::string UniqueName(const Scene& scene, const std::string& name) {
   return name + " " + std::to_string(number);
 }
 
-DroneBodyRef AddBody(const DroneBodySpec& body, Scene& scene) {
+// Its mesh with parts and materials that count on from those of the scene.
+MeshId AddMesh(const DroneBodySpec& body, Scene& scene) {
   if (!body.model.textures.empty()) throw InputError("body of '" + body.name + "' has textures");
-  // Parts and materials count on from those of the scene.
   Mesh mesh = body.model.mesh;
   const auto first_material = static_cast<MaterialId>(scene.materials.size());
   for (MeshPart& part : mesh.parts) part.material += first_material;
   scene.materials.insert(scene.materials.end(), body.model.materials.begin(), body.model.materials.end());
+  scene.meshes.push_back(std::move(mesh));
+  return static_cast<MeshId>(scene.meshes.size() - 1);
+}
 
+DroneBodyRef AddBody(const DroneBodySpec& body, MeshId mesh, Scene& scene) {
   const auto entity = static_cast<EntityId>(scene.entities.size() + 1);
   const AffineTransform X_WM = PlaceOf(body.X_WB);
   Box3f bounds;
-  for (const Vec3f& p : mesh.positions) bounds.Add(X_WM * p);
-  scene.entities.push_back({entity, UniqueName(scene, body.name), scene.tree.At("uav/other"), bounds});
-  scene.instances.push_back({static_cast<MeshId>(scene.meshes.size()), X_WM, entity});
-  scene.meshes.push_back(std::move(mesh));
+  for (const Vec3f& p : scene.meshes[mesh].positions) bounds.Add(X_WM * p);
+  scene.entities.push_back({entity, UniqueName(scene, body.name), scene.tree.At(body.category), bounds});
+  scene.instances.push_back({mesh, X_WM, entity});
   return {static_cast<uint32_t>(scene.instances.size() - 1), entity};
 }
 
@@ -79,7 +83,11 @@ std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
   const std::shared_ptr<Scene> own = Own(std::move(scene));
   // What is kept on disk of a scene is of the scene without bodies.
   own->cache_key.clear();
-  for (const DroneBodySpec& body : bodies) refs.push_back(AddBody(body, *own));
+  std::vector<MeshId> meshes;
+  for (const DroneBodySpec& body : bodies) {
+    meshes.push_back(body.same_as ? meshes.at(*body.same_as) : AddMesh(body, *own));
+    refs.push_back(AddBody(body, meshes.back(), *own));
+  }
   return own;
 }
 
@@ -92,15 +100,23 @@ std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimS
     if (instance != kMiss)
       scene_state->moved.push_back({instance, PlaceOf(state.vehicles[i].motion.X_WB), i == self});
   }
+  if (model.people && state.people) {
+    ShowPeople(*model.people, PosesAt(*model.people, *state.people, state.t_ns + model.people->epoch_ns),
+               *scene_state);
+  }
   std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
   return scene_state;
 }
 
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
-                                               std::span<const DroneBodyRef> bodies) {
-  if (bodies.empty()) return base;
+                                               std::span<const DroneBodyRef> bodies,
+                                               const SimPeople* people) {
+  const bool anybody = people != nullptr && !people->refs.empty();
+  if (bodies.empty() && !anybody) return base;
   auto state = std::make_shared<SceneState>();
   for (const DroneBodyRef& body : bodies) state->moved.push_back({body.instance, {}, true});
+  for (size_t i = 0; anybody && i < people->refs.size(); ++i)
+    state->moved.push_back({people->refs[i].instance, {}, true});
   std::ranges::sort(state->moved, {}, &MovedInstance::instance);
   return DynamicTracer(base).At(state);
 }

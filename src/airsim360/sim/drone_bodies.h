@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,11 @@ namespace airsim360 {
 
 /// A body to be added: `model` is in B (origin at the centre of mass, +X forward, +Z up).
 struct DroneBodySpec {
-  std::string name;  ///< of the entity; category uav/other
+  std::string name;  ///< of the entity
   Model model;
   RigidTransform X_WB;  ///< where it stands in the scene as built
+  std::string category = "uav/other";
+  std::optional<size_t> same_as = {};  ///< an earlier body whose model it shares; `model` then counts for nothing
 };
 
 /// The body that stands for a drone of this model (MakeDroneBody, turning propellers as discs).
@@ -37,11 +40,13 @@ std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
 inline constexpr size_t kNobody = SIZE_MAX;
 
 /// What has moved, as sensors of vehicle `self` see it: bodies where the drones are, its own hidden (kNobody:
-/// all are shown). Drones without a body are left out.
+/// all are shown), and the people as they stand at state.t_ns. Drones without a body are left out.
 std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self);
 
-/// The scene of `base` without any of the bodies, for SimModel::tracer; `base` itself if there are none.
+/// The scene of `base` without any of the bodies and people, for SimModel::tracer; `base` itself if there are
+/// none.
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
-                                               std::span<const DroneBodyRef> bodies);
+                                               std::span<const DroneBodyRef> bodies,
+                                               const SimPeople* people = nullptr);
 
 }  // namespace airsim360

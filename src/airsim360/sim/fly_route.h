@@ -14,6 +14,7 @@ namespace airsim360 {
 struct Shot {
   int64_t t_ns = 0;
   Kinematics body;
+  std::shared_ptr<const PeopleState> people = nullptr;  ///< SimState::people then
 };
 
 /// One moment of the recorded trajectory.

@@ -68,6 +68,8 @@ class Reader {
 
 // Of values that come after the templates that hold them.
 template <class A>
+void Walk(A& archive, PersonCommand& command);
+template <class A>
 void Walk(A& archive, FlightCommand& command);
 template <class A>
 void Walk(A& archive, RigidTransform& X);
@@ -250,6 +252,37 @@ void Walk(A& a, WindCommand& c) {
   Walk(a, c.wind_W);
 }
 
+template <class A>
+void Walk(A& a, std::string& text) {
+  std::vector<char> letters(text.begin(), text.end());
+  WalkList(a, letters, 1, [&](char& c) { a.Field(c); });
+  text.assign(letters.begin(), letters.end());
+}
+template <class A>
+void Walk(A& a, SpawnPerson& c) {
+  Walk(a, c.p_W), Walk(a, c.yaw);
+}
+template <class A>
+void Walk(A& a, MovePerson& c) {
+  Walk(a, c.p_W), Walk(a, c.yaw);
+}
+template <class A>
+void Walk(A&, RemovePerson&) {}
+template <class A>
+void Walk(A& a, SendPerson& c) {
+  Walk(a, c.p_W), Walk(a, c.speed);
+}
+template <class A>
+void Walk(A& a, SetPersonState& c) {
+  Walk(a, c.state), Walk(a, c.seconds);
+}
+template <class A>
+void Walk(A& a, MessagePerson& c) {
+  Walk(a, c.type);
+}
+template <class A>
+void Walk(A&, ReleasePerson&) {}
+
 // The alternative by its number, then its fields.
 template <class A, class... Types>
 void Walk(A& a, std::variant<Types...>& value) {
@@ -262,6 +295,10 @@ void Walk(A& a, std::variant<Types...>& value) {
     value = kMake[index]();
   }
   std::visit([&](auto& alternative) { Walk(a, alternative); }, value);
+}
+template <class A>
+void Walk(A& a, PersonCommand& c) {
+  Walk(a, c.person), Walk(a, c.action);
 }
 template <class A>
 void Walk(A& a, FlightCommand& c) {

@@ -1,6 +1,7 @@
 // Every number of a simulation's state, in order.
 #include "airsim360/base/state_hash.h"
 
+#include "airsim360/sim/people/people.h"
 #include "airsim360/sim/step.h"
 
 namespace airsim360 {
@@ -89,6 +90,7 @@ uint64_t HashState(const SimState& state) {
   hasher.Add(state.t_ns);
   hasher.Add(state.wind_W);
   for (const Vehicle& vehicle : state.vehicles) Add(vehicle, hasher);
+  if (state.people) hasher.Add(HashPeople(*state.people));
   return hasher.hash();
 }
 

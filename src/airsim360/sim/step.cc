@@ -1,10 +1,12 @@
 #include "airsim360/sim/step.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/sim/people/people.h"
 #include "airsim360/sim/step_drone.h"
 
 namespace airsim360 {
@@ -15,6 +17,12 @@ constexpr size_t kVehiclesPerTask = 8;
 
 bool Flies(const SimModel& model, size_t i, const Vehicle& vehicle) {
   return i < model.drones.size() && !vehicle.following;
+}
+
+// The people of a state, to be changed: a copy if a snapshot has them too.
+PeopleState& OwnPeople(SimState& state) {
+  if (state.people.use_count() > 1) state.people = std::make_shared<PeopleState>(*state.people);
+  return const_cast<PeopleState&>(*state.people);
 }
 
 /// Applies one command; visits its kind.
@@ -48,6 +56,9 @@ struct CommandVisitor {
     vehicle().command.id += id;
   }
   void operator()(const WindCommand& wind) const { state.wind_W = wind.wind_W; }
+  void operator()(const PersonCommand& person) const {
+    CommandPerson(*model.people->crowd, OwnPeople(state).crowd, person.person, person.action);
+  }
 };
 
 void ApplyCommands(const SimModel& model, std::span<const SimCommand> commands, SimState& state) {
@@ -70,11 +81,27 @@ void MoveAlong(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
   vehicle.clearance = model.tracer->Clearance(VecCast<float>(point.p), model.contact_range);
 }
 
+// People near a drone can be touched by it; they stand like drones without rotors.
+void AddPeopleBoxes(const SimModel& model, const SimState& state, std::vector<DroneBox>& boxes) {
+  if (!state.people || !model.people) return;
+  constexpr double kReach = 4;  // metres: far more than a drone flies in a step
+  const size_t count = std::min(model.drones.size(), state.vehicles.size());
+  const int64_t t_ns = state.t_ns + model.people->epoch_ns;
+  for (size_t i = 0; i < count; ++i) {
+    for (const PersonBox& person :
+         PeopleNear(*model.people, *state.people, t_ns, state.vehicles[i].motion.X_WB.p, kReach)) {
+      const auto same = [&](const DroneBox& box) { return box.vehicle == kMiss && box.entity == person.entity; };
+      if (std::ranges::any_of(boxes, same)) continue;
+      boxes.push_back({person.X_WB, person.half_size_B, person.v_W, Norm(person.half_size_B), kMiss, person.entity, {}});
+    }
+  }
+}
+
 // What others meet of the drones: where they are now.
 DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
   std::vector<DroneBox> boxes;
   const size_t count = std::min(model.drones.size(), state.vehicles.size());
-  for (size_t i = 0; i < count && count > 1; ++i) {
+  for (size_t i = 0; i < count && (count > 1 || model.people); ++i) {
     const SimDrone& drone = *model.drones[i];
     const Kinematics& motion = state.vehicles[i].motion;
     const RotorWake wake =
@@ -82,7 +109,38 @@ DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
     boxes.push_back(
         {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity, wake});
   }
+  AddPeopleBoxes(model, state, boxes);
   return DroneBoxes(std::move(boxes));
+}
+
+// Near passes, as the drones notice them.
+void ReportNearPasses(const SimModel& model, std::span<const CrowdEvent> happened, std::vector<SimEvent>& events) {
+  for (const CrowdEvent& crowd : happened) {
+    if (crowd.kind != CrowdEvent::Kind::kNearPass) continue;
+    SimEvent event{.kind = SimEvent::Kind::kNearPerson, .vehicle = crowd.drone, .person = crowd.person};
+    event.t_ns = crowd.t_ns - model.people->epoch_ns;
+    char text[64];
+    std::snprintf(text, sizeof text, " at %.2f m", crowd.value);
+    event.text = model.people->crowd->people[crowd.person].name + text;
+    events.push_back(std::move(event));
+  }
+}
+
+// Brings the people to the last tick of their time that is not after the end of this step.
+void StepPeople(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
+  if (!state.people || !model.people) return;
+  const int64_t end_ns = state.t_ns + model.dt_ns + model.people->epoch_ns;
+  if (state.people->crowd.t_ns + kCrowdTickNs > end_ns) return;
+  std::vector<CrowdDrone> drones;
+  for (size_t i = 0; i < state.vehicles.size(); ++i) {
+    const Kinematics& motion = state.vehicles[i].motion;
+    drones.push_back({motion.X_WB.p, motion.v_WB});
+    if (i < model.drones.size()) drones.back().radius = model.drones[i]->radius();
+  }
+  PeopleState& people = OwnPeople(state);
+  std::vector<CrowdEvent> happened;
+  while (people.crowd.t_ns + kCrowdTickNs <= end_ns) TickPeople(*model.people, drones, people, &happened);
+  if (events != nullptr) ReportNearPasses(model, happened, *events);
 }
 
 void RecordTrace(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
@@ -113,6 +171,12 @@ void StepVehicle(const internal::StepContext& context, size_t i, Vehicle& vehicl
 
 void CheckCommand(const SimModel& model, const SimState& state, const SimCommand& command) {
   if (std::holds_alternative<WindCommand>(command.action)) return;
+  if (const auto* person = std::get_if<PersonCommand>(&command.action)) {
+    if (!state.people || !model.people) throw InputError("command for a person: there are no people");
+    CrowdState trial = state.people->crowd;
+    CommandPerson(*model.people->crowd, trial, person->person, person->action);
+    return;
+  }
   const size_t i = command.vehicle;
   const std::string where = "command for vehicle " + std::to_string(i);
   if (i >= state.vehicles.size()) throw InputError(where + " of " + std::to_string(state.vehicles.size()));
@@ -132,6 +196,7 @@ BodyMotion MotionOf(const Vehicle& vehicle) { return {vehicle.motion, vehicle.a_
 void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state,
           std::vector<SimEvent>* events) {
   ApplyCommands(model, commands, state);
+  StepPeople(model, state, events);
   const DroneBoxes boxes = BoxesOf(model, state);
   const internal::StepContext context{model, boxes, state.wind_W, state.t_ns};
   const size_t count = state.vehicles.size(), tasks = (count + kVehiclesPerTask - 1) / kVehiclesPerTask;

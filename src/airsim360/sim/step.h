@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "airsim360/people/crowd/crowd.h"
 #include "airsim360/sensors/sensor_set.h"
 #include "airsim360/sim/route.h"
 #include "airsim360/sim/sim_drone.h"
@@ -18,12 +19,15 @@
 
 namespace airsim360 {
 
+struct SimPeople;    // sim/people/people.h
+struct PeopleState;  // likewise
+
 /// Length of a step of simulations with nothing but vehicles that follow routes.
 inline constexpr int64_t kRouteStepNs = 20'000'000;
 
 /// What never changes during a run. Shared, read-only.
 struct SimModel {
-  std::shared_ptr<const RayTracer> tracer;  ///< what vehicles touch: the scene without the drones' own bodies
+  std::shared_ptr<const RayTracer> tracer;  ///< what vehicles touch: the scene without drones' bodies and people
   int64_t dt_ns = 1'000'000;                ///< length of a step, > 0
   float contact_range = 2;                  ///< metres up to which clearance is measured
   std::vector<std::shared_ptr<const SimDrone>> drones = {};  ///< by vehicle; further ones only follow routes
@@ -31,6 +35,7 @@ struct SimModel {
   WorldWind wind = {};
   int64_t trace_period_ns = 100'000'000;  ///< between samples of a vehicle's trace
   size_t trace_samples = 0;               ///< newest samples that a vehicle keeps; 0 = no trace
+  std::shared_ptr<const SimPeople> people = nullptr;  ///< null = nobody
 };
 
 /// Following a route from the step in which the command was applied.
@@ -94,6 +99,9 @@ struct SimState {
   int64_t t_ns = 0;  ///< step * dt_ns
   Vec3d wind_W;      ///< mean wind 10 m above the ground, m/s; WindCommand sets it
   std::vector<Vehicle> vehicles;
+  /// Of SimModel::people, at the newest multiple of kCrowdTickNs of their time; null = nobody. Never changed
+  /// while a snapshot shares it.
+  std::shared_ptr<const PeopleState> people = nullptr;
 };
 
 /// What a vehicle, or the world, can be told. A drone that is given a Command flies; one that is given a
@@ -112,6 +120,10 @@ struct ResetCommand {
 struct WindCommand {
   Vec3d wind_W;  ///< for the whole world, whatever the vehicle
 };
+struct PersonCommand {
+  PersonIndex person = 0;  ///< of CrowdModel::people, whatever the vehicle
+  PersonAction action;
+};
 struct FlightCommand {
   Command command;
   int64_t timeout_ns = 0;  ///< as ActiveCommand
@@ -120,7 +132,7 @@ struct FlightCommand {
 struct SimCommand {
   size_t vehicle = 0;
   std::variant<std::shared_ptr<const Route>, FlightCommand, GimbalCommand, RotorHealthCommand, ResetCommand,
-               WindCommand>
+               WindCommand, PersonCommand>
       action;
 };
 
@@ -137,16 +149,19 @@ struct SimEvent {
     kBatteryLow,
     kBatteryEmpty,
     kWorldEdge,
+    kNearPerson,
   };
   Kind kind;
   size_t vehicle = 0;
   int64_t t_ns = 0;
   CollisionInfo collision = {};  ///< of kCollision and kCrash
-  std::string text = {};         ///< of kCommandRefused: why
+  std::string text = {};         ///< of kCommandRefused: why; of kNearPerson: who, and how near
+  PersonIndex person = kNoPerson;  ///< of kNearPerson
 };
 inline constexpr const char* kSimEventNames[] = {
     "collision", "crash",        "command refused", "command lost",  "command done",
-    "fence",     "rotor failed", "battery low",     "battery empty", "world edge"};
+    "fence",     "rotor failed", "battery low",     "battery empty", "world edge",
+    "near person"};
 
 /// A vehicle at rest that only follows routes.
 Vehicle VehicleAt(const SimModel& model, const RigidTransform& X_WB);
@@ -160,7 +175,7 @@ SimState StartState(const SimModel& model);
 void CheckCommand(const SimModel& model, const SimState& state, const SimCommand& command);
 
 /// Applies `commands` at the state's time, then advances it by one dt. Adds what happened to `events` in the
-/// order of the vehicles, if given. InputError for a vehicle or gimbal that does not exist, or for a flight
+/// order of the vehicles, if given. InputError for a vehicle, gimbal or person that does not exist, or for a flight
 /// command to a vehicle that is no drone; a command that a drone cannot fly is refused with an event.
 void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state,
           std::vector<SimEvent>* events = nullptr);

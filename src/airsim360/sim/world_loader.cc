@@ -12,7 +12,9 @@
 #include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
 #include "airsim360/scene/scene_archive.h"
+#include "airsim360/sim/height_file.h"
 #include "airsim360/sim/world_environment.h"
+#include "airsim360/worlds/osm_world.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -28,8 +30,10 @@ std::string LowerExtension(const fs::path& path) {
 
 bool IsModelFile(const fs::path& path) {
   const std::string extension = LowerExtension(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj";
+  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".json" || extension == ".jsonl";
 }
+
+bool IsPath(const fs::path& path) { return IsModelFile(path) || IsOsmFile(path); }
 
 bool IsWorldFile(const fs::path& path) {
   const std::string extension = LowerExtension(path);
@@ -38,26 +42,36 @@ bool IsWorldFile(const fs::path& path) {
 
 // The fields of a world YAML, filled into `request` and, over its values, `environment`.
 WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environment& environment) {
-  std::string world, labels;
+  std::string world, labels, heights;
   ReadYamlFile(file, [&](ConfigVisitor& v) {
-    v.Field("world", "name of a built-in world, or a .glb, .gltf or .obj file", world);
+    v.Field("world", "name of a built-in world, or a .glb, .gltf, .obj, .osm or .osm.pbf file", world);
     v.Field("seed", "seed of the world", request.seed);
-    v.Field("labels", "label override file for imports", labels);
+    v.Field("labels", "label override file", labels);
+    v.Field("heights", "maps: GeoTIFF of the ground's heights", heights);
+    v.Field("fill", "maps: add parked cars, lamps and trees where the map has none", request.fill);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
+    request.additions.Visit(v);
     v.Group("environment", "sun, sky and weather",
             [&](ConfigVisitor& group) { VisitEnvironment(group, file.parent_path(), environment); });
   });
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
-  request.world = IsModelFile(world) ? (file.parent_path() / world).string() : world;
+  request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
+  request.additions.Resolve(file);
   if (!labels.empty()) request.labels = file.parent_path() / labels;
+  if (!heights.empty()) request.heights = file.parent_path() / heights;
   return request;
 }
 
-// Everything that a built-in world depends on.
+// Everything that a world that we build depends on.
 CacheKey KeyOf(const WorldRequest& request) {
   CacheKey key("scene", 1);
   key.AddProgram().Add(request.world).Add(request.seed).Add(request.use_models);
+  if (IsOsmFile(request.world)) {
+    key.AddFile(request.world).Add(request.fill).Add(request.heights.string());
+    if (!request.heights.empty()) key.AddFile(request.heights);
+  }
+  request.additions.AddTo(key);
   if (!request.use_models) return key;
   std::vector<fs::path> libraries;
   std::error_code error;
@@ -68,8 +82,25 @@ CacheKey KeyOf(const WorldRequest& request) {
   return key;
 }
 
+std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* report = nullptr) {
+  const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
+  if (!IsOsmFile(request.world)) {
+    return BuildWorld(request.world, {.seed = request.seed,
+                                      .models = models.get(),
+                                      .city = request.additions.city,
+                                      .props = request.additions.LoadModels()});
+  }
+  std::optional<HeightGrid> heights;
+  if (!request.heights.empty()) heights = ReadHeights(request.heights);
+  const OsmOptions options{.seed = request.seed,
+                           .models = models.get(),
+                           .heights = heights ? &*heights : nullptr,
+                           .fill = request.fill};
+  return BuildOsmWorld(fs::path(request.world), options, report);
+}
+
 // Built, or as built by an earlier run.
-std::shared_ptr<const Scene> LoadBuiltIn(const WorldRequest& request) {
+std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
   const CacheKey key = KeyOf(request);
   const DiskCache cache = DiskCache::OfUser();
   if (const std::optional<Bytes> bytes = cache.Load(key)) {
@@ -78,13 +109,16 @@ std::shared_ptr<const Scene> LoadBuiltIn(const WorldRequest& request) {
       return std::make_shared<Scene>(std::move(*scene));
     }
   }
-  const auto models = request.use_models ? OpenSweetHomeModels() : nullptr;
-  auto built = BuildWorld(request.world, {.seed = request.seed, .models = models.get()});
+  auto built = BuildAnew(request);
   if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
   return WithCacheKey(std::move(built), key.Name());
 }
 
 }  // namespace
+
+std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
+  return Relabelled(BuildAnew(request, report), request.labels);
+}
 
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   const fs::path path = request.world;
@@ -96,8 +130,13 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
     ReadWorldFile(path, request, environment);
     return WithEnvironment(std::move(scene), environment);
   }
+  if (!request.additions.empty() && request.world != "new_york_city" &&
+      (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
+    throw InputError("'" + request.world + "': 'city' is for new_york_city, 'props' for it and downtown_west");
   if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
-  return LoadBuiltIn(request);
+  if (!request.heights.empty() && !IsOsmFile(path))
+    throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
+  return Relabelled(LoadBuilt(request), request.labels);
 }
 
 }  // namespace airsim360

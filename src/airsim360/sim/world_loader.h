@@ -1,4 +1,5 @@
-// A world by name or by file: built-in worlds, model files (.glb, .gltf, .obj), world YAML.
+// A world by name or by file: built-in worlds, model files (.glb, .gltf, .obj), maps (.osm, .osm.pbf, …), world
+// YAML.
 #pragma once
 
 #include <filesystem>
@@ -6,17 +7,25 @@
 #include <string>
 
 #include "airsim360/scene/scene.h"
+#include "airsim360/sim/world_city.h"
+#include "airsim360/worlds/osm_world.h"
 
 namespace airsim360 {
 
 struct WorldRequest {
-  std::string world;  ///< name of a built-in world, or path to .glb/.gltf/.obj/.yaml
+  std::string world;  ///< name of a built-in world, or path to .glb/.gltf/.obj/.osm/.osm.pbf/.yaml
   uint64_t seed = 0;
-  std::filesystem::path labels = {};  ///< label override file for imports, see docs/importing.md
+  std::filesystem::path labels = {};  ///< label override file, see docs/importing.md
   bool use_models = true;             ///< use sweethome3d-furniture where installed
+  std::filesystem::path heights = {};  ///< of the ground of maps: a GeoTIFF, read through GDAL's gdalwarp
+  bool fill = true;              ///< maps: add by rule what they seldom hold, see docs/importing.md
+  WorldAdditions additions = {};  ///< what a world file adds
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request);
+
+/// A map (.osm, .osm.pbf, …), built anew, with what became of it.
+std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report);
 
 }  // namespace airsim360

@@ -27,10 +27,20 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
                                                std::vector<Placement>* placements);
 WorldInfo DowntownWestInfo();
 
+/// Nine blocks of Midtown Manhattan around a crossing, with a lake park and a skyline.
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options);
+/// The same; `placements` as above.
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements);
+WorldInfo NewYorkCityInfo();
+
 /// A park around the bend of a road, with a lake, groves and lawns, woods to the horizon.
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options);
 /// The same; `placements` as above.
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements);
 WorldInfo CityParkInfo();
+
+/// A town of wall-to-wall houses, drawn as a map (osm/town_map.h) and built as maps are.
+std::shared_ptr<const Scene> BuildMapTown(const WorldOptions& options);
+WorldInfo MapTownInfo();
 
 }  // namespace airsim360::internal

@@ -35,12 +35,21 @@ bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);
 /// Distance from p to the nearest edge of the outline.
 float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p);
 
+/// What flight instructions name: on walls, and on and around the plaza.
+void HangDowntownSigns(District& district, const std::vector<BuildingPlan>& buildings);
+void PlaceDowntownLandmarks(District& district, const Block& plaza);
 /// The plaza: paving, fountain, terrace with café, market, allées.
 void BuildPlaza(District& district, const Block& block);
 /// The park: pond, ring walk, curved paths, lawns with trees, rocks and wooden fence.
 void BuildPark(District& district, const Block& block);
 /// Ground and planting inside a built block.
 void BuildYard(District& district, const Block& block);
+/// Signals and a row of bollards on the kerb return at the far end of a side.
+void FurnishCorner(District& district, const Block& block, const BlockSide& side, std::string_view bollard);
+/// A cover on the crown of every core crossing.
+void LayCrossingCovers(District& district);
+/// The street along a side of a block is one of the core's, perhaps on its way out.
+bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side);
 /// Lamps, trees, meters, bins … along the pavements, by rule.
 void FurnishPavements(District& district);
 /// Cars at the kerb and in the lanes, buses, manholes.

@@ -1,49 +1,12 @@
 // downtown_west: a downtown of European and American make around a plaza and a park, people-free.
 #include <algorithm>
 
+#include "airsim360/worlds/buildings.h"
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/district.h"
-#include "airsim360/worlds/facade.h"
-#include "airsim360/worlds/roofs.h"
+#include "airsim360/worlds/placed_models.h"
 
 namespace airsim360::internal {
-namespace {
-
-// Full dress where a wall can be seen from close by, less beyond.
-std::vector<FacadeDetail> DetailOf(const StreetPlan& plan, const BuildingPlan& building) {
-  const GroundRect reach = plan.reach().Inset(-0.5f);
-  std::vector<FacadeDetail> detail;
-  for (size_t i = 0; i < building.outline.size(); ++i) {
-    const Vec2f middle = (building.outline[i] + building.outline[(i + 1) % building.outline.size()]) * 0.5f;
-    detail.push_back(reach.Contains(middle)              ? FacadeDetail::kFull
-                     : reach.Inset(-40).Contains(middle) ? FacadeDetail::kSimple
-                                                         : FacadeDetail::kFlat);
-  }
-  return detail;
-}
-
-// Buildings block by block, one merged mesh each.
-void BuildBuildings(District& d, PropShelf& shelf, const std::vector<BuildingPlan>& buildings) {
-  MeshBuilder mesh;
-  FacadeContext context{d.builder, d.surfaces, mesh, AddBalconyMesh(d.builder, d.surfaces),
-                        AddWindowBoxMesh(d.builder, d.surfaces)};
-  for (size_t i = 0; i < buildings.size(); ++i) {
-    const BuildingPlan& building = buildings[i];
-    const EntityId walls = d.builder.AddEntity("building", d.builder.tree().At("construction/building"));
-    const EntityId roof = d.builder.AddEntity("roof", d.builder.tree().At("construction/building/roof"));
-    BuildFacades(context, building, walls, DetailOf(d.plan, building));
-    BuildRoof(d.builder, mesh, d.surfaces, &shelf, building, walls, roof);
-    const bool last = i + 1 == buildings.size() || buildings[i + 1].block != building.block;
-    if (!last) continue;
-    d.builder.AddInstance(
-        {d.builder.AddMesh(mesh.Finish("buildings of block " + std::to_string(building.block))),
-         {},
-         kNoEntity});
-  }
-}
-
-}  // namespace
-
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) {
   return BuildDowntownWest(options, nullptr);
 }
@@ -67,17 +30,23 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
   for (const Block& block : plan.blocks) {
     const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
     LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs);
-    if (block.kind == BlockKind::kPlaza) BuildPlaza(district, block);
+    if (block.kind == BlockKind::kPlaza) {
+      PlaceDowntownLandmarks(district, block);
+      BuildPlaza(district, block);
+    }
     if (block.kind == BlockKind::kPark) BuildPark(district, block);
     if (!open) BuildYard(district, block);
   }
-  BuildBuildings(district, shelf, PlanBuildings(plan, options.seed));
+  const std::vector<BuildingPlan> buildings = PlanBuildings(plan, options.seed);
+  BuildBuildings(district, buildings);
+  HangDowntownSigns(district, buildings);
   FurnishPavements(district);
   FurnishStreets(district, streets);
   ground.Finish("ground");
   BuildBackdrop(district);
   ground.Finish("backdrop");
 
+  AddPlacedModels(builder, shelf, options.props);
   // Over the plaza, the fountain ahead to the east.
   const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(),
                                   [](const Block& b) { return b.kind == BlockKind::kPlaza; });
@@ -100,6 +69,7 @@ WorldInfo DowntownWestInfo() {
            "construction/building",
            "construction/building/roof",
            "construction/fountain",
+           "construction/phone_booth",
            "construction/rooftop/air_conditioner",
            "construction/rooftop/antenna",
            "construction/rooftop/ventilation_tube",
@@ -135,21 +105,26 @@ WorldInfo DowntownWestInfo() {
            "ground/terrain/landscape",
            "nature/mountain",
            "nature/rock",
+           "signage/billboard",
+           "signage/flag/usa",
            "signage/poster_stand",
            "signage/shop_sign",
            "signage/traffic_sign",
            "sky",
+           "traffic/barrier/barrier",
            "traffic/bollard/car_pillar",
            "traffic/control/traffic_light",
            "vegetation/flower",
            "vegetation/hedge",
            "vegetation/shrub/bush",
            "vegetation/tree/broadleaf/generic",
+           "vegetation/tree/broadleaf/maple",
            "vegetation/tree/broadleaf/narrowleaf",
            "vegetation/tree/conifer/pine",
            "vehicle/bicycle",
            "vehicle/bus",
            "vehicle/car",
+           "vehicle/food_truck",
            "vehicle/van",
            "water/water_plane"},
           "A downtown of seven built blocks around a plaza with market, café terrace and fountain, and a "

@@ -21,10 +21,15 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
                       EntityId entity, EdgeKind kind, RngStream& rng) {
   const float height = MetricsOf(plan.style).ground_height, length = pen.length();
   pen.UseEntity(entity);
-  if (kind == EdgeKind::kStreet && length > 2.6f) {
+  if (kind == EdgeKind::kStreet && plan.style == FacadeStyle::kBrownstone) {
+    internal::BuildParlourFloor(pen, dress, height, rng);
+    return;
+  }
+  if (kind == EdgeKind::kStreet && plan.shops && length > 2.6f) {
     const internal::GroundFloor floor{plan, entity, height, dress.wall, dress.trim, dress.frame};
     const bool office = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
-                        plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone;
+                        plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone ||
+                        plan.style == FacadeStyle::kDeco || plan.style == FacadeStyle::kBracedGlass;
     const int shops = CountBays(length, 4.9f),
               lobby = office && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
     for (int i = 0; i < shops; ++i) {
@@ -63,8 +68,8 @@ void BuildBands(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, Ed
   if (parapet > 0) pen.Front(0, L, top, top + parapet, 0);
   if (kind != EdgeKind::kStreet) return;
   pen.Use(dress.trim);
-  pen.Bar(-0.14f, L + 0.14f, ground - 0.10f, ground + 0.14f, -0.14f, 0);
-  const float s = dress.cornice;
+  if (plan.base == 0) pen.Bar(-0.14f, L + 0.14f, ground - 0.10f, ground + 0.14f, -0.14f, 0);
+  const float s = dress.cornice * plan.cornice;
   if (s <= 0) return;
   pen.Bar(-0.16f * s, L + 0.16f * s, top - 0.62f * s, top - 0.34f * s, -0.16f * s, 0);
   pen.Bar(-0.40f * s, L + 0.40f * s, top - 0.34f * s, top - 0.12f * s, -0.40f * s, 0);
@@ -82,10 +87,11 @@ void BuildStoreys(FacadeContext& context, FacadePen& pen, const BuildingPlan& pl
   const int bays = CountBays(pen.length(), metrics.bay);
   const float w = pen.length() / static_cast<float>(bays);
   for (int f = 0; f < plan.floors; ++f) {
-    const float z0 = metrics.ground_height + metrics.floor_height * static_cast<float>(f);
+    const float z0 = plan.first_storey() + metrics.floor_height * static_cast<float>(f);
     for (int i = 0; i < bays; ++i) {
       const float x0 = w * static_cast<float>(i);
       const Bay bay{x0, x0 + w, z0, z0 + metrics.floor_height, f, plan.floors};
+      if (f == plan.curtain_floor) internal::HangRedCurtains(context, pen, plan.style, bay);
       if (detail == FacadeDetail::kSimple || kind != EdgeKind::kStreet) {
         internal::BuildSimpleBay(pen, plan.style, dress, bay, rng);
       } else {
@@ -104,10 +110,10 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
   Dress bare = dress;
   bare.wall = dress.party;
   const int first =
-      std::clamp(static_cast<int>(std::ceil((from + 0.4f - metrics.ground_height) / metrics.floor_height)), 0,
+      std::clamp(static_cast<int>(std::ceil((from + 0.4f - plan.first_storey()) / metrics.floor_height)), 0,
                  plan.floors);
   const float start =
-      std::max(from, metrics.ground_height + metrics.floor_height * static_cast<float>(first));
+      std::max(from, plan.first_storey() + metrics.floor_height * static_cast<float>(first));
   pen.Use(bare.wall);
   pen.Front(0, L, from, start, 0);
   const int bays = CountBays(L, 4.1f);
@@ -116,7 +122,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
     const float x0 = w * static_cast<float>(i), m = x0 + w / 2;
     const bool open = rng.Chance(0.55);
     for (int f = first; f < plan.floors; ++f) {
-      const float z0 = metrics.ground_height + metrics.floor_height * static_cast<float>(f),
+      const float z0 = plan.first_storey() + metrics.floor_height * static_cast<float>(f),
                   z1 = z0 + metrics.floor_height;
       if (open) {
         internal::SimpleOpening(pen, bare, x0, x0 + w, z0, z1, m - 0.5f, m + 0.5f, z0 + 1.0f, z0 + 2.4f,
@@ -136,6 +142,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
 void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId entity,
                   const std::vector<FacadeDetail>& detail) {
   FacadePen pen(context.mesh, context.surfaces);
+  pen.SetHeights(context.base, context.stretch);
   const Dress dress = DressOf(plan);
   context.building = entity;
   for (size_t e = 0; e < plan.edges.size(); ++e) {
@@ -143,16 +150,18 @@ void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId ent
     pen.SetWall(plan.outline[e], plan.outline[(e + 1) % plan.outline.size()]);
     pen.UseEntity(entity);
     if (plan.edges[e] == EdgeKind::kParty) {
-      BuildPartyWall(pen, plan, dress, plan.party_height[e], rng);
+      BuildPartyWall(pen, plan, dress, std::max(plan.base, plan.party_height[e]), rng);
     } else if (detail[e] == FacadeDetail::kFlat) {
       pen.Use(dress.far);
-      pen.Front(0, pen.length(), 0, plan.height() + ParapetHeight(plan), 0);
+      pen.Front(0, pen.length(), plan.base, plan.height() + ParapetHeight(plan), 0);
     } else {
-      BuildGroundFloor(context, pen, plan, dress, entity, plan.edges[e], rng);
+      if (plan.base == 0) BuildGroundFloor(context, pen, plan, dress, entity, plan.edges[e], rng);
       pen.UseEntity(entity);
       BuildStoreys(context, pen, plan, dress, plan.edges[e], detail[e], rng);
       pen.UseEntity(entity);
       BuildBands(pen, plan, dress, plan.edges[e]);
+      if (plan.edges[e] == EdgeKind::kStreet && detail[e] == FacadeDetail::kFull)
+        internal::BuildWallExtras(context, pen, plan, rng);
     }
   }
   context.mesh.SetTransform({});

@@ -2,6 +2,9 @@
 // opening.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "airsim360/scene/scene.h"
 #include "airsim360/worlds/facade_pen.h"
 #include "airsim360/worlds/massing.h"
@@ -22,8 +25,10 @@ struct FacadeContext {
   MeshBuilder& mesh;
   MeshId balcony;     ///< instanced railing of 1 m, scaled along x: iron balcony of a French window
   MeshId window_box;  ///< instanced air conditioner in a window
+  std::optional<std::array<MeshId, 2>> fire_escape = {};  ///< a storey of one, both ways; without: none
   EntityId building = kNoEntity;  ///< the one being built
   int next_sign = 0;              ///< picture of the last shop sign, so that neighbours differ
+  float base = 0, stretch = 1;    ///< of the building: z of its ground, factor of its heights
 };
 
 /// Walls of one building on all its edges, as `entity`; awnings and shop signs become entities of their own.
@@ -39,5 +44,9 @@ float ParapetHeight(const BuildingPlan& building);
 /// The meshes that facades repeat.
 MeshId AddBalconyMesh(SceneBuilder& builder, const Surfaces& surfaces);
 MeshId AddWindowBoxMesh(SceneBuilder& builder, const Surfaces& surfaces);
+/// A landing of 4.4 m with railing and the flight up to the next, for storeys of 3.2 m.
+MeshId AddFireEscapeMesh(SceneBuilder& builder, const Surfaces& surfaces, bool mirrored);
+/// Where the stoop of a brownstone lies along a street wall of that length: its middle. It reaches 1.9 m out.
+float StoopMiddle(float wall_length);
 
 }  // namespace airsim360

@@ -34,11 +34,20 @@ constexpr Palette kPalettes[] = {
     {FacadeStyle::kBrickLoft, S::kBrickBrown, S::kTrimDark, S::kFrameDark, S::kShutterGreen},
     {FacadeStyle::kRibbon, S::kPanelWhite, S::kMetal, S::kFrameDark, S::kShutterGreen},
     {FacadeStyle::kRibbon, S::kConcreteWarm, S::kTrimDark, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kDeco, S::kLimestone, S::kTrimStone, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kDeco, S::kSandstone, S::kTrimStone, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kDeco, S::kBrickBrown, S::kBronze, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kDeco, S::kBrickYellow, S::kTrimStone, S::kFrameGreen, S::kShutterGreen},
+    {FacadeStyle::kBrownstone, S::kBrownstone, S::kBrownstoneTrim, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kBrownstone, S::kBrickRed, S::kBrownstoneTrim, S::kFrameWhite, S::kShutterGreen},
+    {FacadeStyle::kBrownstone, S::kBrickBrown, S::kTrimStone, S::kFrameDark, S::kShutterGreen},
+    {FacadeStyle::kBracedGlass, S::kPanelDark, S::kTrimDark, S::kFrameDark, S::kShutterGreen},
 };
 
 bool IsBrick(Surface s) { return s >= S::kBrickRed && s <= S::kBrickWhite; }
 
-// What hangs behind a pane.
+}  // namespace
+
 void Furnish(FacadePen::Sash& sash, RngStream& rng) {
   const double pick = rng.Uniform();
   if (pick < 0.38) {
@@ -53,10 +62,6 @@ void Furnish(FacadePen::Sash& sash, RngStream& rng) {
   }
 }
 
-// Where the opening of a style sits in its bay.
-struct Opening {
-  float x0, x1, z0, z1, depth;
-};
 Opening OpeningOf(FacadeStyle style, const Bay& b) {
   const float m = b.middle();
   switch (style) {
@@ -72,10 +77,18 @@ Opening OpeningOf(FacadeStyle style, const Bay& b) {
       return {b.x0 + 0.03f, b.x1 - 0.03f, b.z0 + 1.0f, b.z1 - 0.05f, 0.10f};
     case FacadeStyle::kBrickLoft:
       return {b.x0 + 0.60f, b.x1 - 0.60f, b.z0 + 0.90f, b.z1 - 0.50f, 0.22f};
+    case FacadeStyle::kDeco:
+      return {b.x0 + 0.45f, b.x1 - 0.45f, b.z0 + 1.05f, b.z0 + 3.1f, 0.20f};
+    case FacadeStyle::kBrownstone:
+      return {m - 0.52f, m + 0.52f, b.z0 + 0.65f, b.z0 + 2.65f, 0.18f};
+    case FacadeStyle::kBracedGlass:
+      return {b.x0 + 0.03f, b.x1 - 0.03f, b.z0 + 0.9f, b.z1 - 0.05f, 0.10f};
     default:
       return {b.x0, b.x1, b.z0 + 1.10f, b.z1 - 0.45f, 0.20f};
   }
 }
+
+namespace {
 
 void Wall(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o) {
   pen.Use(dress.wall);
@@ -206,7 +219,7 @@ Dress DressOf(const BuildingPlan& plan) {
     if (palette.style == plan.style && index-- == 0) row = &palette;
   }
   const bool modern = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
-                      plan.style == FacadeStyle::kConcreteGrid;
+                      plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kBracedGlass;
   Dress dress{row->wall,     row->trim,      row->frame,    row->shutter,
               S::kGlassDark, S::kBrickBrown, S::kFarWalls1, 0};
   if (plan.style == FacadeStyle::kCurtainWall || (modern && plan.seed % 2 == 0)) dress.glass = S::kGlassBlue;
@@ -216,7 +229,11 @@ Dress DressOf(const BuildingPlan& plan) {
                                      : row->wall;
   dress.far = modern ? S::kFarWalls2 : IsBrick(row->wall) ? S::kFarWalls0 : S::kFarWalls1;
   if (plan.style == FacadeStyle::kClassicStone) dress.cornice = 1.35f;
-  if (plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft) dress.cornice = 0.9f;
+  if (plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft ||
+      plan.style == FacadeStyle::kBrownstone)
+    dress.cornice = 0.9f;
+  if (plan.style == FacadeStyle::kDeco) dress.cornice = plan.palette < 2 ? 1.2f : 0.7f;
+  if (plan.style == FacadeStyle::kBracedGlass) dress.glass = S::kGlassBlack;
   if (plan.style == FacadeStyle::kStuccoShutters) dress.cornice = 0.75f;
   return dress;
 }
@@ -259,7 +276,9 @@ void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const
 void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay,
               RngStream& rng) {
   const Opening o = OpeningOf(style, bay);
-  if (style == FacadeStyle::kCurtainWall) return CurtainBay(pen, dress, bay, o, rng);
+  if (style == FacadeStyle::kCurtainWall || style == FacadeStyle::kBracedGlass)
+    return CurtainBay(pen, dress, bay, o, rng);
+  if (style == FacadeStyle::kDeco) return BuildDecoBay(pen, dress, bay, rng);
   Wall(pen, dress, bay, o);
   switch (style) {
     case FacadeStyle::kBrickWalkUp:
@@ -272,6 +291,8 @@ void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const D
       return GridBay(pen, dress, bay, o, rng);
     case FacadeStyle::kBrickLoft:
       return LoftBay(pen, dress, bay, o, rng);
+    case FacadeStyle::kBrownstone:
+      return BuildBrownstoneBay(pen, dress, o, rng);
     default:
       return RibbonBay(pen, dress, bay, o, rng);
   }

@@ -7,7 +7,7 @@ namespace airsim360 {
 void FacadePen::SetWall(Vec2f a, Vec2f b) {
   length_ = std::hypot(b.x - a.x, b.y - a.y);
   const Vec3f along{(b.x - a.x) / length_, (b.y - a.y) / length_, 0}, up{0, 0, 1};
-  X_ = {Mat3f::FromColumns(along, Cross(up, along), up), {a.x, a.y, 0}};
+  X_ = {Mat3f::FromColumns(along, Cross(up, along), up * stretch_), {a.x, a.y, base_}};
   mesh_.SetTransform(X_);
 }
 

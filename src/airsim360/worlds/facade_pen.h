@@ -11,6 +11,11 @@ class FacadePen {
  public:
   FacadePen(MeshBuilder& mesh, const Surfaces& surfaces) : mesh_(mesh), surfaces_(surfaces) {}
 
+  /// Where z = 0 of the following walls lies, and what heights are multiplied by.
+  void SetHeights(float base, float stretch) {
+    base_ = base;
+    stretch_ = stretch;
+  }
   /// The wall from a to b of a counter-clockwise outline.
   void SetWall(Vec2f a, Vec2f b);
   float length() const { return length_; }
@@ -48,7 +53,7 @@ class FacadePen {
   MeshBuilder& mesh_;
   const Surfaces& surfaces_;
   AffineTransform X_;
-  float length_ = 0;
+  float length_ = 0, base_ = 0, stretch_ = 1;
 };
 
 }  // namespace airsim360

@@ -61,7 +61,8 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
 inline constexpr float kCrosswalkStart = 0.9f, kCrosswalkWidth = 3.0f;
 
 /// Lays kerbs (0.13 m, dropped at crosswalks) and pavement fields around a block.
-void LayPavement(Ground& ground, const Block& block, Surface slabs);
+void LayPavement(Ground& ground, const Block& block, Surface slabs,
+                 std::string_view category = "ground/pavement/modular");
 
 /// Side `side` (0 south, 1 east, 2 north, 3 west) of a block: origin and directions of its kerb line.
 struct BlockSide {

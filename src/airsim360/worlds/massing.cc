@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
 namespace {
@@ -36,8 +38,9 @@ std::vector<Parcel> Subdivide(float length, bool corners, RngStream& rng) {
 }
 
 FacadeStyle PickStyle(int floors, FacadeStyle before, RngStream& rng) {
+  constexpr auto kStyles = static_cast<uint32_t>(FacadeStyle::kRibbon) + 1;  // the rest is New York's
   for (;;) {
-    const auto style = static_cast<FacadeStyle>(rng.Index(static_cast<uint32_t>(FacadeStyle::kCount)));
+    const auto style = static_cast<FacadeStyle>(rng.Index(kStyles));
     const bool modern = style == FacadeStyle::kCurtainWall || style == FacadeStyle::kRibbon ||
                         style == FacadeStyle::kConcreteGrid;
     if (style == before) continue;
@@ -129,7 +132,12 @@ void PlanBlock(const StreetPlan& plan, size_t index, uint64_t seed, std::vector<
       out.push_back(std::move(building));
     }
   }
-  // Party walls are hidden up to the lowest neighbour they touch.
+  HidePartyWalls(out, first);
+}
+
+}  // namespace
+
+void HidePartyWalls(std::vector<BuildingPlan>& out, size_t first) {
   for (size_t i = first; i < out.size(); ++i) {
     for (size_t e = 0; e < out[i].edges.size(); ++e) {
       if (out[i].edges[e] != EdgeKind::kParty) continue;
@@ -137,13 +145,30 @@ void PlanBlock(const StreetPlan& plan, size_t index, uint64_t seed, std::vector<
       const Vec2f direction = (b - a) * (1 / std::hypot(b.x - a.x, b.y - a.y));
       const Vec2f probe = (a + b) * 0.5f + Vec2f{direction.y, -direction.x} * 0.5f;
       for (size_t k = first; k < out.size(); ++k) {
-        if (k != i && out[k].bounds().Contains(probe)) out[i].party_height[e] = out[k].height();
+        if (k != i && out[k].base == 0 && out[k].bounds().Contains(probe))
+          out[i].party_height[e] = out[k].height();
       }
     }
   }
 }
 
-}  // namespace
+const std::vector<std::string>& FacadeStyleNames() {
+  static const std::vector<std::string> names = {"brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid",
+                                                 "curtain_wall",  "brick_loft",    "ribbon",          "deco",
+                                                 "brownstone",    "braced_glass"};
+  return names;
+}
+
+std::vector<FacadeStyle> StylesOf(const std::vector<std::string>& names) {
+  std::vector<FacadeStyle> styles;
+  for (const std::string& name : names) {
+    const auto& all = FacadeStyleNames();
+    const auto it = std::find(all.begin(), all.end(), name);
+    if (it == all.end()) throw InputError(UnknownChoiceMessage("facade style", name, all));
+    styles.push_back(static_cast<FacadeStyle>(it - all.begin()));
+  }
+  return styles;
+}
 
 const StyleMetrics& MetricsOf(FacadeStyle style) {
   static constexpr StyleMetrics kMetrics[] = {
@@ -154,13 +179,17 @@ const StyleMetrics& MetricsOf(FacadeStyle style) {
       {5.0f, 3.8f, 1.55f, 2},  // curtain wall
       {4.8f, 3.9f, 4.4f, 3},   // loft
       {4.6f, 3.5f, 3.3f, 2},   // ribbon
+      {5.2f, 3.7f, 3.6f, 4},   // deco piers
+      {4.4f, 3.3f, 2.3f, 3},   // brownstone
+      {5.0f, 3.8f, 1.6f, 1},   // braced glass
   };
   return kMetrics[static_cast<size_t>(style)];
 }
 
+float BuildingPlan::first_storey() const { return base > 0 ? base : MetricsOf(style).ground_height; }
+
 float BuildingPlan::height() const {
-  const StyleMetrics& metrics = MetricsOf(style);
-  return metrics.ground_height + static_cast<float>(floors) * metrics.floor_height;
+  return first_storey() + static_cast<float>(floors) * MetricsOf(style).floor_height;
 }
 
 GroundRect BuildingPlan::bounds() const {
@@ -203,7 +232,7 @@ double FreeGroundArea(const StreetPlan& plan, const std::vector<BuildingPlan>& b
   const GroundRect reach = plan.reach();
   double area = reach.area();
   for (const BuildingPlan& building : buildings) {
-    if (!reach.Contains(building.bounds().center())) continue;
+    if (building.base > 0 || !reach.Contains(building.bounds().center())) continue;
     double twice = 0;
     for (size_t i = 0; i < building.outline.size(); ++i) {
       const Vec2f a = building.outline[i], b = building.outline[(i + 1) % building.outline.size()];

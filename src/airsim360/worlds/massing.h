@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "airsim360/scene/scene.h"
@@ -17,8 +18,14 @@ enum class FacadeStyle {
   kCurtainWall,
   kBrickLoft,
   kRibbon,
+  kDeco,         ///< stone piers from base to cornice, paired windows between them
+  kBrownstone,   ///< a row house with a stoop
+  kBracedGlass,  ///< dark curtain wall behind diagonal braces
   kCount
 };
+
+/// Styles by their names (FacadeStyleNames); InputError naming the nearest.
+std::vector<FacadeStyle> StylesOf(const std::vector<std::string>& names);
 
 enum class EdgeKind {
   kStreet,  ///< full dress, shops below
@@ -28,7 +35,7 @@ enum class EdgeKind {
 
 enum class RoofKind { kFlatGravel, kFlatBitumen, kHipTile, kHipSlate };
 
-/// One building: a convex outline extruded from z = 0.
+/// One building, or one tier of a stepped one: a convex outline extruded from `base`.
 struct BuildingPlan {
   std::vector<Vec2f> outline;       ///< counter-clockwise from above
   std::vector<EdgeKind> edges;      ///< edge i runs from corner i to corner i + 1
@@ -38,8 +45,16 @@ struct BuildingPlan {
   int palette = 0;
   RoofKind roof = RoofKind::kFlatGravel;
   uint64_t seed = 0;
-  size_t block = 0;      ///< index into StreetPlan::blocks
-  float height() const;  ///< of the eaves or the roof deck, metres
+  float cornice = 1;            ///< scale of the cornice of its style
+  bool shops = true;            ///< on the ground floor towards streets; else windows and doors
+  size_t block = 0;             ///< index into StreetPlan::blocks
+  float base = 0;               ///< > 0: a tier on the roof of the plan before it, part of the same building
+  std::vector<Vec2f> upper;     ///< outline of the tier that stands on this roof; empty = none
+  int curtain_floor = -1;       ///< storey whose windows all have red curtains; -1 = none
+  bool awnings = true;          ///< its shops may have some
+  std::string name;             ///< of the entity; empty = "building"
+  float first_storey() const;   ///< height of the first storey above the ground floor (or of the tier's foot)
+  float height() const;         ///< of the eaves or the roof deck, metres
   GroundRect bounds() const;
 };
 
@@ -52,6 +67,8 @@ const StyleMetrics& MetricsOf(FacadeStyle style);
 
 /// Buildings of all built and backdrop blocks, block by block. A perimeter of parcels around a courtyard.
 std::vector<BuildingPlan> PlanBuildings(const StreetPlan& plan, uint64_t seed);
+/// Sets party_height of plans[first …]: party walls are hidden up to the roof of the neighbour they touch.
+void HidePartyWalls(std::vector<BuildingPlan>& plans, size_t first);
 /// The open middle of a built block (its perimeter buildings are this deep at most).
 GroundRect CourtyardOf(const Block& block);
 

@@ -83,7 +83,7 @@ void LayKerb(Ground& ground, const Block& block, int side) {
     strip(arc(r, i), arc(r, i + 1), arc(r - kKerbWidth, i), arc(r - kKerbWidth, i + 1), 0, 0);
 }
 
-void LayFields(Ground& ground, const Block& block, int side, Surface slabs) {
+void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category) {
   const BlockSide line = SideOf(block, side);
   const SideProfile profile(line.length, block.corner_radius);
   const float r = block.corner_radius, s0 = r, s1 = line.length - r;
@@ -99,7 +99,7 @@ void LayFields(Ground& ground, const Block& block, int side, Surface slabs) {
   for (size_t i = 0; i + 1 < stops.size(); ++i) {
     const float middle = (stops[i] + stops[i + 1]) / 2;
     const int now = std::clamp(static_cast<int>((middle - s0) / field_length), 0, fields - 1);
-    if (now != field) ground.Begin("pavement " + PlaceName(block, side), "ground/pavement/modular", slabs);
+    if (now != field) ground.Begin("pavement " + PlaceName(block, side), category, slabs);
     field = now;
     for (int k = 0; k < 2; ++k) {
       ground.Use(k == 0 && profile.OnRamp(middle) ? Surface::kTactile : slabs);
@@ -109,7 +109,7 @@ void LayFields(Ground& ground, const Block& block, int side, Surface slabs) {
   }
 }
 
-void LayCorner(Ground& ground, const Block& block, int side, Surface slabs) {
+void LayCorner(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category) {
   const BlockSide line = SideOf(block, side);
   const float r = block.corner_radius, back = r - kKerbWidth, length = line.length;
   std::vector<Vec2f> outline;
@@ -120,17 +120,17 @@ void LayCorner(Ground& ground, const Block& block, int side, Surface slabs) {
   outline.push_back(line.At(length - block.pavement, r));
   outline.push_back(line.At(length - block.pavement, block.pavement));
   outline.push_back(line.At(length - r, block.pavement));
-  ground.Begin("pavement corner " + PlaceName(block, side), "ground/pavement/modular", slabs);
+  ground.Begin("pavement corner " + PlaceName(block, side), category, slabs);
   ground.Polygon(outline, 0);
 }
 
 }  // namespace
 
-void LayPavement(Ground& ground, const Block& block, Surface slabs) {
+void LayPavement(Ground& ground, const Block& block, Surface slabs, std::string_view category) {
   for (int side = 0; side < 4; ++side) {
     LayKerb(ground, block, side);
-    LayFields(ground, block, side, slabs);
-    LayCorner(ground, block, side, slabs);
+    LayFields(ground, block, side, slabs, category);
+    LayCorner(ground, block, side, slabs, category);
   }
 }
 

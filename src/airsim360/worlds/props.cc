@@ -55,7 +55,8 @@ const std::vector<PropKind>& PropKinds() {
          {BarrierKinds,      BusKinds,       CarKinds,     CycleKinds, FountainKinds, LampKinds,
           RockKinds,         RooftopKinds,   SeatingKinds, ShadeKinds, SignageKinds,  StreetKinds,
           TrafficLightKinds, UtilityKinds,   VendingKinds, WasteKinds, PlanterKinds,  GroundPlantKinds,
-          ShrubKinds,        BroadleafKinds, ConiferKinds, ParkKinds}) {
+          ShrubKinds,        BroadleafKinds, ConiferKinds, ParkKinds,
+          BillboardKinds,    LandmarkKinds, NewYorkKinds}) {
       std::vector<PropKind> rows = family();
       std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }

@@ -143,10 +143,18 @@ void Clutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, cons
     return Vec2f{static_cast<float>(rng.Uniform(deck.x0, deck.x1)),
                  static_cast<float>(rng.Uniform(deck.y0, deck.y1))};
   };
-  const Vec2f stair =
-      c + Vec2f{static_cast<float>(rng.Uniform(-1, 1)), static_cast<float>(rng.Uniform(-1, 1))};
-  Bulkhead(mesh, surfaces, plan, stair, building);
-  taken.Add({stair, {2.6f, 2.4f}, 0});
+  if (plan.upper.empty()) {
+    const Vec2f stair =
+        c + Vec2f{static_cast<float>(rng.Uniform(-1, 1)), static_cast<float>(rng.Uniform(-1, 1))};
+    Bulkhead(mesh, surfaces, plan, stair, building);
+    taken.Add({stair, {2.6f, 2.4f}, 0});
+  } else {
+    // The next tier stands there.
+    BuildingPlan tier;
+    tier.outline = plan.upper;
+    const GroundRect box = tier.bounds();
+    taken.Add({box.center(), {box.width() / 2 + 0.8f, box.depth() / 2 + 0.8f}, 0});
+  }
   const auto scatter = [&](std::string_view kind, int count, float yaw) {
     const float r = FindPropKind(kind).footprint_radius;
     for (int i = 0, tries = 0; i < count && tries < 40; ++tries) {
@@ -159,8 +167,8 @@ void Clutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, cons
     }
   };
   const float area = deck.area(), quarter = kTau / 4;
-  if (rng.Chance(plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft ? 0.45
-                                                                                                  : 0.12))
+  const bool old = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft;
+  if (rng.Chance(plan.style == FacadeStyle::kDeco ? 0.65 : old ? 0.45 : 0.12))
     scatter("water_tank", 1, 0);
   scatter("ac_unit", std::min(6, 1 + static_cast<int>(area / 55)),
           quarter * static_cast<float>(rng.Index(4)));

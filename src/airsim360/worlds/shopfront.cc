@@ -150,7 +150,7 @@ void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor,
   pen.UseEntity(floor.entity);
   BuildDisplay(pen, floor, shop, rng);
   BuildDoor(pen, floor, shop);
-  if (rng.Chance(0.45)) BuildAwning(context, pen, shop.a, shop.b, rng);
+  if (rng.Chance(0.45) && floor.plan.awnings) BuildAwning(context, pen, shop.a, shop.b, rng);
   pen.UseEntity(floor.entity);
 }
 

@@ -103,8 +103,9 @@ void PlaceCafe(District& d, const Strip& strip, float s) {
   }
 }
 
-// Signals and bollards on the kerb return at the far end of a side.
-void FurnishCorner(District& d, const Block& block, const BlockSide& side) {
+}  // namespace
+
+void FurnishCorner(District& d, const Block& block, const BlockSide& side, std::string_view bollard) {
   const float r = block.corner_radius;
   const auto at = [&](float radius, float a) {
     return side.At(side.length - r + radius * std::sin(a), r - radius * std::cos(a));
@@ -118,11 +119,22 @@ void FurnishCorner(District& d, const Block& block, const BlockSide& side) {
   d.placer.Try("traffic_light", {q.x, q.y, 0}, FacingYaw(side.inward * -1.0f), 1, {1, 1, 1}, 1u);
   for (int i = 0; i < 5; ++i) {
     const Vec2f b = at(r - 0.5f, eighth * (0.7f + 0.15f * static_cast<float>(i)));
-    d.placer.Try("car_pillar", {b.x, b.y, 0}, 0, 1, {1, 1, 1}, 0u);
+    d.placer.Try(bollard, {b.x, b.y, 0}, 0, 1, {1, 1, 1}, 0u);
   }
 }
 
-// The street along a side of a block is one of the core's, perhaps on its way out.
+void LayCrossingCovers(District& d) {
+  for (int i = d.plan.first_core; i <= d.plan.last_core; ++i) {
+    for (int k = d.plan.first_core; k <= d.plan.last_core; ++k) {
+      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)],
+                       &ew = d.plan.east_west[static_cast<size_t>(k)];
+      const float z = std::max(CarriagewayHeight(ns, 0), CarriagewayHeight(ew, 0));
+      d.placer.shelf().Place("manhole", {ns.center, ew.center, z}, 0.3f * static_cast<float>(i + k),
+                             static_cast<uint32_t>(i + k));
+    }
+  }
+}
+
 bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side) {
   const int line = side == 0   ? block.row
                    : side == 1 ? block.column + 1
@@ -130,8 +142,6 @@ bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side) {
                                : block.column;
   return line >= plan.first_core && line <= plan.last_core;
 }
-
-}  // namespace
 
 void FurnishPavements(District& d) {
   const GroundRect reach = d.plan.reach();
@@ -143,7 +153,7 @@ void FurnishPavements(District& d) {
       RngStream rng(d.seed, "pavement", i * 4 + static_cast<size_t>(k));
       const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
       const Strip strip{side, end, side.length - end, block.pavement};
-      if (reach.Contains(side.At(side.length - 1, 3))) FurnishCorner(d, block, side);
+      if (reach.Contains(side.At(side.length - 1, 3))) FurnishCorner(d, block, side, "car_pillar");
       if (block.kind == BlockKind::kBuilt && rng.Chance(0.45))
         PlaceCafe(d, strip, static_cast<float>(rng.Uniform(strip.s0, strip.s1 - 10)));
       if (block.kind == BlockKind::kBuilt && k == static_cast<int>(i % 4))
@@ -154,16 +164,7 @@ void FurnishPavements(District& d) {
 }
 
 void FurnishStreets(District& d, const std::vector<StreetStretch>& streets) {
-  // A cover on the crown of every core crossing.
-  for (int i = d.plan.first_core; i <= d.plan.last_core; ++i) {
-    for (int k = d.plan.first_core; k <= d.plan.last_core; ++k) {
-      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)],
-                       &ew = d.plan.east_west[static_cast<size_t>(k)];
-      const float z = std::max(CarriagewayHeight(ns, 0), CarriagewayHeight(ew, 0));
-      d.placer.shelf().Place("manhole", {ns.center, ew.center, z}, 0.3f * static_cast<float>(i + k),
-                             static_cast<uint32_t>(i + k));
-    }
-  }
+  LayCrossingCovers(d);
   for (size_t i = 0; i < streets.size(); ++i) {
     const StreetStretch& street = streets[i];
     RngStream rng(d.seed, "traffic", i);

@@ -21,10 +21,18 @@ struct GroundRect {
   std::vector<Vec2f> Outline() const { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 };
 
+/// What is painted on a street.
+enum class StreetKind {
+  kTwoWay,     ///< a lane each way between parking bays
+  kAvenue,     ///< three lanes each way, parking bays
+  kBoulevard,  ///< planted median; bus lane to the left of +s, green bike lane and parking to the right
+};
+
 /// A straight street: x = center (north-south) or y = center (east-west).
 struct StreetLine {
   float center = 0;
   float half_width = 6;  ///< centre line to kerb face
+  StreetKind kind = StreetKind::kTwoWay;
 };
 
 enum class BlockKind { kBuilt, kPlaza, kPark, kBackdrop };
@@ -43,6 +51,7 @@ struct Block {
 struct StreetPlan {
   std::vector<StreetLine> north_south, east_west;  ///< by growing coordinate
   int first_core = 1, last_core = 4;
+  int bike_lane_row = -1;  ///< index of the east-west two-way street with green bike lanes; -1 = none
   std::vector<Block> blocks;
 
   /// The reachable ground: to the building lines across the outermost core streets.
@@ -52,6 +61,10 @@ struct StreetPlan {
 /// The plan of downtown_west: 3 x 3 core blocks (plaza in the middle, park to its east) in a ring of backdrop
 /// blocks.
 StreetPlan PlanDowntownWest();
+
+/// The plan of new_york_city: avenues 132 m apart, streets 84 m apart, 3 x 3 core blocks (the park is the middle
+/// one of the eastern column) in a ring of backdrop blocks. The boulevard and a street cross at the origin.
+StreetPlan PlanNewYorkCity();
 
 /// Height of the carriageway at distance `d` from the centre line: a crown of 1.8 % above gutters at -0.13 m.
 float CarriagewayHeight(const StreetLine& line, float d);

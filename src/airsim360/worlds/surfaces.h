@@ -83,6 +83,14 @@ enum class Surface {
   kMountain,
   kMountainFar,
   kPlain,
+  kBusLane,
+  kDirt,
+  kBrownstone,
+  kBrownstoneTrim,
+  kBronze,
+  kGlassBlack,
+  kGlassRedCurtain,
+  kIronBlack,
   kCarriageway,  ///< its u runs across the street, 0 in the middle, so that the shader finds the wheel tracks
   kCarriagewayOld,
   kCount
@@ -92,6 +100,12 @@ enum class Surface {
 class Surfaces {
  public:
   MaterialId operator[](Surface surface) const { return materials_[static_cast<size_t>(surface)]; }
+  /// The same but for one surface.
+  Surfaces With(Surface surface, MaterialId material) const {
+    Surfaces changed = *this;
+    changed.materials_[static_cast<size_t>(surface)] = material;
+    return changed;
+  }
 
  private:
   friend Surfaces AddSurfaces(SceneBuilder& builder);

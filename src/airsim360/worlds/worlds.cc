@@ -16,6 +16,8 @@ constexpr BuiltIn kBuiltIn[] = {
     {"box_room", internal::BoxRoomInfo, internal::BuildBoxRoom},
     {"city_park", internal::CityParkInfo, internal::BuildCityPark},
     {"downtown_west", internal::DowntownWestInfo, internal::BuildDowntownWest},
+    {"map_town", internal::MapTownInfo, internal::BuildMapTown},
+    {"new_york_city", internal::NewYorkCityInfo, internal::BuildNewYorkCity},
     {"sunlit_room", internal::SunlitRoomInfo, internal::BuildSunlitRoom},
 };
 

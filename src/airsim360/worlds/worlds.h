@@ -23,9 +23,32 @@ struct WorldInfo {
 /// All built-in worlds, by name.
 const std::vector<WorldInfo>& ListWorlds();
 
+/// What a world file may change about a procedural city, relative to the built-in one. Only new_york_city
+/// listens today.
+struct CityOptions {
+  double height = 1;                 ///< of towers: 0.3 … 2.5
+  double traffic = 1;                ///< cars in lanes and bays: 0 … 1.6
+  double trees = 1;                  ///< street trees: 0 … 1.6
+  double furniture = 1;              ///< things on the pavements: 0 … 2
+  bool billboards = true;            ///< beside those that instructions name
+  std::vector<std::string> styles;   ///< facade styles of lots that are not hand-set; empty = all
+};
+/// Names of the facade styles, as CityOptions::styles has them.
+const std::vector<std::string>& FacadeStyleNames();
+
+/// A model of the user's own, to stand in a built-in outdoor world.
+struct PlacedModel {
+  std::string name, category;  ///< of its entity; a category path, of the tree or a new one
+  Model model;
+  Vec3f p_W;
+  float yaw = 0, scale = 1;
+};
+
 struct WorldOptions {
   uint64_t seed = 0;
   const ModelSource* models = nullptr;  ///< used where it has a model; every prop has a procedural fallback
+  CityOptions city = {};
+  std::vector<PlacedModel> props = {};
 };
 
 /// Builds a world; InputError naming the nearest if there is no such world.

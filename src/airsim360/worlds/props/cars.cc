@@ -51,6 +51,30 @@ void AddDetails(PropBuilder& b, const CarShape& s, const Material& paint) {
   }
 }
 
+// Adds the parts of `more` to `model`.
+void Append(Model& model, Model more) {
+  const auto vertices = static_cast<uint32_t>(model.mesh.positions.size());
+  const auto triangles = static_cast<uint32_t>(model.mesh.triangles.size());
+  const auto textures = static_cast<TextureId>(model.textures.size());
+  const auto materials = static_cast<MaterialId>(model.materials.size());
+  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join(model.mesh.positions, more.mesh.positions);
+  join(model.mesh.normals, more.mesh.normals);
+  join(model.mesh.uvs, more.mesh.uvs);
+  for (Vec3u t : more.mesh.triangles)
+    model.mesh.triangles.push_back({t.x + vertices, t.y + vertices, t.z + vertices});
+  for (MeshPart part : more.mesh.parts) {
+    part.first_triangle += triangles;
+    part.material += materials;
+    model.mesh.parts.push_back(part);
+  }
+  for (Material m : more.materials) {
+    if (m.base_color_texture != kNoTexture) m.base_color_texture += textures;
+    model.materials.push_back(std::move(m));
+  }
+  join(model.textures, more.textures);
+}
+
 Model Assemble(const char* name, const CarShape& s, Vec3f color) {
   PropBuilder b(name);
   // Greys and silvers are metallic paints, white, black and bright colours mostly plain.
@@ -70,6 +94,23 @@ Model MakeCar(uint32_t variant, uint64_t) {
                                 {0.05f, 0.075f, 0.06f}, {0.42f, 0.42f, 0.41f},    {0.30f, 0.26f, 0.20f}};
   const CarShape* shapes[3] = {&Sedan(), &Suv(), &Hatchback()};
   return Assemble("car", *shapes[variant % 3], colors[variant]);
+}
+
+// A yellow cab with its sign on the roof.
+Model MakeTaxi(uint32_t variant, uint64_t) {
+  const CarShape& shape = variant % 2 ? Suv() : Sedan();
+  Model model = Assemble("taxi", shape, {0.80f, 0.43f, 0.012f});
+  PropBuilder b("taxi sign");
+  const float roof = Lookup(shape.top, 0.15f);
+  Canvas canvas(128, 48, {0.85f, 0.80f, 0.62f});
+  canvas.Text("TAXI", {0.5f, 0.5f}, 0.6f, {0.02f, 0.02f, 0.02f});
+  b.Use(Plastic({0.02f, 0.02f, 0.02f}));
+  b.BevelBox({-0.40f, 0.05f, roof - 0.03f}, {0.40f, 0.25f, roof + 0.20f}, 0.02f);
+  b.Use(Paint({1, 1, 1}), canvas.Finish("taxi sign"));
+  b.Picture({-0.36f, 0.046f, roof}, {0.36f, 0.046f, roof}, {0.36f, 0.046f, roof + 0.18f}, {-0.36f, 0.046f, roof + 0.18f});
+  b.Picture({0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof + 0.18f}, {0.36f, 0.254f, roof + 0.18f});
+  Append(model, b.Finish());
+  return model;
 }
 
 Model MakeVan(uint32_t variant, uint64_t) {
@@ -94,9 +135,13 @@ std::vector<PropKind> CarKinds() {
       {"renault-scenic", 0, 0, "color-beige-green", {0.09f, 0.095f, 0.10f}},
       {"chevrolet", 0, 0, "firstcolor", {0.33f, 0.02f, 0.015f}},
   };
+  constexpr Vec3f kCab{0.80f, 0.43f, 0.012f};
+  const std::vector<LibraryModel> taxis = {
+      {""}, {"suv", 0, 0, "firstcolor", kCab}, {""}, {"renault-scenic", 0, 0, "color-beige-green", kCab}};
   const std::vector<LibraryModel> vans = {{"van"}, {"van", 0, 0, "firstcolor", {0.05f, 0.10f, 0.20f}}, {""}};
   return {
       {"car", "vehicle/car", 12, MakeCar, 2.5f, 1.2f, 2.0f, 8000, cars},
+      {"taxi", "vehicle/car", 4, MakeTaxi, 2.5f, 1.2f, 2.3f, 8500, taxis},
       {"van", "vehicle/van", 3, MakeVan, 3.1f, 2.2f, 2.8f, 8000, vans},
   };
 }

@@ -168,6 +168,26 @@ void Canvas::Text(std::string_view text, Vec2f center, float size, Vec3f color) 
   }
 }
 
+void Canvas::Letters(std::string_view text, Vec2f center, float size, Vec3f color, float stretch) {
+  const float cell_y = size * height_ / 7, cell_x = cell_y * stretch, n = static_cast<float>(text.size());
+  const float x0 = center.x * width_ - (n * 6 - 1) * cell_x / 2, y0 = center.y * height_ - 3.5f * cell_y;
+  const auto bit = [&](int column, int row) {
+    if (column < 0 || row < 0 || row > 6 || column % 6 > 4) return 0.0f;
+    const auto letter = static_cast<size_t>(column / 6);
+    return letter < text.size() && HasInk(text[letter], column % 6, row) ? 1.0f : 0.0f;
+  };
+  // The four nearest cells are blended; where they sum to enough there is ink.
+  const auto inked = [&](float x, float y) {
+    const float cx = (x - x0) / cell_x - 0.5f, cy = (y - y0) / cell_y - 0.5f, fx = std::floor(cx),
+                fy = std::floor(cy), s = cx - fx, t = cy - fy;
+    const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+    const float low = bit(ix, iy) * (1 - s) + bit(ix + 1, iy) * s,
+                high = bit(ix, iy + 1) * (1 - s) + bit(ix + 1, iy + 1) * s;
+    return low * (1 - t) + high * t > 0.36f;
+  };
+  Fill({x0 - cell_x, y0 - cell_y}, {x0 + (n * 6 + 1) * cell_x, y0 + 8 * cell_y}, inked, color);
+}
+
 Texture Canvas::Finish(std::string name) {
   return Texture::FromImage(std::move(name), std::exchange(image_, Image<Rgba8>{}), true);
 }

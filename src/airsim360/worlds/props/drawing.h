@@ -36,6 +36,9 @@ class Canvas {
   void RegularPolygon(Vec2f center, float r, int sides, float turn, Vec3f color);
   /// Capital letters, digits and " .-!&%" centred on a point; `size` = height of a letter in picture heights.
   void Text(std::string_view text, Vec2f center, float size, Vec3f color);
+  /// The same letters with rounded corners and bold strokes, their cells `stretch` times as wide as high: for
+  /// billboards.
+  void Letters(std::string_view text, Vec2f center, float size, Vec3f color, float stretch = 1);
   /// Applies `color` where `inside(x, y)`; x and y in pixels from the top left, blended over 4x4 samples a
   /// pixel.
   void Fill(Vec2f min_px, Vec2f max_px, const std::function<bool(float, float)>& inside, Vec3f color);

@@ -117,6 +117,7 @@ Model MakeBenchWood(uint32_t variant, uint64_t) {
 std::vector<PropKind> SeatingKinds() {
   return {
       {"dining_table", "furniture/table/dining_table", 4, MakeDiningTable, 0.6f, 0.70f, 0.80f, 3000},
+      {"street_table", "furniture/table", 4, MakeDiningTable, 0.6f, 0.70f, 0.80f, 3000},
       {"dining_chair", "furniture/seating/chair", 4, MakeDiningChair, 0.4f, 0.80f, 1.00f, 4000},
       {"bench_wood", "furniture/seating/bench/wood", 3, MakeBenchWood, 1.0f, 0.80f, 1.00f, 3500},
   };

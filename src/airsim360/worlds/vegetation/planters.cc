@@ -174,10 +174,49 @@ Model MakePlanter(uint32_t variant, uint64_t seed) {
   return model;
 }
 
+// A green tub of painted steel with a round bush or strap leaves.
+Model MakeGreenPot(uint32_t variant, uint64_t seed) {
+  RngStream random(seed, "green pot");
+  PropBuilder b("green_pot");
+  const float r = variant == 0 ? 0.42f : 0.36f, h = variant == 0 ? 0.62f : 0.78f;
+  b.Use(Paint({0.02f, 0.10f, 0.05f}, 0.5f), ScratchedTexture());
+  const Vec2f tub[] = {{0, 0},
+                       {r * 0.78f, 0},
+                       {r * 0.8f, 0.02f},
+                       {r * 0.97f, h - 0.09f},
+                       {r * 1.04f, h - 0.08f},
+                       {r * 1.04f, h},
+                       {r * 0.93f, h},
+                       {r * 0.9f, h - 0.09f},
+                       {0, h - 0.09f}};
+  b.Lathe(tub, 28);
+  b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
+  b.mesh().Tube({0, 0, h - 0.085f}, {0, 0, h - 0.06f}, r * 0.88f, r * 0.86f, 20, false);
+  Model model = b.Finish();
+  const bool straps = variant == 2;
+  Merge(model, Foliage(straps, {0, 0, straps ? h - 0.1f : h + r * 0.6f}, r * 1.05f, straps ? 80 : 2100, random));
+  return model;
+}
+
+// A plant growing from the ground, without a vessel.
+Model MakePlant(uint32_t variant, uint64_t seed) {
+  RngStream random(seed, "plant");
+  PropBuilder b("plant");
+  b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
+  b.mesh().Tube({0, 0, -0.05f}, {0, 0, 0.015f}, 0.2f, 0.12f, 12, false);
+  Model model = b.Finish();
+  const float r = 0.28f + 0.05f * static_cast<float>(variant);
+  const bool straps = variant % 2 == 1;
+  Merge(model, Foliage(straps, {0, 0, straps ? 0.0f : r * 0.8f}, r, straps ? 90 : 1700, random));
+  return model;
+}
+
 }  // namespace
 
 std::vector<PropKind> PlanterKinds() {
   return {
+      {"green_pot", "furniture/planter/green_pot", 3, MakeGreenPot, 0.5f, 0.7f, 2.2f, 9000},
+      {"plant", "vegetation/plant", 4, MakePlant, 0.4f, 0.2f, 1.4f, 7000},
       {"pot", "furniture/planter/pot", 4, MakePot, 0.5f, 0.75f, 1.6f, 7000},
       {"planter", "furniture/planter/pot", 3, MakePlanter, 0.95f, 0.8f, 1.4f, 12000},
   };

@@ -1,0 +1,92 @@
+// airsim360 agent: navigation episodes over HTTP and WebSocket, until SIGINT or SIGTERM.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+#include "airsim360/sim/world_loader.h"
+#include "airsim360/tasks/agent_server.h"
+#include "airsim360/worlds/worlds.h"
+
+namespace airsim360 {
+namespace {
+
+struct AgentArguments {
+  std::string world, host = "127.0.0.1", tier = "fast";
+  int port = 8361, episodes = 64;
+  bool realtime = false;
+  EnvironmentFlags environment;
+};
+
+double SteadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
+  AgentApiOptions options{.world = arguments.world, .world_seed = globals.seed};
+  for (const WorldInfo& world : ListWorlds()) options.worlds.push_back(world.name);
+  options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment](
+                     const std::string& name, uint64_t seed) {
+    std::shared_ptr<const Scene> scene = LoadWorld({.world = name, .seed = seed});
+    const Environment environment = ApplyFlags(flags, scene->environment);
+    return std::make_shared<AgentWorld>(name, std::move(scene), tier, environment);
+  };
+  options.realtime = arguments.realtime;
+  options.clock = SteadySeconds;
+  options.max_episodes = static_cast<size_t>(arguments.episodes);
+  return options;
+}
+
+void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
+  if (arguments.port < 0 || arguments.port > 65535)
+    throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
+  if (arguments.episodes < 1 || arguments.episodes > 1024)
+    throw InputError("--episodes: " + std::to_string(arguments.episodes) + " is not in 1 ... 1024");
+  ApplyFlags(arguments.environment, {});
+
+  // Before any thread exists, so that the signals come to sigwait alone.
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  {
+    AgentApi api(OptionsOf(arguments, globals));
+    const AgentServer server(api, {.address = arguments.host, .port = arguments.port});
+    if (globals.json) {
+      PrintJson({{"address", arguments.host}, {"port", server.port()}});
+    } else {
+      std::printf("listening on http://%s:%d\n", arguments.host.c_str(), server.port());
+    }
+    std::fflush(stdout);
+    int signal = 0;
+    sigwait(&signals, &signal);
+    LogInfo("stopping");
+  }
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+}
+
+}  // namespace
+
+void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command =
+      app.add_subcommand("agent", "navigation episodes for VLA/VLM models over HTTP and WebSocket (docs/agents.md)");
+  auto arguments = std::make_shared<AgentArguments>();
+  command->add_option("--world", arguments->world, "name or file of the world of episodes that name none")
+      ->required();
+  command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8361)");
+  command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
+  command->add_option("--tier", arguments->tier,
+                      "quality of colour pictures: fast, high or reference (default fast)");
+  command->add_option("--episodes", arguments->episodes, "most episodes open at a time (default 64)");
+  command->add_flag("--realtime", arguments->realtime,
+                    "what an agent takes to think passes in its episode too; else time passes in actions alone");
+  AddEnvironmentFlags(*command, arguments->environment);
+  command->callback([arguments, &globals] { Serve(*arguments, globals); });
+}
+
+}  // namespace airsim360

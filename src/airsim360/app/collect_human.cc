@@ -1,0 +1,125 @@
+#include "airsim360/app/collect_human.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/session.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/log.h"
+#include "airsim360/dataset/people/human_set.h"
+#include "airsim360/sim/drone_bodies.h"
+#include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/worlds.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Exists(const std::string& world) {
+  if (fs::exists(world)) return true;
+  const std::vector<WorldInfo>& infos = ListWorlds();
+  return std::ranges::any_of(infos, [&](const WorldInfo& info) { return info.name == world; });
+}
+
+/// A world with what all its subsets share.
+struct HumanWorld {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const NavMesh> mesh;
+  std::shared_ptr<const RayTracer> tracer;
+};
+
+HumanWorld OpenHumanWorld(const std::string& name, uint64_t seed) {
+  HumanWorld world;
+  world.scene = LoadWorld({.world = name, .seed = seed});
+  world.mesh = NavMesh::Build(*world.scene);
+  world.tracer = std::make_shared<const RayTracer>(world.scene);
+  return world;
+}
+
+CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, const HumanSubset& subset,
+                            const HumanWorld& world, uint64_t seed) {
+  const HumanArea area = PickArea(*world.mesh, subset, seed);
+  // The file that the people are made of is kept: the subset can be made again, or changed, by hand.
+  const fs::path folder = fs::path(run.out) / subset.name;
+  const fs::path people_file = folder.string() + ".people.yaml";
+  CreateWritableFolder(folder);
+  WriteFileAtomically(people_file, PeopleFileOf(area, subset.people));
+  PeopleRequest request = run.people.Request(seed);
+  request.file = people_file;
+  request.navmesh = world.mesh;
+  const PopulatedScene populated = Populate(world.scene, request);
+
+  DatasetSpec spec = run.spec;
+  spec.world = subset.world;
+  spec.seed = seed;
+  spec.frames = subset.frames;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %.1f x %.1f m, pitch %g", subset.name.c_str(), subset.width, subset.depth,
+                subset.pitch_deg);
+  spec.route = text;
+  spec.people = std::to_string(subset.people) + " in the area";
+  const auto tracer = std::make_shared<const RayTracer>(populated.scene);
+  const Environment environment = ApplyFlags(run.environment, world.scene->environment);
+  spec.environment = DescribeEnvironment(environment);
+  const auto renderer = MakeCpuRenderer(tracer, {.tier = spec.tier, .environment = environment});
+  const Flight flight = FilmSubset(recipe, subset, area, *populated.people, *world.tracer, seed);
+  CollectInput input{spec, *populated.scene, flight, folder};
+  input.people = populated.people;
+  input.tracer = tracer;
+  return Collect(input, *renderer);
+}
+
+}  // namespace
+
+void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
+  const HumanRecipe recipe = run.recipe == "omni360-human" ? PaperHumanRecipe() : ReadHumanRecipe(run.recipe);
+  std::vector<HumanSubset> subsets = SubsetsOf(recipe);
+  std::vector<std::string> names;
+  for (const HumanSubset& subset : subsets) names.push_back(subset.name);
+  if (!run.subset.empty() && std::ranges::count(names, run.subset) == 0)
+    throw InputError("--subset: " + UnknownChoiceMessage("subset", run.subset, names));
+  CreateWritableFolder(run.out);
+
+  std::map<std::string, HumanWorld> worlds;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  int64_t frames = 0, written = 0, skipped = 0;
+  for (size_t i = 0; i < subsets.size(); ++i) {
+    HumanSubset& subset = subsets[i];
+    if (run.frames > 0) subset.frames = std::min(subset.frames, run.frames);
+    const bool wanted = (run.subset.empty() || run.subset == subset.name) && (run.world.empty() || run.world == subset.world) &&
+                        static_cast<int64_t>(i) % run.spec.shards == run.spec.shard;
+    const bool exists = Exists(subset.world);
+    list.push_back({{"subset", subset.name}, {"world", subset.world}, {"exists", exists}, {"width", subset.width},
+                    {"depth", subset.depth}, {"people", subset.people}, {"pitch_deg", subset.pitch_deg}, {"frames", subset.frames}});
+    if (!wanted) continue;
+    if (!exists) {
+      ++skipped;
+      continue;
+    }
+    if (!worlds.contains(subset.world)) {
+      worlds.clear();  // one world at a time
+      worlds[subset.world] = OpenHumanWorld(subset.world, globals.seed);
+    }
+    LogInfo(subset.name + ": " + std::to_string(subset.frames) + " frames, " + std::to_string(subset.people) + " people");
+    HumanRun one = run;
+    one.spec.shard = 0, one.spec.shards = 1;
+    const CollectResult result = CollectSubset(one, recipe, subset, worlds.at(subset.world), globals.seed);
+    frames += result.frames;
+    written += result.written;
+  }
+  WriteFileAtomically(fs::path(run.out) / "subsets.json", list.dump(1) + "\n");
+  if (globals.json) {
+    PrintJson({{"out", run.out}, {"subsets", subsets.size()}, {"subsets_without_world", skipped}, {"frames", frames}, {"frames_written", written}});
+    return;
+  }
+  std::printf("%s: %lld frames (%lld written now); %lld subsets wait for their worlds\n", run.out.c_str(),
+              static_cast<long long>(frames), static_cast<long long>(written), static_cast<long long>(skipped));
+}
+
+}  // namespace airsim360

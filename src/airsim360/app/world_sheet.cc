@@ -1,0 +1,154 @@
+#include "airsim360/app/world_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/session.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/random.h"
+#include "airsim360/image/codecs.h"
+#include "airsim360/image/color.h"
+#include "airsim360/image/draw.h"
+#include "airsim360/worlds/world_survey.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Open places near the spawn: nothing but ground below, air around at every height.
+std::vector<Vec3f> ChoosePlaces(const OpenedWorld& world, const SheetArguments& arguments, uint64_t seed) {
+  const Scene& scene = *world.scene;
+  const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
+  RngStream rng(seed, "world sheet");
+  std::vector<Vec3f> places;
+  for (int tries = 0; tries < 4000 && static_cast<int>(places.size()) < arguments.poses; ++tries) {
+    const double reach = 25 + 110.0 * static_cast<double>(places.size()) / arguments.poses;
+    const Vec3f p{spawn.x + static_cast<float>(rng.Uniform(-reach, reach)),
+                  spawn.y + static_cast<float>(rng.Uniform(-reach, reach)), 0};
+    const auto below = world.tracer->Intersect({p.x, p.y, spawn.z + 300}, {0, 0, -1});
+    if (!below) continue;
+    const float ground = spawn.z + 300 - below->distance;
+    if (std::abs(ground) > 3 && scene.sky_entity != kNoEntity) continue;
+    const bool clear = std::all_of(arguments.heights.begin(), arguments.heights.end(), [&](double h) {
+      const float room = h < 3 ? 0.9f : 2.5f;
+      return world.tracer->Clearance({p.x, p.y, ground + static_cast<float>(h)}, room) >= room;
+    });
+    const bool apart = std::all_of(places.begin(), places.end(),
+                                   [&](Vec3f q) { return std::hypot(p.x - q.x, p.y - q.y) > 9; });
+    if (clear && apart) places.push_back({p.x, p.y, ground});
+  }
+  return places;
+}
+
+// Means over the sphere of one or more panoramas.
+struct PictureFigures {
+  double weight = 0, luminance = 0, albedo = 0, albedo_weight = 0, dark = 0, bright = 0, void_pixels = 0;
+
+  void Add(const Frame& frame) {
+    const int h = frame.rgb.height();
+    for (int y = 0; y < h; ++y) {
+      const double w = std::cos(std::numbers::pi * ((y + 0.5) / h - 0.5));
+      for (int x = 0; x < frame.rgb.width(); ++x) {
+        const Rgb8 c = frame.rgb(x, y);
+        weight += w;
+        luminance += w * (0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b));
+        dark += w * (std::max({c.r, c.g, c.b}) < 5);
+        bright += w * (std::max({c.r, c.g, c.b}) > 250);
+        void_pixels += frame.semantic(x, y) == kVoid || frame.entity(x, y) == kNoEntity;
+        if (frame.range(x, y) <= 0) continue;
+        const Rgb32f a = frame.albedo(x, y);
+        albedo += w * (0.2126 * a.r + 0.7152 * a.g + 0.0722 * a.b);
+        albedo_weight += w;
+      }
+    }
+  }
+  nlohmann::ordered_json Json() const {
+    return {{"mean_luminance", luminance / weight},
+            {"mean_albedo", albedo / std::max(albedo_weight, 1e-9)},
+            {"below_5", dark / weight},
+            {"above_250", bright / weight},
+            {"unlabelled_pixels", void_pixels}};
+  }
+};
+
+}  // namespace
+
+void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals) {
+  const fs::path out = arguments.out;
+  const bool jpeg = out.extension() == ".jpg" || out.extension() == ".jpeg";
+  if (!jpeg && out.extension() != ".png") throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
+  if (arguments.poses < 1 || arguments.poses > 64) throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
+  if (arguments.width < 64 || arguments.width > 2048 || arguments.width % 4)
+    throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 64 … 2048");
+  const Tier tier = ParseTierArgument(arguments.tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, tier);
+  const std::vector<Vec3f> places = ChoosePlaces(world, arguments, globals.seed);
+  if (places.empty()) throw RuntimeError(arguments.world + ": no open place found around the spawn");
+
+  // One row a place, one column a height.
+  const int w = arguments.width, h = w / 2, gap = 4;
+  const int columns = static_cast<int>(arguments.heights.size()), rows = static_cast<int>(places.size());
+  Image<Rgb8> sheet(columns * (w + gap) + gap, rows * (h + gap) + gap);
+  std::vector<PictureFigures> figures(arguments.heights.size());
+  std::map<CategoryId, size_t> most_visible;
+  double render_ms = 0;
+  Frame frame;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Vec3f p = places[static_cast<size_t>(row)];
+      const double z = p.z + arguments.heights[static_cast<size_t>(column)];
+      RenderRequest request;
+      request.camera = Equirectangular{w, h};
+      request.X_WC = BodyPose({p.x, p.y, z}, 0.6 * row, 0, 0) * CameraInBody();
+      request.tier = tier;
+      request.products.albedo = true;
+      request.seed = globals.seed;
+      render_ms += world.renderer->Render(request, frame).render_ms;
+      figures[static_cast<size_t>(column)].Add(frame);
+      std::map<CategoryId, std::set<EntityId>> seen;
+      for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) seen[frame.semantic(x, y)].insert(frame.entity(x, y));
+      for (const auto& [category, entities] : seen) most_visible[category] = std::max(most_visible[category], entities.size());
+      Blit(frame.rgb, gap + column * (w + gap), gap + row * (h + gap), sheet);
+      char text[64];
+      std::snprintf(text, sizeof text, "%.0f %.0f %.1f", static_cast<double>(p.x), static_cast<double>(p.y), z);
+      DrawText(text, gap + column * (w + gap) + 4, gap + row * (h + gap) + 4, {255, 255, 255}, 1, sheet);
+    }
+  }
+  if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
+  WriteFileAtomically(out, jpeg ? EncodeJpeg(sheet, 82) : EncodePng(sheet));
+
+  // What was seen.
+  nlohmann::ordered_json by_height = nlohmann::ordered_json::object(), visible = nlohmann::ordered_json::object();
+  for (size_t i = 0; i < figures.size(); ++i) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", arguments.heights[i]);
+    by_height[text] = figures[i].Json();
+  }
+  std::map<std::string, size_t> by_path;
+  for (const auto& [category, count] : most_visible) by_path[world.scene->tree[category].path] = count;
+  for (const auto& [path, count] : by_path) visible[path] = count;
+  const double frames = static_cast<double>(rows) * columns;
+  if (globals.json) {
+    PrintJson({{"out", out.string()},
+               {"places", rows},
+               {"heights", by_height},
+               {"most_visible_entities", visible},
+               {"render_ms", render_ms / frames},
+               {"load_ms", world.load_ms},
+               {"peak_rss_mib", PeakRssMib()}});
+    return;
+  }
+  std::printf("%s: %d places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), rows, render_ms / frames, world.load_ms / 1000);
+  for (const auto& [height, figure] : by_height.items()) std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
+}
+
+}  // namespace airsim360

@@ -1,0 +1,393 @@
+#include "airsim360/assets/cityjson.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "airsim360/assets/gltf_json_internal.h"
+#include "airsim360/assets/normals.h"
+#include "airsim360/base/error.h"
+#include "airsim360/math/triangulate.h"
+
+namespace airsim360::internal {
+namespace {
+
+// What the types of the standard are here.
+struct TypeRow {
+  std::string_view type, category;
+  Vec3f colour;
+};
+constexpr TypeRow kTypes[] = {
+    {"Building", "construction/building", {0.52f, 0.46f, 0.38f}},
+    {"BuildingPart", "construction/building", {0.52f, 0.46f, 0.38f}},
+    {"BuildingInstallation", "construction/building", {0.42f, 0.41f, 0.40f}},
+    {"BuildingConstructiveElement", "construction/building", {0.42f, 0.41f, 0.40f}},
+    {"BuildingFurniture", "furniture", {0.35f, 0.27f, 0.18f}},
+    {"BuildingStorey", "construction/building", {0.52f, 0.46f, 0.38f}},
+    {"BuildingRoom", "construction/building", {0.6f, 0.58f, 0.55f}},
+    {"BuildingUnit", "construction/building", {0.52f, 0.46f, 0.38f}},
+    {"Bridge", "construction/bridge", {0.40f, 0.39f, 0.37f}},
+    {"BridgePart", "construction/bridge", {0.40f, 0.39f, 0.37f}},
+    {"BridgeInstallation", "construction/bridge", {0.35f, 0.35f, 0.35f}},
+    {"BridgeConstructionElement", "construction/bridge", {0.40f, 0.39f, 0.37f}},
+    {"BridgeConstructiveElement", "construction/bridge", {0.40f, 0.39f, 0.37f}},
+    {"CityFurniture", "furniture/misc", {0.25f, 0.26f, 0.27f}},
+    {"CityObjectGroup", "object", {0.4f, 0.4f, 0.4f}},
+    {"GenericCityObject", "object", {0.4f, 0.4f, 0.4f}},
+    {"LandUse", "ground/terrain/landscape", {0.16f, 0.17f, 0.08f}},
+    {"OtherConstruction", "construction", {0.42f, 0.40f, 0.37f}},
+    {"PlantCover", "vegetation/shrub/bush", {0.08f, 0.13f, 0.04f}},
+    {"Railway", "ground/gravel", {0.16f, 0.14f, 0.12f}},
+    {"Road", "ground/road", {0.11f, 0.11f, 0.115f}},
+    {"SolitaryVegetationObject", "vegetation/tree/broadleaf/generic", {0.07f, 0.12f, 0.035f}},
+    {"TINRelief", "nature/terrain", {0.15f, 0.16f, 0.08f}},
+    {"TransportSquare", "ground/pavement/modular", {0.28f, 0.27f, 0.25f}},
+    {"Tunnel", "construction/tunnel", {0.38f, 0.37f, 0.35f}},
+    {"TunnelPart", "construction/tunnel", {0.38f, 0.37f, 0.35f}},
+    {"TunnelInstallation", "construction/tunnel", {0.35f, 0.35f, 0.35f}},
+    {"TunnelConstructiveElement", "construction/tunnel", {0.35f, 0.35f, 0.35f}},
+    {"WaterBody", "water/lake", {0.02f, 0.035f, 0.035f}},
+    {"Waterway", "water/river", {0.02f, 0.035f, 0.035f}},
+};
+
+// Surfaces that are entities, or at least materials, of their own.
+struct SurfaceRow {
+  std::string_view type, suffix, category;  // category "": that of the object
+  Vec3f colour;
+};
+constexpr SurfaceRow kSurfaces[] = {
+    {"RoofSurface", "roof", "construction/building/roof", {0.26f, 0.12f, 0.08f}},
+    {"Window", "window", "construction/window", {0.035f, 0.045f, 0.05f}},
+    {"Door", "door", "construction/door", {0.12f, 0.07f, 0.04f}},
+    {"TrafficArea", "traffic", "", {0.11f, 0.11f, 0.115f}},
+    {"AuxiliaryTrafficArea", "verge", "", {0.20f, 0.19f, 0.16f}},
+};
+
+const TypeRow& RowOf(std::string_view type) {
+  for (const TypeRow& row : kTypes)
+    if (row.type == type) return row;
+  // Extensions ("+Shed") and types of later versions.
+  static constexpr TypeRow kOther{"", "object", {0.4f, 0.4f, 0.4f}};
+  return kOther;
+}
+
+struct Placement {  // of a geometry template
+  std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  Vec3d offset;
+  Vec3d operator*(Vec3d p) const {
+    return Vec3d{m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+                 m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]} +
+           offset;
+  }
+};
+
+// Triangles of one node before they are a mesh.
+struct Soup {
+  std::string name, category;
+  MaterialId material = 0;
+  std::vector<Vec3d> corners;  // three a triangle
+};
+
+class CityReader {
+ public:
+  CityReader(const std::string& file, const ImportLimits& limits) : file_name_(file), limits_(limits) {}
+
+  // A whole document, or the first line of a stream.
+  void ReadHead(JsonRef root) {
+    if (root.TextOr("type", "") != "CityJSON") root.Fail("not CityJSON: \"type\" is not \"CityJSON\"");
+    const std::string version = root.TextOr("version", "");
+    if (!version.starts_with("1.") && !version.starts_with("2."))
+      root.At("version").Fail("CityJSON 1.0, 1.1 and 2.0 are read");
+    if (const auto transform = root.Find("transform")) {
+      const std::vector<double> scale = transform->At("scale").Numbers(3), move = transform->At("translate").Numbers(3);
+      scale_ = {scale[0], scale[1], scale[2]};
+      translate_ = {move[0], move[1], move[2]};
+    }
+    if (const auto metadata = root.Find("metadata"))
+      if (const auto reference = metadata->Find("referenceSystem")) degrees_ = IsInDegrees(reference->Text());
+    if (const auto templates = root.Find("geometry-templates")) {
+      templates_ = templates->At("templates");
+      template_vertices_ = ReadVertices(templates->At("vertices-templates"), {1, 1, 1}, {});
+    }
+  }
+
+  // City objects of a document or feature over its own vertices.
+  void ReadObjects(JsonRef root) {
+    vertices_ = ReadVertices(root.At("vertices"), scale_, translate_);
+    const JsonRef objects = root.At("CityObjects");
+    const std::vector<std::string> ids = objects.Keys();
+    if (ids.size() > limits_.max_nodes) objects.Fail("more than " + std::to_string(limits_.max_nodes) + " objects");
+    for (const std::string& id : ids) ReadObject(CleanName(id), objects.At(id));
+  }
+
+  ImportedFile Take() {
+    ImportedFile out;
+    out.materials = std::move(materials_);
+    out.warnings = warnings_.Take();
+    // The middle of everything at x = y = 0, its lowest point at z = 0.
+    Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    for (const auto& entry : soups_)
+      for (Vec3d p : entry.second.corners) {
+        low = Min(low, p);
+        high = Max(high, p);
+      }
+    Vec3d middle{(low.x + high.x) / 2, (low.y + high.y) / 2, low.z};
+    Vec3d metres{1, 1, 1};
+    if (degrees_) {
+      // Metres a degree at the middle latitude (WGS 84 ellipsoid, first terms).
+      const double phi = middle.y * std::numbers::pi / 180;
+      metres = {111412.84 * std::cos(phi) - 93.5 * std::cos(3 * phi), 111132.92 - 559.82 * std::cos(2 * phi), 1};
+    }
+    uint64_t entity = 0;
+    for (auto& entry : soups_) {
+      Soup& soup = entry.second;
+      Mesh mesh;
+      mesh.name = soup.name;
+      for (Vec3d p : soup.corners) mesh.positions.push_back(VecCast<float>((p - middle) * metres));
+      for (uint32_t i = 0; i + 2 < mesh.positions.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
+      // Pictures tile in metres: along the wall, or east and north.
+      mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), soup.material, kNoEntity});
+      FillMissingNormals(mesh, 30);
+      ImportedNode node{soup.name, -1, static_cast<int32_t>(out.meshes.size()), {}, soup.category, ++entity};
+      out.meshes.push_back(std::move(mesh));
+      out.nodes.push_back(std::move(node));
+    }
+    return out;
+  }
+
+ private:
+  static bool IsInDegrees(const std::string& reference) {
+    for (const char* code : {"4326", "4979", "4258", "4937", "CRS84"})
+      if (reference.ends_with(code)) return true;
+    return false;
+  }
+
+  std::vector<Vec3d> ReadVertices(JsonRef list, Vec3d scale, Vec3d translate) {
+    const size_t count = list.size();
+    if ((vertex_total_ += count) > limits_.max_vertices) list.Fail("more than " + std::to_string(limits_.max_vertices) + " vertices");
+    std::vector<Vec3d> vertices;
+    vertices.reserve(count);
+    for (size_t i = 0; i < count; ++i) {
+      const std::vector<double> v = list[i].Numbers(3);
+      const Vec3d p = Vec3d{v[0], v[1], v[2]} * scale + translate;
+      if (!(std::abs(p.x) < 1e12 && std::abs(p.y) < 1e12 && std::abs(p.z) < 1e9)) list[i].Fail("coordinate out of range");
+      vertices.push_back(p);
+    }
+    return vertices;
+  }
+
+  void ReadObject(const std::string& id, JsonRef object) {
+    const std::string type = object.At("type").Text();
+    const auto geometry = object.Find("geometry");
+    if (!geometry || geometry->size() == 0) return;
+    // The highest level of detail; all geometries of that level.
+    const auto lod = [](const JsonRef& g) {
+      const auto member = g.Find("lod");
+      if (!member) return 1.0;
+      // A text in 1.1 and later, a number before.
+      try {
+        return std::strtod(member->Text().c_str(), nullptr);
+      } catch (const InputError&) {
+        return member->Number();
+      }
+    };
+    double best = -1;
+    for (size_t i = 0; i < geometry->size(); ++i) {
+      const JsonRef g = (*geometry)[i];
+      const std::string kind = g.At("type").Text();
+      if (kind == "MultiPoint" || kind == "MultiLineString") continue;
+      best = std::max(best, kind == "GeometryInstance" ? 1.0 : lod(g));
+    }
+    for (size_t i = 0; i < geometry->size(); ++i) {
+      const JsonRef g = (*geometry)[i];
+      const std::string kind = g.At("type").Text();
+      if (kind == "MultiPoint" || kind == "MultiLineString") {
+        warnings_.Add(file_name_ + ": points and lines are not shown");
+        continue;
+      }
+      if (kind == "GeometryInstance") {
+        ReadInstance(id, type, g);
+      } else if (lod(g) >= best - 1e-9) {
+        ReadGeometry(id, type, g, kind, vertices_, {});
+      }
+    }
+  }
+
+  void ReadInstance(const std::string& id, const std::string& type, JsonRef g) {
+    if (!templates_) g.Fail("the file has no geometry-templates");
+    const size_t index = g.At("template").Uint(templates_->size() - (templates_->size() > 0));
+    const JsonRef source = (*templates_)[index];
+    Placement place;
+    if (const auto matrix = g.Find("transformationMatrix")) {
+      const std::vector<double> m = matrix->Numbers(16);
+      std::copy(m.begin(), m.end(), place.m.begin());
+    }
+    const JsonRef anchor = g.At("boundaries");
+    if (anchor.size() < 1) anchor.Fail("a vertex expected");
+    if (vertices_.empty()) anchor.Fail("the file has no vertices");
+    place.offset = vertices_[anchor[0].Uint(vertices_.size() - 1)];
+    const std::string kind = source.At("type").Text();
+    if (kind == "GeometryInstance") source.Fail("a template of templates");
+    ReadGeometry(id, type, source, kind, template_vertices_, place);
+  }
+
+  void ReadGeometry(const std::string& id, const std::string& type, JsonRef g, const std::string& kind,
+                    const std::vector<Vec3d>& vertices, const Placement& place) {
+    int depth = 0;  // of lists of surfaces
+    if (kind == "MultiSurface" || kind == "CompositeSurface") depth = 1;
+    if (kind == "Solid") depth = 2;
+    if (kind == "MultiSolid" || kind == "CompositeSolid") depth = 3;
+    if (depth == 0) g.At("type").Fail("unknown geometry");
+    std::optional<JsonRef> values;
+    std::vector<std::string> surfaces;
+    if (const auto semantics = g.Find("semantics")) {
+      if (const auto list = semantics->Find("surfaces"))
+        for (size_t i = 0; i < list->size(); ++i) surfaces.push_back((*list)[i].TextOr("type", ""));
+      values = semantics->Find("values");
+    }
+    Walk(id, type, g.At("boundaries"), values, depth, surfaces, vertices, place);
+  }
+
+  // Down the nested lists; at the bottom each element is a surface of rings.
+  void Walk(const std::string& id, const std::string& type, JsonRef boundaries, std::optional<JsonRef> values, int depth,
+            const std::vector<std::string>& surfaces, const std::vector<Vec3d>& vertices, const Placement& place) {
+    for (size_t i = 0; i < boundaries.size(); ++i) {
+      std::optional<JsonRef> value;
+      if (values && values->IsArray() && i < values->size()) value = (*values)[i];
+      if (depth > 1) {
+        Walk(id, type, boundaries[i], value, depth - 1, surfaces, vertices, place);
+        continue;
+      }
+      std::string_view semantic;
+      if (value && value->IsNumber()) {
+        const uint64_t index = value->Uint();
+        if (index >= surfaces.size()) value->Fail("there are " + std::to_string(surfaces.size()) + " semantic surfaces");
+        semantic = surfaces[index];
+      }
+      AddSurface(SoupFor(id, type, semantic), boundaries[i], vertices, place);
+    }
+  }
+
+  Soup& SoupFor(const std::string& id, const std::string& type, std::string_view semantic) {
+    const TypeRow& row = RowOf(type);
+    const SurfaceRow* surface = nullptr;
+    for (const SurfaceRow& candidate : kSurfaces)
+      if (candidate.type == semantic) surface = &candidate;
+    const std::string name = id + (surface ? "/" + std::string(surface->suffix) : "");
+    const auto [it, fresh] = soups_.try_emplace(name);
+    if (!fresh) return it->second;
+    it->second.name = name;
+    it->second.category = surface && !surface->category.empty() ? surface->category : row.category;
+    it->second.material = MaterialFor(row, surface);
+    return it->second;
+  }
+
+  MaterialId MaterialFor(const TypeRow& row, const SurfaceRow* surface) {
+    const std::string name = surface ? std::string(surface->type) : row.type.empty() ? "other" : std::string(row.type);
+    const auto [it, fresh] = material_ids_.try_emplace(name, static_cast<MaterialId>(materials_.size()));
+    if (!fresh) return it->second;
+    Material material;
+    material.name = name;
+    material.base_color = surface ? surface->colour : row.colour;
+    material.roughness = 0.85f;
+    material.macro_variation = 0.08f;
+    if (name == "WaterBody" || name == "Waterway") {
+      material.kind = SurfaceKind::kWater;
+      material.roughness = 0.08f;
+    }
+    if (name == "Window") {
+      material.kind = SurfaceKind::kGlass;
+      material.roughness = 0.05f;
+    }
+    materials_.push_back(std::move(material));
+    return it->second;
+  }
+
+  // A polygon with holes in space: flattened along its Newell normal, cut into triangles.
+  void AddSurface(Soup& soup, JsonRef rings, const std::vector<Vec3d>& vertices, const Placement& place) {
+    std::vector<Vec3d> points;
+    std::vector<uint32_t> sizes;
+    Vec3d normal;
+    for (size_t r = 0; r < rings.size(); ++r) {
+      const JsonRef ring = rings[r];
+      const size_t first = points.size(), count = ring.size();
+      if (count > 100000) ring.Fail("a ring of more than 100000 corners");
+      for (size_t i = 0; i < count; ++i) {
+        if (vertices.empty()) ring.Fail("the file has no vertices");
+        const Vec3d p = place * vertices[ring[i].Uint(vertices.size() - 1)];
+        if (points.size() > first && points.back() == p) continue;
+        points.push_back(p);
+      }
+      while (points.size() > first + 1 && points.back() == points[first]) points.pop_back();
+      if (points.size() - first < 3) {
+        points.resize(first);
+        if (r == 0) return;  // nothing to see
+        continue;
+      }
+      if (r == 0) {
+        for (size_t i = 0; i < points.size(); ++i) {
+          const Vec3d a = points[i] - points[0], b = points[(i + 1) % points.size()] - points[0];
+          normal += Cross(a, b);
+        }
+      }
+      sizes.push_back(static_cast<uint32_t>(points.size() - first));
+    }
+    if (sizes.empty() || !(Norm(normal) > 0)) return;
+    const Vec3d n = Normalized(normal);
+    const Vec3d u = Normalized(Cross(std::abs(n.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}, n)), v = Cross(n, u);
+    std::vector<Vec2d> flat;
+    for (Vec3d p : points) flat.push_back({Dot(p - points[0], u), Dot(p - points[0], v)});
+    for (uint32_t index : TriangulateRings(flat, sizes)) soup.corners.push_back(points[index]);
+    if ((triangle_total_ += points.size()) > limits_.max_triangles) rings.Fail("more than " + std::to_string(limits_.max_triangles) + " triangles");
+  }
+
+  const std::string& file_name_;
+  const ImportLimits& limits_;
+  Vec3d scale_{1, 1, 1}, translate_;
+  bool degrees_ = false;
+  std::vector<Vec3d> vertices_, template_vertices_;
+  std::optional<JsonRef> templates_;
+  std::map<std::string, Soup> soups_;  // by name: a fixed order
+  std::vector<Material> materials_;
+  std::map<std::string, MaterialId> material_ids_;
+  uint64_t vertex_total_ = 0, triangle_total_ = 0;
+  Warnings warnings_;
+};
+
+}  // namespace
+
+bool LooksLikeCityJson(std::string_view text) {
+  const std::string_view head = text.substr(0, 4096), tail = text.substr(text.size() - std::min<size_t>(text.size(), 4096));
+  return head.find("CityJSON") != std::string_view::npos || tail.find("CityJSON") != std::string_view::npos;
+}
+
+ImportedFile ReadCityJson(const std::string& file, std::string_view text, const ImportLimits& limits) {
+  CityReader reader(file, limits);
+  // A stream has one feature a line after the first.
+  const size_t line_end = text.find('\n');
+  const bool stream = line_end != std::string_view::npos && text.find("\"CityJSONFeature\"") != std::string_view::npos;
+  const nlohmann::json head = ParseJson(file, stream ? text.substr(0, line_end) : text);
+  reader.ReadHead(JsonRef(file, head));
+  if (!stream) {
+    reader.ReadObjects(JsonRef(file, head));
+    return reader.Take();
+  }
+  size_t number = 1;
+  for (size_t at = line_end + 1; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    const std::string where = file + ":" + std::to_string(number);
+    const nlohmann::json feature = ParseJson(where, line);
+    reader.ReadObjects(JsonRef(where, feature));
+  }
+  return reader.Take();
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,176 @@
+#include "airsim360/dataset/people/human_set.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "airsim360/base/config.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+double PitchOf(const std::string& text, const std::string& file) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= 90))
+    throw InputError(file + ": pitches_deg: '" + text.substr(0, 40) + "' is not an angle from -90 to 90");
+  return value;
+}
+
+void VisitScene(ConfigVisitor& v, HumanScene& s) {
+  v.Field("scene", "the paper's name, for people", s.scene);
+  v.Field("world", "name or file of the world", s.world);
+  v.Field("subsets", "how many", s.subsets);
+  v.Field("least_width", "of the smallest area, metres", s.least_width, 4, 500);
+  v.Field("least_depth", "of the smallest area, metres", s.least_depth, 4, 500);
+  v.Field("most_width", "of the largest area, metres", s.most_width, 4, 500);
+  v.Field("most_depth", "of the largest area, metres", s.most_depth, 4, 500);
+  v.Field("least_people", "in the smallest area", s.least_people);
+  v.Field("most_people", "in the largest area", s.most_people);
+  v.Field("frames", "of all its subsets together", s.frames);
+}
+
+}  // namespace
+
+HumanRecipe PaperHumanRecipe() {
+  HumanRecipe recipe;
+  recipe.scenes = {{"New York City", "new_york_city", 14, 12, 12, 30, 30, 15, 45, 29000},
+                   {"Lisbon Downtown", "lisbon_downtown", 10, 12, 12, 30, 50, 10, 45, 9000},
+                   {"Downtown City", "downtown_west", 17, 12, 12, 30, 30, 8, 30, 27000},
+                   {"Roof", "roof", 7, 12, 12, 45, 20, 5, 30, 11200},
+                   {"Rural Cabins", "rural_cabins", 2, 15, 15, 15, 30, 7, 14, 4000},
+                   {"Rome", "rome", 11, 8, 10, 50, 30, 4, 30, 20500}};
+  return recipe;
+}
+
+HumanRecipe ReadHumanRecipe(const std::filesystem::path& file) {
+  HumanRecipe recipe;
+  ReadYamlFile(file, [&](ConfigVisitor& v) {
+    v.List("scenes", "rows of the table", recipe.scenes, VisitScene);
+    v.Field("pitches_deg", "camera pitch below the horizon, by turns", recipe.pitches_deg);
+    v.Field("interval", "seconds between frames", recipe.interval, 0.05, 60);
+    v.Field("lowest", "metres of the camera above the ground", recipe.lowest, 0.5, 200);
+    v.Field("highest", "metres of the camera above the ground", recipe.highest, 0.5, 200);
+    v.Field("frames_a_view", "before the camera goes elsewhere", recipe.frames_a_view);
+  });
+  const std::string name = file.string();
+  if (recipe.scenes.empty()) throw InputError(name + ": key 'scenes' is missing");
+  if (recipe.pitches_deg.empty() || recipe.highest < recipe.lowest || recipe.frames_a_view == 0)
+    throw InputError(name + ": needs a pitch, highest >= lowest and frames_a_view >= 1");
+  for (const std::string& pitch : recipe.pitches_deg) PitchOf(pitch, name);
+  for (const HumanScene& scene : recipe.scenes) {
+    if (scene.world.empty() || scene.subsets == 0 || scene.subsets > 10000 || scene.frames > 10'000'000 ||
+        scene.most_people > 20000)
+      throw InputError(name + ": scene '" + scene.scene + "': needs a world, 1 to 10000 subsets, at most 20000 people");
+  }
+  return recipe;
+}
+
+std::vector<HumanSubset> SubsetsOf(const HumanRecipe& recipe) {
+  std::vector<HumanSubset> subsets;
+  for (const HumanScene& scene : recipe.scenes) {
+    for (uint64_t k = 0; k < scene.subsets; ++k) {
+      const double t = scene.subsets > 1 ? static_cast<double>(k) / static_cast<double>(scene.subsets - 1) : 0;
+      const auto between = [&](double least, double most) { return least + (most - least) * t; };
+      char name[256];
+      const std::string stem = std::filesystem::path(scene.world).stem().string();
+      std::snprintf(name, sizeof name, "%s/%02llu", stem.substr(0, 200).c_str(), static_cast<unsigned long long>(k + 1));
+      HumanSubset subset{.world = scene.world, .name = name};
+      subset.width = between(scene.least_width, scene.most_width);
+      subset.depth = between(scene.least_depth, scene.most_depth);
+      subset.people = static_cast<uint64_t>(std::llround(
+          between(static_cast<double>(scene.least_people), static_cast<double>(scene.most_people))));
+      subset.pitch_deg = PitchOf(recipe.pitches_deg[k % recipe.pitches_deg.size()], "recipe");
+      // Frames that do not divide evenly go to the first subsets.
+      subset.frames = static_cast<int64_t>(scene.frames / scene.subsets + (k < scene.frames % scene.subsets ? 1 : 0));
+      subsets.push_back(subset);
+    }
+  }
+  return subsets;
+}
+
+HumanArea PickArea(const NavMesh& mesh, const HumanSubset& subset, uint64_t seed) {
+  constexpr int kTries = 64;
+  constexpr double kRoom = 2;  // m^2 a person
+  RngStream rng(seed, "omni360_human " + subset.name);
+  const NavArea everywhere = mesh.AreaOf({}, ~0u);
+  HumanArea best;
+  double largest = 0;
+  for (int i = 0; i < kTries; ++i) {
+    const NavPoint center = mesh.Pick(everywhere, rng);
+    if (!center.valid()) continue;
+    const Vec2d half{subset.width / 2, subset.depth / 2}, c{center.p_W.x, center.p_W.y};
+    const Vec2d low = c - half, high = c + half;
+    const Vec2d outline[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    const NavArea inside = mesh.AreaOf(outline, ~0u);
+    const double area = inside.square_metres;
+    if (area <= largest) continue;
+    largest = area;
+    best = {low, high, center.p_W.z};
+  }
+  if (largest < kRoom * static_cast<double>(subset.people)) {
+    throw InputError("subset " + subset.name + ": no area of " + std::to_string(subset.width) + " x " +
+                     std::to_string(subset.depth) + " m in '" + subset.world + "' has room for " +
+                     std::to_string(subset.people) + " people");
+  }
+  return best;
+}
+
+std::string PeopleFileOf(const HumanArea& area, uint64_t people) {
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "areas:\n  - name: area\n    polygon: [[%.2f, %.2f], [%.2f, %.2f], [%.2f, %.2f], [%.2f, %.2f]]\n    count: %llu\n",
+                area.low.x, area.low.y, area.high.x, area.low.y, area.high.x, area.high.y, area.low.x, area.high.y,
+                static_cast<unsigned long long>(people));
+  return text;
+}
+
+namespace {
+
+// A free place for the camera over or beside the area, facing its middle.
+RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
+                        const RayTracer& world, RngStream& rng) {
+  constexpr int kTries = 200;
+  constexpr float kFree = 1;     // metres to every surface
+  constexpr double kBeside = 4;  // metres that the camera may stand outside the area
+  for (int i = 0; i < kTries; ++i) {
+    const Vec3d p{rng.Uniform(area.low.x - kBeside, area.high.x + kBeside),
+                  rng.Uniform(area.low.y - kBeside, area.high.y + kBeside),
+                  area.ground + rng.Uniform(recipe.lowest, recipe.highest)};
+    if (world.Clearance(VecCast<float>(p), kFree) < kFree) continue;
+    const Vec2d middle = (area.low + area.high) * 0.5;
+    const double yaw = std::atan2(middle.y - p.y, middle.x - p.x) + rng.Uniform(-0.6, 0.6);
+    // Seen by those who are in the area: not from behind a wall.
+    if (world.Occluded(VecCast<float>(p), VecCast<float>(Vec3d{middle.x, middle.y, area.ground + 1}))) continue;
+    return BodyPose(p, yaw, -subset.pitch_deg * kRadians, 0);
+  }
+  throw InputError("subset " + subset.name + ": no free place for the camera around its area");
+}
+
+}  // namespace
+
+Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
+                  const SimPeople& people, const RayTracer& world, uint64_t seed) {
+  RngStream rng(seed, "omni360_human views " + subset.name);
+  Flight flight;
+  PeopleState state = *people.start;
+  const int64_t interval_ns = std::max<int64_t>(std::llround(recipe.interval * 1e9) / kCrowdTickNs, 1) * kCrowdTickNs;
+  Kinematics body;
+  for (int64_t i = 0; i < subset.frames; ++i) {
+    if (i % static_cast<int64_t>(recipe.frames_a_view) == 0) body.X_WB = PickView(recipe, subset, area, world, rng);
+    const int64_t t_ns = i * interval_ns;
+    flight.shots.push_back({t_ns, body, std::make_shared<const PeopleState>(state)});
+    flight.trajectory.push_back({t_ns, body, {}});
+    const CrowdDrone drone{body.X_WB.p, {}};
+    for (int64_t t = 0; t < interval_ns; t += kCrowdTickNs) TickPeople(people, {&drone, 1}, state);
+  }
+  return flight;
+}
+
+}  // namespace airsim360

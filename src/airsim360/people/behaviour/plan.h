@@ -1,0 +1,85 @@
+// What authors decide about a crowd: states and how they follow one another, messages, trees, places.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "airsim360/people/behaviour/tree.h"
+#include "airsim360/people/navigation/navmesh.h"
+#include "airsim360/people/person_state.h"
+
+namespace airsim360 {
+namespace internal {
+
+inline constexpr size_t kMaxStates = 48, kMaxMessages = 64;
+inline constexpr uint8_t kAnyState = 255, kNoMessage = 255;
+
+/// A state of the machine that every person is; names are unique.
+struct StateDef {
+  std::string name;
+  std::optional<Behaviour> lower;  ///< none: by how fast they move
+  std::optional<Behaviour> upper;  ///< none: as `lower`
+  double speed = 1;                ///< factor of how fast they like to walk
+  bool stop = false;               ///< they stand (or sit) still
+  double min_s = 0, max_s = 0;     ///< how long it lasts; 0 = until something changes it
+  double cooldown_s = 0;           ///< after leaving, before it may be entered again
+  uint8_t next = 0;                ///< state that follows
+};
+
+/// `from` -> `to` when a message comes (`message`), or at random (`rate_per_min`).
+struct TransitionDef {
+  uint8_t from = kAnyState, to = 0;
+  uint8_t message = kNoMessage;
+  double chance = 1;  ///< that a message has the effect
+  double rate_per_min = 0;
+};
+
+// States and messages that the code refers to; the first of their lists, in this order.
+enum BuiltInState : uint8_t {
+  kWalking, kStanding, kChatting, kOnPhoneCall, kTexting, kTakingPhoto, kWaving, kSitting, kCarrying, kPushingStroller,
+  kCrouching, kStretching, kPointing, kWaiting, kLookingUp, kWithUmbrella, kWithDog, kSittingWithPhone, kBuiltInStates
+};
+enum BuiltInMessage : uint8_t { kGreet, kAccept, kDecline, kTurn, kBye, kCall, kAlarm, kDroneNear, kHello, kBuiltInMessages };
+
+enum class PlaceKind : uint8_t { kBench, kShop, kFood, kSight, kStop, kCount };
+inline constexpr const char* kPlaceKindNames[] = {"bench", "shop", "food", "sight", "stop"};
+
+/// Somewhere to go: one person at a time.
+struct Place {
+  PlaceKind kind = PlaceKind::kShop;
+  NavPoint approach;  ///< on the mesh
+  Vec3d p_W;          ///< where they stand or sit, feet
+  double yaw = 0;     ///< how they face there
+};
+
+std::vector<StateDef> DefaultStates();
+std::vector<TransitionDef> DefaultTransitions();
+std::vector<std::string> DefaultMessages();
+/// Trees of the default crowd, as XML that an author could have written.
+std::string_view DefaultTreesXml();
+/// Tree name and weight of the default mix.
+const std::vector<std::pair<std::string, double>>& DefaultMix();
+/// Benches, shops and the like of a scene that can be reached over the mesh, in the order of the entities.
+std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh);
+
+/// "walk", "phone_call" …: by Behaviour.
+extern const char* const kBehaviourNames[];
+
+}  // namespace internal
+
+/// Behaviour of a CrowdModel.
+struct CrowdPlan {
+  std::vector<internal::StateDef> states;
+  std::vector<internal::TransitionDef> transitions;
+  std::vector<std::string> messages;
+  internal::TreeSet trees;
+  std::vector<internal::Place> places;
+  std::vector<NavArea> ground;           ///< of each CrowdModel::areas: where people start and wander
+  std::vector<uint16_t> tree_of_person;  ///< index into trees
+  std::vector<NavPoint> starts;          ///< of each person; reserve ones have none
+};
+
+}  // namespace airsim360

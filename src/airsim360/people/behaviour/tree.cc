@@ -1,0 +1,214 @@
+#include "airsim360/people/behaviour/tree.h"
+
+#include <algorithm>
+#include <map>
+
+#include "airsim360/base/error.h"
+#include "airsim360/people/behaviour/xml.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr size_t kMaxNodes = 2000, kMaxSlots = 500;
+
+/// Names of a subtree's blackboard keys to slots of the whole tree.
+using Scope = std::map<std::string, uint16_t>;
+
+bool IsKey(const std::string& text) { return text.size() > 2 && text.front() == '{' && text.back() == '}'; }
+
+class Compiler {
+ public:
+  Compiler(const XmlElement& root, std::string_view file, const ParsePort& parse, TreeSet& set)
+      : file_(file), parse_(parse), set_(set) {
+    if (set_.texts.empty()) set_.texts.push_back("true");  // text 0, see RunOnce
+    if (root.tag != "root") Fail(root, "expected <root BTCPP_format=\"4\">, found <" + root.tag + ">");
+    const std::string* format = root.Find("BTCPP_format");
+    if (!format || *format != "4") Fail(root, "expected BTCPP_format=\"4\"");
+    for (const auto& [name, value] : root.attributes)
+      if (name != "BTCPP_format" && name != "main_tree_to_execute")
+        Fail(root, UnknownChoiceMessage("attribute", name, std::vector<std::string>{"BTCPP_format", "main_tree_to_execute"}));
+    for (const XmlElement& element : root.children) {
+      if (element.tag == "TreeNodesModel") continue;
+      if (element.tag != "BehaviorTree")
+        Fail(element, UnknownChoiceMessage("element", element.tag, std::vector<std::string>{"BehaviorTree", "TreeNodesModel"}));
+      const std::string* id = element.Find("ID");
+      if (!id || id->empty()) Fail(element, "a BehaviorTree needs an ID");
+      if (element.children.size() != 1) Fail(element, "BehaviorTree '" + *id + "' needs exactly one child");
+      if (!sources_.emplace(*id, &element).second) Fail(element, "BehaviorTree '" + *id + "' is there twice");
+      names_.push_back(*id);
+    }
+    if (const std::string* main = root.Find("main_tree_to_execute")) {
+      if (!sources_.contains(*main)) Fail(root, UnknownChoiceMessage("tree", *main, names_));
+      set_.main = *main;
+    }
+  }
+
+  void Run() {
+    for (const std::string& name : names_) {
+      tree_ = {};
+      tree_.name = name;
+      tree_.nodes.emplace_back();
+      Scope scope;
+      const XmlElement& source = *sources_[name];
+      path_ = {name};
+      Fill(0, source.children[0], scope);
+      const auto old = std::find_if(set_.trees.begin(), set_.trees.end(), [&](const Tree& t) { return t.name == name; });
+      (old == set_.trees.end() ? set_.trees.emplace_back() : *old) = std::move(tree_);
+    }
+  }
+
+ private:
+  [[noreturn]] void Fail(const XmlElement& at, const std::string& what) const {
+    throw InputError(file_ + ":" + std::to_string(at.line) + ": " + what);
+  }
+
+  uint16_t Slot(const XmlElement& at, Scope& scope, const std::string& key) {
+    const auto found = scope.find(key);
+    if (found != scope.end()) return found->second;
+    if (tree_.initial.size() >= kMaxSlots) Fail(at, "more than 500 blackboard keys");
+    tree_.initial.emplace_back();
+    return scope[key] = static_cast<uint16_t>(tree_.initial.size() - 1);
+  }
+
+  Value Text(const std::string& text) {
+    const auto found = std::find(set_.texts.begin(), set_.texts.end(), text);
+    Value value;
+    value.kind = Value::Kind::kText;
+    value.index = static_cast<uint32_t>(found - set_.texts.begin());
+    if (found == set_.texts.end()) set_.texts.push_back(text);
+    // What reads as a number is one, too.
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == 0 && number - number == 0) {
+      value.kind = Value::Kind::kNumber;
+      value.number = number;
+    }
+    return value;
+  }
+
+  Value Literal(const XmlElement& at, const PortInfo& port, const std::string& text) {
+    try {
+      if (port.kind == 't') return Text(text);
+      if (port.kind == 'n') {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        if (text.empty() || *end != 0 || !(number - number == 0)) throw InputError("expected a number, found '" + text.substr(0, 100) + "'");
+        Value value;
+        value.kind = Value::Kind::kNumber;
+        value.number = number;
+        return value;
+      }
+      return parse_(port.kind, text);
+    } catch (const InputError& error) {
+      Fail(at, at.tag + " " + port.name + ": " + error.what());
+    }
+  }
+
+  // A subtree is put in place: its keys are its own unless an attribute ties them to a key or a value outside.
+  void FillSubTree(size_t index, const XmlElement& element, Scope& scope) {
+    const std::string* id = element.Find("ID");
+    if (!id) Fail(element, "a SubTree needs an ID");
+    const auto source = sources_.find(*id);
+    if (source == sources_.end()) Fail(element, UnknownChoiceMessage("tree", *id, names_));
+    if (std::find(path_.begin(), path_.end(), *id) != path_.end()) Fail(element, "tree '" + *id + "' contains itself");
+    Scope inner;
+    for (const auto& [name, value] : element.attributes) {
+      if (name == "ID" || name == "name") continue;
+      if (name == "_autoremap") {
+        if (value == "true" || value == "1") inner.insert(scope.begin(), scope.end());
+        continue;
+      }
+      if (name.starts_with("_")) Fail(element, "attribute '" + name + "' is not among those that are read (ID, name, _autoremap, ports)");
+      if (IsKey(value)) {
+        inner[name] = Slot(element, scope, value.substr(1, value.size() - 2));
+      } else {
+        inner.erase(name);
+        tree_.initial[Slot(element, inner, name)] = Text(value);
+      }
+    }
+    path_.push_back(*id);
+    Fill(index, source->second->children[0], inner);
+    path_.pop_back();
+  }
+
+  void Fill(size_t index, const XmlElement& element, Scope& scope) {
+    if (element.tag == "SubTree") return FillSubTree(index, element, scope);
+    // <Action ID="Chat"/> is the same as <Chat/>.
+    std::string tag = element.tag;
+    const bool generic = tag == "Action" || tag == "Condition" || tag == "Control" || tag == "Decorator";
+    if (generic) {
+      const std::string* id = element.Find("ID");
+      if (!id) Fail(element, "<" + tag + "> needs an ID");
+      tag = *id;
+    }
+    const NodeInfo* info = NodeByName(tag);
+    if (!info) Fail(element, UnknownChoiceMessage("node", tag, NodeNames()));
+    TreeNode node{.node = info->node, .first_port = static_cast<uint16_t>(tree_.ports.size()), .line = element.line, .label = info->name};
+
+    // Attributes are ports.
+    std::vector<std::string> valid = {"name"};
+    for (const PortInfo& port : info->ports) valid.push_back(port.name);
+    for (const auto& [name, value] : element.attributes) {
+      if (generic && name == "ID") continue;
+      if (std::find(valid.begin(), valid.end(), name) == valid.end())
+        Fail(element, tag + ": " + UnknownChoiceMessage("attribute", name, valid));
+      if (name == "name") node.label = value.substr(0, 80);
+    }
+    if (tree_.ports.size() > 60000) Fail(element, "the tree is too large");
+    for (const PortInfo& info_port : info->ports) {
+      const std::string* text = element.Find(info_port.name);
+      if (!text && !info_port.fallback) Fail(element, tag + " needs the attribute '" + info_port.name + "'");
+      Port port;
+      const std::string value = text ? *text : info_port.fallback;
+      if (IsKey(value)) {
+        port.is_slot = true;
+        port.slot = Slot(element, scope, value.substr(1, value.size() - 2));
+        // A word that a SubTree was given is read as what this port takes.
+        Value& initial = tree_.initial[port.slot];
+        if (initial.kind == Value::Kind::kText && info_port.kind != 't' && info_port.kind != 'o')
+          initial = Literal(element, info_port, std::string(set_.texts[initial.index]));
+      } else if (info_port.kind == 'o') {
+        if (text && !value.empty()) Fail(element, tag + " " + info_port.name + ": expected a {key}, found '" + value.substr(0, 100) + "'");
+      } else if (text || *info_port.fallback) {
+        port.value = Literal(element, info_port, value);
+      }
+      tree_.ports.push_back(port);
+    }
+
+    // Children.
+    const size_t n = element.children.size();
+    const bool fits = info->of == NodeClass::kControl ? n >= 1 : info->of == NodeClass::kDecorator ? n == 1 : n == 0;
+    if (!fits) {
+      Fail(element, tag + " has " + std::to_string(n) + " children, not " +
+                        (info->of == NodeClass::kControl ? "one or more" : info->of == NodeClass::kDecorator ? "one" : "none"));
+    }
+    if ((info->node == Node::kIfThenElse || info->node == Node::kWhileDoElse) && (n < 2 || n > 3))
+      Fail(element, tag + " has " + std::to_string(n) + " children, not two or three");
+    node.first_child = static_cast<uint16_t>(tree_.children.size());
+    node.child_count = static_cast<uint16_t>(n);
+    if (tree_.nodes.size() + n > kMaxNodes) Fail(element, "more than 2000 nodes in tree '" + tree_.name + "'");
+    const size_t first = tree_.nodes.size();
+    for (size_t i = 0; i < n; ++i) {
+      tree_.children.push_back(static_cast<uint16_t>(first + i));
+      tree_.nodes.emplace_back();
+    }
+    tree_.nodes[index] = std::move(node);
+    for (size_t i = 0; i < n; ++i) Fill(first + i, element.children[i], scope);
+  }
+
+  std::string file_;
+  const ParsePort& parse_;
+  TreeSet& set_;
+  std::map<std::string, const XmlElement*> sources_;
+  std::vector<std::string> names_, path_;
+  Tree tree_;
+};
+
+}  // namespace
+
+void ReadTrees(std::string_view xml, std::string_view name, const ParsePort& parse, TreeSet& set) {
+  const XmlElement root = ReadXml(xml, name);
+  Compiler(root, name, parse, set).Run();
+}
+
+}  // namespace airsim360::internal

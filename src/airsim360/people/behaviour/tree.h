@@ -1,0 +1,62 @@
+// Behaviour trees, compiled from XML: subtrees in place, blackboard keys as numbered slots.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "airsim360/math/vector.h"
+#include "airsim360/people/behaviour/nodes.h"
+
+namespace airsim360::internal {
+
+/// What a port or a slot of the blackboard holds.
+struct Value {
+  enum class Kind : uint8_t { kNone, kNumber, kText, kPerson, kPoint };
+  Kind kind = Kind::kNone;
+  bool has_height = false;  ///< of a point: z was given
+  uint32_t index = 0;       ///< of a text in TreeSet::texts; a person; a state, message, place kind or area
+  double number = 0;
+  Vec3d point;
+};
+
+struct Port {
+  bool is_slot = false;
+  uint16_t slot = 0;
+  Value value;  ///< if it is no slot
+};
+
+struct TreeNode {
+  Node node = Node::kSequence;
+  uint16_t first_child = 0, child_count = 0;  ///< into Tree::children
+  uint16_t first_port = 0;                    ///< into Tree::ports, as many as NodeInfo::ports
+  int line = 0;
+  std::string label;  ///< "Chat" or the author's name of it: the cause of transitions
+};
+
+/// Node 0 is the root; slots start with `initial`.
+struct Tree {
+  std::string name;
+  std::vector<TreeNode> nodes;
+  std::vector<uint16_t> children;
+  std::vector<Port> ports;
+  std::vector<Value> initial;
+};
+
+/// Turns the text of a literal into a value; `what` is PortInfo::kind. Throws InputError without a place.
+using ParsePort = std::function<Value(char what, const std::string& text)>;
+
+struct TreeSet {
+  std::vector<Tree> trees;  ///< one of each <BehaviorTree>, with all its subtrees in it
+  std::vector<std::string> texts;
+  std::string main;  ///< main_tree_to_execute; may be empty
+};
+
+/// Reads `<root BTCPP_format="4">`. Adds to `set`; a tree of a name that is there already replaces it. InputError
+/// "name:line: …" with the nearest valid choice for unknown nodes, attributes, subtrees, states and the like,
+/// wrong numbers of children, trees that contain themselves, more than 2000 nodes a tree.
+void ReadTrees(std::string_view xml, std::string_view name, const ParsePort& parse, TreeSet& set);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,221 @@
+#include "airsim360/people/body/anatomy.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace internal {
+namespace {
+
+constexpr double kHalf = std::numbers::sqrt2 / 2;
+
+double Mix(double a, double b, double t) { return a + (b - a) * t; }
+
+}  // namespace
+
+Joint MirrorOf(Joint joint) {
+  const std::string_view name = JointName(joint);
+  if (name.starts_with("left_")) return JointByName("right_" + std::string(name.substr(5)));
+  if (name.starts_with("right_")) return JointByName("left_" + std::string(name.substr(6)));
+  return joint;
+}
+
+Proportions ProportionsOf(const BodySpec& spec) {
+  Proportions p;
+  p.stature = spec.stature;
+  p.female = spec.sex == Sex::kFemale;
+  p.adult = std::clamp((spec.age - 5) / 11, 0.0, 1.0);
+  p.head = Mix(0.168, 0.130, p.adult);
+  p.hip = Mix(0.495, 0.530, p.adult);
+  p.shoulder = 1 - p.head - Mix(0.058, 0.052, p.adult);
+  p.shoulder_half = Mix(0.098, p.female ? 0.102 : 0.113, p.adult);
+  p.hip_half = Mix(0.050, p.female ? 0.055 : 0.052, p.adult);
+  p.girth = 1 + 0.10 * spec.build + Mix(0.04, 0.0, p.adult);
+  p.belly = std::clamp(0.5 * spec.build + 0.25 * std::clamp((spec.age - 30) / 40, 0.0, 1.0), 0.0, 1.0);
+  return p;
+}
+
+std::array<Vec3d, kJointCount> RestJoints(const Proportions& p) {
+  std::array<Vec3d, kJointCount> q;
+  const double H = p.stature;
+  const auto set = [&](Joint joint, Vec3d share) { q[At(joint)] = share * H; };
+  const double trunk = p.shoulder - p.hip;
+  set(Joint::kPelvis, {0, 0, p.hip + 0.018});
+  set(Joint::kSpine1, {-0.004, 0, p.hip + 0.20 * trunk});
+  set(Joint::kSpine2, {-0.006, 0, p.hip + 0.42 * trunk});
+  set(Joint::kSpine3, {-0.010, 0, p.hip + 0.66 * trunk});
+  set(Joint::kNeck, {-0.008, 0, p.shoulder + 0.016});
+  set(Joint::kHead, {0.000, 0, 1 - p.head + 0.012});
+
+  // The left side; arms hang down by 45 degrees, palms down, thumbs forward.
+  const Vec3d arm{0, kHalf, -kHalf};
+  const double short_arm = Mix(0.94, 1, p.adult);
+  const Vec3d shoulder{-0.006, p.shoulder_half, p.shoulder};
+  const Vec3d elbow = shoulder + 0.186 * short_arm * arm, wrist = elbow + 0.146 * short_arm * arm;
+  set(Joint::kLeftClavicle, {0.008, 0.016, p.shoulder - 0.004});
+  set(Joint::kLeftShoulder, shoulder);
+  set(Joint::kLeftElbow, elbow);
+  set(Joint::kLeftWrist, wrist);
+  set(Joint::kLeftFingers1, wrist + 0.052 * arm);
+  set(Joint::kLeftFingers2, wrist + 0.078 * arm);
+  set(Joint::kLeftThumb1, wrist + 0.020 * arm + Vec3d{0.014, 0, 0});
+  set(Joint::kLeftThumb2, wrist + 0.040 * arm + Vec3d{0.024, 0, 0});
+  const double knee = 0.285 * p.hip / 0.530;
+  set(Joint::kLeftHip, {0, p.hip_half, p.hip});
+  set(Joint::kLeftKnee, {0.004, p.hip_half - 0.001, knee});
+  set(Joint::kLeftAnkle, {-0.006, p.hip_half - 0.003, 0.044});
+  set(Joint::kLeftToes, {0.068, p.hip_half + 0.004, 0.013});
+  for (int j = 0; j < kJointCount; ++j) {
+    const Joint left = static_cast<Joint>(j), right = MirrorOf(left);
+    if (right != left && JointName(left).starts_with("left"))
+      q[At(right)] = {q[At(left)].x, -q[At(left)].y, q[At(left)].z};
+  }
+  return q;
+}
+
+Mat3d RotationBetween(Vec3d a, Vec3d b) {
+  // Rodrigues: R = I + [v] + [v]^2 / (1 + c), v = a x b, c = a . b.
+  a = Normalized(a);
+  b = Normalized(b);
+  const Vec3d v = Cross(a, b);
+  const double c = Dot(a, b);
+  if (c < -0.999999) return RotationX(std::numbers::pi);
+  const double k = 1 / (1 + c);
+  return {{{{v.x * v.x * k + c, v.x * v.y * k - v.z, v.x * v.z * k + v.y},
+            {v.y * v.x * k + v.z, v.y * v.y * k + c, v.y * v.z * k - v.x},
+            {v.z * v.x * k - v.y, v.z * v.y * k + v.x, v.z * v.z * k + c}}}};
+}
+
+void FinishSkeleton(Body& body) {
+  const auto& q = body.p_PJ;
+  const auto bone = [&](Joint from, Joint to) { return q[At(to)] - q[At(from)]; };
+  body.R_zero.fill(Mat3d{});
+
+  // Limbs from where they are at rest to straight down.
+  const Joint chains[][2] = {{Joint::kLeftShoulder, Joint::kLeftElbow}, {Joint::kLeftElbow, Joint::kLeftWrist},
+                             {Joint::kLeftWrist, Joint::kLeftFingers1}, {Joint::kLeftHip, Joint::kLeftKnee},
+                             {Joint::kLeftKnee, Joint::kLeftAnkle}};
+  for (const auto& link : chains) {
+    for (const bool mirror : {false, true}) {
+      const Joint a = mirror ? MirrorOf(link[0]) : link[0], b = mirror ? MirrorOf(link[1]) : link[1];
+      body.R_zero[At(a)] = RotationBetween(bone(a, b), {0, 0, -1});
+    }
+  }
+  // Hands keep their shape.
+  for (const Joint finger : {Joint::kLeftThumb1, Joint::kLeftThumb2, Joint::kLeftFingers1, Joint::kLeftFingers2}) {
+    body.R_zero[At(finger)] = body.R_zero[At(Joint::kLeftWrist)];
+    body.R_zero[At(MirrorOf(finger))] = body.R_zero[At(Joint::kRightWrist)];
+  }
+
+  BodyDimensions& size = body.size;
+  size.thigh = Norm(bone(Joint::kLeftHip, Joint::kLeftKnee));
+  size.shank = Norm(bone(Joint::kLeftKnee, Joint::kLeftAnkle));
+  size.upper_arm = Norm(bone(Joint::kLeftShoulder, Joint::kLeftElbow));
+  size.forearm = Norm(bone(Joint::kLeftElbow, Joint::kLeftWrist));
+  size.ankle_height = q[At(Joint::kLeftAnkle)].z;
+  const Vec3d foot = bone(Joint::kLeftAnkle, Joint::kLeftToes);
+  size.ball_length = std::hypot(foot.x, foot.y);
+  size.heel_length = 0.036 * body.spec.stature;
+  size.hip_half_width = std::abs(q[At(Joint::kLeftHip)].y);
+}
+
+std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
+  const double H = p.stature;
+  const auto& q = body.p_PJ;
+  std::vector<Socket> sockets;
+  // A point given in P at rest; both sides at once where the name starts with left.
+  const auto add = [&](std::string_view name, Joint joint, Vec3d p_P, double radius) {
+    sockets.push_back({std::string(name), joint, p_P - q[At(joint)], radius * H});
+  };
+  const auto add_joint = [&](std::string_view name, Joint joint, double radius) {
+    add(name, joint, q[At(joint)], radius);
+  };
+  const auto pair = [&](std::string_view name, Joint joint, Vec3d p_P, double radius) {
+    add("left_" + std::string(name), joint, p_P, radius);
+    add("right_" + std::string(name), MirrorOf(joint), {p_P.x, -p_P.y, p_P.z}, radius);
+  };
+  const auto joint_pair = [&](std::string_view name, Joint joint, double radius) {
+    pair(name, joint, q[At(joint)], radius);
+  };
+  const double top = H, chin = H * (1 - p.head), head = H * p.head;
+  add("nose", Joint::kHead, {0.62 * head, 0, chin + 0.36 * head}, 0.010);
+  pair("eye", Joint::kHead, {0.43 * head, 0.145 * head, chin + 0.50 * head}, 0.008);
+  pair("ear", Joint::kHead, {-0.01 * head, 0.345 * head, chin + 0.43 * head}, 0.010);
+  joint_pair("shoulder", Joint::kLeftShoulder, 0.040);
+  joint_pair("elbow", Joint::kLeftElbow, 0.026);
+  joint_pair("wrist", Joint::kLeftWrist, 0.018);
+  joint_pair("hip", Joint::kLeftHip, 0.062);
+  joint_pair("knee", Joint::kLeftKnee, 0.036);
+  joint_pair("ankle", Joint::kLeftAnkle, 0.026);
+  add("head_top", Joint::kHead, {0.05 * head, 0, top}, 0.008);
+  add("head_center", Joint::kHead, {0.06 * head, 0, chin + 0.52 * head}, 0.055);
+  add_joint("neck", Joint::kNeck, 0.036);
+  add("chin", Joint::kHead, {0.40 * head, 0, chin + 0.02 * head}, 0.010);
+  add("mid_hip", Joint::kPelvis, {0, 0, q[At(Joint::kLeftHip)].z}, 0.070);
+  add_joint("pelvis", Joint::kPelvis, 0.070);
+  add_joint("spine1", Joint::kSpine1, 0.070);
+  add_joint("spine2", Joint::kSpine2, 0.070);
+  add_joint("spine3", Joint::kSpine3, 0.075);
+  joint_pair("clavicle", Joint::kLeftClavicle, 0.045);
+  // Feet: COCO-WholeBody names big toe, small toe, heel, one side after the other.
+  for (const double side : {1.0, -1.0}) {
+    const std::string name = side > 0 ? "left_" : "right_";
+    const Joint toes = side > 0 ? Joint::kLeftToes : Joint::kRightToes;
+    const Joint ankle = side > 0 ? Joint::kLeftAnkle : Joint::kRightAnkle;
+    const double y = side * p.hip_half * H;
+    add(name + "big_toe", toes, {0.105 * H, y - side * 0.010 * H, 0.012 * H}, 0.012);
+    add(name + "small_toe", toes, {0.082 * H, y + side * 0.026 * H, 0.010 * H}, 0.010);
+    add(name + "heel", ankle, {-0.040 * H, y, 0.014 * H}, 0.014);
+  }
+  joint_pair("hand", Joint::kLeftFingers1, 0.012);
+  for (const double side : {1.0, -1.0}) {
+    const std::string name = side > 0 ? "left_" : "right_";
+    const Joint thumb = side > 0 ? Joint::kLeftThumb2 : Joint::kRightThumb2;
+    const Joint finger = side > 0 ? Joint::kLeftFingers2 : Joint::kRightFingers2;
+    const Vec3d along = Normalized(Vec3d{0, side, -1});
+    add(name + "thumb_tip", thumb, q[At(thumb)] + 0.018 * H * along + Vec3d{0.006 * H, 0, 0}, 0.006);
+    add(name + "finger_tip", finger, q[At(finger)] + 0.028 * H * along, 0.006);
+  }
+  joint_pair("foot", Joint::kLeftToes, 0.020);
+  return sockets;
+}
+
+}  // namespace internal
+
+BodySpec DrawBodySpec(uint64_t seed, uint64_t person, double child_share) {
+  RngStream rng(seed, "people body", person);
+  BodySpec spec;
+  const bool child = rng.Chance(child_share);
+  spec.sex = rng.Chance(0.5) ? Sex::kMale : Sex::kFemale;
+  if (child) {
+    // Medians of stature at 4, 6, 8, 10, 12, 14, 16 years; the spread is 4.5 %.
+    constexpr double kMedian[] = {1.02, 1.15, 1.28, 1.38, 1.49, 1.64, 1.70};
+    spec.age = rng.Uniform(5, 15.5);
+    const double k = (spec.age - 4) / 2;
+    const int i = static_cast<int>(k);
+    spec.stature = (kMedian[i] + (kMedian[i + 1] - kMedian[i]) * (k - i)) * (1 + 0.045 * std::clamp(rng.Normal(), -2.0, 2.0));
+  } else {
+    spec.age = 18 + 65 * rng.Uniform() * rng.Uniform(0.35, 1);
+    const double normal = std::clamp(rng.Normal(), -2.5, 2.5);
+    spec.stature = spec.sex == Sex::kMale ? 1.756 + 0.067 * normal : 1.63 + 0.064 * normal;
+  }
+  spec.build = std::clamp(0.45 * rng.Normal(), -1.0, 1.0);
+  spec.look = rng.Bits();
+  return spec;
+}
+
+int FindSocket(const Body& body, std::string_view name) {
+  const auto found = std::ranges::find(body.sockets, name, &Socket::name);
+  return found == body.sockets.end() ? -1 : static_cast<int>(found - body.sockets.begin());
+}
+
+SkeletonPose RestPose(const Body& body, const RigidTransform& X_WP) {
+  SkeletonPose pose;
+  pose.X_WP = X_WP;
+  for (size_t j = 0; j < kJointCount; ++j) pose.X_WJ[j] = {X_WP.R, X_WP * body.p_PJ[j]};
+  return pose;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,297 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/people/behaviour/plan.h"
+#include "airsim360/people/crowd/crowd.h"
+#include "airsim360/people/crowd/people_file.h"
+#include "airsim360/people/crowd/placement.h"
+#include "airsim360/people/crowd/traits.h"
+
+namespace airsim360 {
+namespace {
+
+using namespace internal;
+
+constexpr uint32_t kNoRoads = ~(1u << static_cast<int>(GroundKind::kRoad) | 1u << static_cast<int>(GroundKind::kCrossing) |
+                                1u << static_cast<int>(GroundKind::kParking));
+constexpr uint32_t kEverything = ~0u;
+
+template <class T>
+size_t IndexOf(const std::vector<T>& names, const T& name) {
+  return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// Index of a name in a list; InputError with the place and the nearest.
+size_t Look(const std::vector<std::string>& names, const Placed<std::string>& word, const char* what) {
+  const size_t i = IndexOf(names, word.value);
+  if (i == names.size()) throw InputError(word.where + ": " + UnknownChoiceMessage(what, word.value, names));
+  return i;
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, std::shared_ptr<const NavMesh> mesh, const CrowdRequest& request)
+      : scene_(scene), mesh_(std::move(mesh)), request_(request) {}
+
+  std::shared_ptr<const CrowdModel> Run() {
+    if (!request_.file.empty()) file_ = ParsePeople(ReadTextFile(request_.file, 1 << 20), request_.file.string());
+    if (file_.areas.empty()) {
+      AreaEntry all;
+      all.name = {"everywhere", "the default area"};
+      all.where = all.count_where = request_.file.empty() ? "--people" : file_.name;
+      if (request_.count) all.count = static_cast<double>(*request_.count);
+      file_.areas.push_back(all);
+    }
+    model_.seed = file_.seed.value_or(request_.seed);
+    model_.navmesh = mesh_;
+    States();
+    Areas();
+    Trees();
+    plan_.places = FindPlaces(scene_, *mesh_);
+    People();
+    model_.plan = std::make_shared<const CrowdPlan>(std::move(plan_));
+    return std::make_shared<const CrowdModel>(std::move(model_));
+  }
+
+ private:
+  std::vector<std::string> StateNames() const {
+    std::vector<std::string> names;
+    for (const StateDef& state : plan_.states) names.push_back(state.name);
+    return names;
+  }
+  static Behaviour BehaviourOf(const Placed<std::string>& word) {
+    const std::vector<std::string> names(kBehaviourNames, kBehaviourNames + static_cast<size_t>(Behaviour::kCount));
+    return static_cast<Behaviour>(Look(names, word, "behaviour"));
+  }
+
+  void States() {
+    // The file's come on top of ours; one of the same name changes what it mentions.
+    plan_.states = DefaultStates();
+    plan_.messages = DefaultMessages();
+    for (const Placed<std::string>& message : file_.messages)
+      if (IndexOf(plan_.messages, message.value) == plan_.messages.size()) plan_.messages.push_back(message.value);
+    for (const StateEntry& entry : file_.states) {
+      if (IndexOf(StateNames(), entry.name.value) == plan_.states.size()) plan_.states.push_back({.name = entry.name.value, .lower = {}, .upper = {}});
+      if (plan_.states.size() > kMaxStates) throw InputError(entry.name.where + ": more than 48 states");
+    }
+    const std::vector<std::string> names = StateNames();
+    for (const StateEntry& entry : file_.states) {
+      StateDef& state = plan_.states[IndexOf(names, entry.name.value)];
+      if (!entry.lower.value.empty()) state.lower = BehaviourOf(entry.lower);
+      if (!entry.upper.value.empty()) state.upper = BehaviourOf(entry.upper);
+      if (!entry.next.value.empty()) state.next = static_cast<uint8_t>(Look(names, entry.next, "state"));
+      state.speed = entry.speed.value_or(state.speed);
+      state.min_s = entry.min_s.value_or(state.min_s);
+      state.max_s = entry.max_s.value_or(std::max(state.max_s, state.min_s));
+      state.cooldown_s = entry.cooldown_s.value_or(state.cooldown_s);
+      state.stop = entry.stop.value_or(state.stop);
+      if (state.max_s < state.min_s) throw InputError(entry.name.where + ": max_s of state '" + state.name + "' is less than its min_s");
+    }
+    plan_.transitions = DefaultTransitions();
+    if (!file_.transitions.empty()) plan_.transitions.clear();
+    for (const TransitionEntry& entry : file_.transitions) {
+      TransitionDef transition;
+      if (!entry.from.value.empty() && entry.from.value != "any") transition.from = static_cast<uint8_t>(Look(names, entry.from, "state"));
+      transition.to = static_cast<uint8_t>(Look(names, entry.to, "state"));
+      if (!entry.message.value.empty()) transition.message = static_cast<uint8_t>(Look(plan_.messages, entry.message, "message"));
+      transition.chance = entry.chance;
+      transition.rate_per_min = entry.rate_per_min;
+      plan_.transitions.push_back(transition);
+    }
+  }
+
+  void Areas() {
+    for (const AreaEntry& entry : file_.areas) {
+      const std::string name = entry.name.value.empty() ? "area " + std::to_string(model_.areas.size() + 1) : entry.name.value;
+      for (const CrowdArea& other : model_.areas)
+        if (other.name == name) throw InputError(entry.where + ": two areas are called '" + name + "'");
+      NavArea ground = mesh_->AreaOf(entry.polygon, kNoRoads);
+      if (ground.square_metres < 1) ground = mesh_->AreaOf(entry.polygon, kEverything);
+      if (ground.square_metres < 1) throw InputError((entry.polygon_where.empty() ? entry.where : entry.polygon_where) + ": " + WhyEmpty(entry, name));
+      plan_.ground.push_back(std::move(ground));
+      model_.areas.push_back({name, entry.polygon});
+    }
+  }
+
+  std::string WhyEmpty(const AreaEntry& entry, const std::string& name) const {
+    const Box3f box = mesh_->bounds();
+    Vec2d low = entry.polygon[0], high = low;
+    for (const Vec2d& p : entry.polygon) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    char text[300];
+    if (high.x < box.min.x || low.x > box.max.x || high.y < box.min.y || low.y > box.max.y) {
+      std::snprintf(text, sizeof(text), "area '%.80s' lies outside the world; people can walk within x %.1f … %.1f, y %.1f … %.1f", name.c_str(),
+                    box.min.x, box.max.x, box.min.y, box.max.y);
+      return text;
+    }
+    const NavPoint near = mesh_->Nearest({(low.x + high.x) / 2, (low.y + high.y) / 2, 0}, 60);
+    std::snprintf(text, sizeof(text), "nobody can walk in area '%.80s'", name.c_str());
+    std::string why = text;
+    if (near.valid()) {
+      std::snprintf(text, sizeof(text), "; the nearest walkable ground is at (%.1f, %.1f)", near.p_W.x, near.p_W.y);
+      why += text;
+    }
+    return why;
+  }
+
+  void Trees() {
+    const std::vector<std::string> states = StateNames();
+    std::vector<std::string> areas, kinds(kPlaceKindNames, std::end(kPlaceKindNames));
+    for (const CrowdArea& area : model_.areas) areas.push_back(area.name);
+    const ParsePort parse = [&](char what, const std::string& text) {
+      const auto choice = [&](const std::vector<std::string>& names, const char* noun) {
+        const size_t i = IndexOf(names, text);
+        if (i == names.size()) throw InputError(UnknownChoiceMessage(noun, text, names));
+        Value value;
+        value.kind = Value::Kind::kNumber;
+        value.number = static_cast<double>(i);
+        return value;
+      };
+      switch (what) {
+        case 's': return choice(states, "state");
+        case 'm': return choice(plan_.messages, "message");
+        case 'k': return choice(kinds, "kind of place");
+        case 'a': return choice(areas, "area");
+        default: return ParsePoint(text);
+      }
+    };
+    ReadTrees(DefaultTreesXml(), "the default trees", parse, plan_.trees);
+    const std::filesystem::path folder = request_.file.parent_path();
+    for (const Placed<std::string>& tree : file_.trees) {
+      const std::filesystem::path path = folder / tree.value;
+      std::string text;
+      try {
+        text = ReadTextFile(path, 1 << 20);
+      } catch (const InputError& error) {
+        throw InputError(tree.where + ": " + error.what());
+      }
+      ReadTrees(text, path.string(), parse, plan_.trees);
+    }
+    for (const Tree& tree : plan_.trees.trees) tree_names_.push_back(tree.name);
+  }
+
+  void People() {
+    // How many in each area; a count asked for outside the file is shared out in proportion.
+    std::vector<double> counts;
+    for (size_t a = 0; a < file_.areas.size(); ++a) {
+      const AreaEntry& entry = file_.areas[a];
+      counts.push_back(entry.count ? *entry.count : entry.density ? std::floor(*entry.density * plan_.ground[a].square_metres + 0.5) : 0);
+    }
+    if (request_.count) {
+      const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
+      double done = 0, given = 0;
+      for (double& count : counts) {
+        done += sum > 0 ? count / sum : 1.0 / static_cast<double>(counts.size());
+        count = std::floor(done * static_cast<double>(*request_.count) + 0.5) - given;
+        given += count;
+      }
+    }
+
+    // Single people first: they have their places.
+    Placement placement(*mesh_, model_.seed);
+    for (const PersonEntry& entry : file_.people) Single(entry, placement);
+    for (uint32_t a = 0; a < file_.areas.size(); ++a) {
+      const AreaEntry& entry = file_.areas[a];
+      const auto [trees, weights] = Mix(entry);
+      const auto count = static_cast<size_t>(counts[a]);
+      const std::string& where = request_.count ? std::string("--people") : entry.count_where;
+      const std::vector<NavPoint> starts = placement.Fill(plan_.ground[a], count, a);
+      if (starts.size() < count)
+        throw InputError(where + ": " + std::to_string(count) + " people do not fit area '" + model_.areas[a].name + "' (" +
+                         std::to_string(static_cast<int>(plan_.ground[a].square_metres)) + " m2); at most " +
+                         std::to_string(starts.size()) + " do");
+      for (const NavPoint& start : starts) Add(a, start, trees, weights, false);
+    }
+    const auto [trees, weights] = Mix(file_.areas[0]);
+    for (size_t k = 0; k < request_.reserve; ++k) Add(0, {}, trees, weights, true);
+  }
+
+  std::pair<std::vector<uint16_t>, std::vector<double>> Mix(const AreaEntry& entry) const {
+    std::pair<std::vector<uint16_t>, std::vector<double>> mix;
+    for (const auto& [name, weight] : entry.mix) {
+      mix.first.push_back(static_cast<uint16_t>(Look(tree_names_, name, "behaviour")));
+      mix.second.push_back(weight);
+    }
+    if (std::accumulate(mix.second.begin(), mix.second.end(), 0.0) > 0) return mix;
+    if (!entry.mix.empty()) throw InputError(entry.mix[0].first.where + ": all weights of the mix are 0");
+    for (const auto& [name, weight] : DefaultMix()) {
+      mix.first.push_back(static_cast<uint16_t>(IndexOf(tree_names_, name)));
+      mix.second.push_back(weight);
+    }
+    return mix;
+  }
+
+  void Add(uint32_t area, const NavPoint& start, const std::vector<uint16_t>& trees, const std::vector<double>& weights, bool reserve) {
+    const auto i = static_cast<uint32_t>(model_.people.size());
+    PersonTraits traits = DrawTraits(model_.seed, i);
+    traits.area = area;
+    traits.reserve = reserve;
+    RngStream rng(model_.seed, "behaviour of person", i);
+    double u = rng.Uniform() * std::accumulate(weights.begin(), weights.end(), 0.0);
+    size_t k = 0;
+    for (; k + 1 < weights.size() && u >= weights[k]; ++k) u -= weights[k];
+    model_.people.push_back(std::move(traits));
+    plan_.starts.push_back(start);
+    plan_.tree_of_person.push_back(trees[k]);
+  }
+
+  void Single(const PersonEntry& entry, Placement& placement) {
+    const auto i = static_cast<uint32_t>(model_.people.size());
+    uint32_t area = 0;
+    std::vector<std::string> areas;
+    for (const CrowdArea& a : model_.areas) areas.push_back(a.name);
+    if (!entry.area.value.empty()) area = static_cast<uint32_t>(Look(areas, entry.area, "area"));
+    const auto [trees, weights] = Mix(file_.areas[area]);
+
+    NavPoint start;
+    if (entry.at) {
+      Vec3d p = *entry.at;
+      if (!entry.has_height) p.z = mesh_->bounds().center().z;
+      start = entry.has_height ? mesh_->Nearest(p, 0.5) : placement.AnyHeight(p, 0.5);
+      if (!start.valid()) {
+        const NavPoint near = placement.AnyHeight(p, 50);
+        char text[100] = "";
+        if (near.valid()) std::snprintf(text, sizeof(text), "; the nearest place is [%.2f, %.2f]", near.p_W.x, near.p_W.y);
+        throw InputError(entry.at_where + ": nobody can stand there" + text);
+      }
+      if (!placement.Take(start)) throw InputError(entry.at_where + ": somebody else stands there already");
+    } else {
+      const std::vector<NavPoint> starts = placement.Fill(plan_.ground[area], 1, 1000000 + i);
+      if (starts.empty()) throw InputError(entry.where + ": area '" + model_.areas[area].name + "' is full");
+      start = starts[0];
+    }
+    Add(area, start, trees, weights, false);
+    PersonTraits& traits = model_.people.back();
+    if (entry.age || !entry.sex.value.empty()) traits = DrawTraits(model_.seed, i, entry.age, entry.sex.value.empty() ? std::optional<bool>() : entry.sex.value == "female");
+    traits.area = area;
+    traits.stature = entry.stature.value_or(traits.stature);
+    traits.free_speed = entry.speed.value_or(traits.free_speed);
+    if (!entry.name.value.empty()) {
+      for (const PersonTraits& other : model_.people)
+        if (&other != &traits && other.name == entry.name.value) throw InputError(entry.name.where + ": two people are called '" + entry.name.value + "'");
+      traits.name = entry.name.value;
+    }
+    if (!entry.behaviour.value.empty()) plan_.tree_of_person.back() = static_cast<uint16_t>(Look(tree_names_, entry.behaviour, "behaviour"));
+  }
+
+  const Scene& scene_;
+  std::shared_ptr<const NavMesh> mesh_;
+  const CrowdRequest& request_;
+  PeopleFile file_;
+  CrowdModel model_;
+  CrowdPlan plan_;
+  std::vector<std::string> tree_names_;
+};
+
+}  // namespace
+
+std::shared_ptr<const CrowdModel> BuildCrowd(const Scene& scene, std::shared_ptr<const NavMesh> navmesh, const CrowdRequest& request) {
+  return Builder(scene, std::move(navmesh), request).Run();
+}
+
+}  // namespace airsim360

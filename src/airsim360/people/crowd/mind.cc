@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/people/crowd/mind.h"
+
+namespace airsim360::internal {
+namespace {
+
+Value Person(PersonIndex i) {
+  Value value;
+  value.kind = Value::Kind::kPerson;
+  value.index = i;
+  return value;
+}
+
+}  // namespace
+
+int Mind::Choice(const Tree& tree, const TreeNode& node, const TreeRun& run, size_t i) const {
+  const Value& value = PortOf(tree, node, run, i);
+  const char kind = NodeInfos()[static_cast<size_t>(node.node)].ports[i].kind;
+  const size_t count = kind == 's'   ? tick_.plan.states.size()
+                       : kind == 'm' ? tick_.plan.messages.size()
+                       : kind == 'k' ? static_cast<size_t>(PlaceKind::kCount)
+                                     : tick_.plan.ground.size();
+  if (value.kind == Value::Kind::kNumber) return value.number >= 0 && value.number < static_cast<double>(count) ? static_cast<int>(value.number) : -1;
+  if (value.kind != Value::Kind::kText) return -1;
+  // A name that came over the blackboard.
+  const std::string& name = tick_.plan.trees.texts[value.index];
+  for (size_t k = 0; k < count; ++k) {
+    const std::string_view at = kind == 's'   ? std::string_view(tick_.plan.states[k].name)
+                                : kind == 'm' ? std::string_view(tick_.plan.messages[k])
+                                : kind == 'k' ? std::string_view(kPlaceKindNames[k])
+                                              : std::string_view(tick_.model.areas[k].name);
+    if (at == name) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) {
+  const bool fresh = memory.status != Status::kRunning;
+  const auto number = [&](size_t i) { return NumberOf(tree, node, run, i); };
+  const auto choice = [&](size_t i) { return Choice(tree, node, run, i); };
+  const auto person = [&](size_t i) {
+    const Value& value = PortOf(tree, node, run, i);
+    return value.kind == Value::Kind::kPerson && value.index < tick_.in.agents.size() ? value.index : kNoPerson;
+  };
+  switch (node.node) {
+    case Node::kWanderTo:
+      return WanderTo(fresh, choice(0) < 0 ? tick_.model.people[self_].area : static_cast<uint32_t>(choice(0)), number(1));
+    case Node::kGoTo: return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
+    case Node::kGoToPlace: return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
+    case Node::kSetState: {
+      if (choice(0) < 0) return Status::kFailure;
+      const auto state = static_cast<uint8_t>(choice(0));
+      if (fresh) {
+        if (!EnterState(tick_, self_, state, number(1), number(2), Cause(node))) return Status::kFailure;
+        const Value& wait = PortOf(tree, node, run, 3);
+        const bool waits = wait.kind == Value::Kind::kText && wait.index == 0;
+        return waits && agent_.state_until_ns > 0 ? Status::kRunning : Status::kSuccess;
+      }
+      return agent_.state == state ? Status::kRunning : Status::kSuccess;
+    }
+    case Node::kEndState: {
+      EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, Cause(node));
+      return Status::kSuccess;
+    }
+    case Node::kMeet: {
+      const Status status = Meet(fresh, memory, number(0), number(1), number(2));
+      if (status == Status::kSuccess) SetPort(tree, node, run, 3, Person(agent_.last_met));
+      return status;
+    }
+    case Node::kAnswerGreeting: {
+      const Status status = Answer(number(0));
+      if (status == Status::kSuccess) SetPort(tree, node, run, 1, Person(agent_.last_met));
+      return status;
+    }
+    case Node::kChat: return Chat(fresh, memory, number(0), number(1), Cause(node));
+    case Node::kSend: return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
+    case Node::kWaitMessage: {
+      if (choice(0) < 0) return Status::kFailure;
+      if (fresh) memory.t_ns = tick_.t_ns;
+      Message message;
+      if (TakeMessage(agent_, static_cast<uint8_t>(choice(0)), &message)) {
+        if (message.from != kNoPerson) SetPort(tree, node, run, 2, Person(message.from));
+        return Status::kSuccess;
+      }
+      return tick_.t_ns - memory.t_ns >= Seconds(number(1)) ? Status::kFailure : Status::kRunning;
+    }
+    case Node::kFacePerson: {
+      const PersonIndex other = person(0);
+      if (other == kNoPerson) return Status::kFailure;
+      Face(tick_.in.walkers[other].at.p_W);
+      return Turned() ? Status::kSuccess : Status::kRunning;
+    }
+    case Node::kLookAtDrone: return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
+    case Node::kStepAway: return StepAway(fresh, number(0));
+    case Node::kChance: return Yes(agent_.rng.Chance(number(0)));
+    case Node::kStateIs: return Yes(agent_.state == choice(0));
+    case Node::kDroneWithin: {
+      double distance = 0;
+      return Yes(NearestDrone(tick_, self_, &distance) >= 0 && distance <= number(0));
+    }
+    case Node::kPersonWithin: {
+      const PersonIndex other = Nearest(number(0), [](PersonIndex) { return true; });
+      if (other != kNoPerson) SetPort(tree, node, run, 1, Person(other));
+      return Yes(other != kNoPerson);
+    }
+    case Node::kMessageWaiting:
+      return Yes(std::any_of(agent_.inbox.begin(), agent_.inbox.end(), [&](const Message& m) { return m.type == choice(0); }));
+    case Node::kEvery: {
+      // The first time comes at a random part of the period, so that a crowd does not move as one.
+      if (memory.flags == 0) {
+        memory.flags = 1;
+        const double first = number(1) < 0 ? number(0) : number(1);
+        memory.t_ns = tick_.t_ns - Seconds(number(0) - agent_.rng.Uniform() * first);
+      }
+      if (tick_.t_ns - memory.t_ns < Seconds(number(0))) return Status::kFailure;
+      memory.t_ns = tick_.t_ns;
+      return Status::kSuccess;
+    }
+    default: return Status::kFailure;
+  }
+}
+
+void Mind::Halt(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) {
+  switch (node.node) {
+    case Node::kWanderTo:
+    case Node::kGoTo:
+    case Node::kStepAway:
+      DropGoal(tick_, self_);
+      break;
+    case Node::kGoToPlace:
+      DropGoal(tick_, self_);
+      LeavePlace(tick_, self_);
+      break;
+    case Node::kSetState:
+      // What breaks it off may have entered another state already.
+      if (agent_.state == Choice(tree, node, run, 0) && agent_.state_until_ns > 0)
+        EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, "tree: interrupted");
+      break;
+    case Node::kChat:
+      LeaveGroup(tick_, self_);
+      if (agent_.state == kChatting)
+        EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
+      break;
+    case Node::kMeet: agent_.greeted = kNoPerson; break;
+    case Node::kLookAtDrone: agent_.gaze_drone = -1; break;
+    default: break;
+  }
+}
+
+int NearestDrone(const CrowdTick& tick, PersonIndex i, double* distance) {
+  int best = -1;
+  *distance = 1e9;
+  Vec3d head = tick.in.walkers[i].at.p_W;
+  head.z += 0.93 * tick.model.people[i].stature;
+  for (size_t k = 0; k < tick.drones.size(); ++k) {
+    const double d = Norm(tick.drones[k].p_W - head);
+    if (d >= *distance) continue;
+    *distance = d;
+    best = static_cast<int>(k);
+  }
+  return best;
+}
+
+void Think(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  ForgetOld(agent, tick.t_ns);
+  RunStateMachine(tick, i);
+  WatchWay(tick, i);
+  WatchStuck(tick, i);
+  if (agent.commanded) return;
+  Mind mind(tick, i);
+  TickTree(tick.plan.trees.trees[agent.tree], agent.run, tick.t_ns, mind);
+}
+
+void HaltPerson(CrowdTick& tick, PersonIndex i) {
+  Mind mind(tick, i);
+  Agent& agent = tick.in.agents[i];
+  HaltTree(tick.plan.trees.trees[agent.tree], agent.run, mind);
+  if (agent.group) LeaveGroup(tick, i);
+  DropGoal(tick, i);
+  LeavePlace(tick, i);
+  agent.has_errand = false;
+  agent.gaze_drone = -1;
+  agent.has_face = false;
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,271 @@
+#include "airsim360/people/crowd/steering.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/people/crowd/orca.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kHorizon = 2.0;       // seconds ahead for people
+constexpr double kWallHorizon = 0.3;   // and for walls, which do not move
+constexpr double kSight = 3.0;         // metres; two cells
+constexpr double kDensityRadius = 1.5; // metres, as NavMesh::OpenShare
+constexpr int kMaxNeighbours = 9, kMaxClose = 12, kMaxWalls = 6;
+constexpr double kCloseRange = 2 * kBodyRadius + 0.35;
+constexpr double kAcceleration = 4;    // m/s^2
+constexpr double kLevel = 1.6;         // metres of height beyond which people are on different floors
+constexpr int64_t kChunk = 128;        // people a task
+
+// People stand apart and away from walls, so a disc around one of them holds more people than one anywhere; both
+// numbers come from the ring of steering_test.cc.
+constexpr double kDensityFactor = 0.86;
+constexpr double kSelfShare = 0.55;
+
+double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
+double Norm2(Vec2d a) { return std::sqrt(Dot2(a, a)); }
+
+/// WeidmannSpeed by steps of 1/64 per square metre.
+struct SpeedTable {
+  std::array<double, 64 * 8> speed;
+  SpeedTable() {
+    for (size_t i = 0; i < speed.size(); ++i) speed[i] = WeidmannSpeed(static_cast<double>(i) / 64);
+  }
+  double operator()(double density) const {
+    return speed[std::min(speed.size() - 1, static_cast<size_t>(density * 64 + 0.5))];
+  }
+};
+const SpeedTable kSpeed;
+
+}  // namespace
+
+double WeidmannSpeed(double density) {
+  if (density <= 0.05) return 1.34;
+  return 1.34 * std::max(0.0, 1 - std::exp(-1.913 * (1 / density - 1 / 5.4)));
+}
+
+struct Steering::Plan {
+  Vec2d v;
+  int close_count = 0;
+  std::array<uint32_t, kMaxClose> close;  // walkers that may be touched within the step
+};
+
+Steering::Steering() = default;
+Steering::~Steering() = default;
+Steering::Steering(const Steering&) {}
+Steering& Steering::operator=(const Steering&) { return *this; }
+
+void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles,
+                    double dt) {
+  // Everybody chooses a velocity from where all stand now; then they move one after the other.
+  plans_.resize(walkers.size());
+  const auto n = static_cast<int64_t>(walkers.size());
+  const auto chunk = [&](int64_t c) {
+    for (int64_t k = c * kChunk; k < std::min(n, (c + 1) * kChunk); ++k) {
+      if (static_cast<size_t>(k) < seen_.size()) Choose(mesh, walkers, obstacles, static_cast<uint32_t>(k), dt);
+    }
+  };
+  const int64_t chunks = (n + kChunk - 1) / kChunk;
+  if (chunks > 1) {
+    ParallelFor(chunks, chunk);
+  } else if (chunks == 1) {
+    chunk(0);
+  }
+  for (uint32_t i = 0; i < walkers.size(); ++i)
+    if (walkers[i].present) Advance(mesh, walkers, i, dt);
+}
+
+void Steering::Sort(std::span<const Walker> walkers) {
+  // A grid over those who are here.
+  Vec2d max{-1e18, -1e18};
+  min_ = {1e18, 1e18};
+  size_t present = 0;
+  for (const Walker& w : walkers) {
+    if (!w.present) continue;
+    ++present;
+    min_ = {std::min(min_.x, w.at.p_W.x), std::min(min_.y, w.at.p_W.y)};
+    max = {std::max(max.x, w.at.p_W.x), std::max(max.y, w.at.p_W.y)};
+  }
+  seen_.resize(present);
+  if (present == 0) return;
+  cell_ = kSight / 2;
+  columns_ = static_cast<int>((max.x - min_.x) / cell_) + 1;
+  rows_ = static_cast<int>((max.y - min_.y) / cell_) + 1;
+
+  // Counting sort by cell keeps the order of numbers within each.
+  first_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_) + 1, 0);
+  cell_of_.resize(walkers.size());
+  for (size_t i = 0; i < walkers.size(); ++i) {
+    if (!walkers[i].present) continue;
+    const auto c = static_cast<uint32_t>((walkers[i].at.p_W.x - min_.x) / cell_);
+    const auto r = static_cast<uint32_t>((walkers[i].at.p_W.y - min_.y) / cell_);
+    cell_of_[i] = r * static_cast<uint32_t>(columns_) + c;
+    ++first_[cell_of_[i] + 1];
+  }
+  for (size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
+  for (uint32_t i = 0; i < walkers.size(); ++i) {
+    const Walker& w = walkers[i];
+    if (!w.present) continue;
+    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, w.at.p_W.z, i};
+  }
+  for (size_t k = first_.size() - 1; k > 0; --k) first_[k] = first_[k - 1];
+  first_[0] = 0;
+}
+
+void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
+                      std::span<const SteeringObstacle> obstacles, uint32_t k, double dt) {
+  const Seen self = seen_[k];
+  const Walker& walker = walkers[self.index];
+  Plan& plan = plans_[self.index];
+  plan.close_count = 0;
+  plan.v = {};
+
+  // The nearest people, those within arm's reach, and how many are around.
+  struct Near {
+    double d2;
+    const Seen* other;
+  };
+  std::array<Near, kMaxNeighbours + 1> near;
+  int count = 0;
+  double around = 0;
+  const double wanted_speed = Norm2(walker.wanted);
+  const Vec2d forward = wanted_speed > 1e-6 ? walker.wanted * (1 / wanted_speed) : Vec2d{};
+  const int column = static_cast<int>((self.p.x - min_.x) / cell_), row = static_cast<int>((self.p.y - min_.y) / cell_);
+  const auto look = [&](int r, int c0, int c1) {
+    if (r < 0 || r >= rows_) return;
+    const size_t base = static_cast<size_t>(r) * static_cast<size_t>(columns_);
+    const uint32_t from = first_[base + static_cast<size_t>(std::max(c0, 0))];
+    const uint32_t to = first_[base + static_cast<size_t>(std::min(c1, columns_ - 1)) + 1];
+    for (uint32_t i = from; i < to; ++i) {
+      const Seen& other = seen_[i];
+      const Vec2d d = other.p - self.p;
+      const double d2 = Dot2(d, d);
+      if (d2 > kSight * kSight || i == k || std::abs(other.z - self.z) > kLevel) continue;
+      // Who is ahead counts double, who is behind not at all: the first of a queue see the way free.
+      if (d2 < kDensityRadius * kDensityRadius) around += 1 + Dot2(d, forward) / std::sqrt(d2 + 1e-12);
+      if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose)
+        plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
+      // Those behind matter less.
+      const double rank = Dot2(d, self.v) < 0 ? 4 * d2 : d2;
+      if (count == kMaxNeighbours && rank >= near[kMaxNeighbours - 1].d2) continue;
+      int at = count < kMaxNeighbours ? count++ : kMaxNeighbours - 1;
+      for (; at > 0 && near[static_cast<size_t>(at - 1)].d2 > rank; --at)
+        near[static_cast<size_t>(at)] = near[static_cast<size_t>(at - 1)];
+      near[static_cast<size_t>(at)] = {rank, &other};
+    }
+  };
+  for (int r = row - 1; r <= row + 1; ++r) look(r, column - 1, column + 1);
+  if (walker.still) return;
+  if (count < kMaxNeighbours) {
+    look(row - 2, column - 2, column + 2);
+    look(row + 2, column - 2, column + 2);
+    for (int r = row - 1; r <= row + 1; ++r) {
+      if (column >= 2) look(r, column - 2, column - 2);
+      if (column + 2 < columns_) look(r, column + 2, column + 2);
+    }
+  }
+
+  // Walkers slow down in a crowd, all by the same law.
+  const double disc = kPi * kDensityRadius * kDensityRadius * mesh.OpenShare(self.p);
+  const double density = kDensityFactor * (around + kSelfShare) / disc;
+  const double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
+  Vec2d wanted = wanted_speed > cap ? walker.wanted * (cap / wanted_speed) : walker.wanted;
+  // In a throng they come closer.
+  const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * std::clamp((density - 1.2) / 1.3, 0.0, 1.0);
+
+  // Walls first, for they do not give way.
+  std::array<HalfPlane, kMaxWalls + kMaxNeighbours + 4> planes;
+  size_t hard = 0;
+  const std::span<const NavWall> walls = mesh.walls();
+  const double wall_range = std::max(0.3, cap * kWallHorizon + 0.1);
+  for (const uint32_t w : mesh.WallsNear(self.p)) {
+    const NavWall& wall = walls[w];
+    const Vec2d edge = wall.b - wall.a, from_a = self.p - wall.a;
+    if (edge.x * from_a.y - edge.y * from_a.x < -1e-4) continue;
+    const double t = std::clamp(Dot2(from_a, edge) / Dot2(edge, edge), 0.0, 1.0);
+    const Vec2d off = from_a - edge * t;
+    const double d2 = Dot2(off, off);
+    if (d2 > wall_range * wall_range || std::abs(wall.za + t * (wall.zb - wall.za) - self.z) > kLevel) continue;
+    const double d = std::sqrt(d2), length = Norm2(edge);
+    const Vec2d normal = d > 1e-4 ? off * (1 / d) : Vec2d{-edge.y / length, edge.x / length};
+    if (hard < kMaxWalls) planes[hard++] = {normal * (-d / kWallHorizon), normal};
+  }
+
+  // Then people; towards someone who comes straight at them, walkers keep to the right.
+  size_t planes_used = hard;
+  double right = 0;
+  for (int i = 0; i < count; ++i) {
+    const Seen& other = *near[static_cast<size_t>(i)].other;
+    const Vec2d d = other.p - self.p;
+    planes[planes_used++] =
+        AvoidDisc(d, self.v, other.v, 2 * space, kHorizon, dt, walkers[other.index].still ? 1 : 0.5);
+    const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
+    if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
+  }
+  for (const SteeringObstacle& obstacle : obstacles) {
+    const Vec2d d = obstacle.p - self.p;
+    if (planes_used < planes.size() && Dot2(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
+      planes[planes_used++] = AvoidDisc(d, self.v, obstacle.v, kSpaceRadius + obstacle.radius, kHorizon, dt, 1);
+  }
+  wanted = wanted + Vec2d{wanted.y, -wanted.x} * right;
+  Vec2d v = SolveVelocity({planes.data(), planes_used}, hard, wanted, std::max(cap, 0.05));
+
+  // Nobody starts or stops in no time.
+  const Vec2d change = v - self.v;
+  const double most = kAcceleration * dt, n = Norm2(change);
+  if (n > most) v = self.v + change * (most / n);
+  plan.v = v;
+}
+
+void Steering::Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t self, double dt) {
+  Walker& walker = walkers[self];
+  const Plan& plan = plans_[self];
+  const Vec2d p{walker.at.p_W.x, walker.at.p_W.y};
+  walker.v = plan.v;
+  Vec2d move = plan.v * dt;
+  const auto step_to = [&](double z, double speed) {  // kerbs are stepped over, not jumped
+    const double most = std::max(1.0, speed) * dt;
+    return walker.at.p_W.z + std::clamp(z - walker.at.p_W.z, -most, most);
+  };
+  const auto stay = [&] {
+    walker.v = {};
+    walker.at.p_W.z = step_to(mesh.GroundHeight(p.x, p.y, walker.at.p_W.z), 0);
+  };
+  if (Dot2(move, move) < 1e-12) return stay();
+
+  // Into nobody: what leads into a body is taken away, and who cannot go stays.
+  const auto blocked = [&](Vec2d q) -> const Walker* {
+    for (int i = 0; i < plan.close_count; ++i) {
+      const Walker& other = walkers[plan.close[static_cast<size_t>(i)]];
+      const Vec2d o{other.at.p_W.x, other.at.p_W.y};
+      const double d2 = Dot2(q - o, q - o);
+      if (d2 < 4 * kBodyRadius * kBodyRadius && d2 < Dot2(p - o, p - o)) return &other;
+    }
+    return nullptr;
+  };
+  NavPoint next = walker.at;
+  bool moved = false;
+  for (int attempt = 0; attempt < 3 && !moved; ++attempt) {
+    next = mesh.Move(walker.at, p + move);
+    const Walker* other = blocked({next.p_W.x, next.p_W.y});
+    if (!other) {
+      moved = true;
+      break;
+    }
+    const Vec2d away = p - Vec2d{other->at.p_W.x, other->at.p_W.y};
+    const double n = Norm2(away);
+    if (n < 1e-9) break;
+    const double into = Dot2(move, away) / n;
+    if (into < 0) move = move - away * (into / n * 1.0001);
+  }
+  if (!moved) return stay();
+  walker.v = (Vec2d{next.p_W.x, next.p_W.y} - p) * (1 / dt);
+  next.p_W.z = step_to(next.p_W.z, Norm2(walker.v));
+  walker.at = next;
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/people/crowd/agent.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr double kCornerReach = 0.4;       // metres
+constexpr double kAheadOfRoad = 1.4;       // metres: where people stop at a red light
+constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
+constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
+constexpr int64_t kNoProgress = 4 * kSecond, kStuck = 30 * kSecond;
+
+double Length(Vec2d a) { return std::sqrt(a.x * a.x + a.y * a.y); }
+Vec2d Flat(Vec3d p) { return {p.x, p.y}; }
+
+/// The crossing that the way enters within kAheadOfRoad; -1 = none.
+int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
+  double left = kAheadOfRoad;
+  for (size_t k = agent.corner; k < agent.corners.size() && left > 0; ++k) {
+    const Vec2d to = Flat(agent.corners[k]) - p;
+    const double distance = Length(to), most = std::min(distance, left);
+    for (double s = 0.35; s < most + 0.35 && distance > 1e-6; s += 0.35) {
+      const int crossing = mesh.CrossingAt(p + to * (std::min(s, most) / distance));
+      if (crossing >= 0) return crossing;
+    }
+    left -= distance;
+    p = Flat(agent.corners[k]);
+  }
+  return -1;
+}
+
+/// Walkers have green for 15 s of each cycle, the two directions by turns.
+bool Green(const NavMesh::Crossing& crossing, int64_t t_ns) {
+  const int64_t t = (t_ns + (crossing.phase ? kCycle / 2 : 0)) % kCycle;
+  return t < 15 * kSecond;
+}
+
+}  // namespace
+
+void LeavePlace(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  if (agent.place < 0) return;
+  tick.in.place_taken[static_cast<size_t>(agent.place)] = kNoPerson;
+  if (agent.at_place) MoveFeet(tick, i, false);
+  agent.place = -1;
+  agent.has_face = false;
+}
+
+void MoveFeet(CrowdTick& tick, PersonIndex i, bool to_place) {
+  Agent& agent = tick.in.agents[i];
+  const Vec3d before = FeetOf(tick.plan, tick.in, i, tick.t_ns);
+  agent.at_place = to_place;
+  agent.offset = {};
+  agent.offset = before - FeetOf(tick.plan, tick.in, i, tick.t_ns);
+  agent.offset_ns = tick.t_ns;
+}
+
+Vec3d FeetOf(const CrowdPlan& plan, const CrowdInternals& in, PersonIndex i, int64_t t_ns) {
+  const Agent& agent = in.agents[i];
+  const Vec3d base = agent.at_place ? plan.places[static_cast<size_t>(agent.place)].p_W : in.walkers[i].at.p_W;
+  const int64_t since = t_ns - agent.offset_ns;
+  if (since >= kShift) return base;
+  return base + agent.offset * (1 - static_cast<double>(since) / static_cast<double>(kShift));
+}
+
+void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed, double reach) {
+  Agent& agent = tick.in.agents[i];
+  agent.goal = goal;
+  agent.goal_speed = speed;
+  agent.goal_reach = reach;
+  agent.progress_ns = tick.t_ns;
+  agent.progress_p = tick.in.walkers[i].at.p_W;
+  agent.corners.clear();
+  agent.corner = 0;
+  if (agent.walk != Walk::kWaitsForPath) tick.in.path_queue.push_back(i);
+  agent.walk = Walk::kWaitsForPath;
+}
+
+void DropGoal(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  // An entry in the queue is passed over when its turn comes.
+  agent.walk = Walk::kNone;
+  agent.corners.clear();
+  agent.hold = false;
+  std::erase(tick.in.path_queue, i);
+}
+
+void FindWays(CrowdTick& tick) {
+  std::vector<PersonIndex>& queue = tick.in.path_queue;
+  const size_t n = std::min(queue.size(), kPathsPerTick);
+  for (size_t k = 0; k < n; ++k) {
+    Agent& agent = tick.in.agents[queue[k]];
+    const Walker& walker = tick.in.walkers[queue[k]];
+    if (agent.walk != Walk::kWaitsForPath || !walker.present) continue;
+    NavPath path = tick.model.navmesh->FindPath(walker.at, agent.goal);
+    agent.corners = std::move(path.corners);
+    agent.corner = agent.corners.size() > 1 ? 1 : 0;
+    agent.walk = agent.corners.empty() || !path.complete ? Walk::kFailed : Walk::kOnTheWay;
+  }
+  queue.erase(queue.begin(), queue.begin() + static_cast<int64_t>(n));
+}
+
+void WatchWay(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  const Walker& walker = tick.in.walkers[i];
+  agent.hold = false;
+  if (agent.walk != Walk::kOnTheWay) return;
+  const NavMesh& mesh = *tick.model.navmesh;
+  const Vec2d p = Flat(walker.at.p_W), to = Flat(agent.corners[agent.corner]) - p;
+  const double distance = Length(to);
+
+  // At the kerb of a crossing whose light is red.
+  if (!mesh.crossings().empty() && mesh.CrossingAt(p) < 0) {
+    const int ahead = CrossingAhead(mesh, agent, p);
+    if (ahead >= 0) {
+      const NavMesh::Crossing& crossing = mesh.crossings()[static_cast<size_t>(ahead)];
+      agent.hold = crossing.signal && !Green(crossing, tick.t_ns);
+    }
+  }
+
+  // The next corner but one is seen already; or the next one no more.
+  if (agent.corner + 1 < agent.corners.size() && distance < 4 && mesh.Straight(walker.at, Flat(agent.corners[agent.corner + 1])))
+    ++agent.corner;
+
+  // Progress: half a metre from the last place where there was some.
+  if (Norm(walker.at.p_W - agent.progress_p) > 0.5 || agent.hold || tick.plan.states[agent.state].stop || agent.group) {
+    agent.progress_p = walker.at.p_W;
+    agent.progress_ns = tick.t_ns;
+    return;
+  }
+  const int64_t still = tick.t_ns - agent.progress_ns;
+  if (still <= kNoProgress || still % kNoProgress >= kThinkEvery * kCrowdTickNs) return;
+  if (still > 2 * kNoProgress && !agent.commanded) {
+    // Somewhere else, then; a tree hears that it failed.
+    agent.walk = Walk::kFailed;
+    agent.has_errand = false;
+    return;
+  }
+  // Another way from here.
+  const int64_t since = agent.progress_ns;
+  SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
+  agent.progress_ns = since;
+}
+
+void WatchStuck(CrowdTick& tick, PersonIndex i) {
+  Agent& agent = tick.in.agents[i];
+  const Vec3d& p = tick.in.walkers[i].at.p_W;
+  // Whoever stands on purpose is not stuck; whatever the goals in between were.
+  const bool stands = agent.hold || agent.group || tick.plan.states[agent.state].stop || agent.at_place ||
+                      (agent.commanded && agent.walk != Walk::kOnTheWay);
+  if (stands || Norm(p - agent.stuck_p) > 0.5) {
+    agent.stuck_p = p;
+    agent.stuck_ns = tick.t_ns;
+  } else if (tick.t_ns - agent.stuck_ns > kStuck) {
+    AddEvent(tick, {.kind = CrowdEvent::Kind::kStuck, .t_ns = tick.t_ns, .person = i, .from = {}, .to = {}, .text = "no progress for 30 s"});
+    agent.stuck_ns = tick.t_ns;
+  }
+}
+
+void WantVelocities(CrowdTick& tick) {
+  for (PersonIndex i = 0; i < tick.in.agents.size(); ++i) {
+    Agent& agent = tick.in.agents[i];
+    Walker& walker = tick.in.walkers[i];
+    walker.wanted = {};
+    walker.still = false;
+    if (!walker.present) continue;
+    const StateDef& state = tick.plan.states[agent.state];
+    const Vec2d p = Flat(walker.at.p_W);
+
+    // To the place in a group, then stand there.
+    if (agent.group) {
+      const Group* group = FindGroup(tick.in, agent.group);
+      if (!group) continue;
+      const Vec2d to = SlotOf(*group, i) - p;
+      const double d = Length(to);
+      walker.still = d < 0.12 || tick.t_ns - group->since_ns > 6 * kSecond;
+      if (!walker.still) walker.wanted = to * (std::min(0.9, 2 * d) / d);
+      agent.has_face = true;
+      agent.face_yaw = std::atan2(group->centre.y - p.y, group->centre.x - p.x);
+      continue;
+    }
+    if (agent.at_place || (state.stop && agent.walk != Walk::kOnTheWay)) {
+      walker.still = true;
+      continue;
+    }
+    if (state.stop || agent.walk != Walk::kOnTheWay || agent.hold) continue;
+
+    // Corner by corner; slower before the end.
+    Vec2d to = Flat(agent.corners[agent.corner]) - p;
+    double d = Length(to);
+    while (d < kCornerReach && agent.corner + 1 < agent.corners.size()) {
+      to = Flat(agent.corners[++agent.corner]) - p;
+      d = Length(to);
+    }
+    const bool last = agent.corner + 1 == agent.corners.size();
+    if (last && d < agent.goal_reach) {
+      agent.walk = Walk::kArrived;
+      continue;
+    }
+    double speed = (agent.goal_speed > 0 ? agent.goal_speed : walker.free_speed) * state.speed;
+    if (last) speed = std::min(speed, 0.4 + 1.2 * d);
+    // Turning around comes before walking away.
+    const double yaw = tick.in.to_yaw[i];
+    if (Length(walker.v) < 0.3 && to.x * std::cos(yaw) + to.y * std::sin(yaw) < 0.3 * d) speed *= 0.3;
+    if (d > 1e-6) walker.wanted = to * (speed / d);
+  }
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,228 @@
+// Arms: swinging in a gait, hanging, and the gestures of the upper layer (table 2.3 of the people reference).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/people/body/anatomy.h"
+#include "airsim360/people/motion/posture.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
+
+// Angles of one arm in degrees; abduction is away from the trunk, turn of the hand thumb outwards.
+struct ArmAngles {
+  double flex = 0, abduct = 6, rotate = 0, elbow = 14, supinate = 0, raise = 0;
+};
+
+void Hang(bool left, const ArmAngles& a, Posture& posture) {
+  const double s = left ? 1 : -1;
+  const size_t arm = left ? kTLeftArm : kTRightArm;
+  posture.turn[arm + kClavicle] = RotationX(s * a.raise * kDegree);
+  posture.turn[arm + kShoulder] = RotationX(s * (a.abduct - a.raise) * kDegree) * RotationY(-a.flex * kDegree) * RotationZ(-s * a.rotate * kDegree);
+  posture.turn[arm + kElbow] = RotationY(-a.elbow * kDegree);
+  posture.turn[arm + kWrist] = RotationZ(s * a.supinate * kDegree);
+}
+
+void TurnHand(bool left, double supinate, double bend, Posture& posture) {
+  posture.turn[(left ? kTLeftArm : kTRightArm) + kWrist] = RotationZ((left ? 1 : -1) * supinate * kDegree) * RotationX((left ? -1 : 1) * bend * kDegree);
+}
+
+// Places a wrist at a point given against the middle between the shoulders, in shares of arm length: forward,
+// outwards, up. The elbow points down and outwards.
+void Place(const PostureInput& in, bool left, Vec3d share, Posture& posture, Vec3d pole = {-0.35, 0.55, -1}) {
+  const double s = left ? 1 : -1, length = in.body.size.upper_arm + in.body.size.forearm;
+  const double half = std::abs(in.body.p_PJ[At(Joint::kLeftShoulder)].y);
+  const size_t arm = left ? kTLeftArm : kTRightArm;
+  posture.turn[arm + kClavicle] = {};
+  ReachWith(left, in.body, {share.x * length, s * (share.y * length - half), share.z * length}, {pole.x, s * pole.y, pole.z}, posture);
+}
+
+// A point of the head, as Place wants it.
+Vec3d AtHead(const PostureInput& in, Vec3d share_of_head) {
+  const double H = in.body.spec.stature, length = in.body.size.upper_arm + in.body.size.forearm;
+  const Vec3d middle = (in.body.p_PJ[At(Joint::kLeftShoulder)] + in.body.p_PJ[At(Joint::kRightShoulder)]) * 0.5;
+  const double head = H - in.body.p_PJ[At(Joint::kHead)].z;
+  return (in.body.p_PJ[At(Joint::kHead)] - middle + share_of_head * head) / length;
+}
+
+// Swing of both arms against the legs: shoulder 24 degrees back to 8 forward at 1.3 m/s; runs bend the elbows.
+void SwingArms(const PostureInput& in, double share, Posture& posture) {
+  const double g = in.motion.gait, run = in.motion.run, speed = in.motion.speed;
+  const bool jog = in.lower == Behaviour::kJog;
+  const double swing = (1 - run) * 16 * std::clamp(speed / 1.3, 0.2, 1.5) + run * (jog ? 24 : 34);
+  const double base = (1 - run) * (20 + 4 * speed) + run * (jog ? 80 : 92);
+  const uint64_t seed = in.motion.seed;
+  for (const bool left : {true, false}) {
+    // The arm is forward when the other leg is.
+    const double c = -std::cos(kTurn * (in.phase + (left ? 0.0 : 0.5)) - 0.2);
+    const double personal = (0.85 + 0.3 * Draw(seed, 30, left)) * g * share;
+    ArmAngles a;
+    a.flex = personal * (swing * c - 5 + 6 * run) + 2 * (1 - g) + 0.8 * Sway(seed, 31 + left, 0.2, in.t);
+    a.abduct = 7 + 5 * run * g + (in.body.spec.build > 0 ? 5 * in.body.spec.build : 0);
+    a.rotate = 8 + 8 * run * g;
+    a.elbow = (1 - g) * 14 + g * (base + personal * 9 * std::max(0.0, c) + 6 * run * c);
+    Hang(left, a, posture);
+    posture.curl[left ? 0 : 1] = 0.3 + 0.35 * run * g;
+  }
+}
+
+// Speech: strokes of the hands in a cone before the chest, one beat after another, each with its own place.
+void Gesture(const PostureInput& in, Posture& posture) {
+  if (!in.state.speaking) return;
+  const uint64_t seed = in.motion.seed;
+  const double beat = 0.95, x = in.t_upper / beat;
+  const auto k = static_cast<int64_t>(std::floor(x));
+  const double u = SmoothStep(0.0, 0.45, x - std::floor(x));
+  for (const bool left : {true, false}) {
+    // One in four beats of each hand is a rest.
+    const auto at = [&](int64_t i) {
+      if (i < 0 || Draw(seed, 40 + left, i) < 0.25) return Vec3d{0.22, 0.42, -0.66};
+      return Vec3d{0.42 + 0.22 * Draw(seed, 42 + left, i), 0.12 + 0.35 * Draw(seed, 44 + left, i), -0.48 + 0.36 * Draw(seed, 46 + left, i)};
+    };
+    const Vec3d a = at(k - 1), b = at(k);
+    Place(in, left, a + (b - a) * u, posture);
+    TurnHand(left, 30 + 30 * Draw(seed, 48 + left, k), 0, posture);
+    posture.curl[left ? 0 : 1] = 0.25;
+  }
+}
+
+void Reach(const PostureInput& in, Posture& posture) {
+  // Towards what is looked at, or ahead; the arm of that side.
+  Vec3d d{0.9, 0, 0.05};
+  if (in.state.has_gaze) {
+    const Vec3d eye = in.state.p_WP + Vec3d{0, 0, 0.82 * in.body.spec.stature};
+    d = Normalized(RotationZ(-in.state.yaw) * (in.state.p_W_gaze - eye));
+  }
+  const bool left = d.y > 0.25;
+  const double half = std::abs(in.body.p_PJ[At(Joint::kLeftShoulder)].y) / (in.body.size.upper_arm + in.body.size.forearm);
+  // Not behind the back.
+  d.x = std::max(d.x, 0.15);
+  d = Normalized(d) * 0.97;
+  Place(in, left, {d.x, half + (left ? d.y : -d.y), d.z}, posture);
+  TurnHand(left, -35, 0, posture);
+  posture.curl[left ? 0 : 1] = 0.15;
+}
+
+void Stretch(const PostureInput& in, Posture& posture) {
+  const double down = 0.5 - 0.5 * std::cos(kTurn * in.t_lower / 5);
+  // Up: arms overhead and a little apart; down: hanging towards the toes.
+  for (const bool left : {true, false}) {
+    const double flex = 172 + (95 - 172) * down;
+    Hang(left, {.flex = flex, .abduct = 8, .rotate = 0, .elbow = 8, .supinate = 0, .raise = 22 * (1 - down)}, posture);
+    posture.curl[left ? 0 : 1] = 0.05;
+  }
+}
+
+}  // namespace
+
+void SetArms(const PostureInput& in, Posture& posture) {
+  SwingArms(in, 1, posture);
+  const double t = in.t_upper;
+  switch (in.upper) {
+    case Behaviour::kTalk:
+      Gesture(in, posture);
+      break;
+    case Behaviour::kPhoneCall:
+      Place(in, false, AtHead(in, {-0.02, 0.80, -0.25}), posture, {0.45, 0.30, -1});
+      TurnHand(false, -20, -12, posture);
+      posture.curl[1] = 0.55;
+      posture.props |= 1u << static_cast<int>(Prop::kPhone);
+      break;
+    case Behaviour::kTexting:
+      for (const bool left : {true, false}) {
+        Place(in, left, {0.46, 0.055, -0.36}, posture, {-0.2, 0.8, -1});
+        TurnHand(left, 55, -10, posture);
+        posture.curl[left ? 0 : 1] = 0.5;
+      }
+      posture.props |= 1u << static_cast<int>(Prop::kPhone);
+      break;
+    case Behaviour::kTakePhoto:
+      for (const bool left : {true, false}) {
+        Place(in, left, AtHead(in, {0, 0, -0.05}) + Vec3d{0.62, 0.05, 0}, posture, {-0.1, 0.6, -1});
+        TurnHand(left, 5, -8, posture);
+        posture.curl[left ? 0 : 1] = 0.5;
+      }
+      posture.props |= 1u << static_cast<int>(Prop::kPhone);
+      break;
+    case Behaviour::kWave: {
+      // Forearm 25 degrees to either side, 1.5 times a second.
+      const double side = 0.14 * std::sin(kTurn * 1.5 * t);
+      Place(in, false, {0.22, 0.52 + side, 0.56 - 0.3 * side * side}, posture, {-0.3, 1, -0.45});
+      TurnHand(false, -75, 0, posture);
+      posture.curl[1] = 0.05;
+      break;
+    }
+    case Behaviour::kSit:
+      for (const bool left : {true, false}) {
+        Place(in, left, {0.56, 0.30, -0.66}, posture, {-0.9, 0.7, -0.2});
+        TurnHand(left, -60, 0, posture);
+      }
+      break;
+    case Behaviour::kCarry: {
+      // The loaded arm hangs nearly still.
+      const double swing = 3.5 * in.motion.gait * std::cos(kTurn * in.phase);
+      Hang(false, {.flex = swing, .abduct = 9, .rotate = 5, .elbow = 10, .supinate = 0, .raise = -3}, posture);
+      posture.curl[1] = 0.9;
+      posture.props |= 1u << static_cast<int>(Prop::kBag);
+      break;
+    }
+    case Behaviour::kPushStroller: {
+      // Hands on the handle of the stroller, which stands in P.
+      const double H = in.body.spec.stature, k = std::clamp(H / 1.7, 0.8, 1.1);
+      const double length = in.body.size.upper_arm + in.body.size.forearm;
+      const double shoulder = in.body.p_PJ[At(Joint::kLeftShoulder)].z, low = 0.015 * H;
+      const Vec3d grip{0.39 - 0.035 * H, 0.20, 1.03 * k - (shoulder - low)};
+      for (const bool left : {true, false}) {
+        Place(in, left, grip / length, posture, {-0.5, 0.6, -1});
+        TurnHand(left, -70, 0, posture);
+        posture.curl[left ? 0 : 1] = 0.85;
+      }
+      posture.props |= 1u << static_cast<int>(Prop::kStroller);
+      break;
+    }
+    case Behaviour::kCrouch:
+      for (const bool left : {true, false}) {
+        Place(in, left, {0.52, 0.12, -0.72}, posture);
+        posture.curl[left ? 0 : 1] = 0.5;
+      }
+      break;
+    case Behaviour::kStretch:
+      Stretch(in, posture);
+      break;
+    case Behaviour::kPoint:
+      Reach(in, posture);
+      break;
+    case Behaviour::kLookUp:
+      // A hand shades the eyes.
+      if (Draw(in.motion.seed, 60, 0) < 0.5) {
+        Place(in, false, AtHead(in, {0.62, 0.25, 0.42}), posture, {0.1, 1, -0.5});
+        TurnHand(false, -70, 0, posture);
+        posture.curl[1] = 0.05;
+      }
+      break;
+    case Behaviour::kUmbrella:
+      Place(in, false, {0.40, 0.24, -0.25}, posture);
+      posture.curl[1] = 0.9;
+      posture.props |= 1u << static_cast<int>(Prop::kUmbrella);
+      break;
+    case Behaviour::kWalkDog:
+      Place(in, false, {0.42, 0.30, -0.62}, posture);
+      posture.curl[1] = 0.8;
+      break;
+    case Behaviour::kWait:
+      // Some cross their arms.
+      if (Draw(in.motion.seed, 61, 0) < 0.4) {
+        Place(in, true, {0.30, -0.16, -0.40}, posture, {0.2, 1, -0.9});
+        Place(in, false, {0.36, -0.14, -0.36}, posture, {0.2, 1, -0.9});
+        TurnHand(true, -30, 0, posture);
+        TurnHand(false, -30, 0, posture);
+      }
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace airsim360::internal

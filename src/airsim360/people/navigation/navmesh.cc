@@ -1,0 +1,195 @@
+#include "airsim360/people/navigation/navmesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/people/navigation/crossings.h"
+#include "airsim360/people/navigation/ground_height.h"
+#include "airsim360/people/navigation/polygon2d.h"
+#include "airsim360/people/navigation/recast_mesh.h"
+
+namespace airsim360 {
+
+using internal::NavGraph;
+using internal::NavPolygon;
+
+struct NavMesh::Impl {
+  NavGraph graph;
+  std::unique_ptr<internal::RecastMesh> recast;
+  internal::GroundHeights heights;
+  internal::OpenShares shares;
+  std::vector<Crossing> crossings;
+  Box3f bounds;
+};
+
+namespace {
+
+// Worlds larger than that get a mesh around their middle.
+constexpr double kLargest = 1000;
+
+internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
+  Box3f box = options.region.value_or(scene.bounds);
+  if (box.empty()) throw InputError("people need ground to walk on: the world '" + scene.name + "' is empty");
+  box.min = Max(box.min, scene.bounds.min);
+  box.max = Min(box.max, scene.bounds.max);
+  if (box.min.x >= box.max.x || box.min.y >= box.max.y)
+    throw InputError("people need ground to walk on: the region lies outside the world '" + scene.name + "'");
+  const Vec3f middle = scene.spawn.value_or(box.center());
+  const auto half = static_cast<float>(kLargest / 2);
+  if (box.size().x > kLargest) {
+    const float x = std::clamp(middle.x, box.min.x + half, box.max.x - half);
+    box.min.x = x - half;
+    box.max.x = x + half;
+  }
+  if (box.size().y > kLargest) {
+    const float y = std::clamp(middle.y, box.min.y + half, box.max.y - half);
+    box.min.y = y - half;
+    box.max.y = y + half;
+  }
+  // A whole number of cells a tile.
+  internal::TileGrid grid;
+  grid.edge = std::max(1.0, std::round(options.tile / options.cell)) * options.cell;
+  grid.x0 = std::floor(box.min.x / options.cell) * options.cell;
+  grid.y0 = std::floor(box.min.y / options.cell) * options.cell;
+  grid.columns = std::max(1, static_cast<int>(std::ceil((box.max.x - grid.x0) / grid.edge)));
+  grid.rows = std::max(1, static_cast<int>(std::ceil((box.max.y - grid.y0) / grid.edge)));
+  return grid;
+}
+
+}  // namespace
+
+NavMesh::NavMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+NavMesh::~NavMesh() = default;
+
+std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  const internal::TileGrid grid = GridOf(scene, options);
+  const double margin = (std::ceil(options.person_radius / options.cell) + 4) * options.cell;
+  const internal::GroundSource source(scene, grid, margin);
+  impl->crossings = internal::FindCrossings(scene);
+  impl->recast = std::make_unique<internal::RecastMesh>(grid, options);
+
+  // Tiles side by side; only those at work hold their triangles.
+  std::vector<std::vector<internal::GroundTriangle>> ground(static_cast<size_t>(grid.count()));
+  ParallelFor(grid.count(), [&](int64_t tile) {
+    std::vector<internal::GroundTriangle> obstacles;
+    std::vector<internal::GroundTriangle>& below = ground[static_cast<size_t>(tile)];
+    source.Gather(static_cast<int>(tile), options.person_height + 0.3, below, obstacles);
+    impl->recast->BuildTile(static_cast<int>(tile), {below, obstacles, impl->crossings});
+  });
+  impl->graph = impl->recast->Join();
+  if (impl->graph.polygons.empty())
+    throw InputError("people need ground to walk on: the world '" + scene.name + "' has none");
+
+  // Heights and open space over what came out.
+  for (std::vector<internal::GroundTriangle>& triangles : ground) {
+    impl->heights.Add(triangles);
+    triangles = {};
+  }
+  impl->heights.Finish(impl->graph.min, impl->graph.max);
+  impl->shares.Build(impl->graph, options.person_radius);
+  for (const NavPolygon& polygon : impl->graph.polygons)
+    for (int i = 0; i < polygon.corners; ++i)
+      impl->bounds.Add(VecCast<float>(Vec3d{polygon.corner[i].x, polygon.corner[i].y, polygon.z[i]}));
+  return std::shared_ptr<const NavMesh>(new NavMesh(std::move(impl)));
+}
+
+NavPoint NavMesh::Nearest(Vec3d p_W, double reach) const {
+  NavPoint point = impl_->graph.Nearest(p_W, reach);
+  if (point.valid()) point.p_W.z = impl_->heights.At(point.p_W.x, point.p_W.y, point.p_W.z, 2);
+  return point;
+}
+
+NavPoint NavMesh::Move(const NavPoint& start, Vec2d target) const {
+  NavPoint end = impl_->graph.Walk(start.polygon, {start.p_W.x, start.p_W.y}, target, true, nullptr);
+  end.p_W.z = GroundHeight(end.p_W.x, end.p_W.y, start.p_W.z);
+  return end;
+}
+
+bool NavMesh::Straight(const NavPoint& start, Vec2d target) const {
+  bool stopped = false;
+  const NavPoint end = impl_->graph.Walk(start.polygon, {start.p_W.x, start.p_W.y}, target, false, &stopped);
+  return !stopped && std::abs(end.p_W.x - target.x) + std::abs(end.p_W.y - target.y) < 1e-6;
+}
+
+NavPath NavMesh::FindPath(const NavPoint& start, const NavPoint& goal) const {
+  return impl_->recast->FindPath(impl_->graph.polygons[start.polygon].reference, start.p_W,
+                                 impl_->graph.polygons[goal.polygon].reference, goal.p_W);
+}
+
+uint32_t NavMesh::Component(const NavPoint& point) const { return impl_->graph.polygons[point.polygon].component; }
+GroundKind NavMesh::Kind(const NavPoint& point) const { return impl_->graph.polygons[point.polygon].kind; }
+
+int NavMesh::CrossingAt(Vec2d p) const {
+  for (size_t i = 0; i < impl_->crossings.size(); ++i)
+    if (internal::InPolygon(impl_->crossings[i].outline, p)) return static_cast<int>(i);
+  return -1;
+}
+
+double NavMesh::GroundHeight(double x, double y, double z) const { return impl_->heights.At(x, y, z, 0.6); }
+double NavMesh::OpenShare(Vec2d p) const { return impl_->shares.At(p); }
+std::span<const uint32_t> NavMesh::WallsNear(Vec2d p) const { return impl_->graph.wall_grid.At(p); }
+
+NavArea NavMesh::AreaOf(std::span<const Vec2d> outline, uint32_t kinds) const {
+  // Square metres inside the outline by the connected part they belong to.
+  NavArea area;
+  area.outline.assign(outline.begin(), outline.end());
+  std::vector<double> inside(impl_->graph.components, 0), share(impl_->graph.polygons.size(), 0);
+  for (uint32_t i = 0; i < impl_->graph.polygons.size(); ++i) {
+    const NavPolygon& polygon = impl_->graph.polygons[i];
+    if (!(kinds >> static_cast<int>(polygon.kind) & 1)) continue;
+    share[i] = outline.empty() ? polygon.area
+                               : internal::ClippedArea(outline, std::span(polygon.corner, polygon.corners));
+    inside[polygon.component] += share[i];
+  }
+  area.component = static_cast<uint32_t>(std::max_element(inside.begin(), inside.end()) - inside.begin());
+  area.square_metres = inside[area.component];
+  double sum = 0;
+  for (uint32_t i = 0; i < impl_->graph.polygons.size(); ++i) {
+    if (impl_->graph.polygons[i].component != area.component || share[i] < 1e-4) continue;
+    area.polygons.push_back(i);
+    area.cumulative.push_back(sum += share[i]);
+  }
+  return area;
+}
+
+NavPoint NavMesh::Pick(const NavArea& area, RngStream& rng) const {
+  NavPoint point;
+  for (int attempt = 0; attempt < 64; ++attempt) {
+    // A polygon by its share, then a triangle of its fan, then a place in it; inside the outline or again.
+    const double u = rng.Uniform() * area.cumulative.back();
+    const auto at = std::upper_bound(area.cumulative.begin(), area.cumulative.end() - 1, u) - area.cumulative.begin();
+    const uint32_t index = area.polygons[static_cast<size_t>(at)];
+    const NavPolygon& polygon = impl_->graph.polygons[index];
+    const Vec2d p = internal::PointInFan(std::span(polygon.corner, polygon.corners), rng);
+    point = {index, {p.x, p.y, 0}};
+    if (area.outline.empty() || internal::InPolygon(area.outline, p)) break;
+  }
+  const Vec2d p{point.p_W.x, point.p_W.y};
+  if (!area.outline.empty() && !internal::InPolygon(area.outline, p)) return {};
+  point.p_W.z = impl_->heights.At(p.x, p.y, impl_->graph.HeightIn(point.polygon, p), 2);
+  return point;
+}
+
+std::span<const NavMesh::Crossing> NavMesh::crossings() const { return impl_->crossings; }
+std::span<const NavWall> NavMesh::walls() const { return impl_->graph.walls; }
+Box3f NavMesh::bounds() const { return impl_->bounds; }
+size_t NavMesh::polygon_count() const { return impl_->graph.polygons.size(); }
+
+std::vector<Vec3d> NavMesh::PolygonOutline(uint32_t index) const {
+  const NavPolygon& polygon = impl_->graph.polygons[index];
+  std::vector<Vec3d> outline;
+  for (int i = 0; i < polygon.corners; ++i) outline.push_back({polygon.corner[i].x, polygon.corner[i].y, polygon.z[i]});
+  return outline;
+}
+
+size_t NavMesh::memory_bytes() const {
+  const NavGraph& graph = impl_->graph;
+  return impl_->recast->memory_bytes() + impl_->heights.memory_bytes() + impl_->shares.memory_bytes() +
+         graph.polygons.size() * sizeof(NavPolygon) + graph.portals.size() * sizeof(internal::NavPortal) +
+         graph.walls.size() * sizeof(NavWall) + graph.polygon_grid.memory_bytes() + graph.wall_grid.memory_bytes();
+}
+
+}  // namespace airsim360

@@ -1,0 +1,159 @@
+#include "airsim360/people/navigation/navmesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/people/navigation/polygon2d.h"
+#include "airsim360/people/navigation/test_ground.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::TestGround;
+constexpr uint32_t kAll = ~0u;
+
+TEST(NavMesh, AnEmptySquareIsWalkableUpToTheRadiusOfAPerson) {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 60, 40);  // several tiles
+  const auto mesh = NavMesh::Build(*ground.Build());
+  EXPECT_NEAR(mesh->AreaOf({}, kAll).square_metres, 59.5 * 39.5, 25);
+  EXPECT_TRUE(mesh->Nearest({30, 20, 0}, 0.1).valid());
+  EXPECT_FALSE(mesh->Nearest({-1, 20, 0}, 0.5).valid());
+}
+
+TEST(NavMesh, AWayGoesAroundAWallAndIsAsLongAsTheTautString) {
+  TestGround ground;
+  ground.Floor("ground/floor", 0, 0, 40, 40);
+  ground.Wall(20, -1, 20, 30);
+  const auto mesh = NavMesh::Build(*ground.Build());
+  const NavPath path = mesh->FindPath(mesh->Nearest({10, 10, 0}), mesh->Nearest({30, 10, 0}));
+  ASSERT_TRUE(path.complete);
+  // Around the end of the wall, which is 0.35 m away from its axis and 0.35 m beyond its end.
+  const double expected = 2 * std::hypot(10 - 0.35, 20.35) + 0.7;
+  EXPECT_NEAR(path.length, expected, 0.5);
+  EXPECT_FALSE(mesh->Straight(mesh->Nearest({10, 10, 0}), {30, 10}));
+  EXPECT_TRUE(mesh->Straight(mesh->Nearest({10, 10, 0}), {10, 39}));
+}
+
+TEST(NavMesh, NobodyMovesThroughWalls) {
+  TestGround ground;
+  ground.Floor("ground/floor", 0, 0, 30, 30);
+  ground.Box("vehicle/car", {10, 10, 0}, {14, 12, 1.5f});
+  const auto mesh = NavMesh::Build(*ground.Build());
+  RngStream rng(1, "moves");
+  NavPoint p = mesh->Nearest({5, 5, 0});
+  for (int i = 0; i < 20000; ++i) {
+    const Vec2d target{p.p_W.x + rng.Uniform(-3, 3), p.p_W.y + rng.Uniform(-3, 3)};
+    const NavPoint q = mesh->Move(p, target);
+    const bool in_car = q.p_W.x > 9.85 && q.p_W.x < 14.15 && q.p_W.y > 9.85 && q.p_W.y < 12.15;
+    ASSERT_FALSE(in_car) << q.p_W.x << " " << q.p_W.y;
+    ASSERT_TRUE(q.p_W.x > 0.1 && q.p_W.x < 29.9 && q.p_W.y > 0.1 && q.p_W.y < 29.9);
+    // What says that a line is free agrees with where the move ends.
+    if (mesh->Straight(p, target)) {
+      ASSERT_NEAR(std::hypot(q.p_W.x - target.x, q.p_W.y - target.y), 0, 1e-6);
+    }
+    p = q;
+  }
+}
+
+TEST(NavMesh, CrossingsAreTakenBeforeRoads) {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 60, 6);
+  ground.Floor("ground/road", 0, 6, 60, 14, -0.12f);
+  ground.Floor("ground/sidewalk", 0, 14, 60, 20);
+  ground.Floor("ground/crosswalk", 24, 6, 28, 14, -0.115f);
+  const auto mesh = NavMesh::Build(*ground.Build());
+  const NavPath path = mesh->FindPath(mesh->Nearest({8, 3, 0}), mesh->Nearest({8, 17, 0}));
+  ASSERT_TRUE(path.complete);
+  double farthest = 0;
+  for (const Vec3d& corner : path.corners) farthest = std::max(farthest, corner.x);
+  EXPECT_GT(farthest, 23.5);
+  EXPECT_GE(mesh->CrossingAt({26, 10}), 0);
+  EXPECT_EQ(mesh->CrossingAt({10, 10}), -1);
+  EXPECT_EQ(mesh->Kind(mesh->Nearest({26, 10, -0.1})), GroundKind::kCrossing);
+  EXPECT_EQ(mesh->Kind(mesh->Nearest({40, 10, -0.1})), GroundKind::kRoad);
+  EXPECT_NEAR(mesh->GroundHeight(26, 10, 0), -0.115, 1e-4);
+  EXPECT_NEAR(mesh->GroundHeight(40, 10, 0), -0.12, 1e-4);
+}
+
+TEST(NavMesh, StairsAndSlopesAreWalkedAndCliffsAreNot) {
+  TestGround ground;
+  ground.Floor("ground/floor", 0, 0, 10, 10);
+  for (int i = 0; i < 10; ++i)  // 17 cm by 30 cm
+    ground.Box("construction/stairs", {10 + 0.3f * static_cast<float>(i), 0, -1}, {13, 4, 0.17f * static_cast<float>(i + 1)});
+  ground.Floor("ground/floor", 13, 0, 23, 10, 1.7f);
+  const auto mesh = NavMesh::Build(*ground.Build());
+  const NavPath path = mesh->FindPath(mesh->Nearest({5, 8, 0}), mesh->Nearest({20, 8, 1.7}));
+  ASSERT_TRUE(path.complete);
+  EXPECT_GT(path.length, 17);  // by the stairs, not up the edge of the upper floor
+  EXPECT_NEAR(mesh->GroundHeight(11.4, 2, 0.8), 0.85, 0.01);
+
+  TestGround steep;
+  steep.Floor("ground/terrain", 0, 0, 10, 10);
+  steep.Sheet("ground/terrain", {10, 0, 0}, {14, 0, 2.0f}, {14, 10, 2.0f}, {10, 10, 0});  // 27 degrees
+  steep.Floor("ground/terrain", 14, 0, 20, 10, 2);
+  steep.Sheet("ground/terrain", {0, 10, 0}, {10, 10, 0}, {10, 13, 4}, {0, 13, 4});  // 53 degrees
+  steep.Floor("ground/terrain", 0, 13, 10, 20, 4);
+  const auto hill = NavMesh::Build(*steep.Build());
+  EXPECT_TRUE(hill->FindPath(hill->Nearest({5, 5, 0}), hill->Nearest({18, 5, 2})).complete);
+  EXPECT_NE(hill->Component(hill->Nearest({5, 5, 0})), hill->Component(hill->Nearest({5, 17, 4})));
+  EXPECT_NEAR(hill->GroundHeight(12, 5, 1), 1.0, 1e-4);
+}
+
+TEST(NavMesh, PlacesAreDrawnInsideAnAreaAndEvenly) {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 40, 40);
+  const auto mesh = NavMesh::Build(*ground.Build());
+  const std::vector<Vec2d> outline = {{5, 5}, {25, 5}, {15, 30}};
+  const NavArea area = mesh->AreaOf(outline, kAll);
+  EXPECT_NEAR(area.square_metres, 250, 5);
+  RngStream rng(3, "draw");
+  int left = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const NavPoint p = mesh->Pick(area, rng);
+    ASSERT_TRUE(p.valid());
+    ASSERT_TRUE(internal::InPolygon(outline, {p.p_W.x, p.p_W.y}));
+    left += p.p_W.x < 15;
+  }
+  EXPECT_NEAR(left, 1000, 100);
+}
+
+TEST(NavMesh, OpenShareIsOneInTheOpenAndAHalfAtAWall) {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 20, 20);
+  const auto mesh = NavMesh::Build(*ground.Build());
+  EXPECT_NEAR(mesh->OpenShare({10, 10}), 1, 0.02);
+  EXPECT_NEAR(mesh->OpenShare({0.25, 10}), 0.6, 0.12);
+}
+
+TEST(NavMesh, IsTheSameWithOneThreadAndMany) {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 100, 60);
+  for (int i = 0; i < 40; ++i) {
+    const auto x = static_cast<float>(7 * i % 90 + 3), y = static_cast<float>(11 * i % 50 + 3);
+    ground.Box("furniture/box", {x, y, 0}, {x + 1.5f, y + 1, 1});
+  }
+  const auto scene = ground.Build();
+  const auto corners = [&] {
+    const auto mesh = NavMesh::Build(*scene);
+    std::vector<double> numbers;
+    for (uint32_t i = 0; i < mesh->polygon_count(); ++i)
+      for (const Vec3d& p : mesh->PolygonOutline(i)) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    return numbers;
+  };
+  const std::vector<double> many = corners();
+  const ThreadLimit one(1);
+  EXPECT_EQ(many, corners());
+}
+
+TEST(NavMesh, WorldsWithoutGroundAreRefused) {
+  TestGround ground;
+  ground.Floor("ground/road", 0, 0, 0.3f, 0.3f);
+  EXPECT_THROW(NavMesh::Build(*ground.Build()), InputError);
+}
+
+}  // namespace
+}  // namespace airsim360

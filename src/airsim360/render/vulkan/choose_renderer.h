@@ -1,0 +1,22 @@
+// The renderer of a device: the CPU's, a GPU's, or the best there is.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "airsim360/render/vulkan/gpu.h"
+
+namespace airsim360 {
+
+struct DeviceChoice {
+  std::string device = "auto";  ///< auto, cpu or vulkan
+  int gpu = -1;                 ///< index of a GPU (`airsim360 doctor` lists them); -1 = the best
+};
+
+/// `cpu`: the CPU renderer. `vulkan`: the GPU's; RuntimeError saying why where there is none, and from Render for what it cannot
+/// draw. `auto`: a GPU in hardware where one can draw `options.tier`, else the CPU, with one line on stderr saying why; what a
+/// GPU cannot draw, or fails at (out of memory, lost), goes on on the CPU, with a line too. InputError for other devices.
+std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
+                                       const DeviceChoice& choice);
+
+}  // namespace airsim360

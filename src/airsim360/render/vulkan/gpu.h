@@ -1,0 +1,73 @@
+// Rendering on a GPU through Vulkan's ray tracing pipelines.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "airsim360/render/renderer.h"
+
+namespace airsim360 {
+
+/// A Vulkan device of this machine.
+struct GpuInfo {
+  int index = 0;         ///< what --gpu takes
+  std::string name;      ///< as the driver says
+  std::string driver;    ///< name and version of the driver
+  bool software = false; ///< runs on the CPU (Mesa's lavapipe): correct, slower than the CPU renderer
+  std::string missing;   ///< what it lacks to render; empty = nothing
+};
+
+/// All Vulkan devices in the order of the loader. Where there is none, `why` (if given) says why.
+std::vector<GpuInfo> ListGpus(std::string* why = nullptr);
+
+struct GpuOptions {
+  int gpu = -1;           ///< index of GpuInfo; -1 = the best that can render, hardware before software
+  bool validate = false;  ///< run under VK_LAYER_KHRONOS_validation with synchronisation checks (tests)
+  int frames_in_flight = 3;
+};
+
+/// Pictures of one camera in memory of the renderer that the CPU reads fast; empty spans were not asked for. Row-major as in
+/// Frame; valid until the ticket is released.
+struct GpuFrame {
+  int width = 0, height = 0;
+  std::span<const Rgb8> rgb;
+  std::span<const float> range;
+  std::span<const CategoryId> semantic;
+  std::span<const EntityId> entity;
+  std::span<const Vec3f> normal, position;
+  std::span<const Rgb32f> albedo, radiance;
+  std::span<const uint16_t> material;
+  std::span<const FlowPixel> flow;
+};
+
+/// A renderer that also works ahead: up to GpuOptions::frames_in_flight submissions at once. Not for several threads at a
+/// time.
+class GpuRenderer : public Renderer {
+ public:
+  /// Starts the work of many cameras in one dispatch: all requests share state, tier and the switches of the first; cameras
+  /// and poses are their own. Waits first if all slots of the ring are taken. InputError as Render, and for
+  /// requests that do not share what they must.
+  virtual uint64_t Submit(std::span<const RenderRequest> requests) = 0;
+  /// The pictures of a submission, one for each request, in the renderer's memory; nothing is copied.
+  virtual std::vector<GpuFrame> Wait(uint64_t ticket) = 0;
+  /// Gives the memory back for later submissions.
+  virtual void Release(uint64_t ticket) = 0;
+  virtual const GpuInfo& gpu() const = 0;
+  /// Time of the ray tracing of the last submission waited for, by the GPU's own clock, ms.
+  virtual double gpu_ms() const = 0;
+  /// What the validation layers have said (GpuOptions::validate).
+  virtual std::vector<std::string> messages() const = 0;
+};
+
+/// What the GPU renderer cannot draw yet (a tier, a weather, a product), in words; empty = it can.
+std::string GpuCannot(Tier tier, const Environment& environment, const Products& products = {});
+
+/// Opens a device and uploads the scene. RuntimeError saying why where that fails: no Vulkan, no such GPU, an old driver, no
+/// memory.
+std::unique_ptr<GpuRenderer> MakeVulkanRenderer(std::shared_ptr<const RayTracer> tracer,
+                                                const RendererOptions& options = {}, const GpuOptions& gpu = {});
+
+}  // namespace airsim360

@@ -1,0 +1,177 @@
+#include "airsim360/render/vulkan/gpu_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/render/cpu/antialias.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr size_t kMostTables = 64;
+
+int Padded(int n) { return (n + kTileSize - 1) / kTileSize * kTileSize; }
+
+bool IsFinite(const RigidTransform& X) {
+  double sum = X.p.x + X.p.y + X.p.z;
+  for (int i = 0; i < 9; ++i) sum += X.R.m[i / 3][i % 3];
+  return std::isfinite(sum);
+}
+
+// All that makes a camera, in one list.
+std::vector<double> KeyOf(const Camera& camera) {
+  std::vector<double> key{static_cast<double>(camera.index()), static_cast<double>(Width(camera)),
+                          static_cast<double>(Height(camera))};
+  if (const auto* c = std::get_if<CubeFace>(&camera)) key.push_back(static_cast<double>(c->face));
+  if (const auto* c = std::get_if<Pinhole>(&camera)) key.insert(key.end(), {c->fx, c->fy, c->cx, c->cy});
+  if (const auto* c = std::get_if<Fisheye>(&camera)) {
+    key.insert(key.end(), {c->fx, c->fy, c->cx, c->cy, c->max_theta});
+    key.insert(key.end(), c->k.begin(), c->k.end());
+  }
+  return key;
+}
+
+void PutMatrix(const Mat3d& R, float* out) {
+  for (int i = 0; i < 9; ++i) out[i] = static_cast<float>(R.m[i / 3][i % 3]);
+}
+
+void PutVector(Vec3d v, float* out) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+// Planes of `count` numbers in double precision to single, one after another.
+void PutPlanes(std::initializer_list<const double*> planes, int count, std::byte* to) {
+  auto* out = reinterpret_cast<float*>(to);
+  for (const double* plane : planes) {
+    for (int i = 0; i < count; ++i) *out++ = static_cast<float>(plane[i]);
+  }
+}
+
+void PutProjection(const Camera& camera, GpuCamera& out) {
+  const auto pinhole = [&](double fx, double fy, double cx, double cy) {
+    out.focal[0] = static_cast<float>(fx), out.focal[1] = static_cast<float>(fy);
+    out.center[0] = static_cast<float>(cx), out.center[1] = static_cast<float>(cy);
+  };
+  out.projection = kProjectEquirectangular;
+  if (const auto* c = std::get_if<CubeFace>(&camera)) {
+    out.projection = kProjectPinhole;
+    pinhole(c->size / 2.0, c->size / 2.0, c->size / 2.0, c->size / 2.0);
+  } else if (const auto* p = std::get_if<Pinhole>(&camera)) {
+    out.projection = kProjectPinhole;
+    pinhole(p->fx, p->fy, p->cx, p->cy);
+  } else if (const auto* f = std::get_if<Fisheye>(&camera)) {
+    out.projection = kProjectFisheye;
+    pinhole(f->fx, f->fy, f->cx, f->cy);
+    for (size_t i = 0; i < 4; ++i) out.distortion[i] = static_cast<float>(f->k[i]);
+    out.max_theta = static_cast<float>(f->max_theta);
+  }
+}
+
+}  // namespace
+
+int EdgeSamples(const RenderRequest& request) {
+  if (request.tier != Tier::kFast || !request.products.rgb) return 1;
+  return std::clamp(request.aa_samples, 1, kMaxSamples);
+}
+
+std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
+  std::byte* to = mapped + next;
+  where = address + next;
+  next += (bytes + 63) / 64 * 64;
+  if (next > size) throw RuntimeError("GPU: a frame's parameters do not fit");
+  return to;
+}
+
+size_t GpuCameras::Size(const RenderRequest& request) {
+  const int samples = EdgeSamples(request);
+  size_t size = 256 + (samples > 1 ? static_cast<size_t>(8 * 6 * 4 * (samples - 1)) : 0);
+  const Camera& camera = request.camera;
+  if (std::holds_alternative<Equirectangular>(camera))
+    size += sizeof(float) * 5 * static_cast<size_t>(Padded(Width(camera)) + Padded(Height(camera)));
+  return size;
+}
+
+void GpuCameras::Trim() {
+  if (tables_.size() > kMostTables) tables_.clear();
+}
+
+VkDeviceAddress GpuCameras::Table(const Camera& camera, const RayField& field) {
+  GpuBuffer& buffer = tables_[KeyOf(camera)];
+  if (buffer.size() > 0) return buffer.address();
+  buffer = GpuBuffer(device_, 12 * static_cast<size_t>(field.width) * field.height + 16, MemoryKind::kUpload);
+  auto* out = reinterpret_cast<float*>(buffer.mapped());
+  for (int y = 0; y < field.height; ++y) {
+    for (int x = 0; x < field.width; ++x) {
+      const int64_t i = static_cast<int64_t>(y) * field.stride + x;
+      const bool sees = field.has_ray[i] != 0;
+      *out++ = sees ? field.ray_x[i] : 0.0f;
+      *out++ = sees ? field.ray_y[i] : 0.0f;
+      *out++ = sees ? field.ray_z[i] : 0.0f;
+    }
+  }
+  return buffer.address();
+}
+
+void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCamera& out) {
+  if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
+  rays_.Update(request.camera, request.X_WC.R);
+  const RayField& field = rays_.field();
+  out.width = static_cast<uint32_t>(field.width), out.height = static_cast<uint32_t>(field.height);
+  out.separable = field.separable ? 1 : 0;
+  out.column_shift = rays_.column_shift();
+  out.cone_angle = static_cast<float>(rays_.cone_angle());
+  PutVector(request.X_WC.p, out.origin);
+  for (int i = 0; i < 9; ++i) out.R[i] = static_cast<float>(field.R[i]);
+  PutProjection(request.camera, out);
+  if (field.separable) {
+    const int columns = Padded(field.width), rows = Padded(field.height);
+    out.stride = static_cast<uint32_t>(columns), out.stride_rows = static_cast<uint32_t>(rows);
+    // Sines and cosines from the turned tables: right . h = sin theta, forward . h = cos theta, down . v = -sin phi.
+    std::vector<double> sine(static_cast<size_t>(columns)), cosine(sine.size()), up(static_cast<size_t>(rows));
+    const double* R = field.R;
+    for (int x = 0; x < columns; ++x) {
+      const double hx = field.column_x[x], hy = field.column_y[x], hz = field.column_z[x];
+      sine[static_cast<size_t>(x)] = R[0] * hx + R[3] * hy + R[6] * hz;
+      cosine[static_cast<size_t>(x)] = R[2] * hx + R[5] * hy + R[8] * hz;
+    }
+    for (int y = 0; y < rows; ++y)
+      up[static_cast<size_t>(y)] = -(R[1] * field.row_x[y] + R[4] * field.row_y[y] + R[7] * field.row_z[y]);
+    PutPlanes({field.column_x, field.column_y, field.column_z, sine.data(), cosine.data()}, columns,
+              upload.Take(20 * static_cast<size_t>(columns), out.columns));
+    PutPlanes({field.row_scale, field.row_x, field.row_y, field.row_z, up.data()}, rows,
+              upload.Take(20 * static_cast<size_t>(rows), out.rows));
+  } else {
+    out.rays = Table(request.camera, field);
+  }
+  if (const int samples = EdgeSamples(request); samples > 1) FillOffsets(samples, upload, out);
+  if (request.products.flow) FillNext(request, out);
+}
+
+void GpuCameras::FillOffsets(int samples, UploadCursor& upload, GpuCamera& out) {
+  std::vector<PixelOffset> offsets;
+  MakeSampleOffsets(rays_, samples, offsets);
+  auto* to = reinterpret_cast<float*>(upload.Take(24 * offsets.size(), out.offsets));
+  for (const PixelOffset& o : offsets) {
+    for (const double x : {o.dx, o.dy, o.sin_theta, o.cos_theta, o.sin_phi, o.cos_phi}) *to++ = static_cast<float>(x);
+  }
+  out.samples = static_cast<uint32_t>(samples);
+}
+
+void GpuCameras::FillNext(const RenderRequest& request, GpuCamera& out) {
+  if (!request.X_WC_next) throw InputError("flow needs the pose of the next frame (X_WC_next)");
+  if (!IsFinite(*request.X_WC_next)) throw InputError("next camera pose is not finite");
+  next_rays_.Update(request.camera, request.X_WC_next->R);
+  const int width = rays_.field().width;
+  out.column_turn = ((rays_.column_shift() - next_rays_.column_shift()) % width + width) % width;
+  // Rays start from positions in single precision.
+  const Vec3d eye = VecCast<double>(VecCast<float>(request.X_WC_next->p));
+  PutVector(eye, out.next_origin);
+  PutVector(VecCast<double>(VecCast<float>(request.X_WC.p)) - eye, out.eye_offset);
+  Mat3d R;
+  for (int i = 0; i < 9; ++i) R.m[i / 3][i % 3] = next_rays_.field().R[i];
+  if (const auto* face = std::get_if<CubeFace>(&request.camera)) R = R * CubeFaceRotation(face->face);
+  PutMatrix(R, out.next_R);
+}
+
+}  // namespace airsim360::internal

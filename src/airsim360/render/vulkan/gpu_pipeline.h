@@ -1,0 +1,32 @@
+// A ray tracing pipeline: one ray generation shader with the hit shaders that all share.
+#pragma once
+
+#include <span>
+
+#include "airsim360/render/vulkan/gpu_memory.h"
+
+namespace airsim360::internal {
+
+class GpuPipeline {
+ public:
+  GpuPipeline(GpuDevice& device, std::span<const uint32_t> raygen);
+  ~GpuPipeline();
+  GpuPipeline(const GpuPipeline&) = delete;
+  GpuPipeline& operator=(const GpuPipeline&) = delete;
+
+  /// Records the tracing of width x height x depth invocations with the parameters at an address.
+  void Trace(VkCommandBuffer commands, VkDeviceAddress frame, uint32_t width, uint32_t height,
+             uint32_t depth) const;
+
+ private:
+  void MakePipeline(std::span<const uint32_t> raygen);
+  void MakeTable();
+
+  GpuDevice& device_;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  GpuBuffer table_;
+  VkStridedDeviceAddressRegionKHR raygen_{}, miss_{}, hit_{};
+};
+
+}  // namespace airsim360::internal

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "airsim360/base/error.h"
+#include "airsim360/render/filter/exposure.h"
+#include "airsim360/render/shading/shader.h"
+#include "airsim360/render/vulkan/gpu.h"
+#include "airsim360/render/vulkan/gpu_shade.h"
+#include "airsim360/render/vulkan/gpu_shaders.h"
+#include "airsim360/render/vulkan/gpu_slot.h"
+
+namespace airsim360 {
+
+std::string GpuCannot(Tier tier, const Environment& environment, const Products& products) {
+  const bool color = (products.rgb || products.radiance) && tier != Tier::kLabels;
+  if (color && tier != Tier::kFast) return std::string("tier '") + kTierNames[static_cast<int>(tier)] + "'";
+  if (color && (environment.wetness > 0 || environment.snow_depth > 0 || environment.rain_mm_h > 0 ||
+                environment.snowfall_mm_h > 0))
+    return "rain, snow and wet surfaces";
+  if (products.coverage) return "product 'coverage'";
+  return "";
+}
+
+namespace {
+
+using namespace internal;
+
+constexpr size_t kMaxMaterials = UINT16_MAX - 1;
+
+template <class Pixel>
+void Take(std::span<const Pixel> from, int width, int height, Image<Pixel>& to) {
+  if (from.empty()) {
+    to = {};
+    return;
+  }
+  if (to.width() != width || to.height() != height) to = Image<Pixel>(width, height);
+  std::copy(from.begin(), from.end(), to.pixels().begin());
+}
+
+// Pixels as the GPU left them.
+void CopyFrame(const GpuFrame& from, Frame& to) {
+  const int w = from.width, h = from.height;
+  Take(from.rgb, w, h, to.rgb);
+  Take(from.range, w, h, to.range);
+  Take(from.semantic, w, h, to.semantic);
+  Take(from.entity, w, h, to.entity);
+  Take(from.normal, w, h, to.normal);
+  Take(from.position, w, h, to.position);
+  Take(from.albedo, w, h, to.albedo);
+  Take(from.material, w, h, to.material);
+  Take(from.flow, w, h, to.flow);
+  Take(from.radiance, w, h, to.radiance);
+  to.coverage = {};
+}
+
+class VulkanRenderer : public GpuRenderer {
+ public:
+  VulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& what,
+                 const GpuOptions& options)
+      : tracer_(std::move(tracer)),
+        environment_(what.environment.value_or(tracer_->scene().environment)),
+        device_(options),
+        scene_(device_, std::shared_ptr<const Scene>(tracer_, &tracer_->scene())),
+        cameras_(device_),
+        labels_(device_, LabelsRaygen()) {
+    if (options.frames_in_flight < 1 || options.frames_in_flight > 16)
+      throw InputError("frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 … 16");
+    for (int i = 0; i < options.frames_in_flight; ++i)
+      slots_.push_back(std::make_unique<GpuSlot>(device_, scene_));
+    if (what.tier != Tier::kLabels) PrepareColor();
+  }
+
+  RenderStats Render(const RenderRequest& asked, Frame& frame) override {
+    const auto start = std::chrono::steady_clock::now();
+    RenderRequest request = asked;
+    if (request.auto_exposure && WantsColor(request)) request.exposure_ev += AutoEv(request);
+    const uint64_t ticket = Submit({&request, 1});
+    CopyFrame(Wait(ticket).front(), frame);
+    Release(ticket);
+    frame.exposure = WantsColor(request) ? Exposure(request) : 1;
+    RenderStats stats;
+    stats.rays = static_cast<uint64_t>(Width(request.camera)) * static_cast<uint64_t>(Height(request.camera));
+    stats.render_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return stats;
+  }
+
+  uint64_t Submit(std::span<const RenderRequest> requests) override {
+    Check(requests);
+    const auto free = std::ranges::find(slots_, 0u, [](const auto& slot) { return slot->ticket; });
+    if (free == slots_.end())
+      throw RuntimeError("GPU: all " + std::to_string(slots_.size()) + " frames in flight are taken; release one");
+    const bool idle = std::ranges::all_of(slots_, [](const auto& slot) { return slot->ticket == 0; });
+    if (idle) cameras_.Trim();
+    const bool shaded = std::ranges::any_of(
+        requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
+    if (shaded) {
+      PrepareColor();
+      const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return EdgeSamples(r) > 1; });
+      if (antialias && !edges_) edges_ = std::make_unique<GpuPipeline>(device_, EdgesRaygen());
+      (*free)->Submit(requests, cameras_,
+                      {color_.get(), edges_.get(), shade_->address(requests.front().tone), shader_->Exposure()});
+    } else {
+      (*free)->Submit(requests, cameras_, {&labels_});
+    }
+    return (*free)->ticket = ++last_ticket_;
+  }
+
+  std::vector<GpuFrame> Wait(uint64_t ticket) override {
+    GpuSlot& slot = SlotOf(ticket);
+    slot.Wait();
+    gpu_ms_ = slot.gpu_ms();
+    return slot.Frames();
+  }
+
+  void Release(uint64_t ticket) override {
+    GpuSlot& slot = SlotOf(ticket);
+    slot.Wait();
+    slot.ticket = 0;
+  }
+
+  const GpuInfo& gpu() const override { return device_.info(); }
+  double gpu_ms() const override { return gpu_ms_; }
+  std::vector<std::string> messages() const override { return device_.messages(); }
+
+ private:
+  // Stops to add so that the picture is exposed by its own histogram: it is rendered once for that alone.
+  double AutoEv(RenderRequest request) {
+    request.products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true};
+    Image<Rgb32f> radiance;
+    const uint64_t ticket = Submit({&request, 1});
+    const GpuFrame frame = Wait(ticket).front();
+    Take(frame.radiance, frame.width, frame.height, radiance);
+    Release(ticket);
+    return AutoExposureEv(radiance, request.camera, shader_->Exposure());
+  }
+  static bool WantsColor(const RenderRequest& r) {
+    return r.tier != Tier::kLabels && (r.products.rgb || r.products.radiance);
+  }
+  float Exposure(const RenderRequest& r) const {
+    return shader_->Exposure() * static_cast<float>(std::exp2(r.exposure_ev));
+  }
+  // The CPU's shader bakes sky, probes and lamps; its tables go to the GPU.
+  void PrepareColor() {
+    if (color_) return;
+    if (!shader_) shader_ = std::make_unique<Shader>(tracer_, environment_);
+    if (!shade_) shade_ = std::make_unique<GpuShadeTables>(device_, *shader_, tracer_->scene());
+    color_ = std::make_unique<GpuPipeline>(device_, ColorRaygen());
+  }
+  GpuSlot& SlotOf(uint64_t ticket) {
+    for (const auto& slot : slots_) {
+      if (ticket != 0 && slot->ticket == ticket) return *slot;
+    }
+    throw InputError("GPU: no submission " + std::to_string(ticket));
+  }
+
+  void Check(std::span<const RenderRequest> requests) const {
+    if (requests.empty()) throw InputError("GPU: a submission without cameras");
+    const RenderRequest& first = requests.front();
+    const Scene& scene = tracer_->scene();
+    for (const RenderRequest& r : requests) {
+      if (const std::string what = GpuCannot(r.tier, environment_, r.products); !what.empty())
+        throw RuntimeError("device 'vulkan' cannot draw " + what + " yet; use --device cpu");
+      if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)
+        throw InputError("GPU: the cameras of a submission must share state, tier and tone curve");
+      if (r.products.material && scene.materials.size() > kMaxMaterials)
+        throw InputError("material ids have 16 bits, the scene has " + std::to_string(scene.materials.size()) +
+                         " materials");
+    }
+    if (first.state) CheckState(scene, *first.state);
+    if (first.next_state) CheckState(scene, *first.next_state);
+  }
+
+  std::shared_ptr<const RayTracer> tracer_;
+  Environment environment_;
+  GpuDevice device_;
+  GpuScene scene_;
+  GpuCameras cameras_;
+  GpuPipeline labels_;
+  std::unique_ptr<Shader> shader_;  // this and the next two: made when colour is first wanted
+  std::unique_ptr<GpuShadeTables> shade_;
+  std::unique_ptr<GpuPipeline> color_, edges_;
+  std::vector<std::unique_ptr<GpuSlot>> slots_;
+  uint64_t last_ticket_ = 0;
+  double gpu_ms_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<GpuRenderer> MakeVulkanRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
+                                                const GpuOptions& gpu) {
+  return std::make_unique<VulkanRenderer>(std::move(tracer), options, gpu);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,243 @@
+#include "airsim360/render/vulkan/gpu_slot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr size_t kNowhere = SIZE_MAX;
+constexpr uint64_t kPatienceNs = uint64_t{300} * 1'000'000'000;
+
+// The products in the order of Place::offset.
+enum Product { kRange, kEntity, kSemantic, kNormal, kPosition, kMaterial, kFlowProduct, kAlbedo, kRadiance, kRgb };
+constexpr size_t kPixelBytes[10] = {4, 4, 2, 12, 12, 2, 28, 12, 12, 3};
+constexpr uint32_t kWant[10] = {kWantRange,    kWantEntity, kWantSemantic, kWantNormal,   kWantPosition,
+                                kWantMaterial, kWantFlow,   kWantAlbedo,   kWantRadiance, kWantRgb};
+
+std::array<bool, 10> Wanted(const RenderRequest& request) {
+  const Products& p = request.products;
+  const bool color = request.tier != Tier::kLabels;
+  return {p.range, p.entity, p.semantic, p.normal,          p.position,
+          p.material, p.flow, p.albedo,  color && p.radiance, color && p.rgb};
+}
+
+template <class T>
+std::span<const T> SpanAt(const std::byte* base, size_t offset, size_t count) {
+  if (offset == kNowhere) return {};
+  return {reinterpret_cast<const T*>(base + offset), count};
+}
+
+}  // namespace
+
+GpuSlot::GpuSlot(GpuDevice& device, const GpuScene& scene) : device_(device), scene_(scene), now_(device, scene) {
+  const VkDevice d = device.device();
+  const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
+                                     device.queue_family()};
+  CheckVk(vkCreateCommandPool(d, &pool, nullptr, &pool_), "making a command pool");
+  const VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                             VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  CheckVk(vkAllocateCommandBuffers(d, &commands, &commands_), "making commands");
+  const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+  CheckVk(vkCreateFence(d, &fence, nullptr, &fence_), "making a fence");
+  if (device.timestamp_period_ns() > 0) {
+    VkQueryPoolCreateInfo clock{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, nullptr};
+    clock.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    clock.queryCount = 2;
+    CheckVk(vkCreateQueryPool(d, &clock, nullptr, &clock_), "making a clock");
+  }
+}
+
+GpuSlot::~GpuSlot() {
+  if (!waited_) vkWaitForFences(device_.device(), 1, &fence_, VK_TRUE, kPatienceNs);
+  if (clock_ != VK_NULL_HANDLE) vkDestroyQueryPool(device_.device(), clock_, nullptr);
+  vkDestroyFence(device_.device(), fence_, nullptr);
+  vkDestroyCommandPool(device_.device(), pool_, nullptr);
+}
+
+// Where the pictures go, one after another.
+void GpuSlot::Arrange(std::span<const RenderRequest> requests) {
+  places_.clear();
+  bytes_ = 0, width_ = height_ = 0;
+  for (const RenderRequest& request : requests) {
+    Place place{};
+    place.width = Width(request.camera), place.height = Height(request.camera);
+    if (place.width <= 0 || place.height <= 0)
+      throw InputError("camera of " + std::to_string(place.width) + "x" + std::to_string(place.height) +
+                       " pixels");
+    const size_t pixels = static_cast<size_t>(place.width) * static_cast<size_t>(place.height);
+    const auto wanted = Wanted(request);
+    for (size_t k = 0; k < 10; ++k) {
+      place.offset[k] = wanted[k] ? bytes_ : kNowhere;
+      if (wanted[k]) bytes_ += (pixels * kPixelBytes[k] + 63) / 64 * 64;
+    }
+    width_ = std::max(width_, static_cast<uint32_t>(place.width));
+    height_ = std::max(height_, static_cast<uint32_t>(place.height));
+    places_.push_back(place);
+  }
+  // What edges are found by, for the GPU alone.
+  size_t all_bytes = bytes_;
+  antialiases_ = false;
+  for (size_t i = 0; i < requests.size(); ++i) {
+    Place& place = places_[i];
+    place.entity = place.offset[kEntity], place.centers = kNowhere;
+    if (EdgeSamples(requests[i]) < 2) continue;
+    antialiases_ = true;
+    const size_t bytes = (4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height) + 63) / 64 * 64;
+    place.centers = all_bytes, all_bytes += bytes;
+    if (place.entity == kNowhere) place.entity = all_bytes, all_bytes += bytes;
+  }
+  const uint64_t invocations = uint64_t{width_} * height_ * requests.size();
+  if (invocations > device_.pipeline_limits().maxRayDispatchInvocationCount)
+    throw RuntimeError("GPU: " + std::to_string(invocations) + " rays at once are more than " +
+                       device_.info().name + " takes (" +
+                       std::to_string(device_.pipeline_limits().maxRayDispatchInvocationCount) +
+                       "): render a smaller picture or fewer cameras");
+
+  // Software renders straight to memory that the CPU reads.
+  const size_t size = std::max<size_t>(bytes_, 64);
+  const size_t all = std::max<size_t>(all_bytes, 64);
+  const bool software = device_.info().software;
+  if (read_back_.size() < (software ? all : size)) read_back_ = GpuBuffer(device_, software ? all : size, MemoryKind::kReadBack);
+  if (!software && pictures_.size() < all) pictures_ = GpuBuffer(device_, all, MemoryKind::kDevice);
+}
+
+void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work) {
+  size_t size = sizeof(GpuFrameParams) + requests.size() * sizeof(GpuCamera) + 256;
+  for (const RenderRequest& request : requests) size += GpuCameras::Size(request);
+  if (upload_.size() < size) upload_ = GpuBuffer(device_, size, MemoryKind::kUpload);
+  UploadCursor cursor{upload_.mapped(), upload_.address(), 0, upload_.size()};
+  auto* params = reinterpret_cast<GpuFrameParams*>(cursor.Take(sizeof(GpuFrameParams), parameters_));
+  *params = {};
+  auto* list = reinterpret_cast<GpuCamera*>(cursor.Take(requests.size() * sizeof(GpuCamera), params->cameras));
+  const VkDeviceAddress base = (device_.info().software ? read_back_ : pictures_).address();
+  for (size_t i = 0; i < requests.size(); ++i) {
+    GpuCamera camera{};
+    cameras.Fill(requests[i], cursor, camera);
+    uint64_t* const to[10] = {&camera.range,    &camera.entity, &camera.semantic, &camera.normal,   &camera.position,
+                              &camera.material, &camera.flow,   &camera.albedo,   &camera.radiance, &camera.rgb};
+    for (size_t k = 0; k < 10; ++k) {
+      if (places_[i].offset[k] == kNowhere) continue;
+      *to[k] = base + places_[i].offset[k];
+      camera.wanted |= kWant[k];
+    }
+    if (places_[i].centers != kNowhere) {
+      camera.centers = base + places_[i].centers;
+      camera.entity = base + places_[i].entity;
+      camera.wanted |= kWantEntity;
+    } else {
+      camera.samples = 0;
+    }
+    camera.exposure = work.exposure * static_cast<float>(std::exp2(requests[i].exposure_ev));
+    list[i] = camera;
+  }
+  params->meshes = scene_.meshes();
+  params->instances = now_.instances();
+  params->next_instances = flows_ ? next_->instances() : now_.instances();
+  params->category_of = scene_.categories();
+  params->alphas = scene_.alphas();
+  params->shade = work.shade;
+  const auto split = [](VkDeviceAddress a) { return uvec2{static_cast<uint32_t>(a), static_cast<uint32_t>(a >> 32)}; };
+  params->tlas = split(now_.tlas());
+  params->next_tlas = split(flows_ ? next_->tlas() : now_.tlas());
+  params->sky_entity = scene_.scene().sky_entity;
+}
+
+void GpuSlot::Record(const Work& work) {
+  CheckVk(vkResetCommandPool(device_.device(), pool_, 0), "recording");
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  CheckVk(vkBeginCommandBuffer(commands_, &begin), "recording");
+  now_.Record(commands_);
+  if (flows_) next_->Record(commands_);
+  if (clock_ != VK_NULL_HANDLE) {
+    vkCmdResetQueryPool(commands_, clock_, 0, 2);
+    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, clock_, 0);
+  }
+  const auto cameras = static_cast<uint32_t>(places_.size());
+  constexpr VkPipelineStageFlags kTracing = VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR;
+  work.pixels->Trace(commands_, parameters_, width_, height_, cameras);
+  if (antialiases_ && work.edges != nullptr) {
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
+                                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    vkCmdPipelineBarrier(commands_, kTracing, kTracing, 0, 1, &memory, 0, nullptr, 0, nullptr);
+    work.edges->Trace(commands_, parameters_, width_, height_, cameras);
+  }
+  if (clock_ != VK_NULL_HANDLE) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_, 1);
+
+  // To memory that the CPU reads.
+  const auto barrier = [&](VkPipelineStageFlags from, VkAccessFlags wrote, VkPipelineStageFlags to,
+                           VkAccessFlags reads) {
+    const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, wrote, reads};
+    vkCmdPipelineBarrier(commands_, from, to, 0, 1, &memory, 0, nullptr, 0, nullptr);
+  };
+  VkPipelineStageFlags last = kTracing;
+  VkAccessFlags wrote = VK_ACCESS_SHADER_WRITE_BIT;
+  if (!device_.info().software && bytes_ > 0) {
+    barrier(last, wrote, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    const VkBufferCopy copy{0, 0, bytes_};
+    vkCmdCopyBuffer(commands_, pictures_.handle(), read_back_.handle(), 1, &copy);
+    last = VK_PIPELINE_STAGE_TRANSFER_BIT, wrote = VK_ACCESS_TRANSFER_WRITE_BIT;
+  }
+  barrier(last, wrote, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+  CheckVk(vkEndCommandBuffer(commands_), "recording");
+}
+
+void GpuSlot::Submit(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work) {
+  const RenderRequest& first = requests.front();
+  flows_ = std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.flow; });
+  Arrange(requests);
+  if (flows_ && !next_) next_ = std::make_unique<GpuInstant>(device_, scene_);
+  FillParameters(requests, cameras, work);
+  now_.Set(first.state);
+  if (flows_) next_->Set(first.next_state ? first.next_state : first.state);
+  Record(work);
+  VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr};
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands_;
+  CheckVk(vkResetFences(device_.device(), 1, &fence_), "starting work");
+  CheckVk(vkQueueSubmit(device_.queue(), 1, &submit, fence_), "starting work");
+  waited_ = false;
+}
+
+void GpuSlot::Wait() {
+  if (waited_) return;
+  const VkResult result = vkWaitForFences(device_.device(), 1, &fence_, VK_TRUE, kPatienceNs);
+  if (result == VK_TIMEOUT) throw RuntimeError("GPU: no answer in five minutes");
+  CheckVk(result, "rendering");
+  waited_ = true;
+  read_back_.Invalidate();
+  if (clock_ == VK_NULL_HANDLE) return;
+  uint64_t stamps[2] = {};
+  CheckVk(vkGetQueryPoolResults(device_.device(), clock_, 0, 2, sizeof(stamps), stamps, sizeof(uint64_t),
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "reading the clock");
+  gpu_ms_ = static_cast<double>(stamps[1] - stamps[0]) * static_cast<double>(device_.timestamp_period_ns()) * 1e-6;
+}
+
+std::vector<GpuFrame> GpuSlot::Frames() const {
+  std::vector<GpuFrame> frames;
+  const std::byte* base = read_back_.mapped();
+  for (const Place& p : places_) {
+    const size_t n = static_cast<size_t>(p.width) * static_cast<size_t>(p.height);
+    GpuFrame f;
+    f.width = p.width, f.height = p.height;
+    f.rgb = SpanAt<Rgb8>(base, p.offset[kRgb], n);
+    f.range = SpanAt<float>(base, p.offset[kRange], n);
+    f.semantic = SpanAt<CategoryId>(base, p.offset[kSemantic], n);
+    f.entity = SpanAt<EntityId>(base, p.offset[kEntity], n);
+    f.normal = SpanAt<Vec3f>(base, p.offset[kNormal], n);
+    f.position = SpanAt<Vec3f>(base, p.offset[kPosition], n);
+    f.albedo = SpanAt<Rgb32f>(base, p.offset[kAlbedo], n);
+    f.radiance = SpanAt<Rgb32f>(base, p.offset[kRadiance], n);
+    f.material = SpanAt<uint16_t>(base, p.offset[kMaterial], n);
+    f.flow = SpanAt<FlowPixel>(base, p.offset[kFlowProduct], n);
+    frames.push_back(f);
+  }
+  return frames;
+}
+
+}  // namespace airsim360::internal

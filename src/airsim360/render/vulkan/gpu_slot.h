@@ -1,0 +1,65 @@
+// One of the frames in flight: its commands, parameters, pictures and the instants it shows.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "airsim360/render/vulkan/gpu_cameras.h"
+#include "airsim360/render/vulkan/gpu_instant.h"
+#include "airsim360/render/vulkan/gpu_pipeline.h"
+
+namespace airsim360::internal {
+
+class GpuSlot {
+ public:
+  GpuSlot(GpuDevice& device, const GpuScene& scene);
+  ~GpuSlot();
+  GpuSlot(const GpuSlot&) = delete;
+  GpuSlot& operator=(const GpuSlot&) = delete;
+
+  uint64_t ticket = 0;  ///< of the submission in this slot; 0 = free
+
+  /// What a submission runs.
+  struct Work {
+    const GpuPipeline* pixels;             ///< once for each pixel
+    const GpuPipeline* edges = nullptr;    ///< then this, where a request wants antialiasing
+    VkDeviceAddress shade = 0;             ///< GpuShade of colour tiers
+    float exposure = 1;
+  };
+  /// Starts `work` on all requests. The slot must be free.
+  void Submit(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work);
+  /// Waits for the GPU. RuntimeError if it was lost.
+  void Wait();
+  std::vector<GpuFrame> Frames() const;
+  /// Time of the last tracing, by the clock of the GPU; after Wait.
+  double gpu_ms() const { return gpu_ms_; }
+
+ private:
+  struct Place {
+    size_t offset[10];  // of each product in the pictures; kNowhere = not wanted
+    int width, height;
+    size_t entity, centers;  // where edges are to be found: behind all pictures
+  };
+  void Arrange(std::span<const RenderRequest> requests);
+  void FillParameters(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work);
+  void Record(const Work& work);
+
+  GpuDevice& device_;
+  const GpuScene& scene_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  VkQueryPool clock_ = VK_NULL_HANDLE;
+  GpuInstant now_;
+  std::unique_ptr<GpuInstant> next_;  // made when flow first needs it
+  bool flows_ = false, antialiases_ = false, waited_ = true;
+  GpuBuffer upload_, pictures_, read_back_;  // pictures_ is empty where the GPU writes to read_back_ itself
+  std::vector<Place> places_;
+  size_t bytes_ = 0;  // of all pictures
+  uint32_t width_ = 0, height_ = 0;
+  uint64_t parameters_ = 0;
+  double gpu_ms_ = 0;
+};
+
+}  // namespace airsim360::internal

@@ -1,0 +1,59 @@
+// Rays of cameras, and labels of what they meet.
+
+const uint kWantRange = 1, kWantEntity = 2, kWantSemantic = 4, kWantNormal = 8, kWantPosition = 16,
+           kWantMaterial = 32, kWantFlow = 64, kWantAlbedo = 128, kWantRadiance = 256, kWantRgb = 512;
+
+layout(location = 0) rayPayloadEXT Hit hit;
+
+/// Direction in W through the centre of a canonical pixel; false = the camera has no ray there.
+bool PixelRay(GpuCamera camera, uvec2 pixel, out vec3 direction) {
+  if (camera.separable != 0) {
+    const uint s = camera.stride, r = camera.stride_rows;
+    const float scale = camera.rows.v[pixel.y];
+    const vec3 row = vec3(camera.rows.v[r + pixel.y], camera.rows.v[2 * r + pixel.y], camera.rows.v[3 * r + pixel.y]);
+    const vec3 column = vec3(camera.columns.v[pixel.x], camera.columns.v[s + pixel.x], camera.columns.v[2 * s + pixel.x]);
+    direction = scale * column + row;
+    return true;
+  }
+  const vec3 ray = Load3(camera.rays, pixel.y * camera.width + pixel.x);
+  direction = Turn(camera.R, ray);
+  return ray != vec3(0.0);
+}
+
+/// Index in the image of a canonical pixel.
+uint ImageIndex(GpuCamera camera, uvec2 pixel) {
+  int x = int(pixel.x) - camera.column_shift;
+  if (x < 0) x += int(camera.width);
+  return pixel.y * camera.width + uint(x);
+}
+
+void Trace(uvec2 tlas, vec3 origin, vec3 direction, float t_min, float t_max) {
+  hit.instance = kMiss;
+  traceRayEXT(accelerationStructureEXT(tlas), gl_RayFlagsNoneEXT, 0xff, 0, 1, 0, origin, t_min, direction, t_max, 0);
+}
+
+struct Surface {
+  uint mesh, primitive, triangle, entity;
+  vec3 normal;  // unit, in W, towards the origin of the ray
+};
+
+Surface Resolve(Hit h, vec3 direction) {
+  Surface s;
+  GpuInstance instance = push.frame.v.instances.v[h.instance];
+  GpuMesh mesh = push.frame.v.meshes.v[instance.mesh];
+  s.mesh = instance.mesh;
+  s.primitive = h.primitive;
+  s.triangle = (mesh.flags & kSorted) != 0 ? mesh.triangle_of.v[h.primitive] : h.primitive;
+  const uint own = (mesh.flags & kHasEntities) != 0 ? mesh.entity_of.v[s.triangle] : 0;
+  s.entity = own != 0 ? own : instance.entity;
+
+  // The cofactor matrix of A takes normals to W; up to a sign that does not matter here.
+  const uvec3 c = Corners(mesh, h.primitive);
+  const vec3 p0 = Load3(instance.positions, c.x);
+  const vec3 e1 = Load3(instance.positions, c.y) - p0, e2 = Load3(instance.positions, c.z) - p0;
+  const vec3 n = cross(Turn(instance.A, e1), Turn(instance.A, e2));
+  const float length2 = dot(n, n);
+  s.normal = length2 > 0.0 ? n * inversesqrt(length2) : vec3(0.0);
+  if (dot(s.normal, direction) > 0.0) s.normal = -s.normal;
+  return s;
+}

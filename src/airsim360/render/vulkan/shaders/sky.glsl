@@ -1,0 +1,155 @@
+// Light from tables: sky, probes, air, shadows of clouds (render/shading/shading_ambient.h, shading_air_view.h).
+
+vec3 SampleSky(GpuSky table, vec3 d, bool full_sphere) {
+  float column = atan2_approx(d.y, d.x) * (table.width / (2.0 * SHADE_PI)) - 0.5;
+  column = column < 0.0 ? column + table.width : column;
+  float e = asin_approx(min(max(d.z, -1.0), 1.0)) * (2.0 / SHADE_PI);
+  float t = 0.5 + 0.5 * e;
+  if (!full_sphere) {
+    e = max(e, 0.0);
+    t = (sqrt(0.36 + 1.6 * e) - 0.6) * 1.25;
+  }
+  const float row = clamp01(t) * (table.height - 1.0);
+  const float x = min(table.width - 1.0, max(0.0, floor(column)));
+  const float y = min(table.height - 2.0, max(0.0, floor(row)));
+  const uint i = uint(int(y) * table.stride + int(x)) * 4, below = uint(table.stride) * 4;
+  const float fx = column - x, fy = row - y;
+  Floats f = table.texels;
+  const vec3 a = vec3(f.v[i], f.v[i + 1], f.v[i + 2]), b = vec3(f.v[i + 4], f.v[i + 5], f.v[i + 6]);
+  const uint j = i + below;
+  const vec3 c = vec3(f.v[j], f.v[j + 1], f.v[j + 2]), e2 = vec3(f.v[j + 4], f.v[j + 5], f.v[j + 6]);
+  return lerp3(lerp3(a, b, fx), lerp3(c, e2, fx), fy);
+}
+
+float CloudShadow(vec3 p) {
+  if (view.has_clouds == 0) return 1.0;
+  const float size = float(view.cloud_size), above = p.z - view.cloud_plane_z;
+  const float x = shadow_column(p.x, above, view.cloud_slant[0], view.cloud_origin[0], view.cloud_cells_per_metre, size);
+  const float y = shadow_column(p.y, above, view.cloud_slant[1], view.cloud_origin[1], view.cloud_cells_per_metre, size);
+  const float x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
+  const int i = int(y0) * view.cloud_size + int(x0);
+  Floats q = view.cloud_texels;
+  const float low = q.v[i] + (q.v[i + 1] - q.v[i]) * fx;
+  const int j = i + view.cloud_size;
+  const float high = q.v[j] + (q.v[j + 1] - q.v[j]) * fx;
+  return low + (high - low) * fy;
+}
+
+vec3 BlurredSky(vec3 d, float roughness) {
+  const vec3 up = SampleSky(view.sky, d, false);
+  const vec3 sharp = d.z > 0.0 ? up : lerp3(up, Vec(view.ground), clamp01(d.z * -12.0));
+  if (!(roughness > 0.05)) return sharp;
+  const vec3 low = lerp3(sharp, SampleSky(view.blurred[0], d, true), clamp01((roughness - 0.05) * 4.0));
+  const vec3 high = lerp3(low, SampleSky(view.blurred[1], d, true), clamp01((roughness - 0.30) * 4.0));
+  return lerp3(high, SampleSky(view.blurred[2], d, true), clamp01((roughness - 0.55) * (1.0 / 0.30)));
+}
+
+/// Irradiance on the front, on the back, and about the reflected direction.
+struct Ambient {
+  vec3 front, back, reflected;
+};
+
+vec3 Coefficient(int k) {
+  return vec3(view.sky_irradiance[3 * k], view.sky_irradiance[3 * k + 1], view.sky_irradiance[3 * k + 2]);
+}
+vec3 UniformFrom(vec3 a) {
+  const vec3 e = sh9_irradiance(Coefficient(0), Coefficient(1), Coefficient(2), Coefficient(3), Coefficient(4),
+                                Coefficient(5), Coefficient(6), Coefficient(7), Coefficient(8), a);
+  const float has_sky = view.has_sky != 0 ? 1.0 : 0.0;
+  return max(e + Vec(view.ground) * ((0.5 - 0.5 * a.z) * SHADE_PI * has_sky) + Vec(view.mean_ambient) * SHADE_PI,
+             vec3(0.0));
+}
+
+Ambient SampleProbes(vec3 p, vec3 g, vec3 n, vec3 r) {
+  Ambient out_light;
+  if (view.has_probes == 0) {
+    out_light.front = UniformFrom(n), out_light.back = UniformFrom(-n), out_light.reflected = UniformFrom(r);
+    return out_light;
+  }
+  const float cells = view.probe_cells_per_metre;
+  const vec3 q = p + g * (0.45 / cells);
+  const float x = min(view.probe_max[0] + 0.9999, max(0.0, (q.x - view.probe_origin[0]) * cells));
+  const float y = min(view.probe_max[1] + 0.9999, max(0.0, (q.y - view.probe_origin[1]) * cells));
+  const float h = min(view.height_last, max(0.0, (q.z - view.height_origin) * view.height_scale));
+  const float z = view.layer_of_height.v[int(floor(h + 0.5))];
+  const float x0 = min(floor(x), view.probe_max[0]), y0 = min(floor(y), view.probe_max[1]),
+              z0 = min(floor(z), view.probe_max[2]);
+  const vec3 f = vec3(x - x0, y - y0, z - z0);
+  const uint base = uint(int(z0) * view.probe_stride_z + int(y0) * view.probe_stride_y + int(x0)) * 16;
+  float t[16];
+  for (int j = 0; j < 16; ++j) t[j] = 0.0;
+  for (int k = 0; k < 8; ++k) {
+    const float w = ((k & 1) != 0 ? f.x : 1.0 - f.x) * ((k & 2) != 0 ? f.y : 1.0 - f.y) * ((k & 4) != 0 ? f.z : 1.0 - f.z);
+    const uint at = base + ((k & 1) != 0 ? 16u : 0u) + ((k & 2) != 0 ? uint(view.probe_stride_y) * 16u : 0u) +
+                    ((k & 4) != 0 ? uint(view.probe_stride_z) * 16u : 0u);
+    for (int j = 0; j < 16; ++j) t[j] += view.probes.v[at + j] * w;
+  }
+  const float scale = 1.0 / t[3];
+  const vec3 even0 = vec3(t[0], t[1], t[2]) * scale, square = vec3(t[7], t[11], t[15]) * scale;
+  const vec3 tx = vec3(t[4], t[5], t[6]) * scale, ty = vec3(t[8], t[9], t[10]) * scale,
+             tz = vec3(t[12], t[13], t[14]) * scale;
+  const vec3 even = even0 + square * (n.z * n.z), bent = tx * n.x + ty * n.y + tz * n.z;
+  out_light.front = max(even + bent, vec3(0.0));
+  out_light.back = max(even - bent, vec3(0.0));
+  out_light.reflected = max(even0 + tx * r.x + ty * r.y + tz * r.z + square * (r.z * r.z), vec3(0.0));
+  return out_light;
+}
+
+struct AirEffect {
+  vec3 kept, added;
+};
+AirEffect EffectOf(vec3 depth, vec3 source) {
+  AirEffect a;
+  a.kept = vec3(exp_approx(-depth.x), exp_approx(-depth.y), exp_approx(-depth.z));
+  a.added = source * (vec3(1.0) - a.kept);
+  return a;
+}
+vec3 WeatherSource(float mu) { return Vec(view.weather_glow) * forward_phase(0.80, mu) + Vec(view.weather_light); }
+vec3 Horizon(int k) { return vec3(view.horizon[3 * k], view.horizon[3 * k + 1], view.horizon[3 * k + 2]); }
+
+AirEffect AirToSurface(float z, vec3 d, float distance_) {
+  const float height = z - view.base_z;
+  vec3 depth = Vec(view.rayleigh) * layer_path(height, d.z, distance_, view.rayleigh_height) +
+               Vec(view.aerosol) * layer_path(height, d.z, distance_, view.aerosol_height);
+  const float mu = dot(d, Vec(view.air_to_sun));
+  const vec3 glow = Vec(view.glow) * forward_phase(0.76, mu);
+  vec3 source = around_horizon(Horizon(0), Horizon(1), Horizon(2), Horizon(3), Horizon(4), Horizon(5), Horizon(6), d) *
+                (glow + 1.0);
+  if (view.weather > 0.0) {
+    const float fog = view.weather * layer_path(height, d.z, distance_, view.weather_height);
+    source = lerp3(source, WeatherSource(mu), fog / max(fog + depth.y, 1e-9));
+    depth += fog;
+  }
+  return EffectOf(depth, source);
+}
+AirEffect AirToSky(float z, vec3 d, float distance_) {
+  const float fog = view.weather * layer_path(z - view.base_z, d.z, distance_, view.weather_height);
+  return EffectOf(vec3(fog), WeatherSource(dot(d, Vec(view.air_to_sun))));
+}
+
+/// What a ray that met nothing sees.
+vec3 LookUpSky(float z, vec3 d, bool sun_disc) {
+  if (view.has_sky == 0) return vec3(0.0);
+  vec3 c = vec3(0.0);
+  const vec3 up = vec3(d.xy, abs(d.z));
+  if (d.z < 0.0) {
+    if (view.has_below != 0) {
+      c = SampleSky(view.below, up, false);
+    } else {
+      const AirEffect air = AirToSurface(z, d, max(z - view.ground_z, 2.0) / max(-d.z, 1e-4));
+      c = Vec(view.ground) * air.kept + air.added;
+    }
+  } else {
+    c = SampleSky(view.sky, d, false);
+    if (view.weather > 0.0) {
+      const AirEffect air = AirToSky(z, up, 2e5);
+      c = c * air.kept + air.added;
+    }
+  }
+  if (sun_disc) {
+    const vec3 off = d - Vec(view.to_sun);
+    const float x2 = dot(off, off) * (1.0 / (0.004625 * 0.004625));
+    if (x2 < 1.0) c += Vec(view.sun_radiance) * ((0.4 + 0.6 * sqrt(max(1.0 - x2, 0.0))) * 1.25);
+  }
+  return c;
+}

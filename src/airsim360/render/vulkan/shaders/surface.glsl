@@ -1,0 +1,313 @@
+// From a hit to a surface: render/shading/surface_kernel.cc and surface_detail.h for one lane.
+
+struct Ray {
+  vec3 origin, direction;
+  float distance_, width;
+  vec2 bary;
+  uint instance, primitive, key;
+};
+
+struct Shaded {
+  vec3 p, n, g;
+  vec3 color, emission;
+  float metallic, roughness, transmission, coat, coat_roughness, kind;
+  vec3 r;       // reflected direction
+  bool mirror;  // reflects sharply enough for a traced ray
+  vec3 l;       // towards the sun
+  float sunlit; // 1 if the sun can matter; then the share of it that is seen
+  float contact;
+  bool traced, clear;
+  vec3 reflected, behind;
+  vec3 lamp_front, lamp_back, lamp_shine;  // of lamps: irradiance, and what the skin reflects
+};
+
+vec3 Row3(float m[9], vec3 a) { return normalize3(Turn(m, a)); }
+
+struct TileCorners {
+  float u[3], v[3], weight[3], gain;
+};
+
+TileCorners ChooseCorners(GpuMaterial m, float u, float v, float footprint) {
+  TileCorners c;
+  for (int k = 0; k < 3; ++k) c.u[k] = u, c.v[k] = v, c.weight[k] = k == 0 ? 1.0 : 0.0;
+  c.gain = 1.0;
+  if (!(m.blend > 0.5)) return c;
+  const float cell = 1.0 / 0.75;
+  const float q = (u - 0.57735027 * v) * cell, r = 1.15470054 * v * cell;
+  const float q0 = floor(q), r0 = floor(r), a = q - q0, b = r - r0;
+  const bool lower = a + b < 1.0;
+  float w[3] = float[3](lower ? 1.0 - a - b : a + b - 1.0, lower ? a : 1.0 - b, lower ? b : 1.0 - a);
+  const float far = lower ? 0.0 : 1.0;
+  const float cq[3] = float[3](q0 + far, q0 + 1.0, q0), cr[3] = float[3](r0 + far, r0, r0 + 1.0);
+  const bool coarse = footprint > -2.0;
+  const float best = max(w[0], max(w[1], w[2]));
+  float sum = 0.0, squares = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const float s = w[k] / best, s2 = s * s, s4 = s2 * s2;
+    w[k] = coarse && s < 1.0 ? 0.0 : (s4 < 0.02 ? 0.0 : s4);
+    sum += w[k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    w[k] = w[k] / sum;
+    squares += w[k] * w[k];
+    const float h = hash_cell(cq[k], cr[k]);
+    c.u[k] = u + h;
+    c.v[k] = v + hash_again(h, 97.3);
+    c.weight[k] = w[k];
+  }
+  c.gain = 1.0 / sqrt(squares);
+  return c;
+}
+
+vec3 SampleTiles(GpuMaterial m, uint id, TileCorners c, float footprint, bool trilinear, vec3 mean, float gain) {
+  const vec3 first = SampleTexture(id, c.u[0], c.v[0], footprint, trilinear);
+  if (!(m.blend > 0.5)) return first;
+  vec3 sum = (first - mean) * c.weight[0];
+  for (int k = 1; k < 3; ++k) {
+    if (c.weight[k] > 0.0) sum += (SampleTexture(id, c.u[k], c.v[k], footprint, trilinear) - mean) * c.weight[k];
+  }
+  const vec3 mixed = mean + sum * gain;
+  return vec3(clamp01(mixed.x), clamp01(mixed.y), clamp01(mixed.z));
+}
+
+struct Noises {
+  vec3 wide, mid, fine;
+  float detail;
+};
+Noises LookUpNoises(bool wants_fine, vec3 p, vec3 n, float width) {
+  const float px = p.x + 0.41 * p.z * n.x, py = p.y + 0.37 * p.z;
+  Noises o;
+  o.wide = SampleNoise(px * (1.0 / 311.0), py * (1.0 / 311.0));
+  const float bend_x = (o.wide.y - 0.5) * 0.9, bend_y = (o.wide.z - 0.5) * 0.9;
+  o.mid = SampleNoise(px * (1.0 / 47.0) + 0.37 + bend_x, py * (1.0 / 47.0) + bend_y);
+  o.detail = min(1.0, 0.5 / max(width, 1e-3));
+  o.fine = vec3(0.5);
+  if (wants_fine && width < 5.0) {
+    const float qx = (px * 0.83 + py * 0.56) * (1.0 / 11.3), qy = (py * 0.83 - px * 0.56) * (1.0 / 11.3);
+    o.fine = SampleNoise(qx + (o.mid.y - 0.5) * 0.6 + bend_x, qy + (o.mid.z - 0.5) * 0.6);
+  }
+  return o;
+}
+
+vec3 MacroTint(GpuMaterial m, Noises s, float width) {
+  const float fade = min(1.0, 6.0 / max(width, 1e-3)), amount = m.macro_variation * 2.0;
+  const float light = (s.wide.x - 0.5) * 1.1 + (s.mid.x - 0.5) * 0.9 * fade;
+  const float warm = (s.wide.y - 0.5) * 0.35 + (s.mid.y - 0.5) * 0.2 * fade;
+  return max(vec3(1.0 + amount * (light + warm), 1.0 + amount * light, 1.0 + amount * (light - warm)), vec3(0.35));
+}
+
+vec3 UnitTint(GpuMaterial m, float u, float v, float footprint) {
+  if (!(m.unit_columns > 0.5)) return vec3(1.0);
+  const float row = floor(v * m.unit_rows);
+  const float column = floor(u * m.unit_columns + 0.5 * (row - 2.0 * floor(row * 0.5)));
+  const float h = hash_cell(column, row), h2 = hash_again(h, 61.7);
+  const float keep = clamp01(1.3 - exp2_approx(footprint) * max(m.unit_columns, m.unit_rows) * 0.7);
+  const float light = 1.0 + (h - 0.5) * 0.24 * keep, warm = (h2 - 0.5) * 0.07 * keep;
+  return vec3(light + warm, light, light - warm);
+}
+
+void WearGround(GpuMaterial m, Noises s, vec3 p, float u, float width, inout vec3 color, inout float roughness) {
+  const int ground = int(m.ground + 0.5);
+  if (ground == 1 || ground == 2) {
+    float gain = 1.0, tar = 0.0, polish = 0.0;
+    asphalt_wear(p.x, p.y, u * m.tile, ground == 2 ? 1.0 : 0.0, s.wide, s.mid, s.fine, s.detail, width, gain, tar, polish);
+    color = lerp3(color * gain, vec3(0.034, 0.034, 0.035), tar);
+    roughness = lerp1(roughness - polish, 0.45, tar);
+  } else if (ground == 3) {
+    color *= paving_wear(s.wide, s.mid, s.fine, s.detail);
+  } else if (ground == 4) {
+    color = lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width);
+  } else if (ground == 5 || ground == 6) {
+    color = loose_ground(color, s.wide, s.mid, s.fine, s.detail, ground == 5 ? 0.35 : 1.0);
+  } else if (ground == 7 || ground == 8) {
+    color *= roof_wear(p.x, s.wide, s.mid, s.fine, s.detail, width, ground == 8 ? 1.0 : 0.0);
+  }
+}
+
+vec3 GlassNormal(float h1, vec3 n, vec3 p) {
+  const float h2 = h1 * 61.7 - floor(h1 * 61.7);
+  const float side = sqrt(max(n.x * n.x + n.y * n.y, 1e-8));
+  if (!(side > 0.3)) return n;
+  const vec3 across = vec3(-n.y, n.x, 0.0) * (1.0 / side);
+  const float along = (p.x * across.x + p.y * across.y) * 2.1 + h1 * 40.0;
+  const float bend = sin_approx(along) * 0.0035, rise = sin_approx(p.z * 1.9 + h2 * 40.0) * 0.0035;
+  return normalize3(n + across * ((h1 - 0.5) * 0.011 + bend) + vec3(0.0, 0.0, (h2 - 0.5) * 0.011 + rise));
+}
+
+vec3 Waves(vec3 p, float footprint, inout float lost) {
+  const vec3 gust = SampleNoise(p.x * (1.0 / 173.0), p.y * (1.0 / 131.0));
+  const float wind = max(0.75 + 2.6 * (gust.x - 0.5), 0.22);
+  const vec3 n = water_normal(p.x + 5.0 * (gust.y - 0.5), p.y + 5.0 * (gust.z - 0.5), footprint, lost);
+  lost = lost * wind * wind;
+  return normalize3(vec3(n.x * wind, n.y * wind, n.z));
+}
+
+/// The sun's centre, or for samples beside the pixel's centre a point of its disc.
+vec3 TowardsSun(uint key) {
+  const vec3 s = Vec(view.to_sun);
+  if (key == 0) return normalize3(s);
+  uint h = (key ^ (key >> 16)) * 0x7feb352du;
+  h = (h ^ (h >> 15)) * 0x846ca68bu;
+  h = h ^ (h >> 16);
+  const float a = float((h >> 8) & 0xfffu) * (1.0 / 4096.0), b = float((h >> 20) & 0xfffu) * (1.0 / 4096.0);
+  const float radius = sqrt(a) * 0.00462, angle = b * (2.0 * SHADE_PI);
+  const float flat2 = s.x * s.x + s.y * s.y;
+  const vec3 e1 = flat2 > 1e-6 ? vec3(-s.y, s.x, 0.0) / sqrt(flat2) : vec3(1.0, 0.0, 0.0);
+  return normalize3(e1 * (radius * sin_approx(angle + 0.5 * SHADE_PI)) + cross(s, e1) * (radius * sin_approx(angle)) + s);
+}
+
+float FoldPicture(float x, float half_) {
+  return abs(x) > half_ ? (x > 0.0 ? 2.0 * half_ - x : -2.0 * half_ - x) : x;
+}
+
+Shaded Prepare(Ray ray) {
+  const uint instance = ray.instance;
+  GpuInstance placed = push.frame.v.instances.v[instance];
+  GpuMesh mesh = push.frame.v.meshes.v[placed.mesh];
+  const uint triangle = (mesh.flags & kSorted) != 0 ? mesh.triangle_of.v[ray.primitive] : ray.primitive;
+  const GpuShaded own = view.instances.v[instance];
+  const GpuTriangle t = view.triangles.v[own.first_triangle + triangle];
+  const GpuMaterial m = view.materials.v[t.material & ~kMirroredUv];
+
+  // Normals: cofactors of where the instance is now. Of bent meshes the triangle's own.
+  const vec3 r0 = vec3(placed.A[0], placed.A[1], placed.A[2]), r1 = vec3(placed.A[3], placed.A[4], placed.A[5]),
+             r2 = vec3(placed.A[6], placed.A[7], placed.A[8]);
+  vec3 c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
+  const float det = dot(r0, c0);
+  const float side = (det < 0.0 ? -1.0 : 1.0) / pow(max(abs(det), 1e-30), 2.0 / 3.0);
+  c0 *= side, c1 *= side, c2 *= side;
+  const float matrix[9] = float[9](c0.x, c0.y, c0.z, c1.x, c1.y, c1.z, c2.x, c2.y, c2.z);
+
+  Shaded s;
+  const vec3 d = ray.direction;
+  const vec3 p = ray.origin + d * ray.distance_;
+  const float u = ray.bary.x, v = ray.bary.y, w = 1.0 - u - v;
+  vec3 g, smooth_;
+  if (uvec2(placed.positions) == uvec2(mesh.positions)) {
+    g = Row3(matrix, UnpackDirection(t.geometric_normal));
+    smooth_ = Row3(matrix, UnpackDirection(t.normals[0]) * w + UnpackDirection(t.normals[1]) * u +
+                               UnpackDirection(t.normals[2]) * v);
+  } else {
+    const uvec3 c = Corners(mesh, ray.primitive);
+    const vec3 a = Load3(placed.positions, c.x);
+    g = Row3(matrix, cross(Load3(placed.positions, c.y) - a, Load3(placed.positions, c.z) - a));
+    smooth_ = g;
+  }
+  const float front = dot(g, d) > 0.0 ? -1.0 : 1.0;
+  const vec3 facing = g * front;
+  vec3 n = (dot(smooth_, g) > 0.0 ? smooth_ : -smooth_) * front;
+
+  float tu = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
+  float tv = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
+  const float slant = max(abs(dot(facing, d)), 0.03);
+  const float footprint =
+      log2_approx(max(ray.width, 1e-9)) - 0.75 * log2_approx(slant) + (t.texels_log2 + own.texels_log2);
+  const float pane = HashOf(t.pane ^ own.hash);
+
+  vec3 color = vec3(m.base[0] * own.tint[0], m.base[1] * own.tint[1], m.base[2] * own.tint[2]);
+  const vec3 tint = color;
+  float metallic = m.metallic, roughness = m.roughness;
+  vec3 emission = Vec(m.emission);
+
+  // Rooms behind panes.
+  const bool window = t.window != 0;
+  vec3 daylight = vec3(0.0), lamplight = vec3(0.0);
+  float room_front = 0.0;
+  if (window) {
+    const GpuPane q = view.panes.v[t.window - 1];
+    const float a = q.a[0] * w + q.a[1] * u + q.a[2] * v, b = q.b[0] * w + q.b[1] * u + q.b[2] * v;
+    const float room = HashOf((q.hash ^ own.hash) * 0x85ebca6bu + 77u);
+    const float lit = hash_again(room, 811.3) < view.lit_rooms ? 1.0 : 0.0;
+    float back_a = a, back_b = b;
+    interior_room(a, b, q.half_a, q.half_b, dot(d, Row3(matrix, UnpackDirection(q.right))),
+                  dot(d, Row3(matrix, UnpackDirection(q.up))), -dot(d, facing), room, lit, daylight, lamplight, room_front,
+                  back_a, back_b);
+    tu += (FoldPicture(back_a, q.half_a) - a) * q.u_per_a;
+    tv += (min(max(back_b, -q.half_b), q.half_b) - b) * q.v_per_b;
+  }
+
+  // Textures.
+  const TileCorners corners = ChooseCorners(m, tu, tv, footprint);
+  if (m.base_texture != 0) color *= SampleTiles(m, m.base_texture, corners, footprint, true, Vec(m.mean), corners.gain);
+  if (m.roughness_texture != 0) {
+    const vec3 c = SampleTiles(m, m.roughness_texture, corners, footprint, false, vec3(1.0, 0.5, 1.0), 1.0);
+    roughness *= c.y, metallic *= c.z;
+  }
+  if (m.emission_texture != 0) emission *= SampleTexture(m.emission_texture, tu, tv, footprint, true);
+  const bool wear = m.ground > 0.5;
+  if (m.macro_variation != 0.0 || wear) {
+    const Noises noises = LookUpNoises(wear, p, n, ray.width);
+    if (m.macro_variation != 0.0) color *= MacroTint(m, noises, ray.width);
+    color *= UnitTint(m, tu, tv, footprint);
+    if (wear) WearGround(m, noises, p, tu, ray.width, color, roughness);
+  } else {
+    color *= UnitTint(m, tu, tv, footprint);
+  }
+  if (m.kind == kFoliage) {
+    const float amount = clamp01((m.transmission - 0.4) * 5.0), h2 = hash_again(pane, 61.7);
+    const float light = 1.0 + (pane - 0.5) * 0.44 * amount, yellow = (h2 - 0.42) * 0.34 * amount;
+    color = vec3(color.x * light * (1.0 + yellow), color.y * light, color.z * light * (1.0 - yellow * 0.6));
+  }
+  roughness = min(max(roughness, 0.03), 1.0);
+
+  // Normal: map, panes, waves.
+  if (m.normal_texture != 0) {
+    const vec3 c = SampleTiles(m, m.normal_texture, corners, footprint, false, vec3(0.5, 0.5, 0.9), corners.gain);
+    const vec3 bend = c * 2.0 - 1.0;
+    const float length_ = min(sqrt(dot(bend, bend)), 1.0);
+    const vec3 t0 = Row3(matrix, UnpackDirection(t.tangent));
+    const vec3 along = normalize3(t0 - n * dot(n, t0));
+    const vec3 beside = cross(n, along) * ((t.material & kMirroredUv) != 0 ? -1.0 : 1.0);
+    const vec3 bent = normalize3(along * (bend.x * m.normal_scale) + beside * (bend.y * m.normal_scale) + n * max(bend.z, 0.05));
+    const float variance = (1.0 - length_) / max(length_, 0.2) * m.normal_scale * m.normal_scale;
+    const float alpha = roughness * roughness;
+    roughness = max(sqrt(sqrt(min(alpha * alpha + 2.0 * variance * variance + variance * 0.5, 1.0))), roughness);
+    n = bent;
+  }
+  if (m.kind == kGlass) {
+    n = GlassNormal(pane, n, p);
+    roughness = min(roughness, 0.08);
+    if (!window) {
+      const float blind = clamp01((0.30 - pane) * 40.0) * clamp01((t.area - 0.7) * 4.0) * clamp01((0.3 - abs(facing.z)) * 8.0);
+      const float shade = blind * 0.16 * (0.6 + 1.3 * pane);
+      color = color * (1.0 - shade) + vec3(shade, shade * 0.97, shade * 0.88);
+    }
+  }
+  if (window) {
+    const float most = max(tint.x, max(tint.y, max(tint.z, 1e-3)));
+    const vec3 glass = lerp3(vec3(0.86, 0.87, 0.86), tint * (0.8 / most), 0.5);
+    if (m.base_texture == 0) {
+      color = daylight * glass + tint * 0.15;
+      emission += lamplight * glass * view.lamplight;
+    } else if (room_front > 0.5) {
+      color = daylight * 1.6;
+      emission = emission * 0.25 + daylight * 0.5;
+    }
+  }
+  if (m.kind == kWater && facing.z > 0.5) {
+    float lost = 0.0;
+    n = Waves(p, ray.width / sqrt(slant), lost);
+    roughness = min(sqrt(sqrt(2.0 * lost + 1e-5)), 0.5);
+  }
+  const float towards = dot(n, d);
+  if (towards > -0.02) n = normalize3(n - d * (towards + 0.02));
+
+  s.p = p, s.n = n, s.g = facing, s.color = color;
+  s.emission = front > 0.0 ? emission : vec3(0.0);
+  s.metallic = metallic, s.roughness = roughness, s.transmission = m.transmission;
+  s.coat = m.clear_coat, s.coat_roughness = m.clear_coat_roughness, s.kind = m.kind;
+  vec3 r = reflect3(d, n);
+  const float below = dot(r, facing);
+  if (below < 0.01) r = normalize3(r + facing * (0.02 - below));
+  s.r = r;
+  s.mirror = m.kind == kGlass || m.kind == kWater || (roughness < 0.12 && metallic > 0.3) ||
+             (m.clear_coat > 0.25 && m.clear_coat_roughness < 0.12);
+  s.l = TowardsSun(ray.key);
+  const bool lit = (dot(n, s.l) > 0.0 && dot(facing, s.l) > 0.0) || m.kind == kFoliage;
+  s.sunlit = lit && view.to_sun[2] > -0.02 && view.has_sky != 0 ? 1.0 : 0.0;
+  s.contact = 1.0;
+  s.traced = s.clear = false;
+  s.reflected = s.behind = vec3(0.0);
+  s.lamp_front = s.lamp_back = s.lamp_shine = vec3(0.0);
+  return s;
+}

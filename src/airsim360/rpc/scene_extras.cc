@@ -1,0 +1,124 @@
+#include "airsim360/rpc/scene_extras.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/rpc/airsim_drone.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr float kHalf = 0.5f;  // metres: all shapes fit a cube of 1 m, standing on z = 0
+constexpr int kRound = 32;     // sides of what is round
+
+SpawnAsset Finish(const char* name, Mesh mesh) {
+  SpawnAsset asset{name, "object", {}};
+  mesh.name = name;
+  mesh.parts = {{0, static_cast<uint32_t>(mesh.triangles.size()), 0}};
+  asset.model.materials = {{.name = "spawned", .base_color = {0.45f, 0.45f, 0.47f}, .roughness = 0.7f}};
+  asset.model.mesh = std::move(mesh);
+  return asset;
+}
+
+void AddQuad(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+  mesh.triangles.push_back({a, b, c});
+  mesh.triangles.push_back({a, c, d});
+}
+
+Mesh Cube() {
+  Mesh mesh;
+  // Each side has corners of its own: edges stay sharp.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-kHalf, kHalf}) {
+      const auto first = static_cast<uint32_t>(mesh.positions.size());
+      for (const auto& [u, v] : {std::pair{-kHalf, -kHalf}, {kHalf, -kHalf}, {kHalf, kHalf}, {-kHalf, kHalf}}) {
+        Vec3f p{};
+        p[axis] = side;
+        p[(axis + 1) % 3] = side > 0 ? u : v;
+        p[(axis + 2) % 3] = side > 0 ? v : u;
+        mesh.positions.push_back(p + Vec3f{0, 0, kHalf});
+      }
+      AddQuad(mesh, first, first + 1, first + 2, first + 3);
+    }
+  }
+  return mesh;
+}
+
+// A body of revolution about the z axis: (radius, height) from bottom to top.
+Mesh Turned(const std::vector<Vec2f>& profile) {
+  Mesh mesh;
+  for (const Vec2f& ring : profile) {
+    for (int k = 0; k < kRound; ++k) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / kRound;
+      mesh.positions.push_back({ring.x * std::cos(angle), ring.x * std::sin(angle), ring.y});
+    }
+  }
+  for (uint32_t ring = 0; ring + 1 < profile.size(); ++ring) {
+    for (uint32_t k = 0; k < kRound; ++k) {
+      const uint32_t next = (k + 1) % kRound, a = ring * kRound, b = a + kRound;
+      // Rings without a radius are points: one triangle less.
+      if (profile[ring].x > 0) mesh.triangles.push_back({a + k, a + next, b + next});
+      if (profile[ring + 1].x > 0) mesh.triangles.push_back({a + k, b + next, b + k});
+    }
+  }
+  return mesh;
+}
+
+Mesh Sphere() {
+  std::vector<Vec2f> profile;
+  for (int i = 0; i <= kRound / 2; ++i) {
+    const float angle = std::numbers::pi_v<float> * static_cast<float>(i) / (kRound / 2);
+    const bool pole = i == 0 || i == kRound / 2;
+    profile.push_back({pole ? 0 : kHalf * std::sin(angle), kHalf - kHalf * std::cos(angle)});
+  }
+  return Turned(profile);
+}
+
+// Adds one body and then copies of it; their refs are the last `count`.
+void AddCopies(const std::string& name, const std::string& category, const Model& model, Vec3d somewhere,
+               size_t count, std::vector<DroneBodySpec>& bodies) {
+  const size_t first = bodies.size();
+  for (size_t i = 0; i < count; ++i) {
+    DroneBodySpec body{.name = name, .model = {}, .X_WB = {{}, somewhere}, .category = category};
+    i == 0 ? (void)(body.model = model) : (void)(body.same_as = first);
+    bodies.push_back(std::move(body));
+  }
+}
+
+}  // namespace
+
+std::vector<SpawnAsset> ShapeAssets() {
+  std::vector<SpawnAsset> assets;
+  assets.push_back(Finish("Cube", Cube()));
+  assets.push_back(Finish("Sphere", Sphere()));
+  assets.push_back(Finish("Cylinder", Turned({{0, 0}, {kHalf, 0}, {kHalf, 1}, {0, 1}})));
+  assets.push_back(Finish("Cone", Turned({{0, 0}, {kHalf, 0}, {0, 1}})));
+  return assets;
+}
+
+std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
+                                       const std::vector<SpawnAsset>& assets, SceneExtras& extras) {
+  const Vec3d somewhere = VecCast<double>(scene->spawn.value_or(scene->bounds.center()));
+  std::vector<DroneBodySpec> bodies;
+  const Model drone = DroneBodyModel(AirSimQuad());
+  for (const auto& [name, vehicle] : settings.vehicles) {
+    if (!vehicle.auto_create || vehicle.type == "ComputerVision") continue;
+    AddCopies(name, "uav/other", drone, somewhere, 1, bodies);
+  }
+  AddCopies("unused drone", "uav/other", drone, somewhere, kSpareDrones, bodies);
+  const size_t drones = bodies.size();
+  for (const SpawnAsset& asset : assets)
+    AddCopies("unused " + asset.name, asset.category, asset.model, somewhere, kSpareCopies, bodies);
+
+  std::vector<DroneBodyRef> refs;
+  scene = AddDroneBodies(std::move(scene), bodies, refs);
+  extras.drones.assign(refs.begin(), refs.begin() + static_cast<ptrdiff_t>(drones));
+  extras.stock.clear();
+  for (size_t i = 0; i < assets.size(); ++i) {
+    const auto first = refs.begin() + static_cast<ptrdiff_t>(drones + i * kSpareCopies);
+    extras.stock.push_back({assets[i].name, {first, first + static_cast<ptrdiff_t>(kSpareCopies)}});
+  }
+  return scene;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,40 @@
+// What is added to a world's scene before it is served: bodies of the drones, and bodies and objects held ready
+// for simAddVehicle and simSpawnObject. A scene never changes; what is not in use is hidden.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "airsim360/rpc/settings.h"
+#include "airsim360/sim/drone_bodies.h"
+
+namespace airsim360 {
+
+/// A kind of thing that simSpawnObject can make. The model has no textures.
+struct SpawnAsset {
+  std::string name, category;  ///< path in the semantic tree
+  Model model;
+};
+/// Shapes under the names that AirSim's Blocks environment has: Cube, Sphere, Cylinder, Cone; 1 m each.
+std::vector<SpawnAsset> ShapeAssets();
+
+/// One kind with its copies.
+struct SpawnStock {
+  std::string asset;
+  std::vector<DroneBodyRef> copies;
+};
+
+struct SceneExtras {
+  /// Of the drones of the settings in the order of their names, then those held ready.
+  std::vector<DroneBodyRef> drones;
+  std::vector<SpawnStock> stock;
+};
+
+inline constexpr size_t kSpareDrones = 32, kSpareCopies = 8;
+
+/// The scene with everything of `extras`, which is filled.
+std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
+                                       const std::vector<SpawnAsset>& assets, SceneExtras& extras);
+
+}  // namespace airsim360

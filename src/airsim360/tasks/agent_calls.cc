@@ -1,0 +1,127 @@
+// What can be asked of one episode.
+#include <algorithm>
+
+#include "airsim360/tasks/agent_slot.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::Answer;
+using internal::JsonResponse;
+using internal::StatusError;
+
+AgentResponse JpegResponse(const Image<Rgb8>& image, int quality) {
+  return {200, "image/jpeg", internal::JpegOf(image, quality)};
+}
+
+const RigidTransform& PoseOf(const Episode& episode) { return episode.vehicle().motion.X_WB; }
+
+}  // namespace
+
+AgentApi::Turn::Turn(AgentApi& api, Slot& slot, Creates creates)
+    : api_(api), slot_(slot), lock_(slot.mutex, std::try_to_lock) {
+  if (!lock_) throw StatusError(409, "episode '" + slot.id + "' is busy: one request at a time");
+  slot_.touched = api_.Now();
+  if (creates == Creates::kYes) return;
+  if (slot_.episode == nullptr) throw StatusError(404, "episode '" + slot.id + "' could not be made");
+  if (!api_.options_.realtime) return;
+  const double before = slot_.episode->seconds();
+  slot_.episode->Wait(std::max(0.0, slot_.touched - slot_.answered));
+  slot_.latency += slot_.episode->seconds() - before;
+}
+
+AgentResponse AgentApi::Delete(const std::string& id) {
+  const std::shared_ptr<Slot> slot = Find(id);
+  const std::lock_guard lock(mutex_);
+  episodes_.erase(id);
+  return JsonResponse({{"deleted", id}});
+}
+
+// In each of these, what can be wrong with the request is found before time passes.
+
+AgentResponse AgentApi::Reset(Slot& slot, const std::string& body) {
+  const ResetRequest request = DecodeReset(body);
+  const Turn turn(*this, slot);
+  slot.episode->Reset(request.seed);
+  slot.latency = 0;
+  return JsonResponse({{"episode", slot.id},
+                       {"task", internal::SpecOf(*slot.episode)},
+                       {"observation", internal::ObservationOf(*slot.episode, request.observe)}});
+}
+
+AgentResponse AgentApi::Step(Slot& slot, const std::string& body) {
+  const StepRequest request = DecodeStep(body);
+  const Turn turn(*this, slot);
+  slot.episode->Act(request.action);
+  return Look(slot, request.observe);
+}
+
+AgentResponse AgentApi::Observe(Slot& slot, const std::string& body) {
+  const ObserveRequest request = DecodeObserve(body);
+  const Turn turn(*this, slot);
+  return Look(slot, request);
+}
+
+AgentResponse AgentApi::Look(Slot& slot, const ObserveRequest& request) {
+  Episode& episode = *slot.episode;
+  Answer answer = {{"episode", slot.id}, {"observation", internal::ObservationOf(episode, request)}};
+  if (options_.realtime) answer["latency"] = slot.latency;
+  if (episode.end() != EpisodeEnd::kRunning) answer["score"] = internal::ScoreOf(episode);
+  return JsonResponse(answer);
+}
+
+AgentResponse AgentApi::Picture(Slot& slot, const std::string& name, std::string_view query) {
+  if (name == "panorama.jpg") {
+    const PanoramaRequest panorama = DecodePanoramaQuery(query);
+    const Turn turn(*this, slot);
+    Episode& episode = *slot.episode;
+    return JpegResponse(episode.world().Panorama(PoseOf(episode), panorama.width, panorama.frame),
+                        panorama.quality);
+  }
+  if (name == "view.jpg") {
+    const ViewRequest v = DecodeViewQuery(query);
+    const Turn turn(*this, slot);
+    Episode& episode = *slot.episode;
+    return JpegResponse(
+        episode.world().View(PoseOf(episode), v.azimuth, v.elevation, v.fov, v.width, v.height), v.quality);
+  }
+  const GridRequest grid = DecodeGridQuery(query);
+  const Turn turn(*this, slot);
+  Episode& episode = *slot.episode;
+  return JsonResponse(internal::GridOf(episode.world().Grid(PoseOf(episode), grid.rows, grid.columns)));
+}
+
+AgentResponse AgentApi::Describe(Slot& slot) {
+  const Turn turn(*this, slot);
+  return JsonResponse({{"episode", slot.id},
+                       {"world", slot.world},
+                       {"task", internal::SpecOf(*slot.episode)},
+                       {"observation", internal::ObservationOf(*slot.episode, {})},
+                       {"score", internal::ScoreOf(*slot.episode)}});
+}
+
+AgentResponse AgentApi::Path(Slot& slot) {
+  const Turn turn(*this, slot);
+  Answer points = Answer::array();
+  for (const Vec3d& p : slot.episode->path()) points.push_back(internal::VectorOf(p));
+  return JsonResponse({{"period", 1e-9 * Episode::kPathPeriodNs}, {"p", std::move(points)}});
+}
+
+AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& call, std::string_view query,
+                                  const AgentRequest& request) {
+  if (call.empty() && request.method == "DELETE") return Delete(id);
+  static const std::vector<std::string> kCalls = {"reset",        "step",     "observe", "range_grid",
+                                                  "panorama.jpg", "view.jpg", "path"};
+  if (!call.empty() && std::ranges::find(kCalls, call) == kCalls.end())
+    throw StatusError(404, UnknownChoiceMessage("resource of an episode", call.substr(0, 64), kCalls));
+  const bool changes = call == "reset" || call == "step" || call == "observe";
+  internal::RequireMethod(request, changes ? "POST" : "GET");
+  const std::shared_ptr<Slot> slot = Find(id);
+  if (call == "reset") return Reset(*slot, request.body);
+  if (call == "step") return Step(*slot, request.body);
+  if (call == "observe") return Observe(*slot, request.body);
+  if (call == "path") return Path(*slot);
+  return call.empty() ? Describe(*slot) : Picture(*slot, call, query);
+}
+
+}  // namespace airsim360

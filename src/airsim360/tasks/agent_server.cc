@@ -1,0 +1,299 @@
+#include "airsim360/tasks/agent_server.h"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <thread>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+
+namespace airsim360 {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+using Code = boost::system::error_code;
+
+constexpr uint32_t kHeaderBytes = 16384;
+
+// Threads that answer requests, apart from the one that reads and writes.
+class Workers {
+ public:
+  explicit Workers(int count) {
+    for (int i = 0; i < count; ++i) threads_.emplace_back([this] { Run(); });
+  }
+  ~Workers() { Stop(); }
+  void Post(std::function<void()> job) {
+    {
+      const std::lock_guard lock(mutex_);
+      jobs_.push_back(std::move(job));
+    }
+    wake_.notify_one();
+  }
+  void Stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+      jobs_.clear();
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
+ private:
+  void Run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+      if (stopping_) return;
+      const auto job = std::move(jobs_.front());
+      jobs_.pop_front();
+      lock.unlock();
+      job();
+      lock.lock();
+    }
+  }
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> jobs_;
+  bool stopping_ = false;
+  std::vector<std::thread> threads_;
+};
+
+// What all connections share.
+struct Shared {
+  AgentApi& api;
+  AgentServerOptions options;
+  Workers workers;
+  std::atomic<size_t> open{0};
+  bool local = false;  // listens to this machine alone
+};
+
+std::string_view HostOf(std::string_view text) {
+  if (const size_t scheme = text.find("://"); scheme != std::string_view::npos) text.remove_prefix(scheme + 3);
+  text = text.substr(0, text.find('/'));
+  return text.starts_with('[') ? text.substr(0, text.find(']') + 1) : text.substr(0, text.find(':'));
+}
+
+bool IsLocal(std::string_view host) { return host == "127.0.0.1" || host == "localhost" || host == "[::1]"; }
+
+std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+// Web pages of other sites must not fly drones through the browser of whoever looks at them: their origin
+// tells them apart, and a name that only points here is no name of this machine.
+bool IsForeign(const http::request<http::string_body>& request, bool local) {
+  const auto origin = request.find(http::field::origin);
+  if (origin != request.end() && !IsLocal(HostOf(View(origin->value())))) return true;
+  const auto host = request.find(http::field::host);
+  return local && host != request.end() && !IsLocal(HostOf(View(host->value())));
+}
+
+std::string ErrorText(const std::string& message) { return "{\"error\":{\"message\":\"" + message + "\"}}"; }
+
+// Counts a connection for as long as it lives.
+class Counted {
+ public:
+  explicit Counted(Shared& shared) : shared_(shared) { ++shared_.open; }
+  ~Counted() { --shared_.open; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+  Shared& shared() const { return shared_; }
+
+ private:
+  Shared& shared_;
+};
+
+// One WebSocket: a message, its answer, the next message.
+class SocketSession : public std::enable_shared_from_this<SocketSession>, Counted {
+ public:
+  SocketSession(tcp::socket socket, Shared& shared) : Counted(shared), stream_(std::move(socket)) {}
+
+  void Run(const http::request<http::string_body>& request) {
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = std::chrono::seconds(shared().options.seconds);
+    timeout.idle_timeout = std::chrono::seconds(5 * shared().options.seconds);
+    timeout.keep_alive_pings = true;
+    stream_.set_option(timeout);
+    stream_.read_message_max(shared().options.body_bytes);
+    stream_.async_accept(request, [self = shared_from_this()](Code error) {
+      if (!error) self->Read();
+    });
+  }
+
+ private:
+  void Read() {
+    buffer_.clear();
+    stream_.async_read(buffer_, [self = shared_from_this()](Code error, size_t) {
+      if (!error) self->Answer();
+    });
+  }
+  void Answer() {
+    shared().workers.Post([self = shared_from_this(), text = beast::buffers_to_string(buffer_.data())] {
+      std::string answer = self->shared().api.HandleMessage(text);
+      asio::post(self->stream_.get_executor(), [self, answer = std::move(answer)]() mutable {
+        self->answer_ = std::move(answer);
+        self->stream_.text(true);
+        self->stream_.async_write(asio::buffer(self->answer_), [self](Code error, size_t) {
+          if (!error) self->Read();
+        });
+      });
+    });
+  }
+
+  websocket::stream<beast::tcp_stream> stream_;
+  beast::flat_buffer buffer_;
+  std::string answer_;
+};
+
+// One HTTP connection: a request, its answer, the next request.
+class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
+ public:
+  HttpSession(tcp::socket socket, Shared& shared) : Counted(shared), stream_(std::move(socket)) {}
+  void Run() { Read(); }
+
+ private:
+  void Read() {
+    parser_.emplace();
+    parser_->body_limit(shared().options.body_bytes);
+    parser_->header_limit(kHeaderBytes);
+    stream_.expires_after(std::chrono::seconds(shared().options.seconds));
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](Code error, size_t) { self->Received(error); });
+  }
+
+  void Received(Code error) {
+    if (error == http::error::body_limit)
+      return Refuse(413, "a request has at most " + std::to_string(shared().options.body_bytes) + " bytes");
+    if (error == http::error::header_limit) return Refuse(431, "the header is too large");
+    const bool not_http = error.category() == http::make_error_code(http::error::bad_method).category();
+    if (error && not_http && error != http::error::end_of_stream) return Refuse(400, "this is not HTTP");
+    if (error) return Close();
+    request_ = parser_->release();
+    if (IsForeign(request_, shared().local)) return Refuse(403, "requests of other sites are not answered");
+    if (websocket::is_upgrade(request_)) {
+      if (View(request_.target()) != "/v1/ws") return Refuse(404, "the WebSocket is at /v1/ws");
+      stream_.expires_never();
+      std::make_shared<SocketSession>(stream_.release_socket(), shared())->Run(request_);
+      return;
+    }
+    Answer();
+  }
+
+  void Answer() {
+    // Browsers send other types without asking first.
+    const auto type = request_.find(http::field::content_type);
+    if (!request_.body().empty() && type != request_.end() &&
+        !View(type->value()).starts_with("application/json"))
+      return Refuse(415, "bodies are application/json");
+    stream_.expires_never();
+    shared().workers.Post([self = shared_from_this()] {
+      const http::request<http::string_body>& request = self->request_;
+      AgentResponse response =
+          self->shared().api.Handle({std::string(View(request.method_string())),
+                                     std::string(View(request.target())), request.body()});
+      asio::post(self->stream_.get_executor(), [self, response = std::move(response)]() mutable {
+        self->Write(std::move(response), self->request_.keep_alive());
+      });
+    });
+  }
+
+  void Refuse(int status, const std::string& message) {
+    request_ = {};
+    Write({status, "application/json", ErrorText(message)}, false);
+  }
+
+  void Write(AgentResponse answer, bool keep_alive) {
+    response_ = {static_cast<http::status>(answer.status), 11};
+    response_.set(http::field::server, "airsim360");
+    response_.set(http::field::content_type, answer.content_type);
+    response_.set(http::field::cache_control, "no-store");
+    response_.keep_alive(keep_alive);
+    response_.body() = std::move(answer.body);
+    response_.prepare_payload();
+    stream_.expires_after(std::chrono::seconds(shared().options.seconds));
+    http::async_write(stream_, response_, [self = shared_from_this(), keep_alive](Code error, size_t) {
+      if (error || !keep_alive) return self->Close();
+      self->Read();
+    });
+  }
+
+  void Close() {
+    Code ignored;
+    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  }
+
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{kHeaderBytes + (size_t{1} << 21)};
+  std::optional<http::request_parser<http::string_body>> parser_;
+  http::request<http::string_body> request_;
+  http::response<http::string_body> response_;
+};
+
+}  // namespace
+
+struct AgentServer::Impl {
+  std::unique_ptr<Shared> shared;  // outlives the connections, which io holds
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  std::thread thread;
+
+  void Listen(const AgentServerOptions& options) {
+    Code error;
+    const auto address = asio::ip::make_address_v4(options.address == "localhost" ? "127.0.0.1" : options.address, error);
+    if (error) {
+      throw InputError("--host: '" + options.address + "' is not an IPv4 address; did you mean '127.0.0.1'?");
+    }
+    shared->local = address.is_loopback();
+    const tcp::endpoint endpoint(address, static_cast<uint16_t>(options.port));
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error) {
+      throw RuntimeError("cannot listen on " + options.address + ":" + std::to_string(options.port) + ": " +
+                         error.message());
+    }
+  }
+
+  void Accept() {
+    acceptor.async_accept([this](Code error, tcp::socket socket) {
+      if (error == asio::error::operation_aborted) return;
+      if (!error && shared->open < shared->options.connections) {
+        Code ignored;
+        socket.set_option(tcp::no_delay(true), ignored);
+        std::make_shared<HttpSession>(std::move(socket), *shared)->Run();
+      } else if (!error) {
+        LogWarning("a client was turned away: " + std::to_string(shared->open) + " are connected already");
+      }
+      Accept();
+    });
+  }
+};
+
+AgentServer::AgentServer(AgentApi& api, const AgentServerOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->shared.reset(new Shared{api, options, Workers(options.workers)});
+  impl_->Listen(options);
+  impl_->Accept();
+  impl_->thread = std::thread([impl = impl_.get()] { impl->io.run(); });
+}
+
+AgentServer::~AgentServer() {
+  // Nothing new is read; what is being answered ends.
+  impl_->io.stop();
+  impl_->thread.join();
+  impl_->shared->workers.Stop();
+}
+
+int AgentServer::port() const { return impl_->acceptor.local_endpoint().port(); }
+
+}  // namespace airsim360

@@ -1,0 +1,37 @@
+// The agent interface over HTTP/1.1 and WebSocket. Boost.Beast lives in agent_server.cc alone.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "airsim360/tasks/agent_api.h"
+
+namespace airsim360 {
+
+struct AgentServerOptions {
+  std::string address = "127.0.0.1";  ///< IPv4
+  int port = 8361;                    ///< 0 = any free one
+  size_t connections = 128;           ///< further ones are closed at once
+  size_t body_bytes = size_t{1} << 20;
+  int seconds = 60;  ///< for one request to arrive, for one answer to leave; then the connection is closed
+  int workers = 4;   ///< requests answered at a time
+};
+
+/// Serves from its construction to its end. A connection has one request in work at a time, so that no client
+/// can take more than its turn; reading, writing and answering are apart, so that a slow one holds up nobody.
+class AgentServer {
+ public:
+  /// RuntimeError if the port cannot be had, InputError for an address that is none.
+  AgentServer(AgentApi& api, const AgentServerOptions& options);
+  ~AgentServer();
+  AgentServer(const AgentServer&) = delete;
+  AgentServer& operator=(const AgentServer&) = delete;
+
+  int port() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace airsim360

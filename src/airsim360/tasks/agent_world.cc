@@ -1,0 +1,89 @@
+#include "airsim360/tasks/agent_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "airsim360/base/error.h"
+#include "airsim360/sim/roadmap.h"
+#include "airsim360/tasks/agent_action.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr int kGridWidth = 256;      // columns of the panorama behind a range grid
+constexpr int kSamplesPerCell = 4;   // at least, along each side of a sector
+
+RigidTransform LevelCamera(const RigidTransform& X_WB) {
+  return BodyPose(X_WB.p, HeadingOfBody(X_WB), 0, 0) * CameraInBody();
+}
+
+}  // namespace
+
+AgentWorld::AgentWorld(std::string name, std::shared_ptr<const Scene> scene, Tier tier,
+                       const Environment& environment)
+    : name_(std::move(name)),
+      tracer_(std::make_shared<const RayTracer>(std::move(scene))),
+      tier_(tier),
+      renderer_(MakeCpuRenderer(tracer_, {.tier = tier, .environment = environment})) {}
+
+AgentWorld::AgentWorld(std::string name, std::shared_ptr<const Scene> scene, Tier tier)
+    : AgentWorld(std::move(name), scene, tier, scene->environment) {}
+
+const std::vector<Vec3d>& AgentWorld::places() {
+  const std::lock_guard lock(places_mutex_);
+  if (!places_.empty()) return places_;
+  // Narrow scenes: less room will do.
+  for (const double radius : {1.0, 0.5, 0.25}) {
+    places_ = FindFreePlaces(*tracer_, {.radius = radius});
+    if (!places_.empty()) return places_;
+  }
+  throw InputError("world '" + name_ + "' has no free place for a drone");
+}
+
+void AgentWorld::Render(const RenderRequest& request) { renderer_->Render(request, frame_); }
+
+Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFrame frame) {
+  RenderRequest request{.camera = Equirectangular{width, width / 2}, .tier = tier_};
+  request.X_WC = frame == PanoFrame::kLevel ? LevelCamera(X_WB) : X_WB * CameraInBody();
+  request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
+  const std::lock_guard lock(mutex_);
+  Render(request);
+  return frame_.rgb;
+}
+
+Image<Rgb8> AgentWorld::View(const RigidTransform& X_WB, double azimuth, double elevation, double fov,
+                             int width, int height) {
+  const double focal = width / (2 * std::tan(fov / 2));
+  RenderRequest request{.camera = Pinhole{width, height, focal, focal, width / 2.0, height / 2.0},
+                        .X_WC = BodyPose(X_WB.p, HeadingOfBody(X_WB) - azimuth, elevation, 0) * CameraInBody(),
+                        .tier = tier_};
+  request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
+  const std::lock_guard lock(mutex_);
+  Render(request);
+  return frame_.rgb;
+}
+
+RangeGrid AgentWorld::Grid(const RigidTransform& X_WB, int rows, int columns) {
+  // As many rays as fit the sectors exactly.
+  const int least = std::max({kGridWidth, kSamplesPerCell * columns, 2 * kSamplesPerCell * rows});
+  const int width = (least + 1) / 2 * 2;
+  RenderRequest request{
+      .camera = Equirectangular{width, width / 2}, .X_WC = LevelCamera(X_WB), .tier = Tier::kLabels};
+  request.products = {.rgb = false, .range = true, .semantic = false, .entity = false};
+  RangeGrid grid{rows, columns, std::vector<float>(static_cast<size_t>(rows) * static_cast<size_t>(columns))};
+  const std::lock_guard lock(mutex_);
+  Render(request);
+  for (int y = 0; y < width / 2; ++y) {
+    const int row = y * rows / (width / 2);
+    for (int x = 0; x < width; ++x) {
+      const float range = frame_.range(x, y);
+      float& nearest = grid.range[static_cast<size_t>(row) * static_cast<size_t>(columns) +
+                                  static_cast<size_t>(x * columns / width)];
+      if (range > 0 && (nearest == 0 || range < nearest)) nearest = range;
+    }
+  }
+  return grid;
+}
+
+}  // namespace airsim360

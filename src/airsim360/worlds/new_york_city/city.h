@@ -1,0 +1,35 @@
+// The parts of new_york_city that its builder puts together.
+#pragma once
+
+#include "airsim360/worlds/district.h"
+#include "airsim360/worlds/new_york_city/manhattan.h"
+
+namespace airsim360::internal {
+
+/// How much of everything, from CityOptions.
+struct Density {
+  double traffic = 1, trees = 1, furniture = 1;
+};
+
+/// A prop as an entity with a name of its own.
+EntityId PlaceNamed(District& district, std::string name, std::string_view kind, Vec3f p, float yaw,
+                    uint32_t variant = 0, float scale = 1, Vec3f tint = {1, 1, 1});
+
+/// Planted islands in the middle of the boulevards.
+void LayMedians(District& district, const std::vector<StreetStretch>& streets);
+/// Yards behind the houses, the plaza with its café, the building site.
+void BuildOpenLots(District& district, const Manhattan& city);
+/// The park with the lake, the island and the red bridge.
+void BuildLakePark(District& district, const Block& block);
+/// Billboards, banners, light boxes and flags on walls and roofs.
+void HangSigns(District& district, const Manhattan& city, bool more);
+/// What flight instructions name, each once; before the rest of the furniture.
+void PlaceLandmarks(District& district, const Manhattan& city);
+/// Lamps, trees, bins, newspaper boxes, carts, road works … along the pavements.
+void FurnishNewYorkPavements(District& district, const Manhattan& city, const Density& density);
+/// Cabs, cars, vans and buses in lanes and bays; covers.
+void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets, const Density& density);
+/// Far blocks to 640 m, a skyline to the horizon, the rivers.
+void BuildFarManhattan(District& district);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,293 @@
+#include "airsim360/worlds/new_york_city/manhattan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kRearYard = 3;
+
+// Hand-set lots around the crossing at the origin and what instructions name; (column, row of block).
+struct Role {
+  int column, block_row, row, index;  // index -1 = last of its row
+  const char* name;
+  LotUse use;
+  FacadeStyle style;
+  int palette;
+  float height;
+  int tiers;  // 1 straight, 2 podium and tower, 3 set back twice
+};
+using F = FacadeStyle;
+constexpr Role kRoles[] = {
+    {2, 2, 0, 0, "deco corner", LotUse::kBuilding, F::kDeco, 0, 54, 1},
+    {1, 2, 0, -1, "grid tower", LotUse::kBuilding, F::kConcreteGrid, 2, 76, 2},
+    {2, 1, 1, 0, "braced corner", LotUse::kBuilding, F::kBracedGlass, 0, 31, 1},
+    {1, 1, 1, -1, "brown tower", LotUse::kBuilding, F::kDeco, 2, 62, 3},
+    {1, 2, 1, -1, "blue tower", LotUse::kBuilding, F::kCurtainWall, 1, 116, 2},
+    {2, 2, 1, 0, "north deco", LotUse::kBuilding, F::kDeco, 1, 66, 3},
+    {2, 1, 0, 0, "glass slab", LotUse::kBuilding, F::kCurtainWall, 0, 122, 2},
+    {1, 1, 0, -1, "loft corner", LotUse::kBuilding, F::kBrickLoft, 0, 36, 1},
+    {2, 2, 0, 1, "ribbon low", LotUse::kBuilding, F::kRibbon, 0, 22, 1},
+    {2, 1, 1, 2, "plaza", LotUse::kPlaza, F::kRibbon, 0, 0, 1},
+    {1, 1, 1, 1, "building site", LotUse::kDirt, F::kRibbon, 0, 0, 1},
+    {1, 2, 0, 1, "bottle roof", LotUse::kBuilding, F::kBrickLoft, 1, 24, 1},
+    {2, 2, 0, -1, "bank", LotUse::kBuilding, F::kClassicStone, 0, 27, 1},
+    {3, 1, 1, 1, "similar tower 1", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+    {3, 1, 1, 2, "similar tower 2", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+    {3, 1, 1, 3, "similar tower 3", LotUse::kBuilding, F::kRibbon, 0, 58, 2},
+};
+
+const Role* RoleOf(const Block& block, int row, int index, int count) {
+  for (const Role& role : kRoles) {
+    const int at = role.index < 0 ? count - 1 : role.index;
+    if (role.column == block.column && role.block_row == block.row && role.row == row && at == index)
+      return &role;
+  }
+  return nullptr;
+}
+
+// What is built on a lot.
+struct Design {
+  FacadeStyle style;
+  int palette;
+  float height;
+  int tiers;
+};
+
+Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
+  Design d{};
+  if (lot.corner()) {
+    static constexpr F kStyles[] = {F::kDeco,         F::kConcreteGrid, F::kCurtainWall, F::kDeco, F::kRibbon,
+                                    F::kClassicStone, F::kDeco,         F::kBrickLoft,   F::kCurtainWall};
+    d.style = kStyles[rng.Index(9)];
+    d.height = static_cast<float>(34 + 75 * rng.Uniform() * rng.Uniform() + 32 * rng.Uniform()) * scale;
+    const double pick = rng.Uniform();
+    d.tiers = pick < 0.4 ? 3 : pick < 0.75 ? 2 : 1;
+  } else {
+    const double pick = rng.Uniform();
+    if (pick < 0.36) {
+      d.style = F::kBrickWalkUp;
+      d.height = static_cast<float>(rng.Uniform(16, 23));
+    } else if (pick < 0.5) {
+      d.style = F::kBrownstone;
+      d.height = static_cast<float>(rng.Uniform(13, 17));
+    } else if (pick < 0.64) {
+      d.style = F::kBrickLoft;
+      d.height = static_cast<float>(rng.Uniform(22, 42));
+    } else {
+      static constexpr F kStyles[] = {F::kDeco,   F::kCurtainWall,  F::kRibbon,
+                                      F::kDeco,   F::kConcreteGrid, F::kClassicStone};
+      d.style = kStyles[rng.Index(6)];
+      d.height = static_cast<float>(30 + 50 * rng.Uniform()) * scale;
+      d.tiers = rng.Chance(0.5) ? 3 : 2;
+    }
+    d.tiers = std::max(1, d.tiers);
+  }
+  // Low ones have no tiers; classic stone stays below its natural height.
+  if (d.style == F::kClassicStone) d.height = std::min(d.height, 48.0f);
+  if (!core && d.style == F::kBrownstone) d.style = F::kBrickWalkUp;
+  if (d.height < 33) d.tiers = 1;
+  d.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(d.style).palettes)));
+  return d;
+}
+
+// The lot's outline; the "deco corner" has a round one.
+std::vector<Vec2f> LotOutline(const Lot& lot, const GroundRect& r) {
+  if (lot.role != "deco corner") return r.Outline();
+  constexpr float kRadius = 9;
+  std::vector<Vec2f> outline;
+  for (int k = 0; k <= 5; ++k) {
+    const float a = std::numbers::pi_v<float> * (1 + 0.1f * static_cast<float>(k));
+    outline.push_back({r.x0 + kRadius + kRadius * std::cos(a), r.y0 + kRadius + kRadius * std::sin(a)});
+  }
+  outline.push_back({r.x1, r.y0});
+  outline.push_back({r.x1, r.y1});
+  outline.push_back({r.x0, r.y1});
+  return outline;
+}
+
+// Which way an edge of an outline looks: 0 south, 1 east, 2 north, 3 west, 4 between south and west.
+int Facing(Vec2f a, Vec2f b) {
+  const Vec2f v = b - a;
+  if (std::abs(v.y) < 0.01f) return v.x > 0 ? 0 : 2;
+  if (std::abs(v.x) < 0.01f) return v.y > 0 ? 1 : 3;
+  return 4;
+}
+
+EdgeKind KindOf(const Lot& lot, int facing) {
+  if (facing == 4) return EdgeKind::kStreet;
+  const int front = lot.row == 0 ? 0 : 2;
+  if (facing == front) return EdgeKind::kStreet;
+  if (facing == 1) return lot.index + 1 == lot.count ? EdgeKind::kStreet : EdgeKind::kParty;
+  if (facing == 3) return lot.index == 0 ? EdgeKind::kStreet : EdgeKind::kParty;
+  return lot.corner() ? EdgeKind::kParty : EdgeKind::kRear;
+}
+
+// Corner lots reach deeper than their neighbour: that part of the shared wall looks into the yard.
+void SplitAtYard(const Lot& lot, BuildingPlan& plan) {
+  if (!lot.corner()) return;
+  const int inner = lot.index == 0 ? 1 : 3;
+  const float at = lot.row == 0 ? lot.rect.y1 - kRearYard : lot.rect.y0 + kRearYard;
+  for (size_t e = 0; e < plan.outline.size(); ++e) {
+    const Vec2f a = plan.outline[e], b = plan.outline[(e + 1) % plan.outline.size()];
+    if (Facing(a, b) != inner) continue;
+    const auto next = static_cast<std::ptrdiff_t>(e + 1);
+    const bool yard_first = (b.y > a.y) == (lot.row == 1);
+    plan.outline.insert(plan.outline.begin() + next, {a.x, at});
+    plan.edges.insert(plan.edges.begin() + next, yard_first ? EdgeKind::kParty : EdgeKind::kRear);
+    plan.edges[e] = yard_first ? EdgeKind::kRear : EdgeKind::kParty;
+    return;
+  }
+}
+
+// The tiers of one building, lowest first.
+void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<BuildingPlan>& out) {
+  const StyleMetrics& metrics = MetricsOf(design.style);
+  const auto storeys = [&](float h) { return std::max(1, static_cast<int>(std::lround(h / metrics.floor_height))); };
+  RngStream rng(seed, "tiers");
+  // Shares of the height, and how far each tier stands back from the one below.
+  std::vector<float> tops{design.height};
+  const float base = std::min(design.height * 0.45f, static_cast<float>(rng.Uniform(17, 27)));
+  if (design.tiers == 2) tops = {base, design.height};
+  if (design.tiers == 3) tops = {base + 5, design.height * static_cast<float>(rng.Uniform(0.68, 0.8)), design.height};
+  GroundRect r = lot.rect;
+  float foot = 0;
+  for (size_t i = 0; i < tops.size(); ++i) {
+    BuildingPlan plan;
+    plan.block = lot.block;
+    plan.style = design.style;
+    plan.palette = design.palette;
+    plan.seed = seed + i * 7919;
+    plan.base = foot;
+    plan.outline = LotOutline(lot, r);
+    for (size_t e = 0; e < plan.outline.size(); ++e) {
+      const int facing = Facing(plan.outline[e], plan.outline[(e + 1) % plan.outline.size()]);
+      plan.edges.push_back(i == 0 ? KindOf(lot, facing) : EdgeKind::kStreet);
+    }
+    if (i == 0) SplitAtYard(lot, plan);
+    plan.party_height.assign(plan.outline.size(), 0);
+    plan.floors = storeys(tops[i] - (i == 0 ? metrics.ground_height : foot));
+    plan.roof = rng.Chance(0.5) ? RoofKind::kFlatGravel : RoofKind::kFlatBitumen;
+    plan.name = lot.role;
+    foot = plan.height();
+    // The next tier: well back from neighbours, a little from the streets.
+    const float street = i == 0 && design.tiers == 2 ? static_cast<float>(rng.Uniform(0.6, 3.0))
+                                                     : static_cast<float>(rng.Uniform(2.2, 4.0));
+    const auto inset = [&](int facing) {
+      return KindOf(lot, facing) == EdgeKind::kStreet || i > 0 ? street : std::max(street, 3.2f);
+    };
+    GroundRect next{r.x0 + inset(3), r.y0 + inset(0), r.x1 - inset(1), r.y1 - inset(2)};
+    const bool last = i + 1 == tops.size() || std::min(next.width(), next.depth()) < (lot.role == "deco corner" ? 19.0f : 9.0f);
+    if (!last) plan.upper = LotOutline(lot, next);
+    out.push_back(std::move(plan));
+    if (last) break;
+    r = next;
+  }
+}
+
+// Lots of one row: wide ones at the ends, on the avenues; these are as wide as those of the other row.
+std::vector<Lot> CutRow(const Block& block, size_t index, int row, float first, float last, RngStream& rng) {
+  const GroundRect inner = block.inner();
+  const int count = block.column == 3 && block.row == 1 ? 5 : 4 + static_cast<int>(rng.Index(3));
+  std::vector<float> widths;
+  float sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const bool end = i == 0 || i + 1 == count;
+    widths.push_back(static_cast<float>(rng.Uniform(0.65, 1.35)));
+    if (!end) sum += widths.back();
+  }
+  const float middle = inner.center().y;
+  float x = inner.x0;
+  std::vector<Lot> lots;
+  for (int i = 0; i < count; ++i) {
+    Lot lot;
+    lot.block = index;
+    lot.row = row;
+    lot.index = i;
+    lot.count = count;
+    const float w = i == 0           ? first
+                    : i + 1 == count ? last
+                                     : widths[static_cast<size_t>(i)] / sum * (inner.width() - first - last);
+    lot.rect = {x, row == 0 ? inner.y0 : middle, x + w, row == 0 ? middle : inner.y1};
+    if (i + 1 == count) lot.rect.x1 = inner.x1;
+    // Mid-block lots keep a yard behind them.
+    if (!lot.corner()) (row == 0 ? lot.rect.y1 : lot.rect.y0) += row == 0 ? -kRearYard : kRearYard;
+    lots.push_back(lot);
+    x += w;
+  }
+  return lots;
+}
+
+// A row of brownstones on one wide lot.
+void AddRowHouses(const Lot& lot, const Design& design, uint64_t seed, std::vector<BuildingPlan>& out) {
+  const int houses = std::max(1, static_cast<int>(std::lround(lot.rect.width() / 6.8f)));
+  for (int i = 0; i < houses; ++i) {
+    Lot house = lot;
+    const float w = lot.rect.width() / static_cast<float>(houses);
+    house.rect.x0 = lot.rect.x0 + w * static_cast<float>(i);
+    house.rect.x1 = house.rect.x0 + w;
+    AddTiers(house, {design.style, (design.palette + i / 2) % 3, design.height, 1}, seed + static_cast<uint64_t>(i), out);
+  }
+}
+
+}  // namespace
+
+Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options) {
+  Manhattan city;
+  for (size_t i = 0; i < plan.blocks.size(); ++i) {
+    const Block& block = plan.blocks[i];
+    if (block.kind != BlockKind::kBuilt && block.kind != BlockKind::kBackdrop) continue;
+    const bool core = block.kind == BlockKind::kBuilt;
+    RngStream rng(options.seed, "manhattan", i);
+    const size_t first = city.buildings.size();
+    const auto west = static_cast<float>(rng.Uniform(19, 26)), east = static_cast<float>(rng.Uniform(19, 26));
+    for (int row = 0; row < 2; ++row) {
+      for (Lot& lot : CutRow(block, i, row, west, east, rng)) {
+        Design design = DrawDesign(lot, core, options.height_scale, rng);
+        const uint64_t seed = rng.Bits();
+        if (!options.styles.empty() &&
+            std::find(options.styles.begin(), options.styles.end(), design.style) == options.styles.end()) {
+          design.style = options.styles[rng.Index(static_cast<uint32_t>(options.styles.size()))];
+          design.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
+          if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20))
+            design.style = FacadeStyle::kBrickWalkUp;
+        }
+        if (const Role* role = RoleOf(block, row, lot.index, lot.count)) {
+          lot.role = role->name;
+          lot.use = role->use;
+          design = {role->style, role->palette, role->height, role->tiers};
+        }
+        if (lot.use == LotUse::kBuilding) {
+          const size_t from = city.buildings.size();
+          if (design.style == FacadeStyle::kBrownstone) {
+            AddRowHouses(lot, design, seed, city.buildings);
+          } else {
+            AddTiers(lot, design, seed, city.buildings);
+          }
+          lot.podium = city.buildings[from].height();
+          lot.height = city.buildings.back().height();
+          if (!lot.corner() && lot.role.empty() && design.style != FacadeStyle::kBrownstone && rng.Chance(0.14))
+            city.buildings[from].awnings = false;
+          if (lot.role == "grid tower") city.buildings.back().curtain_floor = 3;
+        }
+        lot.style = design.style;
+        city.lots.push_back(lot);
+      }
+    }
+    HidePartyWalls(city.buildings, first);
+  }
+  return city;
+}
+
+const Lot& LotOf(const Manhattan& city, std::string_view role) {
+  for (const Lot& lot : city.lots)
+    if (lot.role == role) return lot;
+  throw InputError("new_york_city has no lot '" + std::string(role) + "'");
+}
+
+}  // namespace airsim360::internal

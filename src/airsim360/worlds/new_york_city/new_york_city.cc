@@ -1,0 +1,125 @@
+// new_york_city: a crossing of avenues and streets in Midtown, with a park, people-free.
+#include "airsim360/worlds/buildings.h"
+#include "airsim360/worlds/built_in.h"
+#include "airsim360/worlds/new_york_city/city.h"
+#include "airsim360/worlds/placed_models.h"
+
+namespace airsim360::internal {
+
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) { return BuildNewYorkCity(options, nullptr); }
+
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements) {
+  SceneBuilder builder("new_york_city");
+  builder.AddSky();
+  builder.environment() = {.sun_azimuth_deg = 236, .sun_elevation_deg = 56, .turbidity = 2.6, .cloud_cover = 0.3};
+  const Surfaces surfaces = AddSurfaces(builder);
+  const StreetPlan plan = PlanNewYorkCity();
+  PropShelf shelf(builder, options.models, options.seed);
+  Occupancy occupancy;
+  Placer placer(shelf, occupancy, options.seed);
+  Ground ground(builder, surfaces);
+  District district{builder, surfaces, plan, ground, placer, options.seed};
+  const Density density{options.city.traffic, options.city.trees, options.city.furniture};
+  const Manhattan city = PlanManhattan(
+      plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles)});
+
+  // Ground, buildings, then what hangs on them and stands between them; the unique things first.
+  const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
+  for (const Block& block : plan.blocks) LayPavement(ground, block, Surface::kSlabs, "ground/sidewalk");
+  BuildBuildings(district, city.buildings, true);
+  HangSigns(district, city, options.city.billboards);
+  PlaceLandmarks(district, city);
+  LayMedians(district, streets);
+  BuildOpenLots(district, city);
+  for (const Block& block : plan.blocks)
+    if (block.kind == BlockKind::kPark) BuildLakePark(district, block);
+  FurnishNewYorkPavements(district, city, density);
+  FurnishNewYorkStreets(district, streets, density);
+  ground.Finish("ground");
+  BuildFarManhattan(district);
+  ground.Finish("backdrop");
+
+  AddPlacedModels(builder, shelf, options.props);
+  // High over the crossing, looking up the boulevard.
+  builder.SetSpawn({-2, -4, 36}, 62);
+  if (placements) *placements = placer.placements();
+  return builder.Build();
+}
+
+WorldInfo NewYorkCityInfo() {
+  const StreetPlan plan = PlanNewYorkCity();
+  return {"new_york_city",
+          "outdoor",
+          FreeGroundArea(plan, PlanManhattan(plan, {}).buildings),
+          {"barrier/fence/metal_fence",
+           "construction/awning",
+           "construction/bridge",
+           "construction/building",
+           "construction/building/roof",
+           "construction/fountain",
+           "construction/phone_booth",
+           "construction/pillar",
+           "construction/rooftop/air_conditioner",
+           "construction/rooftop/antenna",
+           "construction/rooftop/ventilation_tube",
+           "construction/rooftop/water_tank",
+           "construction/scaffolding",
+           "furniture/curtain",
+           "furniture/lighting/lamp_post",
+           "furniture/lighting/street_light",
+           "furniture/mail/post_box",
+           "furniture/misc",
+           "furniture/planter/green_pot",
+           "furniture/seating/bench/wood",
+           "furniture/seating/chair",
+           "furniture/shade/umbrella",
+           "furniture/table",
+           "furniture/transit/bus_stop",
+           "furniture/utility/electric_box",
+           "furniture/utility/fire_hydrant",
+           "furniture/utility/parking_meter",
+           "furniture/vending/hotdog_cart",
+           "furniture/waste/trash_can",
+           "ground/bike_lane",
+           "ground/crosswalk",
+           "ground/dirt",
+           "ground/grass",
+           "ground/kerb",
+           "ground/lane_marking",
+           "ground/manhole",
+           "ground/path/park_walkway",
+           "ground/road",
+           "ground/sidewalk",
+           "ground/terrain/landscape",
+           "nature/rock",
+           "signage/billboard",
+           "signage/flag/usa",
+           "signage/poster_stand",
+           "signage/shop_sign",
+           "signage/traffic_sign",
+           "sky",
+           "traffic/barrier/barrier",
+           "traffic/barrier/concrete_block",
+           "traffic/bollard/road_column",
+           "traffic/control/traffic_light",
+           "traffic/temporary/cone",
+           "vegetation/flower",
+           "vegetation/plant",
+           "vegetation/shrub/bush",
+           "vegetation/tree/broadleaf/generic",
+           "vegetation/tree/broadleaf/maple",
+           "vegetation/tree/broadleaf/narrowleaf",
+           "vegetation/tree/conifer/pine",
+           "vehicle/bicycle",
+           "vehicle/bus",
+           "vehicle/car",
+           "vehicle/food_truck",
+           "vehicle/van",
+           "water/lake",
+           "water/river"},
+          "Nine blocks of Midtown around a crossing of a planted boulevard: towers with setbacks, walk-ups with fire "
+          "escapes, brownstones, billboards, cabs, a park with lake, island and red bridge; skyline to the horizon; "
+          "no people."};
+}
+
+}  // namespace airsim360::internal

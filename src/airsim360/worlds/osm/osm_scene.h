@@ -1,0 +1,104 @@
+// What the builders of an OpenStreetMap world share.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "airsim360/worlds/osm/line_index.h"
+#include "airsim360/worlds/osm/osm_buildings.h"
+#include "airsim360/worlds/osm_world.h"
+#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/worlds/placer.h"
+#include "airsim360/worlds/props.h"
+#include "airsim360/worlds/surfaces.h"
+
+namespace airsim360::internal {
+
+/// Height of the ground over z = 0 of W. Flat where there is no grid.
+class Relief {
+ public:
+  Relief() = default;
+  /// `grid` (may be null) in degrees; `origin` of W gets height 0.
+  Relief(const HeightGrid* grid, const GeoPoint& origin);
+  double At(Vec2d p) const;
+  bool flat() const { return grid_ == nullptr; }
+
+ private:
+  double Raw(Vec2d p) const;
+  const HeightGrid* grid_ = nullptr;
+  GeoPoint origin_;
+  double metres_per_lat_ = 1, metres_per_lon_ = 1, zero_ = 0;
+};
+
+/// Copies of surfaces in other colours, each made once.
+class Tints {
+ public:
+  explicit Tints(SceneBuilder& builder) : builder_(builder) {}
+  /// `base` with the mean albedo `colour` where its picture has the mean albedo `mean`.
+  MaterialId Get(MaterialId base, Vec3f colour, float mean, float metallic = 0, float roughness = 0);
+
+ private:
+  SceneBuilder& builder_;
+  std::map<std::tuple<MaterialId, int, int, int, int>, MaterialId> made_;
+};
+
+struct OsmScene {
+  SceneBuilder& builder;
+  const Surfaces& surfaces;
+  PropShelf& shelf;
+  Occupancy& occupancy;
+  Tints& tints;
+  const OsmData& data;
+  const std::vector<OsmArea>& areas;
+  Relief relief;
+  OsmOptions options;
+  Vec2d focus;  ///< where the viewer starts; detail falls with the distance from it
+  bool europe = false;
+
+  double Far(Vec2d p) const { return std::hypot(p.x - focus.x, p.y - focus.y); }
+  Vec3f On(Vec2d p, double lift = 0) const {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(relief.At(p) + lift)};
+  }
+  /// A prop of its own entity `name`, category of its kind.
+  EntityId Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale = 1,
+               uint32_t variant = 0, Vec3f tint = {1, 1, 1});
+};
+
+inline Vec2f ToFloat(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
+struct RoadGraph;
+/// What a building's volumes lie among: for party walls and street fronts.
+struct Neighbours {
+  struct Other {
+    const OsmVolume* volume;
+    size_t building;
+  };
+  std::vector<Other> volumes;
+  BoxIndex boxes;
+  LineIndex roads;                 ///< centre lines; owner = index into graph->segments
+  LineIndex shops;                 ///< places of shops and cafés
+  std::shared_ptr<const RoadGraph> graph;  ///< set by BuildOsmGround
+  std::vector<std::pair<EntityId, Patches>> lawns;  ///< near the focus, set by BuildOsmGround
+};
+
+/// Walls, roofs and roof clutter of all buildings, as merged meshes by place. Returns their entities, in order.
+std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBuilding>& buildings, const Neighbours& near);
+
+/// The roof of a volume, and its walls above the eaves (as `walls`); `base` is the z of its foot.
+void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof,
+                  MaterialId wall, MaterialId cover);
+/// The world of a map that has been read or drawn.
+std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
+                                           const std::string& attribution, OsmReport* report = nullptr);
+/// What a roof is made of.
+MaterialId RoofCover(OsmScene& scene, const OsmVolume& volume, const OsmTags& building, uint64_t seed);
+
+/// Streets, pavements, paths, areas and the ground between, as entities without overlap.
+void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, Neighbours& near);
+/// Trees, lamps, benches, fences … of the map, and where the map has none of a kind, some by rule.
+void BuildOsmProps(OsmScene& scene, const Neighbours& near);
+
+}  // namespace airsim360::internal

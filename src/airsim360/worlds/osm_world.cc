@@ -1,0 +1,152 @@
+#include "airsim360/worlds/osm_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/worlds/osm/osm_scene.h"
+#include "airsim360/worlds/osm/osm_streets.h"
+
+namespace airsim360 {
+namespace internal {
+
+MaterialId Tints::Get(MaterialId base, Vec3f colour, float mean, float metallic, float roughness) {
+  const auto level = [](float x) { return static_cast<int>(std::lround(x * 255)); };
+  const auto key = std::tuple(base, level(colour.x), level(colour.y), level(colour.z), level(metallic));
+  const auto it = made_.find(key);
+  if (it != made_.end()) return it->second;
+  Material material = builder_.material(base);
+  material.name += " " + std::to_string(made_.size() + 1);
+  material.base_color = colour * (1 / mean);
+  if (metallic > 0) material.metallic = metallic;
+  if (roughness > 0) {
+    material.roughness = roughness;
+    material.metallic_roughness_texture = kNoTexture;
+    material.base_color_texture = kNoTexture;
+    material.base_color = colour;
+  }
+  return made_[key] = builder_.AddMaterial(std::move(material));
+}
+
+Relief::Relief(const HeightGrid* grid, const GeoPoint& origin) : grid_(grid), origin_(origin) {
+  if (!grid_) return;
+  const double east = grid_->longitude_west + grid_->cell_lon * grid_->columns,
+               south = grid_->latitude_north - grid_->cell_lat * grid_->rows;
+  if (origin.longitude_deg < grid_->longitude_west || origin.longitude_deg > east ||
+      origin.latitude_deg < south || origin.latitude_deg > grid_->latitude_north)
+    throw InputError("the heights cover latitude " + std::to_string(south) + " to " + std::to_string(grid_->latitude_north) +
+                     ", longitude " + std::to_string(grid_->longitude_west) + " to " + std::to_string(east) +
+                     "; the map lies at " + std::to_string(origin.latitude_deg) + ", " + std::to_string(origin.longitude_deg));
+  const GeoFrame frame(origin);
+  metres_per_lat_ = frame.ToWorld({origin.latitude_deg + 0.01, origin.longitude_deg, 0}).y * 100;
+  metres_per_lon_ = frame.ToWorld({origin.latitude_deg, origin.longitude_deg + 0.01, 0}).x * 100;
+  zero_ = Raw({0, 0});
+}
+
+double Relief::At(Vec2d p) const { return grid_ ? Raw(p) - zero_ : 0; }
+
+double Relief::Raw(Vec2d p) const {
+  // Bilinear between cell middles; the border's heights go on outside, unknown cells count as 0.
+  const double lat = origin_.latitude_deg + p.y / metres_per_lat_, lon = origin_.longitude_deg + p.x / metres_per_lon_;
+  const double x = std::clamp((lon - grid_->longitude_west) / grid_->cell_lon - 0.5, 0.0, grid_->columns - 1.0),
+               y = std::clamp((grid_->latitude_north - lat) / grid_->cell_lat - 0.5, 0.0, grid_->rows - 1.0);
+  const int i = std::min(static_cast<int>(x), std::max(grid_->columns - 2, 0)), k = std::min(static_cast<int>(y), std::max(grid_->rows - 2, 0));
+  const auto at = [&](int column, int row) {
+    column = std::min(column, grid_->columns - 1);
+    row = std::min(row, grid_->rows - 1);
+    const float h = grid_->heights[static_cast<size_t>(row) * static_cast<size_t>(grid_->columns) + static_cast<size_t>(column)];
+    return std::isfinite(h) ? static_cast<double>(h) : 0.0;
+  };
+  const double s = x - i, t = y - k;
+  return (at(i, k) * (1 - s) + at(i + 1, k) * s) * (1 - t) + (at(i, k + 1) * (1 - s) + at(i + 1, k + 1) * s) * t;
+}
+
+EntityId OsmScene::Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale, uint32_t variant,
+                       Vec3f tint) {
+  const PropKind& row = FindPropKind(kind);
+  const EntityId entity = builder.AddEntity(name, builder.tree().At(row.category));
+  shelf.PlaceAs(entity, kind, PlaceUpright(p_W, static_cast<float>(yaw), scale), variant % static_cast<uint32_t>(row.variants), tint);
+  return entity;
+}
+
+namespace {
+
+// Where to begin: over the street nearest to the middle, looking along it.
+void ChooseSpawn(OsmScene& scene, const Neighbours& near) {
+  const LineIndex::Near road = near.roads.Find(scene.focus, 400);
+  if (road.owner == UINT32_MAX) {
+    scene.builder.SetSpawn(scene.On(scene.focus, 12));
+    return;
+  }
+  const Vec2d along = road.direction;
+  scene.builder.SetSpawn(scene.On(road.point, 4.5), static_cast<float>(std::atan2(along.y, along.x) * 180 / M_PI));
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
+                                           const std::string& attribution, OsmReport* report) {
+  SceneBuilder builder(std::filesystem::path(name).filename().string());
+  builder.AddSky();
+  builder.environment() = {.sun_azimuth_deg = 215, .sun_elevation_deg = 46, .turbidity = 2.8, .cloud_cover = 0.35};
+  if (!attribution.empty()) builder.AddAttribution(attribution);
+  const Surfaces surfaces = AddSurfaces(builder);
+  PropShelf shelf(builder, options.models, options.seed);
+  Occupancy occupancy;
+  Tints tints(builder);
+  const std::vector<OsmArea> areas = FindAreas(data);
+  const Vec2d middle{(data.extent.x0 + data.extent.x1) / 2, (data.extent.y0 + data.extent.y1) / 2};
+  OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, Relief(options.heights, data.origin), options, middle,
+                 data.origin.longitude_deg > -30};
+  const std::vector<OsmBuilding> buildings = PlanOsmBuildings(data, areas);
+
+  // What stands where, for party walls, fronts and free places.
+  Neighbours near;
+  for (size_t i = 0; i < buildings.size(); ++i)
+    for (const OsmVolume& volume : buildings[i].volumes) {
+      Bounds2d box;
+      for (const Patch& patch : volume.footprint)
+        for (Vec2d p : patch.outer) box.Add(p);
+      if (volume.footprint.empty()) continue;
+      near.boxes.Add(box, static_cast<uint32_t>(near.volumes.size()));
+      near.volumes.push_back({&volume, i});
+    }
+  for (const OsmNode& node : data.nodes) {
+    const std::string_view amenity = node.tags.Get("amenity");
+    if (node.tags.Has("shop") || amenity == "cafe" || amenity == "restaurant" || amenity == "fast_food" || amenity == "bar" || amenity == "pub" || amenity == "bank" || amenity == "pharmacy")
+      near.shops.Add(node.p, node.p, 0);
+  }
+  BuildOsmGround(scene, buildings, near);
+  const std::vector<EntityId> entities = BuildOsmBuildings(scene, buildings, near);
+  BuildOsmProps(scene, near);
+  ChooseSpawn(scene, near);
+  auto built = builder.Build();
+  if (report) {
+    static constexpr const char* kSources[] = {"tag", "levels", "guess"};
+    *report = {data.origin, data.extent.width(), data.extent.depth(), {}};
+    for (size_t i = 0; i < buildings.size(); ++i) {
+      const OsmBuilding& building = buildings[i];
+      report->buildings.push_back({building.id, entities[i], building.height, kSources[static_cast<int>(building.source)],
+                                   Area(building.outline), building.orphan});
+    }
+  }
+  return built;
+}
+
+}  // namespace internal
+
+bool IsOsmFile(const std::filesystem::path& file) { return internal::IsOsmName(file.string()); }
+
+std::shared_ptr<const Scene> BuildOsmWorld(const std::string& name, std::span<const std::byte> bytes, const OsmOptions& options,
+                                           OsmReport* report) {
+  return internal::BuildMapScene(
+      name, internal::ReadOsm(name, bytes), options,
+      "map data (c) OpenStreetMap contributors, Open Database License 1.0 (openstreetmap.org/copyright)", report);
+}
+
+std::shared_ptr<const Scene> BuildOsmWorld(const std::filesystem::path& file, const OsmOptions& options, OsmReport* report) {
+  return BuildOsmWorld(file.string(), ReadFile(file, internal::OsmLimits().max_bytes), options, report);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,303 @@
+// Billboards with pictures drawn here: boards of 10 x 6 m, banners of 4 x 11 m, light boxes of 9 x 1.9 m. They
+// hang on walls: back at y = 0, lower edge at z = 0.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/worlds/props/drawing.h"
+#include "airsim360/worlds/props/families.h"
+#include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/prop_builder.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kTau = 2 * std::numbers::pi_v<float>;
+constexpr Vec3f kWhite{0.76f, 0.76f, 0.74f}, kBlack{0.012f, 0.012f, 0.013f}, kRed{0.55f, 0.012f, 0.015f},
+    kYellow{0.80f, 0.48f, 0.012f}, kSkin{0.46f, 0.27f, 0.18f};
+
+// Filled ellipse, radii in picture widths and heights.
+void Ellipse(Canvas& c, Vec2f size, Vec2f middle, Vec2f r, Vec3f color) {
+  const Vec2f m{middle.x * size.x, middle.y * size.y}, q{r.x * size.x, r.y * size.y};
+  c.Fill(
+      m - q, m + q,
+      [&](float x, float y) {
+        const float dx = (x - m.x) / q.x, dy = (y - m.y) / q.y;
+        return dx * dx + dy * dy < 1;
+      },
+      color);
+}
+
+// Filled polygon in picture coordinates.
+void Shape(Canvas& c, Vec2f size, std::vector<Vec2f> points, Vec3f color) {
+  Vec2f lo{1e9f, 1e9f}, hi{-1e9f, -1e9f};
+  for (Vec2f& p : points) {
+    p = {p.x * size.x, p.y * size.y};
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  }
+  c.Fill(
+      lo, hi,
+      [&](float x, float y) {
+        bool in = false;
+        for (size_t i = 0, j = points.size() - 1; i < points.size(); j = i++) {
+          const Vec2f a = points[i], b = points[j];
+          if ((a.y > y) != (b.y > y) && x < (b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x) in = !in;
+        }
+        return in;
+      },
+      color);
+}
+
+constexpr Vec2f kBoard{640, 384};
+
+void Gradient(Canvas& c, Vec3f top, Vec3f bottom) {
+  for (int i = 0; i < 48; ++i) {
+    const float t = static_cast<float>(i) / 47;
+    c.Rectangle({0, t * 47 / 48}, {1, t * 47 / 48 + 1.0f / 48}, top * (1 - t) + bottom * t);
+  }
+}
+
+// Head and shoulders at x: jacket, shirt, tie, face, hair.
+void Portrait(Canvas& c, float x, Vec3f skin, Vec3f hair, Vec3f jacket, Vec3f shirt, Vec3f tie) {
+  const Vec2f s = kBoard;
+  Shape(c, s, {{x - 0.20f, 1}, {x - 0.185f, 0.76f}, {x - 0.12f, 0.68f}, {x, 0.64f}, {x + 0.12f, 0.68f}, {x + 0.185f, 0.76f}, {x + 0.20f, 1}}, jacket);
+  Shape(c, s, {{x - 0.055f, 0.65f}, {x + 0.055f, 0.65f}, {x + 0.01f, 1}, {x - 0.01f, 1}}, shirt);
+  Shape(c, s, {{x - 0.018f, 0.70f}, {x + 0.018f, 0.70f}, {x + 0.024f, 1}, {x - 0.024f, 1}}, tie);
+  Shape(c, s, {{x - 0.045f, 0.52f}, {x + 0.045f, 0.52f}, {x + 0.05f, 0.69f}, {x - 0.05f, 0.69f}}, skin * 0.72f);
+  Ellipse(c, s, {x, 0.30f}, {0.098f, 0.19f}, hair);
+  Ellipse(c, s, {x, 0.40f}, {0.085f, 0.205f}, skin);
+  Shape(c, s, {{x - 0.09f, 0.34f}, {x - 0.07f, 0.16f}, {x + 0.03f, 0.12f}, {x + 0.09f, 0.22f}, {x + 0.09f, 0.34f}, {x + 0.05f, 0.25f}, {x - 0.05f, 0.26f}}, hair);
+  for (float e : {-0.036f, 0.036f}) {
+    Ellipse(c, s, {x + e, 0.385f}, {0.017f, 0.013f}, {0.7f, 0.7f, 0.68f});
+    Ellipse(c, s, {x + e, 0.385f}, {0.008f, 0.013f}, {0.02f, 0.02f, 0.02f});
+    c.Line({x + e - 0.02f, 0.352f}, {x + e + 0.02f, 0.348f}, 0.011f, hair);
+  }
+  Shape(c, s, {{x, 0.39f}, {x + 0.017f, 0.465f}, {x - 0.006f, 0.468f}}, skin * 0.75f);
+  c.Line({x - 0.030f, 0.525f}, {x + 0.030f, 0.525f}, 0.014f, {0.30f, 0.06f, 0.05f});
+}
+
+void RedCar(Canvas& c) {
+  const Vec2f s = kBoard;
+  Gradient(c, {0.05f, 0.07f, 0.12f}, {0.30f, 0.24f, 0.20f});
+  c.Rectangle({0, 0.78f}, {1, 1}, {0.035f, 0.035f, 0.04f});
+  Shape(c, s, {{0.08f, 0.80f}, {0.07f, 0.66f}, {0.16f, 0.58f}, {0.30f, 0.54f}, {0.42f, 0.40f}, {0.62f, 0.39f}, {0.76f, 0.54f}, {0.90f, 0.58f}, {0.94f, 0.68f}, {0.93f, 0.80f}}, {0.62f, 0.012f, 0.015f});
+  Shape(c, s, {{0.34f, 0.55f}, {0.44f, 0.43f}, {0.52f, 0.43f}, {0.52f, 0.55f}}, {0.05f, 0.07f, 0.09f});
+  Shape(c, s, {{0.54f, 0.55f}, {0.54f, 0.43f}, {0.61f, 0.43f}, {0.71f, 0.55f}}, {0.05f, 0.07f, 0.09f});
+  c.Line({0.09f, 0.68f}, {0.92f, 0.66f}, 0.012f, {0.30f, 0.006f, 0.008f});
+  for (float x : {0.24f, 0.77f}) {
+    c.Disc({x, 0.80f}, 0.125f, kBlack);
+    c.Disc({x, 0.80f}, 0.078f, {0.45f, 0.46f, 0.48f});
+    c.Disc({x, 0.80f}, 0.03f, kBlack);
+  }
+  Ellipse(c, s, {0.115f, 0.635f}, {0.03f, 0.022f}, {0.85f, 0.83f, 0.7f});
+  c.Letters("DRIVE RED", {0.5f, 0.18f}, 0.19f, kWhite, 0.95f);
+}
+
+void Skyline(Canvas& c, Vec3f color, float base, uint32_t seed) {
+  for (int i = 0; i < 22; ++i) {
+    const float h = 0.08f + 0.30f * TileNoise(static_cast<float>(i) * 0.73f, 0.5f, 64, 64, seed);
+    const float x = static_cast<float>(i) / 22;
+    c.Rectangle({x, base - h}, {x + 0.05f, base}, color);
+    for (float y = base - h + 0.02f; y < base - 0.02f; y += 0.03f)
+      for (float u : {0.010f, 0.024f, 0.037f})
+        if (TileNoise(x * 400 + u * 900, y * 300, 512, 512, seed + 3) > 0.5f)
+          c.Rectangle({x + u, y}, {x + u + 0.007f, y + 0.014f}, {0.8f, 0.6f, 0.2f});
+  }
+}
+
+Texture Board(uint32_t variant) {
+  Canvas c(static_cast<int>(kBoard.x), static_cast<int>(kBoard.y), kBlack);
+  switch (variant) {
+    case 0:
+      c.Letters("BLACK", {0.30f, 0.28f}, 0.30f, kWhite, 0.72f);
+      c.Letters("&", {0.5f, 0.5f}, 0.2f, kRed);
+      c.Rectangle({0.0f, 0.60f}, {1, 1}, kWhite);
+      c.Letters("WHITE", {0.66f, 0.80f}, 0.28f, kBlack, 0.78f);
+      break;
+    case 1:  // a man in a blue suit
+      Gradient(c, {0.62f, 0.60f, 0.55f}, {0.72f, 0.70f, 0.65f});
+      Portrait(c, 0.30f, kSkin, {0.035f, 0.022f, 0.015f}, {0.015f, 0.055f, 0.34f}, kWhite, {0.02f, 0.03f, 0.12f});
+      c.Letters("SHARP", {0.73f, 0.34f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
+      c.Letters("SUITS", {0.73f, 0.60f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
+      c.Letters("5TH AVENUE", {0.73f, 0.83f}, 0.075f, kBlack, 0.9f);
+      break;
+    case 2:
+      RedCar(c);
+      break;
+    case 3: {  // a black and white portrait
+      Gradient(c, {0.05f, 0.05f, 0.05f}, {0.42f, 0.42f, 0.42f});
+      const auto gray = [](float y) { return Vec3f{y, y, y}; };
+      Portrait(c, 0.66f, gray(0.55f), gray(0.02f), gray(0.03f), gray(0.75f), gray(0.05f));
+      c.Letters("PORTRAIT", {0.24f, 0.22f}, 0.10f, kWhite, 0.75f);
+      c.Letters("MUSEUM OF", {0.24f, 0.70f}, 0.065f, kWhite, 0.9f);
+      c.Letters("PHOTOGRAPHY", {0.24f, 0.82f}, 0.065f, kWhite, 0.8f);
+      break;
+    }
+    case 4:  // blue
+      Gradient(c, {0.02f, 0.16f, 0.62f}, {0.05f, 0.30f, 0.80f});
+      c.Disc({0.80f, 0.30f}, 0.16f, {0.85f, 0.85f, 0.83f});
+      for (int i = 0; i < 3; ++i)
+        c.Line({-0.05f, 0.66f + 0.1f * static_cast<float>(i)}, {1.05f, 0.60f + 0.1f * static_cast<float>(i)}, 0.035f, {0.35f, 0.62f, 0.85f});
+      c.Letters("BLUE AIR", {0.40f, 0.32f}, 0.24f, kWhite, 0.75f);
+      break;
+    case 5:
+      c.Letters("WHERE", {0.27f, 0.13f}, 0.13f, kWhite, 0.9f);
+      c.Letters("MAXIMUM", {0.38f, 0.30f}, 0.15f, kWhite, 0.9f);
+      c.Letters("ENERGY LIVES", {0.43f, 0.47f}, 0.10f, kWhite, 0.9f);
+      c.Letters("VOLT+", {0.66f, 0.77f}, 0.28f, kRed, 1.0f);
+      break;
+    case 6:
+      Gradient(c, {0.60f, 0.02f, 0.02f}, {0.42f, 0.01f, 0.012f});
+      c.Letters("RUN CITY", {0.5f, 0.24f}, 0.24f, kWhite, 0.85f);
+      Shape(c, kBoard, {{0.14f, 0.84f}, {0.12f, 0.62f}, {0.30f, 0.56f}, {0.44f, 0.66f}, {0.70f, 0.72f}, {0.86f, 0.80f}, {0.87f, 0.87f}, {0.15f, 0.88f}}, {0.05f, 0.06f, 0.12f});
+      for (int i = 0; i < 4; ++i)
+        c.Line({0.34f + 0.07f * static_cast<float>(i), 0.83f}, {0.40f + 0.07f * static_cast<float>(i), 0.66f + 0.015f * static_cast<float>(i)}, 0.02f, kWhite);
+      c.Rectangle({0.14f, 0.88f}, {0.88f, 0.93f}, kWhite);
+      break;
+    case 7:
+      Gradient(c, {0.03f, 0.02f, 0.10f}, {0.45f, 0.14f, 0.10f});
+      Skyline(c, {0.012f, 0.012f, 0.03f}, 1.0f, 7);
+      c.Letters("SKYLINE LIVE", {0.5f, 0.22f}, 0.17f, {0.85f, 0.62f, 0.18f}, 0.95f);
+      c.Letters("THE MUSICAL", {0.5f, 0.44f}, 0.08f, kWhite);
+      break;
+    case 8:
+      c.Rectangle({0, 0}, {1, 1}, kYellow);
+      c.Rectangle({0.04f, 0.62f}, {0.96f, 0.93f}, kBlack);
+      c.Letters("NYC TAXI", {0.5f, 0.30f}, 0.30f, kBlack, 0.82f);
+      c.Letters("24 HOURS", {0.5f, 0.78f}, 0.17f, kYellow);
+      break;
+    case 9:
+      Gradient(c, {0.02f, 0.20f, 0.09f}, {0.01f, 0.10f, 0.05f});
+      for (int i = 0; i < 9; ++i) {
+        const float a = kTau * static_cast<float>(i) / 9;
+        Ellipse(c, kBoard, {0.77f + 0.10f * std::cos(a), 0.5f + 0.17f * std::sin(a)}, {0.06f, 0.10f}, {0.75f, 0.55f, 0.60f});
+      }
+      c.Disc({0.77f, 0.5f}, 0.11f, kYellow);
+      c.Letters("FRESH", {0.32f, 0.36f}, 0.20f, kWhite, 0.9f);
+      c.Letters("MARKET", {0.32f, 0.64f}, 0.17f, {0.75f, 0.70f, 0.2f}, 0.9f);
+      break;
+    case 10:
+      Gradient(c, {0.70f, 0.68f, 0.62f}, {0.60f, 0.56f, 0.48f});
+      Shape(c, kBoard, {{0.58f, 0.34f}, {0.88f, 0.34f}, {0.83f, 0.80f}, {0.63f, 0.80f}}, {0.10f, 0.045f, 0.02f});
+      Ellipse(c, kBoard, {0.73f, 0.34f}, {0.15f, 0.05f}, {0.045f, 0.02f, 0.01f});
+      c.Line({0.88f, 0.42f}, {0.93f, 0.52f}, 0.035f, {0.10f, 0.045f, 0.02f});
+      c.Line({0.93f, 0.52f}, {0.86f, 0.62f}, 0.035f, {0.10f, 0.045f, 0.02f});
+      for (float x : {0.67f, 0.73f, 0.79f}) c.Line({x, 0.26f}, {x + 0.02f, 0.10f}, 0.018f, kWhite);
+      c.Letters("COFFEE", {0.28f, 0.36f}, 0.19f, {0.12f, 0.05f, 0.02f}, 0.85f);
+      c.Letters("ALL DAY", {0.28f, 0.64f}, 0.13f, kRed, 0.9f);
+      break;
+    default:
+      Gradient(c, {0.30f, 0.02f, 0.30f}, {0.05f, 0.02f, 0.20f});
+      for (int i = 0; i < 7; ++i)
+        c.Disc({0.15f + 0.12f * static_cast<float>(i), 0.72f + 0.08f * std::sin(1.7f * static_cast<float>(i))}, 0.07f,
+               i % 3 == 0 ? kYellow : i % 3 == 1 ? Vec3f{0.05f, 0.55f, 0.55f} : Vec3f{0.75f, 0.08f, 0.25f});
+      c.Letters("JAZZ CLUB", {0.5f, 0.30f}, 0.24f, {0.10f, 0.70f, 0.62f}, 0.85f);
+  }
+  return c.Finish("board " + std::to_string(variant));
+}
+
+// A board with a frame, its face a little in front.
+void AddBoard(PropBuilder& b, float w, float h, Texture face, float glow) {
+  b.Use(Paint({0.025f, 0.026f, 0.028f}, 0.5f));
+  b.BevelBox({-w / 2 - 0.12f, -0.40f, 0}, {w / 2 + 0.12f, 0.0f, h + 0.24f}, 0.04f);
+  Material picture = Paint({1, 1, 1}, 0.55f);
+  picture.name = "billboard face";
+  b.Use(picture, face);
+  if (glow > 0) {
+    picture.emission = Vec3f{1, 1, 1} * (glow * kNit);
+    b.Use(picture, face);
+  }
+  b.Picture({-w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f + h}, {-w / 2, -0.405f, 0.12f + h});
+}
+
+Model MakeBillboard(uint32_t variant, uint64_t) {
+  PropBuilder b("billboard");
+  AddBoard(b, 10, 6, Board(variant), 0);
+  return b.Finish();
+}
+
+Texture Banner(uint32_t variant) {
+  Canvas c(224, 616, kBlack);
+  switch (variant) {
+    case 0:
+      c.Rectangle({0, 0.42f}, {1, 0.70f}, kYellow);
+      c.Rectangle({0, 0.70f}, {1, 1}, {0.02f, 0.28f, 0.28f});
+      c.Letters("NYC", {0.5f, 0.12f}, 0.14f, kYellow, 0.95f);
+      c.Letters("LIVE", {0.5f, 0.30f}, 0.11f, kWhite, 0.95f);
+      c.Letters("TAXI", {0.5f, 0.50f}, 0.10f, kBlack, 1.0f);
+      c.Letters("24H", {0.5f, 0.63f}, 0.09f, kBlack, 1.1f);
+      c.Letters("JAZZ", {0.5f, 0.79f}, 0.10f, kWhite, 1.0f);
+      c.Letters("CLUB", {0.5f, 0.92f}, 0.10f, kYellow, 1.0f);
+      break;
+    case 1:
+      c.Rectangle({0, 0}, {1, 1}, {0.02f, 0.20f, 0.09f});
+      c.Letters("GOLDEN", {0.5f, 0.07f}, 0.055f, kYellow, 1.0f);
+      c.Rectangle({0.40f, 0.18f}, {0.60f, 0.34f}, {0.40f, 0.20f, 0.04f});
+      c.Rectangle({0.26f, 0.34f}, {0.74f, 0.90f}, {0.45f, 0.23f, 0.04f});
+      c.Rectangle({0.26f, 0.50f}, {0.74f, 0.72f}, kWhite);
+      c.Letters("ALE", {0.5f, 0.61f}, 0.06f, {0.02f, 0.20f, 0.09f}, 1.0f);
+      break;
+    case 2:
+      c.Rectangle({0, 0}, {1, 1}, kRed);
+      for (int i = 0; i < 5; ++i) {
+        constexpr const char* kLetters[] = {"H", "O", "T", "E", "L"};
+        c.Letters(kLetters[i], {0.5f, 0.12f + 0.19f * static_cast<float>(i)}, 0.14f, kWhite, 1.3f);
+      }
+      break;
+    default:
+      c.Rectangle({0, 0}, {1, 1}, {0.70f, 0.70f, 0.68f});
+      c.Disc({0.5f, 0.30f}, 0.12f, {0.75f, 0.25f, 0.02f});
+      c.Disc({0.5f, 0.48f}, 0.12f, {0.03f, 0.15f, 0.45f});
+      c.Letters("MODERN", {0.5f, 0.74f}, 0.05f, kBlack, 1.05f);
+      c.Letters("ART", {0.5f, 0.86f}, 0.10f, kBlack, 1.2f);
+  }
+  return c.Finish("banner " + std::to_string(variant));
+}
+
+Model MakeBanner(uint32_t variant, uint64_t) {
+  PropBuilder b("banner");
+  AddBoard(b, 4, 11, Banner(variant), 0);
+  return b.Finish();
+}
+
+Model MakeLightBox(uint32_t variant, uint64_t) {
+  PropBuilder b("light_box");
+  constexpr const char* kWords[] = {"NY PUPPETS", "CAFE BISTRO", "HOTEL ASTOR", "ARCADE", "PIZZA SLICE", "CINEMA"};
+  constexpr Vec3f kColors[] = {{0.12f, 0.80f, 0.10f}, {0.05f, 0.60f, 0.75f}, {0.80f, 0.30f, 0.05f},
+                               {0.75f, 0.05f, 0.45f}, {0.80f, 0.55f, 0.04f}, {0.70f, 0.72f, 0.80f}};
+  Canvas c(576, 128, {0.010f, 0.010f, 0.012f});
+  c.Letters(kWords[variant], {0.5f, 0.5f}, 0.60f, kColors[variant], 0.85f);
+  AddBoard(b, 9, 1.9f, c.Finish("light box " + std::to_string(variant)), 0);
+  return b.Finish();
+}
+
+// Steel frame that holds a board above a roof: 10 m wide, its board's foot at 2.2 m.
+Model MakeBillboardFrame(uint32_t, uint64_t) {
+  PropBuilder b("billboard_frame");
+  b.Use(Paint({0.045f, 0.047f, 0.05f}, 0.6f));
+  for (int i = 0; i < 5; ++i) {
+    const float x = -4.6f + 2.3f * static_cast<float>(i);
+    b.mesh().Beam({x, 0.1f, 0}, {x, 0.1f, 8.2f}, 0.16f);
+    b.mesh().Beam({x, 3.0f, 0}, {x, 0.1f, 6.8f}, 0.12f);
+    b.mesh().Beam({x, 3.0f, 0.1f}, {x, 0.1f, 0.1f}, 0.12f);
+  }
+  for (float z : {2.2f, 5.0f, 8.0f}) b.mesh().Beam({-5, 0.1f, z}, {5, 0.1f, z}, 0.14f);
+  // A catwalk along the lower edge.
+  b.mesh().Box({-5, -0.9f, 2.05f}, {5, 0.0f, 2.10f});
+  for (float z : {2.6f, 3.1f}) b.mesh().Beam({-5, -0.88f, z}, {5, -0.88f, z}, 0.035f);
+  return b.Finish();
+}
+
+}  // namespace
+
+std::vector<PropKind> BillboardKinds() {
+  return {
+      {"billboard", "signage/billboard", 12, MakeBillboard, 5.2f, 6.0f, 6.5f, 100},
+      {"banner", "signage/billboard", 4, MakeBanner, 2.2f, 11.0f, 11.5f, 100},
+      {"light_box", "signage/billboard", 6, MakeLightBox, 4.7f, 2.0f, 2.3f, 100},
+      {"billboard_frame", "signage/billboard", 1, MakeBillboardFrame, 5.0f, 8.0f, 8.4f, 600},
+  };
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,77 @@
+// A GPU for tests, and how two frames are compared.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "airsim360/render/vulkan/gpu.h"
+
+namespace airsim360::test {
+
+/// Skips the test where no device can trace rays.
+#define AIRSIM360_NEEDS_GPU()                                                                               \
+  do {                                                                                                      \
+    std::string why = "no Vulkan device traces rays";                                                       \
+    bool any = false;                                                                                       \
+    for (const GpuInfo& gpu : ListGpus(&why)) any |= gpu.missing.empty();                                   \
+    if (!any)                                                                                               \
+      GTEST_SKIP() << why                                                                                   \
+                   << " (apt-get install -t bookworm-backports mesa-vulkan-drivers brings a software one)"; \
+  } while (false)
+
+/// What differs between two label pictures of one request.
+struct LabelDifference {
+  int pixels = 0;         ///< with a ray
+  int different = 0;      ///< entity or category differ
+  int far = 0;            ///< of these, more than a pixel from any edge of the first
+  double range = 0;       ///< largest relative error of range where labels agree, off edges
+  double normal = 0;      ///< likewise largest distance of normals
+  int off_edges = 0;      ///< pixels that the last two are about
+};
+
+/// Whether any of the nine pixels around differs from pixel (x, y): another entity, or a step in range or normal.
+inline bool NearEdge(const Frame& f, int x, int y, bool wraps) {
+  const int w = f.entity.width(), h = f.entity.height();
+  const float range = f.range(x, y);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      int i = x + dx;
+      const int j = y + dy;
+      if (wraps) i = (i + w) % w;
+      if (i < 0 || j < 0 || i >= w || j >= h) continue;
+      if (f.entity(i, j) != f.entity(x, y)) return true;
+      if (Dot(f.normal(i, j), f.normal(x, y)) < 0.999f && f.range(i, j) > 0) return true;
+      // Of a plane 1 / range is linear: a step shows against both neighbours of a line, here by its size.
+      if (std::fabs(f.range(i, j) - range) > 0.3f * std::min(range, f.range(i, j))) return true;
+    }
+  }
+  return false;
+}
+
+inline LabelDifference Compare(const Frame& cpu, const Frame& gpu, bool wraps) {
+  LabelDifference out;
+  for (int y = 0; y < cpu.entity.height(); ++y) {
+    for (int x = 0; x < cpu.entity.width(); ++x) {
+      if (cpu.entity(x, y) == 0 && gpu.entity(x, y) == 0) continue;
+      ++out.pixels;
+      const bool edge = NearEdge(cpu, x, y, wraps);
+      if (cpu.entity(x, y) != gpu.entity(x, y) || cpu.semantic(x, y) != gpu.semantic(x, y)) {
+        ++out.different;
+        out.far += edge ? 0 : 1;
+        continue;
+      }
+      if (edge || cpu.range(x, y) <= 0) continue;
+      ++out.off_edges;
+      const double error = std::fabs(static_cast<double>(cpu.range(x, y)) - gpu.range(x, y)) / cpu.range(x, y);
+      if (!(error <= out.range)) out.range = error;
+      const double bent = Norm(cpu.normal(x, y) - gpu.normal(x, y));
+      if (!(bent <= out.normal)) out.normal = bent;
+    }
+  }
+  return out;
+}
+
+}  // namespace airsim360::test

@@ -1,0 +1,114 @@
+// The shared shading source gives the same numbers as C++ and as GLSL on a GPU. (C++ scalar against SIMD: ShadingShared tests.)
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "airsim360/base/random.h"
+#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/vulkan/gpu_memory.h"
+#include "gpu_fixture.h"
+
+namespace airsim360 {
+namespace {
+
+using namespace internal;
+
+constexpr uint32_t kCode[] = {
+#include "functions.comp.inc"
+};
+constexpr uint32_t kCount = 256;
+
+struct Function {
+  const char* name;
+  double low, high;
+  int ulps;
+  float (*evaluate)(float, float, float);
+};
+
+const Function kFunctions[] = {
+#define FN(low, high, ulps, expression)                          \
+  {#expression, low, high, ulps, [](float a, float b, float c) { \
+     using namespace scalar;                                     \
+     (void)a, (void)b, (void)c;                                  \
+     return static_cast<float>(expression);                      \
+   }},
+#include "functions.inc"
+#undef FN
+};
+
+struct Push {
+  VkDeviceAddress arguments, results;
+  uint32_t count;
+};
+
+void RunOnGpu(GpuDevice& device, const Push& push) {
+  const VkDevice d = device.device();
+  const VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, sizeof(kCode), kCode};
+  VkShaderModule module;
+  CheckVk(vkCreateShaderModule(d, &code, nullptr, &module), "loading a shader");
+  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push)};
+  const VkPipelineLayoutCreateInfo layout_info{
+      VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 0, nullptr, 1, &range};
+  VkPipelineLayout layout;
+  CheckVk(vkCreatePipelineLayout(d, &layout_info, nullptr, &layout), "making a pipeline");
+  const VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                         nullptr,
+                                         0,
+                                         {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0,
+                                          VK_SHADER_STAGE_COMPUTE_BIT, module, "main", nullptr},
+                                         layout,
+                                         VK_NULL_HANDLE,
+                                         0};
+  VkPipeline pipeline;
+  CheckVk(vkCreateComputePipelines(d, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "compiling");
+  device.Run([&](VkCommandBuffer commands) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push), &push);
+    vkCmdDispatch(commands, (push.count + 63) / 64, 1, 1);
+    const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
+                                  VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                         nullptr, 0, nullptr);
+  });
+  vkDestroyPipeline(d, pipeline, nullptr);
+  vkDestroyPipelineLayout(d, layout, nullptr);
+  vkDestroyShaderModule(d, module, nullptr);
+}
+
+// Units in the last place of the larger, or of 1/16.
+double UlpsApart(float a, float b) {
+  const float magnitude = std::max({std::fabs(a), std::fabs(b), 1.0f / 16});
+  return std::fabs(static_cast<double>(a) - b) / (std::nextafter(magnitude, INFINITY) - magnitude);
+}
+
+TEST(GpuShading, EverySharedFunctionIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  GpuDevice device({.validate = true});
+  const size_t functions = std::size(kFunctions);
+  const GpuBuffer arguments(device, functions * 3 * kCount * sizeof(float), MemoryKind::kUpload);
+  const GpuBuffer results(device, functions * kCount * sizeof(float), MemoryKind::kReadBack);
+  auto* in = reinterpret_cast<float*>(arguments.mapped());
+  RngStream random(5, "functions");
+  for (size_t f = 0; f < functions; ++f) {
+    for (uint32_t i = 0; i < 3 * kCount; ++i)
+      in[3 * f * kCount + i] = static_cast<float>(random.Uniform(kFunctions[f].low, kFunctions[f].high));
+  }
+  RunOnGpu(device, {arguments.address(), results.address(), kCount});
+  results.Invalidate();
+  const auto* out = reinterpret_cast<const float*>(results.mapped());
+  for (size_t f = 0; f < functions; ++f) {
+    const Function& function = kFunctions[f];
+    const float* a = in + 3 * f * kCount;
+    double worst = 0;
+    for (uint32_t i = 0; i < kCount; ++i)
+      worst = std::max(worst, UlpsApart(out[f * kCount + i],
+                                        function.evaluate(a[i], a[kCount + i], a[2 * kCount + i])));
+    EXPECT_LE(worst, function.ulps) << function.name;
+  }
+  for (const std::string& message : device.messages()) ADD_FAILURE() << message;
+}
+
+}  // namespace
+}  // namespace airsim360

@@ -1,0 +1,259 @@
+// The two downtowns as users meet them: what is there, what can be seen, what instructions name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <set>
+
+#include "airsim360/render/renderer.h"
+#include "airsim360/trace/ray_tracer.h"
+#include "airsim360/worlds/built_in.h"
+#include "airsim360/worlds/massing.h"
+#include "airsim360/worlds/new_york_city/manhattan.h"
+#include "airsim360/worlds/world_survey.h"
+
+namespace airsim360 {
+namespace {
+
+struct Built {
+  std::shared_ptr<const Scene> scene;
+  std::vector<Placement> placements;
+  std::shared_ptr<const RayTracer> tracer;
+  std::map<std::string, std::vector<const Entity*>> by_category;
+};
+
+void Index(Built& built) {
+  built.tracer = std::make_shared<const RayTracer>(built.scene);
+  for (const Entity& entity : built.scene->entities)
+    built.by_category[built.scene->tree[entity.category].path].push_back(&entity);
+}
+
+// Procedural props only, seed 0; each world is built once for the program.
+const Built& NewYork() {
+  static const Built built = [] {
+    Built b;
+    b.scene = internal::BuildNewYorkCity({}, &b.placements);
+    Index(b);
+    return b;
+  }();
+  return built;
+}
+const Built& Downtown() {
+  static const Built built = [] {
+    Built b;
+    b.scene = internal::BuildDowntownWest({}, &b.placements);
+    Index(b);
+    return b;
+  }();
+  return built;
+}
+
+// The 25 categories that the paper's table lists for New York City; the sky is the 25th.
+constexpr const char* kNewYorkCategories[] = {
+    "traffic/barrier/concrete_block", "furniture/misc", "traffic/temporary/cone", "barrier/fence/metal_fence",
+    "construction/pillar", "furniture/lighting/street_light", "furniture/waste/trash_can", "furniture/mail/post_box",
+    "furniture/shade/umbrella", "furniture/table", "furniture/seating/chair", "furniture/planter/green_pot",
+    "traffic/bollard/road_column", "signage/billboard", "construction/awning", "construction/scaffolding",
+    "signage/flag/usa", "vegetation/plant", "construction/rooftop/ventilation_tube", "construction/building",
+    "furniture/vending/hotdog_cart", "ground/road", "ground/sidewalk", "ground/dirt"};
+
+// And the 29 for Downtown West, again without the sky.
+constexpr const char* kDowntownCategories[] = {
+    "barrier/fence/wood_fence", "barrier/railing/pillar", "barrier/railing/rail", "construction/awning",
+    "construction/building", "construction/building/roof", "furniture/lighting/lamp_post",
+    "furniture/lighting/street_light", "furniture/planter/pot", "furniture/seating/bench/wood",
+    "furniture/seating/chair", "furniture/shade/tarp", "furniture/shade/tarp_post", "furniture/shade/umbrella",
+    "furniture/table/dining_table", "furniture/vending/food_cart", "furniture/waste/recycle_bin",
+    "ground/path/park_walkway", "ground/pavement/modular", "ground/road", "ground/terrain/landscape",
+    "nature/mountain", "nature/rock", "signage/poster_stand", "traffic/bollard/car_pillar",
+    "vegetation/tree/broadleaf/generic", "vegetation/tree/broadleaf/narrowleaf", "vegetation/tree/conifer/pine"};
+
+// Entities of a category in the picture from `p`.
+struct Seen {
+  size_t entities = 0;
+  int unlabelled = 0;
+};
+Seen LookFrom(const Built& built, Renderer& renderer, Vec3f p, const std::string& path) {
+  RenderRequest request;
+  request.camera = Equirectangular{512, 256};
+  request.X_WC = BodyPose({p.x, p.y, p.z}, 0, 0, 0) * CameraInBody();
+  request.tier = Tier::kLabels;
+  Frame frame;
+  renderer.Render(request, frame);
+  std::set<EntityId> found;
+  Seen seen;
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 512; ++x) {
+      const CategoryId category = frame.semantic(x, y);
+      seen.unlabelled += category == kVoid || frame.entity(x, y) == kNoEntity;
+      if (category != kVoid && built.scene->tree[category].path == path) found.insert(frame.entity(x, y));
+    }
+  }
+  seen.entities = found.size();
+  return seen;
+}
+
+// Looks at the places where entities of the category stand closest together, a few metres above them.
+void ExpectThreeVisible(const Built& built, const std::string& path) {
+  const auto it = built.by_category.find(path);
+  ASSERT_NE(it, built.by_category.end()) << path;
+  const auto& entities = it->second;
+  ASSERT_GE(entities.size(), 3u) << path;
+  static std::map<const Built*, std::unique_ptr<Renderer>> renderers;
+  auto& renderer = renderers[&built];
+  if (!renderer) renderer = MakeCpuRenderer(built.tracer, {.tier = Tier::kLabels});
+  // Distance to the second-next of the same kind.
+  std::vector<std::pair<float, const Entity*>> crowded;
+  const size_t step = std::max<size_t>(1, entities.size() / 150);
+  for (size_t i = 0; i < entities.size(); i += step) {
+    float best[2] = {1e9f, 1e9f};
+    for (const Entity* other : entities) {
+      if (other == entities[i]) continue;
+      const float d = Norm(other->bounds.center() - entities[i]->bounds.center());
+      if (d < best[0]) best[1] = std::exchange(best[0], d);
+      else best[1] = std::min(best[1], d);
+    }
+    crowded.emplace_back(best[1], entities[i]);
+  }
+  std::sort(crowded.begin(), crowded.end());
+  size_t most = 0;
+  for (size_t i = 0; i < std::min<size_t>(crowded.size(), 12) && most < 3; ++i) {
+    const Box3f& box = crowded[i].second->bounds;
+    for (Vec3f offset : {Vec3f{2.5f, 2.5f, 2}, Vec3f{-3, 3, 3}, Vec3f{3, -5, 8}, Vec3f{-6, -6, 25}}) {
+      const Vec3f c = box.center();
+      const Seen seen = LookFrom(built, *renderer, {c.x + offset.x, c.y + offset.y, box.max.z + offset.z}, path);
+      EXPECT_EQ(seen.unlabelled, 0) << path;
+      most = std::max(most, seen.entities);
+      if (most >= 3) break;
+    }
+  }
+  EXPECT_GE(most, 3u) << path;
+}
+
+TEST(NewYorkCity, ShowsThreeEntitiesOfEveryCategoryOfThePaperInSomeFrame) {
+  for (const char* path : kNewYorkCategories) ExpectThreeVisible(NewYork(), path);
+  EXPECT_EQ(std::size(kNewYorkCategories) + NewYork().by_category.count("sky"), 25u);
+}
+
+TEST(DowntownWest, ShowsThreeEntitiesOfEveryCategoryOfThePaperInSomeFrame) {
+  for (const char* path : kDowntownCategories) ExpectThreeVisible(Downtown(), path);
+  EXPECT_EQ(std::size(kDowntownCategories) + Downtown().by_category.count("sky"), 29u);
+}
+
+TEST(NewYorkCity, AnnouncesExactlyTheCategoriesThatItHas) {
+  std::vector<std::string> present;
+  for (const auto& [path, entities] : NewYork().by_category) present.push_back(path);
+  EXPECT_EQ(present, internal::NewYorkCityInfo().categories);
+}
+
+TEST(NewYorkCity, ReachesTheStructuralFloor) {
+  const WorldSurvey s = SurveyWorld(*NewYork().scene);
+  EXPECT_GE(s.ground_area_m2, 44800);
+  EXPECT_GE(s.buildings_inside, 20);
+  EXPECT_GE(s.buildings_backdrop, 60);
+  EXPECT_GE(s.lamp_posts, 80);
+  EXPECT_GE(s.cars, 130);
+  EXPECT_GE(s.manholes, 35);
+  EXPECT_GE(s.counts.instances, 20000u);
+  EXPECT_GE(s.counts.entities, 3000u);
+  EXPECT_GE(s.trees, 60);
+  EXPECT_GE(s.tree_species, 2);
+  EXPECT_GE(s.tree_meshes, 6);
+  EXPECT_GE(s.road_m, 700);
+  EXPECT_GE(s.pavement_m, 1500);
+  EXPECT_LE(s.counts.unique_triangles, 8'000'000u);
+  const internal::Manhattan city = internal::PlanManhattan(PlanNewYorkCity(), {});
+  std::set<FacadeStyle> styles;
+  const GroundRect reach = PlanNewYorkCity().reach();
+  for (const BuildingPlan& plan : city.buildings)
+    if (reach.Contains(plan.bounds().center())) styles.insert(plan.style);
+  EXPECT_GE(styles.size(), 8u);
+}
+
+// How many entities carry a name, repeats (" 2", " 3", …) included.
+int CountNamed(const Scene& scene, const std::string& name) {
+  return static_cast<int>(std::count_if(scene.entities.begin(), scene.entities.end(), [&](const Entity& entity) {
+    if (entity.name == name) return true;
+    return entity.name.starts_with(name + " ") && entity.name.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
+  }));
+}
+
+TEST(NewYorkCity, HasEachLandmarkOfTheInstructionsOnce) {
+  for (const char* name :
+       {"red telephone booth", "orange mailbox", "food truck", "small fountain", "billboard BLACK & WHITE",
+        "billboard person in a blue suit", "billboard red car", "billboard black and white portrait", "blue billboard",
+        "bank with the purple sign", "giant cola bottle", "tree with red leaves", "yellow sunshade", "blue barrier",
+        "red bridge", "lake", "island", "american flag on a mast", "blue mailbox", "similar tower 1", "similar tower 2",
+        "similar tower 3"})
+    EXPECT_EQ(CountNamed(*NewYork().scene, name), 1) << name;
+  // Red curtains: many windows, all of one storey of one building.
+  float low = 1e9f, high = -1e9f;
+  Box3f all;
+  int windows = 0;
+  for (const Entity& entity : NewYork().scene->entities) {
+    if (!entity.name.starts_with("red curtains")) continue;
+    ++windows;
+    all.Add(entity.bounds);
+    low = std::min(low, entity.bounds.min.z);
+    high = std::max(high, entity.bounds.max.z);
+  }
+  EXPECT_GE(windows, 8);
+  EXPECT_LE(high - low, 4);
+  EXPECT_LE(std::max(all.size().x, all.size().y), 40);
+  // One street, the boulevard at x = 0, has green bike lanes.
+  for (const Entity& entity : NewYork().scene->entities)
+    if (NewYork().scene->tree[entity.category].path == "ground/bike_lane") EXPECT_LE(std::abs(entity.bounds.center().x), 13) << entity.name;
+}
+
+TEST(DowntownWest, HasEachLandmarkOfTheInstructionsOnce) {
+  for (const char* name : {"red telephone booth", "orange mailbox", "food truck", "fountain", "billboard BLACK & WHITE",
+                           "billboard person in a blue suit", "billboard red car", "billboard black and white portrait",
+                           "blue billboard", "bank with the purple sign", "tree with red leaves", "blue barrier",
+                           "american flag on a mast", "pond"})
+    EXPECT_EQ(CountNamed(*Downtown().scene, name), 1) << name;
+}
+
+TEST(NewYorkCity, NoTwoPropsShareGround) {
+  const auto& placements = NewYork().placements;
+  ASSERT_GT(placements.size(), 1500u);
+  for (size_t i = 0; i < placements.size(); ++i) {
+    for (size_t k = i + 1; k < placements.size(); ++k) {
+      const Footprint &a = placements[i].footprint, &b = placements[k].footprint;
+      if (std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) > 20) continue;
+      EXPECT_FALSE(a.Overlaps(b)) << placements[i].kind << " and " << placements[k].kind << " at " << a.center.x << " " << a.center.y;
+    }
+  }
+}
+
+TEST(NewYorkCity, NoPropStandsInABuilding) {
+  const internal::Manhattan city = internal::PlanManhattan(PlanNewYorkCity(), {});
+  for (const Placement& prop : NewYork().placements) {
+    for (const BuildingPlan& building : city.buildings)
+      if (building.base == 0) EXPECT_FALSE(building.bounds().Inset(0.05f).Contains({prop.p_W.x, prop.p_W.y})) << prop.kind << " " << prop.p_W.x << " " << prop.p_W.y;
+  }
+}
+
+TEST(Manhattan, IsAFunctionOfItsSeedAndTiersStandOnTheTierBelow) {
+  const StreetPlan plan = PlanNewYorkCity();
+  const internal::Manhattan a = internal::PlanManhattan(plan, {.seed = 3}), b = internal::PlanManhattan(plan, {.seed = 3}),
+                            c = internal::PlanManhattan(plan, {.seed = 4});
+  ASSERT_EQ(a.buildings.size(), b.buildings.size());
+  bool differs = a.buildings.size() != c.buildings.size();
+  for (size_t i = 0; i < a.buildings.size(); ++i) {
+    EXPECT_EQ(a.buildings[i].outline, b.buildings[i].outline);
+    EXPECT_EQ(a.buildings[i].floors, b.buildings[i].floors);
+    if (i < c.buildings.size()) differs = differs || a.buildings[i].outline != c.buildings[i].outline;
+    if (a.buildings[i].base == 0) continue;
+    // Within the outline of the tier below, from its roof on.
+    EXPECT_FLOAT_EQ(a.buildings[i].base, a.buildings[i - 1].height());
+    EXPECT_EQ(a.buildings[i - 1].upper, a.buildings[i].outline);
+    for (Vec2f p : a.buildings[i].outline) EXPECT_TRUE(a.buildings[i - 1].bounds().Contains(p));
+  }
+  EXPECT_TRUE(differs);
+}
+
+}  // namespace
+}  // namespace airsim360
