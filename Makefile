@@ -23,7 +23,7 @@ bench: build
 
 # dist/airsim360-*.whl, for Debian's python3; offline
 wheel: install-packages
-	@AIRSIM360_BUILD=$(BUILD) /usr/bin/python3 python/build_backend.py dist
+	@AIRSIM360_BUILD=$(BUILD) JOBS=$(JOBS) /usr/bin/python3 python/build_backend.py dist
 
 # the GPU renderer alone: builds, checks and times it in under ten minutes and names the device
 bench-gpu: install-packages

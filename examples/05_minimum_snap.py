@@ -27,4 +27,4 @@ while sim.t < plan.duration:
     speeds.append(np.linalg.norm(state.velocity))
 rms = np.sqrt(np.mean(np.square(errors)))
 print(f"tracking error {rms:.3f} m rms, {max(errors):.3f} m at most; fastest {max(speeds):.2f} m/s")
-sys.exit(max(errors) > 0.3 or sim.state().collision is not None)
+sys.exit(bool(max(errors) > 0.3) or sim.state().collision is not None)

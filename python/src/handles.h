@@ -37,11 +37,21 @@ class World {
   std::shared_ptr<const RayTracer> TracerLocked();
 };
 
+/// Entities of a scene by id, as dictionaries.
+py::list EntitiesOf(const Scene& scene);
+
 /// What and how a trigger captures.
 struct Rig {
   PanoramicRig rig;
   double flow_dt = 0.1;  ///< seconds that optical flow leads on by
 };
+
+/// Rig() of Python: a panorama of 1024 x 512.
+inline Rig DefaultRig() {
+  Rig rig;
+  rig.rig.camera = Equirectangular{1024, 512};
+  return rig;
+}
 
 /// A kind of drone and where it starts.
 struct Drone {

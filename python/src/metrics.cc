@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "airsim360/eval/image_metrics.h"
+#include "airsim360/eval/navigation_metrics.h"
 #include "convert.h"
 
 namespace airsim360::python {
@@ -44,6 +45,19 @@ void BindMetrics(py::module_& m) {
       "flip", &FlipMap, py::arg("reference"), py::arg("test"),
       py::arg("pixels_per_degree") = FlipOptions{}.pixels_per_degree, py::arg("wrap") = false,
       "FLIP of every pixel, (H, W) float32 in 0 … 1; wrap: the left border goes on at the right one.");
+  metrics.def(
+      "path_length", [](const py::object& path) { return PathLength(ToPoints(path, "path")); },
+      py::arg("path"), "Metres along points (N, 3).");
+  metrics.def("spl", &SuccessByLength, py::arg("success"), py::arg("shortest"), py::arg("flown"),
+              "Success weighted by path length: success * shortest / max(flown, shortest).");
+  metrics.def(
+      "ndtw",
+      [](const py::object& path, const py::object& reference, double threshold) {
+        return NormalizedTimeWarping(ToPoints(path, "path"), ToPoints(reference, "reference"), threshold);
+      },
+      py::arg("path"), py::arg("reference"), py::arg("threshold"),
+      "Normalised dynamic time warping of paths (N, 3), (M, 3), in (0, 1]; threshold: metres that count as "
+      "success.");
 }
 
 }  // namespace airsim360::python

@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/sim/capture.h"
+#include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/trajectory_reference.h"
 
 namespace airsim360::python {
@@ -44,8 +45,8 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
 Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
                        double dt, const py::object& wind)
     : world_(std::move(world)) {
-  if (people != 0)
-    throw InputError("people: this build of airsim360 has no people in simulations yet; give 0");
+  if (people < 0 || people > 10000)
+    throw InputError("people: " + std::to_string(people) + " is not in 0 ... 10000");
   if (!(dt >= 1e-5 && dt <= 0.1))
     throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
   const std::vector<Drone> list = ToDrones(drones);
@@ -68,25 +69,38 @@ Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, i
     setups.push_back(std::move(setup));
   }
   const py::gil_scoped_release release;
-  Build(std::move(model), std::move(setups));
+  Build(std::move(model), std::move(setups), static_cast<size_t>(people));
 }
 
-void Simulation::Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups) {
+void Simulation::Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups, size_t people) {
   base_ = world_->tracer();
   model->tracer = base_;
+  std::shared_ptr<const Scene> scene = world_->shared_scene();
+  if (people > 0) {
+    PopulatedScene populated = Populate(scene, {.count = people, .seed = model->world.seed});
+    scene = std::move(populated.scene);
+    model->people = std::move(populated.people);
+  }
   // One drone never sees itself; several need bodies.
+  std::vector<DroneBodyRef> refs;
   if (setups.size() > 1) {
     std::vector<DroneBodySpec> bodies;
-    for (const DroneSetup& setup : setups)
-      bodies.push_back({setup.name, DroneBodyModel(setup.model), setup.X_WB});
-    std::vector<DroneBodyRef> refs;
-    scene_ = AddDroneBodies(world_->shared_scene(), bodies, refs);
-    base_ = std::make_shared<const RayTracer>(scene_);
-    model->tracer = WithoutBodies(base_, refs);
+    for (const DroneSetup& setup : setups) {
+      DroneBodySpec& body = bodies.emplace_back();
+      body.name = setup.name;
+      body.model = DroneBodyModel(setup.model);
+      body.X_WB = setup.X_WB;
+    }
+    scene = AddDroneBodies(std::move(scene), bodies, refs);
     for (size_t i = 0; i < setups.size(); ++i) {
       setups[i].instance = refs[i].instance;
       setups[i].entity = refs[i].entity;
     }
+  }
+  if (scene != world_->shared_scene()) {
+    scene_ = std::move(scene);
+    base_ = std::make_shared<const RayTracer>(scene_);
+    model->tracer = WithoutBodies(base_, refs, model->people.get());
   }
   for (DroneSetup& setup : setups) {
     names_.push_back(setup.name);
@@ -147,6 +161,25 @@ py::list Simulation::Events() {
       d["impact_speed"] = event.collision.impact_speed;
     }
     if (!event.text.empty()) d["text"] = event.text;
+    list.append(std::move(d));
+  }
+  return list;
+}
+
+py::list Simulation::People() const {
+  py::list list;
+  const std::shared_ptr<const SimState> state = loop_->Snapshot();
+  if (!model_->people || !state->people) return list;
+  const PeoplePoses poses = PosesAt(*model_->people, *state->people, state->t_ns + model_->people->epoch_ns);
+  for (size_t i = 0; i < poses.states.size(); ++i) {
+    const PersonState& person = poses.states[i];
+    py::dict d;
+    d["entity"] = i < model_->people->refs.size() ? model_->people->refs[i].entity : kNoEntity;
+    d["position"] = FromVec3(person.p_WP);
+    d["velocity"] = FromVec3(person.v_WP);
+    d["yaw"] = person.yaw;
+    d["behaviour"] = BehaviourName(person.lower);
+    d["visible"] = person.visible;
     list.append(std::move(d));
   }
   return list;

@@ -21,12 +21,16 @@ class Simulation {
   /// Without the GIL.
   std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
   py::list Events();
+  /// Where everybody is.
+  py::list People() const;
+  /// With bodies of drones and people.
+  const Scene& scene() const { return scene_ ? *scene_ : world_->scene(); }
 
  private:
-  void Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups);
+  void Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups, size_t people);
 
   std::shared_ptr<World> world_;
-  std::shared_ptr<const Scene> scene_;     ///< with bodies, if there are several drones
+  std::shared_ptr<const Scene> scene_;     ///< with bodies, if there are people or several drones
   std::shared_ptr<const RayTracer> base_;  ///< what cameras see
   std::shared_ptr<const SimModel> model_;
   std::unique_ptr<SimLoop> loop_;

@@ -76,7 +76,8 @@ void BindSimulation(py::module_& m) {
       m, "Simulation", R"(Drones in a world, advanced in fixed steps of dt seconds; no clock but the steps.
 
 drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
-commands give the same bytes with any number of threads. wind: (3,) m/s in W.)");
+commands give the same bytes with any number of threads. people: how many
+walk about. wind: (3,) m/s in W.)");
   sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
           py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
           py::arg("dt") = 0.001, py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
@@ -109,7 +110,7 @@ commands give the same bytes with any number of threads. wind: (3,) m/s in W.)")
             const py::gil_scoped_release release;
             return s.Take(rig, i);
           },
-          py::arg_v("rig", Rig{{.camera = Equirectangular{1024, 512}}}, "Rig()"), py::arg("drone") = 0,
+          py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("drone") = 0,
           "What the rig on a drone sees now; its own body is hidden. Changes nothing.")
       .def(
           "snapshot",
@@ -146,6 +147,13 @@ commands give the same bytes with any number of threads. wind: (3,) m/s in W.)")
       .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); })
       .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; })
       .def_property_readonly("world", &Simulation::world)
+      .def_property_readonly(
+          "entities", [](const Simulation& s) { return EntitiesOf(s.scene()); },
+          "As World.entities, with the bodies of drones (if there are several) and people.")
+      .def_property_readonly(
+          "people", &Simulation::People,
+          "Everybody now: dictionaries with entity, position (3,) on the ground in W, velocity, "
+          "yaw, behaviour, visible.")
       .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
   BindCommands(sim);
 }

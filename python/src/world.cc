@@ -38,10 +38,12 @@ py::array_t<double> BoundsOf(const Box3f& box) {
   return FromPoints({VecCast<double>(box.min), VecCast<double>(box.max)});
 }
 
-py::list Entities(const World& world) {
+}  // namespace
+
+py::list EntitiesOf(const Scene& scene) {
   py::list list;
-  for (const Entity& entity : world.scene().entities) {
-    const Category& category = world.scene().tree[entity.category];
+  for (const Entity& entity : scene.entities) {
+    const Category& category = scene.tree[entity.category];
     py::dict d;
     d["id"] = entity.id;
     d["name"] = entity.name;
@@ -53,6 +55,8 @@ py::list Entities(const World& world) {
   }
   return list;
 }
+
+namespace {
 
 py::tuple Raycast(World& world, const py::object& origins, const py::object& directions) {
   const std::vector<Vec3d> from = ToPoints(origins, "origins"), along = ToPoints(directions, "directions");
@@ -124,7 +128,7 @@ ValueError names the nearest world where there is none of that name.)")
            py::arg("models") = true, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("name", &World::name)
       .def_property_readonly(
-          "entities", &Entities,
+          "entities", [](const World& w) { return EntitiesOf(w.scene()); },
           "Entities by id (ids begin at 1): dictionaries with id, name, category, category_path, kind, "
           "bounds ((2, 3) metres in W, or None for the sky).")
       .def_property_readonly(
@@ -167,9 +171,10 @@ ValueError names the nearest world where there is none of that name.)")
             const py::gil_scoped_release release;
             return w.Render(rig.rig, body);
           },
-          py::arg("position"), py::arg_v("rig", Rig{{.camera = Equirectangular{1024, 512}}}, "Rig()"),
-          py::arg("yaw") = 0.0, py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
-          "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and grows "
+          py::arg("position"), py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("yaw") = 0.0,
+          py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
+          "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and "
+          "grows "
           "counter-clockwise, pitch is positive nose up, roll right side down.");
 }
 

@@ -192,6 +192,23 @@ class Flights(unittest.TestCase):
         self.assertNotEqual(others, set(np.unique(sim.capture(rig, "b").entity)) - set(range(1, 8)))
         self.assertEqual(set(np.unique(Simulation(ROOM, airborne()).capture(rig).entity)) - set(range(1, 8)), set())
 
+    def test_people_walk_and_are_seen(self):
+        def run():
+            sim = Simulation(ROOM, airborne([0, 0, 3]), people=3, seed=2)
+            before = [p["position"] for p in sim.people]
+            sim.run(2)
+            return sim, before
+        sim, before = run()
+        self.assertEqual(len(sim.people), 3)
+        entities = {e["id"]: e["category_path"] for e in sim.entities}
+        for person in sim.people:
+            self.assertTrue(entities[person["entity"]].startswith("person") or "person" in entities[person["entity"]])
+            self.assertLess(np.abs(person["position"][:2]).max(), 5)
+        self.assertGreater(sum(np.linalg.norm(p["position"] - b) for p, b in zip(sim.people, before)), 0.1)
+        seen = set(np.unique(sim.capture(Rig(width=512, tier="labels")).entity))
+        self.assertGreaterEqual(len(seen & {p["entity"] for p in sim.people}), 1)
+        self.assertEqual(sim.hash(), run()[0].hash())
+
     def test_a_recording_repeats_the_flight(self):
         sim = Simulation(ROOM, airborne())
         start = sim.snapshot()
@@ -220,7 +237,7 @@ class Flights(unittest.TestCase):
         for wrong in (lambda: sim.fly_velocity([math.nan, 0, 0]), lambda: sim.fly_to([0, 0]), lambda: sim.hover(drone=1),
                       lambda: sim.set_rotor_speeds([1, 2]), lambda: sim.set_attitude(0, 0), lambda: sim.step(-1),
                       lambda: sim.hover(yaw=1.0, yaw_rate=1.0), lambda: sim.state("drone9"),
-                      lambda: Simulation(ROOM, 1, people=3), lambda: Simulation(ROOM, 1, dt=0),
+                      lambda: Simulation(ROOM, 1, people=-3), lambda: Simulation(ROOM, 1, dt=0),
                       lambda: Simulation(ROOM, ["hummingbrid"])):
             with self.assertRaises(ValueError):
                 wrong()
@@ -327,6 +344,12 @@ class Metrics(unittest.TestCase):
         self.assertEqual(airsim360.metrics.flip(a, a).max(), 0)
         # A part of a picture is a strided array.
         self.assertAlmostEqual(airsim360.metrics.psnr(a[:, ::2], a[:, ::2]), math.inf)
+
+    def test_navigation_scores(self):
+        path, reference = [[0, 0, 0], [3, 4, 0]], [[0, 0, 0], [3, 4, 0]]
+        self.assertEqual(airsim360.metrics.path_length(path), 5)
+        self.assertEqual(airsim360.metrics.spl(True, 5, 10), 0.5)
+        self.assertEqual(airsim360.metrics.ndtw(path, reference, 3), 1)
 
     def test_wrong_pictures_are_value_errors(self):
         a = np.zeros((16, 32, 3), np.uint8)
