@@ -1,7 +1,9 @@
 // Labels of the GPU are those of the CPU, through every camera.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
+#include <sstream>
 
 #include "airsim360/render/cpu/test_room.h"
 #include "airsim360/worlds/worlds.h"
@@ -42,7 +44,7 @@ void ExpectSameLabels(const LabelDifference& d, const std::string& what) {
   EXPECT_EQ(d.far, 0) << what;
   EXPECT_LE(d.range, 1e-5) << what;
   EXPECT_LE(d.normal, 1e-4) << what;
-  EXPECT_GT(d.off_edges, d.pixels / 8) << what;
+  EXPECT_GT(d.off_edges, d.pixels / 10) << what;
 }
 
 TEST(GpuLabels, AreTheCpusThroughEveryCamera) {
@@ -91,24 +93,87 @@ TEST(GpuLabels, AreTheClosedFormOfTheRoom) {
   }
 }
 
-class GpuLabelsOf : public testing::TestWithParam<const char*> {};
+RenderRequest FromSpawn(const Scene& scene) {
+  const Vec3f spawn = scene.spawn.value_or(Vec3f{0, 0, 2});
+  return LabelRequest(Equirectangular{256, 128}, BodyPose(VecCast<double>(spawn) + Vec3d{0.1, 0.2, 0.3}, 0.4, -0.1, 0.05) *
+                                                     CameraInBody());
+}
 
-TEST_P(GpuLabelsOf, AreTheCpus) {
-  AIRSIM360_NEEDS_GPU();
-  const auto scene = BuildWorld(GetParam(), {.seed = 1});
+void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const RenderRequest& request) {
   Pair pair(scene);
-  const Vec3f spawn = scene->spawn.value_or(Vec3f{0, 0, 2});
-  const RigidTransform X_WC =
-      BodyPose(VecCast<double>(spawn) + Vec3d{0.1, 0.2, 0.3}, 0.4, -0.1, 0.05) * CameraInBody();
-  const RenderRequest request = LabelRequest(Equirectangular{256, 128}, X_WC);
   Frame cpu, gpu;
   pair.cpu->Render(request, cpu);
   pair.gpu->Render(request, gpu);
-  ExpectSameLabels(Compare(cpu, gpu, true), GetParam());
+  ExpectSameLabels(Compare(cpu, gpu, true), scene->name);
   for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, GpuLabelsOf, testing::Values("box_room", "sunlit_room", "city_park"));
+TEST(GpuLabels, OfFurnishedRoomsAreTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  for (const char* world : {"box_room", "sunlit_room"}) {
+    const auto scene = BuildWorld(world, {.seed = 1});
+    ExpectTheCpus(scene, FromSpawn(*scene));
+  }
+}
+
+// Worlds that take longer to build than the other tests together: AIRSIM360_GPU_WORLDS="city_park downtown_west".
+TEST(GpuLabels, OfWorldsAskedForAreTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  std::istringstream worlds(std::getenv("AIRSIM360_GPU_WORLDS") ? std::getenv("AIRSIM360_GPU_WORLDS") : "");
+  std::string world;
+  if (!(worlds >> world)) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
+  do {
+    const auto scene = BuildWorld(world, {.seed = 1});
+    ExpectTheCpus(scene, FromSpawn(*scene));
+  } while (worlds >> world);
+}
+
+// Cards of leaves around the camera: triangles that are holes all over, in part, and nowhere, in every wrap mode.
+std::shared_ptr<const Scene> MakeLeaves() {
+  SceneBuilder builder("leaves");
+  const CategoryId plant = builder.tree().At("construction/building");
+  RngStream rng(7, "leaves");
+  std::vector<MaterialId> materials;
+  for (const Wrap wrap : {Wrap::kRepeat, Wrap::kMirror, Wrap::kClamp}) {
+    Image<Rgba8> image(37, 22);
+    for (int y = 0; y < 22; ++y) {
+      for (int x = 0; x < 37; ++x)
+        image(x, y).a = static_cast<uint8_t>(std::clamp(128 + 300 * std::sin(0.5 * x) * std::cos(0.7 * y), 0.0, 255.0));
+    }
+    Texture texture = Texture::FromImage("alpha", image, true);
+    texture.wrap_u = wrap, texture.wrap_v = wrap;
+    Material material;
+    material.alpha_mode = AlphaMode::kMask;
+    material.base_color_texture = builder.AddTexture(texture);
+    material.uv_scale = {1.5f, 0.8f}, material.uv_rotation = 0.3f;
+    materials.push_back(builder.AddMaterial(material));
+  }
+  materials.push_back(builder.AddMaterial({}));
+  Mesh mesh{"leaves", {}, {}, {}, {}, {}};
+  for (uint32_t i = 0; i < 400; ++i) {
+    const auto at = [&] { return static_cast<float>(rng.Uniform(-6, 6)); };
+    const auto side = [&] { return static_cast<float>(rng.Uniform(-1.2, 1.2)); };
+    const Vec3f p{at(), at(), at()}, u{side(), side(), side()}, v{side(), side(), side()};
+    if (Norm(p) < 2) continue;
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    const float big = static_cast<float>(rng.Uniform(0.1, 3));
+    mesh.positions.insert(mesh.positions.end(), {p, p + u, p + v, p + u + v});
+    mesh.uvs.insert(mesh.uvs.end(), {{0, 0}, {big, 0}, {0, big}, {big, big}});
+    const auto triangle = static_cast<uint32_t>(mesh.triangles.size());
+    mesh.triangles.insert(mesh.triangles.end(), {{first, first + 1, first + 2}, {first + 1, first + 3, first + 2}});
+    mesh.parts.push_back({triangle, 2, materials[i % materials.size()], builder.AddEntity("leaf", plant)});
+  }
+  const MeshId id = builder.AddMesh(mesh);
+  builder.AddInstance({id, PlaceUpright({0, 0, 0}, 0.5f, 1.1f), kNoEntity});
+  builder.AddInstance({id, PlaceUpright({3, 2, 1}, 1.5f, 0.9f), kNoEntity});
+  builder.AddSky();
+  return builder.Build();
+}
+
+TEST(GpuLabels, OfLeavesWithHolesAreTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  ExpectTheCpus(MakeLeaves(), LabelRequest(Equirectangular{256, 128}, BodyPose({0, 0, 0}, 0.3, 0.1, 0) * CameraInBody()));
+}
 
 TEST(GpuLabels, RollWithACameraTurnedByColumns) {
   AIRSIM360_NEEDS_GPU();

@@ -101,7 +101,7 @@ class VulkanRenderer : public GpuRenderer {
       const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return EdgeSamples(r) > 1; });
       if (antialias && !edges_) edges_ = std::make_unique<GpuPipeline>(device_, EdgesRaygen());
       (*free)->Submit(requests, cameras_,
-                      {color_.get(), edges_.get(), shade_->address(requests.front().tone), shader_->Exposure()});
+                      {color_.get(), edges_.get(), &labels_, shade_->address(requests.front().tone), shader_->Exposure()});
     } else {
       (*free)->Submit(requests, cameras_, {&labels_});
     }

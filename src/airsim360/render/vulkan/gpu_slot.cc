@@ -159,11 +159,18 @@ void GpuSlot::Record(const Work& work) {
   }
   const auto cameras = static_cast<uint32_t>(places_.size());
   constexpr VkPipelineStageFlags kTracing = VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR;
-  work.pixels->Trace(commands_, parameters_, width_, height_, cameras);
-  if (antialiases_ && work.edges != nullptr) {
+  const auto between = [&] {
     const VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_SHADER_WRITE_BIT,
                                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
     vkCmdPipelineBarrier(commands_, kTracing, kTracing, 0, 1, &memory, 0, nullptr, 0, nullptr);
+  };
+  if (flows_ && work.flow != nullptr) {
+    work.flow->Trace(commands_, parameters_, width_, height_, cameras);
+    between();
+  }
+  work.pixels->Trace(commands_, parameters_, width_, height_, cameras);
+  if (antialiases_ && work.edges != nullptr) {
+    between();
     work.edges->Trace(commands_, parameters_, width_, height_, cameras);
   }
   if (clock_ != VK_NULL_HANDLE) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_, 1);

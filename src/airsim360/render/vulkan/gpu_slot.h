@@ -24,6 +24,7 @@ class GpuSlot {
   struct Work {
     const GpuPipeline* pixels;             ///< once for each pixel
     const GpuPipeline* edges = nullptr;    ///< then this, where a request wants antialiasing
+    const GpuPipeline* flow = nullptr;     ///< before them, where a request wants flow that `pixels` does not write
     VkDeviceAddress shade = 0;             ///< GpuShade of colour tiers
     float exposure = 1;
   };

@@ -23,6 +23,4 @@ void WriteLabels(GpuCamera camera, uvec2 pixel, Hit h, vec3 direction, bool has_
     camera.position.v[3 * i] = position.x, camera.position.v[3 * i + 1] = position.y;
     camera.position.v[3 * i + 2] = position.z;
   }
-  if ((camera.wanted & kWantFlow) != 0)
-    camera.flow.v[i] = FlowOf(camera, pixel, h, direction, has_ray && entity != 0);
 }

@@ -33,15 +33,23 @@ LampEffect EffectOfLamp(GpuLamp lamp, Ray ray, Shaded s) {
   return e;
 }
 
-/// Adds to front, back and shine of `s` what the lamps of its cell bring; `rays` of the strongest are looked at.
-void LightByLamps(Ray ray, inout Shaded s, int rays) {
-  if (view.has_lamps == 0) return;
+/// The strongest lamps: those that deserve a ray, and how far its answer replaces the guess of the cell's corners.
+struct LampChoice {
+  int lamp[3];
+  float rank[3], guess[3];
+};
+
+/// Adds to front, back and shine of `s` what the lamps of its cell bring, as the corners of the cell see them.
+LampChoice LightByLamps(Ray ray, inout Shaded s) {
+  LampChoice best;
+  for (int k = 0; k < 3; ++k) best.lamp[k] = -1, best.rank[k] = best.guess[k] = 0.0;
+  if (view.has_lamps == 0) return best;
   const vec3 at = (s.p - Vec(view.lamp_origin)) * view.lamp_cells_per_metre;
   const ivec3 n = ivec3(view.lamp_n[0], view.lamp_n[1], view.lamp_n[2]);
-  if (!(all(greaterThanEqual(at, vec3(0.0))) && all(lessThan(at, vec3(n))))) return;
+  if (!(all(greaterThanEqual(at, vec3(0.0))) && all(lessThan(at, vec3(n))))) return best;
   const ivec3 i = ivec3(at);
   const uint cell = view.lamp_cell_of.v[(i.z * n.y + i.y) * n.x + i.x];
-  if (cell == 0) return;
+  if (cell == 0) return best;
   const vec3 f = at - vec3(i);
   const uint header = view.lamp_cells.v[16 * cell];
   const int count = int(header & 255u);
@@ -57,8 +65,6 @@ void LightByLamps(Ray ray, inout Shaded s, int rays) {
   const float scale = sum > 0.0 ? 1.0 / sum : 0.0;
 
   // All of them as the corners see them; the three that bring most.
-  int best[3] = int[3](-1, -1, -1);
-  float rank[3] = float[3](0.0, 0.0, 0.0), guess[3] = float[3](0.0, 0.0, 0.0);
   float total = 0.0;
   for (int k = 0; k < count; ++k) {
     const uint entry = view.lamp_cells.v[16 * cell + 1 + k], seen = entry >> 24;
@@ -69,23 +75,18 @@ void LightByLamps(Ray ray, inout Shaded s, int rays) {
     const float r = e.brought * (0.15 + 0.85 * g);
     total += r;
     int place = 3;
-    while (place > 0 && r > rank[place - 1]) --place;
-    for (int j = 2; j > place; --j) rank[j] = rank[j - 1], best[j] = best[j - 1], guess[j] = guess[j - 1];
-    if (place < 3) rank[place] = r, best[place] = int(entry & 0xffffffu), guess[place] = g;
+    while (place > 0 && r > best.rank[place - 1]) --place;
+    for (int j = 2; j > place; --j)
+      best.rank[j] = best.rank[j - 1], best.lamp[j] = best.lamp[j - 1], best.guess[j] = best.guess[j - 1];
+    if (place < 3) best.rank[place] = r, best.lamp[place] = int(entry & 0xffffffu), best.guess[place] = g;
   }
   for (int k = 0; k < 3; ++k) {
-    if (!(rank[k] > 0.01 * total)) rank[k] = 0.0, best[k] = -1;
+    if (!(best.rank[k] > 0.01 * total)) best.rank[k] = 0.0, best.lamp[k] = -1;
   }
-  for (int k = 0; k < rays; ++k) {
-    if (best[k] < 0) continue;
-    const float share = min(2.0 * (rank[k] - rank[2]) / rank[k], 1.0);
-    if (share == 0.0) continue;
-    const LampEffect e = EffectOfLamp(view.lamps.v[best[k]], ray, s);
-    const float lift = RayOffset(s.p, ray.distance_);
-    const float seen = e.distance_ <= lift
-                           ? 1.0
-                           : Seen(s.p + s.g * (dot(s.g, e.direction) < 0.0 ? -lift : lift), e.direction, e.distance_);
-    const float more = (seen - guess[k]) * share;
-    s.lamp_front += e.front * more, s.lamp_back += e.back * more, s.lamp_shine += e.shine * more;
-  }
+  return best;
+}
+
+/// How far the ray to lamp k counts; 0 = not at all.
+float ShareOf(LampChoice best, int k) {
+  return best.lamp[k] < 0 ? 0.0 : min(2.0 * (best.rank[k] - best.rank[2]) / best.rank[k], 1.0);
 }

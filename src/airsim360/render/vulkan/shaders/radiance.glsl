@@ -1,70 +1,124 @@
 // Tier `fast`: the radiance along one ray. Sun, probes, lamps and sky; mirrors and clear panes send their ray on, once.
+//
+// All rays are traced at one place of the shader, a step of the loop each: compilers copy what follows a trace for every place
+// that traces.
 
-Ray RayOf(vec3 origin, vec3 direction, Hit h, float width) {
-  Ray ray;
-  ray.origin = origin, ray.direction = direction;
-  ray.distance_ = h.t, ray.width = width, ray.bary = h.bary;
-  ray.instance = h.instance, ray.primitive = h.primitive;
-  ray.key = 0;
-  return ray;
-}
+const int kCamera = 0, kSun = 1, kLamp0 = 2, kLamp1 = 3, kContact = 4, kMirror = 5, kMirrorSun = 6, kBehind = 7,
+          kBehindSun = 8, kBehindLight = 9, kLast = 10;
 
-/// Radiance along a ray of the camera that met `h`; `cone_angle` is its width per metre, `key` 0 for pixel centres.
-vec3 Radiance(vec3 eye, Hit h, vec3 direction, float cone_angle, uint key, out vec3 albedo) {
-  albedo = vec3(0.0);
-  if (h.instance == kMiss) return LookUpSky(eye.z, direction, true);
-  Ray first = RayOf(eye, direction, h, h.t * cone_angle);
-  first.key = key;
-  Ray ray = first;
-  Shaded s0;
-  // 0: what the camera sees; 1: what it mirrors; 2: what is behind it.
-  for (int k = 0; k < 3; ++k) {
-    if (k > 0) {
-      const bool wanted = k == 1 ? s0.mirror : s0.kind == kGlass && s0.transmission > 0.0;
-      if (!wanted) continue;
-      const float lift = RayOffset(s0.p, first.distance_);
-      const vec3 origin = s0.p + s0.g * (k == 1 ? lift : -lift), to = k == 1 ? s0.r : direction;
-      Trace(push.frame.v.tlas, origin, to, 0.0, 1e30);
-      if (hit.instance == kMiss) {
-        const vec3 sky = LookUpSky(origin.z, to, false);
-        if (k == 1) s0.reflected = sky, s0.traced = true;
-        else s0.behind = sky, s0.clear = true;
-        continue;
-      }
-      ray = RayOf(origin, to, hit, first.width * (1.0 + hit.t / max(first.distance_, 0.01)));
+struct Sample {
+  vec3 light, albedo;
+  Hit first;  // of the camera ray
+};
+
+/// `cone_angle` is the ray's width per metre, `key` 0 for pixel centres.
+Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
+  Sample result;
+  result.albedo = vec3(0.0);
+  Ray ray, first;  // that met `s`; that met `s0`
+  Shaded s, s0;    // surface at hand; what the camera sees
+  LampChoice lamps;
+  bool pending = false;  // `s` waits for its light
+  vec3 light = vec3(0.0);
+  [[dont_unroll]] for (int step = kCamera; step <= kLast; ++step) {
+    // A surface seen in or behind another, and at last the first one, are lit when all about them is known.
+    if (step == kLast) ray = first, s = s0, pending = true;
+    if (pending && (step == kBehind || step == kBehindLight || step == kLast)) {
+      light = LightOf(ray, s);
+      pending = false;
+      if (step == kBehind) s0.reflected = light, s0.traced = true;
+      if (step == kBehindLight) s0.behind = light, s0.clear = true;
     }
-    Shaded s = Prepare(ray);
-    if (s.sunlit > 0.0) {
-      const float lift = RayOffset(s.p, ray.distance_);
-      s.sunlit = Seen(s.p + s.g * (dot(s.g, s.l) < 0.0 ? -lift : lift), s.l, 1e30);
-    }
-    // What is seen in a mirror does without rays to lamps.
-    LightByLamps(ray, s, k == 0 ? 2 : 0);
-    if (k == 0) {
-      // Things close above level ground keep ambient light off.
-      if (s.g.z >= 0.7 && ray.distance_ <= 40.0 && s.kind == 0.0) {
-        Trace(push.frame.v.tlas, s.p + s.g * RayOffset(s.p, ray.distance_), vec3(0.0123, 0.0071, 1.0), 0.0, 1.2);
-        if (hit.instance != kMiss) {
-          const float t = min(1.0, hit.t / 1.2);
-          s.contact = 0.25 + 0.75 * t * t * (3.0 - 2.0 * t);
-        }
+    if (step == kBehindLight) continue;
+    if (step == kLast) break;
+
+    // The ray of this step.
+    vec3 origin = eye, to = direction;
+    float reach = 1e30;
+    bool looks = true, wanted = true;  // looks: sees panes and tells what it met, else only whether
+    LampEffect lamp;
+    if (step == kSun || step == kMirrorSun || step == kBehindSun) {
+      wanted = (step == kSun || pending) && s.sunlit > 0.0;
+      looks = false, to = s.l;
+    } else if (step == kLamp0 || step == kLamp1) {
+      wanted = ShareOf(lamps, step - kLamp0) > 0.0;
+      if (wanted) {
+        lamp = EffectOfLamp(view.lamps.v[lamps.lamp[step - kLamp0]], ray, s);
+        looks = false, to = lamp.direction, reach = lamp.distance_;
       }
+    } else if (step == kContact) {
+      wanted = s.g.z >= 0.7 && ray.distance_ <= 40.0 && s.kind == 0.0;
+      to = vec3(0.0123, 0.0071, 1.0), reach = 1.2;
+    } else if (step == kMirror) {
       s0 = s;
-      albedo = s.color;
+      wanted = s0.mirror;
+      to = s0.r;
+    } else if (step == kBehind) {
+      wanted = s0.kind == kGlass && s0.transmission > 0.0;
+    }
+    if (!wanted) continue;
+    if (step != kCamera) {
+      const bool of_first = step == kMirror || step == kBehind;
+      const vec3 p = of_first ? s0.p : s.p, g = of_first ? s0.g : s.g;
+      const float lift = RayOffset(p, of_first ? first.distance_ : ray.distance_);
+      const bool back = step == kBehind || (!looks && dot(g, to) < 0.0);
+      origin = p + g * (back ? -lift : lift);
+      // Inside the lamp.
+      if (!looks && reach <= lift) reach = 0.0;
+    }
+
+    // Rays of light start with the tint (t, bary), which panes change.
+    hit.instance = looks ? kMiss : 0u;
+    hit.t = 1.0, hit.bary = vec2(1.0);
+    traceRayEXT(accelerationStructureEXT(push.frame.v.tlas),
+                looks ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xff,
+                looks ? 0 : 3, 1, looks ? 0 : 1, origin, 0.0, to, reach, 0);
+
+    if (!looks) {
+      const float seen = hit.instance == kMiss ? (hit.t + hit.bary.x + hit.bary.y) / 3.0 : 0.0;
+      if (step == kLamp0 || step == kLamp1) {
+        const float more = (seen - lamps.guess[step - kLamp0]) * ShareOf(lamps, step - kLamp0);
+        s.lamp_front += lamp.front * more, s.lamp_back += lamp.back * more, s.lamp_shine += lamp.shine * more;
+      } else {
+        s.sunlit = seen;
+      }
       continue;
     }
-    const vec3 light = LightOf(ray, s);
-    if (k == 1) s0.reflected = light, s0.traced = true;
-    else s0.behind = light, s0.clear = true;
+    if (step == kContact) {
+      // Things close above level ground keep ambient light off.
+      if (hit.instance == kMiss) continue;
+      const float t = min(1.0, hit.t / 1.2);
+      s.contact = 0.25 + 0.75 * t * t * (3.0 - 2.0 * t);
+      continue;
+    }
+    if (step == kCamera) result.first = hit;
+    if (hit.instance == kMiss) {
+      const vec3 sky = LookUpSky(origin.z, to, step == kCamera);
+      if (step == kMirror) s0.reflected = sky, s0.traced = true;
+      if (step == kBehind) s0.behind = sky, s0.clear = true;
+      if (step != kCamera) continue;
+      result.light = sky;
+      return result;
+    }
+    ray.origin = origin, ray.direction = to, ray.distance_ = hit.t, ray.bary = hit.bary;
+    ray.instance = hit.instance, ray.primitive = hit.primitive;
+    ray.width = step == kCamera ? hit.t * cone_angle : first.width * (1.0 + hit.t / max(first.distance_, 0.01));
+    ray.key = step == kCamera ? key : 0u;
+    s = Prepare(ray);
+    // What is seen in a mirror does without rays to lamps.
+    lamps = LightByLamps(ray, s);
+    pending = step != kCamera;
+    if (step == kCamera) first = ray, result.albedo = s.color;
   }
-  return LightOf(first, s0);
+  result.light = light;
+  return result;
 }
-
 
 /// Display colour of a radiance, 8 bits a channel.
 uvec3 Develop(vec3 light, float exposure) {
   const vec3 exposed = light * exposure;
   const vec3 shown = view.tone == 1 ? agx_curve(exposed) : view.tone == 2 ? linear_curve(exposed) : tone_curve(exposed);
-  return uvec3(uint(srgb_encode(shown.x) * 255.0 + 0.5), uint(srgb_encode(shown.y) * 255.0 + 0.5),
-               uint(srgb_encode(shown.z) * 255.0 + 0.5));
+  uvec3 code;
+  for (int k = 0; k < 3; ++k) code[k] = uint(srgb_encode(shown[k]) * 255.0 + 0.5);
+  return code;
 }

@@ -21,6 +21,13 @@ vec3 SampleSky(GpuSky table, vec3 d, bool full_sphere) {
   return lerp3(lerp3(a, b, fx), lerp3(c, e2, fx), fy);
 }
 
+/// 0: the sky; 1 ... 3: blurred; 4: what lies below the horizon.
+GpuSky TableOf(int k) {
+  if (k == 0) return view.sky;
+  if (k == 4) return view.below;
+  return view.blurred[k - 1];
+}
+
 float CloudShadow(vec3 p) {
   if (view.has_clouds == 0) return 1.0;
   const float size = float(view.cloud_size), above = p.z - view.cloud_plane_z;
@@ -35,13 +42,18 @@ float CloudShadow(vec3 p) {
   return low + (high - low) * fy;
 }
 
+/// Sky, and ground below the horizon, blurred as by a surface of this roughness: 0.05, 0.30, 0.55, 0.85 of the four pictures.
 vec3 BlurredSky(vec3 d, float roughness) {
-  const vec3 up = SampleSky(view.sky, d, false);
-  const vec3 sharp = d.z > 0.0 ? up : lerp3(up, Vec(view.ground), clamp01(d.z * -12.0));
-  if (!(roughness > 0.05)) return sharp;
-  const vec3 low = lerp3(sharp, SampleSky(view.blurred[0], d, true), clamp01((roughness - 0.05) * 4.0));
-  const vec3 high = lerp3(low, SampleSky(view.blurred[1], d, true), clamp01((roughness - 0.30) * 4.0));
-  return lerp3(high, SampleSky(view.blurred[2], d, true), clamp01((roughness - 0.55) * (1.0 / 0.30)));
+  const float shares[4] = float[4](1.0, (roughness - 0.05) * 4.0, (roughness - 0.30) * 4.0, (roughness - 0.55) * (1.0 / 0.30));
+  vec3 c = vec3(0.0);
+  [[dont_unroll]] for (int k = 0; k < 4; ++k) {
+    const float share = clamp01(shares[k]);
+    if (!(share > 0.0)) break;
+    vec3 table = SampleSky(TableOf(k), d, k > 0);
+    if (k == 0 && !(d.z > 0.0)) table = lerp3(table, Vec(view.ground), clamp01(d.z * -12.0));
+    c = lerp3(c, table, share);
+  }
+  return c;
 }
 
 /// Irradiance on the front, on the back, and about the reflected direction.
@@ -130,21 +142,15 @@ AirEffect AirToSky(float z, vec3 d, float distance_) {
 /// What a ray that met nothing sees.
 vec3 LookUpSky(float z, vec3 d, bool sun_disc) {
   if (view.has_sky == 0) return vec3(0.0);
-  vec3 c = vec3(0.0);
   const vec3 up = vec3(d.xy, abs(d.z));
-  if (d.z < 0.0) {
-    if (view.has_below != 0) {
-      c = SampleSky(view.below, up, false);
-    } else {
-      const AirEffect air = AirToSurface(z, d, max(z - view.ground_z, 2.0) / max(-d.z, 1e-4));
-      c = Vec(view.ground) * air.kept + air.added;
-    }
-  } else {
-    c = SampleSky(view.sky, d, false);
-    if (view.weather > 0.0) {
-      const AirEffect air = AirToSky(z, up, 2e5);
-      c = c * air.kept + air.added;
-    }
+  const bool down = d.z < 0.0, ground = down && view.has_below == 0;
+  vec3 c = Vec(view.ground);
+  if (!ground) c = SampleSky(TableOf(down ? 4 : 0), up, false);
+  if (ground || (!down && view.weather > 0.0)) {
+    AirEffect air;
+    if (ground) air = AirToSurface(z, d, max(z - view.ground_z, 2.0) / max(-d.z, 1e-4));
+    else air = AirToSky(z, up, 2e5);
+    c = c * air.kept + air.added;
   }
   if (sun_disc) {
     const vec3 off = d - Vec(view.to_sun);

@@ -59,15 +59,35 @@ TileCorners ChooseCorners(GpuMaterial m, float u, float v, float footprint) {
   return c;
 }
 
-vec3 SampleTiles(GpuMaterial m, uint id, TileCorners c, float footprint, bool trilinear, vec3 mean, float gain) {
-  const vec3 first = SampleTexture(id, c.u[0], c.v[0], footprint, trilinear);
-  if (!(m.blend > 0.5)) return first;
-  vec3 sum = (first - mean) * c.weight[0];
-  for (int k = 1; k < 3; ++k) {
-    if (c.weight[k] > 0.0) sum += (SampleTexture(id, c.u[k], c.v[k], footprint, trilinear) - mean) * c.weight[k];
+/// Mix of the copies of one texture; `gain` spreads it about `mean` in every channel.
+vec3 SampleTiles(bool mixes, uint id, TileCorners c, float footprint, bool trilinear, vec3 mean, float gain) {
+  vec3 sum = vec3(0.0);
+  [[dont_unroll]] for (int k = 0; k < 3; ++k) {
+    if (k > 0 && !(c.weight[k] > 0.0)) continue;
+    const vec3 one = SampleTexture(id, c.u[k], c.v[k], footprint, trilinear);
+    if (!mixes) return one;
+    sum += (one - mean) * c.weight[k];
   }
   const vec3 mixed = mean + sum * gain;
   return vec3(clamp01(mixed.x), clamp01(mixed.y), clamp01(mixed.z));
+}
+
+/// The textures of a material: base colour, roughness and metal, normal, emission.
+struct Sampled {
+  vec3 texel[4];
+};
+Sampled SampleAll(GpuMaterial m, TileCorners corners, float tu, float tv, float footprint) {
+  const uint ids[4] = uint[4](m.base_texture, m.roughness_texture, m.normal_texture, m.emission_texture);
+  const vec3 means[4] = vec3[4](Vec(m.mean), vec3(1.0, 0.5, 1.0), vec3(0.5, 0.5, 0.9), vec3(0.0));
+  Sampled out_texels;
+  [[dont_unroll]] for (int k = 0; k < 4; ++k) {
+    if (k == 3) corners.u[0] = tu, corners.v[0] = tv;
+    vec3 c = vec3(1.0);
+    if (ids[k] != 0) c = SampleTiles(m.blend > 0.5 && k < 3, ids[k], corners, footprint, k == 0 || k == 3, means[k],
+                                     k == 1 ? 1.0 : corners.gain);
+    out_texels.texel[k] = c;
+  }
+  return out_texels;
 }
 
 struct Noises {
@@ -77,14 +97,24 @@ struct Noises {
 Noises LookUpNoises(bool wants_fine, vec3 p, vec3 n, float width) {
   const float px = p.x + 0.41 * p.z * n.x, py = p.y + 0.37 * p.z;
   Noises o;
-  o.wide = SampleNoise(px * (1.0 / 311.0), py * (1.0 / 311.0));
-  const float bend_x = (o.wide.y - 0.5) * 0.9, bend_y = (o.wide.z - 0.5) * 0.9;
-  o.mid = SampleNoise(px * (1.0 / 47.0) + 0.37 + bend_x, py * (1.0 / 47.0) + bend_y);
   o.detail = min(1.0, 0.5 / max(width, 1e-3));
   o.fine = vec3(0.5);
-  if (wants_fine && width < 5.0) {
-    const float qx = (px * 0.83 + py * 0.56) * (1.0 / 11.3), qy = (py * 0.83 - px * 0.56) * (1.0 / 11.3);
-    o.fine = SampleNoise(qx + (o.mid.y - 0.5) * 0.6 + bend_x, qy + (o.mid.z - 0.5) * 0.6);
+  float bend_x = 0.0, bend_y = 0.0, x = px * (1.0 / 311.0), y = py * (1.0 / 311.0);
+  [[dont_unroll]] for (int k = 0; k < 3; ++k) {
+    const vec3 noise = SampleNoise(x, y);
+    if (k == 0) {
+      // The wider noise bends the finer ones, so that their periods do not line up.
+      o.wide = noise;
+      bend_x = (noise.y - 0.5) * 0.9, bend_y = (noise.z - 0.5) * 0.9;
+      x = px * (1.0 / 47.0) + 0.37 + bend_x, y = py * (1.0 / 47.0) + bend_y;
+    } else if (k == 1) {
+      o.mid = noise;
+      if (!wants_fine || !(width < 5.0)) break;
+      x = (px * 0.83 + py * 0.56) * (1.0 / 11.3) + (o.mid.y - 0.5) * 0.6 + bend_x;
+      y = (py * 0.83 - px * 0.56) * (1.0 / 11.3) + (o.mid.z - 0.5) * 0.6;
+    } else {
+      o.fine = noise;
+    }
   }
   return o;
 }
@@ -228,21 +258,16 @@ Shaded Prepare(Ray ray) {
 
   // Textures.
   const TileCorners corners = ChooseCorners(m, tu, tv, footprint);
-  if (m.base_texture != 0) color *= SampleTiles(m, m.base_texture, corners, footprint, true, Vec(m.mean), corners.gain);
-  if (m.roughness_texture != 0) {
-    const vec3 c = SampleTiles(m, m.roughness_texture, corners, footprint, false, vec3(1.0, 0.5, 1.0), 1.0);
-    roughness *= c.y, metallic *= c.z;
-  }
-  if (m.emission_texture != 0) emission *= SampleTexture(m.emission_texture, tu, tv, footprint, true);
+  const Sampled sampled = SampleAll(m, corners, tu, tv, footprint);
+  color *= sampled.texel[0];
+  roughness *= sampled.texel[1].y, metallic *= sampled.texel[1].z;
+  emission *= sampled.texel[3];
   const bool wear = m.ground > 0.5;
-  if (m.macro_variation != 0.0 || wear) {
-    const Noises noises = LookUpNoises(wear, p, n, ray.width);
-    if (m.macro_variation != 0.0) color *= MacroTint(m, noises, ray.width);
-    color *= UnitTint(m, tu, tv, footprint);
-    if (wear) WearGround(m, noises, p, tu, ray.width, color, roughness);
-  } else {
-    color *= UnitTint(m, tu, tv, footprint);
-  }
+  Noises noises;
+  if (m.macro_variation != 0.0 || wear) noises = LookUpNoises(wear, p, n, ray.width);
+  if (m.macro_variation != 0.0) color *= MacroTint(m, noises, ray.width);
+  color *= UnitTint(m, tu, tv, footprint);
+  if (wear) WearGround(m, noises, p, tu, ray.width, color, roughness);
   if (m.kind == kFoliage) {
     const float amount = clamp01((m.transmission - 0.4) * 5.0), h2 = hash_again(pane, 61.7);
     const float light = 1.0 + (pane - 0.5) * 0.44 * amount, yellow = (h2 - 0.42) * 0.34 * amount;
@@ -252,8 +277,7 @@ Shaded Prepare(Ray ray) {
 
   // Normal: map, panes, waves.
   if (m.normal_texture != 0) {
-    const vec3 c = SampleTiles(m, m.normal_texture, corners, footprint, false, vec3(0.5, 0.5, 0.9), corners.gain);
-    const vec3 bend = c * 2.0 - 1.0;
+    const vec3 bend = sampled.texel[2] * 2.0 - 1.0;
     const float length_ = min(sqrt(dot(bend, bend)), 1.0);
     const vec3 t0 = Row3(matrix, UnpackDirection(t.tangent));
     const vec3 along = normalize3(t0 - n * dot(n, t0));

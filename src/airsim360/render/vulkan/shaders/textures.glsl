@@ -27,9 +27,14 @@ vec3 SampleLevel(uint id, int level, float u, float v) {
   const float bottom = y0 + 1.0 > h - 0.5 ? (clamp_v ? h - 1.0 : 0.0) : y0 + 1.0;
   const int row0 = int(top) * int(w), row1 = int(bottom) * int(w), l = int(left), r = int(right);
   const float fx = x - x0, fy = y - y0;
-  const vec3 upper = lerp3(Texel(texels, row0 + l, encoded), Texel(texels, row0 + r, encoded), fx);
-  const vec3 lower = lerp3(Texel(texels, row1 + l, encoded), Texel(texels, row1 + r, encoded), fx);
-  return lerp3(upper, lower, fy);
+  vec3 upper = vec3(0.0);
+  [[dont_unroll]] for (int k = 0; k < 2; ++k) {
+    const int row = k == 0 ? row0 : row1;
+    const vec3 c = lerp3(Texel(texels, row + l, encoded), Texel(texels, row + r, encoded), fx);
+    if (k == 1) return lerp3(upper, c, fy);
+    upper = c;
+  }
+  return upper;
 }
 
 /// `footprint_log2`: of the pixel's size in uv units; `trilinear` mixes two levels, else the nearer is taken.
@@ -40,9 +45,14 @@ vec3 SampleTexture(uint id, float u, float v, float footprint_log2, bool triline
   const float fraction = level - lower;
   u = FoldCoordinate(u, view.textures.v[id].wrap_u);
   v = FoldCoordinate(v, view.textures.v[id].wrap_v);
-  const vec3 c = SampleLevel(id, int(lower), u, v);
-  if (!trilinear || !(fraction > 0.0)) return c;
-  return lerp3(c, SampleLevel(id, min(int(lower) + 1, int(last)), u, v), fraction);
+  vec3 fine = vec3(0.0);
+  [[dont_unroll]] for (int k = 0; k < 2; ++k) {
+    const vec3 c = SampleLevel(id, min(int(lower) + k, int(last)), u, v);
+    if (k == 1) return lerp3(fine, c, fraction);
+    fine = c;
+    if (!trilinear || !(fraction > 0.0)) break;
+  }
+  return fine;
 }
 
 /// The noise texture, which is number 1 and repeats.
