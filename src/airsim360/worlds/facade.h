@@ -24,7 +24,7 @@ struct FacadeContext {
   MeshId window_box;  ///< instanced air conditioner in a window
   EntityId building = kNoEntity;  ///< the one being built
   int next_sign = 0;              ///< picture of the last shop sign, so that neighbours differ
-  float base = 0, stretch = 1;    ///< of the building: z of its ground, factor of its heights
+  float base = 0, stretch = 1, reach = 1;  ///< of the building: z of its ground, factors of FacadePen::SetScale
 };
 
 /// Walls of one building on all its edges, as `entity`; awnings and shop signs become entities of their own.

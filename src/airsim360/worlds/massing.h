@@ -39,6 +39,7 @@ struct BuildingPlan {
   RoofKind roof = RoofKind::kFlatGravel;
   uint64_t seed = 0;
   float cornice = 1;     ///< scale of the cornice of its style
+  bool canopies = true;  ///< over its lobby
   bool shops = true;     ///< on the ground floor towards streets; else windows and doors
   size_t block = 0;      ///< index into StreetPlan::blocks
   float height() const;  ///< of the eaves or the roof deck, metres
