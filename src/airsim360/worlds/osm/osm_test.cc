@@ -118,7 +118,12 @@ Agreement CompareFootprints(const OsmData& data, const Built& built) {
     std::set<EntityId> mine{built.report.buildings[i].entity};
     for (const OsmVolume& volume : plans[i].volumes)
       for (EntityId id : named[volume.id]) mine.insert(id);
-    const double overlap = Overlap(roofscape.Of(mine), it->second->patches);
+    // What the map says stands there: the outline and its parts.
+    Patches mapped = it->second->patches;
+    for (const OsmVolume& volume : plans[i].volumes)
+      if (const auto part = by_id.find(volume.id); part != by_id.end())
+        mapped.insert(mapped.end(), part->second->patches.begin(), part->second->patches.end());
+    const double overlap = Overlap(roofscape.Of(mine), Unite(mapped));
     agreement.mean += overlap;
     ++agreement.count;
     if (overlap < agreement.worst) {
