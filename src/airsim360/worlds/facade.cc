@@ -31,7 +31,7 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
                         plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone ||
                         plan.style == FacadeStyle::kDeco || plan.style == FacadeStyle::kBracedGlass;
     const int shops = CountBays(length, 4.9f),
-              lobby = office && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
+              lobby = office && plan.canopies && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
     for (int i = 0; i < shops; ++i) {
       const float w = length / static_cast<float>(shops), x0 = w * static_cast<float>(i);
       if (i == lobby) {
@@ -142,7 +142,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
 void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId entity,
                   const std::vector<FacadeDetail>& detail) {
   FacadePen pen(context.mesh, context.surfaces);
-  pen.SetHeights(context.base, context.stretch);
+  pen.SetScale(context.base, context.stretch, context.reach);
   const Dress dress = DressOf(plan);
   context.building = entity;
   for (size_t e = 0; e < plan.edges.size(); ++e) {

@@ -28,7 +28,7 @@ struct FacadeContext {
   std::optional<std::array<MeshId, 2>> fire_escape = {};  ///< a storey of one, both ways; without: none
   EntityId building = kNoEntity;  ///< the one being built
   int next_sign = 0;              ///< picture of the last shop sign, so that neighbours differ
-  float base = 0, stretch = 1;    ///< of the building: z of its ground, factor of its heights
+  float base = 0, stretch = 1, reach = 1;  ///< of the building: z of its ground, factors of FacadePen::SetScale
 };
 
 /// Walls of one building on all its edges, as `entity`; awnings and shop signs become entities of their own.

@@ -11,10 +11,12 @@ class FacadePen {
  public:
   FacadePen(MeshBuilder& mesh, const Surfaces& surfaces) : mesh_(mesh), surfaces_(surfaces) {}
 
-  /// Where z = 0 of the following walls lies, and what heights are multiplied by.
-  void SetHeights(float base, float stretch) {
+  /// Where z = 0 of the following walls lies, and what heights, and what stands proud of the wall, are multiplied
+  /// by.
+  void SetScale(float base, float stretch, float reach) {
     base_ = base;
     stretch_ = stretch;
+    reach_ = reach;
   }
   /// The wall from a to b of a counter-clockwise outline.
   void SetWall(Vec2f a, Vec2f b);
@@ -53,7 +55,8 @@ class FacadePen {
   MeshBuilder& mesh_;
   const Surfaces& surfaces_;
   AffineTransform X_;
-  float length_ = 0, base_ = 0, stretch_ = 1;
+  float Out(float y) const { return y < 0 ? y * reach_ : y; }
+  float length_ = 0, base_ = 0, stretch_ = 1, reach_ = 1;
 };
 
 }  // namespace airsim360

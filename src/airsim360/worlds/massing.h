@@ -46,6 +46,7 @@ struct BuildingPlan {
   RoofKind roof = RoofKind::kFlatGravel;
   uint64_t seed = 0;
   float cornice = 1;            ///< scale of the cornice of its style
+  bool canopies = true;         ///< over its lobby
   bool shops = true;            ///< on the ground floor towards streets; else windows and doors
   size_t block = 0;             ///< index into StreetPlan::blocks
   float base = 0;               ///< > 0: a tier on the roof of the plan before it, part of the same building

@@ -217,28 +217,14 @@ Vec2d InnerPoint(const Patch& patch) {
 
 using PartsOf = std::map<size_t, std::vector<const OsmArea*>>;
 
-// Each part's building: the smallest that holds its middle, else the one a relation puts it to.
-PartsOf AssignParts(const OsmData& data, const std::vector<OsmArea>& areas,
-                    const std::vector<OsmBuilding>& buildings, std::vector<const OsmArea*>& orphans) {
-  std::map<std::string, size_t> by_id;
+// Each part's building: the smallest that holds its middle.
+PartsOf AssignParts(const std::vector<OsmArea>& areas, const std::vector<OsmBuilding>& buildings, std::vector<const OsmArea*>& orphans) {
   BoxIndex boxes;
   for (size_t i = 0; i < buildings.size(); ++i) {
-    by_id[buildings[i].id] = i;
     Bounds2d box;
     for (const Patch& patch : buildings[i].outline)
       for (Vec2d p : patch.outer) box.Add(p);
     if (!buildings[i].outline.empty()) boxes.Add(box, static_cast<uint32_t>(i));
-  }
-  std::map<std::string, size_t> by_relation;
-  for (const OsmRelation& relation : data.relations) {
-    if (!relation.tags.Is("type", "building")) continue;
-    const auto id_of = [](const OsmMember& m) { return OsmId(m.type == 'w' ? "way" : "relation", m.id); };
-    size_t owner = buildings.size();
-    for (const OsmMember& member : relation.members)
-      if (const auto it = by_id.find(id_of(member)); it != by_id.end() && owner == buildings.size())
-        owner = it->second;
-    for (const OsmMember& member : relation.members)
-      if (owner < buildings.size()) by_relation[id_of(member)] = owner;
   }
   PartsOf parts;
   for (const OsmArea& area : areas) {
@@ -256,8 +242,6 @@ PartsOf AssignParts(const OsmData& data, const std::vector<OsmArea>& areas,
         owner = i;
       }
     }
-    if (owner == buildings.size())
-      if (const auto it = by_relation.find(area.id); it != by_relation.end()) owner = it->second;
     if (owner < buildings.size())
       parts[owner].push_back(&area);
     else
@@ -305,7 +289,7 @@ void AddVolumes(OsmBuilding& building, const std::vector<const OsmArea*>& parts,
 std::vector<OsmBuilding> PlanOsmBuildings(const OsmData& data, const std::vector<OsmArea>& areas) {
   std::vector<OsmBuilding> buildings = ListBuildings(data, areas);
   std::vector<const OsmArea*> orphans;
-  const PartsOf parts = AssignParts(data, areas, buildings, orphans);
+  const PartsOf parts = AssignParts(areas, buildings, orphans);
   // Those whose height the map tells first: the others are about as high.
   for (OsmBuilding& building : buildings) {
     const Heights own = HeightsOf(*building.tags, RoofOf(*building.tags), building.outline);

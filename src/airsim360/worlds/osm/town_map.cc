@@ -20,6 +20,10 @@ constexpr double kHeights[] = {2.7, 5.2, 7.34, 8.6, 9.7, 10.3, 10.7, 11, 11.2, 1
 13.1, 13.3, 13.5, 13.7, 14, 14.2, 14.5, 14.8, 15.3, 15.8, 16.3, 16.6, 17, 17.3, 17.7, 18.1, 18.3, 18.64, 19.1, 19.7,
 20.2, 20.8, 21.5, 24.12, 33.94, 69.4};
 
+// Metres to the nearest other tree, of 117 in Berlin's Tiergarten.
+constexpr double kTreeSpacing[] = {3.37, 4.14, 7.35, 7.92, 8.06, 8.06, 8.06, 8.06, 8.08, 8.16, 8.16, 8.16, 8.16,
+8.17, 8.39, 8.39, 8.4, 8.4, 8.4, 8.4, 8.4, 8.4, 8.41, 8.44, 9, 9.27, 9.33, 9.38, 9.47, 9.48, 9.48, 9.83, 9.84, 10.24,
+10.8, 13.23, 14.04, 17.56, 26.04, 29.17, 81.61};
 constexpr int kColumns = 3, kRows = 6;
 constexpr double kPavement = 3.6, kHalfStreet = 4.8, kHalfAvenue = 6.5;
 
@@ -129,10 +133,14 @@ class Drawer {
     data_.ways.push_back(std::move(way));
   }
 
-  // Trees 8.0 to 9.6 m apart in most rows, lamps every 20 m on one side of the street.
+  // Planters keep one distance in a row; rows go through the real distribution evenly (golden section).
+  double RowPitch() { return Draw(kTreeSpacing, 0.04 + 0.9 * std::fmod(0.38 + 0.6180339887 * ++rows_, 1.0)); }
+
+  // A row of trees, lamps every 20 m on one side of the street.
   void Furnish(double x0, double x1, double y, double inward) {
-    if (rng_.Chance(0.75))
-      for (double x = x0 + rng_.Uniform(0, 6); x < x1; x += rng_.Chance(0.06) ? rng_.Uniform(11, 26) : rng_.Uniform(7.95, 9.7))
+    const double pitch = RowPitch();
+    if (rng_.Chance(0.85))
+      for (double x = x0 + rng_.Uniform(0, 6); x < x1; x += pitch + rng_.Uniform(0, 0.06))
         Node({x, y}, {{"natural", "tree"}, {"height", std::to_string(rng_.Uniform(5.5, 9.5)).substr(0, 4)}});
     if (inward > 0)
       for (double x = x0 + 2; x < x1; x += rng_.Uniform(18.6, 21.5)) Node({x, y - 0.45}, {{"highway", "street_lamp"}});
@@ -157,7 +165,7 @@ class Drawer {
     }
     data_.ways.push_back(std::move(path));
     for (double y : {y0 + 5, y1 - 5})
-      for (double x = x0 + 5; x < x1 - 4; x += rng_.Uniform(8.0, 9.6)) Node({x, y}, {{"natural", "tree"}, {"height", "10"}});
+      for (double x = x0 + 5, pitch = RowPitch(); x < x1 - 4; x += pitch) Node({x, y}, {{"natural", "tree"}, {"height", "10"}});
     for (double x = x0 + 20; x < x1 - 15; x += 18) Node({x, (y0 + y1) / 2 + 9 * std::sin((x - x0) / (x1 - x0) * 6.24) + 2.2}, {{"amenity", "bench"}});
   }
 
@@ -165,6 +173,7 @@ class Drawer {
   OsmData data_;
   std::vector<double> avenues_, streets_;
   int64_t next_node_ = 10000, next_way_ = 1000;
+  int rows_ = 0;
 };
 
 }  // namespace
