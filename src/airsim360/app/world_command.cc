@@ -45,7 +45,8 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
 }  // namespace
 
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand("world", "worlds in and out: world export WORLD --out FILE.glb, world sheet WORLD --out FILE.jpg");
+  CLI::App* command = app.add_subcommand(
+      "world", "worlds in and out: world export WORLD --out FILE.glb, world sheet WORLD --out FILE.jpg");
   command->require_subcommand(1);
   CLI::App* to_file =
       command->add_subcommand("export", "write a world with its names and labels as binary glTF");
@@ -58,7 +59,8 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* sheet = command->add_subcommand(
       "sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
   auto view = std::make_shared<SheetArguments>();
-  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")->required();
+  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")
+      ->required();
   sheet->add_option("--out", view->out, "the .jpg or .png file to write")->required();
   sheet->add_option("--poses", view->poses, "places, 1 … 64 (16)");
   sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');

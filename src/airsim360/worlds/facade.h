@@ -26,8 +26,8 @@ struct FacadeContext {
   MeshId balcony;     ///< instanced railing of 1 m, scaled along x: iron balcony of a French window
   MeshId window_box;  ///< instanced air conditioner in a window
   std::optional<std::array<MeshId, 2>> fire_escape = {};  ///< a storey of one, both ways; without: none
-  EntityId building = kNoEntity;  ///< the one being built
-  int next_sign = 0;              ///< picture of the last shop sign, so that neighbours differ
+  EntityId building = kNoEntity;                          ///< the one being built
+  int next_sign = 0;  ///< picture of the last shop sign, so that neighbours differ
 };
 
 /// Walls of one building on all its edges, as `entity`; awnings and shop signs become entities of their own.

@@ -45,14 +45,14 @@ struct BuildingPlan {
   int palette = 0;
   RoofKind roof = RoofKind::kFlatGravel;
   uint64_t seed = 0;
-  size_t block = 0;             ///< index into StreetPlan::blocks
-  float base = 0;               ///< > 0: a tier on the roof of the plan before it, part of the same building
-  std::vector<Vec2f> upper;     ///< outline of the tier that stands on this roof; empty = none
-  int curtain_floor = -1;       ///< storey whose windows all have red curtains; -1 = none
-  bool awnings = true;          ///< its shops may have some
-  std::string name;             ///< of the entity; empty = "building"
-  float first_storey() const;   ///< height of the first storey above the ground floor (or of the tier's foot)
-  float height() const;         ///< of the eaves or the roof deck, metres
+  size_t block = 0;            ///< index into StreetPlan::blocks
+  float base = 0;              ///< > 0: a tier on the roof of the plan before it, part of the same building
+  std::vector<Vec2f> upper;    ///< outline of the tier that stands on this roof; empty = none
+  int curtain_floor = -1;      ///< storey whose windows all have red curtains; -1 = none
+  bool awnings = true;         ///< its shops may have some
+  std::string name;            ///< of the entity; empty = "building"
+  float first_storey() const;  ///< height of the first storey above the ground floor (or of the tier's foot)
+  float height() const;        ///< of the eaves or the roof deck, metres
   GroundRect bounds() const;
 };
 
