@@ -181,7 +181,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
   for (Vec2f p : outline)
     box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   std::vector<Vec2f> trees;
-  for (int i = 0; i < 400 && trees.size() < 24; ++i) {
+  for (int i = 0; i < 400 && trees.size() < 30; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
                   static_cast<float>(rng.Uniform(box.y0, box.y1))};
     const bool crowded = std::any_of(trees.begin(), trees.end(),

@@ -53,7 +53,7 @@ void FurnishSide(District& d, const Side& side, bool avenue, const Density& dens
     d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
   }
   // Trees in pits; few on narrow streets of towers.
-  const double planted = density.trees * (avenue ? 0.92 : 0.74);
+  const double planted = density.trees * (avenue ? 0.98 : 0.85);
   for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += 8.6f) {
     if (!rng.Chance(planted)) continue;
     struct Tree {
