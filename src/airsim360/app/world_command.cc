@@ -242,7 +242,8 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* sheet = command->add_subcommand(
       "sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
   auto view = std::make_shared<SheetArguments>();
-  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")->required();
+  sheet->add_option("world", view->world, "name (airsim360 worlds) or path of a model or world .yaml")
+      ->required();
   sheet->add_option("--out", view->out, "the .jpg or .png file to write")->required();
   sheet->add_option("--poses", view->poses, "places, 1 … 64 (16)");
   sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');

@@ -59,7 +59,8 @@ struct PictureFigures {
       for (int x = 0; x < frame.rgb.width(); ++x) {
         const Rgb8 c = frame.rgb(x, y);
         weight += w;
-        luminance += w * (0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b));
+        luminance +=
+            w * (0.2126 * SrgbToLinear(c.r) + 0.7152 * SrgbToLinear(c.g) + 0.0722 * SrgbToLinear(c.b));
         dark += w * (std::max({c.r, c.g, c.b}) < 5);
         bright += w * (std::max({c.r, c.g, c.b}) > 250);
         void_pixels += frame.semantic(x, y) == kVoid || frame.entity(x, y) == kNoEntity;
@@ -84,8 +85,10 @@ struct PictureFigures {
 void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals) {
   const fs::path out = arguments.out;
   const bool jpeg = out.extension() == ".jpg" || out.extension() == ".jpeg";
-  if (!jpeg && out.extension() != ".png") throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
-  if (arguments.poses < 1 || arguments.poses > 64) throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
+  if (!jpeg && out.extension() != ".png")
+    throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
+  if (arguments.poses < 1 || arguments.poses > 64)
+    throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
   if (arguments.width < 64 || arguments.width > 2048 || arguments.width % 4)
     throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 64 … 2048");
   const Tier tier = ParseTierArgument(arguments.tier);
@@ -116,10 +119,12 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
       std::map<CategoryId, std::set<EntityId>> seen;
       for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x) seen[frame.semantic(x, y)].insert(frame.entity(x, y));
-      for (const auto& [category, entities] : seen) most_visible[category] = std::max(most_visible[category], entities.size());
+      for (const auto& [category, entities] : seen)
+        most_visible[category] = std::max(most_visible[category], entities.size());
       Blit(frame.rgb, gap + column * (w + gap), gap + row * (h + gap), sheet);
       char text[64];
-      std::snprintf(text, sizeof text, "%.0f %.0f %.1f", static_cast<double>(p.x), static_cast<double>(p.y), z);
+      std::snprintf(text, sizeof text, "%.0f %.0f %.1f", static_cast<double>(p.x), static_cast<double>(p.y),
+                    z);
       DrawText(text, gap + column * (w + gap) + 4, gap + row * (h + gap) + 4, {255, 255, 255}, 1, sheet);
     }
   }
@@ -127,7 +132,8 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
   WriteFileAtomically(out, jpeg ? EncodeJpeg(sheet, 82) : EncodePng(sheet));
 
   // What was seen.
-  nlohmann::ordered_json by_height = nlohmann::ordered_json::object(), visible = nlohmann::ordered_json::object();
+  nlohmann::ordered_json by_height = nlohmann::ordered_json::object(),
+                         visible = nlohmann::ordered_json::object();
   for (size_t i = 0; i < figures.size(); ++i) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", arguments.heights[i]);
@@ -147,8 +153,10 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
                {"peak_rss_mib", PeakRssMib()}});
     return;
   }
-  std::printf("%s: %d places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), rows, render_ms / frames, world.load_ms / 1000);
-  for (const auto& [height, figure] : by_height.items()) std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
+  std::printf("%s: %d places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), rows,
+              render_ms / frames, world.load_ms / 1000);
+  for (const auto& [height, figure] : by_height.items())
+    std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
 }
 
 }  // namespace airsim360

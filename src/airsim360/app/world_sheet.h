@@ -15,8 +15,8 @@ struct SheetArguments {
   std::vector<double> heights{1.6, 12, 40, 100};
 };
 
-/// Renders `poses` places at each height as panoramas, writes them as one sheet (.jpg or .png) and prints mean
-/// brightness, albedo, clipping and what can be seen of each category. InputError for wrong flags.
+/// Renders `poses` places at each height as panoramas, writes them as one sheet (.jpg or .png) and prints
+/// mean brightness, albedo, clipping and what can be seen of each category. InputError for wrong flags.
 void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals);
 
 }  // namespace airsim360

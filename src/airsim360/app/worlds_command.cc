@@ -69,7 +69,8 @@ void AddWorldsCommand(CLI::App& app, GlobalOptions& globals) {
       app.add_subcommand("worlds", "list the built-in worlds: name, setting, area, categories");
   auto count = std::make_shared<std::string>();
   command->add_option("--count", *count, "builds this world and counts what it holds");
-  command->callback([&globals, count] { count->empty() ? PrintWorlds(globals.json) : PrintCounts(*count, globals); });
+  command->callback(
+      [&globals, count] { count->empty() ? PrintWorlds(globals.json) : PrintCounts(*count, globals); });
 }
 
 }  // namespace airsim360

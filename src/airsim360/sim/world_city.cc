@@ -41,7 +41,8 @@ bool WorldAdditions::empty() const {
 
 void WorldAdditions::Visit(ConfigVisitor& v) {
   v.Group("city", "measures of new_york_city", [&](ConfigVisitor& group) { VisitCity(group, city); });
-  v.List("props", "models of your own", props, [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });
+  v.List("props", "models of your own", props,
+         [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });
 }
 
 void WorldAdditions::Resolve(const std::filesystem::path& file) {

@@ -1,4 +1,5 @@
-// What a world file says about a built-in world beyond its name: the city's measures, models of the user's own.
+// What a world file says about a built-in world beyond its name: the city's measures, models of the user's
+// own.
 #pragma once
 
 #include <filesystem>

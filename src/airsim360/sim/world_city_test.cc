@@ -25,8 +25,9 @@ std::string MessageOf(std::string_view text) {
 }
 
 TEST(WorldAdditions, AreReadFromAWorldFile) {
-  const WorldAdditions read =
-      Read("city: {height: 0.7, traffic: 0.2, styles: [deco, brownstone]}\nprops:\n  - {model: a.glb, label: vehicle/car, x: 3, yaw_deg: 90}\n");
+  const WorldAdditions read = Read(
+      "city: {height: 0.7, traffic: 0.2, styles: [deco, brownstone]}\nprops:\n  - {model: a.glb, label: "
+      "vehicle/car, x: 3, yaw_deg: 90}\n");
   EXPECT_EQ(read.city.height, 0.7);
   EXPECT_EQ(read.city.styles.size(), 2u);
   ASSERT_EQ(read.props.size(), 1u);

@@ -132,7 +132,8 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   }
   if (!request.additions.empty() && request.world != "new_york_city" &&
       (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
-    throw InputError("'" + request.world + "': 'city' is for new_york_city, 'props' for it and downtown_west");
+    throw InputError("'" + request.world +
+                     "': 'city' is for new_york_city, 'props' for it and downtown_west");
   if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");

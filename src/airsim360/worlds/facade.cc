@@ -28,8 +28,9 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
   if (kind == EdgeKind::kStreet && plan.shops && length > 2.6f) {
     const internal::GroundFloor floor{plan, entity, height, dress.wall, dress.trim, dress.frame};
     const bool office = plan.style == FacadeStyle::kCurtainWall || plan.style == FacadeStyle::kRibbon ||
-                        plan.style == FacadeStyle::kConcreteGrid || plan.style == FacadeStyle::kClassicStone ||
-                        plan.style == FacadeStyle::kDeco || plan.style == FacadeStyle::kBracedGlass;
+                        plan.style == FacadeStyle::kConcreteGrid ||
+                        plan.style == FacadeStyle::kClassicStone || plan.style == FacadeStyle::kDeco ||
+                        plan.style == FacadeStyle::kBracedGlass;
     const int shops = CountBays(length, 4.9f),
               lobby = office && plan.canopies && length > 9 && rng.Chance(0.6) ? shops / 2 : -1;
     for (int i = 0; i < shops; ++i) {
@@ -112,8 +113,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
   const int first =
       std::clamp(static_cast<int>(std::ceil((from + 0.4f - plan.first_storey()) / metrics.floor_height)), 0,
                  plan.floors);
-  const float start =
-      std::max(from, plan.first_storey() + metrics.floor_height * static_cast<float>(first));
+  const float start = std::max(from, plan.first_storey() + metrics.floor_height * static_cast<float>(first));
   pen.Use(bare.wall);
   pen.Front(0, L, from, start, 0);
   const int bays = CountBays(L, 4.1f);

@@ -136,17 +136,18 @@ void BuildWallExtras(FacadeContext& context, FacadePen& pen, const BuildingPlan&
   // A stack of landings; the lowest hangs over the shops.
   const float x = L * static_cast<float>(rng.Uniform(0.3, 0.7));
   for (int f = 0; f < plan.floors; ++f) {
-    AffineTransform X{{}, {std::clamp(x, 2.4f, L - 2.4f), 0,
-                           plan.first_storey() + metrics.floor_height * static_cast<float>(f)}};
+    AffineTransform X{{},
+                      {std::clamp(x, 2.4f, L - 2.4f), 0,
+                       plan.first_storey() + metrics.floor_height * static_cast<float>(f)}};
     X.A.m[2][2] = metrics.floor_height / 3.2f;
-    context.builder.AddInstance({(*context.fire_escape)[static_cast<size_t>(f % 2)], pen.X_WF() * X, context.building});
+    context.builder.AddInstance(
+        {(*context.fire_escape)[static_cast<size_t>(f % 2)], pen.X_WF() * X, context.building});
   }
 }
 
 void HangRedCurtains(FacadeContext& context, FacadePen& pen, FacadeStyle style, const Bay& bay) {
   const Opening o = OpeningOf(style, bay);
-  pen.UseEntity(
-      context.builder.AddEntity("red curtains", context.builder.tree().At("furniture/curtain")));
+  pen.UseEntity(context.builder.AddEntity("red curtains", context.builder.tree().At("furniture/curtain")));
   pen.Use(S::kGlassRedCurtain);
   const float w = (o.x1 - o.x0) * 0.36f, y = o.depth - 0.012f;
   pen.Front(o.x0 + 0.06f, o.x0 + w, o.z0 + 0.06f, o.z1 - 0.06f, y);
@@ -190,8 +191,7 @@ MeshId AddFireEscapeMesh(SceneBuilder& builder, const Surfaces& surfaces, bool m
     pen.Bar(x, x + 0.02f, kFloor, kFloor + 0.93f, kOut + 0.005f, kOut + 0.025f, true, false);
   }
   // The flight: two stringers and treads.
-  for (float y : {-0.98f, -0.48f})
-    mesh.Beam({-1.5f, y, kFloor}, {1.3f, y, kFloor + 3.2f}, 0.06f);
+  for (float y : {-0.98f, -0.48f}) mesh.Beam({-1.5f, y, kFloor}, {1.3f, y, kFloor + 3.2f}, 0.06f);
   for (int i = 1; i < 13; ++i) {
     const float t = static_cast<float>(i) / 13, x = -1.5f + 2.8f * t, z = kFloor + 3.2f * t;
     pen.Bar(x - 0.1f, x + 0.1f, z - 0.02f, z, -0.98f, -0.48f);

@@ -153,9 +153,9 @@ void HidePartyWalls(std::vector<BuildingPlan>& out, size_t first) {
 }
 
 const std::vector<std::string>& FacadeStyleNames() {
-  static const std::vector<std::string> names = {"brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid",
-                                                 "curtain_wall",  "brick_loft",    "ribbon",          "deco",
-                                                 "brownstone",    "braced_glass"};
+  static const std::vector<std::string> names = {
+      "brick_walk_up", "classic_stone", "stucco_shutters", "concrete_grid", "curtain_wall", "brick_loft",
+      "ribbon",        "deco",          "brownstone",      "braced_glass"};
   return names;
 }
 

@@ -168,8 +168,7 @@ void Clutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, cons
   };
   const float area = deck.area(), quarter = kTau / 4;
   const bool old = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft;
-  if (rng.Chance(plan.style == FacadeStyle::kDeco ? 0.65 : old ? 0.45 : 0.12))
-    scatter("water_tank", 1, 0);
+  if (rng.Chance(plan.style == FacadeStyle::kDeco ? 0.65 : old ? 0.45 : 0.12)) scatter("water_tank", 1, 0);
   scatter("ac_unit", std::min(6, 1 + static_cast<int>(area / 55)),
           quarter * static_cast<float>(rng.Index(4)));
   scatter("roof_vent", std::min(8, 2 + static_cast<int>(area / 45)), 0);

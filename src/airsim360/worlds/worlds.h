@@ -26,12 +26,12 @@ const std::vector<WorldInfo>& ListWorlds();
 /// What a world file may change about a procedural city, relative to the built-in one. Only new_york_city
 /// listens today.
 struct CityOptions {
-  double height = 1;                 ///< of towers: 0.3 … 2.5
-  double traffic = 1;                ///< cars in lanes and bays: 0 … 1.6
-  double trees = 1;                  ///< street trees: 0 … 1.6
-  double furniture = 1;              ///< things on the pavements: 0 … 2
-  bool billboards = true;            ///< beside those that instructions name
-  std::vector<std::string> styles;   ///< facade styles of lots that are not hand-set; empty = all
+  double height = 1;                ///< of towers: 0.3 … 2.5
+  double traffic = 1;               ///< cars in lanes and bays: 0 … 1.6
+  double trees = 1;                 ///< street trees: 0 … 1.6
+  double furniture = 1;             ///< things on the pavements: 0 … 2
+  bool billboards = true;           ///< beside those that instructions name
+  std::vector<std::string> styles;  ///< facade styles of lots that are not hand-set; empty = all
 };
 /// Names of the facade styles, as CityOptions::styles has them.
 const std::vector<std::string>& FacadeStyleNames();

@@ -49,7 +49,9 @@ void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
   d.ground.UseEntity(roof);
   d.ground.Use(Surface::kFarRoof);
   d.ground.Rect(hut, height + 3.2f);
-  if (height > 120) d.ground.mesh().Tube({hut.center().x, hut.center().y, height + 3}, {hut.center().x, hut.center().y, height + 25}, 0.6f, 0.2f, 6);
+  if (height > 120)
+    d.ground.mesh().Tube({hut.center().x, hut.center().y, height + 3},
+                         {hut.center().x, hut.center().y, height + 25}, 0.6f, 0.2f, 6);
 }
 
 void BuildFarBlocks(District& d, const GroundRect& ring) {
@@ -57,7 +59,8 @@ void BuildFarBlocks(District& d, const GroundRect& ring) {
   for (int j = -ny; j <= ny; ++j) {
     for (int i = -nx; i <= nx; ++i) {
       const GroundRect block{kPitchX * static_cast<float>(i) + 13, kPitchY * static_cast<float>(j) + 6.5f,
-                             kPitchX * static_cast<float>(i + 1) - 13, kPitchY * static_cast<float>(j + 1) - 6.5f};
+                             kPitchX * static_cast<float>(i + 1) - 13,
+                             kPitchY * static_cast<float>(j + 1) - 6.5f};
       const Vec2f c = block.center();
       if (ring.Contains(c) || std::abs(c.x) > kCityEdge || std::abs(c.y) > kCityEdge) continue;
       RngStream rng(d.seed, "far manhattan", static_cast<uint64_t>((j + 64) * 256 + i + 64));
@@ -87,15 +90,21 @@ void BuildSkyline(District& d) {
       const float x0 = kPitchX * static_cast<float>(i) + 15, y0 = kPitchY * static_cast<float>(j) + 8;
       const float cx = x0 + 52, cy = y0 + 34, r = std::hypot(cx, cy);
       if (std::max(std::abs(cx), std::abs(cy)) < kCityEdge || std::abs(cx) > 1500 || r > 2900) continue;
-      const auto bump = [&](float bx, float by, float s) { return std::exp(-((cx - bx) * (cx - bx) + (cy - by) * (cy - by)) / (2 * s * s)); };
+      const auto bump = [&](float bx, float by, float s) {
+        return std::exp(-((cx - bx) * (cx - bx) + (cy - by) * (cy - by)) / (2 * s * s));
+      };
       const float tall = 1 + 2.0f * bump(-250, -2200, 420) + 1.6f * bump(300, 1500, 500);
-      const std::pair<int, int> key{static_cast<int>(std::floor(cx / 400)), static_cast<int>(std::floor(cy / 400))};
+      const std::pair<int, int> key{static_cast<int>(std::floor(cx / 400)),
+                                    static_cast<int>(std::floor(cy / 400))};
       auto it = squares.find(key);
       if (it == squares.end())
-        it = squares.emplace(key, d.builder.AddEntity("skyline", d.builder.tree().At("construction/building"))).first;
+        it =
+            squares.emplace(key, d.builder.AddEntity("skyline", d.builder.tree().At("construction/building")))
+                .first;
       d.ground.UseEntity(it->second);
       for (int k = 0; k < 4; ++k) {
-        const float w = static_cast<float>(rng.Uniform(18, 44)), depth = static_cast<float>(rng.Uniform(18, 30)),
+        const float w = static_cast<float>(rng.Uniform(18, 44)),
+                    depth = static_cast<float>(rng.Uniform(18, 30)),
                     h = std::clamp(FarHeight(rng) * tall * 0.8f, 10.0f, 330.0f);
         const float px = x0 + (k % 2 ? 56.0f : 0.0f), py = y0 + (k / 2 ? 36.0f : 0.0f);
         const GroundRect box{px, py, px + w, py + depth};
@@ -117,7 +126,10 @@ void BuildFarManhattan(District& d) {
   BuildSkyline(d);
   // Asphalt under the far blocks: four sheets around the ring, then the island's ground to both rivers.
   const float ex = 1560, ey = 3000;
-  const GroundRect sheets[] = {{-ex, -ey, ex, ring.y0}, {-ex, ring.y1, ex, ey}, {-ex, ring.y0, ring.x0, ring.y1}, {ring.x1, ring.y0, ex, ring.y1}};
+  const GroundRect sheets[] = {{-ex, -ey, ex, ring.y0},
+                               {-ex, ring.y1, ex, ey},
+                               {-ex, ring.y0, ring.x0, ring.y1},
+                               {ring.x1, ring.y0, ex, ring.y1}};
   for (const GroundRect& sheet : sheets) {
     d.ground.Begin("outer streets", "ground/road", Surface::kAsphalt);
     d.ground.Rect(sheet, kGroundZ);

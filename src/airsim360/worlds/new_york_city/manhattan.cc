@@ -62,8 +62,9 @@ struct Design {
 Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
   Design d{};
   if (lot.corner()) {
-    static constexpr F kStyles[] = {F::kDeco,         F::kConcreteGrid, F::kCurtainWall, F::kDeco, F::kRibbon,
-                                    F::kClassicStone, F::kDeco,         F::kBrickLoft,   F::kCurtainWall};
+    static constexpr F kStyles[] = {F::kDeco, F::kConcreteGrid, F::kCurtainWall,
+                                    F::kDeco, F::kRibbon,       F::kClassicStone,
+                                    F::kDeco, F::kBrickLoft,    F::kCurtainWall};
     d.style = kStyles[rng.Index(9)];
     d.height = static_cast<float>(34 + 75 * rng.Uniform() * rng.Uniform() + 32 * rng.Uniform()) * scale;
     const double pick = rng.Uniform();
@@ -80,8 +81,8 @@ Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
       d.style = F::kBrickLoft;
       d.height = static_cast<float>(rng.Uniform(22, 42));
     } else {
-      static constexpr F kStyles[] = {F::kDeco,   F::kCurtainWall,  F::kRibbon,
-                                      F::kDeco,   F::kConcreteGrid, F::kClassicStone};
+      static constexpr F kStyles[] = {F::kDeco, F::kCurtainWall,  F::kRibbon,
+                                      F::kDeco, F::kConcreteGrid, F::kClassicStone};
       d.style = kStyles[rng.Index(6)];
       d.height = static_cast<float>(30 + 50 * rng.Uniform()) * scale;
       d.tiers = rng.Chance(0.5) ? 3 : 2;
@@ -148,13 +149,16 @@ void SplitAtYard(const Lot& lot, BuildingPlan& plan) {
 // The tiers of one building, lowest first.
 void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<BuildingPlan>& out) {
   const StyleMetrics& metrics = MetricsOf(design.style);
-  const auto storeys = [&](float h) { return std::max(1, static_cast<int>(std::lround(h / metrics.floor_height))); };
+  const auto storeys = [&](float h) {
+    return std::max(1, static_cast<int>(std::lround(h / metrics.floor_height)));
+  };
   RngStream rng(seed, "tiers");
   // Shares of the height, and how far each tier stands back from the one below.
   std::vector<float> tops{design.height};
   const float base = std::min(design.height * 0.45f, static_cast<float>(rng.Uniform(17, 27)));
   if (design.tiers == 2) tops = {base, design.height};
-  if (design.tiers == 3) tops = {base + 5, design.height * static_cast<float>(rng.Uniform(0.68, 0.8)), design.height};
+  if (design.tiers == 3)
+    tops = {base + 5, design.height * static_cast<float>(rng.Uniform(0.68, 0.8)), design.height};
   GroundRect r = lot.rect;
   float foot = 0;
   for (size_t i = 0; i < tops.size(); ++i) {
@@ -182,7 +186,8 @@ void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<B
       return KindOf(lot, facing) == EdgeKind::kStreet || i > 0 ? street : std::max(street, 3.2f);
     };
     GroundRect next{r.x0 + inset(3), r.y0 + inset(0), r.x1 - inset(1), r.y1 - inset(2)};
-    const bool last = i + 1 == tops.size() || std::min(next.width(), next.depth()) < (lot.role == "deco corner" ? 19.0f : 9.0f);
+    const bool last = i + 1 == tops.size() ||
+                      std::min(next.width(), next.depth()) < (lot.role == "deco corner" ? 19.0f : 9.0f);
     if (!last) plan.upper = LotOutline(lot, next);
     out.push_back(std::move(plan));
     if (last) break;
@@ -231,7 +236,8 @@ void AddRowHouses(const Lot& lot, const Design& design, uint64_t seed, std::vect
     const float w = lot.rect.width() / static_cast<float>(houses);
     house.rect.x0 = lot.rect.x0 + w * static_cast<float>(i);
     house.rect.x1 = house.rect.x0 + w;
-    AddTiers(house, {design.style, (design.palette + i / 2) % 3, design.height, 1}, seed + static_cast<uint64_t>(i), out);
+    AddTiers(house, {design.style, (design.palette + i / 2) % 3, design.height, 1},
+             seed + static_cast<uint64_t>(i), out);
   }
 }
 
@@ -253,7 +259,8 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
         if (!options.styles.empty() &&
             std::find(options.styles.begin(), options.styles.end(), design.style) == options.styles.end()) {
           design.style = options.styles[rng.Index(static_cast<uint32_t>(options.styles.size()))];
-          design.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
+          design.palette =
+              static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
           if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20))
             design.style = FacadeStyle::kBrickWalkUp;
         }
@@ -271,7 +278,8 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
           }
           lot.podium = city.buildings[from].height();
           lot.height = city.buildings.back().height();
-          if (!lot.corner() && lot.role.empty() && design.style != FacadeStyle::kBrownstone && rng.Chance(0.14))
+          if (!lot.corner() && lot.role.empty() && design.style != FacadeStyle::kBrownstone &&
+              rng.Chance(0.14))
             city.buildings[from].awnings = false;
           if (lot.role == "grid tower") city.buildings.back().curtain_floor = 3;
         }

@@ -22,9 +22,9 @@ struct Lot {
   int row = 0, index = 0, count = 0;
   GroundRect rect;
   LotUse use = LotUse::kBuilding;
-  std::string role;   ///< "" or the name of a hand-set lot: "deco corner", "grid tower", …
-  float height = 0;   ///< of the highest roof
-  float podium = 0;   ///< of the roof at the street
+  std::string role;  ///< "" or the name of a hand-set lot: "deco corner", "grid tower", …
+  float height = 0;  ///< of the highest roof
+  float podium = 0;  ///< of the roof at the street
   FacadeStyle style = FacadeStyle::kBrickWalkUp;
   bool corner() const { return index == 0 || index + 1 == count; }
 };

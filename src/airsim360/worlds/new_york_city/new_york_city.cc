@@ -6,12 +6,16 @@
 
 namespace airsim360::internal {
 
-std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) { return BuildNewYorkCity(options, nullptr); }
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options) {
+  return BuildNewYorkCity(options, nullptr);
+}
 
-std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options, std::vector<Placement>* placements) {
+std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
+                                              std::vector<Placement>* placements) {
   SceneBuilder builder("new_york_city");
   builder.AddSky();
-  builder.environment() = {.sun_azimuth_deg = 236, .sun_elevation_deg = 56, .turbidity = 2.6, .cloud_cover = 0.3};
+  builder.environment() = {
+      .sun_azimuth_deg = 256, .sun_elevation_deg = 56, .turbidity = 2.6, .cloud_cover = 0.3};
   const Surfaces surfaces = AddSurfaces(builder);
   const StreetPlan plan = PlanNewYorkCity();
   PropShelf shelf(builder, options.models, options.seed);
@@ -117,8 +121,10 @@ WorldInfo NewYorkCityInfo() {
            "vehicle/van",
            "water/lake",
            "water/river"},
-          "Nine blocks of Midtown around a crossing of a planted boulevard: towers with setbacks, walk-ups with fire "
-          "escapes, brownstones, billboards, cabs, a park with lake, island and red bridge; skyline to the horizon; "
+          "Nine blocks of Midtown around a crossing of a planted boulevard: towers with setbacks, walk-ups "
+          "with fire "
+          "escapes, brownstones, billboards, cabs, a park with lake, island and red bridge; skyline to the "
+          "horizon; "
           "no people."};
 }
 

@@ -30,29 +30,35 @@ WallLine StreetWall(const Lot& lot) {
 }
 
 // Gap between the wall plane and the back of a sign, so that ornament stays behind it.
-float Gap(FacadeStyle style) { return style == FacadeStyle::kBracedGlass ? 0.72f : style == FacadeStyle::kDeco ? 0.34f : 0.28f; }
+float Gap(FacadeStyle style) {
+  return style == FacadeStyle::kBracedGlass ? 0.72f : style == FacadeStyle::kDeco ? 0.34f : 0.28f;
+}
 
 struct Boards {
   District& d;
-  EntityId Hang(const WallLine& wall, FacadeStyle style, std::string name, std::string_view kind, uint32_t variant,
-                float s, float z, float scale) {
-    return PlaceNamed(d, std::move(name), kind, wall.At(s, z, Gap(style)), FacingYaw(wall.out), variant, scale);
+  EntityId Hang(const WallLine& wall, FacadeStyle style, std::string name, std::string_view kind,
+                uint32_t variant, float s, float z, float scale) {
+    return PlaceNamed(d, std::move(name), kind, wall.At(s, z, Gap(style)), FacingYaw(wall.out), variant,
+                      scale);
   }
 };
 
 // A board on a steel frame at the edge of a roof, looking over wall `wall`.
-void RaiseRoofBoard(District& d, const Lot& lot, const WallLine& wall, std::string name, uint32_t variant, float scale) {
+void RaiseRoofBoard(District& d, const Lot& lot, const WallLine& wall, std::string name, uint32_t variant,
+                    float scale) {
   const float z = lot.podium, s = wall.length / 2, yaw = FacingYaw(wall.out);
-  const EntityId board = PlaceNamed(d, std::move(name), "billboard", wall.At(s, z + 2.2f * scale, -1.2f), yaw, variant, scale);
+  const EntityId board =
+      PlaceNamed(d, std::move(name), "billboard", wall.At(s, z + 2.2f * scale, -1.2f), yaw, variant, scale);
   const Vec3f foot = wall.At(s, z, -1.2f);
   d.placer.shelf().PlaceAs(board, "billboard_frame", PlaceUpright(foot, yaw, scale));
 }
 
 }  // namespace
 
-EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f p, float yaw, uint32_t variant,
-                    float scale, Vec3f tint) {
-  const EntityId entity = d.builder.AddEntity(std::move(name), d.builder.tree().At(FindPropKind(kind).category));
+EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f p, float yaw,
+                    uint32_t variant, float scale, Vec3f tint) {
+  const EntityId entity =
+      d.builder.AddEntity(std::move(name), d.builder.tree().At(FindPropKind(kind).category));
   d.placer.shelf().PlaceAs(entity, kind, PlaceUpright(p, yaw, scale), variant, tint);
   return entity;
 }
@@ -60,10 +66,11 @@ EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f 
 void HangSigns(District& d, const Manhattan& city, bool more) {
   Boards boards{d};
   const auto lot = [&](const char* role) -> const Lot& { return LotOf(city, role); };
-  const auto hang = [&](const char* role, bool avenue, std::string name, std::string_view kind, uint32_t variant, float s,
-                        float z, float scale) {
+  const auto hang = [&](const char* role, bool avenue, std::string name, std::string_view kind,
+                        uint32_t variant, float s, float z, float scale) {
     const Lot& at = lot(role);
-    boards.Hang(avenue ? AvenueWall(at) : StreetWall(at), at.style, std::move(name), kind, variant, s, z, scale);
+    boards.Hang(avenue ? AvenueWall(at) : StreetWall(at), at.style, std::move(name), kind, variant, s, z,
+                scale);
   };
   // What instructions name.
   hang("deco corner", false, "billboard BLACK & WHITE", "billboard", 0, 17, 8.5f, 1.0f);
@@ -103,11 +110,14 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
     if (at.corner() && free) {
       const WallLine wall = AvenueWall(at);
       if (rng.Chance(0.75))
-        boards.Hang(wall, at.style, "billboard", "billboard", 5 + rng.Index(7), std::min(10.0f, wall.length / 2),
-                    static_cast<float>(rng.Uniform(7.5, 9)), static_cast<float>(rng.Uniform(0.75, 1.05)));
+        boards.Hang(wall, at.style, "billboard", "billboard", 5 + rng.Index(7),
+                    std::min(10.0f, wall.length / 2), static_cast<float>(rng.Uniform(7.5, 9)),
+                    static_cast<float>(rng.Uniform(0.75, 1.05)));
       if (rng.Chance(0.5))
-        boards.Hang(wall, at.style, "banner", "banner", rng.Index(4), wall.length - 4, 7.5f, at.podium > 20 ? 0.9f : 0.6f);
-      if (rng.Chance(0.35) && at.height < 45) RaiseRoofBoard(d, at, StreetWall(at), "roof billboard", 5 + rng.Index(7), 0.9f);
+        boards.Hang(wall, at.style, "banner", "banner", rng.Index(4), wall.length - 4, 7.5f,
+                    at.podium > 20 ? 0.9f : 0.6f);
+      if (rng.Chance(0.35) && at.height < 45)
+        RaiseRoofBoard(d, at, StreetWall(at), "roof billboard", 5 + rng.Index(7), 0.9f);
     } else if (!at.corner() && free && rng.Chance(0.3)) {
       const WallLine wall = StreetWall(at);
       boards.Hang(wall, at.style, "light box", "light_box", rng.Index(6), wall.length / 2, 5.8f,

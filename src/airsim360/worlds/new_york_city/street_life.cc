@@ -36,10 +36,12 @@ struct Rule {
   int group;  // how many stand together
 };
 constexpr Rule kRules[] = {
-    {"fire_hydrant", 42, 0.55f, true, 1},   {"trash_can", 24, 0.8f, false, 1},   {"newspaper_box", 38, 0.75f, false, 4},
-    {"mailbox", 70, 0.8f, false, 1},        {"traffic_sign", 22, 0.5f, true, 1}, {"bench_wood", 40, 1.1f, false, 1},
-    {"electric_box", 75, 0.85f, false, 1},  {"bicycle", 45, 1.1f, true, 3},      {"poster_stand", 80, 0.95f, false, 1},
-    {"concrete_block", 90, 0.9f, true, 2},  {"parking_meter", 14, 0.5f, false, 1},
+    {"fire_hydrant", 42, 0.55f, true, 1},   {"trash_can", 24, 0.8f, false, 1},
+    {"newspaper_box", 38, 0.75f, false, 4}, {"mailbox", 70, 0.8f, false, 1},
+    {"traffic_sign", 22, 0.5f, true, 1},    {"bench_wood", 40, 1.1f, false, 1},
+    {"electric_box", 75, 0.85f, false, 1},  {"bicycle", 45, 1.1f, true, 3},
+    {"poster_stand", 80, 0.95f, false, 1},  {"concrete_block", 90, 0.9f, true, 2},
+    {"parking_meter", 14, 0.5f, false, 1},
 };
 
 void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, RngStream& rng) {
@@ -51,7 +53,7 @@ void FurnishSide(District& d, const Side& side, bool avenue, const Density& dens
     d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
   }
   // Trees in pits; few on narrow streets of towers.
-  const double planted = density.trees * (avenue ? 0.92 : 0.74);
+  const double planted = density.trees * (avenue ? 0.98 : 0.85);
   for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += 8.6f) {
     if (!rng.Chance(planted)) continue;
     struct Tree {
@@ -59,11 +61,15 @@ void FurnishSide(District& d, const Side& side, bool avenue, const Density& dens
       uint32_t variant;
       float scale;
     };
-    static constexpr Tree kTrees[] = {{"tree_generic", 3, 0.72f}, {"tree_generic", 2, 0.8f}, {"tree_narrowleaf", 0, 0.9f},
-                                      {"tree_narrowleaf", 1, 0.85f}, {"tree_narrowleaf", 2, 0.95f}};
+    static constexpr Tree kTrees[] = {{"tree_generic", 3, 0.72f},
+                                      {"tree_generic", 2, 0.8f},
+                                      {"tree_narrowleaf", 0, 0.9f},
+                                      {"tree_narrowleaf", 1, 0.85f},
+                                      {"tree_narrowleaf", 2, 0.95f}};
     const Tree& tree = kTrees[rng.Index(5)];
     const Vec3f p = side.At(s + uniform(-0.3, 0.3), 1.15f);
-    if (d.placer.Try(tree.kind, p, uniform(0, kTau), tree.scale * uniform(0.85, 1.0), {1, 1, 1}, tree.variant))
+    if (d.placer.Try(tree.kind, p, uniform(0, kTau), tree.scale * uniform(0.85, 1.0), {1, 1, 1},
+                     tree.variant))
       LayTreePit(d.ground, {p.x, p.y});
   }
   for (const Rule& rule : kRules) {
@@ -77,13 +83,16 @@ void FurnishSide(District& d, const Side& side, bool avenue, const Density& dens
     }
   }
   // Carts at the kerb of the avenues; plants and steel bollards by the doors; cones where somebody digs.
-  if (avenue && rng.Chance(0.6)) d.placer.Try("hotdog_cart", side.At(uniform(side.s0 + 4, side.s1 - 4), 1.5f), FacingYaw(side.line.inward));
+  if (avenue && rng.Chance(0.6))
+    d.placer.Try("hotdog_cart", side.At(uniform(side.s0 + 4, side.s1 - 4), 1.5f),
+                 FacingYaw(side.line.inward));
   for (float s = side.s0 + 2; s < side.s1 - 2; s += uniform(6, 11)) {
     const double pick = rng.Uniform();
     if (pick < 0.3) {
       d.placer.Try("green_pot", side.At(s, side.depth - 0.65f), FacingYaw(side.street()));
     } else if (pick < 0.42) {
-      for (int i = 0; i < 4; ++i) d.placer.Try("road_column", side.At(s + 1.1f * static_cast<float>(i), 0.45f), 0, 1, {1, 1, 1}, 0u);
+      for (int i = 0; i < 4; ++i)
+        d.placer.Try("road_column", side.At(s + 1.1f * static_cast<float>(i), 0.45f), 0, 1, {1, 1, 1}, 0u);
     } else if (pick < 0.5) {
       for (int i = 0; i < 4; ++i)
         d.placer.Try("traffic_cone", side.At(s + uniform(0, 2.5), uniform(0.6, 1.8)), uniform(0, 6));
@@ -95,7 +104,8 @@ void FurnishSide(District& d, const Side& side, bool avenue, const Density& dens
 
 // Tables under umbrellas by the wall.
 void PlaceCafe(District& d, const Side& side, float s, RngStream& rng) {
-  static constexpr Vec3f kCloths[] = {{0.55f, 0.04f, 0.035f}, {0.05f, 0.22f, 0.10f}, {0.05f, 0.10f, 0.35f}, {0.65f, 0.62f, 0.55f}};
+  static constexpr Vec3f kCloths[] = {
+      {0.55f, 0.04f, 0.035f}, {0.05f, 0.22f, 0.10f}, {0.05f, 0.10f, 0.35f}, {0.65f, 0.62f, 0.55f}};
   const Vec3f cloth = kCloths[rng.Index(4)];
   const uint32_t style = rng.Index(4);
   for (int i = 0; i < 4; ++i) {
@@ -104,7 +114,8 @@ void PlaceCafe(District& d, const Side& side, float s, RngStream& rng) {
     d.placer.Put("umbrella", p, 0, 0.9f, cloth, 0u);
     for (float a : {-0.9f, 0.9f}) {
       const Vec2f along = side.line.along * a;
-      d.placer.Put("dining_chair", {p.x + along.x, p.y + along.y, 0}, FacingYaw(along * -1.0f), 1, {1, 1, 1}, style);
+      d.placer.Put("dining_chair", {p.x + along.x, p.y + along.y, 0}, FacingYaw(along * -1.0f), 1, {1, 1, 1},
+                   style);
     }
   }
 }
@@ -120,8 +131,8 @@ void PlaceShed(District& d, const Side& side, float s, int bays) {
 bool OnAvenue(int side) { return side % 2 == 1; }
 
 // A free place on a side for a landmark: tries along s from `from`.
-EntityId PutLandmark(District& d, const Side& side, std::string name, std::string_view kind, float from, float depth,
-                     bool to_street) {
+EntityId PutLandmark(District& d, const Side& side, std::string name, std::string_view kind, float from,
+                     float depth, bool to_street) {
   const float yaw = FacingYaw(to_street ? side.street() : side.line.inward);
   const Vec3f p = side.At(from, depth);
   d.placer.Reserve(FootprintOf(kind, {p.x, p.y}, yaw));
@@ -131,7 +142,9 @@ EntityId PutLandmark(District& d, const Side& side, std::string name, std::strin
 }  // namespace
 
 void PlaceLandmarks(District& d, const Manhattan& city) {
-  const auto block = [&](int column, int row) -> const Block& { return d.plan.blocks[static_cast<size_t>(row * 5 + column)]; };
+  const auto block = [&](int column, int row) -> const Block& {
+    return d.plan.blocks[static_cast<size_t>(row * 5 + column)];
+  };
   // Sides: 0 south, 1 east, 2 north, 3 west of a block.
   const Side ne_west = SideBetweenRamps(block(2, 2), 3), ne_south = SideBetweenRamps(block(2, 2), 0),
              se_west = SideBetweenRamps(block(2, 1), 3), sw_east = SideBetweenRamps(block(1, 1), 1),
@@ -153,8 +166,10 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
   // The flag on a mast in front of the bank, its columns and its sign.
   const Lot& bank = LotOf(city, "bank");
   const GroundRect& r = bank.rect;
-  for (float x = r.x0 + 2.2f; x < r.x1 - 1; x += 3.6f) d.placer.Put("pillar", {x, r.y0 - 0.62f, 0}, 0, 0.92f, {1, 1, 1}, 0u);
-  PlaceNamed(d, "bank with the purple sign", "bank_sign", {r.center().x, r.y0 - 0.35f, 5.3f}, FacingYaw({0, -1}), 0, 1.3f);
+  for (float x = r.x0 + 2.2f; x < r.x1 - 1; x += 3.6f)
+    d.placer.Put("pillar", {x, r.y0 - 0.62f, 0}, 0, 0.92f, {1, 1, 1}, 0u);
+  PlaceNamed(d, "bank with the purple sign", "bank_sign", {r.center().x, r.y0 - 0.35f, 5.3f},
+             FacingYaw({0, -1}), 0, 1.3f);
   d.placer.Reserve({{r.center().x, r.y0 - 0.62f}, {r.width() / 2, 0.5f}, 0});
   const Vec3f mast = se_west.At(se_west.s0 + 4, 1.6f);
   d.placer.Reserve({{mast.x, mast.y}, {0.4f, 0.4f}, 0});
@@ -167,7 +182,8 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
     PlaceNamed(d, "hot dog cart", "hotdog_cart", cart, yaw, s > 12);
   }
   for (float s : {0.15f, 0.5f, 0.85f})
-    PlaceNamed(d, "american flag", "us_flag", {r.x0 + r.width() * s, r.y0 - 0.3f, 9.4f}, FacingYaw({0, -1}), 1, 1.3f);
+    PlaceNamed(d, "american flag", "us_flag", {r.x0 + r.width() * s, r.y0 - 0.3f, 9.4f}, FacingYaw({0, -1}),
+               1, 1.3f);
   const Lot& bottle = LotOf(city, "bottle roof");
   const Vec2f top = bottle.rect.center();
   PlaceNamed(d, "giant cola bottle", "giant_bottle", {top.x, bottle.rect.y0 + 3.4f, bottle.podium}, kTau / 8);
@@ -192,7 +208,8 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "new york pavement", i * 4 + static_cast<size_t>(k));
       const Side side = SideBetweenRamps(block, k);
-      if (reach.Contains(side.line.At(side.line.length - 1, 3))) FurnishCorner(d, block, side.line, "road_column");
+      if (reach.Contains(side.line.At(side.line.length - 1, 3)))
+        FurnishCorner(d, block, side.line, "road_column");
       if (block.kind == BlockKind::kBuilt && OnAvenue(k) && rng.Chance(0.6))
         PlaceCafe(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 12)), rng);
       if (block.kind == BlockKind::kBuilt && k == static_cast<int>(i % 4)) {
@@ -221,14 +238,17 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
     RngStream rng(d.seed, "new york traffic", i);
     const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
     const float hw = street.line.half_width, s0 = street.s0 + 7.6f, s1 = street.s1 - 7.6f;
-    const bool boulevard = street.line.kind == StreetKind::kBoulevard, avenue = street.line.kind != StreetKind::kTwoWay;
+    const bool boulevard = street.line.kind == StreetKind::kBoulevard,
+               avenue = street.line.kind != StreetKind::kTwoWay;
     const Vec2f forward = street.along_x ? Vec2f{1, 0} : Vec2f{0, 1};
     for (float side : {-1.0f, 1.0f}) {
       const Vec2f heading = forward * -side;
       for (float s = s0 + 3.1f; (!boulevard || side < 0) && s + 3.1f < s1 + 0.1f; s += 6.2f) {
         if (!rng.Chance(0.8 * density.traffic)) continue;
         const double pick = rng.Uniform();
-        d.placer.Try(pick < 0.78 ? "car" : pick < 0.9 ? "van" : "taxi",
+        d.placer.Try(pick < 0.78  ? "car"
+                     : pick < 0.9 ? "van"
+                                  : "taxi",
                      street.At(s + uniform(-0.25, 0.25), side * (hw - 1.22f), -0.004f),
                      FacingYaw(heading) + uniform(-0.015, 0.015));
       }
@@ -245,15 +265,18 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
         while (s > s0 + 2.5f && s < s1 - 2.5f) {
           const double pick = rng.Uniform();
           const char* kind = pick < 0.40 ? "taxi" : pick < 0.88 ? "car" : pick < 0.97 ? "van" : "bus";
-          d.placer.Try(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f), FacingYaw(heading) + uniform(-0.02, 0.02));
+          d.placer.Try(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f),
+                       FacingYaw(heading) + uniform(-0.02, 0.02));
           s += back * (kind[0] == 'b' ? 15.0f : rng.Chance(0.5) ? uniform(6.5, 9) : gaps * uniform(14, 38));
         }
       }
-      if (boulevard && side > 0 && rng.Chance(0.7)) d.placer.Try("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
+      if (boulevard && side > 0 && rng.Chance(0.7))
+        d.placer.Try("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
     }
     for (int k = 0; k < (avenue ? 5 : 3); ++k) {
       const float at = uniform(avenue ? 2.6 : 0.9, hw - 3.2) * (rng.Chance(0.5) ? 1.0f : -1.0f);
-      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.012f), uniform(0, kTau), rng.Index(2));
+      d.placer.shelf().Place("manhole", street.At(uniform(s0, s1), at, 0.012f), uniform(0, kTau),
+                             rng.Index(2));
     }
   }
 }

@@ -1,5 +1,5 @@
-// Billboards with pictures drawn here: boards of 10 x 6 m, banners of 4 x 11 m, light boxes of 9 x 1.9 m. They
-// hang on walls: back at y = 0, lower edge at z = 0.
+// Billboards with pictures drawn here: boards of 10 x 6 m, banners of 4 x 11 m, light boxes of 9 x 1.9 m.
+// They hang on walls: back at y = 0, lower edge at z = 0.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -61,13 +61,30 @@ void Gradient(Canvas& c, Vec3f top, Vec3f bottom) {
 // Head and shoulders at x: jacket, shirt, tie, face, hair.
 void Portrait(Canvas& c, float x, Vec3f skin, Vec3f hair, Vec3f jacket, Vec3f shirt, Vec3f tie) {
   const Vec2f s = kBoard;
-  Shape(c, s, {{x - 0.20f, 1}, {x - 0.185f, 0.76f}, {x - 0.12f, 0.68f}, {x, 0.64f}, {x + 0.12f, 0.68f}, {x + 0.185f, 0.76f}, {x + 0.20f, 1}}, jacket);
+  Shape(c, s,
+        {{x - 0.20f, 1},
+         {x - 0.185f, 0.76f},
+         {x - 0.12f, 0.68f},
+         {x, 0.64f},
+         {x + 0.12f, 0.68f},
+         {x + 0.185f, 0.76f},
+         {x + 0.20f, 1}},
+        jacket);
   Shape(c, s, {{x - 0.055f, 0.65f}, {x + 0.055f, 0.65f}, {x + 0.01f, 1}, {x - 0.01f, 1}}, shirt);
   Shape(c, s, {{x - 0.018f, 0.70f}, {x + 0.018f, 0.70f}, {x + 0.024f, 1}, {x - 0.024f, 1}}, tie);
-  Shape(c, s, {{x - 0.045f, 0.52f}, {x + 0.045f, 0.52f}, {x + 0.05f, 0.69f}, {x - 0.05f, 0.69f}}, skin * 0.72f);
+  Shape(c, s, {{x - 0.045f, 0.52f}, {x + 0.045f, 0.52f}, {x + 0.05f, 0.69f}, {x - 0.05f, 0.69f}},
+        skin * 0.72f);
   Ellipse(c, s, {x, 0.30f}, {0.098f, 0.19f}, hair);
   Ellipse(c, s, {x, 0.40f}, {0.085f, 0.205f}, skin);
-  Shape(c, s, {{x - 0.09f, 0.34f}, {x - 0.07f, 0.16f}, {x + 0.03f, 0.12f}, {x + 0.09f, 0.22f}, {x + 0.09f, 0.34f}, {x + 0.05f, 0.25f}, {x - 0.05f, 0.26f}}, hair);
+  Shape(c, s,
+        {{x - 0.09f, 0.34f},
+         {x - 0.07f, 0.16f},
+         {x + 0.03f, 0.12f},
+         {x + 0.09f, 0.22f},
+         {x + 0.09f, 0.34f},
+         {x + 0.05f, 0.25f},
+         {x - 0.05f, 0.26f}},
+        hair);
   for (float e : {-0.036f, 0.036f}) {
     Ellipse(c, s, {x + e, 0.385f}, {0.017f, 0.013f}, {0.7f, 0.7f, 0.68f});
     Ellipse(c, s, {x + e, 0.385f}, {0.008f, 0.013f}, {0.02f, 0.02f, 0.02f});
@@ -81,7 +98,18 @@ void RedCar(Canvas& c) {
   const Vec2f s = kBoard;
   Gradient(c, {0.05f, 0.07f, 0.12f}, {0.30f, 0.24f, 0.20f});
   c.Rectangle({0, 0.78f}, {1, 1}, {0.035f, 0.035f, 0.04f});
-  Shape(c, s, {{0.08f, 0.80f}, {0.07f, 0.66f}, {0.16f, 0.58f}, {0.30f, 0.54f}, {0.42f, 0.40f}, {0.62f, 0.39f}, {0.76f, 0.54f}, {0.90f, 0.58f}, {0.94f, 0.68f}, {0.93f, 0.80f}}, {0.62f, 0.012f, 0.015f});
+  Shape(c, s,
+        {{0.08f, 0.80f},
+         {0.07f, 0.66f},
+         {0.16f, 0.58f},
+         {0.30f, 0.54f},
+         {0.42f, 0.40f},
+         {0.62f, 0.39f},
+         {0.76f, 0.54f},
+         {0.90f, 0.58f},
+         {0.94f, 0.68f},
+         {0.93f, 0.80f}},
+        {0.62f, 0.012f, 0.015f});
   Shape(c, s, {{0.34f, 0.55f}, {0.44f, 0.43f}, {0.52f, 0.43f}, {0.52f, 0.55f}}, {0.05f, 0.07f, 0.09f});
   Shape(c, s, {{0.54f, 0.55f}, {0.54f, 0.43f}, {0.61f, 0.43f}, {0.71f, 0.55f}}, {0.05f, 0.07f, 0.09f});
   c.Line({0.09f, 0.68f}, {0.92f, 0.66f}, 0.012f, {0.30f, 0.006f, 0.008f});
@@ -117,7 +145,8 @@ Texture Board(uint32_t variant) {
       break;
     case 1:  // a man in a blue suit
       Gradient(c, {0.62f, 0.60f, 0.55f}, {0.72f, 0.70f, 0.65f});
-      Portrait(c, 0.30f, kSkin, {0.035f, 0.022f, 0.015f}, {0.015f, 0.055f, 0.34f}, kWhite, {0.02f, 0.03f, 0.12f});
+      Portrait(c, 0.30f, kSkin, {0.035f, 0.022f, 0.015f}, {0.015f, 0.055f, 0.34f}, kWhite,
+               {0.02f, 0.03f, 0.12f});
       c.Letters("SHARP", {0.73f, 0.34f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
       c.Letters("SUITS", {0.73f, 0.60f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
       c.Letters("5TH AVENUE", {0.73f, 0.83f}, 0.075f, kBlack, 0.9f);
@@ -138,7 +167,8 @@ Texture Board(uint32_t variant) {
       Gradient(c, {0.02f, 0.16f, 0.62f}, {0.05f, 0.30f, 0.80f});
       c.Disc({0.80f, 0.30f}, 0.16f, {0.85f, 0.85f, 0.83f});
       for (int i = 0; i < 3; ++i)
-        c.Line({-0.05f, 0.66f + 0.1f * static_cast<float>(i)}, {1.05f, 0.60f + 0.1f * static_cast<float>(i)}, 0.035f, {0.35f, 0.62f, 0.85f});
+        c.Line({-0.05f, 0.66f + 0.1f * static_cast<float>(i)}, {1.05f, 0.60f + 0.1f * static_cast<float>(i)},
+               0.035f, {0.35f, 0.62f, 0.85f});
       c.Letters("BLUE AIR", {0.40f, 0.32f}, 0.24f, kWhite, 0.75f);
       break;
     case 5:
@@ -150,9 +180,20 @@ Texture Board(uint32_t variant) {
     case 6:
       Gradient(c, {0.60f, 0.02f, 0.02f}, {0.42f, 0.01f, 0.012f});
       c.Letters("RUN CITY", {0.5f, 0.24f}, 0.24f, kWhite, 0.85f);
-      Shape(c, kBoard, {{0.14f, 0.84f}, {0.12f, 0.62f}, {0.30f, 0.56f}, {0.44f, 0.66f}, {0.70f, 0.72f}, {0.86f, 0.80f}, {0.87f, 0.87f}, {0.15f, 0.88f}}, {0.05f, 0.06f, 0.12f});
+      Shape(c, kBoard,
+            {{0.14f, 0.84f},
+             {0.12f, 0.62f},
+             {0.30f, 0.56f},
+             {0.44f, 0.66f},
+             {0.70f, 0.72f},
+             {0.86f, 0.80f},
+             {0.87f, 0.87f},
+             {0.15f, 0.88f}},
+            {0.05f, 0.06f, 0.12f});
       for (int i = 0; i < 4; ++i)
-        c.Line({0.34f + 0.07f * static_cast<float>(i), 0.83f}, {0.40f + 0.07f * static_cast<float>(i), 0.66f + 0.015f * static_cast<float>(i)}, 0.02f, kWhite);
+        c.Line({0.34f + 0.07f * static_cast<float>(i), 0.83f},
+               {0.40f + 0.07f * static_cast<float>(i), 0.66f + 0.015f * static_cast<float>(i)}, 0.02f,
+               kWhite);
       c.Rectangle({0.14f, 0.88f}, {0.88f, 0.93f}, kWhite);
       break;
     case 7:
@@ -171,7 +212,8 @@ Texture Board(uint32_t variant) {
       Gradient(c, {0.02f, 0.20f, 0.09f}, {0.01f, 0.10f, 0.05f});
       for (int i = 0; i < 9; ++i) {
         const float a = kTau * static_cast<float>(i) / 9;
-        Ellipse(c, kBoard, {0.77f + 0.10f * std::cos(a), 0.5f + 0.17f * std::sin(a)}, {0.06f, 0.10f}, {0.75f, 0.55f, 0.60f});
+        Ellipse(c, kBoard, {0.77f + 0.10f * std::cos(a), 0.5f + 0.17f * std::sin(a)}, {0.06f, 0.10f},
+                {0.75f, 0.55f, 0.60f});
       }
       c.Disc({0.77f, 0.5f}, 0.11f, kYellow);
       c.Letters("FRESH", {0.32f, 0.36f}, 0.20f, kWhite, 0.9f);
@@ -179,7 +221,8 @@ Texture Board(uint32_t variant) {
       break;
     case 10:
       Gradient(c, {0.70f, 0.68f, 0.62f}, {0.60f, 0.56f, 0.48f});
-      Shape(c, kBoard, {{0.58f, 0.34f}, {0.88f, 0.34f}, {0.83f, 0.80f}, {0.63f, 0.80f}}, {0.10f, 0.045f, 0.02f});
+      Shape(c, kBoard, {{0.58f, 0.34f}, {0.88f, 0.34f}, {0.83f, 0.80f}, {0.63f, 0.80f}},
+            {0.10f, 0.045f, 0.02f});
       Ellipse(c, kBoard, {0.73f, 0.34f}, {0.15f, 0.05f}, {0.045f, 0.02f, 0.01f});
       c.Line({0.88f, 0.42f}, {0.93f, 0.52f}, 0.035f, {0.10f, 0.045f, 0.02f});
       c.Line({0.93f, 0.52f}, {0.86f, 0.62f}, 0.035f, {0.10f, 0.045f, 0.02f});
@@ -190,8 +233,12 @@ Texture Board(uint32_t variant) {
     default:
       Gradient(c, {0.30f, 0.02f, 0.30f}, {0.05f, 0.02f, 0.20f});
       for (int i = 0; i < 7; ++i)
-        c.Disc({0.15f + 0.12f * static_cast<float>(i), 0.72f + 0.08f * std::sin(1.7f * static_cast<float>(i))}, 0.07f,
-               i % 3 == 0 ? kYellow : i % 3 == 1 ? Vec3f{0.05f, 0.55f, 0.55f} : Vec3f{0.75f, 0.08f, 0.25f});
+        c.Disc(
+            {0.15f + 0.12f * static_cast<float>(i), 0.72f + 0.08f * std::sin(1.7f * static_cast<float>(i))},
+            0.07f,
+            i % 3 == 0   ? kYellow
+            : i % 3 == 1 ? Vec3f{0.05f, 0.55f, 0.55f}
+                         : Vec3f{0.75f, 0.08f, 0.25f});
       c.Letters("JAZZ CLUB", {0.5f, 0.30f}, 0.24f, {0.10f, 0.70f, 0.62f}, 0.85f);
   }
   return c.Finish("board " + std::to_string(variant));
@@ -208,7 +255,8 @@ void AddBoard(PropBuilder& b, float w, float h, Texture face, float glow) {
     picture.emission = Vec3f{1, 1, 1} * (glow * kNit);
     b.Use(picture, face);
   }
-  b.Picture({-w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f + h}, {-w / 2, -0.405f, 0.12f + h});
+  b.Picture({-w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f + h},
+            {-w / 2, -0.405f, 0.12f + h});
 }
 
 Model MakeBillboard(uint32_t variant, uint64_t) {
@@ -263,7 +311,8 @@ Model MakeBanner(uint32_t variant, uint64_t) {
 
 Model MakeLightBox(uint32_t variant, uint64_t) {
   PropBuilder b("light_box");
-  constexpr const char* kWords[] = {"NY PUPPETS", "CAFE BISTRO", "HOTEL ASTOR", "ARCADE", "PIZZA SLICE", "CINEMA"};
+  constexpr const char* kWords[] = {"NY PUPPETS", "CAFE BISTRO", "HOTEL ASTOR",
+                                    "ARCADE",     "PIZZA SLICE", "CINEMA"};
   constexpr Vec3f kColors[] = {{0.12f, 0.80f, 0.10f}, {0.05f, 0.60f, 0.75f}, {0.80f, 0.30f, 0.05f},
                                {0.75f, 0.05f, 0.45f}, {0.80f, 0.55f, 0.04f}, {0.70f, 0.72f, 0.80f}};
   Canvas c(576, 128, {0.010f, 0.010f, 0.012f});

@@ -107,8 +107,10 @@ Model MakeTaxi(uint32_t variant, uint64_t) {
   b.Use(Plastic({0.02f, 0.02f, 0.02f}));
   b.BevelBox({-0.40f, 0.05f, roof - 0.03f}, {0.40f, 0.25f, roof + 0.20f}, 0.02f);
   b.Use(Paint({1, 1, 1}), canvas.Finish("taxi sign"));
-  b.Picture({-0.36f, 0.046f, roof}, {0.36f, 0.046f, roof}, {0.36f, 0.046f, roof + 0.18f}, {-0.36f, 0.046f, roof + 0.18f});
-  b.Picture({0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof + 0.18f}, {0.36f, 0.254f, roof + 0.18f});
+  b.Picture({-0.36f, 0.046f, roof}, {0.36f, 0.046f, roof}, {0.36f, 0.046f, roof + 0.18f},
+            {-0.36f, 0.046f, roof + 0.18f});
+  b.Picture({0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof + 0.18f},
+            {0.36f, 0.254f, roof + 0.18f});
   Append(model, b.Finish());
   return model;
 }

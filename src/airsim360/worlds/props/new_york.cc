@@ -44,7 +44,7 @@ Model MakeNewspaperBox(uint32_t variant, uint64_t) {
 Model MakeConcreteBlock(uint32_t variant, uint64_t) {
   PropBuilder b("concrete_block");
   b.Use(Stone(variant ? Vec3f{0.36f, 0.35f, 0.33f} : Vec3f{0.44f, 0.43f, 0.40f}), ConcreteTexture());
-  const std::vector<Vec2f> side = {{-0.30f, 0},    {0.30f, 0},     {0.30f, 0.08f},  {0.15f, 0.33f},
+  const std::vector<Vec2f> side = {{-0.30f, 0},    {0.30f, 0},      {0.30f, 0.08f},  {0.15f, 0.33f},
                                    {0.09f, 0.81f}, {-0.09f, 0.81f}, {-0.15f, 0.33f}, {-0.30f, 0.08f}};
   b.Place(AffineTransform{Mat3f::FromColumns({0, 1, 0}, {0, 0, 1}, {1, 0, 0}), {}});
   b.Prism(side, -1.2f, 1.2f);
@@ -56,7 +56,8 @@ Model MakeConcreteBlock(uint32_t variant, uint64_t) {
       stripes.Line({x, 1.2f}, {x + 0.14f, -0.2f}, 0.3f, {0.72f, 0.72f, 0.70f});
     }
     b.Use(Paint({1, 1, 1}, 0.6f), stripes.Finish("barrier stripes"));
-    b.Picture({-1.1f, -0.135f, 0.50f}, {1.1f, -0.135f, 0.50f}, {1.1f, -0.115f, 0.68f}, {-1.1f, -0.115f, 0.68f});
+    b.Picture({-1.1f, -0.135f, 0.50f}, {1.1f, -0.135f, 0.50f}, {1.1f, -0.115f, 0.68f},
+              {-1.1f, -0.115f, 0.68f});
     b.Picture({1.1f, 0.135f, 0.50f}, {-1.1f, 0.135f, 0.50f}, {-1.1f, 0.115f, 0.68f}, {1.1f, 0.115f, 0.68f});
   }
   return b.Finish();
@@ -70,8 +71,8 @@ Model MakeCone(uint32_t variant, uint64_t) {
   const auto ring = [&](float from, float to, Vec3f color) {
     b.Use(Plastic(color, 0.5f));
     const auto r = [&](float t) { return 0.145f - 0.115f * t; };
-    b.mesh().Tube({0, 0, 0.035f + (h - 0.035f) * from}, {0, 0, 0.035f + (h - 0.035f) * to}, r(from), r(to), 20,
-                  false, to > 0.99f);
+    b.mesh().Tube({0, 0, 0.035f + (h - 0.035f) * from}, {0, 0, 0.035f + (h - 0.035f) * to}, r(from), r(to),
+                  20, false, to > 0.99f);
   };
   const Vec3f orange{0.80f, 0.16f, 0.015f}, white{0.74f, 0.74f, 0.72f};
   ring(0, 0.45f, orange);
@@ -105,8 +106,8 @@ Model MakeMetalFence(uint32_t variant, uint64_t) {
         const auto clip = [&](float x) { return std::clamp(x, -0.97f, 0.97f); };
         const float t0 = (clip(x0) - x0) / (x1 - x0), t1 = (clip(x1) - x0) / (x1 - x0);
         if (t1 - t0 < 0.02f) continue;
-        b.mesh().Beam({x0 + (x1 - x0) * t0, 0, 0.09f + 1.72f * t0}, {x0 + (x1 - x0) * t1, 0, 0.09f + 1.72f * t1},
-                      0.006f);
+        b.mesh().Beam({x0 + (x1 - x0) * t0, 0, 0.09f + 1.72f * t0},
+                      {x0 + (x1 - x0) * t1, 0, 0.09f + 1.72f * t1}, 0.006f);
       }
     }
   }
@@ -172,11 +173,13 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
   b.BevelBox({-1.05f, -0.52f, 1.10f}, {1.05f, 0.50f, 1.15f}, 0.01f);
   for (float x : {-0.6f, -0.1f, 0.4f}) b.BevelBox({x - 0.2f, -0.2f, 1.15f}, {x + 0.2f, 0.2f, 1.22f}, 0.02f);
   Canvas board(256, 96, variant ? Vec3f{0.03f, 0.08f, 0.35f} : Vec3f{0.62f, 0.36f, 0.01f});
-  board.Letters("HOT DOGS", {0.5f, 0.34f}, 0.36f, variant ? Vec3f{0.8f, 0.5f, 0.02f} : Vec3f{0.45f, 0.02f, 0.02f}, 0.85f);
+  board.Letters("HOT DOGS", {0.5f, 0.34f}, 0.36f,
+                variant ? Vec3f{0.8f, 0.5f, 0.02f} : Vec3f{0.45f, 0.02f, 0.02f}, 0.85f);
   board.Text("PRETZEL   COLD DRINKS", {0.5f, 0.78f}, 0.14f, {0.8f, 0.8f, 0.76f});
   const Texture face = board.Finish(variant ? "hot dogs blue" : "hot dogs yellow");
   b.Use(Paint({1, 1, 1}, 0.4f), face);
-  b.Picture({-0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 1.06f}, {-0.88f, -0.424f, 1.06f});
+  b.Picture({-0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 1.06f},
+            {-0.88f, -0.424f, 1.06f});
   b.Picture({0.88f, 0.424f, 0.48f}, {-0.88f, 0.424f, 0.48f}, {-0.88f, 0.424f, 1.06f}, {0.88f, 0.424f, 1.06f});
   b.Use(Rubber());
   for (float x : {-0.7f, 0.7f})

@@ -180,21 +180,16 @@ Model MakeGreenPot(uint32_t variant, uint64_t seed) {
   PropBuilder b("green_pot");
   const float r = variant == 0 ? 0.42f : 0.36f, h = variant == 0 ? 0.62f : 0.78f;
   b.Use(Paint({0.02f, 0.10f, 0.05f}, 0.5f), ScratchedTexture());
-  const Vec2f tub[] = {{0, 0},
-                       {r * 0.78f, 0},
-                       {r * 0.8f, 0.02f},
-                       {r * 0.97f, h - 0.09f},
-                       {r * 1.04f, h - 0.08f},
-                       {r * 1.04f, h},
-                       {r * 0.93f, h},
-                       {r * 0.9f, h - 0.09f},
-                       {0, h - 0.09f}};
+  const Vec2f tub[] = {
+      {0, 0},         {r * 0.78f, 0}, {r * 0.8f, 0.02f},     {r * 0.97f, h - 0.09f}, {r * 1.04f, h - 0.08f},
+      {r * 1.04f, h}, {r * 0.93f, h}, {r * 0.9f, h - 0.09f}, {0, h - 0.09f}};
   b.Lathe(tub, 28);
   b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
   b.mesh().Tube({0, 0, h - 0.085f}, {0, 0, h - 0.06f}, r * 0.88f, r * 0.86f, 20, false);
   Model model = b.Finish();
   const bool straps = variant == 2;
-  Merge(model, Foliage(straps, {0, 0, straps ? h - 0.1f : h + r * 0.6f}, r * 1.05f, straps ? 80 : 2100, random));
+  Merge(model,
+        Foliage(straps, {0, 0, straps ? h - 0.1f : h + r * 0.6f}, r * 1.05f, straps ? 80 : 2100, random));
   return model;
 }
 
