@@ -86,12 +86,18 @@ int main(int argc, char** argv) {
     for (const KeypointLabel& k : label.keypoints) {
       if (k.state != KeypointState::kVisible) continue;
       ++visible;
+      const int before = on;
       for (int i = 0; i < 9; ++i) {
         const int x = (static_cast<int>(k.pixel.x) + i % 3 - 1 + kWidth) % kWidth,
                   y = std::clamp(static_cast<int>(k.pixel.y) + i / 3 - 1, 0, kHeight - 1);
         if (frame.entity(x, y) != label.entity) continue;
         ++on;
         break;
+      }
+      if (on == before) {
+        const auto socket = static_cast<size_t>(&k - label.keypoints.data());
+        std::printf("  %s of person %u, %.1f m away: the picture shows %s\n", std::string(kSocketNames[socket]).c_str(), label.person,
+                    k.range, scene->entity(frame.entity(static_cast<int>(k.pixel.x), static_cast<int>(k.pixel.y))).name.c_str());
       }
     }
   }

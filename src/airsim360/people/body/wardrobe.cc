@@ -159,7 +159,7 @@ Wardrobe DrawWardrobe(const BodySpec& spec) {
   w.shoe_color = Pick(kShoes, rng);
   w.name = std::string(kTopNames[static_cast<size_t>(w.top)]) + ", " + std::string(kBottomNames[static_cast<size_t>(w.bottom)]);
   if (w.bottom == Bottom::kDress) w.name = "dress";
-  if (w.coat) w.name = "coat" + w.name.substr(6);
+  if (w.coat) w.name = w.bottom == Bottom::kDress ? "coat, dress" : "coat" + w.name.substr(std::string("jacket").size());
   return w;
 }
 
