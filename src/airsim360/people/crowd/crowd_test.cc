@@ -161,7 +161,7 @@ TEST_F(CrowdFiles, WalkersWhoMeetChatFacingEachOtherInTurnsAndWalkOn) {
     return false;
   });
   EXPECT_GE(groups.size(), 3u);
-  EXPECT_GT(pairs, 100);
+  EXPECT_GT(pairs, 30);
   EXPECT_GT(facing, 0.9 * pairs);
   EXPECT_GT(speakers_of_one, 0.6 * talks);
   EXPECT_GE(crowd.Count(CrowdEvent::Kind::kTransition, "chatting", "tree: Chat with person"), 6u);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kHorizon = 2.0;       // seconds ahead for people
+constexpr double kThrongHorizon = 0.5; // the same in a dense crowd
 constexpr double kWallHorizon = 0.3;   // and for walls, which do not move
 constexpr double kSight = 3.0;         // metres; two cells
 constexpr double kDensityRadius = 1.5; // metres, as NavMesh::OpenShare
@@ -23,7 +24,7 @@ constexpr int64_t kChunk = 128;        // people a task
 
 // People stand apart and away from walls, so a disc around one of them holds more people than one anywhere; both
 // numbers come from the ring of steering_test.cc.
-constexpr double kDensityFactor = 0.85;
+constexpr double kDensityFactor = 0.905;
 constexpr double kSelfShare = 0.55;
 
 double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
@@ -131,7 +132,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   };
   std::array<Near, kMaxNeighbours + 1> near;
   int count = 0;
-  double around = 0;
+  double around = 0, in_disc = 0;
   const double wanted_speed = Norm2(walker.wanted);
   const Vec2d forward = wanted_speed > 1e-6 ? walker.wanted * (1 / wanted_speed) : Vec2d{};
   const int column = static_cast<int>((self.p.x - min_.x) / cell_), row = static_cast<int>((self.p.y - min_.y) / cell_);
@@ -146,7 +147,10 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
       const double d2 = Dot2(d, d);
       if (d2 > kSight * kSight || i == k || std::abs(other.z - self.z) > kLevel) continue;
       // Who is ahead counts double, who is behind not at all: the first of a queue see the way free.
-      if (d2 < kDensityRadius * kDensityRadius) around += 1 + Dot2(d, forward) / std::sqrt(d2 + 1e-12);
+      if (d2 < kDensityRadius * kDensityRadius) {
+        ++in_disc;
+        around += 1 + Dot2(d, forward) / std::sqrt(d2 + 1e-12);
+      }
       if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose)
         plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
       // Those behind matter less.
@@ -174,8 +178,10 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   const double density = kDensityFactor * (around + kSelfShare) / disc;
   const double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
   Vec2d wanted = wanted_speed > cap ? walker.wanted * (cap / wanted_speed) : walker.wanted;
-  // In a throng they come closer.
-  const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * std::clamp((density - 1.2) / 1.3, 0.0, 1.0);
+  // In a throng they come closer and look less far ahead, else nobody would let anybody in at a door.
+  const double throng = std::clamp((kDensityFactor * (in_disc + kSelfShare) / disc - 0.8) / 1.2, 0.0, 1.0);
+  const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * throng;
+  const double horizon = kHorizon - (kHorizon - kThrongHorizon) * throng;
 
   // Walls first, for they do not give way.
   std::array<HalfPlane, kMaxWalls + kMaxNeighbours + 4> planes;
@@ -202,7 +208,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
     const Seen& other = *near[static_cast<size_t>(i)].other;
     const Vec2d d = other.p - self.p;
     planes[planes_used++] =
-        AvoidDisc(d, self.v, other.v, 2 * space, kHorizon, dt, walkers[other.index].still ? 1 : 0.5);
+        AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, walkers[other.index].still ? 1 : 0.5);
     const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
     if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
   }

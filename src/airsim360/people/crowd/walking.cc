@@ -7,7 +7,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kCornerReach = 0.4;       // metres
-constexpr double kAheadOfRoad = 1.4;       // metres: where people stop at a red light
+constexpr double kAheadOfRoad = 2.2;       // metres to a crossing where people stop at a red light: ways cut its corners
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
 constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
 constexpr int64_t kNoProgress = 4 * kSecond, kStuck = 30 * kSecond;
