@@ -244,7 +244,7 @@ class Solver {
     turn -= 2 * std::numbers::pi * std::round(turn / (2 * std::numbers::pi));
     foot.frame = RotationZ(m.yaw + turn * s);
     foot.pitch = m.pitch * (1 - SmoothStep(0, 0.6, m.u)) + 0.25 * arc * (1 - m.u);
-    foot.toes = 1 - SmoothStep(0, 0.3, m.u);
+    foot.toes = m.toes * (1 - SmoothStep(0, 0.3, m.u));
     Vec3d ball = m.p_W + (m.p_W_to - m.p_W) * s;
     ball.z += 0.035 * arc;
     foot.ankle = ball + foot.frame * shapes_[k].AnkleAt(foot.pitch);
@@ -256,6 +256,7 @@ class Solver {
     const Foot& foot = feet_[k];
     SolvedLeg out;
     out.pitch = foot.pitch;
+    out.toes = foot.toes;
     out.hip = pelvis_ + hip_[k];
     const Vec3d to = foot.ankle - out.hip;
     const double a = size.thigh, b = size.shank;

@@ -25,6 +25,7 @@ struct SolvedLeg {
   Vec3d hip, knee, ankle;
   Mat3d A_thigh, A_shank, A_foot, A_toes;
   double pitch = 0;
+  double toes = 0;  ///< 1: the toes stay on the ground, 0: in line with the foot
 };
 
 struct SolvedLegs {

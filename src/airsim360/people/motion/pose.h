@@ -35,6 +35,7 @@ struct FootMotion {
   double yaw = 0, yaw_to = 0;
   Vec3d offset;            ///< swing: ankle less the gait's own at lift-off, axes of P
   double pitch = 0;        ///< at lift-off, radians, toe down positive
+  double toes = 1;         ///< of a step: 1 if its toes were on the ground at lift-off
   double phase = 0;        ///< of its stride at lift-off
   Vec3d normal{0, 0, 1};   ///< of the ground it stands on
 };

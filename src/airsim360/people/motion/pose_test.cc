@@ -116,7 +116,7 @@ TEST(Gait, CadenceFollowsTheWalkRatio) {
 // Feet in contact do not move: the ball while it is planted, the heel while the foot is flat.
 struct SlideCheck {
   Vec3d ball[2];
-  FootMotion::Mode mode[2] = {};
+  FootMotion::Mode mode[2] = {FootMotion::Mode::kSwing, FootMotion::Mode::kSwing};
   double worst = 0, deepest = 0;
   std::string where, where_deep;
 

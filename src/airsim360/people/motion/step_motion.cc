@@ -171,6 +171,7 @@ class Stepper {
     const Vec3d toe = leg.A_foot.column(0);
     foot.yaw = std::atan2(toe.y, toe.x);
     foot.pitch = leg.pitch;
+    foot.toes = leg.toes;
     foot.p_W = leg.ankle - RotationZ(foot.yaw) * AnkleOverBall(body_, k, leg.pitch);
     foot.mode = Mode::kStep;
     foot.u = 0;
@@ -281,7 +282,7 @@ void HashMotion(const MotionState& m, StateHasher& hasher) {
   hasher.Add(m.upper_since_ns);
   for (const FootMotion& f : m.feet) {
     hasher.Add(static_cast<uint64_t>(f.mode));
-    for (double x : {f.u, f.yaw, f.yaw_to, f.pitch, f.phase}) hasher.Add(x);
+    for (double x : {f.u, f.yaw, f.yaw_to, f.pitch, f.toes, f.phase}) hasher.Add(x);
     for (const Vec3d& v : {f.p_W, f.p_W_to, f.offset, f.normal}) hasher.Add(v);
   }
   hasher.Add(m.blend_since_ns);
