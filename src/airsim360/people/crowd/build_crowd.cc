@@ -40,9 +40,10 @@ class Builder {
     if (!request_.file.empty()) file_ = ParsePeople(ReadTextFile(request_.file, 1 << 20), request_.file.string());
     if (file_.areas.empty()) {
       AreaEntry all;
-      all.name = {"everywhere", "the default area"};
+      all.name = {"around the spawn", "the default area"};
       all.where = all.count_where = request_.file.empty() ? "--people" : file_.name;
       if (request_.count) all.count = static_cast<double>(*request_.count);
+      all.polygon = AroundSpawn(request_.count.value_or(0));
       file_.areas.push_back(all);
     }
     model_.seed = file_.seed.value_or(request_.seed);
@@ -57,6 +58,20 @@ class Builder {
   }
 
  private:
+  /// A circle around the world's spawn with about 80 m2 of ground a person, so that they meet; empty
+  /// (= everywhere) where that is not to be had.
+  std::vector<Vec2d> AroundSpawn(size_t count) const {
+    const Vec3f spawn = scene_.spawn.value_or(mesh_->bounds().center());
+    double radius = std::max(25.0, 1.3 * std::sqrt(static_cast<double>(count) * 80 / 3.14159));
+    for (; radius < 250; radius *= 1.5) {
+      std::vector<Vec2d> circle;
+      for (int k = 0; k < 16; ++k)
+        circle.push_back({spawn.x + radius * std::cos(k * 0.3926990817), spawn.y + radius * std::sin(k * 0.3926990817)});
+      if (mesh_->AreaOf(circle, kNoRoads).square_metres >= std::max(300.0, 40.0 * static_cast<double>(count))) return circle;
+    }
+    return {};
+  }
+
   std::vector<std::string> StateNames() const {
     std::vector<std::string> names;
     for (const StateDef& state : plan_.states) names.push_back(state.name);

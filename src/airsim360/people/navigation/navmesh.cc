@@ -26,8 +26,8 @@ struct NavMesh::Impl {
 
 namespace {
 
-// Worlds larger than that get a mesh around their middle.
-constexpr double kLargest = 1000;
+// Worlds larger than that get a mesh around their spawn or middle, unless a region is given.
+constexpr double kLargest = 400;
 
 internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
   Box3f box = options.region.value_or(scene.bounds);
@@ -38,12 +38,12 @@ internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
     throw InputError("people need ground to walk on: the region lies outside the world '" + scene.name + "'");
   const Vec3f middle = scene.spawn.value_or(box.center());
   const auto half = static_cast<float>(kLargest / 2);
-  if (box.size().x > kLargest) {
+  if (!options.region && box.size().x > kLargest) {
     const float x = std::clamp(middle.x, box.min.x + half, box.max.x - half);
     box.min.x = x - half;
     box.max.x = x + half;
   }
-  if (box.size().y > kLargest) {
+  if (!options.region && box.size().y > kLargest) {
     const float y = std::clamp(middle.y, box.min.y + half, box.max.y - half);
     box.min.y = y - half;
     box.max.y = y + half;

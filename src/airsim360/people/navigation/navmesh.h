@@ -30,7 +30,7 @@ struct NavMeshOptions {
   double step_height = 0.28;     ///< highest step
   double steepest_deg = 38;      ///< slope
   double tile = 24;              ///< metres: edge of what is rastered at a time, which bounds memory
-  std::optional<Box3f> region;   ///< only this part of the world (x and y count); default: up to 1 km around
+  std::optional<Box3f> region;   ///< only this part of the world (x and y count); default: up to 400 m around
                                  ///< its spawn or its middle
 };
 
