@@ -33,7 +33,8 @@ std::vector<Recipe> Recipes() {
           r.spec.stature = (male ? 1.756 : 1.63) + 0.03 * ((k * 7) % 5 - 2);
           r.spec.build = 0.25 * ((k * 5) % 5 - 2);
           r.spec.look = static_cast<uint64_t>(k);
-          r.suit = male ? kMenSuits[k % 7] : kWomenSuits[k % 4];
+          // The sports suit bares the belly.
+          r.suit = male ? kMenSuits[k % 7] : kWomenSuits[k % (age == 0 ? 4 : 3)];
           r.shoes = "shoes0" + std::to_string(1 + k % 6);
           r.hair = race == 1 && k % 3 == 0 ? "afro01" : male ? kMenHair[k % 4] : kWomenHair[k % 5];
           list.push_back(r);
@@ -52,7 +53,7 @@ std::vector<Recipe> Recipes() {
       r.spec.age = kChildren[i][0];
       r.spec.stature = kChildren[i][1];
       r.spec.look = static_cast<uint64_t>(k);
-      r.suit = male ? (outfit == 0 ? "male_casualsuit04" : "male_casualsuit02") : (outfit == 0 ? "female_casualsuit01" : "female_sportsuit01");
+      r.suit = male ? (outfit == 0 ? "male_casualsuit04" : "male_casualsuit02") : (outfit == 0 ? "female_casualsuit01" : "female_casualsuit02");
       r.shoes = "shoes0" + std::to_string(1 + (2 * i + outfit) % 4);
       r.hair = male ? kMenHair[(i + outfit) % 4] : kWomenHair[(i + 2 * outfit) % 5];
       list.push_back(r);

@@ -26,7 +26,9 @@ void AddArmLayer(const FigureContext& f, const Side& s, double from, double to, 
   for (const auto& row : rows) {
     const double t = row[0];
     if (t < from - 1e-9 || t > to + 1e-9) continue;
-    const Vec3d q = t < 1 ? a + (b - a) * t : b + (c - b) * (t - 1);
+    // Inside the trunk the sleeve goes towards the spine, not on along the arm.
+    const Vec3d inwards = Normalized(Vec3d{0, -a.y, -0.35 * std::abs(a.y)}) * Norm(b - a);
+    const Vec3d q = t < 0 ? a - inwards * t : t < 1 ? a + (b - a) * t : b + (c - b) * (t - 1);
     Influences bones = MixBones(Bone(s.clavicle), Bone(s.shoulder), std::clamp((t + 0.22) / 0.40, 0.0, 1.0));
     bones = MixBones(bones, Bone(s.elbow), std::clamp((t - 0.86) / 0.28, 0.0, 1.0));
     // A third of the turn of the hand is taken by the forearm.
