@@ -135,4 +135,14 @@ std::vector<uint32_t> TriangulateRings(std::span<const Vec2d> points, std::span<
   return triangles;
 }
 
+double SignedArea(std::span<const Vec2d> ring) {
+  // Relative to the first corner: far from the origin the products would cancel.
+  double twice = 0;
+  for (size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Vec2d a = ring[i] - ring[0], b = ring[i + 1] - ring[0];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice / 2;
+}
+
 }  // namespace airsim360

@@ -1,4 +1,4 @@
-// Triangles of a flat area with holes.
+// Areas and triangles of plane polygons.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,9 @@
 #include "airsim360/math/vector.h"
 
 namespace airsim360 {
+
+/// Half the cross products along the ring: positive if counter-clockwise; 0 for fewer than three corners.
+double SignedArea(std::span<const Vec2d> ring);
 
 /// Corner indices, three a counter-clockwise triangle, of an area whose outline is the first `sizes[0]` points,
 /// counter-clockwise, followed by holes of `sizes[1]`, … points, clockwise. Ear clipping over bridges to the

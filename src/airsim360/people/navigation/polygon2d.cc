@@ -17,12 +17,6 @@ bool InPolygon(std::span<const Vec2d> polygon, Vec2d p) {
   return inside;
 }
 
-double SignedArea(std::span<const Vec2d> polygon) {
-  double area = 0;
-  for (size_t i = 0; i < polygon.size(); ++i) area += Cross2(polygon[i], polygon[(i + 1) % polygon.size()]) / 2;
-  return area;
-}
-
 // Sutherland and Hodgman 1974, with the convex polygon as the window.
 double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex) {
   std::vector<Vec2d> rest(polygon.begin(), polygon.end()), next;

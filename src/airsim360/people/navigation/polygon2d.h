@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
+#include "airsim360/math/triangulate.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360::internal {
 
 /// Even-odd rule.
 bool InPolygon(std::span<const Vec2d> polygon, Vec2d p);
-/// Positive if counter-clockwise.
-double SignedArea(std::span<const Vec2d> polygon);
 /// Area that a simple polygon shares with a convex counter-clockwise one.
 double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex);
 /// Uniform in a convex polygon.

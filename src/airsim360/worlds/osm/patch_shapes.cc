@@ -6,13 +6,6 @@
 #include "airsim360/worlds/osm/patches.h"
 
 namespace airsim360::internal {
-double SignedArea(std::span<const Vec2d> ring) {
-  double twice = 0;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    twice += (ring[j].x - ring[0].x) * (ring[i].y - ring[0].y) - (ring[i].x - ring[0].x) * (ring[j].y - ring[0].y);
-  return ring.size() < 3 ? 0 : twice / 2;
-}
-
 double Area(const Patch& patch) {
   double area = std::abs(SignedArea(patch.outer));
   for (const Ring& hole : patch.holes) area -= std::abs(SignedArea(hole));

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "airsim360/math/triangulate.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360::internal {
@@ -28,7 +29,6 @@ Patches Intersect(std::span<const Patch> a, std::span<const Patch> b);
 /// its left; joints are mitred to twice the width at most and rounded beyond.
 Patches Band(std::span<const Vec2d> line, double left, double right);
 
-double SignedArea(std::span<const Vec2d> ring);  ///< positive = counter-clockwise
 double Area(const Patch& patch);
 double Area(std::span<const Patch> patches);
 bool Inside(std::span<const Vec2d> ring, Vec2d p);
