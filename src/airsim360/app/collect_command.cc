@@ -181,7 +181,7 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
     input.trajectory_json = TrajectoryJson({.trajectory = *path,
                                             .peaks = CertifiedPeaks(*path),
                                             .cost_snap = IntegralOfSquaredDerivative(*path, 4),
-                                            .yaw = planned.yaw.value_or(0)});
+                                            .yaw = ConstantYaw{planned.yaw.value_or(0)}});
   }
   const CollectResult result = Collect(input, *world.renderer);
   ReportRun(world, spec, result, arguments.out, globals.json);

@@ -88,7 +88,10 @@ TEST(MethodTable, ErrorsAreThoseOfRpclib) {
 
 TEST(Reply, IsGivenOnceAndNeverForgotten) {
   std::vector<std::string> answers;
-  const auto sink = [&](std::string bytes) { answers.push_back(std::move(bytes)); };
+  const auto sink = [&](WireBlocks blocks) {
+    answers.emplace_back();
+    for (const WireBlock& block : blocks) answers.back() += block.view();
+  };
   {
     const Reply reply(3, "f", 0, sink, [] { return true; });
     const Reply copy = reply;

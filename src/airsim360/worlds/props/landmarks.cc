@@ -244,7 +244,7 @@ std::vector<PropKind> LandmarkKinds() {
   return {
       {"phone_booth", "construction/phone_booth", 1, MakePhoneBooth, 0.6f, 2.4f, 2.7f, 2500},
       {"us_flag", "signage/flag/usa", 2, MakeUsFlag, 0.4f, 2.3f, 9.1f, 1500},
-      {"food_truck", "vehicle/food_truck", 1, MakeFoodTruck, 3.3f, 3.0f, 3.4f, 4000},
+      {"food_truck", "vehicle/food_truck", 1, MakeFoodTruck, 3.3f, 3.0f, 3.4f, 4500},
       {"orange_mailbox", "furniture/mail/post_box", 1, MakeOrangeMailbox, 0.5f, 1.15f, 1.3f, 800},
       {"giant_bottle", "signage/billboard", 1, MakeGiantBottle, 2.0f, 9.0f, 9.3f, 3000},
       {"red_tree", "vegetation/tree/broadleaf/maple", 1, MakeRedTree, 1.0f, 6.5f, 14.0f, 100000},
