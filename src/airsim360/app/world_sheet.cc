@@ -92,7 +92,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
   if (arguments.width < 64 || arguments.width > 2048 || arguments.width % 4)
     throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 64 … 2048");
   const Tier tier = ParseTierArgument(arguments.tier);
-  const OpenedWorld world = OpenWorld(arguments.world, globals.seed, tier);
+  const OpenedWorld world = OpenWorld(arguments.world, globals, tier);
   const std::vector<Vec3f> places = ChoosePlaces(world, arguments, globals.seed);
   if (places.empty()) throw RuntimeError(arguments.world + ": no open place found around the spawn");
 
