@@ -31,6 +31,16 @@ int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
   return -1;
 }
 
+/// Whether a straight line is free and does not lead onto a road that the way avoids.
+bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target) {
+  if (!mesh.Straight(at, target)) return false;
+  const Vec2d p = Flat(at.p_W), to = target - p;
+  const double distance = Length(to), here = GroundCost(mesh.Kind(at));
+  for (double s = 0.7; s < std::min(distance, 4.0); s += 0.8)
+    if (GroundCost(mesh.Kind(mesh.Move(at, p + to * (s / distance)))) > 2 * here) return false;
+  return true;
+}
+
 /// Walkers have green for 15 s of each cycle, the two directions by turns.
 bool Green(const NavMesh::Crossing& crossing, int64_t t_ns) {
   const int64_t t = (t_ns + (crossing.phase ? kCycle / 2 : 0)) % kCycle;
@@ -121,7 +131,7 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   }
 
   // The next corner but one is seen already; or the next one no more.
-  if (agent.corner + 1 < agent.corners.size() && distance < 4 && mesh.Straight(walker.at, Flat(agent.corners[agent.corner + 1])))
+  if (agent.corner + 1 < agent.corners.size() && distance < 4 && ShortCut(mesh, walker.at, Flat(agent.corners[agent.corner + 1])))
     ++agent.corner;
 
   // Progress: half a metre from the last place where there was some.
