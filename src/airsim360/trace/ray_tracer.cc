@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "airsim360/base/error.h"
@@ -75,6 +76,28 @@ const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
   for (int i = 0; i < 16; ++i) fixed[i] = valid[i] & ~bad[i];
   return fixed;
 }
+
+// Below AVX-512 Embree's calls for 16 rays ignore `valid` (3.13.5 hands them to a stream filter that looks at
+// intervals alone): inactive lanes get an empty interval while this lives, and theirs back at its end.
+class EmptyInactiveLanes {
+ public:
+  EmptyInactiveLanes(const int* lanes, RayHit16& rays) : lanes_(lanes), rays_(rays) {
+    for (int i = 0; i < 16; ++i) {
+      kept_[i] = rays.t_far[i];
+      rays.t_far[i] = lanes[i] != 0 ? kept_[i] : -std::numeric_limits<float>::infinity();
+    }
+  }
+  ~EmptyInactiveLanes() {
+    for (int i = 0; i < 16; ++i) rays_.t_far[i] = lanes_[i] != 0 ? rays_.t_far[i] : kept_[i];
+  }
+  EmptyInactiveLanes(const EmptyInactiveLanes&) = delete;
+  EmptyInactiveLanes& operator=(const EmptyInactiveLanes&) = delete;
+
+ private:
+  const int* lanes_;
+  RayHit16& rays_;
+  float kept_[16];
+};
 
 }  // namespace
 
@@ -150,6 +173,7 @@ void RayTracer::IntersectIn(bool panes, const int* valid, RayHit16& rays, bool c
   alignas(64) int fixed[16];
   RTCIntersectContext context = Context(coherent);
   const int* lanes = FiniteLanes(valid, rays, fixed);
+  const EmptyInactiveLanes others(lanes, rays);
   auto* packet = reinterpret_cast<RTCRayHit16*>(&rays);
   const RTCScene statics = panes ? impl_->embree->panes() : impl_->embree->top();
   if (impl_->dynamic == nullptr) {
@@ -172,6 +196,7 @@ void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, boo
   alignas(64) int fixed[16], open[16];
   RTCIntersectContext context = Context(coherent && !impl_->embree->has_instances());
   const int* lanes = FiniteLanes(valid, rays, fixed);
+  const EmptyInactiveLanes others(lanes, rays);
   auto* packet = reinterpret_cast<RTCRay16*>(&rays);
   uint32_t kinds[16];
   std::memcpy(kinds, rays.mask, sizeof kinds);
@@ -186,7 +211,7 @@ void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, boo
     rtcOccluded16(open, impl_->dynamic->top(), &context, packet);
   }
   for (int i = 0; i < 16; ++i) {
-    if (valid[i] != 0) occluded[i] = rays.t_far[i] < 0;
+    if (valid[i] != 0) occluded[i] = lanes[i] != 0 && rays.t_far[i] < 0;
   }
 }
 
