@@ -8,6 +8,8 @@ endif()
 option(AIRSIM360_PCH "precompile standard headers" ${precompile})
 
 if(AIRSIM360_PCH)
+  # Some libraries ask for it; the options of all must agree.
+  add_compile_options(-pthread)
   set(standard_headers <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <filesystem> <fstream> <functional> <limits> <map>
       <memory> <mutex> <optional> <random> <span> <sstream> <string> <string_view> <thread> <unordered_map> <utility> <variant> <vector>)
   file(WRITE ${CMAKE_BINARY_DIR}/empty.cc "")
