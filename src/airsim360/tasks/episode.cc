@@ -17,17 +17,23 @@ constexpr size_t kMostReferencePoints = 4096;
 constexpr double kSpacing = 1;                                // metres between points compared
 constexpr int64_t kLengthPeriodNs = 20'000'000;  // how often the way flown is measured
 
-// Points every `spacing` metres of a polyline, its ends among them; at most about a thousand.
+// Points at even steps of about `spacing` metres along a polyline, its ends among them; at most about a thousand.
 std::vector<Vec3d> Spaced(const std::vector<Vec3d>& points, double spacing) {
   constexpr double kMost = 1000;
-  spacing = std::max(spacing, PathLength(points) / kMost);
+  const double length = PathLength(points);
+  const auto parts = static_cast<int>(std::clamp(std::ceil(length / spacing), 1.0, kMost));
   std::vector<Vec3d> spaced = {points.front()};
+  double behind = 0;  // length of the way up to points[i - 1]
   for (size_t i = 1; i < points.size(); ++i) {
-    const Vec3d way = points[i] - points[i - 1];
-    const auto parts = static_cast<int>(std::ceil(Norm(way) / spacing));
-    for (int k = 1; k < parts; ++k) spaced.push_back(points[i - 1] + way * (static_cast<double>(k) / parts));
-    if (parts > 0) spaced.push_back(points[i]);
+    const double step = Norm(points[i] - points[i - 1]);
+    // Those that lie on this piece; the last point is added below.
+    for (double at = length * static_cast<double>(spaced.size()) / parts;
+         static_cast<int>(spaced.size()) < parts && at <= behind + step;
+         at = length * static_cast<double>(spaced.size()) / parts)
+      spaced.push_back(points[i - 1] + (points[i] - points[i - 1]) * ((at - behind) / std::max(step, 1e-12)));
+    behind += step;
   }
+  spaced.push_back(points.back());
   return spaced;
 }
 
