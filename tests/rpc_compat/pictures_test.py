@@ -206,7 +206,9 @@ class Added(RoomTest):
         self.assertAlmostEqual(self.picture("0", 1)[72, 128], 4.75, delta=0.01)
         self.assertEqual(c.simListSceneObjects(), before)
         raw = self.raw()
-        pose, scale = self.place(0, 0, 0).to_msgpack(), airsim.Vector3r(1, 1, 1).to_msgpack()
+        point = {"x_val": 0.0, "y_val": 0.0, "z_val": 0.0}
+        pose = {"position": point, "orientation": {"w_val": 1.0, "x_val": 0.0, "y_val": 0.0, "z_val": 0.0}}
+        scale = {"x_val": 1.0, "y_val": 1.0, "z_val": 1.0}
         self.assertError(lambda: raw.call("simSpawnObject", "a", "Teapot", pose, scale, False, False),
                          "There were no assets with name Teapot found in the Registry")
         for _ in range(8):

@@ -203,8 +203,9 @@ class Life(unittest.TestCase):
     def test_bad_flags_and_settings_are_told(self):
         def run(*arguments):
             return subprocess.run([os.environ["AIRSIM360"], "serve", *arguments], capture_output=True, text=True, timeout=60)
-        self.assertEqual(run("--world", "box_room", "--people", "3").returncode, 2)
-        self.assertIn("people are not in this build", run("--world", "box_room", "--people", "3").stderr)
+        nobody = run("--world", "box_room", "--people", "nobody")
+        self.assertEqual(nobody.returncode, 2)
+        self.assertIn("'nobody' is neither a number nor a file", nobody.stderr)
         self.assertIn("--lockstep", run("--world", "box_room", "--lockstep", "--realtime").stderr)
         self.assertIn("did you mean 'box_room'", run("--world", "box_rom").stderr)
         server = Server(settings={"Vehicles": {"A": {"VehicleType": "SimpleFlight"}}, "Unknown": 1})
