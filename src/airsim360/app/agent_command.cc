@@ -1,14 +1,13 @@
 // airsim360 agent: navigation episodes over HTTP and WebSocket, until SIGINT or SIGTERM.
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/stop_signals.h"
 #include "airsim360/base/error.h"
-#include "airsim360/base/log.h"
 #include "airsim360/sim/world_loader.h"
 #include "airsim360/tasks/agent_server.h"
 #include "airsim360/worlds/worlds.h"
@@ -49,25 +48,17 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
     throw InputError("--episodes: " + std::to_string(arguments.episodes) + " is not in 1 ... 1024");
   ApplyFlags(arguments.environment, {});
 
-  // Before any thread exists, so that the signals come to sigwait alone.
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  {
-    AgentApi api(OptionsOf(arguments, globals));
-    const AgentServer server(api, {.address = arguments.host, .port = arguments.port});
-    if (globals.json) {
-      PrintJson({{"address", arguments.host}, {"port", server.port()}});
-    } else {
-      std::printf("listening on http://%s:%d\n", arguments.host.c_str(), server.port());
-    }
-    std::fflush(stdout);
-    int signal = 0;
-    sigwait(&signals, &signal);
-    LogInfo("stopping");
+  // Before the server has threads, so that the signals come to Wait alone.
+  const StopSignals stop;
+  AgentApi api(OptionsOf(arguments, globals));
+  const AgentServer server(api, {.address = arguments.host, .port = arguments.port});
+  if (globals.json) {
+    PrintJson({{"address", arguments.host}, {"port", server.port()}});
+  } else {
+    std::printf("listening on http://%s:%d\n", arguments.host.c_str(), server.port());
   }
-  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  std::fflush(stdout);
+  stop.Wait();
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // airsim360 serve: the AirSim-compatible server, until SIGINT or SIGTERM.
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -7,8 +6,8 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/stop_signals.h"
 #include "airsim360/base/error.h"
-#include "airsim360/base/log.h"
 #include "airsim360/rpc/server.h"
 #include "airsim360/sim/world_environment.h"
 #include "airsim360/sim/world_loader.h"
@@ -64,34 +63,26 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   Check(arguments);
   ServerOptions options = OptionsOf(arguments, globals);
   ApplyFlags(arguments.environment, {});
-  arguments.people.Request(globals.seed);
+  const PeopleRequest people = arguments.people.Request(globals.seed);
   std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed});
   options.environment = ApplyFlags(arguments.environment, scene->environment);
-  if (const PeopleRequest people = arguments.people.Request(globals.seed); people.any()) {
+  if (people.any()) {
     PopulatedScene populated = Populate(std::move(scene), people);
     scene = std::move(populated.scene);
     options.people = std::move(populated.people);
   }
 
-  // Before any thread exists, so that the signals come to sigwait alone.
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  {
-    const AirSimServer server(std::move(scene), options);
-    if (globals.json) {
-      PrintJson({{"address", options.address}, {"port", server.port()}});
-    } else {
-      std::printf("listening on %s:%d\n", options.address.empty() ? "0.0.0.0" : options.address.c_str(),
-                  server.port());
-    }
-    std::fflush(stdout);
-    int signal = 0;
-    sigwait(&signals, &signal);
-    LogInfo("stopping");
+  // Before the server has threads, so that the signals come to Wait alone.
+  const StopSignals stop;
+  const AirSimServer server(std::move(scene), options);
+  if (globals.json) {
+    PrintJson({{"address", options.address}, {"port", server.port()}});
+  } else {
+    std::printf("listening on %s:%d\n", options.address.empty() ? "0.0.0.0" : options.address.c_str(),
+                server.port());
   }
-  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  std::fflush(stdout);
+  stop.Wait();
 }
 
 }  // namespace

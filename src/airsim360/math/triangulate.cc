@@ -145,4 +145,13 @@ double SignedArea(std::span<const Vec2d> ring) {
   return twice / 2;
 }
 
+bool InPolygon(std::span<const Vec2d> ring, Vec2d p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Vec2d a = ring[i], b = ring[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+  }
+  return inside;
+}
+
 }  // namespace airsim360

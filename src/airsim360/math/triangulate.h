@@ -1,4 +1,4 @@
-// Areas and triangles of plane polygons.
+// Areas, insides and triangles of plane polygons.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,9 @@ namespace airsim360 {
 
 /// Half the cross products along the ring: positive if counter-clockwise; 0 for fewer than three corners.
 double SignedArea(std::span<const Vec2d> ring);
+
+/// Even-odd rule.
+bool InPolygon(std::span<const Vec2d> ring, Vec2d p);
 
 /// Corner indices, three a counter-clockwise triangle, of an area whose outline is the first `sizes[0]` points,
 /// counter-clockwise, followed by holes of `sizes[1]`, … points, clockwise. Ear clipping over bridges to the

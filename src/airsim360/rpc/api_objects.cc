@@ -20,11 +20,6 @@ const VehicleStatus* VehicleNamed(const Snapshot& now, Text name, size_t& index)
   return nullptr;
 }
 
-ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity) {
-  const auto found = world.places.find(entity);
-  return found == world.places.end() ? objects.PlaceOf(entity) : found->second;
-}
-
 bool IsThere(const WorldView& world, EntityId entity) {
   const auto found = world.places.find(entity);
   return found == world.places.end() || !found->second.hidden;

@@ -76,6 +76,11 @@ void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<Mo
   }
 }
 
+ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity) {
+  const auto found = world.places.find(entity);
+  return found == world.places.end() ? objects.PlaceOf(entity) : found->second;
+}
+
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
   for (size_t i = 0; i < now.model->drones.size(); ++i) {
     if (now.model->drones[i]->setup().entity == entity) return {.X_WO = now.state.vehicles[i].motion.X_WB};
@@ -85,8 +90,7 @@ ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId e
     const auto X = PlaceOfPerson(people, *now.state.people, now.state.t_ns + people.epoch_ns, entity);
     return X ? ObjectPlace{.X_WO = *X} : ObjectPlace{.X_WO = {}, .hidden = true};
   }
-  const auto found = now.world->places.find(entity);
-  return found == now.world->places.end() ? objects.PlaceOf(entity) : found->second;
+  return PlaceIn(*now.world, objects, entity);
 }
 
 int DefaultSegmentationId(const std::string& name) {

@@ -45,8 +45,11 @@ class ObjectIndex {
 };
 
 struct Snapshot;
-/// Where an object is in a snapshot: drones where they fly, people where they walk, other things where the scene
-/// or a call has put them. `hidden` for people who are not in the world.
+struct WorldView;
+/// Where the scene or a call has put an object.
+ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity);
+/// Where an object is in a snapshot: drones where they fly, people where they walk, other things as
+/// PlaceIn says. `hidden` for people who are not in the world.
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity);
 
 /// AirSim's id of a name: a sum of its letters (Unreal/Plugins/AirSim/Source/AirBlueprintLib.h).

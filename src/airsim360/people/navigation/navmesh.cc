@@ -124,7 +124,7 @@ GroundKind NavMesh::Kind(const NavPoint& point) const { return impl_->graph.poly
 
 int NavMesh::CrossingAt(Vec2d p) const {
   for (size_t i = 0; i < impl_->crossings.size(); ++i)
-    if (internal::InPolygon(impl_->crossings[i].outline, p)) return static_cast<int>(i);
+    if (InPolygon(impl_->crossings[i].outline, p)) return static_cast<int>(i);
   return -1;
 }
 
@@ -165,10 +165,10 @@ NavPoint NavMesh::Pick(const NavArea& area, RngStream& rng) const {
     const NavPolygon& polygon = impl_->graph.polygons[index];
     const Vec2d p = internal::PointInFan(std::span(polygon.corner, polygon.corners), rng);
     point = {index, {p.x, p.y, 0}};
-    if (area.outline.empty() || internal::InPolygon(area.outline, p)) break;
+    if (area.outline.empty() || InPolygon(area.outline, p)) break;
   }
   const Vec2d p{point.p_W.x, point.p_W.y};
-  if (!area.outline.empty() && !internal::InPolygon(area.outline, p)) return {};
+  if (!area.outline.empty() && !InPolygon(area.outline, p)) return {};
   point.p_W.z = impl_->heights.At(p.x, p.y, impl_->graph.HeightIn(point.polygon, p), 2);
   return point;
 }

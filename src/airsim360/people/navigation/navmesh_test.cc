@@ -115,7 +115,7 @@ TEST(NavMesh, PlacesAreDrawnInsideAnAreaAndEvenly) {
   for (int i = 0; i < 2000; ++i) {
     const NavPoint p = mesh->Pick(area, rng);
     ASSERT_TRUE(p.valid());
-    ASSERT_TRUE(internal::InPolygon(outline, {p.p_W.x, p.p_W.y}));
+    ASSERT_TRUE(InPolygon(outline, {p.p_W.x, p.p_W.y}));
     left += p.p_W.x < 15;
   }
   EXPECT_NEAR(left, 1000, 100);

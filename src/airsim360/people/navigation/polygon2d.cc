@@ -8,15 +8,6 @@ namespace {
 double Cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 }  // namespace
 
-bool InPolygon(std::span<const Vec2d> polygon, Vec2d p) {
-  bool inside = false;
-  for (size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2d a = polygon[i], b = polygon[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-  }
-  return inside;
-}
-
 // Sutherland and Hodgman 1974, with the convex polygon as the window.
 double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex) {
   std::vector<Vec2d> rest(polygon.begin(), polygon.end()), next;

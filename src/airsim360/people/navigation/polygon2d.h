@@ -10,8 +10,6 @@
 
 namespace airsim360::internal {
 
-/// Even-odd rule.
-bool InPolygon(std::span<const Vec2d> polygon, Vec2d p);
 /// Area that a simple polygon shares with a convex counter-clockwise one.
 double ClippedArea(std::span<const Vec2d> polygon, std::span<const Vec2d> convex);
 /// Uniform in a convex polygon.

@@ -6,6 +6,7 @@
 #include "airsim360/worlds/osm/patches.h"
 
 namespace airsim360::internal {
+
 double Area(const Patch& patch) {
   double area = std::abs(SignedArea(patch.outer));
   for (const Ring& hole : patch.holes) area -= std::abs(SignedArea(hole));
@@ -18,18 +19,9 @@ double Area(std::span<const Patch> patches) {
   return sum;
 }
 
-bool Inside(std::span<const Vec2d> ring, Vec2d p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Vec2d a = ring[i], b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-  }
-  return inside;
-}
-
 bool Inside(const Patch& patch, Vec2d p) {
-  return Inside(patch.outer, p) &&
-         std::none_of(patch.holes.begin(), patch.holes.end(), [&](const Ring& hole) { return Inside(hole, p); });
+  return InPolygon(patch.outer, p) &&
+         std::none_of(patch.holes.begin(), patch.holes.end(), [&](const Ring& hole) { return InPolygon(hole, p); });
 }
 
 double DistanceToLine(std::span<const Vec2d> line, Vec2d p) {

@@ -31,7 +31,6 @@ Patches Band(std::span<const Vec2d> line, double left, double right);
 
 double Area(const Patch& patch);
 double Area(std::span<const Patch> patches);
-bool Inside(std::span<const Vec2d> ring, Vec2d p);
 bool Inside(const Patch& patch, Vec2d p);
 /// Metres from p to the nearest point of the ring (closed) or line.
 double DistanceToRing(std::span<const Vec2d> ring, Vec2d p);
