@@ -30,8 +30,8 @@ bench-gpu: install-packages
 	@tools/bench_gpu.sh $(BUILD) $(JOBS)
 
 # longer fuzzing on demand: make fuzz SECONDS=3600
-fuzz: install-packages
-	@tools/fuzz.sh $(BUILD)/fuzz $(JOBS) $(or $(SECONDS),300)
+fuzz: build
+	@tools/fuzz.sh $(BUILD) $(JOBS) $(or $(SECONDS),300)
 
 install-packages:
 	@tools/install_packages.sh

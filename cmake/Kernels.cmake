@@ -23,18 +23,12 @@ function(airsim360_kernels name)
     target_compile_options(${target} PRIVATE -O3 -fno-exceptions -ffp-contract=off -fno-math-errno -fno-trapping-math ${flags_${isa}})
     # GCC 12 warns of its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-    # No input of a fuzz target reaches a kernel unchecked, and sanitized kernels take minutes to compile.
-    if(AIRSIM360_FUZZ)
-      target_compile_options(${target} PRIVATE -O2 -fno-sanitize=all -fno-sanitize-coverage=trace-pc-guard)
-    endif()
     target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/src)
     target_sources(airsim360_${name} PRIVATE $<TARGET_OBJECTS:${target}>)
     list(APPEND objects $<TARGET_OBJECTS:${target}>)
   endforeach()
   # A weak symbol shared by two copies would let the linker give AVX-512 code to a machine without it.
-  if(NOT AIRSIM360_FUZZ)
-    add_test(NAME ${name}.KernelObjectsShareNoWeakSymbols
-             COMMAND ${CMAKE_COMMAND} "-DNM=${CMAKE_NM}" "-DOBJECTS=$<JOIN:${objects},|>"
-                     -P ${CMAKE_SOURCE_DIR}/cmake/check_kernel_symbols.cmake)
-  endif()
+  add_test(NAME ${name}.KernelObjectsShareNoWeakSymbols
+           COMMAND ${CMAKE_COMMAND} "-DNM=${CMAKE_NM}" "-DOBJECTS=$<JOIN:${objects},|>"
+                   -P ${CMAKE_SOURCE_DIR}/cmake/check_kernel_symbols.cmake)
 endfunction()

@@ -1,12 +1,13 @@
 #!/bin/sh
 # Builds every *_fuzz.cc with clang, AddressSanitizer and UndefinedBehaviorSanitizer and runs each for SECONDS.
-# Usage: tools/fuzz.sh BUILD_FOLDER JOBS SECONDS. A crashing input is kept in BUILD_FOLDER/artifacts.
+# Usage: tools/fuzz.sh BUILD_FOLDER JOBS SECONDS, with the ordinary build in BUILD_FOLDER, the fuzz targets in its
+# folder fuzz. A crashing input is kept in BUILD_FOLDER/fuzz/artifacts.
 set -eu
-build="$1"; jobs="$2"; seconds="$3"
 cd "$(dirname "$0")/.."
+release=$(realpath "$1"); build="$release/fuzz"; jobs="$2"; seconds="$3"
 if [ ! -f "$build/build.ninja" ]; then
   mkdir -p "$build"
-  cmake --preset fuzz -B "$build" >"$build/configure.log" 2>&1 || { cat "$build/configure.log" >&2; exit 1; }
+  cmake --preset fuzz -B "$build" -DAIRSIM360_RELEASE="$release" >"$build/configure.log" 2>&1 || { cat "$build/configure.log" >&2; exit 1; }
 fi
 targets=$(find src -name '*_fuzz.cc' -exec basename {} .cc \; | sort)
 # shellcheck disable=SC2086

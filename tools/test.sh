@@ -3,7 +3,7 @@
 set -eu
 build="$1"; jobs="$2"
 cd "$(dirname "$0")/.."
-[ "${FUZZ_SECONDS:-6}" -eq 0 ] || tools/fuzz.sh "$build/fuzz" "$jobs" "${FUZZ_SECONDS:-6}"
+[ "${FUZZ_SECONDS:-6}" -eq 0 ] || tools/fuzz.sh "$build" "$jobs" "${FUZZ_SECONDS:-6}"
 tools/install_gpu_driver.sh
 cd "$build"
 exec ctest --output-on-failure -j "$jobs" --timeout 600

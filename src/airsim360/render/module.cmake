@@ -19,7 +19,6 @@ foreach(shader ${shaders})
 endforeach()
 target_sources(airsim360_render PRIVATE ${spirv})
 target_include_directories(airsim360_render PRIVATE ${spirv_dir})
-target_link_libraries(airsim360_render PRIVATE Vulkan::Vulkan)
 
 # Vulkan's structures are made of their type, the rest zero.
 file(GLOB vulkan_sources ${CMAKE_CURRENT_SOURCE_DIR}/src/airsim360/render/vulkan/*.cc)
