@@ -174,9 +174,11 @@ std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
     const std::string name = side > 0 ? "left_" : "right_";
     const Joint thumb = side > 0 ? Joint::kLeftThumb2 : Joint::kRightThumb2;
     const Joint finger = side > 0 ? Joint::kLeftFingers2 : Joint::kRightFingers2;
+    const Joint thumb1 = side > 0 ? Joint::kLeftThumb1 : Joint::kRightThumb1;
     const Vec3d along = Normalized(Vec3d{0, side, -1});
-    add(name + "thumb_tip", thumb, q[At(thumb)] + 0.018 * H * along + Vec3d{0.006 * H, 0, 0}, 0.006);
-    add(name + "finger_tip", finger, q[At(finger)] + 0.028 * H * along, 0.006);
+    // In the last pad of the thumb and of the middle finger, which lies towards the thumb of the hand's middle.
+    add(name + "thumb_tip", thumb, q[At(thumb)] + (q[At(thumb)] - q[At(thumb1)]) * 0.6, 0.006);
+    add(name + "finger_tip", finger, q[At(finger)] + 0.022 * H * along + Vec3d{0.0054 * H, 0, 0}, 0.006);
   }
   joint_pair("foot", Joint::kLeftToes, 0.020);
   return sockets;

@@ -177,7 +177,7 @@ TEST(Skinning, PeopleAreEntitiesAfterThoseOfTheScene) {
   const SkeletonPose pose = RestPose(*people[1].body, {Mat3d{}, {5, 6, 0}});
   const SkeletonPose* poses[] = {nullptr, &pose, nullptr};
   SceneState state;
-  AppendPeople(people, refs, poses, state);
+  AppendPeople(people, refs, poses, {}, state);
   ASSERT_EQ(state.moved.size(), 3u);
   EXPECT_TRUE(state.moved[0].hidden);
   EXPECT_FALSE(state.moved[1].hidden);

@@ -113,7 +113,7 @@ class Solver {
     Foot& foot = feet_[k];
     if (!foot.planted) return;
     foot.frame = GroundFrame(foot.motion->normal, foot.motion->yaw);
-    foot.pitch = foot.phase < 0.3 ? std::min(0.0, foot.curve.pitch) : 0;
+    foot.pitch = foot.phase < 0.3 && foot.motion->u == 0 ? std::min(0.0, foot.curve.pitch) : 0;
     foot.ankle = foot.motion->p_W + foot.frame * shapes_[k].AnkleAt(foot.pitch);
     foot.toes = 1;
   }
@@ -161,20 +161,31 @@ class Solver {
     return stand + (height - stand) * g;
   }
 
+  // How much heels may rise: not of people who stand, by degrees of those who stop.
+  double HeelsRise() const { return SmoothStep(0, 0.4, gait_.weight); }
+
   // No leg is longer than it is: the pelvis comes down where a planted foot would be pulled off.
   void Lower() {
     const BodyDimensions& size = in_.body.size;
+    const double straight = 0.998 * (size.thigh + size.shank);
     for (size_t k = 0; k < 2; ++k) {
       const Foot& foot = feet_[k];
       if (!foot.planted) continue;
       const FootShape& shape = shapes_[k];
+      // The highest that the pelvis can be with the leg stretched to a point; 1e9: out of reach at any height.
+      const auto highest = [&](Vec3d pivot, double reach) {
+        const Vec3d hip = pelvis_ + hip_[k], d = hip - pivot;
+        const double rise2 = reach * reach - d.x * d.x - d.y * d.y;
+        return rise2 > 0 ? pivot.z + std::sqrt(rise2) - hip_[k].z : 1e9;
+      };
+      double top = highest(foot.ankle, straight);
       // Late in its stance a foot may stand on its ball with the heel up.
-      const bool may_rise = foot.pitch >= 0 && in_.sink <= 0 && gait_.weight > 0.1 && foot.phase > 0.2;
-      const Vec3d pivot = may_rise ? foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height} : foot.ankle;
-      const double reach = 0.998 * (size.thigh + size.shank) + (may_rise ? 0.9 * Norm(shape.ball) : 0);
-      const Vec3d hip = pelvis_ + hip_[k], d = hip - pivot;
-      const double rise2 = reach * reach - d.x * d.x - d.y * d.y;
-      if (rise2 > 0 && d.z > std::sqrt(rise2)) pelvis_.z -= d.z - std::sqrt(rise2);
+      const double rise = foot.pitch >= 0 ? HeelsRise() * SmoothStep(0.15, 0.25, foot.phase) : 0;
+      if (rise > 0) {
+        const double up = highest(foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height}, straight + 0.9 * Norm(shape.ball));
+        top = top < 1e8 && up < 1e8 ? top + (up - top) * rise : std::min(top, up);
+      }
+      pelvis_.z = std::min(pelvis_.z, top);
     }
   }
 
@@ -185,7 +196,8 @@ class Solver {
     const FootShape& shape = shapes_[k];
     const Vec3d pivot = foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height};
     const Vec3d h = foot.frame.transpose() * (pelvis_ + hip_[k] - pivot), v = -shape.ball;
-    const double knee = in_.sink > 0 || gait_.weight < 0.1 ? 0.03 : foot.curve.knee;
+    constexpr double kStraight = 0.03;
+    const double knee = kStraight + (foot.curve.knee - kStraight) * HeelsRise();
     // h . R_y(pitch) v = (h^2 + v^2 - reach^2) / 2; 0 where the foot may stay flat.
     const double along = h.x * v.x + h.z * v.z, across = h.x * v.z - h.z * v.x;
     const double size = std::hypot(along, across), delta = std::atan2(across, along);
