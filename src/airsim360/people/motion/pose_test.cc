@@ -281,8 +281,8 @@ TEST(Pose, NothingJumpsWhenBehavioursChange) {
     }
     before = pose;
   }
-  // Walkers stop dead here, from 1.2 m/s within 10 ms: an ankle then turns at 52 rad/s.
-  EXPECT_LT(worst, 60) << where;
+  // Walkers stop dead here, from 1.2 m/s within 10 ms. Feet of runners swing at 10 rad/s, fast arms at 15.
+  EXPECT_LT(worst, 20) << where;
 }
 
 TEST(Motion, IsAFunctionOfItsInputs) {

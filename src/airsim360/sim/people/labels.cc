@@ -35,26 +35,15 @@ KeypointLabel Place(const PeoplePicture& picture, const RigidTransform& X_CW, Ve
   return label;
 }
 
-// Angle between two neighbouring pixels, radians; the larger of both directions.
-double PixelAngle(const Camera& camera, Vec2d pixel) {
-  if (const auto* panorama = std::get_if<Equirectangular>(&camera)) return kPi / panorama->height;
-  const auto at = PixelToRay(camera, pixel), right = PixelToRay(camera, {pixel.x + 1, pixel.y}), down = PixelToRay(camera, {pixel.x, pixel.y + 1});
-  return at && right && down ? std::max(Norm(*right - *at), Norm(*down - *at)) : kPi;
-}
-
-// Points that nothing hides, on limbs so thin that a pixel centre may miss them: what the picture shows decides.
-void ResolveThin(const PeoplePicture& picture, EntityId entity, std::span<const SightTarget> targets, std::span<const Sight> sights,
-                 std::vector<KeypointLabel>& labels) {
-  constexpr double kHalfDiagonal = 0.7072;  // pixels: the farthest that the next pixel centre can be
+// Points that nothing hides: whether the picture shows the person there decides. A ray may reach a limb that lies between
+// pixel centres, or a person through gaps of foliage that are finer than pixels.
+void ResolvePixels(const PeoplePicture& picture, EntityId entity, std::vector<KeypointLabel>& labels) {
   std::vector<size_t> asked;
   std::vector<Vec2d> pixels;
   for (size_t k = 0; k < labels.size(); ++k) {
-    const KeypointLabel& label = labels[k];
-    if (label.state != KeypointState::kVisible) continue;
-    const bool thick = targets[k].radius > kHalfDiagonal * PixelAngle(picture.camera, label.pixel) * label.range;
-    if (thick && sights[k].on_skin) continue;
+    if (labels[k].state != KeypointState::kVisible) continue;
     asked.push_back(k);
-    pixels.push_back(label.pixel);
+    pixels.push_back(labels[k].pixel);
   }
   std::vector<uint8_t> shown(asked.size());
   TestPixels(picture.tracer, picture.camera, picture.X_WC, entity, pixels, shown);
@@ -85,7 +74,7 @@ std::vector<KeypointLabel> Keypoints(const Shared& shared, size_t i) {
     labels[k].state = sights[k].state;
     labels[k].occluder = sights[k].occluder;
   }
-  ResolveThin(picture, entity, targets, sights, labels);
+  ResolvePixels(picture, entity, labels);
   return labels;
 }
 

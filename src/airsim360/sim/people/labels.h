@@ -40,7 +40,6 @@ struct SightTarget {
 struct Sight {
   KeypointState state = KeypointState::kVisible;
   EntityId occluder = kNoEntity;
-  bool on_skin = false;  ///< the ray met the own body
 };
 /// What stands between the camera and points of a person whose entity is `entity`; `is_person` flags by entity id
 /// (size: number of entities + 1). A point counts as visible if its ray meets the own body first and no deeper than

@@ -22,8 +22,8 @@ enum class KeypointState : uint8_t {
   kBehindPerson,     ///< another person is in front
   kBehindOneself,    ///< another part of the own body is in front
   kVisible,
-  kUnresolved  ///< nothing is in front, but the limb is thinner than the picture's pixels: none of the nine around
-               ///< the point shows the person
+  kUnresolved  ///< nothing is in front, but the picture is too coarse: none of the nine pixels around the point
+               ///< shows the person
 };
 inline constexpr const char* kKeypointStateNames[] = {"absent", "occluded_by_scene", "occluded_by_person",
                                                       "self_occluded", "visible", "unresolved"};

@@ -65,7 +65,7 @@ Sight Judge(const SightTarget& target, double range, double distance, EntityId h
   if (hit == kNoEntity) return {};
   if (hit == own) {
     const bool deep = distance < range - kDeepest * target.radius - kSkin;
-    return deep ? Sight{KeypointState::kBehindOneself, own, true} : Sight{KeypointState::kVisible, kNoEntity, true};
+    return deep ? Sight{KeypointState::kBehindOneself, own} : Sight{};
   }
   if (distance >= range - kTouching) return {};
   return {is_person[hit] ? KeypointState::kBehindPerson : KeypointState::kBehindScene, hit};
