@@ -70,6 +70,7 @@ struct Foot {
   double pitch = 0;
   double toes = 0;     // 1: toes stay on the ground
   bool planted = false;
+  double carries = 0;  // 1: the pelvis is over it as it must be; 0: in the air
 };
 
 class Solver {
@@ -88,7 +89,10 @@ class Solver {
   }
 
   SolvedLegs Solve() {
-    for (size_t k = 0; k < 2; ++k) SetPlanted(k);
+    for (size_t k = 0; k < 2; ++k) {
+      SetPlanted(k);
+      if (feet_[k].motion->mode == FootMotion::Mode::kStep) Step(k);
+    }
     pelvis_ = in_.p_W_pelvis;
     if (in_.sink <= 0) pelvis_.z = Height();
     pelvis_ += in_.X_WP.R * in_.shift;
@@ -99,8 +103,6 @@ class Solver {
         RaiseHeel(k);
       else if (feet_[k].motion->mode == FootMotion::Mode::kSwing)
         Swing(k);
-      else
-        Step(k);
       out.leg[k] = Bend(k);
     }
     out.p_W_pelvis = pelvis_;
@@ -116,6 +118,7 @@ class Solver {
     foot.pitch = foot.phase < 0.3 && foot.motion->u == 0 ? std::min(0.0, foot.curve.pitch) : 0;
     foot.ankle = foot.motion->p_W + foot.frame * shapes_[k].AnkleAt(foot.pitch);
     foot.toes = 1;
+    foot.carries = 1;
   }
 
   // Height of the pelvis at which this leg has the knee of its curve; of a foot in the air, from the curve.
@@ -132,12 +135,16 @@ class Solver {
   }
 
   double Height() const {
-    // Standing: the lower of what both planted legs ask for.
-    double stand = 1e9;
+    // Standing: the lower of what both legs ask for; a foot that steps lets go and takes over by degrees.
+    const bool none = !feet_[0].planted && !feet_[1].planted;
+    double stand = none ? CurveHeight(0, feet_[0].phase, in_.state.p_WP.z) : 1e9;
     for (size_t k = 0; k < 2; ++k) {
       if (feet_[k].planted) stand = std::min(stand, HeightOver(k, feet_[k].curve.knee));
     }
-    if (stand > 1e8) stand = CurveHeight(0, feet_[0].phase, in_.state.p_WP.z);
+    for (size_t k = 0; k < 2; ++k) {
+      if (!feet_[k].planted && feet_[k].carries > 0)
+        stand += std::min(0.0, HeightOver(k, feet_[k].curve.knee) - stand) * feet_[k].carries;
+    }
     const double g = gait_.weight;
     if (g <= 0) return stand;
 
@@ -145,8 +152,12 @@ class Solver {
     // of the other leg's contact. Between lift-off and contact of a run: a throw.
     const size_t a = feet_[0].phase < 0.5 ? 0 : 1, b = 1 - a;
     const double phase = feet_[a].phase;
-    const double carried = feet_[a].planted ? HeightOver(a, feet_[a].curve.knee)
-                                            : CurveHeight(a, phase, in_.state.p_WP.z);
+    double carried = CurveHeight(a, phase, in_.state.p_WP.z);
+    if (feet_[a].planted) {
+      // A foot left behind, as of people who start or stop at once, does not drag the pelvis down: its heel rises.
+      constexpr double kDrag = 0.02;  // metres
+      carried = std::max(HeightOver(a, feet_[a].curve.knee), CurveHeight(a, phase, feet_[a].motion->p_W.z) - kDrag);
+    }
     const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.475;
     const double mix = SmoothStep(from, 0.5, phase);
     double height = carried;
@@ -170,7 +181,7 @@ class Solver {
     const double straight = 0.998 * (size.thigh + size.shank);
     for (size_t k = 0; k < 2; ++k) {
       const Foot& foot = feet_[k];
-      if (!foot.planted) continue;
+      if (foot.carries <= 0) continue;
       const FootShape& shape = shapes_[k];
       // The highest that the pelvis can be with the leg stretched to a point; 1e9: out of reach at any height.
       const auto highest = [&](Vec3d pivot, double reach) {
@@ -180,12 +191,12 @@ class Solver {
       };
       double top = highest(foot.ankle, straight);
       // Late in its stance a foot may stand on its ball with the heel up.
-      const double rise = foot.pitch >= 0 ? HeelsRise() * SmoothStep(0.15, 0.25, foot.phase) : 0;
+      const double rise = foot.planted && foot.pitch >= 0 ? HeelsRise() * SmoothStep(0.15, 0.25, foot.phase) : 0;
       if (rise > 0) {
         const double up = highest(foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height}, straight + 0.9 * Norm(shape.ball));
         top = top < 1e8 && up < 1e8 ? top + (up - top) * rise : std::min(top, up);
       }
-      pelvis_.z = std::min(pelvis_.z, top);
+      pelvis_.z += std::min(0.0, top - pelvis_.z) * foot.carries;
     }
   }
 
@@ -259,6 +270,7 @@ class Solver {
     foot.toes = m.toes * (1 - SmoothStep(0, 0.3, m.u));
     Vec3d ball = m.p_W + (m.p_W_to - m.p_W) * s;
     ball.z += 0.035 * arc;
+    foot.carries = m.toes + (1 - m.toes) * s;
     foot.ankle = ball + foot.frame * shapes_[k].AnkleAt(foot.pitch);
   }
 

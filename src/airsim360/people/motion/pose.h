@@ -64,6 +64,7 @@ struct MotionState {
   float blend_rate = 0;  ///< 1/s; 0 = no transition under way
   std::array<Vec3f, kBlendedJoints> turn, turn_rate;  ///< rotation vectors
   Vec3f shift, shift_rate;                            ///< of the pelvis in P, metres
+  std::array<float, 2> curl{};                        ///< of the fingers, left and right
 };
 
 /// A person who has just come into the world and stands at state.p_WP.

@@ -294,6 +294,7 @@ void HashMotion(const MotionState& m, StateHasher& hasher) {
   }
   hasher.Add(m.shift);
   hasher.Add(m.shift_rate);
+  for (const float c : m.curl) hasher.Add(static_cast<double>(c));
 }
 
 }  // namespace airsim360
