@@ -59,7 +59,8 @@ double MedianMs(int repetitions, const Work& work) {
 
 // Somebody in the middle of what they do.
 SkeletonPose ActingPose(const Body& body, PersonState& state, uint64_t seed) {
-  constexpr Behaviour kActs[] = {Behaviour::kWalk, Behaviour::kPhoneCall, Behaviour::kTalk, Behaviour::kTexting, Behaviour::kIdle, Behaviour::kWave, Behaviour::kSit, Behaviour::kJog};
+  constexpr Behaviour kActs[] = {Behaviour::kWalk, Behaviour::kPhoneCall, Behaviour::kTalk, Behaviour::kTexting,
+                                 Behaviour::kIdle, Behaviour::kWave,      Behaviour::kSit,  Behaviour::kJog};
   const Behaviour act = kActs[seed % std::size(kActs)];
   const bool moves = act == Behaviour::kWalk || act == Behaviour::kJog;
   state.upper = act;
@@ -137,14 +138,16 @@ int main(int argc, char** argv) {
   });
   std::shared_ptr<const RayTracer> tracer;
   const double update_ms = MedianMs(3, [&] { tracer = dynamic.At(state); });
-  std::printf("%d people (%s), level %d: skinned %.2f ms, traced anew %.2f ms\n", o.people, people.cast[0].body->character.c_str(), o.level, show_ms, update_ms);
+  std::printf("%d people (%s), level %d: skinned %.2f ms, traced anew %.2f ms\n", o.people,
+              people.cast[0].body->character.c_str(), o.level, show_ms, update_ms);
 
   const Camera camera = Equirectangular{o.width, o.width / 2};
   const auto renderer = MakeCpuRenderer(base, {.tier = Tier::kLabels});
   std::map<std::string, Tally> by_joint, by_range;
   Tally all;
   for (int view = 0; view < o.views; ++view) {
-    const Vec3d eye = spawn + Vec3d{view == 0 ? 0 : rng.Uniform(-o.spread, o.spread), view == 0 ? 0 : rng.Uniform(-o.spread, o.spread), 2.0 + 0.7 * (view % 5)};
+    const double reach = view == 0 ? 0 : o.spread;
+    const Vec3d eye = spawn + Vec3d{rng.Uniform(-reach, reach), rng.Uniform(-reach, reach), 2.0 + 0.7 * (view % 5)};
     const RigidTransform X_WC = BodyPose(eye, 0.3 + view, 0, 0) * CameraInBody();
     const PeoplePicture picture{people, poses, *tracer, camera, X_WC};
     std::vector<PersonLabel> labels;
@@ -165,18 +168,19 @@ int main(int argc, char** argv) {
         const bool visible = k.state == KeypointState::kVisible, unresolved = k.state == KeypointState::kUnresolved;
         if (!visible && !unresolved) continue;
         const bool missed = visible && !ShowsNear(frame, k.pixel, label.entity);
+        const EntityId seen = frame.entity(static_cast<int>(k.pixel.x), static_cast<int>(k.pixel.y));
         char bin[32];
         std::snprintf(bin, sizeof bin, "%3d m", static_cast<int>(k.range / 5) * 5);
         for (Tally* t : {&all, &by_joint[std::string(kSocketNames[socket])], &by_range[bin]}) {
           t->visible += visible, t->missed += missed, t->unresolved += unresolved;
-          if (missed || unresolved) ++t->shows[scene->tree[scene->entity(frame.entity(static_cast<int>(k.pixel.x), static_cast<int>(k.pixel.y))).category].path];
+          if (missed || unresolved) ++t->shows[scene->tree[scene->entity(seen).category].path];
         }
       }
     }
   }
   if (o.breakdown) Print("joint", by_joint), Print("range", by_range);
   const int on = all.visible - all.missed, seen = all.visible + all.unresolved;
-  std::printf("visible keypoints on their own person within 1 px: %d of %d (%.3f %%); with those too thin for the picture %d of %d (%.3f %%)\n", on, all.visible,
-              100.0 * on / all.visible, on, seen, 100.0 * on / seen);
+  std::printf("visible keypoints on their own person within 1 px: %d of %d (%.3f %%); ", on, all.visible, 100.0 * on / all.visible);
+  std::printf("with those too thin for the picture %d of %d (%.3f %%)\n", on, seen, 100.0 * on / seen);
   return 0;
 }

@@ -41,8 +41,8 @@ void Print(const char* what, std::vector<double> ms, size_t people) {
   double sum = 0;
   for (const double t : ms) sum += t;
   const double mean = sum / static_cast<double>(ms.size());
-  std::printf("%-34s mean %7.2f ms  median %7.2f  p99 %7.2f  worst %7.2f  %6.2f us a person\n", what, mean, ms[ms.size() / 2], ms[ms.size() * 99 / 100], ms.back(),
-              1e3 * mean / static_cast<double>(people));
+  std::printf("%-34s mean %7.2f ms  median %7.2f  p99 %7.2f  worst %7.2f  %6.2f us a person\n", what, mean,
+              ms[ms.size() / 2], ms[ms.size() * 99 / 100], ms.back(), 1e3 * mean / static_cast<double>(people));
 }
 
 }  // namespace
@@ -75,9 +75,11 @@ int main(int argc, char** argv) try {
   Print("all of it (bar: 50 ms a tick)", both, count);
   double sum = 0;
   for (const double t : both) sum += t;
-  std::printf("%.2f times real time; hash %016llx\ndoing:", 50.0 * static_cast<double>(both.size()) / sum, static_cast<unsigned long long>(hasher.hash() ^ HashPeople(state)));
+  const auto ticks = static_cast<double>(both.size());
+  std::printf("%.2f times real time; hash %016llx\ndoing:", 50 * ticks / sum,
+              static_cast<unsigned long long>(hasher.hash() ^ HashPeople(state)));
   for (size_t b = 0; b < acts.size(); ++b) {
-    if (acts[b] > 0) std::printf(" %s %.1f", BehaviourName(static_cast<Behaviour>(b)), static_cast<double>(acts[b]) / static_cast<double>(both.size()));
+    if (acts[b] > 0) std::printf(" %s %.1f", BehaviourName(static_cast<Behaviour>(b)), static_cast<double>(acts[b]) / ticks);
   }
   std::printf("\n");
 } catch (const InputError& error) {

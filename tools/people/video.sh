@@ -14,7 +14,15 @@ img2webp -loop 0 -lossy -q "$quality" -m 4 -d "$pause" "$dataset"/rgb/*.png -o "
 size=$(webpmux -info "$work/plain.webp" | sed -n 's/^Canvas size: *//p')
 width=${size%% *}; height=${size##* }
 cat > "$work/sphere.xmp" <<XMP
-<?xpacket begin="" id="W5M0MpCehiHzreSzNTczkc9d"?><x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description rdf:about="" xmlns:GPano="http://ns.google.com/photos/1.0/panorama/" GPano:ProjectionType="equirectangular" GPano:UsePanoramaViewer="True" GPano:PoseHeadingDegrees="$heading" GPano:PosePitchDegrees="0" GPano:PoseRollDegrees="0" GPano:FullPanoWidthPixels="$width" GPano:FullPanoHeightPixels="$height" GPano:CroppedAreaImageWidthPixels="$width" GPano:CroppedAreaImageHeightPixels="$height" GPano:CroppedAreaLeftPixels="0" GPano:CroppedAreaTopPixels="0"/></rdf:RDF></x:xmpmeta><?xpacket end="w"?>
+<?xpacket begin="" id="W5M0MpCehiHzreSzNTczkc9d"?>
+<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">
+<rdf:Description rdf:about="" xmlns:GPano="http://ns.google.com/photos/1.0/panorama/"
+ GPano:ProjectionType="equirectangular" GPano:UsePanoramaViewer="True"
+ GPano:PoseHeadingDegrees="$heading" GPano:PosePitchDegrees="0" GPano:PoseRollDegrees="0"
+ GPano:FullPanoWidthPixels="$width" GPano:FullPanoHeightPixels="$height"
+ GPano:CroppedAreaImageWidthPixels="$width" GPano:CroppedAreaImageHeightPixels="$height"
+ GPano:CroppedAreaLeftPixels="0" GPano:CroppedAreaTopPixels="0"/>
+</rdf:RDF></x:xmpmeta><?xpacket end="w"?>
 XMP
 webpmux -set xmp "$work/sphere.xmp" "$work/plain.webp" -o "$out"
 echo "$out: $width x $height, $(stat -c %s "$out") bytes"

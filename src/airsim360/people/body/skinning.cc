@@ -178,7 +178,9 @@ void AppendPeople(std::span<const PersonInScene> people, std::span<const PersonR
     SkinBody(*people[i].body, level, *poses[i], VecCast<double>(place.X_WM.p), *positions[i]);
   });
   for (size_t i = 0; i < refs.size(); ++i) {
-    if (positions[i] != nullptr) state.deformed.push_back({refs[i].MeshOf(refs[i].LevelFor(levels.empty() ? 0 : levels[i])), std::move(positions[i])});
+    if (positions[i] == nullptr) continue;
+    const int level = refs[i].LevelFor(levels.empty() ? 0 : levels[i]);
+    state.deformed.push_back({refs[i].MeshOf(level), std::move(positions[i])});
   }
   const auto sort = [](auto& list, size_t from, auto key) {
     if (from > 0 && from < list.size() && list[from].*key < list[from - 1].*key) std::ranges::sort(list, {}, key);
