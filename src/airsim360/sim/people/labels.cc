@@ -39,14 +39,14 @@ KeypointLabel Place(const PeoplePicture& picture, const RigidTransform& X_CW, Ve
 // pixel centres, or a person through gaps of foliage that are finer than pixels.
 void ResolvePixels(const PeoplePicture& picture, EntityId entity, std::vector<KeypointLabel>& labels) {
   std::vector<size_t> asked;
-  std::vector<Vec2d> pixels;
+  std::vector<PixelTarget> targets;
   for (size_t k = 0; k < labels.size(); ++k) {
     if (labels[k].state != KeypointState::kVisible) continue;
     asked.push_back(k);
-    pixels.push_back(labels[k].pixel);
+    targets.push_back({labels[k].pixel, labels[k].range});
   }
   std::vector<uint8_t> shown(asked.size());
-  TestPixels(picture.tracer, picture.camera, picture.X_WC, entity, pixels, shown);
+  TestPixels(picture.tracer, picture.camera, picture.X_WC, entity, targets, shown);
   for (size_t i = 0; i < asked.size(); ++i) {
     if (shown[i] == 0) labels[asked[i]].state = KeypointState::kUnresolved;
   }

@@ -47,10 +47,15 @@ struct Sight {
 void TestSight(const RayTracer& tracer, Vec3d p_WC, EntityId entity, const std::vector<bool>& is_person,
                std::span<const SightTarget> targets, std::span<Sight> sights);
 
-/// Whether any of the nine pixels around each pixel position shows `entity`: by the rays through their centres, as the
-/// picture has them. `shown` is as long as `pixels`.
+/// A point of a person in the picture, `range` metres from the camera.
+struct PixelTarget {
+  Vec2d pixel;
+  double range = 0;
+};
+/// Whether any of the nine pixels around each point shows `entity`, the person's body: by the rays through their centres,
+/// as the picture has them. `shown` is as long as `targets`.
 void TestPixels(const RayTracer& tracer, const Camera& camera, const RigidTransform& X_WC, EntityId entity,
-                std::span<const Vec2d> pixels, std::span<uint8_t> shown);
+                std::span<const PixelTarget> targets, std::span<uint8_t> shown);
 
 /// Flags of the entities that are bodies of people, by entity id.
 std::vector<bool> PersonFlags(const SimPeople& people, size_t entities);

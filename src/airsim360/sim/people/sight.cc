@@ -13,6 +13,7 @@ constexpr size_t kLanes = 16;
 constexpr double kDeepest = 1.3;      // own skin in front of a point, in radii of its socket
 constexpr double kSkin = 0.01;        // metres: clothes and bent joints
 constexpr double kTouching = 0.005;   // metres: what a foot stands on does not hide it
+constexpr double kReach = 2.5;        // metres: no part of a body is farther from another
 
 /// Sixteen rays from one place.
 class RayPacket {
@@ -101,7 +102,7 @@ void TestSight(const RayTracer& tracer, Vec3d p_WC, EntityId entity, const std::
 }
 
 void TestPixels(const RayTracer& tracer, const Camera& camera, const RigidTransform& X_WC, EntityId entity,
-                std::span<const Vec2d> pixels, std::span<uint8_t> shown) {
+                std::span<const PixelTarget> targets, std::span<uint8_t> shown) {
   const FlushDenormals flush;
   const int width = Width(camera), height = Height(camera);
   const bool wraps = std::holds_alternative<Equirectangular>(camera);
@@ -115,20 +116,20 @@ void TestPixels(const RayTracer& tracer, const Camera& camera, const RigidTransf
     packet.Clear();
   };
   const auto add = [&](size_t k, int dx, int dy) {
-    int x = static_cast<int>(pixels[k].x) + dx;
-    const int y = static_cast<int>(pixels[k].y) + dy;
+    int x = static_cast<int>(targets[k].pixel.x) + dx;
+    const int y = static_cast<int>(targets[k].pixel.y) + dy;
     if (wraps) x = (x + width) % width;
     if (x < 0 || x >= width || y < 0 || y >= height) return;
     const auto ray = PixelToRay(camera, {x + 0.5, y + 0.5});
     if (!ray) return;
     asked[packet.size()] = k;
-    packet.Add(VecCast<float>(X_WC.R * *ray), INFINITY);
+    packet.Add(VecCast<float>(X_WC.R * *ray), static_cast<float>(targets[k].range + kReach));
     if (packet.full()) ask();
   };
   // Nearly always the pixel itself shows the person; else those around it.
-  for (size_t k = 0; k < pixels.size(); ++k) add(k, 0, 0);
+  for (size_t k = 0; k < targets.size(); ++k) add(k, 0, 0);
   ask();
-  for (size_t k = 0; k < pixels.size(); ++k) {
+  for (size_t k = 0; k < targets.size(); ++k) {
     if (shown[k]) continue;
     for (int i = 0; i < 9; ++i) {
       if (i != 4) add(k, i % 3 - 1, i / 3 - 1);
