@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
       for (const SkeletonPose& pose : poses) shown.push_back(&pose);
       const double a = CpuNow(CLOCK_PROCESS_CPUTIME_ID);
       auto state = std::make_shared<SceneState>();
-      AppendPeople(crowd, refs, shown, *state);
+      AppendPeople(crowd, refs, shown, {}, *state);
       const double b = CpuNow(CLOCK_PROCESS_CPUTIME_ID);
       tracer.At(state);
       const double c = CpuNow(CLOCK_PROCESS_CPUTIME_ID);

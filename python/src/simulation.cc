@@ -138,7 +138,8 @@ std::shared_ptr<Capture> Simulation::Take(const Rig& given, size_t i) {
   PanoramicRig rig = given.rig;
   rig.state = SceneStateOf(*model_, *state, i);
   const Kinematics& body = state->vehicles[i].motion;
-  const NextTrigger next{Extrapolate(body, given.flow_dt), nullptr};
+  NextTrigger next{Extrapolate(body, given.flow_dt), nullptr};
+  if (rig.products.flow) next.state = SceneStateLater(*model_, *state, i, given.flow_dt);
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
   std::unique_ptr<Renderer>& renderer = renderers_[rig.tier];

@@ -108,6 +108,17 @@ class Captures(unittest.TestCase):
         self.assertLess(middle[64, 0], -0.2)
         self.assertGreater(middle[192, 0], 0.2)
 
+    def test_flow_follows_people(self):
+        sim = Simulation(ROOM, airborne([0, 0, 3]), people=4, seed=2)
+        sim.run(1)
+        c = sim.capture(Rig(width=512, tier="labels", products=["entity", "flow"], flow_dt=0.3))
+        people = np.isin(c.entity, [p["entity"] for p in sim.people if np.linalg.norm(p["velocity"]) > 0.5])
+        self.assertGreater(people.sum(), 50)
+        length = np.hypot(c.flow[..., 0], c.flow[..., 1])
+        # The drone hovers: people walk and the room stays.
+        self.assertGreater(np.median(length[people]), 1.0)
+        self.assertLess(np.median(length[~np.isin(c.entity, [p["entity"] for p in sim.people])]), 0.5)
+
     def test_without_a_rig_it_is_the_default_one(self):
         self.assertEqual(ROOM.capture([0, 0, 3]).rgb.shape, (512, 1024, 3))
         self.assertEqual((Rig().width, Rig().height), (1024, 512))

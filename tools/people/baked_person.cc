@@ -11,6 +11,7 @@
 #include "airsim360/image/codecs.h"
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/body/loft.h"
+#include "airsim360/people/body/seat_sockets.h"
 
 namespace airsim360::bake {
 namespace {
@@ -429,6 +430,8 @@ void BakePerson(const Package& package, const Recipe& recipe, BodyPack& pack) {
   c.heel_length = 0.036 * c.spec.stature;
   c.radius = 0.155 * c.spec.stature;
   for (size_t level = 0; level < std::size(kTrianglesOf); ++level) c.levels.push_back(MakeLevel(pieces, level));
+  // The picks lie on the naked skin, tips at its very end: inside what is seen, shoes and clothes too.
+  SeatSockets(c.levels, c.p_PJ, 0.002, 0.03, c.sockets);
   pack.characters.push_back(std::move(c));
 }
 

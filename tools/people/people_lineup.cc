@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
     shown.push_back(&poses[static_cast<size_t>(i)]);
   }
   auto state = std::make_shared<SceneState>();
-  AppendPeople(people, refs, shown, *state);
+  AppendPeople(people, refs, shown, {}, *state);
 
   // The camera stands before the line.
   const auto renderer = MakeCpuRenderer(std::make_shared<RayTracer>(scene), {.tier = Tier::kFast});

@@ -1,6 +1,7 @@
 #include "airsim360/dataset/collector.h"
 
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include "airsim360/base/error.h"
@@ -93,12 +94,14 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
 
 // Where flow leads to: the next frame of the whole flight; from the last one on, as the body moves there, for
 // as long as the frame before took.
-RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
+double NextSeconds(const std::vector<Shot>& shots, size_t frame) {
   constexpr double kLoneFrameSeconds = 0.1;  // a single frame has no interval of its own
+  if (frame + 1 < shots.size()) return static_cast<double>(shots[frame + 1].t_ns - shots[frame].t_ns) * 1e-9;
+  return frame > 0 ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
+}
+RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
   if (frame + 1 < shots.size()) return shots[frame + 1].body.X_WB;
-  const double dt =
-      frame > 0 ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
-  return Extrapolate(shots[frame].body, dt);
+  return Extrapolate(shots[frame].body, NextSeconds(shots, frame));
 }
 
 /// The people of the frames: what they look like, and their labels.
@@ -110,10 +113,17 @@ class PeopleSource {
   /// The scene at a shot; nullptr without people.
   std::shared_ptr<const SceneState> StateOf(const Shot& shot) {
     if (!input_.people || !shot.people) return nullptr;
-    auto state = std::make_shared<SceneState>();
-    state->t_ns = shot.t_ns;
-    ShowPeople(*input_.people, PosesOf(shot), *state);
-    return state;
+    return Shown(PosesOf(shot), shot.t_ns);
+  }
+  /// The scene that flow leads to, with the same levels of detail: the next frame's, after the last one as people would go on.
+  std::shared_ptr<const SceneState> StateAfter(const std::vector<Shot>& shots, size_t frame) {
+    const Shot& shot = shots[frame];
+    const bool last = frame + 1 == shots.size();
+    if (!input_.people || !shot.people || (!last && !shots[frame + 1].people)) return nullptr;
+    const int64_t t_ns = last ? shot.t_ns + std::llround(NextSeconds(shots, frame) * 1e9) : shots[frame + 1].t_ns;
+    PeoplePoses poses = last ? PosesLater(*input_.people, *shot.people, t_ns + input_.people->epoch_ns) : PosesOf(shots[frame + 1]);
+    poses.levels = LevelsOf(shot);
+    return Shown(poses, t_ns);
   }
   FrameLabels Label(const Shot& shot, const std::shared_ptr<const SceneState>& state,
                     const EncodeContext& context, const std::vector<Capture>& captures) {
@@ -129,8 +139,19 @@ class PeopleSource {
   }
 
  private:
+  std::vector<uint8_t> LevelsOf(const Shot& shot) const {
+    return LevelsFor(*input_.people, shot.people->crowd.people, shot.body.X_WB.p);
+  }
   PeoplePoses PosesOf(const Shot& shot) const {
-    return PosesAt(*input_.people, *shot.people, shot.t_ns + input_.people->epoch_ns);
+    PeoplePoses poses = PosesAt(*input_.people, *shot.people, shot.t_ns + input_.people->epoch_ns);
+    poses.levels = LevelsOf(shot);
+    return poses;
+  }
+  std::shared_ptr<const SceneState> Shown(const PeoplePoses& poses, int64_t t_ns) const {
+    auto state = std::make_shared<SceneState>();
+    state->t_ns = t_ns;
+    ShowPeople(*input_.people, poses, *state);
+    return state;
   }
   const CollectInput& input_;
   std::optional<DynamicTracer> dynamic_;
@@ -148,7 +169,7 @@ void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, 
     const auto i = static_cast<size_t>(frame);
     const std::shared_ptr<const SceneState> state = people.StateOf(shot);
     NextTrigger next{NextPose(input.flight.shots, i), state};
-    if (input.spec.flow && i + 1 < input.flight.shots.size()) next.state = people.StateOf(input.flight.shots[i + 1]);
+    if (input.spec.flow) next.state = people.StateAfter(input.flight.shots, i);
     std::vector<Capture> captures = writer.Acquire();
     for (size_t v = 0; v < captures.size(); ++v) {
       PanoramicRig rig = MakeRig(input.spec, context.views[v]);

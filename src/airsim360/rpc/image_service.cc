@@ -86,12 +86,12 @@ void ImageService::FollowEnvironment(const WorldView& world) {
   renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = world.environment});
 }
 
-// What has moved, as vehicle `self` sees it: objects, and the bodies of the other drones.
-std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot, size_t self) const {
-  const std::shared_ptr<const SceneState> bodies = SceneStateOf(*snapshot.model, snapshot.state, self);
+// What has moved, as vehicle `self` sees it `later` seconds after the snapshot: objects, people, and the bodies of the
+// other drones.
+std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot, size_t self, double later) const {
+  const std::shared_ptr<const SceneState> bodies = SceneStateLater(*snapshot.model, snapshot.state, self, later);
   if (snapshot.world->places.empty()) return bodies;
   auto state = bodies ? std::make_shared<SceneState>(*bodies) : std::make_shared<SceneState>();
-  state->t_ns = snapshot.state.t_ns;
   for (const auto& [entity, place] : snapshot.world->places)
     session_.objects().Move(entity, place, state->moved);
   std::sort(state->moved.begin(), state->moved.end(),
@@ -105,8 +105,11 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
   // Without colours there is no shading to be paid for.
   request.tier = shot.products.rgb ? options_.tier : Tier::kLabels;
   request.products = shot.products;
-  request.state = StateOf(snapshot, shot.self);
-  if (shot.products.flow) request.X_WC_next = shot.X_WA_next * CameraInBody();
+  request.state = StateOf(snapshot, shot.self, 0);
+  if (shot.products.flow) {
+    request.X_WC_next = shot.X_WA_next * CameraInBody();
+    request.next_state = StateOf(snapshot, shot.self, kFlowSeconds);
+  }
   render_ms_ += renderer_->Render(request, frame_).render_ms;
   return frame_;
 }

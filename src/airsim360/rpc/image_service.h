@@ -58,7 +58,7 @@ class ImageService {
   void Run();
   const Frame& RenderShot(const Snapshot& snapshot, const Shot& shot);
   void FollowEnvironment(const WorldView& world);
-  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self) const;
+  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self, double later) const;
   std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
                               size_t vehicle, bool external) const;
   SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,

@@ -1,9 +1,11 @@
 #include "airsim360/sim/drone_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/body/drone_body.h"
+#include "airsim360/sensors/rig.h"
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
@@ -92,17 +94,25 @@ std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
 }
 
 std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self) {
+  return SceneStateLater(model, state, self, 0);
+}
+
+std::shared_ptr<const SceneState> SceneStateLater(const SimModel& model, const SimState& state, size_t self, double dt) {
   auto scene_state = std::make_shared<SceneState>();
-  scene_state->t_ns = state.t_ns;
+  scene_state->t_ns = state.t_ns + std::llround(dt * 1e9);
   const size_t count = std::min(model.drones.size(), state.vehicles.size());
   for (size_t i = 0; i < count; ++i) {
     const uint32_t instance = model.drones[i]->setup().instance;
-    if (instance != kMiss)
-      scene_state->moved.push_back({instance, PlaceOf(state.vehicles[i].motion.X_WB), i == self});
+    if (instance == kMiss) continue;
+    const Kinematics& motion = state.vehicles[i].motion;
+    scene_state->moved.push_back({instance, PlaceOf(dt > 0 ? Extrapolate(motion, dt) : motion.X_WB), i == self});
   }
   if (model.people && state.people) {
-    ShowPeople(*model.people, PosesAt(*model.people, *state.people, state.t_ns + model.people->epoch_ns),
-               *scene_state);
+    PeoplePoses poses = PosesLater(*model.people, *state.people, scene_state->t_ns + model.people->epoch_ns);
+    // By where people are now, also for later: flow needs the same meshes at both instants.
+    if (self < state.vehicles.size())
+      poses.levels = LevelsFor(*model.people, state.people->crowd.people, state.vehicles[self].motion.X_WB.p);
+    ShowPeople(*model.people, poses, *scene_state);
   }
   std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
   return scene_state;
@@ -115,8 +125,7 @@ std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTr
   if (bodies.empty() && !anybody) return base;
   auto state = std::make_shared<SceneState>();
   for (const DroneBodyRef& body : bodies) state->moved.push_back({body.instance, {}, true});
-  for (size_t i = 0; anybody && i < people->refs.size(); ++i)
-    state->moved.push_back({people->refs[i].instance, {}, true});
+  if (anybody) HidePeople(people->refs, *state);
   std::ranges::sort(state->moved, {}, &MovedInstance::instance);
   return DynamicTracer(base).At(state);
 }

@@ -43,6 +43,10 @@ inline constexpr size_t kNobody = SIZE_MAX;
 /// all are shown), and the people as they stand at state.t_ns. Drones without a body are left out.
 std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self);
 
+/// SceneStateOf `dt` seconds later, for optical flow: drones go on at the speed and turn rate that they have, people do
+/// what they are about to do.
+std::shared_ptr<const SceneState> SceneStateLater(const SimModel& model, const SimState& state, size_t self, double dt);
+
 /// The scene of `base` without any of the bodies and people, for SimModel::tracer; `base` itself if there are
 /// none.
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,

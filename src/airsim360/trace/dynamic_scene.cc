@@ -32,6 +32,10 @@ void DynamicScene::SetMovers(EmbreeScene& statics, const Movers& movers) {
   top_.reset(rtcNewScene(statics.device()));
   rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
   rtcSetSceneBuildQuality(top_.get(), RTC_BUILD_QUALITY_MEDIUM);
+  if (empty_ == nullptr) {
+    empty_.reset(rtcNewScene(statics.device()));
+    rtcCommitScene(empty_.get());
+  }
   instances_.clear();
   moved_.clear();
   slots_ = statics.slots();
@@ -83,8 +87,10 @@ void DynamicScene::Place(EmbreeScene& statics, const Scene& scene, const SceneSt
     const MovedInstance place =
         next != state.moved.end() && next->instance == i ? *next : MovedInstance{i, instance.X_WM, false};
     const bool deformed = FindDeformed(deformed_, instance.mesh) != nullptr;
-    RTCScene shown = deformed ? bodies_.at(instance.mesh).scene.get()
-                              : statics.SubScene(scene.meshes[instance.mesh], instance.mesh);
+    // What is hidden needs no structure of its own.
+    RTCScene shown = deformed       ? bodies_.at(instance.mesh).scene.get()
+                     : place.hidden ? empty_.get()
+                                    : statics.SubScene(scene.meshes[instance.mesh], instance.mesh);
 
     // Only what differs from the last time is told to Embree.
     RTCGeometry g = instances_[k].get();

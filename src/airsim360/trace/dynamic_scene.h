@@ -42,6 +42,7 @@ class DynamicScene {
   void Place(EmbreeScene& statics, const Scene& scene, const SceneState& state);
 
   SceneHandle top_;
+  SceneHandle empty_;  // what hidden movers refer to
   std::vector<MovedInstance> moved_;
   std::vector<GeometryHandle> instances_;  // by mover
   std::vector<RTCScene> shown_;            // by mover: its sub-scene now

@@ -140,19 +140,20 @@ std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
     pair(name, joint, q[At(joint)], radius);
   };
   const double top = H, chin = H * (1 - p.head), head = H * p.head;
-  add("nose", Joint::kHead, {0.62 * head, 0, chin + 0.36 * head}, 0.010);
-  pair("eye", Joint::kHead, {0.43 * head, 0.145 * head, chin + 0.50 * head}, 0.008);
-  pair("ear", Joint::kHead, {-0.01 * head, 0.345 * head, chin + 0.43 * head}, 0.010);
+  // A few millimetres below the skin, so that no camera sees past them.
+  add("nose", Joint::kHead, {0.575 * head, 0, chin + 0.365 * head}, 0.010);
+  pair("eye", Joint::kHead, {0.385 * head, 0.145 * head, chin + 0.50 * head}, 0.008);
+  pair("ear", Joint::kHead, {-0.01 * head, (p.female ? 0.317 : 0.33) * head, chin + 0.43 * head}, 0.010);
   joint_pair("shoulder", Joint::kLeftShoulder, 0.040);
   joint_pair("elbow", Joint::kLeftElbow, 0.026);
   joint_pair("wrist", Joint::kLeftWrist, 0.018);
   joint_pair("hip", Joint::kLeftHip, 0.062);
   joint_pair("knee", Joint::kLeftKnee, 0.036);
   joint_pair("ankle", Joint::kLeftAnkle, 0.026);
-  add("head_top", Joint::kHead, {0.05 * head, 0, top}, 0.008);
+  add("head_top", Joint::kHead, {0.02 * head, 0, top - 0.025 * head}, 0.008);
   add("head_center", Joint::kHead, {0.06 * head, 0, chin + 0.52 * head}, 0.055);
   add_joint("neck", Joint::kNeck, 0.036);
-  add("chin", Joint::kHead, {0.40 * head, 0, chin + 0.02 * head}, 0.010);
+  add("chin", Joint::kHead, {0.385 * head, 0, chin + 0.03 * head}, 0.010);
   add("mid_hip", Joint::kPelvis, {0, 0, q[At(Joint::kLeftHip)].z}, 0.070);
   add_joint("pelvis", Joint::kPelvis, 0.070);
   add_joint("spine1", Joint::kSpine1, 0.070);
@@ -166,7 +167,7 @@ std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
     const Joint ankle = side > 0 ? Joint::kLeftAnkle : Joint::kRightAnkle;
     const double y = side * p.hip_half * H;
     add(name + "big_toe", toes, {0.105 * H, y - side * 0.010 * H, 0.012 * H}, 0.012);
-    add(name + "small_toe", toes, {0.082 * H, y + side * 0.026 * H, 0.010 * H}, 0.010);
+    add(name + "small_toe", toes, {0.082 * H, y + side * 0.020 * H, 0.012 * H}, 0.010);
     add(name + "heel", ankle, {-0.040 * H, y, 0.014 * H}, 0.014);
   }
   joint_pair("hand", Joint::kLeftFingers1, 0.012);
@@ -174,9 +175,11 @@ std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
     const std::string name = side > 0 ? "left_" : "right_";
     const Joint thumb = side > 0 ? Joint::kLeftThumb2 : Joint::kRightThumb2;
     const Joint finger = side > 0 ? Joint::kLeftFingers2 : Joint::kRightFingers2;
+    const Joint thumb1 = side > 0 ? Joint::kLeftThumb1 : Joint::kRightThumb1;
     const Vec3d along = Normalized(Vec3d{0, side, -1});
-    add(name + "thumb_tip", thumb, q[At(thumb)] + 0.018 * H * along + Vec3d{0.006 * H, 0, 0}, 0.006);
-    add(name + "finger_tip", finger, q[At(finger)] + 0.028 * H * along, 0.006);
+    // In the last pad of the thumb and of the middle finger, which lies towards the thumb of the hand's middle.
+    add(name + "thumb_tip", thumb, q[At(thumb)] + (q[At(thumb)] - q[At(thumb1)]) * 0.6, 0.006);
+    add(name + "finger_tip", finger, q[At(finger)] + 0.022 * H * along + Vec3d{0.0054 * H, 0, 0}, 0.006);
   }
   joint_pair("foot", Joint::kLeftToes, 0.020);
   return sockets;

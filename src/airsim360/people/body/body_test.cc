@@ -5,6 +5,7 @@
 #include <set>
 
 #include "airsim360/base/error.h"
+#include "airsim360/people/body/seat_sockets.h"
 #include "airsim360/people/body/skinning.h"
 
 namespace airsim360 {
@@ -93,6 +94,35 @@ TEST(Body, EveryBodyHasEverySocketInsideItself) {
   }
 }
 
+TEST(Body, NoCameraSeesPastASocket) {
+  // Inside the meshes for people who are 60 pixels tall and more; for smaller ones nearly all.
+  int inside = 0, all = 0;
+  for (int i = 0; i < 6; ++i) {
+    const auto body = MakeProceduralBody(Person(i), 1);
+    for (const Socket& socket : body->sockets) {
+      const Vec3d p = body->p_PJ[static_cast<size_t>(socket.joint)] + socket.p_J;
+      EXPECT_TRUE(IsInside(body->levels[1], p)) << socket.name << " of person " << i;
+      inside += IsInside(body->levels[2], p);
+      ++all;
+    }
+  }
+  EXPECT_GE(inside, 0.95 * all) << all;
+}
+
+TEST(Body, SocketsBesideTheMeshAreSeatedInsideIt) {
+  const auto body = MakeProceduralBody(Person(2), 1);
+  std::vector<Socket> sockets = body->sockets;
+  const int toe = FindSocket(*body, "left_big_toe"), knee = FindSocket(*body, "left_knee");
+  Socket& moved = sockets[static_cast<size_t>(toe)];
+  moved.p_J.x += 0.02;  // before the shoe
+  const Vec3d joint = body->p_PJ[static_cast<size_t>(moved.joint)];
+  ASSERT_FALSE(IsInside(body->levels[1], joint + moved.p_J));
+  SeatSockets(body->levels, body->p_PJ, 0.001, 0.04, sockets);
+  EXPECT_TRUE(IsInside(body->levels[1], joint + moved.p_J));
+  EXPECT_LT(Norm(moved.p_J - body->sockets[static_cast<size_t>(toe)].p_J), 0.02);
+  EXPECT_EQ(sockets[static_cast<size_t>(knee)].p_J, body->sockets[static_cast<size_t>(knee)].p_J);
+}
+
 TEST(Body, LeftAndRightMirrorEachOther) {
   const auto body = MakeProceduralBody(Person(5));
   for (int j = 0; j < kJointCount; ++j) {
@@ -143,6 +173,37 @@ TEST(Skinning, TheRestPoseIsTheMeshMoved) {
   }
 }
 
+TEST(Skinning, LevelsOfDetailAreOneEntity) {
+  SceneBuilder builder("empty");
+  const EntityId ground = builder.AddEntity("ground", builder.tree().At("ground/pavement"));
+  Mesh plane;
+  plane.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  plane.triangles = {{0, 1, 2}};
+  builder.AddMaterial({});
+  builder.AddInstance({builder.AddMesh(plane), {}, ground});
+  const std::vector<PersonInScene> people{{"a", MakeBody(Person(0)), 1, true}, {"b", MakeBody(Person(1)), 2, true}};
+  std::vector<PersonRef> refs;
+  const auto scene = AddPeople(builder.Build(), people, refs);
+  EXPECT_EQ(refs[0].level_count, 3);
+  EXPECT_EQ(refs[1].level_count, 2);
+  for (const PersonRef& ref : refs) {
+    for (int level = ref.level; level < ref.level + ref.level_count; ++level)
+      EXPECT_EQ(scene->instances[ref.InstanceOf(level)].entity, ref.entity);
+  }
+  const SkeletonPose a = RestPose(*people[0].body, {Mat3d{}, {5, 6, 0}}), b = RestPose(*people[1].body, {});
+  const SkeletonPose* poses[] = {&a, &b};
+  const uint8_t levels[] = {2, 0};  // the second has no level 0: its finest
+  SceneState state;
+  AppendPeople(people, refs, poses, levels, state);
+  ASSERT_EQ(state.moved.size(), 5u);
+  const bool hidden[] = {true, false, true, false, true};
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(state.moved[i].hidden, hidden[i]) << i;
+  ASSERT_EQ(state.deformed.size(), 2u);
+  EXPECT_EQ(state.deformed[0].mesh, refs[0].MeshOf(2));
+  EXPECT_EQ(state.deformed[0].positions->size(), people[0].body->levels[2].mesh.positions.size());
+  EXPECT_EQ(state.deformed[1].mesh, refs[1].MeshOf(2));
+}
+
 TEST(Skinning, PropsThatAreNotShownTakeNoSpace) {
   const auto body = MakeProceduralBody(Person(2));
   std::vector<Vec3f> positions;
@@ -177,7 +238,7 @@ TEST(Skinning, PeopleAreEntitiesAfterThoseOfTheScene) {
   const SkeletonPose pose = RestPose(*people[1].body, {Mat3d{}, {5, 6, 0}});
   const SkeletonPose* poses[] = {nullptr, &pose, nullptr};
   SceneState state;
-  AppendPeople(people, refs, poses, state);
+  AppendPeople(people, refs, poses, {}, state);
   ASSERT_EQ(state.moved.size(), 3u);
   EXPECT_TRUE(state.moved[0].hidden);
   EXPECT_FALSE(state.moved[1].hidden);

@@ -47,6 +47,13 @@ void AddFinger(const FigureContext& f, Vec3d base, Vec3d d, Vec3d n, double leng
   mesh.Loft(Thinned(rings, f.level), {.material = kSkinMaterial, .segments = segments, .steps = 1, .u = Normalized(Cross(d, n)), .v = n});
 }
 
+void AddThumb(const FigureContext& f, const Side& s, Vec3d d, Vec3d u, int segments, LoftMesh& mesh) {
+  const double H = f.H();
+  const Vec3d base = f.joint(s.thumb1) - d * (0.006 * H), tip = f.joint(s.thumb2) + (f.joint(s.thumb2) - f.joint(s.thumb1)) * 0.8;
+  const Vec3d along = Normalized(tip - base);
+  AddFinger(f, base, along, Normalized(Cross(along, u)), Norm(tip - base), 0.0075 * H, s.thumb1, s.thumb2, segments, mesh);
+}
+
 void AddHand(const FigureContext& f, const Side& s, LoftMesh& mesh) {
   const double H = f.H();
   const Vec3d w = f.joint(s.wrist), d = Normalized(f.joint(s.fingers1) - w), v{1, 0, 0}, u = Normalized(Cross(d, v));
@@ -60,15 +67,14 @@ void AddHand(const FigureContext& f, const Side& s, LoftMesh& mesh) {
     for (const auto& [t, wide, k] : {std::tuple{0.05, 0.021, 0.0}, {0.078, 0.019, 0.5}, {0.106, 0.010, 1.0}})
       mitten.push_back({w + d * (t * H), 0.0065 * H, wide * H, wide * H, 2.4, MixBones(Bone(s.fingers1), Bone(s.fingers2), k), -1});
     mesh.Loft(mitten, {.material = kSkinMaterial, .segments = f.level == 2 ? 6 : 4, .steps = 1, .u = u, .v = v});
+    if (f.level == 2) AddThumb(f, s, d, u, 4, mesh);
     return;
   }
   // Fingers, index first, and the thumb.
   const double places[][2] = {{0.0160, 0.050}, {0.0054, 0.056}, {-0.0054, 0.053}, {-0.0158, 0.043}};
   for (const auto& place : places)
     AddFinger(f, w + d * (0.052 * H) + v * (place[0] * H), d, v, place[1] * H, 0.0056 * H, s.fingers1, s.fingers2, f.Around(9), mesh);
-  const Vec3d base = f.joint(s.thumb1) - d * (0.006 * H), tip = f.joint(s.thumb2) + (f.joint(s.thumb2) - f.joint(s.thumb1)) * 0.8;
-  const Vec3d along = Normalized(tip - base);
-  AddFinger(f, base, along, Normalized(Cross(along, u)), Norm(tip - base), 0.0075 * H, s.thumb1, s.thumb2, f.Around(9), mesh);
+  AddThumb(f, s, d, u, f.Around(9), mesh);
 }
 
 }  // namespace

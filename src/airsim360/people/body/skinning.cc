@@ -93,23 +93,10 @@ EntityId AddEntity(Scene& scene, std::string name, std::string_view category) {
 
 constexpr std::string_view kPropCategories[] = {"", "object/phone", "object/bag", "object/umbrella", "object/stroller"};
 
-PersonRef AddPerson(const PersonInScene& person, Scene& scene, TextureIds& known) {
-  const Body& body = *person.body;
-  int level = std::clamp(person.level, 0, static_cast<int>(body.levels.size()) - 1);
-  while (body.levels[static_cast<size_t>(level)].mesh.triangles.empty()) ++level;  // finer ones may be left out
-  PersonRef ref{static_cast<uint32_t>(scene.instances.size()), static_cast<MeshId>(scene.meshes.size()),
-                AddEntity(scene, person.name, "human/person"), level, {}};
-
-  // Parts and materials count on from those of the scene.
-  Mesh mesh = body.levels[static_cast<size_t>(level)].mesh;
+// One level of a person: a mesh whose parts and materials count on from those of the scene.
+void AddLevel(const PersonInScene& person, int level, MaterialId first_material, float below, Scene& scene, PersonRef& ref) {
+  Mesh mesh = person.body->levels[static_cast<size_t>(level)].mesh;
   mesh.name = person.name;
-  const auto first_material = static_cast<MaterialId>(scene.materials.size());
-  for (Material material : body.materials) {
-    for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture,
-                          &material.normal_texture, &material.emission_texture})
-      *id = SceneTexture(body, *id, scene, known);
-    scene.materials.push_back(std::move(material));
-  }
   for (MeshPart& part : mesh.parts) {
     part.material += first_material;
     const EntityId prop = part.entity;
@@ -120,15 +107,34 @@ PersonRef AddPerson(const PersonInScene& person, Scene& scene, TextureIds& known
     }
     part.entity = ref.props[prop];
   }
-
-  // Out of sight until a state shows it: below everything.
-  const float below = (scene.bounds.min.z <= scene.bounds.max.z ? scene.bounds.min.z : 0) - 10;
-  scene.instances.push_back({ref.mesh, {Mat3f{}, {0, 0, below}}, ref.entity});
+  scene.instances.push_back({static_cast<MeshId>(scene.meshes.size()), {Mat3f{}, {0, 0, below}}, ref.entity});
   for (EntityId id = ref.entity; id <= scene.entities.size(); ++id) {
     Box3f& bounds = scene.entities[id - 1].bounds;
     for (const Vec3f& p : mesh.positions) bounds.Add(p + Vec3f{0, 0, below});
   }
   scene.meshes.push_back(std::move(mesh));
+}
+
+PersonRef AddPerson(const PersonInScene& person, Scene& scene, TextureIds& known) {
+  const Body& body = *person.body;
+  const int coarsest = static_cast<int>(body.levels.size()) - 1;
+  int level = std::clamp(person.level, 0, coarsest);
+  while (body.levels[static_cast<size_t>(level)].mesh.triangles.empty()) ++level;  // finer ones may be left out
+  PersonRef ref{.instance = static_cast<uint32_t>(scene.instances.size()),
+                .mesh = static_cast<MeshId>(scene.meshes.size()),
+                .entity = AddEntity(scene, person.name, "human/person"),
+                .level = level,
+                .level_count = person.coarser ? coarsest - level + 1 : 1};
+  const auto first_material = static_cast<MaterialId>(scene.materials.size());
+  for (Material material : body.materials) {
+    for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture,
+                          &material.normal_texture, &material.emission_texture})
+      *id = SceneTexture(body, *id, scene, known);
+    scene.materials.push_back(std::move(material));
+  }
+  // Out of sight until a state shows it: below everything.
+  const float below = (scene.bounds.min.z <= scene.bounds.max.z ? scene.bounds.min.z : 0) - 10;
+  for (int k = 0; k < ref.level_count; ++k) AddLevel(person, level + k, first_material, below, scene, ref);
   return ref;
 }
 
@@ -147,23 +153,34 @@ std::shared_ptr<const Scene> AddPeople(std::shared_ptr<const Scene> scene, std::
   return own;
 }
 
+void HidePeople(std::span<const PersonRef> refs, SceneState& state) {
+  for (const PersonRef& ref : refs) {
+    for (int k = 0; k < ref.level_count; ++k) state.moved.push_back({ref.instance + static_cast<uint32_t>(k), {}, true});
+  }
+}
+
 void AppendPeople(std::span<const PersonInScene> people, std::span<const PersonRef> refs,
-                  std::span<const SkeletonPose* const> poses, SceneState& state) {
+                  std::span<const SkeletonPose* const> poses, std::span<const uint8_t> levels, SceneState& state) {
   const size_t moved = state.moved.size(), deformed = state.deformed.size();
-  state.moved.resize(moved + refs.size());
+  HidePeople(refs, state);
   std::vector<std::shared_ptr<std::vector<Vec3f>>> positions(refs.size());
+  std::vector<size_t> places(refs.size());
+  for (size_t i = 0, next = moved; i < refs.size(); next += static_cast<size_t>(refs[i++].level_count)) places[i] = next;
   ParallelFor(static_cast<int64_t>(refs.size()), [&](int64_t k) {
     const auto i = static_cast<size_t>(k);
-    MovedInstance& place = state.moved[moved + i];
-    place = {refs[i].instance, {}, poses[i] == nullptr};
     if (poses[i] == nullptr) return;
+    const int level = refs[i].LevelFor(levels.empty() ? 0 : levels[i]);
+    MovedInstance& place = state.moved[places[i] + static_cast<size_t>(level - refs[i].level)];
+    place.hidden = false;
     // Vertices are relative to where the person stands, so that they are exact far from the origin too.
     place.X_WM.p = VecCast<float>(poses[i]->X_WP.p);
     positions[i] = std::make_shared<std::vector<Vec3f>>();
-    SkinBody(*people[i].body, refs[i].level, *poses[i], VecCast<double>(place.X_WM.p), *positions[i]);
+    SkinBody(*people[i].body, level, *poses[i], VecCast<double>(place.X_WM.p), *positions[i]);
   });
   for (size_t i = 0; i < refs.size(); ++i) {
-    if (positions[i] != nullptr) state.deformed.push_back({refs[i].mesh, std::move(positions[i])});
+    if (positions[i] == nullptr) continue;
+    const int level = refs[i].LevelFor(levels.empty() ? 0 : levels[i]);
+    state.deformed.push_back({refs[i].MeshOf(level), std::move(positions[i])});
   }
   const auto sort = [](auto& list, size_t from, auto key) {
     if (from > 0 && from < list.size() && list[from].*key < list[from - 1].*key) std::ranges::sort(list, {}, key);

@@ -45,6 +45,7 @@ Vec3d AddOffsets(const MotionState& m, Posture& posture) {
   if (d.a == 0) return {};
   for (size_t k = 0; k < posture.turn.size(); ++k)
     posture.turn[k] = FromRotationVector(Mixed(d.a, m.turn[k], d.b, m.turn_rate[k])) * posture.turn[k];
+  for (size_t side = 0; side < 2; ++side) posture.curl[side] += d.a * static_cast<double>(m.curl[side]);
   return Mixed(d.a, m.shift, d.b, m.shift_rate);
 }
 
@@ -92,6 +93,7 @@ void SwitchMotion(const Body& body, const PersonState& state, MotionState& motio
     motion.turn[k] = VecCast<float>(turn);
     motion.turn_rate[k] = VecCast<float>(Limited(rate[k] - own, 6));
   }
+  for (size_t side = 0; side < 2; ++side) motion.curl[side] = static_cast<float>(shown.curl[side] - now.curl[side]);
   motion.shift = VecCast<float>(pelvis - PelvisOf(body, motion, state, now, {}));
   motion.shift_rate = VecCast<float>(Limited(shift_rate, 1));
   motion.blend_since_ns = motion.t_ns;

@@ -70,6 +70,7 @@ struct Foot {
   double pitch = 0;
   double toes = 0;     // 1: toes stay on the ground
   bool planted = false;
+  double carries = 0;  // 1: the pelvis is over it as it must be; 0: in the air
 };
 
 class Solver {
@@ -88,7 +89,10 @@ class Solver {
   }
 
   SolvedLegs Solve() {
-    for (size_t k = 0; k < 2; ++k) SetPlanted(k);
+    for (size_t k = 0; k < 2; ++k) {
+      SetPlanted(k);
+      if (feet_[k].motion->mode == FootMotion::Mode::kStep) Step(k);
+    }
     pelvis_ = in_.p_W_pelvis;
     if (in_.sink <= 0) pelvis_.z = Height();
     pelvis_ += in_.X_WP.R * in_.shift;
@@ -99,8 +103,6 @@ class Solver {
         RaiseHeel(k);
       else if (feet_[k].motion->mode == FootMotion::Mode::kSwing)
         Swing(k);
-      else
-        Step(k);
       out.leg[k] = Bend(k);
     }
     out.p_W_pelvis = pelvis_;
@@ -113,9 +115,10 @@ class Solver {
     Foot& foot = feet_[k];
     if (!foot.planted) return;
     foot.frame = GroundFrame(foot.motion->normal, foot.motion->yaw);
-    foot.pitch = foot.phase < 0.3 ? std::min(0.0, foot.curve.pitch) : 0;
+    foot.pitch = foot.phase < 0.3 && foot.motion->u == 0 ? std::min(0.0, foot.curve.pitch) : 0;
     foot.ankle = foot.motion->p_W + foot.frame * shapes_[k].AnkleAt(foot.pitch);
     foot.toes = 1;
+    foot.carries = 1;
   }
 
   // Height of the pelvis at which this leg has the knee of its curve; of a foot in the air, from the curve.
@@ -132,12 +135,16 @@ class Solver {
   }
 
   double Height() const {
-    // Standing: the lower of what both planted legs ask for.
-    double stand = 1e9;
+    // Standing: the lower of what both legs ask for; a foot that steps lets go and takes over by degrees.
+    const bool none = !feet_[0].planted && !feet_[1].planted;
+    double stand = none ? CurveHeight(0, feet_[0].phase, in_.state.p_WP.z) : 1e9;
     for (size_t k = 0; k < 2; ++k) {
       if (feet_[k].planted) stand = std::min(stand, HeightOver(k, feet_[k].curve.knee));
     }
-    if (stand > 1e8) stand = CurveHeight(0, feet_[0].phase, in_.state.p_WP.z);
+    for (size_t k = 0; k < 2; ++k) {
+      if (!feet_[k].planted && feet_[k].carries > 0)
+        stand += std::min(0.0, HeightOver(k, feet_[k].curve.knee) - stand) * feet_[k].carries;
+    }
     const double g = gait_.weight;
     if (g <= 0) return stand;
 
@@ -145,8 +152,12 @@ class Solver {
     // of the other leg's contact. Between lift-off and contact of a run: a throw.
     const size_t a = feet_[0].phase < 0.5 ? 0 : 1, b = 1 - a;
     const double phase = feet_[a].phase;
-    const double carried = feet_[a].planted ? HeightOver(a, feet_[a].curve.knee)
-                                            : CurveHeight(a, phase, in_.state.p_WP.z);
+    double carried = CurveHeight(a, phase, in_.state.p_WP.z);
+    if (feet_[a].planted) {
+      // A foot left behind, as of people who start or stop at once, does not drag the pelvis down: its heel rises.
+      constexpr double kDrag = 0.02;  // metres
+      carried = std::max(HeightOver(a, feet_[a].curve.knee), CurveHeight(a, phase, feet_[a].motion->p_W.z) - kDrag);
+    }
     const double from = gait_.run * 0.7 * gait_.duty + (1 - gait_.run) * 0.475;
     const double mix = SmoothStep(from, 0.5, phase);
     double height = carried;
@@ -161,20 +172,31 @@ class Solver {
     return stand + (height - stand) * g;
   }
 
+  // How much heels may rise: not of people who stand, by degrees of those who stop.
+  double HeelsRise() const { return SmoothStep(0, 0.4, gait_.weight); }
+
   // No leg is longer than it is: the pelvis comes down where a planted foot would be pulled off.
   void Lower() {
     const BodyDimensions& size = in_.body.size;
+    const double straight = 0.998 * (size.thigh + size.shank);
     for (size_t k = 0; k < 2; ++k) {
       const Foot& foot = feet_[k];
-      if (!foot.planted) continue;
+      if (foot.carries <= 0) continue;
       const FootShape& shape = shapes_[k];
+      // The highest that the pelvis can be with the leg stretched to a point; 1e9: out of reach at any height.
+      const auto highest = [&](Vec3d pivot, double reach) {
+        const Vec3d hip = pelvis_ + hip_[k], d = hip - pivot;
+        const double rise2 = reach * reach - d.x * d.x - d.y * d.y;
+        return rise2 > 0 ? pivot.z + std::sqrt(rise2) - hip_[k].z : 1e9;
+      };
+      double top = highest(foot.ankle, straight);
       // Late in its stance a foot may stand on its ball with the heel up.
-      const bool may_rise = foot.pitch >= 0 && in_.sink <= 0 && gait_.weight > 0.1 && foot.phase > 0.2;
-      const Vec3d pivot = may_rise ? foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height} : foot.ankle;
-      const double reach = 0.998 * (size.thigh + size.shank) + (may_rise ? 0.9 * Norm(shape.ball) : 0);
-      const Vec3d hip = pelvis_ + hip_[k], d = hip - pivot;
-      const double rise2 = reach * reach - d.x * d.x - d.y * d.y;
-      if (rise2 > 0 && d.z > std::sqrt(rise2)) pelvis_.z -= d.z - std::sqrt(rise2);
+      const double rise = foot.planted && foot.pitch >= 0 ? HeelsRise() * SmoothStep(0.15, 0.25, foot.phase) : 0;
+      if (rise > 0) {
+        const double up = highest(foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height}, straight + 0.9 * Norm(shape.ball));
+        top = top < 1e8 && up < 1e8 ? top + (up - top) * rise : std::min(top, up);
+      }
+      pelvis_.z += std::min(0.0, top - pelvis_.z) * foot.carries;
     }
   }
 
@@ -185,7 +207,8 @@ class Solver {
     const FootShape& shape = shapes_[k];
     const Vec3d pivot = foot.motion->p_W + foot.frame * Vec3d{0, 0, shape.ball_height};
     const Vec3d h = foot.frame.transpose() * (pelvis_ + hip_[k] - pivot), v = -shape.ball;
-    const double knee = in_.sink > 0 || gait_.weight < 0.1 ? 0.03 : foot.curve.knee;
+    constexpr double kStraight = 0.03;
+    const double knee = kStraight + (foot.curve.knee - kStraight) * HeelsRise();
     // h . R_y(pitch) v = (h^2 + v^2 - reach^2) / 2; 0 where the foot may stay flat.
     const double along = h.x * v.x + h.z * v.z, across = h.x * v.z - h.z * v.x;
     const double size = std::hypot(along, across), delta = std::atan2(across, along);
@@ -247,6 +270,7 @@ class Solver {
     foot.toes = m.toes * (1 - SmoothStep(0, 0.3, m.u));
     Vec3d ball = m.p_W + (m.p_W_to - m.p_W) * s;
     ball.z += 0.035 * arc;
+    foot.carries = m.toes + (1 - m.toes) * s;
     foot.ankle = ball + foot.frame * shapes_[k].AnkleAt(foot.pitch);
   }
 

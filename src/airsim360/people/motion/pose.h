@@ -29,7 +29,7 @@ class Ground {
 struct FootMotion {
   enum class Mode : uint32_t { kPlanted, kSwing, kStep };  // swing: by the gait's phase; step: by time
   Mode mode = Mode::kPlanted;
-  double u = 0;            ///< of a step: 0 at lift-off, 1 at landing
+  double u = 0;            ///< of a step: 0 at lift-off, 1 at landing; planted: 1 = came down flat, 0 = on its heel
   Vec3d p_W;               ///< planted: ball of the foot on the ground; else where it left the ground
   Vec3d p_W_to;            ///< where it is going to land
   double yaw = 0, yaw_to = 0;
@@ -64,6 +64,7 @@ struct MotionState {
   float blend_rate = 0;  ///< 1/s; 0 = no transition under way
   std::array<Vec3f, kBlendedJoints> turn, turn_rate;  ///< rotation vectors
   Vec3f shift, shift_rate;                            ///< of the pelvis in P, metres
+  std::array<float, 2> curl{};                        ///< of the fingers, left and right
 };
 
 /// A person who has just come into the world and stands at state.p_WP.

@@ -134,14 +134,14 @@ class Stepper {
   void Land(size_t k, double late) {
     FootMotion& foot = m_.feet[k];
     Aim(k, late);
-    Plant(foot);
+    Plant(foot, false);
   }
 
-  static void Plant(FootMotion& foot) {
+  static void Plant(FootMotion& foot, bool flat) {
     foot.mode = Mode::kPlanted;
     foot.p_W = foot.p_W_to;
     foot.yaw = foot.yaw_to;
-    foot.u = 0;
+    foot.u = flat ? 1 : 0;
   }
 
   void LiftOff(size_t k, double phase) {
@@ -194,7 +194,7 @@ class Stepper {
     FootMotion& foot = m_.feet[k];
     foot.u += dt_ / 0.38;
     AimHome(k);
-    if (foot.u >= 1) Plant(foot);
+    if (foot.u >= 1) Plant(foot, true);
   }
 
   void Stand(size_t k) {
@@ -230,6 +230,7 @@ void PlantAtHome(const Body& body, const PersonState& state, const Ground* groun
     foot.p_W = foot.p_W_to = {p.x, p.y, g.z};
     foot.normal = g.normal;
     foot.yaw = foot.yaw_to = state.yaw + ToeOut(k);
+    foot.u = 1;
   }
 }
 
@@ -293,6 +294,7 @@ void HashMotion(const MotionState& m, StateHasher& hasher) {
   }
   hasher.Add(m.shift);
   hasher.Add(m.shift_rate);
+  for (const float c : m.curl) hasher.Add(static_cast<double>(c));
 }
 
 }  // namespace airsim360

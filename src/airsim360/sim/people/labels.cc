@@ -35,25 +35,46 @@ KeypointLabel Place(const PeoplePicture& picture, const RigidTransform& X_CW, Ve
   return label;
 }
 
+// Points that nothing hides: whether the picture shows the person there decides. A ray may reach a limb that lies between
+// pixel centres, or a person through gaps of foliage that are finer than pixels.
+void ResolvePixels(const PeoplePicture& picture, EntityId entity, std::vector<KeypointLabel>& labels) {
+  std::vector<size_t> asked;
+  std::vector<PixelTarget> targets;
+  for (size_t k = 0; k < labels.size(); ++k) {
+    if (labels[k].state != KeypointState::kVisible) continue;
+    asked.push_back(k);
+    targets.push_back({labels[k].pixel, labels[k].range});
+  }
+  std::vector<uint8_t> shown(asked.size());
+  TestPixels(picture.tracer, picture.camera, picture.X_WC, entity, targets, shown);
+  for (size_t i = 0; i < asked.size(); ++i) {
+    if (shown[i] == 0) labels[asked[i]].state = KeypointState::kUnresolved;
+  }
+}
+
 std::vector<KeypointLabel> Keypoints(const Shared& shared, size_t i) {
   const PeoplePicture& picture = shared.picture;
   const Body& body = *picture.people.cast[i].body;
   const SkeletonPose& pose = picture.poses.poses[i];
   std::vector<KeypointLabel> labels;
   std::vector<SightTarget> targets;
+  labels.reserve(body.sockets.size() + picture.people.sockets.size());
+  targets.reserve(labels.capacity());
   for (const std::vector<Socket>* sockets : {&body.sockets, &picture.people.sockets}) {
     for (const Socket& socket : *sockets) {
       labels.push_back(Place(picture, shared.X_CW, SocketPosition(socket, pose)));
       targets.push_back({labels.back().p_W, socket.radius});
     }
   }
+  const EntityId entity = picture.people.refs[i].entity;
   std::vector<Sight> sights(targets.size());
-  TestSight(picture.tracer, picture.X_WC.p, picture.people.refs[i].entity, shared.is_person, targets, sights);
+  TestSight(picture.tracer, picture.X_WC.p, entity, shared.is_person, targets, sights);
   for (size_t k = 0; k < labels.size(); ++k) {
     if (labels[k].state == KeypointState::kAbsent) continue;
     labels[k].state = sights[k].state;
     labels[k].occluder = sights[k].occluder;
   }
+  ResolvePixels(picture, entity, labels);
   return labels;
 }
 
@@ -62,13 +83,18 @@ double Wrapped(double angle) {
   return wrapped >= kPi ? -kPi : wrapped;
 }
 
+// The level of detail that the picture shows of a person.
+int ShownLevel(const PeoplePicture& picture, size_t i) {
+  return picture.people.refs[i].LevelFor(picture.poses.levels.empty() ? 0 : picture.poses.levels[i]);
+}
+
 // Vertices of the person's body now, props left out, in W; empty if it has no mesh in the scene.
 std::vector<Vec3d> SkinOf(const PeoplePicture& picture, size_t i) {
   const PersonRef& ref = picture.people.refs[i];
-  const PersonInScene& cast = picture.people.cast[i];
-  const BodyLevel& level = cast.body->levels[static_cast<size_t>(ref.level)];
-  const std::span<const Vec3f> positions = picture.tracer.Positions(ref.mesh);
-  const AffineTransform& X_WM = picture.tracer.Place(ref.instance);
+  const int shown = ShownLevel(picture, i);
+  const BodyLevel& level = picture.people.cast[i].body->levels[static_cast<size_t>(shown)];
+  const std::span<const Vec3f> positions = picture.tracer.Positions(ref.MeshOf(shown));
+  const AffineTransform& X_WM = picture.tracer.Place(ref.InstanceOf(shown));
   std::vector<Vec3d> skin;
   const size_t count = std::min<size_t>(positions.size(), level.body_vertices);
   skin.reserve(count);
@@ -167,8 +193,7 @@ void AddBoxes(const Shared& shared, size_t i, PersonLabel& label) {
   std::vector<Vec3f> p_C;
   p_C.reserve(skin.size());
   for (const Vec3d& p : skin) p_C.push_back(VecCast<float>(shared.X_CW * p));
-  const int level = shared.picture.people.refs[i].level;
-  const BodyLevel& body = shared.picture.people.cast[i].body->levels[static_cast<size_t>(level)];
+  const BodyLevel& body = shared.picture.people.cast[i].body->levels[static_cast<size_t>(ShownLevel(shared.picture, i))];
   const Silhouette silhouette = FindSilhouette(shared.directions, p_C, BodyTriangles(body));
   label.amodal.box = silhouette.box;
   label.amodal.pixels = silhouette.pixels;

@@ -32,8 +32,7 @@ std::vector<PersonLabel> LabelPeople(const PeoplePicture& picture, const LabelOp
 /// Keypoints of one person, all visibilities decided.
 std::vector<KeypointLabel> LabelKeypoints(const PeoplePicture& picture, size_t person);
 
-/// What stands between the camera and points of a person: `entity` is the person's own, `radii` how deep below
-/// their skin the points lie, `is_person` flags by entity id (size: number of entities + 1).
+/// A point of a person: `radius` is how deep below the skin it lies.
 struct SightTarget {
   Vec3d p_W;
   double radius = 0;
@@ -42,10 +41,21 @@ struct Sight {
   KeypointState state = KeypointState::kVisible;
   EntityId occluder = kNoEntity;
 };
-/// A point counts as visible if its ray meets the own body first and no deeper than 1.3 radii + 1 cm before the
-/// point, or meets nothing before it.
+/// What stands between the camera and points of a person whose entity is `entity`; `is_person` flags by entity id
+/// (size: number of entities + 1). A point counts as visible if its ray meets the own body first and no deeper than
+/// 1.3 radii + 1 cm before the point, or meets nothing before it.
 void TestSight(const RayTracer& tracer, Vec3d p_WC, EntityId entity, const std::vector<bool>& is_person,
                std::span<const SightTarget> targets, std::span<Sight> sights);
+
+/// A point of a person in the picture, `range` metres from the camera.
+struct PixelTarget {
+  Vec2d pixel;
+  double range = 0;
+};
+/// Whether any of the nine pixels around each point shows `entity`, the person's body: by the rays through their centres,
+/// as the picture has them. `shown` is as long as `targets`.
+void TestPixels(const RayTracer& tracer, const Camera& camera, const RigidTransform& X_WC, EntityId entity,
+                std::span<const PixelTarget> targets, std::span<uint8_t> shown);
 
 /// Flags of the entities that are bodies of people, by entity id.
 std::vector<bool> PersonFlags(const SimPeople& people, size_t entities);

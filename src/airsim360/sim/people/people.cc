@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
@@ -114,12 +115,35 @@ PeoplePoses PosesAt(const SimPeople& people, const PeopleState& state, int64_t t
   return poses;
 }
 
+PeoplePoses PosesLater(const SimPeople& people, const PeopleState& state, int64_t t_ns) {
+  if (t_ns <= state.crowd.t_ns + kCrowdTickNs) return PosesAt(people, state, t_ns);
+  PeopleState later = state;
+  while (t_ns >= later.crowd.t_ns + kCrowdTickNs) TickPeople(people, {}, later);
+  return PosesAt(people, later, t_ns);
+}
+
+std::vector<uint8_t> LevelsFor(const SimPeople& people, std::span<const PersonState> states, Vec3d p_WC) {
+  constexpr double kPixel = std::numbers::pi / 2048;                    // radians
+  constexpr double kTall[] = {200 * kPixel, 60 * kPixel, 20 * kPixel};  // of levels 0, 1, 2
+  std::vector<uint8_t> levels;
+  levels.reserve(states.size());
+  for (size_t i = 0; i < states.size(); ++i) {
+    const double stature = people.cast[i].body->spec.stature;
+    const Vec3d middle = states[i].p_WP + Vec3d{0, 0, 0.5 * stature};
+    const double angle = stature / std::max(Norm(middle - p_WC), 0.1);
+    uint8_t level = 0;
+    while (level < std::size(kTall) && angle < kTall[level]) ++level;
+    levels.push_back(level);
+  }
+  return levels;
+}
+
 void ShowPeople(const SimPeople& people, const PeoplePoses& poses, SceneState& scene_state) {
   if (people.refs.empty()) return;
   std::vector<const SkeletonPose*> shown;
   for (size_t i = 0; i < poses.poses.size(); ++i)
     shown.push_back(poses.states[i].visible ? &poses.poses[i] : nullptr);
-  AppendPeople(people.cast, people.refs, shown, scene_state);
+  AppendPeople(people.cast, people.refs, shown, poses.levels, scene_state);
 }
 
 std::vector<PersonBox> PeopleNear(const SimPeople& people, const PeopleState& state, int64_t t_ns, Vec3d p_W,

@@ -49,10 +49,19 @@ struct PeoplePoses {
   int64_t t_ns = 0;
   std::vector<PersonState> states;
   std::vector<SkeletonPose> poses;  ///< of those who are not visible: unspecified
+  std::vector<uint8_t> levels;      ///< of detail that they are shown with; empty: the finest of each
 };
 
 /// The people at t_ns of crowd time, at most one tick after the state: people move on evenly.
 PeoplePoses PosesAt(const SimPeople& people, const PeopleState& state, int64_t t_ns);
+
+/// The people at any later t_ns of crowd time, as they go on without drones near them: for optical flow.
+PeoplePoses PosesLater(const SimPeople& people, const PeopleState& state, int64_t t_ns);
+
+/// Levels of detail for a viewer at p_WC, by the angle that each person fills: finest where they are 200 pixels tall in a
+/// panorama of 4096 x 2048 (a man at 5.7 m), then from 60 (19 m) and 20 pixels (57 m) on. Independent of the picture, so
+/// that all pictures of an instant show the same. Bodies that lack a level show the next.
+std::vector<uint8_t> LevelsFor(const SimPeople& people, std::span<const PersonState> states, Vec3d p_WC);
 
 /// Adds the people, skinned, to a scene state; nothing if they have no place in the scene.
 void ShowPeople(const SimPeople& people, const PeoplePoses& poses, SceneState& scene_state);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
@@ -141,6 +142,44 @@ TEST(SimPeople, AreSeenWhereTheyAreAtTheInstantOfTheCapture) {
   for (const PersonRef& ref : room.populated.people->refs)
     seen += std::ranges::count(capture.frame.entity.pixels(), ref.entity) > 0;
   EXPECT_GE(seen, 2u);
+}
+
+TEST(SimPeople, GoOnWalkingInTheStateThatFlowLeadsTo) {
+  const Peopled& room = Room();
+  const SimPeople& people = *room.populated.people;
+  SimState state = StartState(*room.model);
+  for (int i = 0; i < 1234; ++i) Step(*room.model, {}, state);
+  const auto now = SceneStateOf(*room.model, state, 0), later = SceneStateLater(*room.model, state, 0, 0.3);
+  EXPECT_EQ(later->t_ns, state.t_ns + 300'000'000);
+  ASSERT_EQ(now->moved.size(), later->moved.size());
+  double moved = 0;
+  for (size_t i = 0; i < now->moved.size(); ++i) {
+    EXPECT_EQ(now->moved[i].instance, later->moved[i].instance);
+    EXPECT_EQ(now->moved[i].hidden, later->moved[i].hidden);
+    const double way = Norm(later->moved[i].X_WM.p - now->moved[i].X_WM.p);
+    EXPECT_LT(way, 0.3 * 3);
+    moved += way;
+  }
+  EXPECT_GT(moved, 0.05);
+  // As they are after the ticks in between, nobody disturbing them.
+  PeopleState stepped = *state.people;
+  const int64_t t_ns = later->t_ns + people.epoch_ns;
+  while (stepped.crowd.t_ns + kCrowdTickNs <= t_ns) TickPeople(people, {}, stepped);
+  EXPECT_EQ(PosesAt(people, stepped, t_ns).poses[0].X_WJ[9].p, PosesLater(people, *state.people, t_ns).poses[0].X_WJ[9].p);
+}
+
+TEST(SimPeople, DetailFollowsTheDistance) {
+  const SimPeople& people = *Room().populated.people;
+  std::vector<PersonState> states(4);
+  for (size_t i = 0; i < 4; ++i) states[i].p_WP = {std::array{3.0, 12.0, 40.0, 90.0}[i], 0, 0};
+  EXPECT_EQ(LevelsFor(people, states, {0, 0, 1.5}), (std::vector<uint8_t>{0, 1, 2, 3}));
+  // Whatever the number of people: levels that fit are there for everybody.
+  const PopulatedScene populated = Populate(BuildWorld("box_room", {}), {.count = 2, .warm_up = 0, .seed = 3});
+  for (const PersonRef& ref : populated.people->refs) {
+    EXPECT_EQ(ref.level, 0);
+    EXPECT_EQ(ref.level_count, 4);
+    EXPECT_EQ(populated.scene->instances[ref.InstanceOf(3)].mesh, ref.MeshOf(3));
+  }
 }
 
 TEST(SimPeople, ADroneThatComesNearIsToldOfIt) {

@@ -15,16 +15,18 @@
 namespace airsim360 {
 
 /// Whether a keypoint can be seen, and if not why. Decided by the ray from the camera to it: what the ray
-/// meets first.
+/// meets first. Numbers are those of people.jsonl.
 enum class KeypointState : uint8_t {
   kAbsent,           ///< outside the picture
   kBehindScene,      ///< something that is no person's body is in front, a prop in the own hand too
   kBehindPerson,     ///< another person is in front
   kBehindOneself,    ///< another part of the own body is in front
-  kVisible
+  kVisible,
+  kUnresolved  ///< nothing is in front, but the picture is too coarse: none of the nine pixels around the point
+               ///< shows the person
 };
 inline constexpr const char* kKeypointStateNames[] = {"absent", "occluded_by_scene", "occluded_by_person",
-                                                      "self_occluded", "visible"};
+                                                      "self_occluded", "visible", "unresolved"};
 
 struct KeypointLabel {
   Vec3d p_W;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kMostWarmUp = 3600;  // seconds
 
-// The level of detail for so many people: what a machine can hold and trace with ease.
-int LevelFor(size_t people) { return people <= 60 ? 0 : people <= 300 ? 1 : people <= 2000 ? 2 : 3; }
+// The finest level of detail that a machine can hold for so many people; which one is shown depends on the distance.
+int FinestLevelFor(size_t people) { return people <= 100 ? 0 : people <= 500 ? 1 : people <= 3000 ? 2 : 3; }
 
 std::string PersonName(size_t index) {
   char name[32];
@@ -47,13 +47,13 @@ PopulatedScene Populate(std::shared_ptr<const Scene> scene, const PeopleRequest&
       {.file = request.file, .count = request.count, .reserve = request.reserve, .seed = request.seed});
 
   const std::vector<PersonTraits>& traits = people->crowd->people;
-  const int level = request.level >= 0 ? request.level : LevelFor(traits.size());
+  const int level = request.level >= 0 ? request.level : FinestLevelFor(traits.size());
   people->cast.resize(traits.size());
   ParallelFor(static_cast<int64_t>(traits.size()), [&](int64_t task) {
     const auto i = static_cast<size_t>(task);
     auto body = MakeBody(SpecOf(traits[i]), level);
     const int coarsest = static_cast<int>(body->levels.size()) - 1;
-    people->cast[i] = {PersonName(i), std::move(body), std::min(level, coarsest)};
+    people->cast[i] = {PersonName(i), std::move(body), std::min(level, coarsest), request.level < 0};
   });
   PopulatedScene populated;
   populated.scene = AddPeople(std::move(scene), people->cast, people->refs);
