@@ -19,7 +19,7 @@ class AutoRenderer : public Renderer {
   RenderStats Render(const RenderRequest& request, Frame& frame) override {
     if (gpu_) {
       const std::string what = GpuCannot(
-          request.tier, options_.environment.value_or(tracer_->scene().environment), request.products);
+          request.tier, options_.environment.value_or(tracer_->scene().environment), request.products, request.temporal);
       if (what.empty()) {
         try {
           return gpu_->Render(request, frame);

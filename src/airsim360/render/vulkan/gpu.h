@@ -62,8 +62,8 @@ class GpuRenderer : public Renderer {
   virtual std::vector<std::string> messages() const = 0;
 };
 
-/// What the GPU renderer cannot draw yet (a tier, a weather, a product), in words; empty = it can.
-std::string GpuCannot(Tier tier, const Environment& environment, const Products& products = {});
+/// What the GPU renderer cannot draw yet (a tier, a weather, a product, RenderRequest::temporal), in words; empty = it can.
+std::string GpuCannot(Tier tier, const Environment& environment, const Products& products = {}, bool temporal = false);
 
 /// Opens a device and uploads the scene. RuntimeError saying why where that fails: no Vulkan, no such GPU, an old driver, no
 /// memory.

@@ -37,6 +37,7 @@ class GpuCameras {
   VkDeviceAddress Table(const Camera& camera, const RayField& field);
   void FillOffsets(int samples, UploadCursor& upload, GpuCamera& out);
   void FillNext(const RenderRequest& request, GpuCamera& out);
+  void FillHigh(const RenderRequest& request, UploadCursor& upload, GpuCamera& out);
 
   GpuDevice& device_;
   CameraRays rays_, next_rays_;

@@ -67,6 +67,12 @@ struct GpuCamera {
   float max_theta;
   float exposure;
   uint samples;                 // of a pixel on an edge; 0, 1 = no antialiasing
+  // Tier high.
+  ADDRESS(Floats) planes;       // high.glsl
+  ADDRESS(Floats) row_tables;   // by row: ambient rays of a pixel; then its height over its width
+  uint high_seed[2];
+  uint edge_seed;
+  uint denoise;                 // 0 or 1
 };
 
 struct GpuFlow {
@@ -83,6 +89,7 @@ struct GpuFrameParams {
   ADDRESS(Alphas) alphas;       // material -> holes
   ADDRESS(Cameras) cameras;
   ADDRESS(Shade) shade;         // colour tiers; else 0
+  ADDRESS(High) high;           // tiers beyond `fast`; else 0
   uvec2 tlas, next_tlas;        // addresses
   uint sky_entity;
   uint flags;
