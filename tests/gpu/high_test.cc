@@ -18,7 +18,7 @@ double MeanOf(const Image<Rgb32f>& image) {
   return sum / static_cast<double>(image.size());
 }
 
-// The GPU's picture is no further from the CPU's than the CPU's is from its own with other random choices.
+// The GPU's picture is far nearer to the CPU's than the CPU's own with other random choices.
 void ExpectTheCpus(Pair& pair, RenderRequest request, const std::string& what, double mean, double off) {
   request.tier = Tier::kHigh;
   Frame cpu, gpu, other;
@@ -31,7 +31,7 @@ void ExpectTheCpus(Pair& pair, RenderRequest request, const std::string& what, d
               what.c_str(), d.mean, 100 * d.off, 100 * d.off_inside, noise.mean, 100 * noise.off);
   EXPECT_LE(d.mean, mean);
   EXPECT_LE(d.off, off);
-  EXPECT_LE(d.mean, noise.mean);
+  EXPECT_LE(d.mean, 0.15 * noise.mean);
   EXPECT_NEAR(MeanOf(gpu.radiance), MeanOf(cpu.radiance), 2e-3 * MeanOf(cpu.radiance));
   EXPECT_EQ(Compare(cpu, gpu, true).far, 0);
 }
@@ -41,9 +41,9 @@ TEST(GpuHigh, OfARoomByDayIsTheCpus) {
   const auto scene = BuildWorld("sunlit_room", {.seed = 1});
   Pair pair(scene, ClearSky(40), Tier::kHigh);
   RenderRequest request = ColorRequest(*scene, 128);
-  ExpectTheCpus(pair, request, "sunlit_room by day", 0.2, 0.01);
+  ExpectTheCpus(pair, request, "sunlit_room by day", 0.4, 0.02);
   request.denoise = false;
-  ExpectTheCpus(pair, request, "sunlit_room by day, as sampled", 0.3, 0.02);
+  ExpectTheCpus(pair, request, "sunlit_room by day, as sampled", 0.8, 0.08);
   for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 

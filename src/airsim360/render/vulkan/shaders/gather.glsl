@@ -27,7 +27,8 @@ vec3 NearProbe(vec3 p, vec3 n) {
   const float x0 = min(floor(x), view.probe_max[0]), y0 = min(floor(y), view.probe_max[1]),
               z0 = min(floor(z), view.probe_max[2]);
   const uint lowest = uint(int(z0) * view.probe_stride_z + int(y0) * view.probe_stride_y + int(x0)) * 16;
-  uint hash = floatBitsToUint(p.x) * 0x9e3779b1u ^ floatBitsToUint(p.y) * 0x85ebca77u ^ floatBitsToUint(p.z) * 0xc2b2ae3du;
+  const uvec3 millimetres = uvec3(ivec3(floor(p * 1024.0)));
+  uint hash = millimetres.x * 0x9e3779b1u ^ millimetres.y * 0x85ebca77u ^ millimetres.z * 0xc2b2ae3du;
   hash = (hash ^ (hash >> 16)) * 0x7feb352du;
   hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
   hash = hash ^ (hash >> 16);
