@@ -8,6 +8,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/render/cpu/antialias.h"
 #include "airsim360/render/cpu/high_frame.h"
+#include "airsim360/render/reference/path_tracer.h"
 
 namespace airsim360::internal {
 namespace {
@@ -71,7 +72,16 @@ void PutProjection(const Camera& camera, GpuCamera& out) {
   }
 }
 
+void PutSeed(uint64_t seed, GpuCamera& out) {
+  const uint64_t mixed = MixBits(seed);
+  out.high_seed[0] = static_cast<uint32_t>(mixed), out.high_seed[1] = static_cast<uint32_t>(mixed >> 32);
+}
+
 }  // namespace
+
+int PathSamples(const RenderRequest& request) {
+  return request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
+}
 
 int EdgeSamples(const RenderRequest& request) {
   if (!request.products.rgb && !(request.tier == Tier::kHigh && request.products.radiance)) return 1;
@@ -152,12 +162,15 @@ void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCam
   if (const int samples = EdgeSamples(request); samples > 1) FillOffsets(samples, upload, out);
   if (request.products.flow) FillNext(request, out);
   if (request.tier == Tier::kHigh) FillHigh(request, upload, out);
+  if (request.tier == Tier::kReference) {
+    PutSeed(request.seed, out);
+    out.paths = static_cast<uint32_t>(PathSamples(request));
+  }
 }
 
 void GpuCameras::FillHigh(const RenderRequest& request, UploadCursor& upload, GpuCamera& out) {
   const RayField& field = rays_.field();
-  const uint64_t seed = MixBits(request.seed);
-  out.high_seed[0] = static_cast<uint32_t>(seed), out.high_seed[1] = static_cast<uint32_t>(seed >> 32);
+  PutSeed(request.seed, out);
   out.edge_seed = static_cast<uint32_t>(request.seed << 8);
   out.denoise = request.denoise ? 1 : 0;
   auto* const to = reinterpret_cast<float*>(upload.Take(2 * sizeof(float) * static_cast<size_t>(field.height), out.row_tables));

@@ -21,6 +21,8 @@ struct UploadCursor {
 
 /// Colour samples of a pixel on an edge; 1 = no antialiasing.
 int EdgeSamples(const RenderRequest& request);
+/// Paths of a pixel in tier `reference`.
+int PathSamples(const RenderRequest& request);
 
 class GpuCameras {
  public:

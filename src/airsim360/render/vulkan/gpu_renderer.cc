@@ -8,19 +8,16 @@
 #include "airsim360/render/shading/shader.h"
 #include "airsim360/render/vulkan/gpu.h"
 #include "airsim360/render/vulkan/gpu_high.h"
+#include "airsim360/render/vulkan/gpu_path.h"
 #include "airsim360/render/vulkan/gpu_shade.h"
 #include "airsim360/render/vulkan/gpu_shaders.h"
 #include "airsim360/render/vulkan/gpu_slot.h"
 
 namespace airsim360 {
 
-std::string GpuCannot(Tier tier, const Environment& environment, const Products& products, bool temporal) {
+std::string GpuCannot(Tier tier, const Products& products, bool temporal) {
   const bool color = (products.rgb || products.radiance) && tier != Tier::kLabels;
-  if (color && tier == Tier::kReference) return std::string("tier '") + kTierNames[static_cast<int>(tier)] + "'";
   if (color && tier == Tier::kHigh && temporal) return "light kept from the last frame";
-  if (color && (environment.wetness > 0 || environment.snow_depth > 0 || environment.rain_mm_h > 0 ||
-                environment.snowfall_mm_h > 0))
-    return "rain, snow and wet surfaces";
   if (products.coverage) return "product 'coverage'";
   return "";
 }
@@ -158,7 +155,14 @@ class VulkanRenderer : public GpuRenderer {
       AddHighPasses(std::ranges::any_of(requests, &RenderRequest::denoise), antialias, work);
       return work;
     }
-    work.passes.push_back({Made(color_, ColorRaygen())});
+    const bool paths = requests.front().tier == Tier::kReference && std::ranges::any_of(requests, &WantsColor);
+    if (paths) {
+      // Labels come from the centre rays alone.
+      if (work.passes.empty()) work.passes.push_back({&labels_});
+      AddPathPasses(requests, work);
+    }
+    const bool albedo = std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.albedo; });
+    if (!paths || albedo) work.passes.insert(work.passes.begin(), {Made(color_, ColorRaygen())});
     if (antialias) work.passes.push_back({Made(edges_, EdgesRaygen())});
     return work;
   }
@@ -172,6 +176,14 @@ class VulkanRenderer : public GpuRenderer {
       work.passes.push_back({filter, pass});
     work.passes.push_back({Made(combine_, CombineRaygen())});
     if (antialias) work.passes.push_back({Made(high_edges_, HighEdgesRaygen())});
+  }
+  void AddPathPasses(std::span<const RenderRequest> requests, GpuSlot::Work& work) {
+    if (!path_tables_) path_tables_ = std::make_unique<GpuPathTables>(device_, *shader_, *tracer_);
+    work.path = path_tables_->address();
+    int most = 0;
+    for (const RenderRequest& r : requests) most = std::max(most, PathSamples(r));
+    for (int pass = 0; pass * kGpuPathsOfAPass < most; ++pass)
+      work.passes.push_back({Made(path_, PathRaygen()), pass});
   }
   void PrepareHigh() {
     if (!high_tables_) high_tables_ = std::make_unique<GpuHighTables>(device_, *shader_, *tracer_);
@@ -193,7 +205,7 @@ class VulkanRenderer : public GpuRenderer {
     const RenderRequest& first = requests.front();
     const Scene& scene = tracer_->scene();
     for (const RenderRequest& r : requests) {
-      if (const std::string what = GpuCannot(r.tier, environment_, r.products, r.temporal); !what.empty())
+      if (const std::string what = GpuCannot(r.tier, r.products, r.temporal); !what.empty())
         throw RuntimeError("device 'vulkan' cannot draw " + what + " yet; use --device cpu");
       if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)
         throw InputError("GPU: the cameras of a submission must share state, tier and tone curve");
@@ -214,7 +226,8 @@ class VulkanRenderer : public GpuRenderer {
   std::unique_ptr<Shader> shader_;  // this and the next two: made when colour is first wanted
   std::unique_ptr<GpuShadeTables> shade_;
   std::unique_ptr<GpuHighTables> high_tables_;
-  std::unique_ptr<GpuPipeline> color_, edges_, high_, high_light_, filter_, combine_, high_edges_;
+  std::unique_ptr<GpuPathTables> path_tables_;
+  std::unique_ptr<GpuPipeline> color_, edges_, high_, high_light_, filter_, combine_, high_edges_, path_;
   std::vector<std::unique_ptr<GpuSlot>> slots_;
   uint64_t last_ticket_ = 0;
   double gpu_ms_ = 0;

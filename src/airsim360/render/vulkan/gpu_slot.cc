@@ -107,10 +107,12 @@ size_t GpuSlot::ArrangePasses(std::span<const RenderRequest> requests) {
     Place& place = places_[i];
     const size_t words = 4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height);
     const Products& wanted = requests[i].products;
-    const bool high = requests[i].tier == Tier::kHigh && (wanted.rgb || wanted.radiance || wanted.albedo);
+    const bool color = wanted.rgb || wanted.radiance;
+    const bool high = requests[i].tier == Tier::kHigh && (color || wanted.albedo);
+    const bool paths = requests[i].tier == Tier::kReference && color;
     place.entity = place.offset[kEntity], place.centers = kNowhere;
-    place.planes = high ? take(kGpuHighPlanes * words) : kNowhere;
-    if (high || EdgeSamples(requests[i]) < 2) continue;
+    place.planes = high ? take(kGpuHighPlanes * words) : paths ? take(3 * words) : kNowhere;
+    if (high || paths || EdgeSamples(requests[i]) < 2) continue;
     place.centers = take(words);
     if (place.entity == kNowhere) place.entity = take(words);
   }
@@ -152,7 +154,7 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
   params->next_instances = flows_ ? next_->instances() : now_.instances();
   params->category_of = scene_.categories();
   params->alphas = scene_.alphas();
-  params->shade = work.shade, params->high = work.high;
+  params->shade = work.shade, params->high = work.high, params->path = work.path;
   const auto split = [](VkDeviceAddress a) { return uvec2{static_cast<uint32_t>(a), static_cast<uint32_t>(a >> 32)}; };
   params->tlas = split(now_.tlas());
   params->next_tlas = split(flows_ ? next_->tlas() : now_.tlas());
@@ -222,7 +224,7 @@ void GpuSlot::Wait() {
   if (waited_) return;
   const VkResult result = vkWaitForFences(device_.device(), 1, &fence_, VK_TRUE, kPatienceNs);
   if (result == VK_TIMEOUT) throw RuntimeError("GPU: no answer in five minutes");
-  CheckVk(result, "rendering");
+  CheckVk(device_.fault() == GpuFault::kLost ? VK_ERROR_DEVICE_LOST : result, "rendering");
   waited_ = true;
   read_back_.Invalidate();
   if (clock_ == VK_NULL_HANDLE) return;

@@ -27,7 +27,7 @@ class GpuSlot {
       int32_t number = 0;  ///< for shaders that do several things
     };
     std::vector<Pass> passes;            ///< one after another, each once for each pixel
-    VkDeviceAddress shade = 0, high = 0; ///< GpuShade of colour tiers, GpuHigh of those beyond `fast`
+    VkDeviceAddress shade = 0, high = 0, path = 0;  ///< GpuShade of colour tiers, GpuHigh, GpuPath
     float exposure = 1;
   };
   /// Starts `work` on all requests. The slot must be free.

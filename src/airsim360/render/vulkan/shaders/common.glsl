@@ -13,6 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 2) buffer Shorts { uin
 layout(buffer_reference, scalar, buffer_reference_align = 1) buffer Bytes { uint8_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer High;
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PathTables;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Meshes;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Instances;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Alphas;

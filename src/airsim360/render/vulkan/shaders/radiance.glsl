@@ -68,6 +68,12 @@ Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
 #ifdef HIGH
     if (step == kLast) {
       result.terms = TermsOf(ray, s, result.asks_sun);
+      if (view.rain + view.snow > 0.0) {
+        // Drops and flakes hide a share of every term and add their own light.
+        const float hidden = Hidden(eye, direction, ray.distance_, cone_angle);
+        result.terms.ambient *= 1.0 - hidden, result.terms.sun *= 1.0 - hidden;
+        result.terms.rest = lerp3(result.terms.rest, Vec(view.drop_light), hidden);
+      }
       break;
     }
 #endif
@@ -158,7 +164,8 @@ Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
     }
     if (step == kCamera) result.first = hit;
     if (hit.instance == kMiss) {
-      const vec3 sky = LookUpSky(origin.z, to, step == kCamera);
+      vec3 sky = LookUpSky(origin.z, to, step == kCamera);
+      if (step == kCamera) sky = BehindDrops(sky, eye, direction, 2e5, cone_angle);
       if (step == kMirror) s0.reflected = sky, s0.traced = true;
       if (step == kBehind) s0.behind = sky, s0.clear = true;
       if (step != kCamera) continue;
@@ -185,6 +192,6 @@ Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
     }
 #endif
   }
-  result.light = light;
+  result.light = BehindDrops(light, eye, direction, first.distance_, cone_angle);
   return result;
 }

@@ -5,13 +5,12 @@ vec3 RayAt(GpuCamera camera, ivec2 p) {
   return Load3(camera.rays, uint(p.y) * camera.width + uint(p.x));
 }
 
-/// Direction in W through a point of a canonical pixel, `s` being a row of camera.offsets: dx dy, then sines and cosines of the
-/// angles that makes in a panorama.
-vec3 SampleRay(GpuCamera camera, uvec2 pixel, uint s) {
-  Floats o = camera.offsets;
-  const float dx = o.v[6 * s], dy = o.v[6 * s + 1];
+/// Direction in W through the point (dx, dy) from a canonical pixel's centre, with the sines and cosines of the angles that makes
+/// in a panorama: of the azimuth, of the elevation.
+vec3 RayThrough(GpuCamera camera, uvec2 pixel, vec2 at, vec4 turn) {
+  const float dx = at.x, dy = at.y;
   if (camera.separable != 0) {
-    const float sa = o.v[6 * s + 2], ca = o.v[6 * s + 3], sb = o.v[6 * s + 4], cb = o.v[6 * s + 5];
+    const float sa = turn.x, ca = turn.y, sb = turn.z, cb = turn.w;
     const float st0 = camera.columns.v[3 * camera.stride + pixel.x], ct0 = camera.columns.v[4 * camera.stride + pixel.x];
     const float cp0 = camera.rows.v[pixel.y], sp0 = camera.rows.v[4 * camera.stride_rows + pixel.y];
     const float st = st0 * ca + ct0 * sa, ct = ct0 * ca - st0 * sa, sp = sp0 * cb + cp0 * sb, cp = cp0 * cb - sp0 * sb;
@@ -24,6 +23,14 @@ vec3 SampleRay(GpuCamera camera, uvec2 pixel, uint s) {
   const vec3 down = RayAt(camera, p + ivec2(0, 1)), up = RayAt(camera, p - ivec2(0, 1));
   if (right == vec3(0.0) || left == vec3(0.0) || up == vec3(0.0) || down == vec3(0.0)) return Turn(camera.R, here);
   return Turn(camera.R, normalize(here + dx * 0.5 * (right - left) + dy * 0.5 * (down - up)));
+}
+
+/// Direction in W through a point of a canonical pixel, `s` being a row of camera.offsets: dx dy, then sines and cosines of the
+/// angles that makes in a panorama.
+vec3 SampleRay(GpuCamera camera, uvec2 pixel, uint s) {
+  Floats o = camera.offsets;
+  return RayThrough(camera, pixel, vec2(o.v[6 * s], o.v[6 * s + 1]),
+                    vec4(o.v[6 * s + 2], o.v[6 * s + 3], o.v[6 * s + 4], o.v[6 * s + 5]));
 }
 
 // MixBits of base/random.h on 64 bits as (low, high), so that samples are the CPU's.
