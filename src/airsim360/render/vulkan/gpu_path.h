@@ -6,7 +6,7 @@
 
 namespace airsim360::internal {
 
-/// Paths of a pixel that one pass of path.rgen adds: few, so that no submission runs into a driver's time limit.
+/// Paths of a pixel that one pass of path.rgen adds: few, so that no dispatch is long.
 inline constexpr int kGpuPathsOfAPass = 8;
 
 class GpuPathTables {

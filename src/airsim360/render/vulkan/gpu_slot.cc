@@ -103,13 +103,17 @@ size_t GpuSlot::ArrangePasses(std::span<const RenderRequest> requests) {
     size += (bytes + 63) / 64 * 64;
     return at;
   };
+  // All cameras of a submission go through the same passes.
+  const Tier tier = requests.front().tier;
+  const auto any = [&](auto&& wants) {
+    return std::ranges::any_of(requests, [&](const RenderRequest& r) { return wants(r.products); });
+  };
+  const bool color = any([](const Products& p) { return p.rgb || p.radiance; });
+  const bool high = tier == Tier::kHigh && (color || any([](const Products& p) { return p.albedo; }));
+  const bool paths = tier == Tier::kReference && color;
   for (size_t i = 0; i < requests.size(); ++i) {
     Place& place = places_[i];
     const size_t words = 4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height);
-    const Products& wanted = requests[i].products;
-    const bool color = wanted.rgb || wanted.radiance;
-    const bool high = requests[i].tier == Tier::kHigh && (color || wanted.albedo);
-    const bool paths = requests[i].tier == Tier::kReference && color;
     place.entity = place.offset[kEntity], place.centers = kNowhere;
     place.planes = high ? take(kGpuHighPlanes * words) : paths ? take(3 * words) : kNowhere;
     if (high || paths || EdgeSamples(requests[i]) < 2) continue;
