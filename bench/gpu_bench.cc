@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   const Products nothing{.rgb = false, .range = false, .semantic = false, .entity = false};
   const Products labels{.rgb = false, .normal = true};
   const Products everything{.rgb = true, .normal = true};
-  const std::vector<int> widths = software ? std::vector{256} : std::vector{1024, 2048, 4096};
+  const std::vector<int> widths = software ? std::vector{128} : std::vector{1024, 2048, 4096};
   for (const int width : widths) {
     request.camera = Equirectangular{width, width / 2};
     const auto row = [&](const char* what, Tier tier, const Products& products, double trace_ms) {
@@ -127,6 +127,12 @@ int main(int argc, char** argv) {
     const double trace_ms = row("camera rays alone", Tier::kLabels, nothing, 0);
     row("labels", Tier::kLabels, labels, trace_ms);
     row("fast and labels", Tier::kFast, everything, trace_ms);
+    request.aa_samples = 4;
+    row("fast, antialiased", Tier::kFast, everything, trace_ms);
+    row("high, antialiased", Tier::kHigh, everything, trace_ms);
+    request.samples = 8;
+    row("reference, 8 paths", Tier::kReference, everything, trace_ms);
+    request.samples = 0, request.aa_samples = 1;
   }
 
   // Training: many small panoramas at once.

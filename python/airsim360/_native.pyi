@@ -34,6 +34,12 @@ class Rig:
                  lens: Literal["ideal", "real360"] = "ideal", tone: Literal["filmic", "agx", "linear"] = "filmic",
                  exposure_ev: float = 0.0, samples: int = 0, seed: int = 0, flow_dt: float = 0.1) -> None: ...
 
+class Tensor:
+    shape: tuple[int, ...]
+    def __dlpack__(self, *, stream: None = None, max_version: Optional[tuple[int, int]] = None,
+                   dl_device: Optional[tuple[int, int]] = None, copy: Optional[bool] = None) -> Any: ...
+    def __dlpack_device__(self) -> tuple[int, int]: ...
+
 class Capture:
     rgb: Optional[npt.NDArray[np.uint8]]  # (H, W, 3)
     range: Optional[F32]  # (H, W) metres
@@ -52,6 +58,7 @@ class Capture:
     t_ns: int
     render_ms: float
     rays: int
+    def tensor(self, product: str) -> Tensor: ...
 
 class World:
     name: str

@@ -116,6 +116,15 @@ Pictures are views of this object's memory (no copies); those that the rig was n
                              "(H, W, 3) float32, linear light.")
       .def_property_readonly("flow", &Flow,
                              "(H, W, 2) float32, pixels to where the point is flow_dt later; x wraps.")
+      .def(
+          "tensor",
+          [](const py::object& self, const std::string& product) {
+            ToProducts({product});  // names the nearest where there is no such product
+            const py::object picture = self.attr(product.c_str());
+            if (picture.is_none()) throw InputError("product '" + product + "' was not captured: name it in Rig(products=…)");
+            return ToTensor(picture);
+          },
+          py::arg("product"), "A picture for from_dlpack of torch, jax, cupy or numpy, without a copy.")
       .def_property_readonly(
           "pose", [](const Capture& c) { return FromPose(c.X_WC); },
           "(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward.")

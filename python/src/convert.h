@@ -48,12 +48,16 @@ py::object ImageView(const Image<Pixel>& image, int channels, const py::handle& 
   return View(reinterpret_cast<const T*>(image.pixels().data()), shape, strides, owner);
 }
 
+/// A picture (an array) as an object that DLPack consumers take.
+py::object ToTensor(const py::object& picture);
+
 /// (H, W, 3) uint8 as a picture (copied); ValueError naming `what` otherwise.
 Image<Rgb8> ToRgb(const py::handle& value, const char* what);
 
 // One function for each file of the module.
 void BindWorld(py::module_& m);
 void BindDrone(py::module_& m);
+void BindTensor(py::module_& m);
 void BindCapture(py::module_& m);
 void BindState(py::module_& m);
 void BindSimulation(py::module_& m);

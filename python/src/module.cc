@@ -44,6 +44,7 @@ PYBIND11_MODULE(_native, m) {
       .def("__enter__", [](Threads& t) { t.Enter(); })
       .def("__exit__", [](Threads& t, const py::args&) { t.Exit(); });
   m.def("thread_count", &ThreadCount, "Number of threads that parallel loops use now.");
+  BindTensor(m);
   BindCapture(m);
   BindWorld(m);
   BindDrone(m);

@@ -4,70 +4,16 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "airsim360/base/error.h"
 #include "airsim360/worlds/worlds.h"
-#include "gpu_fixture.h"
+#include "color_compare.h"
 
 namespace airsim360 {
 namespace {
 
-struct Pair {
-  std::shared_ptr<const RayTracer> tracer;
-  std::unique_ptr<Renderer> cpu;
-  std::unique_ptr<GpuRenderer> gpu;
-
-  Pair(std::shared_ptr<const Scene> scene, const Environment& environment)
-      : tracer(std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "avx2"})),
-        cpu(MakeCpuRenderer(tracer, {.tier = Tier::kFast, .environment = environment})),
-        gpu(MakeVulkanRenderer(tracer, {.tier = Tier::kFast, .environment = environment}, {.validate = true})) {}
-};
-
-struct ColorDifference {
-  double mean = 0;    // absolute, of 255
-  double off = 0;     // share of pixels with a channel more than 3 codes off
-  double off_inside = 0;  // likewise, away from edges
-};
-
-ColorDifference Difference(const Frame& cpu, const Frame& gpu) {
-  ColorDifference d;
-  int inside = 0;
-  for (int y = 0; y < cpu.rgb.height(); ++y) {
-    for (int x = 0; x < cpu.rgb.width(); ++x) {
-      const Rgb8 a = cpu.rgb(x, y), b = gpu.rgb(x, y);
-      const int r = std::abs(a.r - b.r), g = std::abs(a.g - b.g), l = std::abs(a.b - b.b);
-      d.mean += (r + g + l) / 3.0;
-      const bool off = std::max({r, g, l}) > 3;
-      d.off += off;
-      if (test::NearEdge(cpu, x, y, true)) continue;
-      ++inside;
-      d.off_inside += off;
-    }
-  }
-  d.mean /= static_cast<double>(cpu.rgb.size());
-  d.off /= static_cast<double>(cpu.rgb.size());
-  d.off_inside /= std::max(1, inside);
-  return d;
-}
-
-RenderRequest ColorRequest(const Scene& scene, int width) {
-  RenderRequest request;
-  request.camera = Equirectangular{width, width / 2};
-  const Vec3f spawn = scene.spawn.value_or(Vec3f{0, 0, 2});
-  request.X_WC = BodyPose(VecCast<double>(spawn) + Vec3d{0.1, 0.2, 0.3}, 0.4, -0.1, 0.05) * CameraInBody();
-  request.products = {.normal = true, .albedo = true, .radiance = true};
-  return request;
-}
-
-// Without clouds, which take longer to bake than all else here.
-Environment ClearSky(double sun_elevation_deg) {
-  Environment environment;
-  environment.cloud_cover = environment.cirrus_cover = 0;
-  environment.sun_elevation_deg = sun_elevation_deg;
-  return environment;
-}
+using namespace test;
 
 void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment& environment, const std::string& what) {
-  Pair pair(scene, environment);
+  Pair pair(scene, environment, Tier::kFast);
   RenderRequest request = ColorRequest(*scene, 128);
   for (const int samples : {1, 4}) {
     request.aa_samples = samples;
@@ -99,6 +45,16 @@ TEST(GpuColor, OfARoomByNightIsTheCpus) {
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), ClearSky(-12), "sunlit_room by night");
 }
 
+TEST(GpuColor, OfWetAndSnowyPlacesIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
+  Environment rain = ClearSky(25), snow = ClearSky(25);
+  rain.wetness = 0.9, rain.rain_mm_h = 8;
+  snow.snow_depth = 0.6, snow.snowfall_mm_h = 3;
+  ExpectTheCpus(scene, rain, "sunlit_room in rain");
+  ExpectTheCpus(scene, snow, "sunlit_room in snow");
+}
+
 TEST(GpuColor, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   std::istringstream worlds(std::getenv("AIRSIM360_GPU_WORLDS") ? std::getenv("AIRSIM360_GPU_WORLDS") : "");
@@ -112,7 +68,7 @@ TEST(GpuColor, OfWorldsAskedForIsTheCpus) {
 TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
   AIRSIM360_NEEDS_GPU();
   const auto scene = BuildWorld("sunlit_room", {.seed = 1});
-  Pair pair(scene, ClearSky(40));
+  Pair pair(scene, ClearSky(40), Tier::kFast);
   for (const ToneCurve tone : {ToneCurve::kAgx, ToneCurve::kLinear}) {
     std::vector<RenderRequest> requests(3, ColorRequest(*scene, 32));
     for (size_t i = 0; i < requests.size(); ++i) {
@@ -133,12 +89,10 @@ TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
 
 TEST(GpuColor, WhatItCannotDrawIsNamed) {
   AIRSIM360_NEEDS_GPU();
-  EXPECT_EQ(GpuCannot(Tier::kFast, {}), "");
-  EXPECT_NE(GpuCannot(Tier::kHigh, {}).find("high"), std::string::npos);
-  Environment wet;
-  wet.wetness = 1;
-  EXPECT_NE(GpuCannot(Tier::kFast, wet), "");
-  EXPECT_EQ(GpuCannot(Tier::kLabels, wet), "");
+  EXPECT_EQ(GpuCannot(Tier::kFast), "");
+  EXPECT_EQ(GpuCannot(Tier::kHigh), "");
+  EXPECT_NE(GpuCannot(Tier::kHigh, {}, true), "");
+  EXPECT_NE(GpuCannot(Tier::kFast, {.coverage = true}).find("coverage"), std::string::npos);
 }
 
 }  // namespace

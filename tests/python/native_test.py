@@ -51,6 +51,30 @@ class Worlds(unittest.TestCase):
 
 
 class Captures(unittest.TestCase):
+    def test_dlpack_shares_the_memory_and_keeps_it(self):
+        c = ROOM.capture([0, 0, 3], Rig(width=64, products=["rgb", "range", "entity", "flow"]))
+        for name in ("rgb", "range", "entity", "flow"):
+            tensor = c.tensor(name)
+            self.assertEqual(tensor.__dlpack_device__(), (1, 0))
+            seen = np.from_dlpack(tensor)
+            self.assertTrue(np.shares_memory(seen, getattr(c, name)), name)
+            np.testing.assert_array_equal(seen, getattr(c, name))
+        expected, kept = c.range.copy(), np.from_dlpack(c.tensor("range"))
+        unused = c.tensor("rgb").__dlpack__()
+        copied = c.tensor("rgb").__dlpack__(copy=True)
+        del c, seen, tensor, unused, copied
+        gc.collect()
+        np.testing.assert_array_equal(kept, expected)
+
+    def test_dlpack_names_what_is_not_there(self):
+        c = ROOM.capture([0, 0, 3], Rig(width=32, products=["range"]))
+        with self.assertRaisesRegex(ValueError, "not captured"):
+            c.tensor("entity")
+        with self.assertRaisesRegex(ValueError, "range"):
+            c.tensor("rnge")
+        with self.assertRaises(BufferError):
+            c.tensor("range").__dlpack__(dl_device=(2, 0))
+
     def test_shapes_types_and_the_room_itself(self):
         c = ROOM.capture([0, 0, 3], Rig(width=256, products=["rgb", "range", "semantic", "entity", "normal", "position"]))
         for name, shape, kind in (("rgb", (128, 256, 3), np.uint8), ("range", (128, 256), np.float32),

@@ -79,7 +79,6 @@ struct HighFrame::Impl {
     const double latitude = 0.5 - (row + 0.5 * kTileSize) / field.height;
     return field.separable && std::abs(latitude) > 1.0 / 3 ? PacketShape::kRow : PacketShape::kBlock;
   }
-  float AmbientRays(int row) const;
   void TraceTiles();
   void TraceTile(int tile);
   void StoreTile(const HighTile& shaded, LabelTile& labels, TileTarget target, int tile);
@@ -132,12 +131,11 @@ void HighFrame::Prepare(const RayTracer& tracer, const Shader& shader) {
     impl_->sun_map.emplace(tracer, sky->to_sun());
 }
 
-// Rows of a panorama are shorter towards the poles, and so are the pixels' shares of the sphere.
-float HighFrame::Impl::AmbientRays(int row) const {
-  const int wanted = std::clamp(request->samples > 0 ? request->samples : kDefaultRays, 1, kMaxRays);
-  if (!request->latitude_sampling || !rays->field().separable) return static_cast<float>(wanted);
-  const double middle = std::min(row + 0.5 * kTileSize, rays->field().height - 0.5);
-  return static_cast<float>(wanted * std::sin(std::numbers::pi * middle / rays->field().height));
+float AmbientRays(const RenderRequest& request, const RayField& field, int row) {
+  const int wanted = std::clamp(request.samples > 0 ? request.samples : kDefaultRays, 1, kMaxRays);
+  if (!request.latitude_sampling || !field.separable) return static_cast<float>(wanted);
+  const double middle = std::min(row + 0.5 * kTileSize, field.height - 0.5);
+  return static_cast<float>(wanted * std::sin(std::numbers::pi * middle / field.height));
 }
 
 void HighFrame::Impl::TraceTiles() {
@@ -187,7 +185,7 @@ void HighFrame::Impl::TraceTile(int tile) {
   const uint64_t key = MixBits(MixBits(request->seed + frames * 0x9e3779b97f4a7c15ull) +
                                static_cast<uint64_t>(down / 4 * buffers.across() + across / 4));
   const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
-                              Morton(across, down), AmbientRays(row), hits.cone_angle};
+                              Morton(across, down), AmbientRays(*request, field, row), hits.cone_angle};
   HighTile shaded;
   ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, shaded);
   StoreTile(shaded, tile_labels, target, tile);

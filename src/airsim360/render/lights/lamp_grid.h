@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "airsim360/render/lights/light_table.h"
@@ -26,6 +27,8 @@ class LampGrid {
   bool Holds(uint32_t lamp) const { return record_of_[lamp] != LightTable::kNoLamp; }
   size_t lamps() const { return records_.size(); }
   size_t cells() const { return cells_.size() - 1; }
+  /// By cell: mean irradiance on surfaces that face +x, -x, +y, -y, +z, -z.
+  std::span<const std::array<Vec3f, 6>> sides() const { return sides_; }
   /// Irradiance at a point for a unit normal with the visibility that the corners know (scalar; for probes
   /// and tests).
   Vec3f Irradiance(Vec3f p, Vec3f normal) const;

@@ -65,6 +65,10 @@ struct LightTable::Impl {
   std::vector<Lamp> lamps;
   std::vector<uint32_t> shape;  // by lamp
   LightTree tree;
+
+  const LampShape& ShapeOf(uint32_t lamp) const {
+    return mesh_lamps[lamps_of_instance[lamps[lamp].instance]].shapes[shape[lamp]];
+  }
 };
 
 LightTable::Impl::Impl(const Scene& s, const SurfaceTables& t, const Environment& environment)
@@ -120,8 +124,7 @@ LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const {
   // A triangle by area, with what is left of the first random number; a point of it.
   const Lamp& lamp = impl_->lamps[choice.lamp];
   const Instance& instance = impl_->scene.instances[lamp.instance];
-  const LampShape& shape =
-      impl_->mesh_lamps[impl_->lamps_of_instance[lamp.instance]].shapes[impl_->shape[choice.lamp]];
+  const LampShape& shape = impl_->ShapeOf(choice.lamp);
   const auto at = std::upper_bound(shape.cumulative.begin(), shape.cumulative.end() - 1, choice.u);
   const uint32_t triangle = shape.triangles[static_cast<size_t>(at - shape.cumulative.begin())];
   const LampTriangle placed = PlaceTriangle(impl_->scene.meshes[instance.mesh], triangle, instance.X_WM);
@@ -144,6 +147,10 @@ LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const {
   }
   return sample;
 }
+
+const LightTree& LightTable::tree() const { return impl_->tree; }
+std::span<const uint32_t> LightTable::TrianglesOf(uint32_t lamp) const { return impl_->ShapeOf(lamp).triangles; }
+std::span<const float> LightTable::SharesOf(uint32_t lamp) const { return impl_->ShapeOf(lamp).cumulative; }
 
 uint32_t LightTable::LampOf(uint32_t instance, uint32_t triangle) const {
   const uint32_t lamps = impl_->lamps_of_instance[instance];

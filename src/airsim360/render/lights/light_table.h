@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "airsim360/render/lights/light_tree.h"
 #include "airsim360/render/shading/surface_tables.h"
 #include "airsim360/scene/environment.h"
 #include "airsim360/scene/scene.h"
@@ -54,6 +55,11 @@ class LightTable {
   /// Index into lamps() of the lamp that a triangle belongs to; kNoLamp if it does not shine.
   uint32_t LampOf(uint32_t instance, uint32_t triangle) const;
   static constexpr uint32_t kNoLamp = UINT32_MAX;
+  /// For back ends that choose lamps themselves: the tree, and each lamp's triangles in ascending order with the share of the
+  /// area up to and including each.
+  const LightTree& tree() const;
+  std::span<const uint32_t> TrianglesOf(uint32_t lamp) const;
+  std::span<const float> SharesOf(uint32_t lamp) const;
 
  private:
   struct Impl;

@@ -39,14 +39,17 @@ class LightTree {
   /// Probability of Choose for that lamp.
   float Probability(Vec3f p, Vec3f normal, uint32_t lamp) const;
 
- private:
   struct Node {
     LightBounds bounds;
     uint32_t second = 0;  ///< index of the second child, the first follows its parent; 0 = leaf
     uint32_t parent = 0;
     uint32_t lamp = 0;  ///< of a leaf
   };
+  std::span<const Node> nodes() const { return nodes_; }
+  /// By lamp, index of its node.
+  std::span<const uint32_t> leaf_of() const { return leaf_of_; }
 
+ private:
   uint32_t Build(std::span<uint32_t> order, std::span<const LightBounds> lamps, uint32_t parent);
 
   std::vector<Node> nodes_;

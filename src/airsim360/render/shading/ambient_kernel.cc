@@ -77,13 +77,13 @@ KERNEL real SunSeen(const SunMapView& map, real3 p) {
 
 /// Irradiance by probes: one of the eight around, chosen with the probability of its weight (which is right
 /// on average and reads one cache line); all eight where the chosen one is inside a solid. The choice hangs
-/// on the bits of the point alone.
+/// on the point alone, to a millimetre, so that other back ends choose the same.
 KERNEL real3 NearProbe(const ShadeView& view, real3 p, real3 n) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;
   const ProbePlace place = FindProbes(grid, p, n);
   const auto bits = [](real x) __attribute__((always_inline)) {
-    return stdx::static_simd_cast<ureal>(bits_of(x));
+    return stdx::static_simd_cast<ureal>(to_int(rfloor(x * 1024.0f)));
   };
   ureal hash = bits(p.x) * 0x9e3779b1u ^ bits(p.y) * 0x85ebca77u ^ bits(p.z) * 0xc2b2ae3du;
   hash = (hash ^ (hash >> 16)) * 0x7feb352du;

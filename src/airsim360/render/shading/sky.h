@@ -57,6 +57,7 @@ class Sky {
   SkySample Sample(Vec2f u) const;
   /// Density per solid angle with which Sample gives this direction.
   float Pdf(Vec3f direction) const { return sampler_.Pdf(direction); }
+  const SkySampler& sampler() const { return sampler_; }
 
   // ---- light on surfaces
   /// Irradiance coefficients of the upper hemisphere in the order of sh9_irradiance (shading_shared.h).

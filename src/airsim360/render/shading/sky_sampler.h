@@ -27,6 +27,10 @@ class SkySampler {
   /// Unit vector; u in [0, 1)^2.
   Vec3f Direction(Vec2f u) const;
   float Pdf(Vec3f direction) const;
+  /// Density per solid angle of each cell; running shares of the cells of a row, up to 1; of the rows.
+  const std::vector<float>& density() const { return density_; }
+  const std::vector<float>& cumulative() const { return cumulative_; }
+  const std::vector<float>& rows() const { return row_; }
 
   template <class Archive, class Self>
   static void Visit(Archive& archive, Self& s) {

@@ -7,6 +7,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
+#include "airsim360/render/shading/bent_normals.h"
 #include "airsim360/render/shading/noise.h"
 #include "airsim360/render/shading/shading_scalar.h"
 
@@ -289,24 +290,8 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
 
 const std::vector<uint32_t>& SurfaceTables::Welds(const Mesh& mesh, MeshId id) {
   const auto [entry, is_new] = welds_.try_emplace(id);
-  std::vector<uint32_t>& weld = entry->second;
-  if (!is_new) return weld;
-  const auto less = [](Vec3f a, Vec3f b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
-  const auto same_order = [&](uint32_t a, uint32_t b) {
-    if (!(mesh.positions[a] == mesh.positions[b])) return less(mesh.positions[a], mesh.positions[b]);
-    if (!(mesh.normals[a] == mesh.normals[b])) return less(mesh.normals[a], mesh.normals[b]);
-    return a < b;
-  };
-  std::vector<uint32_t> order(mesh.positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), same_order);
-  weld.resize(order.size());
-  for (size_t k = 0; k < order.size(); ++k) {
-    const bool joined = k > 0 && mesh.positions[order[k]] == mesh.positions[order[k - 1]] &&
-                        mesh.normals[order[k]] == mesh.normals[order[k - 1]];
-    weld[order[k]] = joined ? weld[order[k - 1]] : order[k];
-  }
-  return weld;
+  if (is_new) entry->second = WeldVertices(mesh);
+  return entry->second;
 }
 
 void SurfaceTables::SetTriangles(const Scene& scene, MeshId id, const Mesh& shape) {
@@ -348,16 +333,7 @@ void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> mov
     const DeformedMesh& d = deformed[static_cast<size_t>(k)];
     Mesh shape = scene.meshes[d.mesh];
     shape.positions = *d.positions;
-    if (!shape.normals.empty()) {
-      const std::vector<uint32_t>& weld = welds_.at(d.mesh);
-      std::fill(shape.normals.begin(), shape.normals.end(), Vec3f{});
-      for (Vec3u t : shape.triangles) {
-        const Vec3f p = shape.positions[t.x];
-        const Vec3f area = Cross(shape.positions[t.y] - p, shape.positions[t.z] - p);
-        for (uint32_t v : {t.x, t.y, t.z}) shape.normals[weld[v]] = shape.normals[weld[v]] + area;
-      }
-      for (size_t v = 0; v < weld.size(); ++v) shape.normals[v] = shape.normals[weld[v]];
-    }
+    if (!shape.normals.empty()) BendNormals(shape, shape.positions, welds_.at(d.mesh), shape.normals);
     SetTriangles(scene, d.mesh, shape);
   });
 }

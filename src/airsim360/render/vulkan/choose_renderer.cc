@@ -1,5 +1,6 @@
 #include "airsim360/render/vulkan/choose_renderer.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,7 @@ class AutoRenderer : public Renderer {
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override {
     if (gpu_) {
-      const std::string what = GpuCannot(
-          request.tier, options_.environment.value_or(tracer_->scene().environment), request.products);
+      const std::string what = GpuCannot(request.tier, request.products, request.temporal);
       if (what.empty()) {
         try {
           return gpu_->Render(request, frame);
@@ -42,16 +42,21 @@ class AutoRenderer : public Renderer {
   std::unique_ptr<Renderer> cpu_;
 };
 
-// Why no GPU should be used by itself; empty = one should.
-std::string WhyNot(int wanted, Tier tier, const Environment& environment) {
-  if (const std::string what = GpuCannot(tier, environment); !what.empty())
-    return "the GPU cannot draw " + what + " yet";
+// Why no GPU should be used by itself: in words, or empty where nobody expects one; nothing = one should.
+std::optional<std::string> WhyNot(int wanted) {
+  if (wanted < 0 && !MachineHasGpu()) return "";
   std::string why = "no GPU";
-  for (const GpuInfo& gpu : ListGpus(&why)) {
+  bool hardware = wanted >= 0;
+  const std::vector<GpuInfo> gpus = ListGpus(&why);
+  for (const GpuInfo& gpu : gpus) {
     if (wanted >= 0 && gpu.index != wanted) continue;
-    if (gpu.missing.empty() && (!gpu.software || wanted >= 0)) return "";
-    why = gpu.name + (gpu.missing.empty() ? " is software, slower than the CPU renderer" : ": " + gpu.missing);
+    if (gpu.missing.empty() && (!gpu.software || wanted >= 0)) return {};
+    if (gpu.software) continue;
+    hardware = true;
+    why = gpu.name + ": " + gpu.missing;
   }
+  // A device file whose Vulkan driver is missing.
+  if (!hardware && !gpus.empty()) why = "this machine has a GPU, but no Vulkan driver for it is installed";
   return why;
 }
 
@@ -60,27 +65,28 @@ std::string WhyNot(int wanted, Tier tier, const Environment& environment) {
 std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                                        const DeviceChoice& choice) {
   if (choice.device == "cpu") return MakeCpuRenderer(std::move(tracer), options);
-  const Environment& environment = options.environment ? *options.environment : tracer->scene().environment;
+  const GpuOptions gpu_options{.gpu = choice.gpu, .fault = choice.fault};
+  const std::string cannot = GpuCannot(options.tier);
   if (choice.device == "vulkan") {
-    if (const std::string what = GpuCannot(options.tier, environment); !what.empty())
-      throw RuntimeError("--device vulkan cannot draw " + what + " yet; use --device cpu");
-    return MakeVulkanRenderer(std::move(tracer), options, {.gpu = choice.gpu});
+    if (!cannot.empty()) throw RuntimeError("--device vulkan cannot draw " + cannot + " yet; use --device cpu");
+    return MakeVulkanRenderer(std::move(tracer), options, gpu_options);
   }
   if (choice.device != "auto") {
     static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
     throw InputError("--device: " + UnknownChoiceMessage("device", choice.device, kDevices));
   }
-  std::string why = WhyNot(choice.gpu, options.tier, environment);
-  if (why.empty()) {
+  std::optional<std::string> why = WhyNot(choice.gpu);
+  if (!why && !cannot.empty()) why = "the GPU cannot draw " + cannot + " yet";
+  if (!why) {
     try {
-      auto gpu = MakeVulkanRenderer(tracer, options, {.gpu = choice.gpu});
+      auto gpu = MakeVulkanRenderer(tracer, options, gpu_options);
       LogInfo("device: " + gpu->gpu().name);
       return std::make_unique<AutoRenderer>(std::move(tracer), options, std::move(gpu));
     } catch (const RuntimeError& error) {
       why = error.what();
     }
   }
-  LogInfo("device: cpu (" + why + ")");
+  if (!why->empty()) LogInfo("device: cpu (" + *why + ")");
   return MakeCpuRenderer(std::move(tracer), options);
 }
 

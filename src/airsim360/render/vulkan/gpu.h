@@ -20,13 +20,21 @@ struct GpuInfo {
   std::string missing;   ///< what it lacks to render; empty = nothing
 };
 
+/// Whether this machine has a device file of a GPU (a DRM render node, NVIDIA's, WSL's): without one Vulkan can only find
+/// software, and need not be opened to learn that.
+bool MachineHasGpu();
+
 /// All Vulkan devices in the order of the loader. Where there is none, `why` (if given) says why.
 std::vector<GpuInfo> ListGpus(std::string* why = nullptr);
+
+/// What tests pretend to go wrong.
+enum class GpuFault { kNone, kNoVulkan, kOldDriver, kNoMemory, kNoFrameMemory, kLost };
 
 struct GpuOptions {
   int gpu = -1;           ///< index of GpuInfo; -1 = the best that can render, hardware before software
   bool validate = false;  ///< run under VK_LAYER_KHRONOS_validation with synchronisation checks (tests)
   int frames_in_flight = 3;
+  GpuFault fault = GpuFault::kNone;
 };
 
 /// Pictures of one camera in memory of the renderer that the CPU reads fast; empty spans were not asked for. Row-major as in
@@ -62,8 +70,8 @@ class GpuRenderer : public Renderer {
   virtual std::vector<std::string> messages() const = 0;
 };
 
-/// What the GPU renderer cannot draw yet (a tier, a weather, a product), in words; empty = it can.
-std::string GpuCannot(Tier tier, const Environment& environment, const Products& products = {});
+/// What the GPU renderer cannot draw yet (a tier, a product, RenderRequest::temporal), in words; empty = it can.
+std::string GpuCannot(Tier tier, const Products& products = {}, bool temporal = false);
 
 /// Opens a device and uploads the scene. RuntimeError saying why where that fails: no Vulkan, no such GPU, an old driver, no
 /// memory.

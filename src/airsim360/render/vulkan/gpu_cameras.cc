@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
 #include "airsim360/render/cpu/antialias.h"
+#include "airsim360/render/cpu/high_frame.h"
+#include "airsim360/render/reference/path_tracer.h"
 
 namespace airsim360::internal {
 namespace {
@@ -68,10 +72,20 @@ void PutProjection(const Camera& camera, GpuCamera& out) {
   }
 }
 
+void PutSeed(uint64_t seed, GpuCamera& out) {
+  const uint64_t mixed = MixBits(seed);
+  out.high_seed[0] = static_cast<uint32_t>(mixed), out.high_seed[1] = static_cast<uint32_t>(mixed >> 32);
+}
+
 }  // namespace
 
+int PathSamples(const RenderRequest& request) {
+  return request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
+}
+
 int EdgeSamples(const RenderRequest& request) {
-  if (request.tier != Tier::kFast || !request.products.rgb) return 1;
+  if (!request.products.rgb && !(request.tier == Tier::kHigh && request.products.radiance)) return 1;
+  if (request.tier != Tier::kFast && request.tier != Tier::kHigh) return 1;
   return std::clamp(request.aa_samples, 1, kMaxSamples);
 }
 
@@ -89,6 +103,7 @@ size_t GpuCameras::Size(const RenderRequest& request) {
   const Camera& camera = request.camera;
   if (std::holds_alternative<Equirectangular>(camera))
     size += sizeof(float) * 5 * static_cast<size_t>(Padded(Width(camera)) + Padded(Height(camera)));
+  if (request.tier == Tier::kHigh) size += 64 + 2 * sizeof(float) * static_cast<size_t>(Height(camera));
   return size;
 }
 
@@ -146,6 +161,24 @@ void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCam
   }
   if (const int samples = EdgeSamples(request); samples > 1) FillOffsets(samples, upload, out);
   if (request.products.flow) FillNext(request, out);
+  if (request.tier == Tier::kHigh) FillHigh(request, upload, out);
+  if (request.tier == Tier::kReference) {
+    PutSeed(request.seed, out);
+    out.paths = static_cast<uint32_t>(PathSamples(request));
+  }
+}
+
+void GpuCameras::FillHigh(const RenderRequest& request, UploadCursor& upload, GpuCamera& out) {
+  const RayField& field = rays_.field();
+  PutSeed(request.seed, out);
+  out.edge_seed = static_cast<uint32_t>(request.seed << 8);
+  out.denoise = request.denoise ? 1 : 0;
+  auto* const to = reinterpret_cast<float*>(upload.Take(2 * sizeof(float) * static_cast<size_t>(field.height), out.row_tables));
+  for (int y = 0; y < field.height; ++y) {
+    to[y] = AmbientRays(request, field, y / kTileSize * kTileSize);
+    to[field.height + y] =
+        field.separable ? static_cast<float>(1 / std::cos(std::numbers::pi * (0.5 - (y + 0.5) / field.height))) : 1.0f;
+  }
 }
 
 void GpuCameras::FillOffsets(int samples, UploadCursor& upload, GpuCamera& out) {

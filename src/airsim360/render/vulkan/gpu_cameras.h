@@ -21,6 +21,8 @@ struct UploadCursor {
 
 /// Colour samples of a pixel on an edge; 1 = no antialiasing.
 int EdgeSamples(const RenderRequest& request);
+/// Paths of a pixel in tier `reference`.
+int PathSamples(const RenderRequest& request);
 
 class GpuCameras {
  public:
@@ -37,6 +39,7 @@ class GpuCameras {
   VkDeviceAddress Table(const Camera& camera, const RayField& field);
   void FillOffsets(int samples, UploadCursor& upload, GpuCamera& out);
   void FillNext(const RenderRequest& request, GpuCamera& out);
+  void FillHigh(const RenderRequest& request, UploadCursor& upload, GpuCamera& out);
 
   GpuDevice& device_;
   CameraRays rays_, next_rays_;

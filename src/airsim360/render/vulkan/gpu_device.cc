@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
 
 #include "airsim360/base/error.h"
 
@@ -77,14 +78,16 @@ std::array<Need, 6> NeedsOf(const Features& f) {
            {"storageBuffer16BitAccess", f.v11.storageBuffer16BitAccess}}};
 }
 
+std::string TooOld(uint32_t version) {
+  return "the driver offers Vulkan " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+         std::to_string(VK_API_VERSION_MINOR(version)) + ", 1.2 is needed: update it";
+}
+
 // What a device lacks; empty = nothing.
 std::string Missing(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
-  if (properties.apiVersion < VK_API_VERSION_1_2) {
-    return "the driver offers Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
-           std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ", 1.2 is needed: update it";
-  }
+  if (properties.apiVersion < VK_API_VERSION_1_2) return TooOld(properties.apiVersion);
   uint32_t count = 0;
   vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
@@ -130,7 +133,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL KeepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
   return VK_FALSE;
 }
 
-VkInstance MakeInstance(bool validate) {
+VkInstance MakeInstance(bool validate, GpuFault fault = GpuFault::kNone) {
   const VkApplicationInfo application{
       VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "airsim360", 1, "airsim360", 1, VK_API_VERSION_1_2};
   constexpr VkValidationFeatureEnableEXT kSync = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -147,7 +150,8 @@ VkInstance MakeInstance(bool validate) {
     info.ppEnabledExtensionNames = &extension;
   }
   VkInstance instance;
-  const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+  const VkResult result =
+      fault == GpuFault::kNoVulkan ? VK_ERROR_INCOMPATIBLE_DRIVER : vkCreateInstance(&info, nullptr, &instance);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
     throw RuntimeError(std::string("no Vulkan driver found; ") + kHowToGetADriver);
   CheckVk(result, "opening Vulkan");
@@ -155,7 +159,7 @@ VkInstance MakeInstance(bool validate) {
 }
 
 // The device asked for, or the best.
-VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuInfo& info) {
+VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuFault fault, GpuInfo& info) {
   const std::vector<VkPhysicalDevice> devices = PhysicalDevices(instance);
   if (devices.empty()) throw RuntimeError(std::string("Vulkan knows no device; ") + kHowToGetADriver);
   std::string list, reasons;
@@ -163,6 +167,7 @@ VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuInfo& info) {
   std::vector<GpuInfo> all;
   for (size_t i = 0; i < devices.size(); ++i) {
     all.push_back(Describe(devices[i], static_cast<int>(i)));
+    if (fault == GpuFault::kOldDriver) all.back().missing = TooOld(VK_API_VERSION_1_1);
     const GpuInfo& d = all.back();
     list += (i ? ", " : "") + std::to_string(i) + " = " + d.name;
     reasons += (i ? "; " : "") + d.name + ": " + d.missing;
@@ -191,10 +196,10 @@ void CheckVk(VkResult result, const char* what) {
                      (name ? name : ("Vulkan error " + std::to_string(result)).c_str()));
 }
 
-GpuDevice::GpuDevice(const GpuOptions& options) {
+GpuDevice::GpuDevice(const GpuOptions& options) : fault_(options.fault) {
   try {
     OpenInstance(options.validate);
-    OpenDevice(Choose(instance_, options.gpu, info_));
+    OpenDevice(Choose(instance_, options.gpu, fault_, info_));
     LoadFunctions();
   } catch (...) {
     Close();
@@ -220,7 +225,7 @@ void GpuDevice::Close() {
 }
 
 void GpuDevice::OpenInstance(bool validate) {
-  instance_ = MakeInstance(validate);
+  instance_ = MakeInstance(validate, fault_);
   if (!validate) return;
   VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT, nullptr};
   info.messageSeverity =
@@ -310,6 +315,17 @@ void GpuDevice::Run(const std::function<void(VkCommandBuffer)>& record) {
 }
 
 }  // namespace internal
+
+bool MachineHasGpu() {
+  std::error_code none;
+  for (const char* file : {"/dev/nvidiactl", "/dev/dxg"}) {
+    if (std::filesystem::exists(file, none)) return true;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", none)) {
+    if (entry.path().filename().string().starts_with("renderD")) return true;
+  }
+  return false;
+}
 
 std::vector<GpuInfo> ListGpus(std::string* why) {
   std::vector<GpuInfo> list;

@@ -42,6 +42,7 @@ class GpuDevice {
   uint32_t queue_family() const { return queue_family_; }
   const RayTracingApi& rt() const { return rt_; }
   const GpuInfo& info() const { return info_; }
+  GpuFault fault() const { return fault_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
   const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& pipeline_limits() const { return pipeline_limits_; }
   const VkPhysicalDeviceAccelerationStructurePropertiesKHR& structure_limits() const {
@@ -68,6 +69,7 @@ class GpuDevice {
   float timestamp_period_ns_ = 0;
   RayTracingApi rt_{};
   GpuInfo info_;
+  GpuFault fault_ = GpuFault::kNone;
   VkPhysicalDeviceMemoryProperties memory_{};
   VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline_limits_{};
   VkPhysicalDeviceAccelerationStructurePropertiesKHR structure_limits_{};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/shading/bent_normals.h"
 
 namespace airsim360::internal {
 namespace {
@@ -134,6 +135,8 @@ void GpuInstant::WriteInstance(uint32_t index, const AffineTransform& X, bool hi
   out.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
   out.accelerationStructureReference = structure;
   record.positions = body != nullptr ? body->vertices.address() : scene_.positions(instance.mesh);
+  const bool bent_normals = body != nullptr && !body->weld.empty();
+  record.normals = bent_normals ? static_cast<uint32_t>(body->weld.size()) : 0;
   record.mesh = instance.mesh;
   record.entity = instance.entity;
   record.hidden = hidden ? 1 : 0;
@@ -143,7 +146,10 @@ GpuInstant::Body& GpuInstant::MakeBody(MeshId mesh) {
   Body& body = bodies_[mesh];
   if (body.structure != VK_NULL_HANDLE) return body;
   const Scene& scene = scene_.scene();
-  body.vertices = GpuBuffer(device_, scene.meshes[mesh].positions.size() * sizeof(Vec3f) + 16, MemoryKind::kUpload);
+  const Mesh& shape = scene.meshes[mesh];
+  if (!shape.normals.empty()) body.weld = WeldVertices(shape);
+  const size_t vectors = shape.positions.size() + body.weld.size();
+  body.vertices = GpuBuffer(device_, vectors * sizeof(Vec3f) + 16, MemoryKind::kUpload);
   MeshBuild build;
   scene_.Describe(mesh, body.vertices.address(), kBodyFlags, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR,
                   build);
@@ -176,6 +182,12 @@ void GpuInstant::Set(const std::shared_ptr<const SceneState>& state) {
     if (body.positions == deformed.positions) continue;
     body.positions = deformed.positions;
     std::memcpy(body.vertices.mapped(), deformed.positions->data(), deformed.positions->size() * sizeof(Vec3f));
+    if (!body.weld.empty()) {
+      auto* normals = reinterpret_cast<Vec3f*>(body.vertices.mapped()) + deformed.positions->size();
+      std::vector<Vec3f> bent(body.weld.size());
+      BendNormals(scene.meshes[deformed.mesh], *deformed.positions, body.weld, bent);
+      std::memcpy(normals, bent.data(), bent.size() * sizeof(Vec3f));
+    }
     body.changed = true;
   }
 

@@ -30,7 +30,8 @@ class GpuInstant {
  private:
   // A deformed mesh. Refitted, every 30th time built anew.
   struct Body {
-    GpuBuffer vertices, storage, scratch;
+    GpuBuffer vertices, storage, scratch;  // vertices: positions, then normals where the mesh has some
+    std::vector<uint32_t> weld;            // of vertices with normals
     VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
     VkDeviceAddress address = 0;
     std::shared_ptr<const std::vector<Vec3f>> positions;

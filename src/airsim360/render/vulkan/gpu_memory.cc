@@ -54,6 +54,8 @@ GpuBuffer::GpuBuffer(GpuDevice& device, size_t size, MemoryKind kind) : device_(
     const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
                                           VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (device.fault() == GpuFault::kNoMemory) CheckVk(result, "allocating memory");
+    if (device.fault() == GpuFault::kNoFrameMemory && kind == MemoryKind::kReadBack) CheckVk(result, "allocating memory");
     VkMemoryPropertyFlags got = 0;
     for (const VkMemoryPropertyFlags wish : WishesOf(kind)) {
       for (uint32_t i = 0; i < device.memory().memoryTypeCount && memory_ == VK_NULL_HANDLE; ++i) {

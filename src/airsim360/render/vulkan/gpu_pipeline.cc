@@ -24,6 +24,12 @@ constexpr Group kTable[kGroups] = {{kRaygen, kNone, kNone}, {kMissStage, kNone, 
 constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
                                           VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR;
 
+// As in common.glsl.
+struct Push {
+  VkDeviceAddress frame;
+  int32_t pass, pad;
+};
+
 // Shader modules that go with their scope.
 struct Modules {
   VkDevice device;
@@ -44,7 +50,7 @@ struct Modules {
 }  // namespace
 
 GpuPipeline::GpuPipeline(GpuDevice& device, std::span<const uint32_t> raygen) : device_(device) {
-  const VkPushConstantRange push{kAllStages, 0, sizeof(VkDeviceAddress)};
+  const VkPushConstantRange push{kAllStages, 0, sizeof(Push)};
   VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr};
   info.pushConstantRangeCount = 1;
   info.pPushConstantRanges = &push;
@@ -117,10 +123,11 @@ void GpuPipeline::MakeTable() {
   hit_ = {start + hit_at, stride, stride * kHitGroups};
 }
 
-void GpuPipeline::Trace(VkCommandBuffer commands, VkDeviceAddress frame, uint32_t width, uint32_t height,
+void GpuPipeline::Trace(VkCommandBuffer commands, VkDeviceAddress frame, int32_t pass, uint32_t width, uint32_t height,
                         uint32_t depth) const {
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline_);
-  vkCmdPushConstants(commands, layout_, kAllStages, 0, sizeof(frame), &frame);
+  const Push push{frame, pass, 0};
+  vkCmdPushConstants(commands, layout_, kAllStages, 0, sizeof(push), &push);
   const VkStridedDeviceAddressRegionKHR callable{};
   device_.rt().trace_rays(commands, &raygen_, &miss_, &hit_, &callable, width, height, depth);
 }

@@ -14,8 +14,9 @@ class GpuPipeline {
   GpuPipeline(const GpuPipeline&) = delete;
   GpuPipeline& operator=(const GpuPipeline&) = delete;
 
-  /// Records the tracing of width x height x depth invocations with the parameters at an address.
-  void Trace(VkCommandBuffer commands, VkDeviceAddress frame, uint32_t width, uint32_t height,
+  /// Records the tracing of width x height x depth invocations with the parameters at an address; `pass` is for shaders that
+  /// do several things.
+  void Trace(VkCommandBuffer commands, VkDeviceAddress frame, int32_t pass, uint32_t width, uint32_t height,
              uint32_t depth) const;
 
  private:

@@ -14,6 +14,8 @@ struct uvec2 {
 };
 #include "airsim360/render/vulkan/shaders/records.h"
 #include "airsim360/render/vulkan/shaders/shade_records.h"
+#include "airsim360/render/vulkan/shaders/high_records.h"
+#include "airsim360/render/vulkan/shaders/path_records.h"
 #undef ADDRESS
 
 inline constexpr uint32_t kGpuHasUvs = 1, kGpuSorted = 2, kGpuHasEntities = 4;

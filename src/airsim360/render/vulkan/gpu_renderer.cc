@@ -7,18 +7,17 @@
 #include "airsim360/render/filter/exposure.h"
 #include "airsim360/render/shading/shader.h"
 #include "airsim360/render/vulkan/gpu.h"
+#include "airsim360/render/vulkan/gpu_high.h"
+#include "airsim360/render/vulkan/gpu_path.h"
 #include "airsim360/render/vulkan/gpu_shade.h"
 #include "airsim360/render/vulkan/gpu_shaders.h"
 #include "airsim360/render/vulkan/gpu_slot.h"
 
 namespace airsim360 {
 
-std::string GpuCannot(Tier tier, const Environment& environment, const Products& products) {
+std::string GpuCannot(Tier tier, const Products& products, bool temporal) {
   const bool color = (products.rgb || products.radiance) && tier != Tier::kLabels;
-  if (color && tier != Tier::kFast) return std::string("tier '") + kTierNames[static_cast<int>(tier)] + "'";
-  if (color && (environment.wetness > 0 || environment.snow_depth > 0 || environment.rain_mm_h > 0 ||
-                environment.snowfall_mm_h > 0))
-    return "rain, snow and wet surfaces";
+  if (color && tier == Tier::kHigh && temporal) return "light kept from the last frame";
   if (products.coverage) return "product 'coverage'";
   return "";
 }
@@ -70,6 +69,7 @@ class VulkanRenderer : public GpuRenderer {
     for (int i = 0; i < options.frames_in_flight; ++i)
       slots_.push_back(std::make_unique<GpuSlot>(device_, scene_));
     if (what.tier != Tier::kLabels) PrepareColor();
+    if (what.tier == Tier::kHigh) PrepareHigh();
   }
 
   RenderStats Render(const RenderRequest& asked, Frame& frame) override {
@@ -98,12 +98,9 @@ class VulkanRenderer : public GpuRenderer {
         requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
     if (shaded) {
       PrepareColor();
-      const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return EdgeSamples(r) > 1; });
-      if (antialias && !edges_) edges_ = std::make_unique<GpuPipeline>(device_, EdgesRaygen());
-      (*free)->Submit(requests, cameras_,
-                      {color_.get(), edges_.get(), &labels_, shade_->address(requests.front().tone), shader_->Exposure()});
+      (*free)->Submit(requests, cameras_, ColorWork(requests));
     } else {
-      (*free)->Submit(requests, cameras_, {&labels_});
+      (*free)->Submit(requests, cameras_, {.passes = {{&labels_}}});
     }
     return (*free)->ticket = ++last_ticket_;
   }
@@ -142,12 +139,59 @@ class VulkanRenderer : public GpuRenderer {
   float Exposure(const RenderRequest& r) const {
     return shader_->Exposure() * static_cast<float>(std::exp2(r.exposure_ev));
   }
+  const GpuPipeline* Made(std::unique_ptr<GpuPipeline>& pipeline, std::span<const uint32_t> raygen) {
+    if (!pipeline) pipeline = std::make_unique<GpuPipeline>(device_, raygen);
+    return pipeline.get();
+  }
+  // The passes of a colour tier, in their order.
+  GpuSlot::Work ColorWork(std::span<const RenderRequest> requests) {
+    GpuSlot::Work work{.shade = shade_->address(requests.front().tone), .exposure = shader_->Exposure()};
+    const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return EdgeSamples(r) > 1; });
+    if (std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.flow; }))
+      work.passes.push_back({&labels_});
+    if (requests.front().tier == Tier::kHigh) {
+      PrepareHigh();
+      work.high = high_tables_->address();
+      AddHighPasses(std::ranges::any_of(requests, &RenderRequest::denoise), antialias, work);
+      return work;
+    }
+    const bool paths = requests.front().tier == Tier::kReference && std::ranges::any_of(requests, &WantsColor);
+    if (paths) {
+      // Labels come from the centre rays alone.
+      if (work.passes.empty()) work.passes.push_back({&labels_});
+      AddPathPasses(requests, work);
+    }
+    const bool albedo = std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.albedo; });
+    if (!paths || albedo) work.passes.insert(work.passes.begin(), {Made(color_, ColorRaygen())});
+    if (antialias) work.passes.push_back({Made(edges_, EdgesRaygen())});
+    return work;
+  }
+  void AddHighPasses(bool denoise, bool antialias, GpuSlot::Work& work) {
+    // Numbers as in filter.rgen.
+    constexpr int kLoad = 0, kLevel = 5, kLevels = 5;
+    const GpuPipeline* filter = Made(filter_, FilterRaygen());
+    work.passes.push_back({Made(high_, HighRaygen())});
+    work.passes.push_back({Made(high_light_, HighLightRaygen())});
+    for (int pass = kLoad; pass < kLevel + kLevels && (denoise || pass == kLoad); ++pass)
+      work.passes.push_back({filter, pass});
+    work.passes.push_back({Made(combine_, CombineRaygen())});
+    if (antialias) work.passes.push_back({Made(high_edges_, HighEdgesRaygen())});
+  }
+  void AddPathPasses(std::span<const RenderRequest> requests, GpuSlot::Work& work) {
+    if (!path_tables_) path_tables_ = std::make_unique<GpuPathTables>(device_, *shader_, *tracer_);
+    work.path = path_tables_->address();
+    int most = 0;
+    for (const RenderRequest& r : requests) most = std::max(most, PathSamples(r));
+    for (int pass = 0; pass * kGpuPathsOfAPass < most; ++pass)
+      work.passes.push_back({Made(path_, PathRaygen()), pass});
+  }
+  void PrepareHigh() {
+    if (!high_tables_) high_tables_ = std::make_unique<GpuHighTables>(device_, *shader_, *tracer_);
+  }
   // The CPU's shader bakes sky, probes and lamps; its tables go to the GPU.
   void PrepareColor() {
-    if (color_) return;
     if (!shader_) shader_ = std::make_unique<Shader>(tracer_, environment_);
     if (!shade_) shade_ = std::make_unique<GpuShadeTables>(device_, *shader_, tracer_->scene());
-    color_ = std::make_unique<GpuPipeline>(device_, ColorRaygen());
   }
   GpuSlot& SlotOf(uint64_t ticket) {
     for (const auto& slot : slots_) {
@@ -161,7 +205,7 @@ class VulkanRenderer : public GpuRenderer {
     const RenderRequest& first = requests.front();
     const Scene& scene = tracer_->scene();
     for (const RenderRequest& r : requests) {
-      if (const std::string what = GpuCannot(r.tier, environment_, r.products); !what.empty())
+      if (const std::string what = GpuCannot(r.tier, r.products, r.temporal); !what.empty())
         throw RuntimeError("device 'vulkan' cannot draw " + what + " yet; use --device cpu");
       if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)
         throw InputError("GPU: the cameras of a submission must share state, tier and tone curve");
@@ -181,7 +225,9 @@ class VulkanRenderer : public GpuRenderer {
   GpuPipeline labels_;
   std::unique_ptr<Shader> shader_;  // this and the next two: made when colour is first wanted
   std::unique_ptr<GpuShadeTables> shade_;
-  std::unique_ptr<GpuPipeline> color_, edges_;
+  std::unique_ptr<GpuHighTables> high_tables_;
+  std::unique_ptr<GpuPathTables> path_tables_;
+  std::unique_ptr<GpuPipeline> color_, edges_, high_, high_light_, filter_, combine_, high_edges_, path_;
   std::vector<std::unique_ptr<GpuSlot>> slots_;
   uint64_t last_ticket_ = 0;
   double gpu_ms_ = 0;

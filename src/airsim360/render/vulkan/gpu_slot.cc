@@ -5,6 +5,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/vulkan/gpu_high.h"
 
 namespace airsim360::internal {
 namespace {
@@ -78,18 +79,7 @@ void GpuSlot::Arrange(std::span<const RenderRequest> requests) {
     height_ = std::max(height_, static_cast<uint32_t>(place.height));
     places_.push_back(place);
   }
-  // What edges are found by, for the GPU alone.
-  size_t all_bytes = bytes_;
-  antialiases_ = false;
-  for (size_t i = 0; i < requests.size(); ++i) {
-    Place& place = places_[i];
-    place.entity = place.offset[kEntity], place.centers = kNowhere;
-    if (EdgeSamples(requests[i]) < 2) continue;
-    antialiases_ = true;
-    const size_t bytes = (4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height) + 63) / 64 * 64;
-    place.centers = all_bytes, all_bytes += bytes;
-    if (place.entity == kNowhere) place.entity = all_bytes, all_bytes += bytes;
-  }
+  const size_t all_bytes = ArrangePasses(requests);
   const uint64_t invocations = uint64_t{width_} * height_ * requests.size();
   if (invocations > device_.pipeline_limits().maxRayDispatchInvocationCount)
     throw RuntimeError("GPU: " + std::to_string(invocations) + " rays at once are more than " +
@@ -103,6 +93,34 @@ void GpuSlot::Arrange(std::span<const RenderRequest> requests) {
   const bool software = device_.info().software;
   if (read_back_.size() < (software ? all : size)) read_back_ = GpuBuffer(device_, software ? all : size, MemoryKind::kReadBack);
   if (!software && pictures_.size() < all) pictures_ = GpuBuffer(device_, all, MemoryKind::kDevice);
+}
+
+// Memory behind the pictures for the GPU alone; returns the size of all.
+size_t GpuSlot::ArrangePasses(std::span<const RenderRequest> requests) {
+  size_t size = bytes_;
+  const auto take = [&](size_t bytes) {
+    const size_t at = size;
+    size += (bytes + 63) / 64 * 64;
+    return at;
+  };
+  // All cameras of a submission go through the same passes.
+  const Tier tier = requests.front().tier;
+  const auto any = [&](auto&& wants) {
+    return std::ranges::any_of(requests, [&](const RenderRequest& r) { return wants(r.products); });
+  };
+  const bool color = any([](const Products& p) { return p.rgb || p.radiance; });
+  const bool high = tier == Tier::kHigh && (color || any([](const Products& p) { return p.albedo; }));
+  const bool paths = tier == Tier::kReference && color;
+  for (size_t i = 0; i < requests.size(); ++i) {
+    Place& place = places_[i];
+    const size_t words = 4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height);
+    place.entity = place.offset[kEntity], place.centers = kNowhere;
+    place.planes = high ? take(kGpuHighPlanes * words) : paths ? take(3 * words) : kNowhere;
+    if (high || paths || EdgeSamples(requests[i]) < 2) continue;
+    place.centers = take(words);
+    if (place.entity == kNowhere) place.entity = take(words);
+  }
+  return size;
 }
 
 void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work) {
@@ -128,9 +146,10 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
       camera.centers = base + places_[i].centers;
       camera.entity = base + places_[i].entity;
       camera.wanted |= kWantEntity;
-    } else {
+    } else if (places_[i].planes == kNowhere) {
       camera.samples = 0;
     }
+    if (places_[i].planes != kNowhere) camera.planes = base + places_[i].planes;
     camera.exposure = work.exposure * static_cast<float>(std::exp2(requests[i].exposure_ev));
     list[i] = camera;
   }
@@ -139,7 +158,7 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
   params->next_instances = flows_ ? next_->instances() : now_.instances();
   params->category_of = scene_.categories();
   params->alphas = scene_.alphas();
-  params->shade = work.shade;
+  params->shade = work.shade, params->high = work.high, params->path = work.path;
   const auto split = [](VkDeviceAddress a) { return uvec2{static_cast<uint32_t>(a), static_cast<uint32_t>(a >> 32)}; };
   params->tlas = split(now_.tlas());
   params->next_tlas = split(flows_ ? next_->tlas() : now_.tlas());
@@ -164,14 +183,9 @@ void GpuSlot::Record(const Work& work) {
                                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
     vkCmdPipelineBarrier(commands_, kTracing, kTracing, 0, 1, &memory, 0, nullptr, 0, nullptr);
   };
-  if (flows_ && work.flow != nullptr) {
-    work.flow->Trace(commands_, parameters_, width_, height_, cameras);
-    between();
-  }
-  work.pixels->Trace(commands_, parameters_, width_, height_, cameras);
-  if (antialiases_ && work.edges != nullptr) {
-    between();
-    work.edges->Trace(commands_, parameters_, width_, height_, cameras);
+  for (size_t k = 0; k < work.passes.size(); ++k) {
+    if (k > 0) between();
+    work.passes[k].pipeline->Trace(commands_, parameters_, work.passes[k].number, width_, height_, cameras);
   }
   if (clock_ != VK_NULL_HANDLE) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_, 1);
 
@@ -214,7 +228,7 @@ void GpuSlot::Wait() {
   if (waited_) return;
   const VkResult result = vkWaitForFences(device_.device(), 1, &fence_, VK_TRUE, kPatienceNs);
   if (result == VK_TIMEOUT) throw RuntimeError("GPU: no answer in five minutes");
-  CheckVk(result, "rendering");
+  CheckVk(device_.fault() == GpuFault::kLost ? VK_ERROR_DEVICE_LOST : result, "rendering");
   waited_ = true;
   read_back_.Invalidate();
   if (clock_ == VK_NULL_HANDLE) return;

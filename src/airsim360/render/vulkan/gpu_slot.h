@@ -22,10 +22,12 @@ class GpuSlot {
 
   /// What a submission runs.
   struct Work {
-    const GpuPipeline* pixels;             ///< once for each pixel
-    const GpuPipeline* edges = nullptr;    ///< then this, where a request wants antialiasing
-    const GpuPipeline* flow = nullptr;     ///< before them, where a request wants flow that `pixels` does not write
-    VkDeviceAddress shade = 0;             ///< GpuShade of colour tiers
+    struct Pass {
+      const GpuPipeline* pipeline;
+      int32_t number = 0;  ///< for shaders that do several things
+    };
+    std::vector<Pass> passes;            ///< one after another, each once for each pixel
+    VkDeviceAddress shade = 0, high = 0, path = 0;  ///< GpuShade of colour tiers, GpuHigh, GpuPath
     float exposure = 1;
   };
   /// Starts `work` on all requests. The slot must be free.
@@ -40,9 +42,10 @@ class GpuSlot {
   struct Place {
     size_t offset[10];  // of each product in the pictures; kNowhere = not wanted
     int width, height;
-    size_t entity, centers;  // where edges are to be found: behind all pictures
+    size_t entity, centers, planes;  // what passes leave for each other: behind all pictures
   };
   void Arrange(std::span<const RenderRequest> requests);
+  size_t ArrangePasses(std::span<const RenderRequest> requests);
   void FillParameters(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work);
   void Record(const Work& work);
 
@@ -54,7 +57,7 @@ class GpuSlot {
   VkQueryPool clock_ = VK_NULL_HANDLE;
   GpuInstant now_;
   std::unique_ptr<GpuInstant> next_;  // made when flow first needs it
-  bool flows_ = false, antialiases_ = false, waited_ = true;
+  bool flows_ = false, waited_ = true;
   GpuBuffer upload_, pictures_, read_back_;  // pictures_ is empty where the GPU writes to read_back_ itself
   std::vector<Place> places_;
   size_t bytes_ = 0;  // of all pictures

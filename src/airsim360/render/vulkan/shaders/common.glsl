@@ -12,6 +12,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Uints { uint
 layout(buffer_reference, scalar, buffer_reference_align = 2) buffer Shorts { uint16_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 1) buffer Bytes { uint8_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade;
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer High;
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PathTables;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Meshes;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Instances;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Alphas;
@@ -26,7 +28,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Cameras { Gp
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Flows { GpuFlow v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Frames { GpuFrameParams v; };
 
-layout(push_constant, scalar) uniform Push { Frames frame; } push;
+layout(push_constant, scalar) uniform Push { Frames frame; int pass; int pad; } push;
 
 const uint kMiss = 0xffffffffu;
 const uint kHasUvs = 1, kSorted = 2, kHasEntities = 4;

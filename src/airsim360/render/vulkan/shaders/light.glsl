@@ -2,24 +2,45 @@
 
 const float kBrightest = 400.0, kSunAlpha = 0.006, kCrownShade = 0.6;
 
-vec3 LightOf(Ray ray, Shaded s) {
+/// What a surface does with light, before it is known how much ambient light there is.
+struct Response {
+  vec3 skin, body, leaf, straight, sun;
+  float coat;
+};
+
+/// `sun`: whether its light is wanted.
+Response RespondTo(Ray ray, Shaded s, bool sun) {
   const vec3 d = ray.direction;
   const float transmission = s.kind == kFoliage || s.clear ? s.transmission : 0.0;
   const Bsdf bsdf = bsdf_make(s.kind, s.color, s.metallic, s.roughness, transmission, s.coat, s.coat_roughness);
   const BsdfSide seen = bsdf_side(bsdf, max(-dot(s.n, d), 0.02));
-  const vec3 through = bsdf_entering(seen), skin = bsdf_reflected(seen);
+  const vec3 through = bsdf_entering(seen);
+  Response o;
+  o.skin = bsdf_reflected(seen);
+  o.coat = seen.coat;
+  o.body = bsdf.body * through;
+  o.leaf = bsdf.through * through;
+  o.straight = bsdf_straight(bsdf, seen);
   float pdf = 0.0;
-  vec3 sun = vec3(0.0);
-  if (s.sunlit > 0.0) {
-    sun = bsdf_evaluate(bsdf_widen(bsdf, kSunAlpha), seen, bsdf_lobes(bsdf, seen), s.n, -d, s.l, pdf) *
-          Vec(view.sun_irradiance) * CloudShadow(s.p);
-    sun = min(sun, vec3(kBrightest));
+  o.sun = vec3(0.0);
+  if (sun) {
+    o.sun = bsdf_evaluate(bsdf_widen(bsdf, kSunAlpha), seen, bsdf_lobes(bsdf, seen), s.n, -d, s.l, pdf) *
+            Vec(view.sun_irradiance) * CloudShadow(s.p);
+    o.sun = min(o.sun, vec3(kBrightest));
   }
+  return o;
+}
 
+/// Emission, and the light of lamps.
+vec3 OwnAndLamps(Shaded s, Response o) {
+  return s.emission + (o.body * s.lamp_front + o.leaf * s.lamp_back) * SHADE_INV_PI + s.lamp_shine;
+}
+
+vec3 LightOf(Ray ray, Shaded s) {
+  const Response o = RespondTo(ray, s, s.sunlit > 0.0);
   const Ambient ambient = SampleProbes(s.p, s.g, s.n, s.r);
   const float crown = s.kind == kFoliage ? kCrownShade : 1.0;
-  const vec3 body = (bsdf.body * through * ambient.front * s.contact + bsdf.through * through * ambient.back) *
-                    (crown * SHADE_INV_PI);
+  const vec3 body = (o.body * ambient.front * s.contact + o.leaf * ambient.back) * (crown * SHADE_INV_PI);
   vec3 mirrored = ambient.reflected * SHADE_INV_PI;
   if (s.traced) {
     mirrored = s.reflected;
@@ -27,12 +48,35 @@ vec3 LightOf(Ray ray, Shaded s) {
     const float open = luminance(UniformFrom(s.r));
     mirrored = BlurredSky(s.r, s.roughness) * min(luminance(ambient.reflected) / max(open, 1e-4), 1.0);
   }
-  vec3 light = body + sun * s.sunlit + mirrored * skin + s.emission;
-  light += (bsdf.body * through * s.lamp_front + bsdf.through * through * s.lamp_back) * SHADE_INV_PI + s.lamp_shine;
-  if (s.clear) light += s.behind * bsdf_straight(bsdf, seen);
+  vec3 light = body + o.sun * s.sunlit + mirrored * o.skin + OwnAndLamps(s, o);
+  if (s.clear) light += s.behind * o.straight;
   if (view.has_sky != 0) {
-    const AirEffect air = AirToSurface(ray.origin.z, d, ray.distance_);
+    const AirEffect air = AirToSurface(ray.origin.z, ray.direction, ray.distance_);
     light = light * air.kept + air.added;
   }
   return light;
+}
+
+/// Radiance is ambient * (irradiance around) + sun * (share of the disc seen) + rest.
+struct Terms {
+  vec3 ambient, sun, rest;
+};
+
+/// `sun`: whether it can matter.
+Terms TermsOf(Ray ray, Shaded s, bool sun) {
+  const Response o = RespondTo(ray, s, sun);
+  // The traced ray is what the coat mirrors where there is one, else what the skin does.
+  const vec3 sharp = s.traced ? (s.coat > 0.05 ? vec3(o.coat) : o.skin) : vec3(0.0);
+  Terms t;
+  t.ambient = (o.body + o.skin - sharp) * SHADE_INV_PI;
+  t.sun = o.sun;
+  t.rest = OwnAndLamps(s, o);
+  if (s.traced) t.rest += s.reflected * sharp;
+  if (s.clear) t.rest += s.behind * o.straight;
+  if (view.has_sky != 0) {
+    const AirEffect air = AirToSurface(ray.origin.z, ray.direction, ray.distance_);
+    t.ambient *= air.kept, t.sun *= air.kept;
+    t.rest = t.rest * air.kept + air.added;
+  }
+  return t;
 }

@@ -20,7 +20,7 @@ struct GpuInstance {
   float A[9];                   // mesh frame to W, row-major
   float p[3];
   uint hidden;
-  uint pad;
+  uint normals;                 // bent meshes: where vertex normals begin in `positions`; 0 = there are none
 };
 
 // Holes of a material.
@@ -67,6 +67,13 @@ struct GpuCamera {
   float max_theta;
   float exposure;
   uint samples;                 // of a pixel on an edge; 0, 1 = no antialiasing
+  uint paths;                   // of a pixel; tier reference
+  // Tiers high and reference.
+  ADDRESS(Floats) planes;       // high.glsl; of tier reference sums of radiance
+  ADDRESS(Floats) row_tables;   // by row: ambient rays of a pixel; then its height over its width
+  uint high_seed[2];
+  uint edge_seed;
+  uint denoise;                 // 0 or 1
 };
 
 struct GpuFlow {
@@ -83,6 +90,8 @@ struct GpuFrameParams {
   ADDRESS(Alphas) alphas;       // material -> holes
   ADDRESS(Cameras) cameras;
   ADDRESS(Shade) shade;         // colour tiers; else 0
+  ADDRESS(High) high;           // tier `high`; else 0
+  ADDRESS(PathTables) path;     // tier `reference`; else 0
   uvec2 tlas, next_tlas;        // addresses
   uint sky_entity;
   uint flags;

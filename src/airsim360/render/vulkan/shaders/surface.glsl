@@ -190,6 +190,67 @@ float FoldPicture(float x, float half_) {
   return abs(x) > half_ ? (x > 0.0 ? 2.0 * half_ - x : -2.0 * half_ - x) : x;
 }
 
+/// What weather changes about a surface.
+struct Skin {
+  vec3 color;
+  float metallic, roughness, coat, coat_roughness, transmission, kind;
+  vec3 n, emission;
+};
+
+/// Film of water with puddles, then snow over it (LieWeather of surface_detail.h).
+void LieWeather(GpuMaterial m, Noises s, vec3 p, vec3 facing, float width, float u, inout Skin k) {
+  const vec3 above = vec3(0.0, 0.0, 1.0);
+  const float open =
+      view.open_sky > 0.0 ? clamp01(luminance(SampleProbes(p, facing, above, above).front) * (1.0 / view.open_sky)) : 0.0;
+  const bool leaf = k.kind == kFoliage, solid = k.kind != kGlass && k.kind != kWater;
+  const float up = leaf ? abs(facing.z) : facing.z;
+  const int ground = int(m.ground + 0.5);
+  const bool grass = ground == 4 || ground == 6;
+  const float lane = (abs(abs(u * m.tile) - 1.72) - 0.78) * (1.0 / 0.32);
+  const float track = ground == 2 ? exp_approx(-lane * lane) : 0.0;
+  if (view.wetness > 0.0) {
+    const float exposed = smooth01(clamp01((open - 0.12) * 5.0)) * (0.12 + 0.88 * clamp01(up * 2.0 + 0.2));
+    const float film = solid ? clamp01(view.wetness * exposed * (1.15 + 1.2 * (s.mid.y - 0.5))) : 0.0;
+    const float soak = film * porosity(k.roughness, k.metallic);
+    k.color = lerp3(k.color, vec3(wet_albedo(k.color.x), wet_albedo(k.color.y), wet_albedo(k.color.z)), soak);
+    // Puddles on level ground, the first of them in the wheel tracks.
+    const float level = grass || facing.z < 0.97 || leaf ? 0.0 : 1.0;
+    const float relief = 0.55 * s.mid.x + 0.30 * s.fine.y + 0.15 * s.wide.y - 0.035 * track;
+    const float puddle = puddle_cover(relief, view.wetness * exposed) * level;
+    float ring_x = 0.0, ring_y = 0.0;
+    if (view.drops > 0.0 && puddle > 0.0) {
+      drop_rings(p.x, p.y, view.drops, ring_x, ring_y);
+      const float near = clamp01(0.06 / max(width, 1e-3));
+      ring_x *= near, ring_y *= near;
+    }
+    // The film follows the relief less than the stone does; standing water not at all.
+    k.n = normalize3(lerp3(k.n, facing, max(puddle, leaf ? 0.0 : film * 0.55)));
+    k.n = normalize3(k.n + vec3(ring_x * puddle, ring_y * puddle, 0.0));
+    const float sheen = film * (leaf || grass ? 0.35 : 0.75) * (1.0 - 0.5 * k.metallic);
+    const float water = max(sheen, puddle);
+    if (water > k.coat) k.coat_roughness = lerp1(0.34 - 0.14 * film, 0.03, puddle);
+    k.coat = max(k.coat, water);
+  }
+  if (view.lying_snow > 0.0) {
+    const float exposed =
+        smooth01(clamp01((open - 0.15) * 3.4)) * (1.0 - 0.62 * track) * (m.ground > 0.5 && !grass ? 0.85 : 1.0);
+    const float relief = 0.45 * s.mid.z + 0.55 * s.fine.x;
+    const float cover =
+        solid || (k.kind == kGlass && up > 0.25) ? snow_cover(view.lying_snow, up, relief, exposed) : 0.0;
+    const vec3 white = vec3(0.83, 0.85, 0.88) * (0.97 + 0.25 * (s.fine.z - 0.5));
+    // Some slush stays dark at the edge.
+    k.color = lerp3(k.color, white, cover);
+    k.metallic *= 1.0 - cover;
+    k.roughness = lerp1(k.roughness, 0.75, cover);
+    k.coat *= 1.0 - cover;
+    k.transmission *= 1.0 - 0.8 * cover;
+    k.emission *= 1.0 - cover;
+    const vec3 soft = normalize3(facing + vec3(s.fine.x - 0.5, s.fine.y - 0.5, 0.0) * 0.30);
+    if (!leaf) k.n = normalize3(lerp3(k.n, soft, cover));
+    if (cover > 0.5 && !leaf) k.kind = 0.0;
+  }
+}
+
 Shaded Prepare(Ray ray) {
   const uint instance = ray.instance;
   GpuInstance placed = push.frame.v.instances.v[instance];
@@ -199,7 +260,7 @@ Shaded Prepare(Ray ray) {
   const GpuTriangle t = view.triangles.v[own.first_triangle + triangle];
   const GpuMaterial m = view.materials.v[t.material & ~kMirroredUv];
 
-  // Normals: cofactors of where the instance is now. Of bent meshes the triangle's own.
+  // Normals: cofactors of where the instance is now. Of bent meshes those of this instant.
   const vec3 r0 = vec3(placed.A[0], placed.A[1], placed.A[2]), r1 = vec3(placed.A[3], placed.A[4], placed.A[5]),
              r2 = vec3(placed.A[6], placed.A[7], placed.A[8]);
   vec3 c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
@@ -222,6 +283,12 @@ Shaded Prepare(Ray ray) {
     const vec3 a = Load3(placed.positions, c.x);
     g = Row3(matrix, cross(Load3(placed.positions, c.y) - a, Load3(placed.positions, c.z) - a));
     smooth_ = g;
+    if (placed.normals != 0) {
+      // Means of the faces around, behind the positions.
+      smooth_ = Row3(matrix, normalize3(Load3(placed.positions, placed.normals + c.x)) * w +
+                                 normalize3(Load3(placed.positions, placed.normals + c.y)) * u +
+                                 normalize3(Load3(placed.positions, placed.normals + c.z)) * v);
+    }
   }
   const float front = dot(g, d) > 0.0 ? -1.0 : 1.0;
   const vec3 facing = g * front;
@@ -264,7 +331,8 @@ Shaded Prepare(Ray ray) {
   emission *= sampled.texel[3];
   const bool wear = m.ground > 0.5;
   Noises noises;
-  if (m.macro_variation != 0.0 || wear) noises = LookUpNoises(wear, p, n, ray.width);
+  const bool weather = view.wetness > 0.0 || view.lying_snow > 0.0;
+  if (m.macro_variation != 0.0 || wear || weather) noises = LookUpNoises(wear || weather, p, n, ray.width);
   if (m.macro_variation != 0.0) color *= MacroTint(m, noises, ray.width);
   color *= UnitTint(m, tu, tv, footprint);
   if (wear) WearGround(m, noises, p, tu, ray.width, color, roughness);
@@ -313,21 +381,24 @@ Shaded Prepare(Ray ray) {
     n = Waves(p, ray.width / sqrt(slant), lost);
     roughness = min(sqrt(sqrt(2.0 * lost + 1e-5)), 0.5);
   }
+  Skin skin = Skin(color, metallic, roughness, m.clear_coat, m.clear_coat_roughness, m.transmission, m.kind, n, emission);
+  if (weather) LieWeather(m, noises, p, facing, ray.width, tu, skin);
+  n = skin.n;
   const float towards = dot(n, d);
   if (towards > -0.02) n = normalize3(n - d * (towards + 0.02));
 
-  s.p = p, s.n = n, s.g = facing, s.color = color;
-  s.emission = front > 0.0 ? emission : vec3(0.0);
-  s.metallic = metallic, s.roughness = roughness, s.transmission = m.transmission;
-  s.coat = m.clear_coat, s.coat_roughness = m.clear_coat_roughness, s.kind = m.kind;
+  s.p = p, s.n = n, s.g = facing, s.color = skin.color;
+  s.emission = front > 0.0 ? skin.emission : vec3(0.0);
+  s.metallic = skin.metallic, s.roughness = skin.roughness, s.transmission = skin.transmission;
+  s.coat = skin.coat, s.coat_roughness = skin.coat_roughness, s.kind = skin.kind;
   vec3 r = reflect3(d, n);
   const float below = dot(r, facing);
   if (below < 0.01) r = normalize3(r + facing * (0.02 - below));
   s.r = r;
-  s.mirror = m.kind == kGlass || m.kind == kWater || (roughness < 0.12 && metallic > 0.3) ||
-             (m.clear_coat > 0.25 && m.clear_coat_roughness < 0.12);
+  s.mirror = s.kind == kGlass || s.kind == kWater || (s.roughness < 0.12 && s.metallic > 0.3) ||
+             (s.coat > 0.25 && s.coat_roughness < 0.12);
   s.l = TowardsSun(ray.key);
-  const bool lit = (dot(n, s.l) > 0.0 && dot(facing, s.l) > 0.0) || m.kind == kFoliage;
+  const bool lit = (dot(n, s.l) > 0.0 && dot(facing, s.l) > 0.0) || s.kind == kFoliage;
   s.sunlit = lit && view.to_sun[2] > -0.02 && view.has_sky != 0 ? 1.0 : 0.0;
   s.contact = 1.0;
   s.traced = s.clear = false;

@@ -1,0 +1,100 @@
+// What rays that look for ambient light bring: render/shading/ambient_kernel.cc for one lane.
+#include "high_records.h"
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer High { GpuHigh v; };
+#define bounce push.frame.v.high.v
+
+/// 1 where the sun map says that the sun is seen, or knows nothing.
+float MapSun(vec3 p) {
+  if (bounce.sun_size == 0) return 0.0;
+  float at[3];
+  for (int k = 0; k < 3; ++k)
+    at[k] = p.x * bounce.sun_axes[4 * k] + p.y * bounce.sun_axes[4 * k + 1] + p.z * bounce.sun_axes[4 * k + 2] +
+            bounce.sun_axes[4 * k + 3];
+  const float last = float(bounce.sun_size - 1u);
+  if (!(at[0] > 0.0 && at[0] < last && at[1] > 0.0 && at[1] < last)) return 1.0;
+  return at[2] + bounce.sun_bias < bounce.sun_heights.v[uint(at[1]) * bounce.sun_size + uint(at[0])] ? 0.0 : 1.0;
+}
+
+/// Irradiance by one of the eight probes around, chosen by its weight; by all where that one is inside a solid.
+vec3 NearProbe(vec3 p, vec3 n) {
+  if (view.has_probes == 0) return UniformFrom(n);
+  const float cells = view.probe_cells_per_metre;
+  const vec3 q = p + n * (0.45 / cells);
+  const float x = min(view.probe_max[0] + 0.9999, max(0.0, (q.x - view.probe_origin[0]) * cells));
+  const float y = min(view.probe_max[1] + 0.9999, max(0.0, (q.y - view.probe_origin[1]) * cells));
+  const float h = min(view.height_last, max(0.0, (q.z - view.height_origin) * view.height_scale));
+  const float z = view.layer_of_height.v[int(floor(h + 0.5))];
+  const float x0 = min(floor(x), view.probe_max[0]), y0 = min(floor(y), view.probe_max[1]),
+              z0 = min(floor(z), view.probe_max[2]);
+  const uint lowest = uint(int(z0) * view.probe_stride_z + int(y0) * view.probe_stride_y + int(x0)) * 16;
+  const uvec3 millimetres = uvec3(ivec3(floor(p * 1024.0)));
+  uint hash = millimetres.x * 0x9e3779b1u ^ millimetres.y * 0x85ebca77u ^ millimetres.z * 0xc2b2ae3du;
+  hash = (hash ^ (hash >> 16)) * 0x7feb352du;
+  hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
+  hash = hash ^ (hash >> 16);
+  uint at = lowest;
+  if (float(hash & 0x3ffu) * (1.0 / 1024.0) < x - x0) at += 16u;
+  if (float((hash >> 10) & 0x3ffu) * (1.0 / 1024.0) < y - y0) at += uint(view.probe_stride_y) * 16u;
+  if (float((hash >> 20) & 0x3ffu) * (1.0 / 1024.0) < z - z0) at += uint(view.probe_stride_z) * 16u;
+  Floats t = view.probes;
+  if (t.v[at + 3] < 0.5) return SampleProbes(p, n, n, n).front;
+  const vec3 e = vec3(t.v[at], t.v[at + 1], t.v[at + 2]) + vec3(t.v[at + 4], t.v[at + 5], t.v[at + 6]) * n.x +
+                 vec3(t.v[at + 8], t.v[at + 9], t.v[at + 10]) * n.y +
+                 vec3(t.v[at + 12], t.v[at + 13], t.v[at + 14]) * n.z +
+                 vec3(t.v[at + 7], t.v[at + 11], t.v[at + 15]) * (n.z * n.z);
+  return max(e * (1.0 / t.v[at + 3]), vec3(0.0));
+}
+
+uint LampCellAt(vec3 q) {
+  const ivec3 n = ivec3(view.lamp_n[0], view.lamp_n[1], view.lamp_n[2]);
+  if (!(all(greaterThanEqual(q, vec3(0.0))) && all(lessThan(q, vec3(n))))) return 0;
+  const ivec3 i = ivec3(q);
+  return view.lamp_cell_of.v[(i.z * n.y + i.y) * n.x + i.x];
+}
+
+/// Irradiance by the lamps near a point, as the nearest cell has it on average (LampGrid::NearIrradiance).
+vec3 NearLamps(vec3 p, vec3 n) {
+  if (view.has_lamps == 0) return vec3(0.0);
+  const vec3 q = (p - Vec(view.lamp_origin)) * view.lamp_cells_per_metre;
+  uint cell = LampCellAt(q + 0.5 * n);
+  if (cell == 0) cell = LampCellAt(q);
+  const uint at = 6 * cell;
+  return Load3(bounce.lamp_sides, at + (n.x < 0.0 ? 1u : 0u)) * (n.x * n.x) +
+         Load3(bounce.lamp_sides, at + (n.y < 0.0 ? 3u : 2u)) * (n.y * n.y) +
+         Load3(bounce.lamp_sides, at + (n.z < 0.0 ? 5u : 4u)) * (n.z * n.z);
+}
+
+/// Whether a triangle is a lamp of the grid, whose light is accounted for already.
+bool IsGridLamp(uint instance, uint triangle) {
+  if (view.has_lamps == 0) return false;
+  const uint first = bounce.lamp_bits_of.v[instance];
+  if (first == 0) return false;
+  const uint bit = first + triangle;
+  return (bounce.lamp_bits.v[bit >> 5] >> (bit & 31u) & 1u) != 0;
+}
+
+/// Light along a ray that looks for ambient light and met `h` (t, instance, primitive).
+vec3 Gathered(Hit h, vec3 origin, vec3 d) {
+  if (h.instance == kMiss) return view.has_sky != 0 ? SampleSky(view.blurred[0], d, true) : Vec(view.mean_ambient);
+  const Surface met = Resolve(h, d);
+  const GpuShaded own = view.instances.v[h.instance];
+  const GpuTriangle t = view.triangles.v[own.first_triangle + met.triangle];
+  const uint id = t.material & ~kMirroredUv;
+  const GpuMaterial m = view.materials.v[id];
+  const vec3 emission = IsGridLamp(h.instance, met.triangle) ? vec3(0.0) : Vec(m.emission);
+  const vec3 glow = Vec(view.mean_ambient);
+  if (glow.x + glow.y + glow.z > 0.0) {
+    // Closed rooms that glow do so less where something is near.
+    const float t2 = h.t * h.t;
+    return glow * (0.35 + 0.65 * t2 / (t2 + 0.5)) + emission;
+  }
+  const vec3 p = origin + d * h.t, n = met.normal;
+  vec3 light = NearProbe(p, n) + NearLamps(p, -d);
+  if (bounce.sun_size != 0) {
+    const float cosine = dot(n, Vec(view.to_sun)), leaf = m.kind == kFoliage ? m.transmission : 0.0;
+    const float share = max(cosine, 0.0) + max(-cosine, 0.0) * leaf;
+    light += Vec(view.sun_irradiance) * (share * MapSun(p) * CloudShadow(p));
+  }
+  const vec3 albedo = min(Load3(view.mean_colors, id) * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(0.9));
+  return diffuse(albedo, light) + emission;
+}

@@ -1,0 +1,121 @@
+// Tier `high` is the CPU's: the same random choices, so that what is left is rounding, and choices that hang on it.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "airsim360/worlds/worlds.h"
+#include "color_compare.h"
+
+namespace airsim360 {
+namespace {
+
+using namespace test;
+
+double MeanOf(const Image<Rgb32f>& image) {
+  double sum = 0;
+  for (const Rgb32f& c : image.pixels()) sum += c.r + c.g + c.b;
+  return sum / static_cast<double>(image.size());
+}
+
+// The GPU's picture is far nearer to the CPU's than the CPU's own with other random choices.
+void ExpectTheCpus(Pair& pair, RenderRequest request, const std::string& what, double mean, double off) {
+  request.tier = Tier::kHigh;
+  Frame cpu, gpu, other;
+  pair.cpu->Render(request, cpu);
+  pair.gpu->Render(request, gpu);
+  request.seed = 7;
+  pair.cpu->Render(request, other);
+  const ColorDifference d = Difference(cpu, gpu), noise = Difference(cpu, other);
+  std::printf("%s: mean %.3f of 255, %.2f %% of pixels off by more than 3, %.2f %% away from edges; another seed: %.3f, %.2f %%\n",
+              what.c_str(), d.mean, 100 * d.off, 100 * d.off_inside, noise.mean, 100 * noise.off);
+  EXPECT_LE(d.mean, mean);
+  EXPECT_LE(d.off, off);
+  EXPECT_LE(d.mean, 0.15 * noise.mean);
+  EXPECT_NEAR(MeanOf(gpu.radiance), MeanOf(cpu.radiance), 2e-3 * MeanOf(cpu.radiance));
+  EXPECT_EQ(Compare(cpu, gpu, true).far, 0);
+}
+
+TEST(GpuHigh, OfARoomByDayIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
+  Pair pair(scene, ClearSky(40), Tier::kHigh);
+  RenderRequest request = ColorRequest(*scene, 128);
+  ExpectTheCpus(pair, request, "sunlit_room by day", 0.4, 0.02);
+  request.denoise = false;
+  ExpectTheCpus(pair, request, "sunlit_room by day, as sampled", 0.8, 0.08);
+  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
+}
+
+TEST(GpuHigh, OfARoomByNightIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
+  Pair pair(scene, ClearSky(-12), Tier::kHigh);
+  ExpectTheCpus(pair, ColorRequest(*scene, 128), "sunlit_room by night", 0.2, 0.01);
+  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
+}
+
+// Paths take the same random choices, so that most pixels agree; where rounding sends one another way it brings other light.
+void ExpectTheCpusPaths(const Environment& environment, const std::string& what) {
+  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
+  Pair pair(scene, environment, Tier::kReference);
+  RenderRequest request = ColorRequest(*scene, 64);
+  request.tier = Tier::kReference;
+  request.samples = 12;
+  Frame cpu, gpu, other;
+  pair.cpu->Render(request, cpu);
+  pair.gpu->Render(request, gpu);
+  request.seed = 7;
+  pair.cpu->Render(request, other);
+  const ColorDifference d = Difference(cpu, gpu), noise = Difference(cpu, other);
+  std::printf("%s: mean %.3f of 255, %.2f %% of pixels off by more than 3; another seed: %.3f, %.2f %%\n", what.c_str(), d.mean,
+              100 * d.off, noise.mean, 100 * noise.off);
+  EXPECT_LE(d.mean, 0.15 * noise.mean);
+  EXPECT_NEAR(MeanOf(gpu.radiance), MeanOf(cpu.radiance), 0.02 * MeanOf(cpu.radiance));
+  EXPECT_EQ(Compare(cpu, gpu, true).far, 0);
+  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
+}
+
+TEST(GpuReference, OfARoomByDayIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  ExpectTheCpusPaths(ClearSky(40), "paths by day");
+}
+
+TEST(GpuReference, OfARoomByNightIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  ExpectTheCpusPaths(ClearSky(-12), "paths by night");
+}
+
+TEST(GpuHigh, OfWorldsAskedForIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  std::istringstream worlds(std::getenv("AIRSIM360_GPU_WORLDS") ? std::getenv("AIRSIM360_GPU_WORLDS") : "");
+  std::string world;
+  if (!(worlds >> world)) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
+  do {
+    const auto scene = BuildWorld(world, {.seed = 1});
+    Pair pair(scene, {}, Tier::kHigh);
+    ExpectTheCpus(pair, ColorRequest(*scene, 128), world, 0.5, 0.03);
+  } while (worlds >> world);
+}
+
+TEST(GpuHigh, TurningByColumnsRollsThePicture) {
+  AIRSIM360_NEEDS_GPU();
+  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
+  Pair pair(scene, ClearSky(40), Tier::kHigh);
+  constexpr int kWidth = 32, kColumns = 5;
+  RenderRequest request = ColorRequest(*scene, kWidth);
+  request.tier = Tier::kHigh;
+  Frame straight, turned;
+  pair.gpu->Render(request, straight);
+  const double angle = 2 * 3.14159265358979323846 * kColumns / kWidth, c = std::cos(angle), s = std::sin(angle);
+  RigidTransform turn;
+  turn.R.m[0][0] = c, turn.R.m[0][2] = s, turn.R.m[2][0] = -s, turn.R.m[2][2] = c;
+  request.X_WC = request.X_WC * turn;
+  pair.gpu->Render(request, turned);
+  for (int y = 0; y < kWidth / 2; ++y) {
+    for (int x = 0; x < kWidth; ++x) ASSERT_EQ(turned.rgb(x, y), straight.rgb((x + kColumns) % kWidth, y)) << x << " " << y;
+  }
+}
+
+}  // namespace
+}  // namespace airsim360
