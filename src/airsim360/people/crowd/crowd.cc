@@ -185,10 +185,15 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(walker.at.p_W);
     hasher.Add(walker.v.x);
     hasher.Add(walker.v.y);
-    hasher.Add(static_cast<uint64_t>(agent.state) << 32 | static_cast<uint64_t>(agent.walk) << 16 | agent.corner);
+    hasher.Add(static_cast<uint64_t>(agent.state) << 32 | static_cast<uint64_t>(agent.walk) << 16 | agent.gate);
     hasher.Add(agent.state_until_ns);
-    hasher.Add(static_cast<uint64_t>(agent.corners.size()));
-    for (const Vec3d& corner : agent.corners) hasher.Add(corner);
+    hasher.Add(agent.pace);
+    hasher.Add(static_cast<uint64_t>(agent.gates.size()));
+    for (const internal::Gate& gate : agent.gates) {
+      hasher.Add(gate.p);
+      hasher.Add(gate.side.x);
+      hasher.Add(gate.side.y);
+    }
     hasher.Add(agent.near_drones);
     hasher.Add(static_cast<uint64_t>(agent.inbox.size()));
     for (const internal::Message& message : agent.inbox) hasher.Add(static_cast<uint64_t>(message.type) << 32 | message.from);
