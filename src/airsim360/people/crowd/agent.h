@@ -67,6 +67,8 @@ struct Agent {
   uint8_t state = kWalking;
   int64_t state_since_ns = 0, state_until_ns = 0;  ///< until 0 = open
   std::vector<int64_t> left_ns;                    ///< when each state was left last
+  uint8_t state_before = kWalking;
+  std::string cause = "start";                     ///< why the state was entered
   // Tree
   uint16_t tree = 0;
   TreeRun run;

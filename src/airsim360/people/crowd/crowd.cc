@@ -216,4 +216,9 @@ std::string_view PersonStateName(const CrowdModel& model, const CrowdState& stat
   return model.plan->states[state.internals->agents[person].state].name;
 }
 
+PersonTransition LastTransition(const CrowdModel& model, const CrowdState& state, PersonIndex person) {
+  const Agent& agent = state.internals->agents[person];
+  return {model.plan->states[agent.state_before].name, model.plan->states[agent.state].name, agent.cause, agent.state_since_ns};
+}
+
 }  // namespace airsim360

@@ -22,6 +22,7 @@ constexpr double kShareSlope = 0.6;    // how fast the work of avoiding goes ove
 constexpr double kNoShare = 0.05;      // of avoiding: not worth a thought
 constexpr double kArm = 2 * kBodyRadius + 0.036;       // metres: between the middles of people who touch or nearly do
 constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3; // seconds, m/s: who is stuck beside somebody nearer to a door
+constexpr double kSidestepAfter = 1;    // seconds that someone who stands is in the way
 constexpr double kAcceleration = 4;    // m/s^2
 constexpr double kLevel = 1.6;         // metres of height beyond which people are on different floors
 constexpr int64_t kChunk = 128;        // people a task
@@ -43,6 +44,15 @@ double ShareOf(Vec2d to_other, Vec2d forward, Vec2d other_forward, bool other_st
   const bool one_is_idle = (forward.x == 0 && forward.y == 0) || (other_forward.x == 0 && other_forward.y == 0);
   if (n < 1e-9 || one_is_idle) return 0.5;
   return std::clamp(0.5 + kShareSlope * (Dot2(to_other, forward) + Dot2(to_other, other_forward)) / n, 0.0, 1.0);
+}
+
+/// Around somebody who stands in the way: past the nearer side of them, or the other if a wall is there.
+Vec2d Sidestep(Vec2d forward, Vec2d to_other, std::span<const HalfPlane> walls) {
+  Vec2d side = Vec2d{-forward.y, forward.x} * kYieldSpeed;
+  if (Dot2(side, to_other) > 0) side = side * -1;
+  for (const HalfPlane& wall : walls)
+    if (Dot2(side - wall.point, wall.normal) < 0) return side * -1;
+  return side;
 }
 
 /// WeidmannSpeed by steps of 1/64 per square metre.
@@ -243,12 +253,14 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   size_t planes_used = hard;
   double right = 0;
   bool yields = false;
+  Vec2d in_the_way{};
   for (int i = 0; i < count; ++i) {
     const Seen& other = *near[static_cast<size_t>(i)].other;
     const Vec2d d = other.p - self.p;
     const double share = ShareOf(d, forward, other.forward, other.still);
     if (share < kNoShare) continue;
     yields |= share < 1 && YieldsTo(self, other, Dot2(d, d));
+    if (other.still && self.blocked > kSidestepAfter && Dot2(d, d) < kArm * kArm && Dot2(d, forward) > 0) in_the_way = d;
     planes[planes_used++] = AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, share);
     const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
     if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
@@ -260,6 +272,9 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   }
   if (yields) {
     wanted = forward * -kYieldSpeed;
+    cap = std::max(cap, kYieldSpeed);
+  } else if (in_the_way.x != 0 || in_the_way.y != 0) {
+    wanted = Sidestep(forward, in_the_way, {planes.data(), hard});
     cap = std::max(cap, kYieldSpeed);
   } else {
     wanted = wanted + Vec2d{wanted.y, -wanted.x} * right;

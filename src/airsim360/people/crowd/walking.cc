@@ -71,7 +71,7 @@ double PressedBy(const Agent& agent, int64_t t_ns) {
   return std::clamp(static_cast<double>(t_ns - agent.progress_ns - kSecond) / (2.0 * kSecond), 0.0, 1.0);
 }
 
-/// People who talk let someone pass who cannot get on because of them.
+/// People who talk or stand let someone pass who cannot get on because of them.
 bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
   bool found = false;
   tick.in.steering.Near(p, 1, [&](PersonIndex other, Vec2d q, double) {
@@ -230,7 +230,7 @@ void WantVelocities(CrowdTick& tick) {
       continue;
     }
     if (agent.at_place || (state.stop && agent.walk != Walk::kOnTheWay)) {
-      walker.still = true;
+      walker.still = agent.at_place || !SomebodyWantsThrough(tick, p);
       continue;
     }
     if (state.stop || agent.walk != Walk::kOnTheWay || agent.hold) continue;
