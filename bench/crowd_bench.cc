@@ -1,7 +1,9 @@
 // What a crowd costs, one core, and what it does.
 //   crowd_bench                         time of a step: all of it, and avoidance alone, over the number of people
 //   crowd_bench ring                    speed over density against Weidmann, 60 s a density
-//   crowd_bench soak N MINUTES          N people in a town of blocks: stuck, overlaps, memory, hash
+//   crowd_bench doors [PEOPLE]          RiMEA tests 9 and 12 in full: times, flow through doors and corridors by width
+//   crowd_bench soak N MINUTES [WORLD]  N people in a town of blocks: stuck, overlaps, memory, hash
+//   crowd_bench same N MINUTES          hash of all poses, with one thread and with all
 //   crowd_bench trace WORLD N SECONDS OUT.svg [FILE.yaml]   seen from above: ways, talks, seats
 #include <malloc.h>
 
@@ -16,9 +18,12 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/base/state_hash.h"
 #include "airsim360/people/crowd/agent.h"
 #include "airsim360/people/crowd/crowd.h"
+#include "airsim360/people/crowd/test_doors.h"
 #include "airsim360/people/crowd/test_ring.h"
+#include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/world_loader.h"
 
 namespace {
@@ -89,8 +94,54 @@ void Ring() {
   }
 }
 
-void Soak(size_t people, double minutes) {
-  const auto scene = Blocks(200, 40);
+void Doors(PersonIndex people) {
+  const double scale = std::sqrt(people / 1000.0);
+  double seconds[2];
+  for (const bool two : {false, true}) {
+    const auto start = Clock::now();
+    const internal::DoorRun run = internal::EmptyRoom(30 * scale, 20 * scale, people, two);
+    seconds[two] = run.seconds;
+    std::printf("test 9, %u people, %d exits: %.1f s, %.2f people a second and door, closest %.3f m, %zu left (%.1f s of work)\n", people, two ? 2 : 4,
+                run.seconds, run.flow, run.closest, run.left, Milliseconds(start) / 1000);
+  }
+  std::printf("test 9: %.2f times as long\n", seconds[1] / seconds[0]);
+  for (const double width : {0.9, 1.0, 1.2, 1.6, 2.0, 2.4}) {
+    const internal::DoorRun door = internal::EmptyRoom(15, 10, 250, true, width);
+    const internal::CorridorRun corridor = internal::RunCorridors(150, width);
+    std::printf("width %.1f m: door %.2f people a second (%.2f a metre), %zu left; corridor %.2f (%.2f), before it %.1f, before the next %.1f, %zu left\n", width,
+                door.flow, door.flow / width, door.left, corridor.flow, corridor.flow / width, corridor.first, corridor.second, corridor.left);
+  }
+}
+
+std::shared_ptr<const Scene> SceneOf(const char* world) {
+  return std::strcmp(world, "blocks") == 0 ? Blocks(200, 40) : LoadWorld({.world = world});
+}
+
+/// Why somebody stands: those around them.
+void Explain(const CrowdModel& model, const CrowdState& state, PersonIndex i) {
+  const internal::Agent& agent = state.internals->agents[i];
+  const internal::Walker& self = state.internals->walkers[i];
+  const auto line = [&](PersonIndex k) {
+    const internal::Walker& w = state.internals->walkers[k];
+    const internal::Agent& a = state.internals->agents[k];
+    const Vec3d d = w.at.p_W - self.at.p_W;
+    std::printf("    %4u at %+.2f %+.2f, wants %+.2f %+.2f, does %+.2f %+.2f%s, %s, walk %d, gate %u of %zu, group %u%s%s\n", k, d.x, d.y, w.wanted.x,
+                w.wanted.y, w.v.x, w.v.y, w.still ? ", still" : "", std::string(PersonStateName(model, state, k)).c_str(), static_cast<int>(a.walk), a.gate,
+                a.gates.size(), a.group, a.at_place ? ", at place" : "", a.hold ? ", red" : "");
+  };
+  std::printf("  stuck: %u at %.2f %.2f, t %.1f s\n", i, self.at.p_W.x, self.at.p_W.y, static_cast<double>(state.t_ns) * 1e-9);
+  if (agent.gate < agent.gates.size()) {
+    const internal::Gate& gate = agent.gates[agent.gate];
+    std::printf("    gate %.2f %.2f, side %.2f %.2f\n", gate.p.x, gate.p.y, gate.side.x, gate.side.y);
+  }
+  line(i);
+  for (PersonIndex k = 0; k < state.people.size(); ++k)
+    if (k != i && Norm(state.internals->walkers[k].at.p_W - self.at.p_W) < 1.2) line(k);
+}
+
+void Soak(size_t people, double minutes, const char* world) {
+  const auto scene = SceneOf(world);
+  const auto began = Clock::now();
   CrowdRequest request;
   request.count = people;
   const auto model = BuildCrowd(*scene, NavMesh::Build(*scene), request);
@@ -104,8 +155,7 @@ void Soak(size_t people, double minutes) {
     for (const CrowdEvent& event : events) {
       if (event.kind == CrowdEvent::Kind::kStuck) {
         ++stuck;
-        std::printf("stuck: %u at %.2f %.2f, t %.1f\n", event.person, state.people[event.person].p_WP.x,
-                    state.people[event.person].p_WP.y, static_cast<double>(event.t_ns) * 1e-9);
+        Explain(*model, state, event.person);
       }
       lost += event.kind == CrowdEvent::Kind::kMessageLost;
       if (event.kind == CrowdEvent::Kind::kTransition) ++transitions[event.to];
@@ -117,8 +167,36 @@ void Soak(size_t people, double minutes) {
     }
     if (tick % 12000 == 1200) std::printf("%5.0f min: heap %zu KiB, hash %016lx\n", static_cast<double>(tick) / 1200, mallinfo2().uordblks / 1024, HashCrowd(state));
   }
-  std::printf("stuck %zu, messages lost %zu, closest %.3f m, hash %016lx\n", stuck, lost, closest, HashCrowd(state));
+  std::printf("%zu people, %.0f min: stuck %zu, messages lost %zu, closest %.3f m, hash %016lx; %.0f s of work\n", people, minutes, stuck, lost, closest,
+              HashCrowd(state), Milliseconds(began) / 1000);
   for (const auto& [name, n] : transitions) std::printf("  -> %-20s %zu\n", name.c_str(), n);
+}
+
+/// Crowd and poses as a simulation has them.
+void Same(size_t people, double minutes) {
+  std::string hashes[2];
+  for (const int threads : {1, 0}) {
+    const ThreadLimit limit(threads);
+    const auto start = Clock::now();
+    const PopulatedScene populated = Populate(Blocks(120, 40), {.count = people, .level = 3, .seed = 1});
+    PeopleState state = *populated.people->start;
+    uint64_t hash = 0;
+    for (int64_t tick = 0; tick < static_cast<int64_t>(minutes * 60 * 20); ++tick) {
+      TickPeople(*populated.people, {}, state);
+      StateHasher hasher;
+      hasher.Add(hash);
+      hasher.Add(HashPeople(state));
+      const PeoplePoses poses = PosesAt(*populated.people, state, state.crowd.t_ns);
+      for (const SkeletonPose& pose : poses.poses)
+        for (const RigidTransform& X : pose.X_WJ) hasher.Add(X.p);
+      hash = hasher.hash();
+    }
+    char text[32];
+    std::snprintf(text, sizeof text, "%016lx", hash);
+    hashes[threads == 0] = text;
+    std::printf("%zu people, %.0f min, %d threads: hash of all poses %s (%.0f s of work)\n", people, minutes, ThreadCount(), text, Milliseconds(start) / 1000);
+  }
+  std::printf("%s\n", hashes[0] == hashes[1] ? "the same" : "NOT THE SAME");
 }
 
 const char* ColorOf(GroundKind kind) {
@@ -201,11 +279,17 @@ void Trace(const char* world, size_t people, double seconds, const char* out, co
 int main(int argc, char** argv) {
   const std::string mode = argc > 1 ? argv[1] : "";
   try {
+    if (mode == "same" && argc > 3) {
+      Same(std::strtoul(argv[2], nullptr, 10), std::strtod(argv[3], nullptr));
+      return 0;
+    }
     const airsim360::ThreadLimit one(1);
     if (mode == "ring") {
       Ring();
+    } else if (mode == "doors") {
+      Doors(argc > 2 ? static_cast<airsim360::PersonIndex>(std::strtoul(argv[2], nullptr, 10)) : 1000);
     } else if (mode == "soak" && argc > 3) {
-      Soak(std::strtoul(argv[2], nullptr, 10), std::strtod(argv[3], nullptr));
+      Soak(std::strtoul(argv[2], nullptr, 10), std::strtod(argv[3], nullptr), argc > 4 ? argv[4] : "blocks");
     } else if (mode == "trace" && argc > 5) {
       Trace(argv[2], std::strtoul(argv[3], nullptr, 10), std::strtod(argv[4], nullptr), argv[5], argc > 6 ? argv[6] : nullptr);
     } else {

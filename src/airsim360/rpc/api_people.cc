@@ -14,14 +14,14 @@ using Text = const std::string&;
 
 /// One person in an answer.
 struct PersonInfo {
-  std::string name, behaviour, locomotion;
+  std::string name, behaviour, locomotion, state, cause;
   uint32_t entity_id = 0, track_id = 0, group_id = 0;
   bool speaking = false, visible = false;
   airsim::Pose pose;
   airsim::Vector3r velocity;
   template <class V>
   void Visit(V& v) {
-    v("name", name), v("behaviour", behaviour), v("locomotion", locomotion), v("entity_id", entity_id);
+    v("name", name), v("behaviour", behaviour), v("locomotion", locomotion), v("state", state), v("cause", cause), v("entity_id", entity_id);
     v("track_id", track_id), v("group_id", group_id), v("speaking", speaking), v("visible", visible);
     v("pose", pose), v("velocity", velocity);
   }
@@ -70,6 +70,9 @@ void AddReading(Api& api) {
       info.name = people.cast[i].name;
       info.behaviour = BehaviourName(state.upper);
       info.locomotion = BehaviourName(state.lower);
+      const PersonTransition last = LastTransition(*people.crowd, now.state.people->crowd, static_cast<PersonIndex>(i));
+      info.state = last.to;
+      info.cause = last.cause;
       info.entity_id = people.refs[i].entity;
       info.track_id = static_cast<uint32_t>(i + 1);
       info.group_id = state.group;

@@ -8,6 +8,7 @@
 #include "airsim360/people/behaviour/plan.h"
 #include "airsim360/people/behaviour/tree_run.h"
 #include "airsim360/people/crowd/crowd.h"
+#include "airsim360/people/crowd/gates.h"
 #include "airsim360/people/crowd/steering.h"
 
 namespace airsim360 {
@@ -47,8 +48,8 @@ struct Agent {
   NavPoint goal;
   double goal_speed = 0;    ///< m/s; 0 = as they like
   double goal_reach = 0.5;  ///< metres
-  std::vector<Vec3d> corners;
-  uint32_t corner = 0;
+  std::vector<Gate> gates;  ///< one after the other, to the goal
+  uint32_t gate = 0;        ///< the next one
   Vec3d progress_p;         ///< place of the last progress
   int64_t progress_ns = 0;
   Vec3d stuck_p;            ///< the same, whatever the goals
@@ -57,6 +58,7 @@ struct Agent {
   NavPoint errand;          ///< of WanderTo, until it is reached
   bool has_errand = false;
   bool hold = false;        ///< red light ahead
+  double pace = 1;          ///< share of the speed on the plain that stairs and slopes leave
   int32_t place = -1;       ///< index into CrowdPlan::places that is theirs
   bool at_place = false;    ///< stands or sits there, perhaps beside the mesh
   Vec3d offset;             ///< of the feet from where they belong, dying out
@@ -65,6 +67,8 @@ struct Agent {
   uint8_t state = kWalking;
   int64_t state_since_ns = 0, state_until_ns = 0;  ///< until 0 = open
   std::vector<int64_t> left_ns;                    ///< when each state was left last
+  uint8_t state_before = kWalking;
+  std::string cause = "start";                     ///< why the state was entered
   // Tree
   uint16_t tree = 0;
   TreeRun run;

@@ -185,10 +185,15 @@ uint64_t HashCrowd(const CrowdState& state) {
     hasher.Add(walker.at.p_W);
     hasher.Add(walker.v.x);
     hasher.Add(walker.v.y);
-    hasher.Add(static_cast<uint64_t>(agent.state) << 32 | static_cast<uint64_t>(agent.walk) << 16 | agent.corner);
+    hasher.Add(static_cast<uint64_t>(agent.state) << 32 | static_cast<uint64_t>(agent.walk) << 16 | agent.gate);
     hasher.Add(agent.state_until_ns);
-    hasher.Add(static_cast<uint64_t>(agent.corners.size()));
-    for (const Vec3d& corner : agent.corners) hasher.Add(corner);
+    hasher.Add(agent.pace);
+    hasher.Add(static_cast<uint64_t>(agent.gates.size()));
+    for (const internal::Gate& gate : agent.gates) {
+      hasher.Add(gate.p);
+      hasher.Add(gate.side.x);
+      hasher.Add(gate.side.y);
+    }
     hasher.Add(agent.near_drones);
     hasher.Add(static_cast<uint64_t>(agent.inbox.size()));
     for (const internal::Message& message : agent.inbox) hasher.Add(static_cast<uint64_t>(message.type) << 32 | message.from);
@@ -209,6 +214,11 @@ PersonIndex PersonByName(const CrowdModel& model, std::string_view name) {
 
 std::string_view PersonStateName(const CrowdModel& model, const CrowdState& state, PersonIndex person) {
   return model.plan->states[state.internals->agents[person].state].name;
+}
+
+PersonTransition LastTransition(const CrowdModel& model, const CrowdState& state, PersonIndex person) {
+  const Agent& agent = state.internals->agents[person];
+  return {model.plan->states[agent.state_before].name, model.plan->states[agent.state].name, agent.cause, agent.state_since_ns};
 }
 
 }  // namespace airsim360

@@ -138,6 +138,13 @@ PersonIndex PersonByName(const CrowdModel& model, std::string_view name);
 /// Name of the state a person is in ("walking").
 std::string_view PersonStateName(const CrowdModel& model, const CrowdState& state, PersonIndex person);
 
+/// How a person came into the state they are in: the last of their transitions.
+struct PersonTransition {
+  std::string_view from, to, cause;  ///< "walking", "chatting", "tree: Chat with person 12"; cause "start": none yet
+  int64_t t_ns = 0;
+};
+PersonTransition LastTransition(const CrowdModel& model, const CrowdState& state, PersonIndex person);
+
 // Making a model.
 struct CrowdRequest {
   std::filesystem::path file = {};  ///< people.yaml; empty = the default crowd

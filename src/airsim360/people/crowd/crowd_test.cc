@@ -236,6 +236,19 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
   EXPECT_GT(Norm(crowd[0].p_WP - seat), 3);
 }
 
+TEST(Crowd, WhoStandsInANarrowWayIsPassedOrMakesWay) {
+  TestGround ground;
+  ground.Floor("ground/floor", 0, 0, 20, 1.4f);
+  TestCrowd crowd(ground.Build(), ReserveOf(2));
+  crowd.Do(0, SpawnPerson{{10, 0.7, 0}, 0});
+  crowd.Do(0, SetPersonState{"standing", 100});
+  crowd.Do(1, SpawnPerson{{2, 0.7, 0}, 0});
+  crowd.Do(1, SendPerson{{18, 0.7, 0}, 0});
+  const double t = crowd.Run(60, [&] { return crowd[1].p_WP.x > 17; });
+  EXPECT_LT(t, 30);
+  EXPECT_GE(crowd.Closest(), 0.4 - 1e-6);
+}
+
 TEST(Crowd, PeopleWaitAtTheKerbUntilTheirLightIsGreen) {
   TestGround ground;
   ground.Floor("ground/sidewalk", 0, 0, 30, 8);
@@ -282,7 +295,11 @@ TEST(Crowd, SinglePeopleAreSpawnedSentSetAndRemoved) {
   crowd.Do(0, SetPersonState{"waving", 4});
   crowd.Run(1);
   EXPECT_EQ(crowd[0].upper, Behaviour::kWave);
+  const PersonTransition last = LastTransition(*crowd.model, crowd.state, 0);
+  EXPECT_EQ(last.to, "waving");
+  EXPECT_EQ(last.cause, "command");
   crowd.Run(5);
+  EXPECT_EQ(LastTransition(*crowd.model, crowd.state, 0).cause, "time");
   EXPECT_NE(crowd[0].upper, Behaviour::kWave);
   crowd.Do(0, MovePerson{{30, 5, 0}, 0});
   EXPECT_EQ(crowd[0].p_WP.x, 30);

@@ -28,6 +28,8 @@ bool EnterState(CrowdTick& tick, PersonIndex i, uint8_t to, double min_s, double
     tick.events->push_back(std::move(event));
   }
   agent.left_ns[agent.state] = tick.t_ns;
+  agent.state_before = agent.state;
+  agent.cause = cause;
   agent.state = to;
   agent.state_since_ns = tick.t_ns;
   agent.state_until_ns = until;

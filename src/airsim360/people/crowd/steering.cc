@@ -18,17 +18,42 @@ constexpr double kSight = 3.0;         // metres; two cells
 constexpr double kDensityRadius = 1.5; // metres, as NavMesh::OpenShare
 constexpr int kMaxNeighbours = 9, kMaxClose = 12, kMaxWalls = 6;
 constexpr double kCloseRange = 2 * kBodyRadius + 0.35;
+constexpr double kShareSlope = 0.6;    // how fast the work of avoiding goes over to who has the other in front
+constexpr double kNoShare = 0.05;      // of avoiding: not worth a thought
+constexpr double kArm = 2 * kBodyRadius + 0.036;       // metres: between the middles of people who touch or nearly do
+constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3; // seconds, m/s: who is stuck beside somebody nearer to a door
+constexpr double kSidestepAfter = 1;    // seconds that someone who stands is in the way
 constexpr double kAcceleration = 4;    // m/s^2
 constexpr double kLevel = 1.6;         // metres of height beyond which people are on different floors
 constexpr int64_t kChunk = 128;        // people a task
 
 // People stand apart and away from walls, so a disc around one of them holds more people than one anywhere; both
 // numbers come from the ring of steering_test.cc.
-constexpr double kDensityFactor = 0.905;
+constexpr double kDensityFactor = 0.92;
 constexpr double kSelfShare = 0.55;
 
 double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 double Norm2(Vec2d a) { return std::sqrt(Dot2(a, a)); }
+
+/// How much of the avoiding is ours: who has the other more in front of them does more of it, and who is
+/// followed nothing, so that those in front of a door do not wait for those behind. The shares of two people
+/// make 1, as ORCA wants; two head on, or side by side, do half each.
+double ShareOf(Vec2d to_other, Vec2d forward, Vec2d other_forward, bool other_still) {
+  if (other_still) return 1;
+  const double n = Norm2(to_other);
+  const bool one_is_idle = (forward.x == 0 && forward.y == 0) || (other_forward.x == 0 && other_forward.y == 0);
+  if (n < 1e-9 || one_is_idle) return 0.5;
+  return std::clamp(0.5 + kShareSlope * (Dot2(to_other, forward) + Dot2(to_other, other_forward)) / n, 0.0, 1.0);
+}
+
+/// Around somebody who stands in the way: past the nearer side of them, or the other if a wall is there.
+Vec2d Sidestep(Vec2d forward, Vec2d to_other, std::span<const HalfPlane> walls) {
+  Vec2d side = Vec2d{-forward.y, forward.x} * kYieldSpeed;
+  if (Dot2(side, to_other) > 0) side = side * -1;
+  for (const HalfPlane& wall : walls)
+    if (Dot2(side - wall.point, wall.normal) < 0) return side * -1;
+  return side;
+}
 
 /// WeidmannSpeed by steps of 1/64 per square metre.
 struct SpeedTable {
@@ -62,6 +87,15 @@ Steering& Steering::operator=(const Steering&) { return *this; }
 
 void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<const SteeringObstacle> obstacles,
                     double dt) {
+  // Where everybody wants to go is known only now.
+  for (Seen& seen : seen_) {
+    const Walker& walker = walkers[seen.index];
+    const double speed = Norm2(walker.wanted);
+    seen.still = walker.still;
+    seen.rest = walker.rest;
+    seen.blocked = walker.blocked;
+    seen.forward = walker.still || speed < 1e-6 ? Vec2d{} : walker.wanted * (1 / speed);
+  }
   // Everybody chooses a velocity from where all stand now; then they move one after the other.
   plans_.resize(walkers.size());
   const auto n = static_cast<int64_t>(walkers.size());
@@ -76,8 +110,13 @@ void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<co
   } else if (chunks == 1) {
     chunk(0);
   }
-  for (uint32_t i = 0; i < walkers.size(); ++i)
-    if (walkers[i].present) Advance(mesh, walkers, i, dt);
+  for (uint32_t i = 0; i < walkers.size(); ++i) {
+    Walker& walker = walkers[i];
+    if (!walker.present) continue;
+    Advance(mesh, walkers, i, dt);
+    const bool stands = Dot2(walker.v, walker.v) < 0.05 * 0.05 && Dot2(walker.wanted, walker.wanted) > 0.01;
+    walker.blocked = stands ? std::min(walker.blocked + dt, 3.0) : std::max(0.0, walker.blocked - 2 * dt);
+  }
 }
 
 void Steering::Sort(std::span<const Walker> walkers) {
@@ -111,10 +150,18 @@ void Steering::Sort(std::span<const Walker> walkers) {
   for (uint32_t i = 0; i < walkers.size(); ++i) {
     const Walker& w = walkers[i];
     if (!w.present) continue;
-    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, w.at.p_W.z, i};
+    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, {}, w.at.p_W.z, 0, 0, i, false};
   }
   for (size_t k = first_.size() - 1; k > 0; --k) first_[k] = first_[k - 1];
   first_[0] = 0;
+}
+
+// People who press side by side into a door hold each other like the stones of an arch. All but the one nearest
+// to the door step back a little.
+bool Steering::YieldsTo(const Seen& self, const Seen& other, double d2) {
+  if (self.blocked <= kYieldAfter || other.blocked <= kYieldAfter / 2 || other.still || d2 > kArm * kArm) return false;
+  if (self.rest <= 0 || other.rest <= 0) return false;
+  return other.rest < self.rest || (other.rest == self.rest && other.index < self.index);
 }
 
 void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
@@ -134,7 +181,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   int count = 0;
   double around = 0, in_disc = 0;
   const double wanted_speed = Norm2(walker.wanted);
-  const Vec2d forward = wanted_speed > 1e-6 ? walker.wanted * (1 / wanted_speed) : Vec2d{};
+  const Vec2d forward = self.forward;
   const int column = static_cast<int>((self.p.x - min_.x) / cell_), row = static_cast<int>((self.p.y - min_.y) / cell_);
   const auto look = [&](int r, int c0, int c1) {
     if (r < 0 || r >= rows_) return;
@@ -146,10 +193,10 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
       const Vec2d d = other.p - self.p;
       const double d2 = Dot2(d, d);
       if (d2 > kSight * kSight || i == k || std::abs(other.z - self.z) > kLevel) continue;
-      // Who is ahead counts double, who is behind not at all: the first of a queue see the way free.
+      // Only who is ahead counts, the more the straighter, on average once: the first of a queue see the way free.
       if (d2 < kDensityRadius * kDensityRadius) {
         ++in_disc;
-        around += 1 + Dot2(d, forward) / std::sqrt(d2 + 1e-12);
+        around += std::max(0.0, kPi * Dot2(d, forward) / std::sqrt(d2 + 1e-12));
       }
       if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose)
         plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
@@ -176,10 +223,11 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   // Walkers slow down in a crowd, all by the same law.
   const double disc = kPi * kDensityRadius * kDensityRadius * mesh.OpenShare(self.p);
   const double density = kDensityFactor * (around + kSelfShare) / disc;
-  const double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
+  double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
   Vec2d wanted = wanted_speed > cap ? walker.wanted * (cap / wanted_speed) : walker.wanted;
   // In a throng they come closer and look less far ahead, else nobody would let anybody in at a door.
-  const double throng = std::clamp((kDensityFactor * (in_disc + kSelfShare) / disc - 0.8) / 1.2, 0.0, 1.0);
+  double throng = std::clamp((kDensityFactor * (in_disc + kSelfShare) / disc - 0.8) / 1.2, 0.0, 1.0);
+  throng = std::max(throng, walker.pressed);
   const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * throng;
   const double horizon = kHorizon - (kHorizon - kThrongHorizon) * throng;
 
@@ -204,11 +252,16 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
   // Then people; towards someone who comes straight at them, walkers keep to the right.
   size_t planes_used = hard;
   double right = 0;
+  bool yields = false;
+  Vec2d in_the_way{};
   for (int i = 0; i < count; ++i) {
     const Seen& other = *near[static_cast<size_t>(i)].other;
     const Vec2d d = other.p - self.p;
-    planes[planes_used++] =
-        AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, walkers[other.index].still ? 1 : 0.5);
+    const double share = ShareOf(d, forward, other.forward, other.still);
+    if (share < kNoShare) continue;
+    yields |= share < 1 && YieldsTo(self, other, Dot2(d, d));
+    if (other.still && self.blocked > kSidestepAfter && Dot2(d, d) < kArm * kArm && Dot2(d, forward) > 0) in_the_way = d;
+    planes[planes_used++] = AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, share);
     const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
     if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
   }
@@ -217,7 +270,15 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
     if (planes_used < planes.size() && Dot2(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
       planes[planes_used++] = AvoidDisc(d, self.v, obstacle.v, kSpaceRadius + obstacle.radius, kHorizon, dt, 1);
   }
-  wanted = wanted + Vec2d{wanted.y, -wanted.x} * right;
+  if (yields) {
+    wanted = forward * -kYieldSpeed;
+    cap = std::max(cap, kYieldSpeed);
+  } else if (in_the_way.x != 0 || in_the_way.y != 0) {
+    wanted = Sidestep(forward, in_the_way, {planes.data(), hard});
+    cap = std::max(cap, kYieldSpeed);
+  } else {
+    wanted = wanted + Vec2d{wanted.y, -wanted.x} * right;
+  }
   Vec2d v = SolveVelocity({planes.data(), planes_used}, hard, wanted, std::max(cap, 0.05));
 
   // Nobody starts or stops in no time.

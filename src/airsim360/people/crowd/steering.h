@@ -20,6 +20,9 @@ struct Walker {
   Vec2d v;              ///< m/s over the ground
   Vec2d wanted;         ///< velocity they would like
   double free_speed = 1.34;
+  double pressed = 0;   ///< 0 … 1: how much they want through, after standing for a while; they squeeze past others
+  double rest = 0;      ///< metres to where they turn next (a door): who is nearer goes first; 0 = unknown
+  double blocked = 0;   ///< seconds that they have stood though they want on
   bool present = true;  ///< in the world
   bool still = false;   ///< stands or sits and makes no way for others
 };
@@ -65,10 +68,13 @@ class Steering {
  private:
   struct Seen {
     Vec2d p, v;
-    double z;
+    Vec2d forward;  // unit vector to where they want to go; zero: nowhere
+    double z, rest, blocked;
     uint32_t index;
+    bool still;
   };
   struct Plan;
+  static bool YieldsTo(const Seen& self, const Seen& other, double d2);
   void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles,
               uint32_t self, double dt);
   void Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t self, double dt);

@@ -6,7 +6,6 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kCornerReach = 0.4;       // metres
 constexpr double kAheadOfRoad = 2.2;       // metres to a crossing where people stop at a red light: ways cut its corners
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
 constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
@@ -18,15 +17,15 @@ Vec2d Flat(Vec3d p) { return {p.x, p.y}; }
 /// The crossing that the way enters within kAheadOfRoad; -1 = none.
 int CrossingAhead(const NavMesh& mesh, const Agent& agent, Vec2d p) {
   double left = kAheadOfRoad;
-  for (size_t k = agent.corner; k < agent.corners.size() && left > 0; ++k) {
-    const Vec2d to = Flat(agent.corners[k]) - p;
+  for (size_t k = agent.gate; k < agent.gates.size() && left > 0; ++k) {
+    const Vec2d target = NearestInGate(agent.gates[k], p), to = target - p;
     const double distance = Length(to), most = std::min(distance, left);
     for (double s = 0.35; s < most + 0.35 && distance > 1e-6; s += 0.35) {
       const int crossing = mesh.CrossingAt(p + to * (std::min(s, most) / distance));
       if (crossing >= 0) return crossing;
     }
     left -= distance;
-    p = Flat(agent.corners[k]);
+    p = target;
   }
   return -1;
 }
@@ -41,10 +40,44 @@ bool ShortCut(const NavMesh& mesh, const NavPoint& at, Vec2d target) {
   return true;
 }
 
+/// What stairs and slopes leave of the speed on the plain, over the ground. Stairs: 0.610 m/s up and 0.694 m/s
+/// down of 1.34 (U. Weidmann, 1993). Slopes: exp(-3.5 |slope + 0.05|) (W. Tobler, 1993).
+double PaceOn(const NavMesh& mesh, const NavPoint& at, Vec2d ahead) {
+  const double n = Length(ahead), look = 0.6;
+  if (n < 1e-6) return 1;
+  // Over the next two paces, so that a kerb is no slope.
+  double z = mesh.GroundHeight(at.p_W.x, at.p_W.y, at.p_W.z), rise[2];
+  for (int k = 0; k < 2; ++k) {
+    const Vec2d p = Flat(at.p_W) + ahead * ((k + 1) * look / n);
+    const double next = mesh.GroundHeight(p.x, p.y, z);
+    rise[k] = (next - z) / look;
+    z = next;
+  }
+  const double slope = rise[0] * rise[1] <= 0 ? 0 : std::abs(rise[0]) < std::abs(rise[1]) ? rise[0] : rise[1];
+  if (std::abs(slope) < 0.04) return 1;
+  if (mesh.Kind(at) == GroundKind::kStairs) return slope > 0 ? 0.610 / 1.34 : 0.694 / 1.34;
+  return std::clamp(std::exp(-3.5 * (std::abs(slope + 0.05) - 0.05)), 0.3, 1.2);
+}
+
 /// Walkers have green for 15 s of each cycle, the two directions by turns.
 bool Green(const NavMesh::Crossing& crossing, int64_t t_ns) {
   const int64_t t = (t_ns + (crossing.phase ? kCycle / 2 : 0)) % kCycle;
   return t < 15 * kSecond;
+}
+
+/// 0 … 1: those who want somewhere and have stood for a second begin to squeeze, after three they push.
+double PressedBy(const Agent& agent, int64_t t_ns) {
+  if (agent.walk != Walk::kOnTheWay || agent.hold) return 0;
+  return std::clamp(static_cast<double>(t_ns - agent.progress_ns - kSecond) / (2.0 * kSecond), 0.0, 1.0);
+}
+
+/// People who talk or stand let someone pass who cannot get on because of them.
+bool SomebodyWantsThrough(const CrowdTick& tick, Vec2d p) {
+  bool found = false;
+  tick.in.steering.Near(p, 1, [&](PersonIndex other, Vec2d q, double) {
+    found |= Length(q - p) < 1 && PressedBy(tick.in.agents[other], tick.t_ns) >= 1;
+  });
+  return found;
 }
 
 }  // namespace
@@ -82,8 +115,8 @@ void SetGoal(CrowdTick& tick, PersonIndex i, const NavPoint& goal, double speed,
   agent.goal_reach = reach;
   agent.progress_ns = tick.t_ns;
   agent.progress_p = tick.in.walkers[i].at.p_W;
-  agent.corners.clear();
-  agent.corner = 0;
+  agent.gates.clear();
+  agent.gate = 0;
   if (agent.walk != Walk::kWaitsForPath) tick.in.path_queue.push_back(i);
   agent.walk = Walk::kWaitsForPath;
 }
@@ -92,7 +125,7 @@ void DropGoal(CrowdTick& tick, PersonIndex i) {
   Agent& agent = tick.in.agents[i];
   // An entry in the queue is passed over when its turn comes.
   agent.walk = Walk::kNone;
-  agent.corners.clear();
+  agent.gates.clear();
   agent.hold = false;
   std::erase(tick.in.path_queue, i);
 }
@@ -104,10 +137,10 @@ void FindWays(CrowdTick& tick) {
     Agent& agent = tick.in.agents[queue[k]];
     const Walker& walker = tick.in.walkers[queue[k]];
     if (agent.walk != Walk::kWaitsForPath || !walker.present) continue;
-    NavPath path = tick.model.navmesh->FindPath(walker.at, agent.goal);
-    agent.corners = std::move(path.corners);
-    agent.corner = agent.corners.size() > 1 ? 1 : 0;
-    agent.walk = agent.corners.empty() || !path.complete ? Walk::kFailed : Walk::kOnTheWay;
+    const NavPath path = tick.model.navmesh->FindPath(walker.at, agent.goal);
+    agent.gates = GatesOf(*tick.model.navmesh, path);
+    agent.gate = 0;
+    agent.walk = agent.gates.empty() || !path.complete ? Walk::kFailed : Walk::kOnTheWay;
   }
   queue.erase(queue.begin(), queue.begin() + static_cast<int64_t>(n));
 }
@@ -118,8 +151,9 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
   agent.hold = false;
   if (agent.walk != Walk::kOnTheWay) return;
   const NavMesh& mesh = *tick.model.navmesh;
-  const Vec2d p = Flat(walker.at.p_W), to = Flat(agent.corners[agent.corner]) - p;
+  const Vec2d p = Flat(walker.at.p_W), to = NearestInGate(agent.gates[agent.gate], p) - p;
   const double distance = Length(to);
+  agent.pace = PaceOn(mesh, walker.at, to);
 
   // At the kerb of a crossing whose light is red.
   if (!mesh.crossings().empty() && mesh.CrossingAt(p) < 0) {
@@ -130,9 +164,9 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
     }
   }
 
-  // The next corner but one is seen already; or the next one no more.
-  if (agent.corner + 1 < agent.corners.size() && distance < 4 && ShortCut(mesh, walker.at, Flat(agent.corners[agent.corner + 1])))
-    ++agent.corner;
+  // The next gate but one is seen already.
+  if (agent.gate + 1 < agent.gates.size() && distance < 4 && ShortCut(mesh, walker.at, NearestInGate(agent.gates[agent.gate + 1], p)))
+    ++agent.gate;
 
   // Progress: half a metre from the last place where there was some.
   if (Norm(walker.at.p_W - agent.progress_p) > 0.5 || agent.hold || tick.plan.states[agent.state].stop || agent.group) {
@@ -176,6 +210,8 @@ void WantVelocities(CrowdTick& tick) {
     Walker& walker = tick.in.walkers[i];
     walker.wanted = {};
     walker.still = false;
+    walker.rest = 0;
+    walker.pressed = PressedBy(agent, tick.t_ns);
     if (!walker.present) continue;
     const StateDef& state = tick.plan.states[agent.state];
     const Vec2d p = Flat(walker.at.p_W);
@@ -186,31 +222,30 @@ void WantVelocities(CrowdTick& tick) {
       if (!group) continue;
       const Vec2d to = SlotOf(*group, i) - p;
       const double d = Length(to);
-      walker.still = d < 0.12 || tick.t_ns - group->changed_ns > 6 * kSecond;
-      if (!walker.still) walker.wanted = to * (std::min(0.9, 2 * d) / d);
+      const bool stands = d < 0.12 || tick.t_ns - group->changed_ns > 6 * kSecond;
+      walker.still = stands && !SomebodyWantsThrough(tick, p);
+      if (!stands || (!walker.still && d > 0.12)) walker.wanted = to * (std::min(0.9, 2 * d) / d);
       agent.has_face = true;
       agent.face_yaw = std::atan2(group->centre.y - p.y, group->centre.x - p.x);
       continue;
     }
     if (agent.at_place || (state.stop && agent.walk != Walk::kOnTheWay)) {
-      walker.still = true;
+      walker.still = agent.at_place || !SomebodyWantsThrough(tick, p);
       continue;
     }
     if (state.stop || agent.walk != Walk::kOnTheWay || agent.hold) continue;
 
-    // Corner by corner; slower before the end.
-    Vec2d to = Flat(agent.corners[agent.corner]) - p;
-    double d = Length(to);
-    while (d < kCornerReach && agent.corner + 1 < agent.corners.size()) {
-      to = Flat(agent.corners[++agent.corner]) - p;
-      d = Length(to);
-    }
-    const bool last = agent.corner + 1 == agent.corners.size();
+    // Gate by gate; slower before the end.
+    while (agent.gate + 1 < agent.gates.size() && HasPassed(agent.gates[agent.gate], p)) ++agent.gate;
+    const Vec2d to = NearestInGate(agent.gates[agent.gate], p) - p;
+    const double d = Length(to);
+    const bool last = agent.gate + 1 == agent.gates.size();
+    walker.rest = d;
     if (last && d < agent.goal_reach) {
       agent.walk = Walk::kArrived;
       continue;
     }
-    double speed = (agent.goal_speed > 0 ? agent.goal_speed : walker.free_speed) * state.speed;
+    double speed = (agent.goal_speed > 0 ? agent.goal_speed : walker.free_speed) * state.speed * agent.pace;
     if (last) speed = std::min(speed, 0.4 + 1.2 * d);
     // Turning around comes before walking away.
     const double yaw = tick.in.to_yaw[i];

@@ -35,24 +35,41 @@ void GroundHeights::Finish(Vec2d min, Vec2d max) {
   grid_.Finish();
 }
 
-double GroundHeights::At(double x, double y, double z, double window) const {
-  double best = z, best_distance = window;
+template <class Look>
+void GroundHeights::Each(double x, double y, const Look& look) const {
   for (const uint32_t i : grid_.At({x, y})) {
     const Triangle& t = triangles_[i];
     const double ux = t.b.x - t.a.x, uy = t.b.y - t.a.y, vx = t.c.x - t.a.x, vy = t.c.y - t.a.y;
     const double px = x - t.a.x, py = y - t.a.y, area = ux * vy - uy * vx;
     const double b = (px * vy - py * vx) / area, c = (ux * py - uy * px) / area;
     if (b < -1e-6 || c < -1e-6 || b + c > 1 + 1e-6) continue;
+    look(t.a.z + b * (t.b.z - t.a.z) + c * (t.c.z - t.a.z));
+  }
+}
+
+double GroundHeights::At(double x, double y, double z, double window) const {
+  double best = z, best_distance = window;
+  Each(x, y, [&](double height) {
     // Of surfaces that lie on one another (stripes on a road) the upper one.
-    const double height = t.a.z + b * (t.b.z - t.a.z) + c * (t.c.z - t.a.z);
     const double distance = std::abs(height - z);
-    if (distance > window) continue;
+    if (distance > window) return;
     if (distance < best_distance - 0.03 || (distance < best_distance + 0.03 && height > best)) {
       best = height;
       best_distance = distance;
     }
-  }
+  });
   return best;
+}
+
+double GroundHeights::StepAt(double x, double y, double z, double up, double down) const {
+  double best = z - down;
+  bool found = false;
+  Each(x, y, [&](double height) {
+    if (height < best || height > z + up) return;
+    best = height;
+    found = true;
+  });
+  return found ? best : z;
 }
 
 void OpenShares::Build(const NavGraph& graph, double person_radius) {

@@ -46,6 +46,11 @@ class BucketGrid {
       for (int c = c0; c <= c1; ++c)
         for (uint32_t k = first_[Index(c, r)]; k < first_[Index(c, r) + 1]; ++k) visit(items_[k]);
   }
+  /// To and from an archive, when finished.
+  template <class Archive>
+  void Visit(Archive& archive) {
+    archive(min_, cell_, columns_, rows_, first_, items_);
+  }
   size_t memory_bytes() const { return (first_.size() + items_.size()) * sizeof(uint32_t); }
 
  private:

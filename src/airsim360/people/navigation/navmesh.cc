@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/base/archive.h"
+#include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/people/navigation/crossings.h"
@@ -21,13 +23,18 @@ struct NavMesh::Impl {
   internal::GroundHeights heights;
   internal::OpenShares shares;
   std::vector<Crossing> crossings;
+  internal::BucketGrid crossing_grid;
   Box3f bounds;
+
+  /// What follows from the rest.
+  void Finish();
 };
 
 namespace {
 
 // Worlds larger than that get a mesh around their spawn or middle, unless a region is given.
 constexpr double kLargest = 400;
+constexpr double kStepUp = 0.4, kStepDown = 0.6;  // metres: from where someone stands to where a foot may come
 
 internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
   Box3f box = options.region.value_or(scene.bounds);
@@ -58,14 +65,65 @@ internal::TileGrid GridOf(const Scene& scene, const NavMeshOptions& options) {
   return grid;
 }
 
+// Everything that the mesh depends on: the scene's key leaves out labels that were changed since.
+CacheKey KeyOf(const Scene& scene, const NavMeshOptions& options) {
+  CacheKey key("navmesh", 1);
+  key.AddProgram().Add(scene.cache_key);
+  for (const double value : {options.cell, options.person_radius, options.person_height, options.step_height,
+                             options.steepest_deg, options.tile})
+    key.Add(value);
+  const Box3f region = options.region.value_or(Box3f{});
+  key.Add(options.region.has_value());
+  for (int k = 0; k < 3; ++k) key.Add(region.min[k]).Add(region.max[k]);
+  std::string categories;
+  for (const Entity& entity : scene.entities) categories += scene.tree[entity.category].path + '\n';
+  return key.Add(categories);
+}
+
 }  // namespace
 
 NavMesh::NavMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 NavMesh::~NavMesh() = default;
 
 std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshOptions& options) {
-  auto impl = std::make_unique<Impl>();
+  return Build(scene, options, DiskCache::OfUser());
+}
+
+std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshOptions& options, const DiskCache& cache) {
   const internal::TileGrid grid = GridOf(scene, options);
+  const bool keeps = !scene.cache_key.empty() && !cache.folder().empty();
+  const CacheKey key = KeyOf(scene, options);
+  std::unique_ptr<Impl> impl;
+  if (keeps)
+    if (const std::optional<Bytes> bytes = cache.Load(key)) impl = FromArchive(scene, grid, options, *bytes);
+  if (!impl) {
+    Bytes archive;
+    impl = BuildAnew(scene, grid, options, keeps ? &archive : nullptr);
+    if (keeps) cache.Store(key, archive);
+  }
+  impl->Finish();
+  return std::shared_ptr<const NavMesh>(new NavMesh(std::move(impl)));
+}
+
+void NavMesh::Impl::Finish() {
+  for (const NavPolygon& polygon : graph.polygons)
+    for (int i = 0; i < polygon.corners; ++i)
+      bounds.Add(VecCast<float>(Vec3d{polygon.corner[i].x, polygon.corner[i].y, polygon.z[i]}));
+  crossing_grid = internal::BucketGrid(graph.min, graph.max, 6);
+  for (uint32_t i = 0; i < crossings.size(); ++i) {
+    Vec2d low = crossings[i].outline[0], high = low;
+    for (const Vec2d p : crossings[i].outline) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    crossing_grid.Add(i, low, high);
+  }
+  crossing_grid.Finish();
+}
+
+std::unique_ptr<NavMesh::Impl> NavMesh::BuildAnew(const Scene& scene, const internal::TileGrid& grid,
+                                                  const NavMeshOptions& options, Bytes* archive) {
+  auto impl = std::make_unique<Impl>();
   const double margin = (std::ceil(options.person_radius / options.cell) + 4) * options.cell;
   const internal::GroundSource source(scene, grid, margin);
   impl->crossings = internal::FindCrossings(scene);
@@ -79,6 +137,8 @@ std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshO
     source.Gather(static_cast<int>(tile), options.person_height + 0.3, below, obstacles);
     impl->recast->BuildTile(static_cast<int>(tile), {below, obstacles, impl->crossings});
   });
+  ArchiveWriter writer;
+  for (int tile = 0; archive && tile < grid.count(); ++tile) writer(impl->recast->TileBytes(tile));
   impl->graph = impl->recast->Join();
   if (impl->graph.polygons.empty())
     throw InputError("people need ground to walk on: the world '" + scene.name + "' has none");
@@ -90,10 +150,32 @@ std::shared_ptr<const NavMesh> NavMesh::Build(const Scene& scene, const NavMeshO
   }
   impl->heights.Finish(impl->graph.min, impl->graph.max);
   impl->shares.Build(impl->graph, options.person_radius);
-  for (const NavPolygon& polygon : impl->graph.polygons)
-    for (int i = 0; i < polygon.corners; ++i)
-      impl->bounds.Add(VecCast<float>(Vec3d{polygon.corner[i].x, polygon.corner[i].y, polygon.z[i]}));
-  return std::shared_ptr<const NavMesh>(new NavMesh(std::move(impl)));
+  if (!archive) return impl;
+  impl->heights.Visit(writer);
+  impl->shares.Visit(writer);
+  *archive = writer.Take();
+  return impl;
+}
+
+std::unique_ptr<NavMesh::Impl> NavMesh::FromArchive(const Scene& scene, const internal::TileGrid& grid,
+                                                    const NavMeshOptions& options, std::span<const std::byte> bytes) {
+  try {
+    auto impl = std::make_unique<Impl>();
+    ArchiveReader reader(bytes);
+    impl->crossings = internal::FindCrossings(scene);
+    impl->recast = std::make_unique<internal::RecastMesh>(grid, options);
+    for (int tile = 0; tile < grid.count(); ++tile) {
+      std::vector<std::byte> tile_bytes;
+      reader(tile_bytes);
+      impl->recast->SetTile(tile, tile_bytes);
+    }
+    impl->graph = impl->recast->Join();
+    impl->heights.Visit(reader);
+    impl->shares.Visit(reader);
+    if (reader.done() && !impl->graph.polygons.empty()) return impl;
+  } catch (const InputError&) {  // built anew
+  }
+  return nullptr;
 }
 
 NavPoint NavMesh::Nearest(Vec3d p_W, double reach) const {
@@ -104,6 +186,12 @@ NavPoint NavMesh::Nearest(Vec3d p_W, double reach) const {
 
 NavPoint NavMesh::Move(const NavPoint& start, Vec2d target) const {
   NavPoint end = impl_->graph.Walk(start.polygon, {start.p_W.x, start.p_W.y}, target, true, nullptr);
+  end.p_W.z = GroundHeight(end.p_W.x, end.p_W.y, start.p_W.z);
+  return end;
+}
+
+NavPoint NavMesh::Along(const NavPoint& start, Vec2d target) const {
+  NavPoint end = impl_->graph.Walk(start.polygon, {start.p_W.x, start.p_W.y}, target, false, nullptr);
   end.p_W.z = GroundHeight(end.p_W.x, end.p_W.y, start.p_W.z);
   return end;
 }
@@ -123,12 +211,12 @@ uint32_t NavMesh::Component(const NavPoint& point) const { return impl_->graph.p
 GroundKind NavMesh::Kind(const NavPoint& point) const { return impl_->graph.polygons[point.polygon].kind; }
 
 int NavMesh::CrossingAt(Vec2d p) const {
-  for (size_t i = 0; i < impl_->crossings.size(); ++i)
+  for (const uint32_t i : impl_->crossing_grid.At(p))
     if (InPolygon(impl_->crossings[i].outline, p)) return static_cast<int>(i);
   return -1;
 }
 
-double NavMesh::GroundHeight(double x, double y, double z) const { return impl_->heights.At(x, y, z, 0.6); }
+double NavMesh::GroundHeight(double x, double y, double z) const { return impl_->heights.StepAt(x, y, z, kStepUp, kStepDown); }
 double NavMesh::OpenShare(Vec2d p) const { return impl_->shares.At(p); }
 std::span<const uint32_t> NavMesh::WallsNear(Vec2d p) const { return impl_->graph.wall_grid.At(p); }
 

@@ -15,6 +15,11 @@
 
 namespace airsim360 {
 
+class DiskCache;
+namespace internal {
+struct TileGrid;
+}
+
 /// What the ground is for someone on foot. Ways avoid what costs more: see GroundCost.
 enum class GroundKind : uint8_t { kNone, kPavement, kPath, kFloor, kStairs, kCrossing, kGrass, kParking, kRoad, kCount };
 const char* GroundKindName(GroundKind kind);
@@ -24,8 +29,8 @@ double GroundCost(GroundKind kind);
 GroundKind GroundKindOf(const SemanticTree& tree, CategoryId category);
 
 struct NavMeshOptions {
-  double cell = 0.125;           ///< metres: raster of the ground
-  double person_radius = 0.25;   ///< the mesh keeps that far from everything solid
+  double cell = 0.1;             ///< metres: raster of the ground
+  double person_radius = 0.2;    ///< the mesh keeps that far from everything solid
   double person_height = 1.9;    ///< of free space that is needed
   double step_height = 0.28;     ///< highest step
   double steepest_deg = 38;      ///< slope
@@ -66,8 +71,10 @@ struct NavArea {
 
 class NavMesh {
  public:
-  /// InputError if no ground of the scene (within the region) can be walked on.
+  /// InputError if no ground of the scene (within the region) can be walked on. Scenes with a cache_key have
+  /// their meshes kept in the disk cache of the user, or in `cache`; the mesh is the same either way.
   static std::shared_ptr<const NavMesh> Build(const Scene& scene, const NavMeshOptions& options = {});
+  static std::shared_ptr<const NavMesh> Build(const Scene& scene, const NavMeshOptions& options, const DiskCache& cache);
   ~NavMesh();
 
   /// The place of the mesh nearest to p, at most `reach` metres away over the ground and 2 m up or down.
@@ -75,6 +82,8 @@ class NavMesh {
   /// From `start` in a straight line towards (x, y), sliding along walls; never leaves the mesh. `p_W.z` of the
   /// result is GroundHeight.
   NavPoint Move(const NavPoint& start, Vec2d target) const;
+  /// How far one gets from `start` in a straight line towards (x, y): there, or at the first wall.
+  NavPoint Along(const NavPoint& start, Vec2d target) const;
   /// Whether a straight line from `start` to (x, y) stays on the mesh.
   bool Straight(const NavPoint& start, Vec2d target) const;
   NavPath FindPath(const NavPoint& start, const NavPoint& goal) const;
@@ -84,7 +93,8 @@ class NavMesh {
   /// Crossing (index into crossings()) that a place is on; -1 = none.
   int CrossingAt(Vec2d p) const;
 
-  /// Height of the drawn ground at (x, y) nearest to z, at most 0.6 m away from it; z where there is none.
+  /// Height of the drawn ground at (x, y) for someone who stands at height z: the highest at most 0.4 m above and
+  /// 0.6 m below z; z where there is none.
   double GroundHeight(double x, double y, double z) const;
   /// Share of the disc of 1.5 m around (x, y) that is walkable ground, in [0.1, 1].
   double OpenShare(Vec2d p) const;
@@ -114,6 +124,10 @@ class NavMesh {
 
  private:
   struct Impl;
+  static std::unique_ptr<Impl> BuildAnew(const Scene& scene, const internal::TileGrid& grid, const NavMeshOptions& options,
+                                         std::vector<std::byte>* archive);
+  static std::unique_ptr<Impl> FromArchive(const Scene& scene, const internal::TileGrid& grid, const NavMeshOptions& options,
+                                           std::span<const std::byte> bytes);
   explicit NavMesh(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <unistd.h>
 
+#include <cmath>
+#include <filesystem>
+
+#include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/people/navigation/polygon2d.h"
@@ -147,6 +151,50 @@ TEST(NavMesh, IsTheSameWithOneThreadAndMany) {
   const std::vector<double> many = corners();
   const ThreadLimit one(1);
   EXPECT_EQ(many, corners());
+}
+
+TEST(NavMesh, ComesBackFromTheDiskAsItWasBuiltAndIsBuiltAnewWhereTheFileIsDamaged) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("navmesh_" + std::to_string(::getpid()));
+  const DiskCache cache(folder);
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 60, 40);
+  ground.Floor("ground/crosswalk", 20, 10, 24, 18, 0.01f);
+  ground.Box("furniture/box", {30, 10, 0}, {33, 20, 1});
+  const auto scene = WithCacheKey(ground.Build(), "a scene");
+  const auto everything = [&](const NavMesh& mesh) {
+    std::vector<double> numbers;
+    for (uint32_t i = 0; i < mesh.polygon_count(); ++i)
+      for (const Vec3d& p : mesh.PolygonOutline(i)) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    for (double x = 0.1; x < 60; x += 0.7)
+      for (double y = 0.1; y < 40; y += 0.7) numbers.insert(numbers.end(), {mesh.GroundHeight(x, y, 0.1), mesh.OpenShare({x, y})});
+    const NavPath path = mesh.FindPath(mesh.Nearest({5, 15, 0}), mesh.Nearest({55, 15, 0}));
+    numbers.push_back(path.length);
+    numbers.push_back(static_cast<double>(mesh.CrossingAt({22, 12})));
+    return numbers;
+  };
+  const auto files = [&] {
+    std::vector<std::filesystem::path> found;
+    if (std::filesystem::exists(folder))
+      for (const auto& file : std::filesystem::directory_iterator(folder)) found.push_back(file.path());
+    return found;
+  };
+  const std::vector<double> built = everything(*NavMesh::Build(*scene, {}, cache));
+  ASSERT_EQ(files().size(), 1u);
+  EXPECT_EQ(everything(*NavMesh::Build(*scene, {}, cache)), built);
+  ASSERT_EQ(files().size(), 1u);
+
+  // Cut off: built again.
+  std::filesystem::resize_file(files()[0], std::filesystem::file_size(files()[0]) / 2);
+  EXPECT_EQ(everything(*NavMesh::Build(*scene, {}, cache)), built);
+
+  // Another mesh has another file; a scene without a key has none.
+  NavMeshOptions wide;
+  wide.person_radius = 0.5;
+  EXPECT_NE(everything(*NavMesh::Build(*scene, wide, cache)), built);
+  EXPECT_EQ(files().size(), 2u);
+  NavMesh::Build(*WithCacheKey(scene, ""), {}, cache);
+  EXPECT_EQ(files().size(), 2u);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(NavMesh, WorldsWithoutGroundAreRefused) {

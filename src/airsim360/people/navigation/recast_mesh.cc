@@ -205,6 +205,22 @@ void RecastMesh::BuildTile(int tile, const TileInput& input) {
   if (!dtCreateNavMeshData(&params, &data.bytes, &data.size)) data = {};
 }
 
+std::vector<std::byte> RecastMesh::TileBytes(int tile) const {
+  const Impl::TileData& data = impl_->tiles[static_cast<size_t>(tile)];
+  const auto* first = reinterpret_cast<const std::byte*>(data.bytes);
+  return {first, first + data.size};
+}
+
+void RecastMesh::SetTile(int tile, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return;
+  if (bytes.size() < sizeof(dtMeshHeader)) throw InputError("a tile of the navigation mesh is cut off");
+  Impl::TileData& data = impl_->tiles[static_cast<size_t>(tile)];
+  data.size = static_cast<int>(bytes.size());
+  data.bytes = static_cast<unsigned char*>(dtAlloc(data.size, DT_ALLOC_PERM));
+  if (!data.bytes) throw std::bad_alloc();
+  std::memcpy(data.bytes, bytes.data(), bytes.size());
+}
+
 NavGraph RecastMesh::Join() {
   // Detour's 32-bit references hold 22 bits of tile and polygon.
   const TileGrid& grid = impl_->grid;

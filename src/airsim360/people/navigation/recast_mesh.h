@@ -1,6 +1,7 @@
 // Recast and Detour behind one door: tiles of polygons from triangles, and ways over them. W in and out.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,6 +22,9 @@ class RecastMesh {
   ~RecastMesh();
   /// Rasters one tile; may run for different tiles at once.
   void BuildTile(int tile, const TileInput& input);
+  /// A tile as bytes, and one made of such bytes; before Join. Empty: nothing to walk on.
+  std::vector<std::byte> TileBytes(int tile) const;
+  void SetTile(int tile, std::span<const std::byte> bytes);
   /// Joins the tiles and gives their polygons and openings. InputError for more polygons than Detour counts.
   NavGraph Join();
   /// Corners of the cheapest way between two places on polygons (by NavPolygon::reference). Many threads may
