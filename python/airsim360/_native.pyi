@@ -53,6 +53,28 @@ class Capture:
     render_ms: float
     rays: int
 
+class Lidar:
+    channels: int
+    columns: int
+    def __init__(self, channels: int = 16, columns: int = 625, low: float = ..., high: float = ..., start: float = ...,
+                 sweep: float = ..., pattern: Literal["spinning", "rosette"] = "spinning", field: float = ...,
+                 rate: float = 10.0, min_range: float = 0.3, max_range: float = 100.0, sigma: float = 0.02,
+                 dropout: float = 0.0, through_panes: bool = False, motion_distortion: bool = False,
+                 position: Vector = (0, 0, 0), yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> None: ...
+
+class LidarScan:
+    points: F32  # (N, 3) metres in S
+    range: F32  # (N,)
+    intensity: F32  # (N,)
+    time: F32  # (N,) seconds
+    semantic: npt.NDArray[np.uint16]  # (N,)
+    entity: npt.NDArray[np.uint32]  # (N,)
+    shot: npt.NDArray[np.uint32]  # (N,)
+    pose: F64  # (4, 4) X_WS
+    shots: int
+    t_ns: int
+    def __len__(self) -> int: ...
+
 class World:
     name: str
     entities: list[dict[str, Any]]
@@ -65,6 +87,7 @@ class World:
     def clearance(self, points: Points, most: float = 100.0) -> F32: ...
     def export(self, path: str) -> None: ...
     def capture(self, position: Vector, rig: Rig = ..., yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> Capture: ...
+    def scan(self, position: Vector, lidar: Lidar = ..., yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> LidarScan: ...
 
 class Drone:
     model: str
@@ -141,6 +164,7 @@ class Simulation:
     def run(self, seconds: float) -> None: ...
     def state(self, drone: DroneRef = 0) -> DroneState: ...
     def capture(self, rig: Rig = ..., drone: DroneRef = 0) -> Capture: ...
+    def scan(self, lidar: Union[Lidar, str] = ..., drone: DroneRef = 0) -> LidarScan: ...
     def snapshot(self) -> Snapshot: ...
     def restore(self, snapshot: Snapshot) -> None: ...
     def start_recording(self, note: str = "") -> None: ...

@@ -55,6 +55,7 @@ Image<Rgb8> ToRgb(const py::handle& value, const char* what);
 void BindWorld(py::module_& m);
 void BindDrone(py::module_& m);
 void BindCapture(py::module_& m);
+void BindLidar(py::module_& m);
 void BindState(py::module_& m);
 void BindSimulation(py::module_& m);
 void BindPlanning(py::module_& m);

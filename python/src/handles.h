@@ -27,6 +27,7 @@ class World {
   /// Both without the GIL.
   std::shared_ptr<const RayTracer> tracer();
   std::shared_ptr<Capture> Render(const PanoramicRig& rig, const Kinematics& body);
+  std::shared_ptr<LidarScan> Scan(const Lidar& lidar, const Kinematics& body);
 
  private:
   std::string name_;
@@ -44,6 +45,12 @@ py::list EntitiesOf(const Scene& scene);
 struct Rig {
   PanoramicRig rig;
   double flow_dt = 0.1;  ///< seconds that optical flow leads on by
+};
+
+/// A lidar and where it sits.
+struct Lidar {
+  LidarSpec spec;
+  RigidTransform X_BS;
 };
 
 /// Rig() of Python: a panorama of 1024 x 512.

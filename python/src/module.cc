@@ -45,6 +45,7 @@ PYBIND11_MODULE(_native, m) {
       .def("__exit__", [](Threads& t, const py::args&) { t.Exit(); });
   m.def("thread_count", &ThreadCount, "Number of threads that parallel loops use now.");
   BindCapture(m);
+  BindLidar(m);
   BindWorld(m);
   BindDrone(m);
   BindPlanning(m);
