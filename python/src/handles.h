@@ -17,6 +17,12 @@
 
 namespace airsim360::python {
 
+/// A lidar and where it sits.
+struct Lidar {
+  LidarSpec spec;
+  RigidTransform X_BS;
+};
+
 /// A world with its tracer and renderers, made when first asked for.
 class World {
  public:
@@ -45,12 +51,6 @@ py::list EntitiesOf(const Scene& scene);
 struct Rig {
   PanoramicRig rig;
   double flow_dt = 0.1;  ///< seconds that optical flow leads on by
-};
-
-/// A lidar and where it sits.
-struct Lidar {
-  LidarSpec spec;
-  RigidTransform X_BS;
 };
 
 /// Rig() of Python: a panorama of 1024 x 512.
