@@ -21,8 +21,9 @@ test: build
 bench: build
 	@tools/bench.sh $(BUILD)
 
-# dist/airsim360-*.whl, for Debian's python3; offline
+# dist/airsim360-*.whl, for Debian's python3, by scikit-build-core of bookworm-backports
 wheel: install-packages
+	@tools/install_backport.sh python3-scikit-build-core
 	@AIRSIM360_BUILD=$(BUILD) JOBS=$(JOBS) /usr/bin/python3 python/build_backend.py dist
 
 # the GPU renderer alone: builds, checks and times it in under ten minutes and names the device

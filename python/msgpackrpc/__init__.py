@@ -1,4 +1,4 @@
-"""A small msgpack-rpc client with the names of msgpack-rpc-python, on plain sockets.
+"""A small msgpack-rpc client and server with the names of msgpack-rpc-python, on plain sockets.
 
 The stock `airsim` package imports `msgpackrpc`, whose original needs tornado < 5 and msgpack < 1. This one needs only
 msgpack (Debian: python3-msgpack). One thread reads answers, in whatever order they come; calls may be made from any
@@ -9,13 +9,13 @@ import socket
 import struct
 import threading
 
-import msgpack
-
 from . import error
+from .server import Server
+from .wire import NOTIFY, REQUEST, RESPONSE, pack, unpacker
 
-__all__ = ["Address", "Client", "Future", "error"]
+__all__ = ["Address", "Client", "Future", "Server", "error"]
 
-_REQUEST, _RESPONSE, _NOTIFY = 0, 1, 2
+_CHUNK = 1 << 20  # bytes that are read at once
 
 
 class Address:
@@ -110,7 +110,7 @@ class Client:
         with self._lock:
             self._connect()
             number = next(self._ids) & 0xFFFFFFFF
-            message = msgpack.packb([_REQUEST, number, method, args], default=_to_msgpack)
+            message = pack([REQUEST, number, method, args])
             self._waiting[number] = future
             try:
                 self._socket.sendall(message)
@@ -123,7 +123,7 @@ class Client:
     def notify(self, method, *args):
         with self._lock:
             self._connect()
-            self._socket.sendall(msgpack.packb([_NOTIFY, method, args], default=_to_msgpack))
+            self._socket.sendall(pack([NOTIFY, method, args]))
 
     def close(self):
         with self._lock:
@@ -156,17 +156,16 @@ class Client:
             pass
 
     def _read(self, connected):
-        unpacker = msgpack.Unpacker(raw=False, strict_map_key=False, max_buffer_size=2**31 - 1,
-                                    max_bin_len=2**31 - 1, max_str_len=2**31 - 1, max_array_len=2**31 - 1)
+        messages, chunk = unpacker(), memoryview(bytearray(_CHUNK))
         failure = error.TransportError("Connection closed by the server")
         try:
             while True:
-                data = connected.recv(1 << 20)
-                if not data:
+                size = connected.recv_into(chunk)
+                if not size:
                     break
-                unpacker.feed(data)
-                for message in unpacker:
-                    if len(message) == 4 and message[0] == _RESPONSE:
+                messages.feed(chunk[:size])
+                for message in messages:
+                    if len(message) == 4 and message[0] == RESPONSE:
                         future = self._waiting.pop(message[1], None)
                         if future is not None:
                             future._set(message[3], message[2])
@@ -178,12 +177,3 @@ class Client:
         connected.close()
         for future in waiting.values():
             future._set(None, failure)
-
-
-def _to_msgpack(value):
-    """Structures of AirSim's clients know how to be sent; NumPy numbers and arrays as plain ones."""
-    if hasattr(value, "to_msgpack"):
-        return value.to_msgpack()
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    raise TypeError(f"cannot send {type(value).__name__}")

@@ -47,7 +47,8 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
   spec.tier = tier;
   spec.pano_frame = level ? "level" : "body";
   Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt")};
-  if (!(flow_dt > 0)) throw InputError("flow_dt: " + std::to_string(flow_dt) + " is not positive");
+  if (!(flow_dt > 0 && flow_dt <= 10))
+    throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
   CheckCamera(rig.rig.camera);
   rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"),
                           Finite(roll, "roll")) *
@@ -115,7 +116,7 @@ Pictures are views of this object's memory (no copies); those that the rig was n
       .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3),
                              "(H, W, 3) float32, linear light.")
       .def_property_readonly("flow", &Flow,
-                             "(H, W, 2) float32, pixels to where the point is flow_dt later; x wraps.")
+                             "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.")
       .def(
           "tensor",
           [](const py::object& self, const std::string& product) {

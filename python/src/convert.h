@@ -59,6 +59,7 @@ void BindWorld(py::module_& m);
 void BindDrone(py::module_& m);
 void BindTensor(py::module_& m);
 void BindCapture(py::module_& m);
+void BindLidar(py::module_& m);
 void BindState(py::module_& m);
 void BindSimulation(py::module_& m);
 void BindPlanning(py::module_& m);

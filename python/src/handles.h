@@ -17,6 +17,12 @@
 
 namespace airsim360::python {
 
+/// A lidar and where it sits.
+struct Lidar {
+  LidarSpec spec;
+  RigidTransform X_BS;
+};
+
 /// A world with its tracer and renderers, made when first asked for.
 class World {
  public:
@@ -27,6 +33,7 @@ class World {
   /// Both without the GIL.
   std::shared_ptr<const RayTracer> tracer();
   std::shared_ptr<Capture> Render(const PanoramicRig& rig, const Kinematics& body);
+  std::shared_ptr<LidarScan> Scan(const Lidar& lidar, const Kinematics& body);
 
  private:
   std::string name_;

@@ -46,6 +46,7 @@ PYBIND11_MODULE(_native, m) {
   m.def("thread_count", &ThreadCount, "Number of threads that parallel loops use now.");
   BindTensor(m);
   BindCapture(m);
+  BindLidar(m);
   BindWorld(m);
   BindDrone(m);
   BindPlanning(m);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/sim/capture.h"
 #include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/trajectory_reference.h"
 
@@ -133,19 +132,51 @@ void Simulation::Post(const py::object& drone, Command command, double timeout) 
   loop_->Post({i, FlightCommand{std::move(command), std::llround(timeout * 1e9)}});
 }
 
+// What vehicle `i` and everything else will have come to: the steps of `seconds`, taken beside the simulation.
+NextTrigger Simulation::After(const SimState& now, double seconds, size_t i) const {
+  SimState then = now;
+  const auto steps = std::llround(seconds * 1e9 / static_cast<double>(model_->dt_ns));
+  for (int64_t step = 0; step < steps; ++step) Step(*model_, {}, then);
+  return {then.vehicles[i].motion.X_WB, SceneStateOf(*model_, then, i)};
+}
+
 std::shared_ptr<Capture> Simulation::Take(const Rig& given, size_t i) {
   const std::shared_ptr<const SimState> state = loop_->Snapshot();
   PanoramicRig rig = given.rig;
   rig.state = SceneStateOf(*model_, *state, i);
   const Kinematics& body = state->vehicles[i].motion;
-  NextTrigger next{Extrapolate(body, given.flow_dt), nullptr};
-  if (rig.products.flow) next.state = SceneStateLater(*model_, *state, i, given.flow_dt);
+  NextTrigger next;
+  if (rig.products.flow) next = After(*state, given.flow_dt, i);
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
   std::unique_ptr<Renderer>& renderer = renderers_[rig.tier];
   if (!renderer) renderer = MakeCpuRenderer(base_, {.tier = rig.tier});
   CaptureRig(rig, body, state->t_ns, *renderer, *capture, rig.products.flow ? &next : nullptr);
   return capture;
+}
+
+SnapshotSensors& Simulation::SensorsLocked() {
+  if (!sensors_) sensors_ = std::make_unique<SnapshotSensors>(model_, base_);
+  return *sensors_;
+}
+
+std::shared_ptr<LidarScan> Simulation::Scan(const Lidar& lidar, size_t i) {
+  const std::shared_ptr<const SimState> state = loop_->Snapshot();
+  const SensorKey key = KeyOf(model_->world, static_cast<uint32_t>(i), "python lidar", 0);
+  auto scan = std::make_shared<LidarScan>();
+  const std::lock_guard lock(render_mutex_);
+  ScanLidar(lidar.spec, key, *SensorsLocked().TracerOf(*state, i), state->vehicles[i].motion, lidar.X_BS, state->t_ns,
+            *scan);
+  return scan;
+}
+
+std::shared_ptr<LidarScan> Simulation::Scan(const std::string& lidar, size_t i) {
+  const size_t number = FindSensor("lidar", lidar, model_->drones[i]->setup().sensors.lidars);
+  const std::shared_ptr<const SimState> state = loop_->Snapshot();
+  auto scan = std::make_shared<LidarScan>();
+  const std::lock_guard lock(render_mutex_);
+  SensorsLocked().Lidar(*state, i, number, *scan);
+  return scan;
 }
 
 py::list Simulation::Events() {

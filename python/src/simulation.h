@@ -1,6 +1,7 @@
 // The simulation that Python holds.
 #pragma once
 
+#include "airsim360/sim/capture.h"
 #include "handles.h"
 
 namespace airsim360::python {
@@ -20,6 +21,11 @@ class Simulation {
   void Post(const py::object& drone, Command command, double timeout);
   /// Without the GIL.
   std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
+  NextTrigger After(const SimState& now, double seconds, size_t i) const;
+  /// One turn of a lidar now, with bodies of others; without the GIL.
+  std::shared_ptr<LidarScan> Scan(const Lidar& lidar, size_t i);
+  /// The same of a lidar of the drone's sensor set, by name ("" = the first); InputError naming the nearest.
+  std::shared_ptr<LidarScan> Scan(const std::string& lidar, size_t i);
   py::list Events();
   /// Where everybody is.
   py::list People() const;
@@ -37,6 +43,8 @@ class Simulation {
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
   std::map<Tier, std::unique_ptr<Renderer>> renderers_;
+  std::unique_ptr<SnapshotSensors> sensors_;
+  SnapshotSensors& SensorsLocked();
 };
 
 /// The commands of Simulation (simulation_commands.cc).

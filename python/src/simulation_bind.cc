@@ -113,6 +113,23 @@ walk about. wind: (3,) m/s in W.)");
           py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("drone") = 0,
           "What the rig on a drone sees now; its own body is hidden. Changes nothing.")
       .def(
+          "scan",
+          [](Simulation& s, const Lidar& lidar, const py::object& drone) {
+            const size_t i = s.Find(drone);
+            const py::gil_scoped_release release;
+            return s.Scan(lidar, i);
+          },
+          py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("drone") = 0,
+          "LidarScan of one turn now, with other drones and people in it; its own body is hidden. Changes nothing.")
+      .def(
+          "scan",
+          [](Simulation& s, const std::string& lidar, const py::object& drone) {
+            const size_t i = s.Find(drone);
+            const py::gil_scoped_release release;
+            return s.Scan(lidar, i);
+          },
+          py::arg("lidar"), py::arg("drone") = 0, "The same by the lidar of that name in the drone's sensor file.")
+      .def(
           "snapshot",
           [](Simulation& s) {
             return Snapshot{s.model(), s.loop().Snapshot()};

@@ -32,7 +32,18 @@ std::shared_ptr<Capture> World::Render(const PanoramicRig& rig, const Kinematics
   return capture;
 }
 
+std::shared_ptr<LidarScan> World::Scan(const Lidar& lidar, const Kinematics& body) {
+  auto scan = std::make_shared<LidarScan>();
+  ScanLidar(lidar.spec, {}, *tracer(), body, lidar.X_BS, 0, *scan);
+  return scan;
+}
+
 namespace {
+
+// A body that stands still.
+Kinematics Standing(const py::object& position, double yaw, double pitch, double roll) {
+  return {BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"), Finite(roll, "roll")), {}, {}};
+}
 
 py::array_t<double> BoundsOf(const Box3f& box) {
   return FromPoints({VecCast<double>(box.min), VecCast<double>(box.max)});
@@ -164,10 +175,7 @@ ValueError names the nearest world where there is none of that name.)")
       .def(
           "capture",
           [](World& w, const py::object& position, const Rig& rig, double yaw, double pitch, double roll) {
-            const Kinematics body{BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"),
-                                           Finite(pitch, "pitch"), Finite(roll, "roll")),
-                                  {},
-                                  {}};
+            const Kinematics body = Standing(position, yaw, pitch, roll);
             const py::gil_scoped_release release;
             return w.Render(rig.rig, body);
           },
@@ -175,7 +183,16 @@ ValueError names the nearest world where there is none of that name.)")
           py::arg("pitch") = 0.0, py::arg("roll") = 0.0,
           "A capture by a body that stands still at `position` (3,) of W. Radians; yaw 0 faces east and "
           "grows "
-          "counter-clockwise, pitch is positive nose up, roll right side down.");
+          "counter-clockwise, pitch is positive nose up, roll right side down.")
+      .def(
+          "scan",
+          [](World& w, const py::object& position, const Lidar& lidar, double yaw, double pitch, double roll) {
+            const Kinematics body = Standing(position, yaw, pitch, roll);
+            const py::gil_scoped_release release;
+            return w.Scan(lidar, body);
+          },
+          py::arg("position"), py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
+          py::arg("roll") = 0.0, "LidarScan of one turn by a body that stands still, as capture.");
 }
 
 }  // namespace airsim360::python

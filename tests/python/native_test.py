@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 import airsim360
-from airsim360 import Drone, Rig, Simulation, World
+from airsim360 import Drone, Lidar, Rig, Simulation, World
 
 ROOM = World("box_room")
 SMALL = Rig(width=256)
@@ -143,6 +143,18 @@ class Captures(unittest.TestCase):
         self.assertGreater(np.median(length[people]), 1.0)
         self.assertLess(np.median(length[~np.isin(c.entity, [p["entity"] for p in sim.people])]), 0.5)
 
+    def test_flow_knows_where_others_will_be(self):
+        sim = Simulation(ROOM, [airborne([0, 0, 2], name="a"), airborne([2, -2, 2], name="b")])
+        sim.fly_velocity([0, 1, 0], drone="b")
+        sim.run(1.5)
+        c = sim.capture(Rig(width=512, tier="labels", products=["entity", "flow"], flow_dt=0.1), "a")
+        other = c.flow[c.entity > 7]
+        # East of the camera and flying north: to the left, by the angle of 0.1 m seen from where it is.
+        x, y = sim.state("b").position[:2] - sim.state("a").position[:2]
+        expected = -(math.atan2(y + 0.1, x) - math.atan2(y, x)) * 512 / (2 * math.pi)
+        self.assertAlmostEqual(np.median(other[:, 0]), expected, delta=0.25 * abs(expected))
+        self.assertLess(np.abs(c.flow[c.entity <= 7]).max(), 0.5, "the room stays")
+
     def test_without_a_rig_it_is_the_default_one(self):
         self.assertEqual(ROOM.capture([0, 0, 3]).rgb.shape, (512, 1024, 3))
         self.assertEqual((Rig().width, Rig().height), (1024, 512))
@@ -152,6 +164,57 @@ class Captures(unittest.TestCase):
                         {"position": [0, 0]}, {"yaw": math.nan}, {"flow_dt": 0}):
             with self.subTest(options), self.assertRaises(ValueError):
                 Rig(**options)
+
+
+class Lidars(unittest.TestCase):
+    EXACT = Lidar(channels=8, columns=90, low=-1.2, high=0.4, sigma=0.0)
+
+    def test_points_are_where_rays_meet_the_room(self):
+        scan = ROOM.scan([1, -1, 2.5], self.EXACT, yaw=0.3, roll=0.1)
+        self.assertEqual((len(scan), scan.shots), (720, 720))
+        self.assertEqual((scan.points.shape, scan.points.dtype), ((720, 3), np.float32))
+        np.testing.assert_allclose(np.linalg.norm(scan.points, axis=1), scan.range, rtol=1e-5)
+        points_W = scan.points @ scan.pose[:3, :3].T + scan.pose[:3, 3]
+        distance, entity = ROOM.raycast(np.tile(scan.pose[:3, 3], (720, 1)), points_W - scan.pose[:3, 3])
+        np.testing.assert_allclose(distance, scan.range, atol=1e-4)
+        np.testing.assert_array_equal(entity, scan.entity)
+        kinds = {e["id"]: e["category"] for e in ROOM.entities}
+        self.assertEqual([kinds[e] for e in scan.entity], list(scan.semantic))
+        self.assertTrue((scan.time <= 0).all() and (0 < scan.intensity).all() and (np.diff(scan.shot.astype(int)) > 0).all())
+
+    def test_noise_has_its_sigma_and_the_scan_outlives_its_owner(self):
+        exact = ROOM.scan([0, 0, 3], Lidar(channels=4, columns=500, sigma=0.0)).range
+        noisy = ROOM.scan([0, 0, 3], Lidar(channels=4, columns=500, sigma=0.05)).range
+        gc.collect()
+        self.assertAlmostEqual(float(np.std(noisy - exact)), 0.05, delta=0.01)
+
+    def test_others_are_met_and_the_own_body_is_not(self):
+        sim = Simulation(ROOM, [airborne([-1, 0, 2], name="a"), airborne([1, 0, 2], name="b")], people=1)
+        lidar = Lidar(channels=64, columns=720, low=-0.5, high=0.5)
+        seen = set(np.unique(sim.scan(lidar, "a").entity)) - set(range(1, 8))
+        own = {e["name"]: e["id"] for e in sim.entities}
+        self.assertIn(own["b"], seen)
+        self.assertNotIn(own["a"], seen)
+
+    def test_a_sensor_file_names_its_lidars_and_threads_change_nothing(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+            file.write("lidars:\n  - name: top\n    channels: 4\n    columns: 100\n")
+            file.flush()
+            sim = Simulation(ROOM, airborne(sensors=file.name))
+
+        def scan(threads):
+            with airsim360.Threads(threads):
+                return sim.scan("top").points.tobytes()
+        self.assertEqual(scan(1), scan(2))
+        self.assertEqual(sim.scan("top").shots, 400)
+        with self.assertRaisesRegex(ValueError, "top"):
+            sim.scan("tpo")
+
+    def test_wrong_lidars_are_value_errors(self):
+        for options in ({"channels": 0}, {"low": 0.5, "high": 0.1}, {"pattern": "spining"}, {"sigma": math.nan}, {"rate": 0},
+                        {"max_range": 0.1}, {"position": [0, 0]}):
+            with self.subTest(options), self.assertRaises(ValueError):
+                Lidar(**options)
 
 
 class Flights(unittest.TestCase):

@@ -26,12 +26,20 @@ def run(*command, **options):
     return done.stdout
 
 
+def scikit_build_core():
+    code = "import scikit_build_core; print(scikit_build_core.__version__)"
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.strip()
+
+
+@unittest.skipUnless(scikit_build_core(), "tools/install_backport.sh python3-scikit-build-core")
 class Wheel(unittest.TestCase):
     def test_a_clean_environment_imports_the_wheel(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            wheel = folder / pathlib.Path(run(sys.executable, ROOT / "python/build_backend.py", folder).strip()).name
+            wheel = folder / pathlib.Path(run(sys.executable, ROOT / "python/build_backend.py", folder).split()[-1]).name
             names = zipfile.ZipFile(wheel).namelist()
+            written = zipfile.ZipFile(wheel).read("airsim360-0.1.0.dist-info/WHEEL").decode()
+            self.assertIn(f"Generator: scikit-build-core {scikit_build_core()}", written)
             self.assertTrue(any(name.endswith("/RECORD") for name in names))
             self.assertFalse([name for name in names if "__pycache__" in name])
             # NumPy comes from the system; everything of ours from the wheel.

@@ -85,14 +85,14 @@ airsim::GpsData Gps(const Snapshot& now, Text name, Text vehicle) {
   return data;
 }
 
-airsim::DistanceSensorData Distance(const Snapshot& now, Text name, Text vehicle) {
+airsim::DistanceSensorData Distance(ImageService& images, const Snapshot& now, Text name, Text vehicle) {
   const size_t v = now.Find(vehicle);
   const auto& sensors = now.world->ray_sensors[v].distances;
   const size_t i = SensorIndex(sensors, name, "distance sensor");
   const RangeFinderSpec& spec = sensors[i].spec;
   const RigidTransform X_BS = spec.mount.pose(), X_WS = now.state.vehicles[v].motion.X_WB * X_BS;
   const SensorKey key{now.model->world.seed, static_cast<uint32_t>(v), static_cast<uint32_t>(i)};
-  const RangeReading reading = MeasureRange(spec, key, *now.model->tracer, X_WS, now.state.t_ns);
+  const RangeReading reading = MeasureRange(spec, key, *images.TracerOf(now, v), X_WS, now.state.t_ns);
   return {now.time_stamp(), static_cast<float>(reading.range), static_cast<float>(spec.min_range),
           static_cast<float>(spec.max_range), airsim::ToMount(X_BS)};
 }
@@ -104,14 +104,14 @@ struct Scan {
   std::vector<Vec3d> points_F;
 };
 
-Scan ScanOf(const Snapshot& now, Text name, size_t v) {
+Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v) {
   const auto& lidars = now.world->ray_sensors[v].lidars;
   const size_t i = SensorIndex(lidars, name, "lidar");
   const RigidTransform X_BS = lidars[i].spec.mount.pose();
   const SensorKey key{now.model->world.seed, static_cast<uint32_t>(v), static_cast<uint32_t>(i)};
   Scan out;
   const Kinematics& body = now.state.vehicles[v].motion;
-  ScanLidar(lidars[i].spec, key, *now.model->tracer, body, X_BS, now.state.t_ns, out.scan);
+  ScanLidar(lidars[i].spec, key, *images.TracerOf(now, v), body, X_BS, now.state.t_ns, out.scan);
   const Vec3d origin_W = now.vehicles[v].origin_W;
   const RigidTransform X_WS = body.X_WB * X_BS;
   out.pose = airsim::ToPose(X_WS, origin_W);
@@ -124,8 +124,8 @@ Scan ScanOf(const Snapshot& now, Text name, size_t v) {
   return out;
 }
 
-airsim::LidarData Lidar(const Snapshot& now, Text name, Text vehicle) {
-  const Scan scan = ScanOf(now, name, now.Find(vehicle));
+airsim::LidarData Lidar(ImageService& images, const Snapshot& now, Text name, Text vehicle) {
+  const Scan scan = ScanOf(images, now, name, now.Find(vehicle));
   airsim::LidarData data;
   data.time_stamp = now.time_stamp();
   data.pose = scan.pose;
@@ -137,8 +137,8 @@ airsim::LidarData Lidar(const Snapshot& now, Text name, Text vehicle) {
   return data;
 }
 
-airsim::GpuLidarData GpuLidar(const Snapshot& now, Text name, Text vehicle) {
-  const Scan scan = ScanOf(now, name, now.Find(vehicle));
+airsim::GpuLidarData GpuLidar(ImageService& images, const Snapshot& now, Text name, Text vehicle) {
+  const Scan scan = ScanOf(images, now, name, now.Find(vehicle));
   airsim::GpuLidarData data;
   data.time_stamp = now.time_stamp();
   data.pose = scan.pose;
@@ -165,14 +165,14 @@ void AddSensorCalls(Api& api) {
   api.Read("getGpsData",
            [](const Snapshot& now, Text name, Text vehicle) { return Gps(now, name, vehicle); });
   // Rays are cast in the thread of the pictures, so that nobody waits for them.
-  api.Picture("getDistanceSensorData", [](ImageService&, const SnapshotPointer& now, Text name,
-                                          Text vehicle) { return Distance(*now, name, vehicle); });
-  api.Picture("getLidarData", [](ImageService&, const SnapshotPointer& now, Text name, Text vehicle) {
-    return Lidar(*now, name, vehicle);
-  });
-  api.Picture("getGPULidarData", [](ImageService&, const SnapshotPointer& now, Text name, Text vehicle) {
-    return GpuLidar(*now, name, vehicle);
-  });
+  const auto picture = [&](const char* name, auto reading) {
+    api.Picture(name, [reading](ImageService& images, const SnapshotPointer& now, Text sensor, Text vehicle) {
+      return reading(images, *now, sensor, vehicle);
+    });
+  };
+  picture("getDistanceSensorData", Distance);
+  picture("getLidarData", Lidar);
+  picture("getGPULidarData", GpuLidar);
 }
 
 }  // namespace airsim360

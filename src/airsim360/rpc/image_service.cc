@@ -34,7 +34,7 @@ RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const Came
 
 ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tracer,
                            const ImageOptions& options)
-    : session_(session), tracer_(std::move(tracer)), options_(options) {
+    : session_(session), tracer_(std::move(tracer)), options_(options), ray_tracers_(tracer_) {
   const SnapshotPointer snapshot = session_.snapshot();
   environment_version_ = snapshot->world->environment_version;
   renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = snapshot->world->environment});
@@ -97,6 +97,10 @@ std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot
   std::sort(state->moved.begin(), state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
   return state;
+}
+
+std::shared_ptr<const RayTracer> ImageService::TracerOf(const Snapshot& snapshot, size_t vehicle) {
+  return ray_tracers_.At(StateOf(snapshot, vehicle));
 }
 
 const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot) {

@@ -49,6 +49,9 @@ class ImageService {
   };
   View RenderLabels(const Snapshot& snapshot, size_t vehicle, const std::string& camera,
                     airsim::ImageType type);
+  /// The scene of a snapshot as ray sensors of `vehicle` meet it: other drones, people and moved objects in their
+  /// places, its own body hidden.
+  std::shared_ptr<const RayTracer> TracerOf(const Snapshot& snapshot, size_t vehicle);
   Session& session() { return session_; }
   /// What the renderer itself took for the last Capture.
   double last_render_ms() const { return render_ms_; }
@@ -70,6 +73,7 @@ class ImageService {
   std::shared_ptr<const RayTracer> tracer_;
   ImageOptions options_;
   std::unique_ptr<Renderer> renderer_;
+  DynamicTracer ray_tracers_;
   uint64_t environment_version_ = 0;
   Frame frame_;
   BlockPool pool_;  // of the answers

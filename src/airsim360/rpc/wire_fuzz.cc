@@ -1,6 +1,8 @@
-// Any bytes: the scanner finds the same objects however they are cut, and the decoder takes what it finds.
+// Any bytes: the scanner finds the same objects however they are cut, the decoder takes what it finds, and arguments
+// of every kind are read from it or refused.
 #include <cstdlib>
 
+#include "airsim360/rpc/airsim_image_types.h"
 #include "airsim360/rpc/message.h"
 #include "airsim360/rpc/wire_value.h"
 
@@ -21,6 +23,31 @@ size_t FirstLength(const uint8_t* data, size_t size, size_t step) {
   }
 }
 
+// Reads a value as a T, if it is one.
+template <class T>
+void Read(const airsim360::WireValue& value) {
+  T out{};
+  try {
+    using airsim360::FromWire;
+    FromWire(value, out);
+  } catch (const airsim360::BadCast&) {
+  }
+}
+
+void ReadAsArgument(const airsim360::WireValue& value) {
+  using namespace airsim360::airsim;
+  Read<std::vector<ImageRequest>>(value);
+  Read<std::vector<Vector3r>>(value);
+  Read<std::vector<std::string>>(value);
+  Read<KinematicsState>(value);
+  Read<RCData>(value);
+  Read<YawMode>(value);
+  Read<External>(value);
+  Read<float>(value);
+  Read<uint8_t>(value);
+  Read<bool>(value);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -29,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (length == 0 || length == SIZE_MAX) return 0;
   try {
     const airsim360::WireValue value = airsim360::DecodeWire({data, length}, kLimits);
-    airsim360::ParseMessage(value);
+    for (const airsim360::WireValue& argument : airsim360::ParseMessage(value).arguments->items) ReadAsArgument(argument);
   } catch (const airsim360::WireError&) {
   }
   return 0;
