@@ -32,10 +32,17 @@ void GrowGrass(District& district, EntityId lawn, const std::vector<Vec2f>& outl
 /// Twigs and leaves on the ground around a tree.
 void DropLeaves(District& district, EntityId ground, Vec2f at, float radius, int count, float z);
 bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);
+
+/// A dome of grass with trees in a lake whose water is at `water_z`: the entity "island".
+void RaiseIsland(District& district, std::string_view category, Vec2f c, Vec2f half, float water_z);
+/// An arched footbridge of red steel from south to north through c, `half` metres to either end.
+void BuildRedBridge(District& district, Vec2f c, float half);
 /// Distance from p to the nearest edge of the outline.
 float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p);
 
-/// What flight instructions name: on walls, and on and around the plaza.
+/// Before the buildings are built: which have red curtains, a bottle on the roof, two that look like them.
+void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& buildings);
+/// What flight instructions name: on walls and roofs, and on and around the plaza.
 void HangDowntownSigns(District& district, const std::vector<BuildingPlan>& buildings);
 void PlaceDowntownLandmarks(District& district, const Block& plaza);
 /// The plaza: paving, fountain, terrace with café, market, allées.

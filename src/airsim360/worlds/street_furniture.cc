@@ -14,6 +14,7 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 struct Strip {
   BlockSide side;
   float s0, s1, depth;
+  bool staggered;  // its lamps stand opposite the gaps of the other side's
   Vec2f outward() const { return side.inward * -1.0f; }
 };
 
@@ -34,12 +35,11 @@ constexpr StreetTree kStreetTrees[] = {{"tree_generic", 5, 1.0f},    {"tree_gene
                                        {"tree_narrowleaf", 2, 1.0f}, {"tree_narrowleaf", 1, 0.9f}};
 
 // A row of trees in pits every 8.8 m, none where a lamp stands in the crown.
-void PlantStreetTrees(District& d, const Strip& strip, bool open, int lamps, RngStream& rng) {
+void PlantStreetTrees(District& d, const Strip& strip, bool open, float first_lamp, float lamp_pitch, RngStream& rng) {
   if (!open && !rng.Chance(0.75)) return;
   const uint32_t species = 3 * rng.Index(2);
-  const float lamp_pitch = (strip.s1 - strip.s0) / static_cast<float>(lamps - 1);
   for (float s = strip.s0 + 4.5f; s < strip.s1 - 3; s += 8.8f) {
-    const float from_lamp = std::abs(std::remainder(s - strip.s0, lamp_pitch));
+    const float from_lamp = std::abs(std::remainder(s - first_lamp, lamp_pitch));
     const float at = from_lamp < 3 ? s + 3.2f : s;
     const StreetTree& tree = kStreetTrees[species + rng.Index(3)];
     const Vec2f p = strip.side.At(at, 1.15f);
@@ -54,12 +54,12 @@ void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream&
   const Vec2f street = strip.outward();
   const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
   const float length = strip.s1 - strip.s0;
-  const int lamps = std::max(2, static_cast<int>(std::lround(length / 26)) + 1);
-  for (int i = 0; i < lamps; ++i) {
-    const float s = strip.s0 + length * static_cast<float>(i) / static_cast<float>(lamps - 1);
-    PutAt(d, strip, open && i % 2 ? "lamp_post" : "street_light", s, 0.65f, street);
+  const int gaps = std::max(1, static_cast<int>(std::lround(length / 26)));
+  const float pitch = length / static_cast<float>(gaps), first = strip.s0 + (strip.staggered ? pitch / 2 : 0);
+  for (int i = 0; i < gaps + !strip.staggered; ++i) {
+    PutAt(d, strip, open && i % 2 ? "lamp_post" : "street_light", first + pitch * static_cast<float>(i), 0.65f, street);
   }
-  PlantStreetTrees(d, strip, open, lamps, rng);
+  PlantStreetTrees(d, strip, open, first, pitch, rng);
   for (float s = strip.s0 + 3.1f; s < strip.s1 - 2; s += 12.4f)
     PutAt(d, strip, "parking_meter", s, 0.5f, strip.side.inward);
   struct Rule {
@@ -152,7 +152,7 @@ void FurnishPavements(District& d) {
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "pavement", i * 4 + static_cast<size_t>(k));
       const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-      const Strip strip{side, end, side.length - end, block.pavement};
+      const Strip strip{side, end, side.length - end, block.pavement, k >= 2};
       if (reach.Contains(side.At(side.length - 1, 3))) FurnishCorner(d, block, side, "car_pillar");
       if (block.kind == BlockKind::kBuilt && rng.Chance(0.45))
         PlaceCafe(d, strip, static_cast<float>(rng.Uniform(strip.s0, strip.s1 - 10)));

@@ -15,6 +15,7 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 struct Side {
   BlockSide line;
   float s0, s1, depth;
+  bool staggered;  // its lamps stand opposite the gaps of the other side's
   Vec2f street() const { return line.inward * -1.0f; }
   Vec3f At(float s, float d) const {
     const Vec2f p = line.At(s, d);
@@ -25,7 +26,7 @@ struct Side {
 Side SideBetweenRamps(const Block& block, int k) {
   const BlockSide line = SideOf(block, k);
   const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-  return {line, end, line.length - end, block.pavement};
+  return {line, end, line.length - end, block.pavement, k >= 2};
 }
 
 // What stands along every side: kind, spacing, depth from the kerb, looks at the street.
@@ -47,11 +48,11 @@ constexpr Rule kRules[] = {
 void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, RngStream& rng) {
   const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
   const float length = side.s1 - side.s0;
-  const int lamps = std::max(2, static_cast<int>(std::lround(length / 27)) + 1);
-  for (int i = 0; i < lamps; ++i) {
-    const float s = side.s0 + length * static_cast<float>(i) / static_cast<float>(lamps - 1);
-    d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
-  }
+  // Avenues are too wide for the lamps of the other side to help.
+  const int gaps = std::max(1, static_cast<int>(std::lround(length / (avenue ? 20.0f : 27.0f))));
+  const float pitch = length / static_cast<float>(gaps), first = side.s0 + (side.staggered ? pitch / 2 : 0);
+  for (int i = 0; i < gaps + !side.staggered; ++i)
+    d.placer.Try("street_light", side.At(first + pitch * static_cast<float>(i), 0.6f), FacingYaw(side.street()));
   // Trees in pits; few on narrow streets of towers.
   const double planted = density.trees * (avenue ? 0.98 : 0.85);
   for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += 8.6f) {
