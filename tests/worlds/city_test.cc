@@ -303,12 +303,9 @@ Distances CompareWithRealTowns(const char* name, const Built& built, const std::
     heights.push_back(static_cast<double>(plan.height()));
   }
   std::vector<Vec2d> trees, lamps;
-  for (const auto& [path, entities] : built.by_category) {
-    const bool tree = path.starts_with("vegetation/tree"), lamp = path.starts_with("furniture/lighting");
-    for (const Entity* entity : entities) {
-      const Vec3f p = entity->bounds.center();
-      if ((tree || lamp) && reach.Contains({p.x, p.y})) (tree ? trees : lamps).push_back({p.x, p.y});
-    }
+  for (const Placement& prop : built.placements) {
+    const bool tree = prop.kind.starts_with("tree_"), lamp = prop.kind == "street_light" || prop.kind == "lamp_post";
+    if ((tree || lamp) && reach.Contains({prop.p_W.x, prop.p_W.y})) (tree ? trees : lamps).push_back({prop.p_W.x, prop.p_W.y});
   }
   const auto real = internal::RealTowns();
   const auto distance = [&](const std::vector<double>& samples, const char* row) {

@@ -28,9 +28,9 @@ std::vector<Parcel> Subdivide(float length, bool corners, bool backdrop, RngStre
   float at = begin;
   while (at < end - 1) {
     // The core's lots are as wide as those of an old town (data/osm/distributions.csv), the backdrop's wider.
-    const float least = backdrop ? 11.5f : 5.8f;
+    const float least = backdrop ? 11.5f : 4.7f;
     float width = backdrop ? static_cast<float>(rng.Uniform(11.5, 23))
-                           : std::clamp(static_cast<float>(8.6 * std::exp(0.42 * rng.Normal())), least, 24.0f);
+                           : std::clamp(static_cast<float>(8.0 * std::exp(0.45 * rng.Normal())), least, 24.0f);
     if (end - at - width < least) width = end - at > 2.2f * least ? (end - at) / 2 : end - at;
     const bool alley = at > begin + 1 && width > (backdrop ? 15.0f : 10.5f) && rng.Chance(backdrop ? 0.16 : 0.12);
     parcels.push_back({at + (alley ? kAlley : 0), at + width, false, alley});
@@ -57,7 +57,7 @@ FacadeStyle PickStyle(int floors, FacadeStyle before, RngStream& rng) {
 int PickFloors(const Block& block, bool corner, RngStream& rng) {
   // Low around the plaza, higher towards the east and in the ring.
   const bool backdrop = block.kind == BlockKind::kBackdrop;
-  const double mean = backdrop ? 7.5 : block.column == 3 ? 3.8 : 2.9;
+  const double mean = backdrop ? 7.5 : block.column == 3 ? 3.5 : 2.7;
   double floors = mean + (backdrop ? 2.1 : 1.25) * rng.Normal() + (corner ? 1.3 : 0);
   if (rng.Chance(backdrop ? 0.10 : 0.05)) floors += rng.Uniform(4, 7);
   return std::clamp(static_cast<int>(std::lround(floors)), 2, backdrop ? 17 : 12);

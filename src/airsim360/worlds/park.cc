@@ -162,7 +162,7 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
   for (int i = 0; i < 160 && trees.size() < 12; ++i) {
     const Vec2f p = spot();
     const bool crowded = std::any_of(trees.begin(), trees.end(),
-                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 6.2f; });
+                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 2.2f) continue;
     const double pick = rng.Uniform();
     const char* kind = pick < 0.66  ? lead
@@ -192,7 +192,7 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
     d.placer.Try(rng.Chance(0.6) ? "flower_bed" : "shrub", {p.x, p.y, kLawnZ}, turn(),
                  static_cast<float>(rng.Uniform(0.7, 1.0)));
   }
-  GrowGrass(d, lawn, outline, kLawnZ, 2.6f);
+  GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
 
 // Lamps and benches along a path, on both of its banks.
@@ -203,7 +203,7 @@ void FurnishPath(District& d, const ParkPath& path, int index) {
     const bool left = (i / 3 + static_cast<size_t>(index)) % 2 == 0;
     const Vec2f p = left ? l + across * 0.7f : r - across * 0.7f;
     const float yaw = FacingYaw(left ? across * -1.0f : across);
-    if (i % 6 == 2) {
+    if (i == 8) {
       d.placer.Try("lamp_post", {p.x, p.y, kLawnZ - 0.02f}, yaw);
     } else {
       d.placer.Try("bench_wood", {p.x, p.y, kLawnZ}, yaw);

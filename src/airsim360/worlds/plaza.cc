@@ -166,7 +166,7 @@ void BuildBed(District& d, Vec2f at, float half) {
     const char* kind = i < 8 ? "flower_bed" : i < 15 ? "shrub" : "rock";
     d.placer.Try(kind, {p.x, p.y, 0.37f}, static_cast<float>(rng.Uniform(0, kTau)), i < 15 ? 0.7f : 0.45f);
   }
-  GrowGrass(d, soil, inner.Outline(), 0.38f, 2);
+  GrowGrass(d, soil, inner.Outline(), 0.38f, 1.9f);
 }
 
 void PlantAllees(District& d, Vec2f c) {

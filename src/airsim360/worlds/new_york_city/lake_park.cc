@@ -108,7 +108,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
                   static_cast<float>(rng.Uniform(box.y0, box.y1))};
     const bool crowded = std::any_of(trees.begin(), trees.end(),
-                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 4.6f; });
+                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 1.6f) continue;
     static constexpr const char* kKinds[] = {"tree_generic", "tree_generic", "tree_narrowleaf", "tree_pine"};
     if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f},
@@ -125,7 +125,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
     d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)),
                  0.9f);
   }
-  GrowGrass(d, lawn, outline, kLawnZ, 3.2f);
+  GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 struct Side {
   BlockSide line;
   float s0, s1, depth;
-  bool staggered;  // its lamps stand opposite the gaps of the other side's
   Vec2f street() const { return line.inward * -1.0f; }
   Vec3f At(float s, float d) const {
     const Vec2f p = line.At(s, d);
@@ -26,7 +25,7 @@ struct Side {
 Side SideBetweenRamps(const Block& block, int k) {
   const BlockSide line = SideOf(block, k);
   const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-  return {line, end, line.length - end, block.pavement, k >= 2};
+  return {line, end, line.length - end, block.pavement};
 }
 
 // What stands along every side: kind, spacing, depth from the kerb, looks at the street.
@@ -45,17 +44,14 @@ constexpr Rule kRules[] = {
     {"parking_meter", 14, 0.5f, false, 1},
 };
 
-void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, RngStream& rng) {
+void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, const std::vector<float>& lamps,
+                 RngStream& rng) {
   const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
-  const float length = side.s1 - side.s0;
-  // Avenues are too wide for the lamps of the other side to help.
-  const int gaps = std::max(1, static_cast<int>(std::lround(length / (avenue ? 20.0f : 27.0f))));
-  const float pitch = length / static_cast<float>(gaps), first = side.s0 + (side.staggered ? pitch / 2 : 0);
-  for (int i = 0; i < gaps + !side.staggered; ++i)
-    d.placer.Try("street_light", side.At(first + pitch * static_cast<float>(i), 0.6f), FacingYaw(side.street()));
+  for (float s : lamps) d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
   // Trees in pits; few on narrow streets of towers.
   const double planted = density.trees * (avenue ? 0.98 : 0.85);
-  for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += 8.6f) {
+  const float pitch = rng.Chance(0.5) ? 8.4f : 9.7f;
+  for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += pitch) {
     if (!rng.Chance(planted)) continue;
     struct Tree {
       const char* kind;
@@ -217,7 +213,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
         const Vec3f p = side.At((side.s0 + side.s1) / 2 + 3, 1.35f);
         d.placer.Try("bus_stop", p, FacingYaw(side.street()));
       }
-      FurnishSide(d, side, OnAvenue(k), density, rng);
+      FurnishSide(d, side, OnAvenue(k), density, LampsAlong(d.plan, block, k, side.s0, side.s1, rng), rng);
     }
   }
   // Sheds stand in front of the lots whose shops have no awnings.

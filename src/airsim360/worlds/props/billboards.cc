@@ -268,7 +268,7 @@ Texture Mural(uint32_t variant) {
 Model MakeMural(uint32_t variant, uint64_t) {
   PropBuilder b("mural");
   b.Use(Paint({1, 1, 1}, 0.85f), Mural(variant));
-  b.Picture({-6.3f, -0.02f, 0}, {6.3f, -0.02f, 0}, {6.3f, -0.02f, 9}, {-6.3f, -0.02f, 9});
+  b.Sheet(4, 3, [](float u, float v) { return Vec3f{-6.3f + 12.6f * u, -0.02f, 9 * v}; }, {12.6f, 9});
   return b.Finish();
 }
 
