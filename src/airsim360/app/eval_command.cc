@@ -3,11 +3,14 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/base/file.h"
 #include "airsim360/eval/image_metrics.h"
+#include "airsim360/eval/panorama_statistics.h"
 #include "airsim360/image/codecs.h"
 
 namespace airsim360 {
@@ -54,6 +57,18 @@ void RunImage(const ImageArguments& arguments, const GlobalOptions& globals) {
   std::printf("PSNR     %8.3f dB\nSSIM     %8.5f\nFLIP     %8.5f (mean)\n", psnr, ssim, flip);
 }
 
+void RunStatistics(const std::vector<std::string>& files, const GlobalOptions& globals) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  if (!globals.json) std::printf("slope   flat   grad    entropy\n");
+  for (const std::string& file : files) {
+    const Image<Rgb8> picture = ReadRgb8(file);
+    const PanoramaStatistics s = MeasurePanorama(picture);
+    list.push_back({{"file", file}, {"slope", s.slope}, {"flat", s.flat}, {"gradient", s.gradient}, {"entropy", s.entropy}});
+    if (!globals.json) std::printf("%5.2f  %5.3f  %6.4f  %5.2f   %s\n", s.slope, s.flat, s.gradient, s.entropy, file.c_str());
+  }
+  if (globals.json) PrintJson(list);
+}
+
 }  // namespace
 
 void AddEvalCommand(CLI::App& app, GlobalOptions& globals) {
@@ -68,6 +83,10 @@ void AddEvalCommand(CLI::App& app, GlobalOptions& globals) {
   image->add_flag("--wrap", arguments->flip.wrap_columns,
                   "FLIP: the left border goes on at the right one (panoramas)");
   image->callback([arguments, &globals] { RunImage(*arguments, globals); });
+  CLI::App* statistics = command->add_subcommand("statistics", "spectrum slope, flat share, gradient and entropy of panoramas");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  statistics->add_option("files", *files, "equirectangular pictures (PNG, JPEG, WebP), twice as wide as high")->required();
+  statistics->callback([files, &globals] { RunStatistics(*files, globals); });
 }
 
 }  // namespace airsim360

@@ -13,6 +13,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/random.h"
+#include "airsim360/eval/panorama_statistics.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/color.h"
 #include "airsim360/image/draw.h"
@@ -22,6 +23,14 @@ namespace airsim360 {
 namespace {
 
 namespace fs = std::filesystem;
+
+bool OnGround(const Scene& scene, const SurfaceRef& surface) {
+  const Instance& instance = scene.instances[surface.instance];
+  EntityId entity = instance.entity;
+  for (const MeshPart& part : scene.meshes[instance.mesh].parts)
+    if (surface.triangle - part.first_triangle < part.triangle_count && part.entity != kNoEntity) entity = part.entity;
+  return scene.tree[scene.entity(entity).category].path.starts_with("ground/");
+}
 
 // Open places near the spawn: nothing but ground below, air around at every height.
 std::vector<Vec3f> ChoosePlaces(const OpenedWorld& world, const SheetArguments& arguments, uint64_t seed) {
@@ -36,6 +45,7 @@ std::vector<Vec3f> ChoosePlaces(const OpenedWorld& world, const SheetArguments& 
     const auto below = world.tracer->Intersect({p.x, p.y, spawn.z + 300}, {0, 0, -1});
     if (!below) continue;
     const float ground = spawn.z + 300 - below->distance;
+    if (scene.sky_entity != kNoEntity && !OnGround(scene, below->surface)) continue;
     if (std::abs(ground) > 3 && scene.sky_entity != kNoEntity) continue;
     const bool clear = std::all_of(arguments.heights.begin(), arguments.heights.end(), [&](double h) {
       const float room = h < 3 ? 0.9f : 2.5f;
@@ -51,9 +61,14 @@ std::vector<Vec3f> ChoosePlaces(const OpenedWorld& world, const SheetArguments& 
 // Means over the sphere of one or more panoramas.
 struct PictureFigures {
   double weight = 0, luminance = 0, albedo = 0, albedo_weight = 0, dark = 0, bright = 0, void_pixels = 0;
+  double frames = 0, albedo_errors = 0;
+  PanoramaStatistics statistics;  // sums
 
   void Add(const Frame& frame) {
     const int h = frame.rgb.height();
+    const PanoramaStatistics s = MeasurePanorama(frame.rgb);
+    statistics = {statistics.slope + s.slope, statistics.flat + s.flat, statistics.gradient + s.gradient, statistics.entropy + s.entropy};
+    frames += 1;
     for (int y = 0; y < h; ++y) {
       const double w = std::cos(std::numbers::pi * ((y + 0.5) / h - 0.5));
       for (int x = 0; x < frame.rgb.width(); ++x) {
@@ -66,6 +81,11 @@ struct PictureFigures {
         void_pixels += frame.semantic(x, y) == kVoid || frame.entity(x, y) == kNoEntity;
         if (frame.range(x, y) <= 0) continue;
         const Rgb32f a = frame.albedo(x, y);
+        if (!(std::min({a.r, a.g, a.b}) >= 0 && std::max({a.r, a.g, a.b}) <= 1)) {
+          if (getenv("DBG")) fprintf(stderr, "%d %d cat %d range %g: %g %g %g\n", x, y, frame.semantic(x, y), frame.range(x, y), a.r, a.g, a.b);
+          ++albedo_errors;
+          continue;
+        }
         albedo += w * (0.2126 * a.r + 0.7152 * a.g + 0.0722 * a.b);
         albedo_weight += w;
       }
@@ -76,7 +96,11 @@ struct PictureFigures {
             {"mean_albedo", albedo / std::max(albedo_weight, 1e-9)},
             {"below_5", dark / weight},
             {"above_250", bright / weight},
-            {"unlabelled_pixels", void_pixels}};
+            {"unlabelled_pixels", void_pixels},
+            {"slope", statistics.slope / frames},
+            {"flat", statistics.flat / frames},
+            {"gradient", statistics.gradient / frames},
+            {"entropy", statistics.entropy / frames}};
   }
 };
 
@@ -89,8 +113,8 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
     throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
   if (arguments.poses < 1 || arguments.poses > 64)
     throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
-  if (arguments.width < 64 || arguments.width > 2048 || arguments.width % 4)
-    throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 64 … 2048");
+  if (arguments.width < 128 || arguments.width > 2048 || arguments.width % 4)
+    throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 128 … 2048");
   const Tier tier = ParseTierArgument(arguments.tier);
   const OpenedWorld world = OpenWorld(arguments.world, globals, tier);
   const std::vector<Vec3f> places = ChoosePlaces(world, arguments, globals.seed);
@@ -101,6 +125,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
   const int columns = static_cast<int>(arguments.heights.size()), rows = static_cast<int>(places.size());
   Image<Rgb8> sheet(columns * (w + gap) + gap, rows * (h + gap) + gap);
   std::vector<PictureFigures> figures(arguments.heights.size());
+  PictureFigures all;
   std::map<CategoryId, size_t> most_visible;
   double render_ms = 0;
   Frame frame;
@@ -116,6 +141,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
       request.seed = globals.seed;
       render_ms += world.renderer->Render(request, frame).render_ms;
       figures[static_cast<size_t>(column)].Add(frame);
+      all.Add(frame);
       std::map<CategoryId, std::set<EntityId>> seen;
       for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x) seen[frame.semantic(x, y)].insert(frame.entity(x, y));
@@ -139,6 +165,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
     std::snprintf(text, sizeof text, "%g", arguments.heights[i]);
     by_height[text] = figures[i].Json();
   }
+  by_height["all"] = all.Json();
   std::map<std::string, size_t> by_path;
   for (const auto& [category, count] : most_visible) by_path[world.scene->tree[category].path] = count;
   for (const auto& [path, count] : by_path) visible[path] = count;

@@ -6,6 +6,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/sim/world_loader.h"
+#include "airsim360/worlds/world_floor.h"
 #include "airsim360/worlds/world_survey.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -33,6 +34,9 @@ void PrintWorlds(bool json) {
 nlohmann::ordered_json CountsOf(const std::string& name, uint64_t seed) {
   const auto scene = LoadWorld({.world = name, .seed = seed});
   const WorldSurvey s = SurveyWorld(*scene);
+  nlohmann::ordered_json floor = nlohmann::ordered_json::array();
+  for (const FloorRow& row : StructuralFloor(name, s))
+    floor.push_back({{"item", row.item}, {"at_least", row.at_least}, {"measured", row.measured}, {"reached", row.reached()}});
   return {{"name", name},
           {"ground_area_m2", s.ground_area_m2},
           {"buildings_inside", s.buildings_inside},
@@ -49,6 +53,7 @@ nlohmann::ordered_json CountsOf(const std::string& name, uint64_t seed) {
           {"instances", s.counts.instances},
           {"unique_triangles", s.counts.unique_triangles},
           {"instanced_triangles", s.counts.instanced_triangles},
+          {"floor", floor},
           {"entities_by_category", s.categories}};
 }
 
@@ -56,8 +61,11 @@ void PrintCounts(const std::string& name, const GlobalOptions& globals) {
   const nlohmann::ordered_json counts = CountsOf(name, globals.seed);
   if (globals.json) return PrintJson(counts);
   for (const auto& [key, value] : counts.items()) {
-    if (!value.is_object()) std::printf("%-26s %s\n", key.c_str(), value.dump().c_str());
+    if (!value.is_structured()) std::printf("%-26s %s\n", key.c_str(), value.dump().c_str());
   }
+  for (const auto& row : counts["floor"])
+    std::printf("  %-3s %-34s %s of %s\n", row["reached"].get<bool>() ? "ok" : "LOW", row["item"].get<std::string>().c_str(),
+                row["measured"].dump().c_str(), row["at_least"].dump().c_str());
   for (const auto& [path, count] : counts["entities_by_category"].items())
     std::printf("  %-48s %s\n", path.c_str(), count.dump().c_str());
 }

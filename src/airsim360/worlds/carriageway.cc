@@ -15,15 +15,30 @@ using internal::StreetRect;
 constexpr float kCornerRadius = 6, kGutterWidth = 0.35f;
 constexpr float kPatchLift = 0.003f, kIronLift = 0.005f;
 
+// Lanes of one side: where each begins, counted from the middle of the street, and its centre line.
+struct Lane {
+  float from, center;
+};
+std::vector<Lane> LanesOf(StreetKind kind) {
+  if (kind == StreetKind::kAvenue) return {{0, 2.0f}, {3.72f, 5.45f}, {7.12f, 8.8f}};
+  if (kind == StreetKind::kBoulevard) return {{0, 4.0f}, {5.65f, 7.35f}};
+  return {{0, 1.72f}};
+}
+
 void LayStretch(Ground& ground, const StreetStretch& street, const std::string& name, Surface asphalt) {
   const float hw = street.line.half_width;
   ground.Begin("road " + name, "ground/road", asphalt);
-  // Texture coordinates follow the street: across, along.
+  // Texture coordinates follow the street, across and along. The shader's wheel tracks lie around a lane whose centre is
+  // 1.72 m off: each lane has that there.
   const float edge = hw - kGutterWidth, s0 = street.s0, s1 = street.s1;
-  for (float d0 : {-edge, 0.0f}) {
-    const float d1 = d0 + edge;
-    ground.mesh().QuadUv(street.At(s0, d0), street.At(s1, d0), street.At(s1, d1), street.At(s0, d1), {d0, s0},
-                         {d0, s1}, {d1, s1}, {d1, s0});
+  const std::vector<Lane> lanes = LanesOf(street.line.kind);
+  for (float side : {-1.0f, 1.0f}) {
+    for (size_t i = 0; i < lanes.size(); ++i) {
+      const float from = lanes[i].from, to = i + 1 < lanes.size() ? lanes[i + 1].from : edge, shift = 1.72f - lanes[i].center;
+      const float d0 = side > 0 ? from : -to, d1 = side > 0 ? to : -from, u0 = d0 + side * shift, u1 = d1 + side * shift;
+      ground.mesh().QuadUv(street.At(s0, d0), street.At(s1, d0), street.At(s1, d1), street.At(s0, d1), {u0, s0}, {u0, s1},
+                           {u1, s1}, {u1, s0});
+    }
   }
   ground.Use(Surface::kGutter);
   StreetRect(ground, street, street.s0, street.s1, -hw, -hw + kGutterWidth, 0);
@@ -112,7 +127,9 @@ Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, cons
     }
   }
   const Vec3f middle{ns.center, ew.center, std::max(CarriagewayHeight(ns, 0), CarriagewayHeight(ew, 0))};
-  const auto uv = [](Vec3f p) { return Vec2f{p.x, -p.y}; };
+  // The wheel tracks of the wider street run through.
+  const bool north = ns.half_width >= ew.half_width;
+  const auto uv = [&](Vec3f p) { return north ? Vec2f{p.x - ns.center, p.y} : Vec2f{p.y - ew.center, p.x}; };
   for (size_t i = 0; i < rim.size(); ++i) {
     const Vec3f a = rim[i], b = rim[(i + 1) % rim.size()];
     ground.mesh().Triangle(middle, a, b, uv(middle), uv(a), uv(b));
@@ -125,7 +142,7 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
   const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
   const auto on = [&](float x, float y, float lift) { return Vec3f{x, y, fan.Height({x, y}) + lift}; };
   const float reach = 8.5f;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const float x0 = fan.middle.x + uniform(-reach, reach - 3),
                 y0 = fan.middle.y + uniform(-reach, reach - 3);
     const int nx = 4 + static_cast<int>(rng.Index(8)), ny = 3 + static_cast<int>(rng.Index(5));
@@ -139,7 +156,7 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
     }
   }
   ground.Use(Surface::kTar);
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 18; ++i) {
     float x = fan.middle.x + uniform(-reach, reach), y = fan.middle.y + uniform(-reach, reach),
           a = uniform(0, 6.28f);
     for (int k = 0; k < 12; ++k) {
@@ -191,7 +208,8 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
   for (size_t i = 0; i < plan.north_south.size(); ++i) {
     for (size_t k = 0; k < plan.east_west.size(); ++k) {
       const Fan fan = LayJunction(ground, plan.north_south[i], plan.east_west[k],
-                                  std::to_string(i) + "." + std::to_string(k), Surface::kAsphalt);
+                                  std::to_string(i) + "." + std::to_string(k),
+                                  rng.Chance(0.4) ? Surface::kCarriagewayOld : Surface::kCarriageway);
       if (!is_core(i) || !is_core(k)) continue;
       LayJunctionWear(ground, fan, rng);
       if (plan.north_south[i].kind == StreetKind::kBoulevard)

@@ -68,7 +68,19 @@ void GrowGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, fl
   for (Vec2f p : outline)
     box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   RngStream rng(d.seed, "grass", lawn);
-  const auto tufts = static_cast<int>(box.area() * per_m2);
+  // Mown grass all over, its tone wandering over some ten metres.
+  constexpr float kPitch = 0.64f;
+  for (float y = box.y0; per_m2 >= 2 && y < box.y1; y += kPitch) {
+    for (float x = box.x0; x < box.x1; x += kPitch) {
+      const Vec2f p{x + kPitch * static_cast<float>(rng.Uniform()), y + kPitch * static_cast<float>(rng.Uniform())};
+      const auto turn = static_cast<float>(rng.Uniform(0, 6.283)), chance = static_cast<float>(rng.Uniform(-0.05, 0.05));
+      if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.3f) continue;
+      const float wide = std::sin(0.31f * p.x + 1.7f * std::sin(0.17f * p.y)) + std::sin(0.23f * p.y + 1.3f * std::sin(0.29f * p.x));
+      const float tone = 1.22f + 0.09f * wide + chance, dry = 1 + 0.05f * wide;
+      d.placer.shelf().PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), {tone * dry, tone, tone * 0.9f});
+    }
+  }
+  const auto tufts = static_cast<int>(box.area() * (per_m2 >= 2 ? 0.35f : per_m2));
   for (int i = 0; i < tufts; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
                   static_cast<float>(rng.Uniform(box.y0, box.y1))};

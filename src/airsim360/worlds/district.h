@@ -27,15 +27,23 @@ void PlaceRun(District& district, std::string_view kind, Vec2f a, Vec2f b, float
               std::string_view post = {});
 /// A square tree pit of soil in a stone frame, laid over the paving.
 void LayTreePit(Ground& ground, Vec2f at, float z = 0);
-/// Grass tufts over a lawn at height z as part of its entity, about `per_m2`; none within 0.25 m of its edge.
+/// Grass tufts over a lawn at height z as part of its entity, about `per_m2`, from 2 on with mown grass between them; none
+/// within 0.25 m of its edge.
 void GrowGrass(District& district, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2);
 /// Twigs and leaves on the ground around a tree.
 void DropLeaves(District& district, EntityId ground, Vec2f at, float radius, int count, float z);
 bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);
+
+/// A dome of grass with trees in a lake whose water is at `water_z`: the entity "island".
+void RaiseIsland(District& district, std::string_view category, Vec2f c, Vec2f half, float water_z);
+/// An arched footbridge of red steel from south to north through c, `half` metres to either end.
+void BuildRedBridge(District& district, Vec2f c, float half);
 /// Distance from p to the nearest edge of the outline.
 float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p);
 
-/// What flight instructions name: on walls, and on and around the plaza.
+/// Before the buildings are built: which have red curtains, a bottle on the roof, two that look like them.
+void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& buildings);
+/// What flight instructions name: on walls and roofs, and on and around the plaza.
 void HangDowntownSigns(District& district, const std::vector<BuildingPlan>& buildings);
 void PlaceDowntownLandmarks(District& district, const Block& plaza);
 /// The plaza: paving, fountain, terrace with café, market, allées.
@@ -46,6 +54,9 @@ void BuildPark(District& district, const Block& block);
 void BuildYard(District& district, const Block& block);
 /// Signals and a row of bollards on the kerb return at the far end of a side.
 void FurnishCorner(District& district, const Block& block, const BlockSide& side, std::string_view bollard);
+/// Where lamps stand along a side of a block between s0 and s1: opposite the gaps of the other side's, or in a row of their own
+/// where the street is wide; about 20 m from the nearest, as in real towns (data/osm/distributions.csv).
+std::vector<float> LampsAlong(const StreetPlan& plan, const Block& block, int side, float s0, float s1, RngStream& rng);
 /// A cover on the crown of every core crossing.
 void LayCrossingCovers(District& district);
 /// The street along a side of a block is one of the core's, perhaps on its way out.

@@ -37,7 +37,8 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
     if (block.kind == BlockKind::kPark) BuildPark(district, block);
     if (!open) BuildYard(district, block);
   }
-  const std::vector<BuildingPlan> buildings = PlanBuildings(plan, options.seed);
+  std::vector<BuildingPlan> buildings = PlanBuildings(plan, options.seed);
+  MarkDowntownLandmarks(plan, buildings);
   BuildBuildings(district, buildings);
   HangDowntownSigns(district, buildings);
   FurnishPavements(district);
@@ -66,6 +67,7 @@ WorldInfo DowntownWestInfo() {
            "barrier/railing/rail",
            "construction/awning",
            "construction/balcony",
+           "construction/bridge",
            "construction/building",
            "construction/building/roof",
            "construction/fountain",
@@ -76,6 +78,7 @@ WorldInfo DowntownWestInfo() {
            "construction/rooftop/water_tank",
            "construction/stairs",
            "construction/wall",
+           "furniture/curtain",
            "furniture/lighting/lamp_post",
            "furniture/lighting/street_light",
            "furniture/mail/post_box",
@@ -128,7 +131,7 @@ WorldInfo DowntownWestInfo() {
            "vehicle/van",
            "water/water_plane"},
           "A downtown of seven built blocks around a plaza with market, café terrace and fountain, and a "
-          "park with a pond; "
+          "park with a lake, island and red bridge; "
           "far city and mountains to the horizon; no people."};
 }
 

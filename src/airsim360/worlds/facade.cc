@@ -102,8 +102,41 @@ void BuildStoreys(FacadeContext& context, FacadePen& pen, const BuildingPlan& pl
   }
 }
 
+// What years leave on a bare wall: flashing over the neighbour's roof, pipes, repairs in render and other bricks, a chimney.
+void WearPartyWall(FacadePen& pen, const std::vector<float>& closed, float w, float from, float top, RngStream& rng) {
+  using S = Surface;
+  const float L = pen.length();
+  const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
+  if (top - from < 2.5f || L < 4) return;
+  pen.Use(S::kTar);
+  pen.Front(0, L, from, std::min(top, from + uniform(0.2f, 0.45f)), -0.012f);
+  for (float m : closed) {
+    if (m < 0 || w < 1.5f) continue;
+    const float half = w / 2 - 0.35f;
+    // Repairs lie a centimetre proud, each at its own height.
+    float z = from + uniform(0.6f, 3.0f);
+    while (z < top - 2.2f && rng.Chance(0.75)) {
+      static constexpr S kRepairs[] = {S::kConcrete, S::kBrickBrown, S::kBrickRed, S::kConcrete};
+      const float wide = uniform(0.35f, 1.0f) * half, tall = std::min(uniform(0.7f, 2.6f), top - 0.6f - z), at = m + uniform(-1, 1) * (half - wide);
+      pen.Use(kRepairs[rng.Index(4)]);
+      pen.Front(at - wide, at + wide, z, z + tall, -0.010f);
+      z += tall + uniform(1.5f, 6.0f);
+    }
+    if (rng.Chance(0.45)) {
+      const float x = m + w / 2 - 0.2f, r = uniform(0.05f, 0.09f);
+      pen.Use(rng.Chance(0.5) ? S::kMetal : S::kIronBlack);
+      pen.Bar(x - r, x + r, from + 0.1f, top - uniform(0.2f, 1.2f), -0.06f - 2 * r, -0.06f);
+      for (float b = from + 1.2f; b < top - 1.5f; b += 2.8f) pen.Bar(x - r - 0.02f, x + r + 0.02f, b, b + 0.05f, -0.08f - 2 * r, 0);
+    } else if (rng.Chance(0.3)) {
+      const float x = m + uniform(-0.2f, 0.2f);
+      pen.Use(S::kBrickBrown);
+      pen.Bar(x - 0.45f, x + 0.45f, from, top + uniform(0.4f, 1.2f), -0.22f, 0);
+    }
+  }
+}
+
 // The wall above a lower neighbour: bare, with a few columns of small windows where it is high.
-void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, float from,
+void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, float from, bool windows, bool wear,
                     RngStream& rng) {
   const StyleMetrics& metrics = MetricsOf(plan.style);
   const float top = plan.height() + ParapetHeight(plan), L = pen.length();
@@ -118,9 +151,11 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
   pen.Front(0, L, from, start, 0);
   const int bays = CountBays(L, 4.1f);
   const float w = L / static_cast<float>(bays);
+  std::vector<float> closed;  // middles of bays without windows
   for (int i = 0; i < bays; ++i) {
     const float x0 = w * static_cast<float>(i), m = x0 + w / 2;
-    const bool open = rng.Chance(0.55);
+    const bool open = rng.Chance(0.55) && windows;
+    closed.push_back(open ? -1.0f : m);
     for (int f = first; f < plan.floors; ++f) {
       const float z0 = plan.first_storey() + metrics.floor_height * static_cast<float>(f),
                   z1 = z0 + metrics.floor_height;
@@ -135,6 +170,7 @@ void BuildPartyWall(FacadePen& pen, const BuildingPlan& plan, const Dress& dress
   }
   pen.Use(bare.wall);
   pen.Front(0, L, plan.height(), top, 0);
+  if (windows && wear) WearPartyWall(pen, closed, w, from, top, rng);
 }
 
 }  // namespace
@@ -150,7 +186,8 @@ void BuildFacades(FacadeContext& context, const BuildingPlan& plan, EntityId ent
     pen.SetWall(plan.outline[e], plan.outline[(e + 1) % plan.outline.size()]);
     pen.UseEntity(entity);
     if (plan.edges[e] == EdgeKind::kParty) {
-      BuildPartyWall(pen, plan, dress, std::max(plan.base, plan.party_height[e]), rng);
+      BuildPartyWall(pen, plan, dress, std::max(plan.base, plan.party_height[e]),
+                     static_cast<int>(e) != plan.mural_edge, context.reach >= 1, rng);
     } else if (detail[e] == FacadeDetail::kFlat) {
       pen.Use(dress.far);
       pen.Front(0, pen.length(), plan.base, plan.height() + ParapetHeight(plan), 0);

@@ -10,7 +10,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr float kDepth = 17;  // of the perimeter buildings
+constexpr float kDepth = 14.5f;  // of the perimeter buildings
 constexpr float kAlley = 3.4f;
 
 // A stretch of one side of a block: from `from` to `to` along the side, counted from its start.
@@ -21,15 +21,18 @@ struct Parcel {
 };
 
 // Parcels of a side of length L between two corner parcels of kDepth.
-std::vector<Parcel> Subdivide(float length, bool corners, RngStream& rng) {
+std::vector<Parcel> Subdivide(float length, bool corners, bool backdrop, RngStream& rng) {
   std::vector<Parcel> parcels;
   const float begin = kDepth, end = length - kDepth;
   if (corners) parcels.push_back({0, kDepth, true});
   float at = begin;
   while (at < end - 1) {
-    float width = static_cast<float>(rng.Uniform(11.5, 23));
-    if (end - at - width < 11) width = end - at > 26 ? (end - at) / 2 : end - at;
-    const bool alley = at > begin + 1 && width > 15 && rng.Chance(0.16);
+    // The core's lots are as wide as those of an old town (data/osm/distributions.csv), the backdrop's wider.
+    const float least = backdrop ? 11.5f : 4.7f;
+    float width = backdrop ? static_cast<float>(rng.Uniform(11.5, 23))
+                           : std::clamp(static_cast<float>(8.0 * std::exp(0.45 * rng.Normal())), least, 24.0f);
+    if (end - at - width < least) width = end - at > 2.2f * least ? (end - at) / 2 : end - at;
+    const bool alley = at > begin + 1 && width > (backdrop ? 15.0f : 10.5f) && rng.Chance(backdrop ? 0.16 : 0.12);
     parcels.push_back({at + (alley ? kAlley : 0), at + width, false, alley});
     at += width;
   }
@@ -54,9 +57,9 @@ FacadeStyle PickStyle(int floors, FacadeStyle before, RngStream& rng) {
 int PickFloors(const Block& block, bool corner, RngStream& rng) {
   // Low around the plaza, higher towards the east and in the ring.
   const bool backdrop = block.kind == BlockKind::kBackdrop;
-  const double mean = backdrop ? 7.5 : block.column == 3 ? 7.0 : 5.0;
-  double floors = mean + 2.1 * rng.Normal() + (corner ? 1.6 : 0);
-  if (rng.Chance(backdrop ? 0.10 : 0.07)) floors += rng.Uniform(4, 7);
+  const double mean = backdrop ? 7.5 : block.column == 3 ? 3.5 : 2.7;
+  double floors = mean + (backdrop ? 2.1 : 1.25) * rng.Normal() + (corner ? 1.3 : 0);
+  if (rng.Chance(backdrop ? 0.10 : 0.05)) floors += rng.Uniform(4, 7);
   return std::clamp(static_cast<int>(std::lround(floors)), 2, backdrop ? 17 : 12);
 }
 
@@ -106,7 +109,7 @@ void PlanBlock(const StreetPlan& plan, size_t index, uint64_t seed, std::vector<
     // South and north own the corners.
     const bool corners = side % 2 == 0;
     const float length = side % 2 == 0 ? inner.width() : inner.depth();
-    const std::vector<Parcel> parcels = Subdivide(length, corners, rng);
+    const std::vector<Parcel> parcels = Subdivide(length, corners, block.kind == BlockKind::kBackdrop, rng);
     for (size_t i = 0; i < parcels.size(); ++i) {
       const Parcel& parcel = parcels[i];
       BuildingPlan building;

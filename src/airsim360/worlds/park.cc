@@ -9,8 +9,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr float kPond = 11.5f, kCoping = 12.1f, kRingIn = 13.4f, kRingOut = 17.0f, kPathHalf = 1.35f,
-                kLawnZ = 0.06f;
+constexpr float kPond = 17.0f, kCoping = 17.6f, kRingIn = 18.9f, kRingOut = 22.5f, kPathHalf = 1.35f,
+                kLawnZ = 0.06f, kWaterZ = -0.22f;
 constexpr int kPaths = 8, kSteps = 14;
 
 Vec2f Polar(Vec2f c, float r, float a) { return {c.x + r * std::cos(a), c.y + r * std::sin(a)}; }
@@ -64,11 +64,11 @@ std::vector<Vec2f> LawnOutline(const GroundRect& area, const ParkPath& path, con
   return outline;
 }
 
-void LayPond(District& d, Vec2f c) {
+void LayLake(District& d, Vec2f c) {
   Ground& g = d.ground;
-  g.Begin("pond", "water/water_plane", Surface::kWater);
-  g.RingSector(c, 0, kPond, 0, kTau, -0.22f, 64);
-  g.Begin("pond edge", "construction/wall", Surface::kLimestone);
+  g.Begin("lake", "water/water_plane", Surface::kWater);
+  g.RingSector(c, 0, kPond, 0, kTau, kWaterZ, 64);
+  g.Begin("lake edge", "construction/wall", Surface::kLimestone);
   std::vector<Vec2f> inner, outer;
   for (int i = 0; i <= 64; ++i) {
     inner.push_back(Polar(c, kPond, kTau - kTau * static_cast<float>(i) / 64));
@@ -86,18 +86,22 @@ void LayPond(District& d, Vec2f c) {
   g.Wall(lip_in, 0.36f, 0.42f);
   g.Wall(lip_out, 0.36f, 0.42f);
   // Paving between coping and walk, then the ring walk in eight segments.
-  g.Begin("pond paving", "ground/pavement/modular", Surface::kPlazaStone);
+  g.Begin("lake paving", "ground/pavement/modular", Surface::kPlazaStone);
   g.RingSector(c, kCoping, kRingIn, 0, kTau, 0, 64);
   for (int i = 0; i < kPaths; ++i) {
     const float a = kTau * static_cast<float>(i) / kPaths;
     g.Begin("ring walk", "ground/path/park_walkway", Surface::kPath);
     g.RingSector(c, kRingIn, kRingOut, a, a + kTau / kPaths, 0.004f, 8);
   }
-  // Rocks and water plants' stones inside the pond.
+  // An island, a bridge that lands where two paths arrive, rocks along the edge.
+  RaiseIsland(d, "ground/terrain/landscape", {c.x - 4.5f, c.y}, {5.6f, 4.8f}, kWaterZ);
+  d.placer.Reserve({{c.x - 4.5f, c.y}, {5.9f, 5.1f}, 0});
+  const float landing = kTau * 1.5f / kPaths;
+  BuildRedBridge(d, {c.x + (kCoping + 0.4f) * std::cos(landing), c.y}, (kRingIn - 0.1f) * std::sin(landing));
   RngStream& rng = d.placer.rng();
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 14; ++i) {
     const Vec2f p =
-        Polar(c, static_cast<float>(rng.Uniform(7.5, 10)), static_cast<float>(rng.Uniform(0, kTau)));
+        Polar(c, static_cast<float>(rng.Uniform(13.5, 16)), static_cast<float>(rng.Uniform(0, kTau)));
     d.placer.Try("rock", {p.x, p.y, -0.45f}, static_cast<float>(rng.Uniform(0, kTau)),
                  static_cast<float>(rng.Uniform(0.6, 1.1)));
   }
@@ -112,13 +116,13 @@ void LayPath(Ground& ground, const ParkPath& path) {
   }
 }
 
-// Railing on the street half of the pond, with gaps where the paths arrive.
-void FencePond(District& d, Vec2f c) {
+// Railing on the street half of the lake, with gaps where the paths arrive.
+void FenceLake(District& d, Vec2f c) {
   for (int k = 0; k < kPaths; ++k) {
-    const float a0 = kTau * (static_cast<float>(k) + 0.62f) / kPaths,
-                a1 = kTau * (static_cast<float>(k) + 1.38f) / kPaths;
+    const float a0 = kTau * (static_cast<float>(k) + 0.66f) / kPaths,
+                a1 = kTau * (static_cast<float>(k) + 1.34f) / kPaths;
     for (int i = 0; i < 4; ++i) {
-      const auto at = [&](int n) { return Polar(c, 12.8f, a0 + (a1 - a0) * static_cast<float>(n) / 4); };
+      const auto at = [&](int n) { return Polar(c, kCoping + 0.7f, a0 + (a1 - a0) * static_cast<float>(n) / 4); };
       PlaceRun(d, "rail", at(i), at(i + 1), 0, "rail_pillar");
     }
   }
@@ -158,7 +162,7 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
   for (int i = 0; i < 160 && trees.size() < 12; ++i) {
     const Vec2f p = spot();
     const bool crowded = std::any_of(trees.begin(), trees.end(),
-                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 6.2f; });
+                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 2.2f) continue;
     const double pick = rng.Uniform();
     const char* kind = pick < 0.66  ? lead
@@ -188,7 +192,7 @@ void PlantLawn(District& d, const std::vector<Vec2f>& outline, EntityId lawn, in
     d.placer.Try(rng.Chance(0.6) ? "flower_bed" : "shrub", {p.x, p.y, kLawnZ}, turn(),
                  static_cast<float>(rng.Uniform(0.7, 1.0)));
   }
-  GrowGrass(d, lawn, outline, kLawnZ, 2.6f);
+  GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
 
 // Lamps and benches along a path, on both of its banks.
@@ -199,7 +203,7 @@ void FurnishPath(District& d, const ParkPath& path, int index) {
     const bool left = (i / 3 + static_cast<size_t>(index)) % 2 == 0;
     const Vec2f p = left ? l + across * 0.7f : r - across * 0.7f;
     const float yaw = FacingYaw(left ? across * -1.0f : across);
-    if (i % 6 == 2) {
+    if (i == 8) {
       d.placer.Try("lamp_post", {p.x, p.y, kLawnZ - 0.02f}, yaw);
     } else {
       d.placer.Try("bench_wood", {p.x, p.y, kLawnZ}, yaw);
@@ -216,13 +220,13 @@ void FurnishPath(District& d, const ParkPath& path, int index) {
 void BuildPark(District& d, const Block& block) {
   const GroundRect area = block.inner();
   const Vec2f c = area.center();
-  LayPond(d, c);
+  LayLake(d, c);
   std::vector<ParkPath> paths;
   for (int i = 0; i < kPaths; ++i) {
     paths.push_back(TracePath(area, i));
     LayPath(d.ground, paths.back());
   }
-  FencePond(d, c);
+  FenceLake(d, c);
   for (int i = 0; i < kPaths; ++i) FurnishPath(d, paths[static_cast<size_t>(i)], i);
   // Benches and lamps outside the ring walk.
   for (int i = 0; i < 16; ++i) {

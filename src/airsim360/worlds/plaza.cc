@@ -4,6 +4,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/district.h"
 #include "airsim360/worlds/market_stall.h"
+#include "airsim360/worlds/new_york_city/city.h"
 
 namespace airsim360::internal {
 namespace {
@@ -76,12 +77,16 @@ void LayTerrace(Ground& ground, const GroundRect& terrace, float steps_half) {
 }
 
 // A table with an umbrella and chairs around it.
-void PlaceCafeTable(District& d, Vec2f at, float z) {
+void PlaceCafeTable(District& d, Vec2f at, float z, bool yellow) {
   RngStream& rng = d.placer.rng();
   const auto style = static_cast<uint32_t>(rng.Index(4));
   const auto turn = static_cast<float>(rng.Uniform(0, kTau));
   if (!d.placer.Try("dining_table", {at.x, at.y, z}, turn, 1, {1, 1, 1}, style)) return;
-  d.placer.Put("umbrella", {at.x, at.y, z}, turn, 1, {1, 1, 1}, static_cast<uint32_t>(rng.Index(2)));
+  const auto cloth = static_cast<uint32_t>(rng.Index(2));
+  if (yellow)
+    PlaceNamed(d, "yellow sunshade", "umbrella", {at.x, at.y, z}, turn, 0, 1, {1.15f, 0.75f, 0.02f});
+  else
+    d.placer.Put("umbrella", {at.x, at.y, z}, turn, 1, {1, 1, 1}, cloth);
   const int chairs = 3 + static_cast<int>(rng.Index(2));
   for (int i = 0; i < chairs; ++i) {
     const float a = turn + kTau * static_cast<float>(i) / static_cast<float>(chairs);
@@ -98,8 +103,9 @@ void FurnishTerrace(District& d, const GroundRect& t, float steps_half) {
   PlaceRun(d, "rail", {t.x1 - in, t.y0 + in + 2}, {t.x1 - in, t.y1 - in}, z, "rail_pillar");
   PlaceRun(d, "rail", {t.x1 - in - 2, t.y1 - in}, {t.x0 + in + 2, t.y1 - in}, z, "rail_pillar");
   PlaceRun(d, "rail", {t.x0 + in, t.y1 - in}, {t.x0 + in, t.y0 + in + 2}, z, "rail_pillar");
+  int table = 0;
   for (float y : {t.y0 + 3.2f, t.y0 + 7.6f}) {
-    for (float x = t.x0 + 3.5f; x < t.x1 - 3; x += 4.6f) PlaceCafeTable(d, {x, y}, kTerraceZ);
+    for (float x = t.x0 + 3.5f; x < t.x1 - 3; x += 4.6f) PlaceCafeTable(d, {x, y}, kTerraceZ, table++ == 3);
   }
   for (float x = t.x0 + 1.2f; x < t.x1 - 1; x += 3.1f) d.placer.Try("pot", {x, t.y1 - 0.9f, kTerraceZ});
   for (float x : {cx - steps_half - 0.9f, cx + steps_half + 0.9f})
@@ -160,7 +166,7 @@ void BuildBed(District& d, Vec2f at, float half) {
     const char* kind = i < 8 ? "flower_bed" : i < 15 ? "shrub" : "rock";
     d.placer.Try(kind, {p.x, p.y, 0.37f}, static_cast<float>(rng.Uniform(0, kTau)), i < 15 ? 0.7f : 0.45f);
   }
-  GrowGrass(d, soil, inner.Outline(), 0.38f, 2);
+  GrowGrass(d, soil, inner.Outline(), 0.38f, 1.9f);
 }
 
 void PlantAllees(District& d, Vec2f c) {

@@ -155,6 +155,8 @@ void Clutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, cons
     const GroundRect box = tier.bounds();
     taken.Add({box.center(), {box.width() / 2 + 0.8f, box.depth() / 2 + 0.8f}, 0});
   }
+  if (plan.kept_free.area() > 0)
+    taken.Add({plan.kept_free.center(), {plan.kept_free.width() / 2, plan.kept_free.depth() / 2}, 0});
   const auto scatter = [&](std::string_view kind, int count, float yaw) {
     const float r = FindPropKind(kind).footprint_radius;
     for (int i = 0, tries = 0; i < count && tries < 40; ++tries) {

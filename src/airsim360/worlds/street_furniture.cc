@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/district.h"
@@ -14,6 +15,7 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 struct Strip {
   BlockSide side;
   float s0, s1, depth;
+  std::vector<float> lamps;  // where along it
   Vec2f outward() const { return side.inward * -1.0f; }
 };
 
@@ -33,14 +35,14 @@ constexpr StreetTree kStreetTrees[] = {{"tree_generic", 5, 1.0f},    {"tree_gene
                                        {"tree_generic", 3, 0.76f},   {"tree_narrowleaf", 0, 1.0f},
                                        {"tree_narrowleaf", 2, 1.0f}, {"tree_narrowleaf", 1, 0.9f}};
 
-// A row of trees in pits every 8.8 m, none where a lamp stands in the crown.
-void PlantStreetTrees(District& d, const Strip& strip, bool open, int lamps, RngStream& rng) {
+// A row of trees in pits every 8.4 or 9.6 m, none where a lamp stands in the crown.
+void PlantStreetTrees(District& d, const Strip& strip, bool open, RngStream& rng) {
   if (!open && !rng.Chance(0.75)) return;
   const uint32_t species = 3 * rng.Index(2);
-  const float lamp_pitch = (strip.s1 - strip.s0) / static_cast<float>(lamps - 1);
-  for (float s = strip.s0 + 4.5f; s < strip.s1 - 3; s += 8.8f) {
-    const float from_lamp = std::abs(std::remainder(s - strip.s0, lamp_pitch));
-    const float at = from_lamp < 3 ? s + 3.2f : s;
+  const float pitch = rng.Chance(0.5) ? 8.4f : 9.6f;
+  for (float s = strip.s0 + 4.5f; s < strip.s1 - 3; s += pitch) {
+    const bool at_lamp = std::any_of(strip.lamps.begin(), strip.lamps.end(), [&](float lamp) { return std::abs(s - lamp) < 3; });
+    const float at = at_lamp ? s + 3.2f : s;
     const StreetTree& tree = kStreetTrees[species + rng.Index(3)];
     const Vec2f p = strip.side.At(at, 1.15f);
     const auto turn = static_cast<float>(rng.Uniform(0, kTau));
@@ -49,17 +51,13 @@ void PlantStreetTrees(District& d, const Strip& strip, bool open, int lamps, Rng
   }
 }
 
-// Lamps every 26 m, trees every 9 m between them, then smaller things where there is room.
+// Lamps, trees between them, then smaller things where there is room.
 void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream& rng) {
   const Vec2f street = strip.outward();
   const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
-  const float length = strip.s1 - strip.s0;
-  const int lamps = std::max(2, static_cast<int>(std::lround(length / 26)) + 1);
-  for (int i = 0; i < lamps; ++i) {
-    const float s = strip.s0 + length * static_cast<float>(i) / static_cast<float>(lamps - 1);
-    PutAt(d, strip, open && i % 2 ? "lamp_post" : "street_light", s, 0.65f, street);
-  }
-  PlantStreetTrees(d, strip, open, lamps, rng);
+  for (size_t i = 0; i < strip.lamps.size(); ++i)
+    PutAt(d, strip, open && i % 2 ? "lamp_post" : "street_light", strip.lamps[i], 0.65f, street);
+  PlantStreetTrees(d, strip, open, rng);
   for (float s = strip.s0 + 3.1f; s < strip.s1 - 2; s += 12.4f)
     PutAt(d, strip, "parking_meter", s, 0.5f, strip.side.inward);
   struct Rule {
@@ -143,6 +141,23 @@ bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side) {
   return line >= plan.first_core && line <= plan.last_core;
 }
 
+std::vector<float> LampsAlong(const StreetPlan& plan, const Block& block, int side, float s0, float s1, RngStream& rng) {
+  constexpr float kNearest = 20.2f, kFromKerb = 0.65f;
+  const auto column = static_cast<size_t>(block.column), row = static_cast<size_t>(block.row);
+  const StreetLine& street = side == 0   ? plan.east_west[row]
+                             : side == 1 ? plan.north_south[column + 1]
+                             : side == 2 ? plan.east_west[row + 1]
+                                         : plan.north_south[column];
+  const float across = 2 * (street.half_width + kFromKerb);
+  const bool wide = across > kNearest - 2;
+  const float pitch = wide ? kNearest : 2 * std::sqrt(kNearest * kNearest - across * across);
+  const float middle = (s0 + s1) / 2 + (side >= 2 && !wide ? pitch / 2 : 0);
+  std::vector<float> lamps;
+  for (float s = middle - pitch * std::floor((middle - s0) / pitch); s <= s1; s += pitch)
+    lamps.push_back(s + static_cast<float>(rng.Uniform(-0.9, 0.9)));
+  return lamps;
+}
+
 void FurnishPavements(District& d) {
   const GroundRect reach = d.plan.reach();
   for (size_t i = 0; i < d.plan.blocks.size(); ++i) {
@@ -152,7 +167,8 @@ void FurnishPavements(District& d) {
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "pavement", i * 4 + static_cast<size_t>(k));
       const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-      const Strip strip{side, end, side.length - end, block.pavement};
+      const std::vector<float> lamps = LampsAlong(d.plan, block, k, end, side.length - end, rng);
+      const Strip strip{side, end, side.length - end, block.pavement, lamps};
       if (reach.Contains(side.At(side.length - 1, 3))) FurnishCorner(d, block, side, "car_pillar");
       if (block.kind == BlockKind::kBuilt && rng.Chance(0.45))
         PlaceCafe(d, strip, static_cast<float>(rng.Uniform(strip.s0, strip.s1 - 10)));

@@ -110,7 +110,7 @@ constexpr Row kRows[] = {
     {S::kAwningRed, "awning red", R::kStripes, {1.30f, 0.22f, 0.17f}, 0.85f},
     {S::kAwningGreen, "awning green", R::kStripes, {0.36f, 0.80f, 0.44f}, 0.85f},
     {S::kAwningBlue, "awning blue", R::kStripes, {0.34f, 0.52f, 1.05f}, 0.85f},
-    {S::kAwningYellow, "awning yellow", R::kStripes, {1.40f, 1.02f, 0.36f}, 0.85f},
+    {S::kAwningYellow, "awning yellow", R::kStripes, {1.20f, 0.87f, 0.31f}, 0.85f},
     {S::kRoofGravel, "roof gravel", R::kRoofGravel, Gray(1.1f), 0.85f, 0.14f, 0, kSolid, G::kRoof},
     {S::kRoofBitumen, "roof bitumen", R::kBitumen, Gray(0.95f), 0.8f, 0.16f, 0, kSolid, G::kRoofRolls},
     {S::kRoofTile, "roof tile", R::kRoofTile, Gray(1), 0.8f, 0.1f},

@@ -21,7 +21,9 @@ void LayMedians(District& district, const std::vector<StreetStretch>& streets);
 void BuildOpenLots(District& district, const Manhattan& city);
 /// The park with the lake, the island and the red bridge.
 void BuildLakePark(District& district, const Block& block);
-/// Billboards, banners, light boxes and flags on walls and roofs.
+/// Chooses high bare walls for painted pictures, before the buildings are built.
+void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed);
+/// Billboards, banners, murals, light boxes and flags on walls and roofs.
 void HangSigns(District& district, const Manhattan& city, bool more);
 /// What flight instructions name, each once; before the rest of the furniture.
 void PlaceLandmarks(District& district, const Manhattan& city);

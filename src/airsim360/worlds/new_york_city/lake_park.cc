@@ -73,83 +73,6 @@ void LayLake(District& d, Vec2f c) {
   }
 }
 
-// A dome of grass with trees; the drone may land on it.
-void RaiseIsland(District& d, Vec2f c) {
-  const EntityId island = d.ground.Begin("island", "ground/grass", Surface::kLawn);
-  constexpr int kRings = 6, kSides = 40;
-  const auto at = [&](int ring, int side) {
-    const float t = static_cast<float>(ring) / kRings, a = kTau * static_cast<float>(side % kSides) / kSides;
-    const float wobble = 1 + 0.08f * std::sin(2 * a + 1) + 0.05f * std::sin(5 * a);
-    return Vec3f{c.x + 6.4f * t * wobble * std::cos(a), c.y + 4.6f * t * wobble * std::sin(a),
-                 kWaterZ - 0.15f + 1.0f * std::cos(kTau / 4 * t * t)};
-  };
-  for (int i = 0; i < kRings; ++i) {
-    for (int j = 0; j < kSides; ++j) {
-      if (i == 0) {
-        const Vec3f a = at(0, 0), b = at(1, j), e = at(1, j + 1);
-        d.ground.mesh().Triangle(a, b, e, {a.x, -a.y}, {b.x, -b.y}, {e.x, -e.y});
-      } else {
-        d.ground.Quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-      }
-    }
-  }
-  RngStream rng(d.seed, "island");
-  const auto height = [&](Vec2f p) {
-    const float t = std::hypot((p.x - c.x) / 6.4f, (p.y - c.y) / 4.6f);
-    return kWaterZ - 0.15f + std::cos(kTau / 4 * std::min(1.0f, t * t));
-  };
-  for (int i = 0; i < 160; ++i) {
-    const float a = static_cast<float>(rng.Uniform(0, kTau)),
-                t = std::sqrt(static_cast<float>(rng.Uniform(0, 0.6)));
-    const Vec2f p{c.x + 6.4f * t * std::cos(a), c.y + 4.6f * t * std::sin(a)};
-    d.placer.shelf().PlaceAs(
-        island, "grass_tuft",
-        PlaceUpright({p.x, p.y, height(p) - 0.01f}, a * 5, static_cast<float>(rng.Uniform(0.8, 1.5))),
-        rng.Index(16));
-  }
-  for (Vec2f o : {Vec2f{-3.6f, 0.4f}, Vec2f{3.4f, -0.8f}}) {
-    const Vec2f p = c + o;
-    d.placer.Try("tree_generic", {p.x, p.y, height(p) - 0.05f}, o.x, 0.7f, {1, 1, 1}, 2u);
-  }
-  for (int i = 0; i < 7; ++i) {
-    const float a = kTau * static_cast<float>(i) / 7;
-    const Vec2f p{c.x + 5.2f * std::cos(a), c.y + 3.7f * std::sin(a)};
-    d.placer.Try(i % 2 ? "rock" : "shrub", {p.x, p.y, height(p) - 0.05f}, a, 0.55f);
-  }
-}
-
-// An arched footbridge of red steel from south to north at x.
-void BuildBridge(District& d, Vec2f c, float x, const Material& red) {
-  MeshBuilder mesh;
-  const float half = 16.2f;
-  constexpr int kParts = 28;
-  const auto z = [&](float y) {
-    const float t = (y - c.y) / half;
-    return 0.10f + 2.1f * (1 - t * t);
-  };
-  const MaterialId paint = d.builder.AddMaterial(red);
-  for (int i = 0; i < kParts; ++i) {
-    const float y0 = c.y - half + 2 * half * static_cast<float>(i) / kParts, y1 = y0 + 2 * half / kParts,
-                z0 = z(y0), z1 = z(y1);
-    mesh.SetMaterial(d.surfaces[Surface::kDoorWood]);
-    mesh.Quad({x - 1.5f, y0, z0}, {x + 1.5f, y0, z0}, {x + 1.5f, y1, z1}, {x - 1.5f, y1, z1});
-    mesh.SetMaterial(paint);
-    mesh.Quad({x - 1.5f, y1, z1 - 0.25f}, {x + 1.5f, y1, z1 - 0.25f}, {x + 1.5f, y0, z0 - 0.25f},
-              {x - 1.5f, y0, z0 - 0.25f});
-    for (float side : {-1.0f, 1.0f}) {
-      const float e = x + side * 1.55f;
-      mesh.Beam({e, y0, z0 - 0.1f}, {e, y1, z1 - 0.1f}, 0.34f);
-      mesh.Beam({e, y0, z0 + 1.05f}, {e, y1, z1 + 1.05f}, 0.09f);
-      mesh.Beam({e, y0, z0 + 0.55f}, {e, y1, z1 + 0.55f}, 0.04f);
-      mesh.Beam({e, y0, z0}, {e, y0, z0 + 1.05f}, i % 4 == 0 ? 0.12f : 0.05f);
-      if (i % 7 == 3) mesh.Beam({e, y0, -1.2f}, {e, y0, z0}, 0.3f);
-    }
-  }
-  const EntityId bridge = d.builder.AddEntity("red bridge", d.builder.tree().At("construction/bridge"));
-  d.builder.AddInstance({d.builder.AddMesh(mesh.Finish("red bridge")), {}, bridge});
-  d.placer.Reserve({{x, c.y}, {1.9f, half + 1}, 0});
-}
-
 // Lawn of one quadrant between walk and pavement, leaving the crossing walks free.
 std::vector<Vec2f> QuadrantOutline(const GroundRect& area, Vec2f c, int quadrant) {
   constexpr float kHalf = 1.5f;
@@ -185,7 +108,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
                   static_cast<float>(rng.Uniform(box.y0, box.y1))};
     const bool crowded = std::any_of(trees.begin(), trees.end(),
-                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 4.6f; });
+                                     [&](Vec2f q) { return std::hypot(p.x - q.x, p.y - q.y) < 7.9f; });
     if (crowded || !InPolygon(outline, p) || EdgeDistance(outline, p) < 1.6f) continue;
     static constexpr const char* kKinds[] = {"tree_generic", "tree_generic", "tree_narrowleaf", "tree_pine"};
     if (!d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f},
@@ -202,7 +125,7 @@ void PlantQuadrant(District& d, const std::vector<Vec2f>& outline, EntityId lawn
     d.placer.Try(kKinds[rng.Index(4)], {p.x, p.y, kLawnZ - 0.02f}, static_cast<float>(rng.Uniform(0, kTau)),
                  0.9f);
   }
-  GrowGrass(d, lawn, outline, kLawnZ, 3.2f);
+  GrowGrass(d, lawn, outline, kLawnZ, 2);
 }
 
 }  // namespace
@@ -211,12 +134,8 @@ void BuildLakePark(District& d, const Block& block) {
   const GroundRect area = block.inner();
   const Vec2f c = area.center();
   LayLake(d, c);
-  RaiseIsland(d, {c.x - 7, c.y + 1});
-  Material red;
-  red.name = "bridge red";
-  red.base_color = {0.44f, 0.018f, 0.014f};
-  red.roughness = 0.45f;
-  BuildBridge(d, c, c.x + 12, red);
+  RaiseIsland(d, "ground/grass", {c.x - 7, c.y + 1}, {6.4f, 4.6f}, kWaterZ);
+  BuildRedBridge(d, {c.x + 12, c.y}, 16.2f);
   // Four short walks from the ring to the pavements.
   for (int k = 0; k < 4; ++k) {
     d.ground.Begin("park entrance", "ground/path/park_walkway", Surface::kPath);

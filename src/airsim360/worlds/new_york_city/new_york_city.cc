@@ -24,8 +24,10 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
   Ground ground(builder, surfaces);
   District district{builder, surfaces, plan, ground, placer, options.seed};
   const Density density{options.city.traffic, options.city.trees, options.city.furniture};
-  const Manhattan city = PlanManhattan(
+  Manhattan city = PlanManhattan(
       plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles)});
+
+  if (options.city.billboards) MarkMurals(city, plan.reach(), options.seed);
 
   // Ground, buildings, then what hangs on them and stands between them; the unique things first.
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);

@@ -142,7 +142,7 @@ void LayMedian(District& d, const StreetStretch& street, uint64_t id) {
   }
   const EntityId lawn = d.ground.Begin("median lawn", "ground/grass", Surface::kLawn);
   d.ground.Polygon(inner, kTop);
-  GrowGrass(d, lawn, inner, kTop, 5);
+  GrowGrass(d, lawn, inner, kTop, 2);
   for (float s = s0 + 5; s < s1 - 4; s += 8.5f) {
     const Vec3f p = street.At(s, 0);
     if (rng.Chance(0.55)) {

@@ -63,6 +63,22 @@ EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f 
   return entity;
 }
 
+void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed) {
+  RngStream rng(seed, "murals");
+  for (BuildingPlan& plan : city.buildings) {
+    if (plan.base > 0 || !plan.upper.empty() || !reach.Contains(plan.bounds().center())) continue;
+    float best = 11;  // metres of bare height
+    for (size_t e = 0; e < plan.edges.size(); ++e) {
+      const Vec2f v = plan.outline[(e + 1) % plan.outline.size()] - plan.outline[e];
+      const float bare = plan.height() - plan.party_height[e];
+      if (plan.edges[e] != EdgeKind::kParty || std::hypot(v.x, v.y) < 9 || bare <= best) continue;
+      best = bare;
+      plan.mural_edge = static_cast<int>(e);
+    }
+    if (plan.mural_edge >= 0 && !rng.Chance(0.6)) plan.mural_edge = -1;
+  }
+}
+
 void HangSigns(District& d, const Manhattan& city, bool more) {
   Boards boards{d};
   const auto lot = [&](const char* role) -> const Lot& { return LotOf(city, role); };
@@ -99,6 +115,16 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
   hang("glass slab", true, "banner", "banner", 2, 6, 8, 1.0f);
   RaiseRoofBoard(d, lot("braced corner"), StreetWall(lot("braced corner")), "roof billboard", 7, 1.25f);
   RaiseRoofBoard(d, lot("ribbon low"), StreetWall(lot("ribbon low")), "roof billboard", 8, 0.9f);
+  uint32_t murals = 0;
+  for (const BuildingPlan& plan : city.buildings) {
+    if (plan.mural_edge < 0) continue;
+    const auto e = static_cast<size_t>(plan.mural_edge);
+    const Vec2f a = plan.outline[e], v = plan.outline[(e + 1) % plan.outline.size()] - a;
+    const float length = std::hypot(v.x, v.y), foot = plan.party_height[e], bare = plan.height() - foot;
+    const float scale = std::min({1.25f, (length - 1.2f) / 12.6f, (bare - 2) / 9});
+    const Vec2f out = Vec2f{v.y, -v.x} * (1 / length), p = a + v * 0.5f + out * 0.01f;
+    PlaceNamed(d, "mural", "mural", {p.x, p.y, foot + (bare - 9 * scale) * 0.6f}, FacingYaw(out), murals++, scale);
+  }
   // Other corners of the core by chance.
   const GroundRect reach = d.plan.reach();
   for (size_t i = 0; i < city.lots.size(); ++i) {

@@ -44,17 +44,14 @@ constexpr Rule kRules[] = {
     {"parking_meter", 14, 0.5f, false, 1},
 };
 
-void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, RngStream& rng) {
+void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, const std::vector<float>& lamps,
+                 RngStream& rng) {
   const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
-  const float length = side.s1 - side.s0;
-  const int lamps = std::max(2, static_cast<int>(std::lround(length / 27)) + 1);
-  for (int i = 0; i < lamps; ++i) {
-    const float s = side.s0 + length * static_cast<float>(i) / static_cast<float>(lamps - 1);
-    d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
-  }
+  for (float s : lamps) d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
   // Trees in pits; few on narrow streets of towers.
   const double planted = density.trees * (avenue ? 0.98 : 0.85);
-  for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += 8.6f) {
+  const float pitch = rng.Chance(0.5) ? 8.4f : 9.7f;
+  for (float s = side.s0 + 4.6f; s < side.s1 - 3; s += pitch) {
     if (!rng.Chance(planted)) continue;
     struct Tree {
       const char* kind;
@@ -216,7 +213,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
         const Vec3f p = side.At((side.s0 + side.s1) / 2 + 3, 1.35f);
         d.placer.Try("bus_stop", p, FacingYaw(side.street()));
       }
-      FurnishSide(d, side, OnAvenue(k), density, rng);
+      FurnishSide(d, side, OnAvenue(k), density, LampsAlong(d.plan, block, k, side.s0, side.s1, rng), rng);
     }
   }
   // Sheds stand in front of the lots whose shops have no awnings.

@@ -7,6 +7,7 @@
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
+#include "airsim360/worlds/props/portrait.h"
 #include "airsim360/worlds/props/prop_builder.h"
 
 namespace airsim360::internal {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr Vec3f kWhite{0.76f, 0.76f, 0.74f}, kBlack{0.012f, 0.012f, 0.013f}, kRed{0.55f, 0.012f, 0.015f},
-    kYellow{0.80f, 0.48f, 0.012f}, kSkin{0.46f, 0.27f, 0.18f};
+    kYellow{0.80f, 0.48f, 0.012f}, kSkin{0.50f, 0.30f, 0.21f};
 
 // Filled ellipse, radii in picture widths and heights.
 void Ellipse(Canvas& c, Vec2f size, Vec2f middle, Vec2f r, Vec3f color) {
@@ -58,40 +59,14 @@ void Gradient(Canvas& c, Vec3f top, Vec3f bottom) {
   }
 }
 
-// Head and shoulders at x: jacket, shirt, tie, face, hair.
-void Portrait(Canvas& c, float x, Vec3f skin, Vec3f hair, Vec3f jacket, Vec3f shirt, Vec3f tie) {
-  const Vec2f s = kBoard;
-  Shape(c, s,
-        {{x - 0.20f, 1},
-         {x - 0.185f, 0.76f},
-         {x - 0.12f, 0.68f},
-         {x, 0.64f},
-         {x + 0.12f, 0.68f},
-         {x + 0.185f, 0.76f},
-         {x + 0.20f, 1}},
-        jacket);
-  Shape(c, s, {{x - 0.055f, 0.65f}, {x + 0.055f, 0.65f}, {x + 0.01f, 1}, {x - 0.01f, 1}}, shirt);
-  Shape(c, s, {{x - 0.018f, 0.70f}, {x + 0.018f, 0.70f}, {x + 0.024f, 1}, {x - 0.024f, 1}}, tie);
-  Shape(c, s, {{x - 0.045f, 0.52f}, {x + 0.045f, 0.52f}, {x + 0.05f, 0.69f}, {x - 0.05f, 0.69f}},
-        skin * 0.72f);
-  Ellipse(c, s, {x, 0.30f}, {0.098f, 0.19f}, hair);
-  Ellipse(c, s, {x, 0.40f}, {0.085f, 0.205f}, skin);
-  Shape(c, s,
-        {{x - 0.09f, 0.34f},
-         {x - 0.07f, 0.16f},
-         {x + 0.03f, 0.12f},
-         {x + 0.09f, 0.22f},
-         {x + 0.09f, 0.34f},
-         {x + 0.05f, 0.25f},
-         {x - 0.05f, 0.26f}},
-        hair);
-  for (float e : {-0.036f, 0.036f}) {
-    Ellipse(c, s, {x + e, 0.385f}, {0.017f, 0.013f}, {0.7f, 0.7f, 0.68f});
-    Ellipse(c, s, {x + e, 0.385f}, {0.008f, 0.013f}, {0.02f, 0.02f, 0.02f});
-    c.Line({x + e - 0.02f, 0.352f}, {x + e + 0.02f, 0.348f}, 0.011f, hair);
-  }
-  Shape(c, s, {{x, 0.39f}, {x + 0.017f, 0.465f}, {x - 0.006f, 0.468f}}, skin * 0.75f);
-  c.Line({x - 0.030f, 0.525f}, {x + 0.030f, 0.525f}, 0.014f, {0.30f, 0.06f, 0.05f});
+// A sitter whose head's middle is at x, before what the canvas shows already.
+void Portrait(Canvas& c, float x, const Sitter& sitter, bool gray) {
+  constexpr float kHeads = 2.35f;  // the picture is that high
+  c.Paint([&](float u, float v, Vec3f old) {
+    const Vec3f color = PortraitColor(sitter, (u - x) * kHeads * kBoard.x / kBoard.y, 0.86f - v * kHeads, old);
+    const float y = 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z;
+    return gray ? Vec3f{y, y, y} : color;
+  });
 }
 
 void RedCar(Canvas& c) {
@@ -145,8 +120,8 @@ Texture Board(uint32_t variant) {
       break;
     case 1:  // a man in a blue suit
       Gradient(c, {0.62f, 0.60f, 0.55f}, {0.72f, 0.70f, 0.65f});
-      Portrait(c, 0.30f, kSkin, {0.035f, 0.022f, 0.015f}, {0.015f, 0.055f, 0.34f}, kWhite,
-               {0.02f, 0.03f, 0.12f});
+      Portrait(c, 0.30f, {kSkin, {0.035f, 0.022f, 0.015f}, {0.10f, 0.16f, 0.22f}, {0.015f, 0.055f, 0.34f}, kWhite, {0.02f, 0.03f, 0.12f}, 0.25f},
+               false);
       c.Letters("SHARP", {0.73f, 0.34f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
       c.Letters("SUITS", {0.73f, 0.60f}, 0.20f, {0.015f, 0.055f, 0.34f}, 0.8f);
       c.Letters("5TH AVENUE", {0.73f, 0.83f}, 0.075f, kBlack, 0.9f);
@@ -156,8 +131,8 @@ Texture Board(uint32_t variant) {
       break;
     case 3: {  // a black and white portrait
       Gradient(c, {0.05f, 0.05f, 0.05f}, {0.42f, 0.42f, 0.42f});
-      const auto gray = [](float y) { return Vec3f{y, y, y}; };
-      Portrait(c, 0.66f, gray(0.55f), gray(0.02f), gray(0.03f), gray(0.75f), gray(0.05f));
+      Portrait(c, 0.66f, {kSkin * 1.2f, {0.02f, 0.02f, 0.02f}, {0.1f, 0.1f, 0.1f}, {0.03f, 0.03f, 0.03f}, kWhite, {0.05f, 0.05f, 0.05f}, -0.3f},
+               true);
       c.Letters("PORTRAIT", {0.24f, 0.22f}, 0.10f, kWhite, 0.75f);
       c.Letters("MUSEUM OF", {0.24f, 0.70f}, 0.065f, kWhite, 0.9f);
       c.Letters("PHOTOGRAPHY", {0.24f, 0.82f}, 0.065f, kWhite, 0.8f);
@@ -242,6 +217,59 @@ Texture Board(uint32_t variant) {
       c.Letters("JAZZ CLUB", {0.5f, 0.30f}, 0.24f, {0.10f, 0.70f, 0.62f}, 0.85f);
   }
   return c.Finish("board " + std::to_string(variant));
+}
+
+// Pictures painted on bare walls: old advertisements, a sunset, shapes. Part of each has weathered off (transparent).
+Texture Mural(uint32_t variant) {
+  Canvas c(420, 300, {0.30f, 0.26f, 0.21f});
+  const Vec3f cream{0.52f, 0.47f, 0.36f}, ink{0.05f, 0.045f, 0.05f};
+  switch (variant) {
+    case 0:
+      c.Rectangle({0, 0}, {1, 1}, ink * 1.6f);
+      c.Letters("HARPER & SONS", {0.5f, 0.17f}, 0.13f, cream, 0.85f);
+      c.Letters("PIANOS", {0.5f, 0.47f}, 0.27f, cream, 1.15f);
+      c.Letters("EST. 1887", {0.5f, 0.80f}, 0.11f, cream * 0.9f, 1.0f);
+      break;
+    case 1:
+      Gradient(c, {0.36f, 0.10f, 0.04f}, {0.55f, 0.36f, 0.08f});
+      c.Disc({0.5f, 0.62f}, 0.27f, {0.62f, 0.50f, 0.16f});
+      for (int i = 0; i < 5; ++i) {
+        const float y = 0.60f + 0.09f * static_cast<float>(i);
+        c.Rectangle({0, y}, {1, y + 0.012f + 0.011f * static_cast<float>(i)}, {0.05f, 0.10f, 0.20f});
+      }
+      Skyline(c, {0.03f, 0.05f, 0.10f}, 1.0f, 21);
+      break;
+    case 2:
+      c.Rectangle({0, 0}, {1, 1}, {0.05f, 0.20f, 0.22f});
+      for (int i = 0; i < 9; ++i) {
+        const float x = 0.1f + 0.1f * static_cast<float>(i), y = 0.5f + 0.28f * std::sin(2.1f * static_cast<float>(i));
+        c.Disc({x, y}, 0.10f + 0.05f * static_cast<float>(i % 3), i % 3 == 0 ? Vec3f{0.52f, 0.16f, 0.06f} : i % 3 == 1 ? cream : Vec3f{0.10f, 0.32f, 0.20f});
+      }
+      c.Line({0.0f, 0.9f}, {1.0f, 0.15f}, 0.05f, cream);
+      break;
+    default:
+      c.Rectangle({0, 0}, {1, 1}, cream * 0.8f);
+      c.Rectangle({0.03f, 0.04f}, {0.97f, 0.96f}, {0.30f, 0.05f, 0.04f});
+      c.Letters("FRESH BREAD", {0.5f, 0.30f}, 0.18f, cream, 0.85f);
+      c.Letters("DAILY", {0.5f, 0.62f}, 0.24f, cream, 1.2f);
+      c.Letters("SINCE 1921", {0.5f, 0.87f}, 0.08f, cream, 0.9f);
+  }
+  // Courses of the brick show through, the sun has bleached the rest unevenly.
+  c.Paint([&](float u, float v, Vec3f old) {
+    const float worn = TileFractal(u, v, 5, 4, 5, 91 + variant), course = std::abs(std::remainder(v * 9.0f / 0.0725f, 1.0f));
+    const Vec3f brick = Vec3f{0.21f, 0.135f, 0.095f} * (0.8f + 0.4f * TileNoise(u * 60, v * 124, 60, 124, 7));
+    const float keep = std::clamp((0.66f - worn) * 7, 0.25f, 0.92f) * (course > 0.42f ? 0.7f : 1.0f);
+    return brick * (1 - keep) + old * keep;
+  });
+  return c.Finish("mural " + std::to_string(variant));
+}
+
+// A coat of paint of 12.6 m x 9 m on a wall at y = 0.
+Model MakeMural(uint32_t variant, uint64_t) {
+  PropBuilder b("mural");
+  b.Use(Paint({1, 1, 1}, 0.85f), Mural(variant));
+  b.Sheet(4, 3, [](float u, float v) { return Vec3f{-6.3f + 12.6f * u, -0.02f, 9 * v}; }, {12.6f, 9});
+  return b.Finish();
 }
 
 // A board with a frame, its face a little in front.
@@ -344,6 +372,7 @@ std::vector<PropKind> BillboardKinds() {
   return {
       {"billboard", "signage/billboard", 12, MakeBillboard, 5.2f, 6.0f, 6.5f, 100},
       {"banner", "signage/billboard", 4, MakeBanner, 2.2f, 11.0f, 11.5f, 100},
+      {"mural", "signage/billboard", 4, MakeMural, 6.4f, 8.9f, 9.1f, 50},
       {"light_box", "signage/billboard", 6, MakeLightBox, 4.7f, 2.0f, 2.3f, 100},
       {"billboard_frame", "signage/billboard", 1, MakeBillboardFrame, 5.0f, 8.0f, 8.4f, 600},
   };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "airsim360/base/random.h"
+#include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
 #include "airsim360/image/draw.h"
 
@@ -186,6 +187,16 @@ void Canvas::Letters(std::string_view text, Vec2f center, float size, Vec3f colo
     return low * (1 - t) + high * t > 0.36f;
   };
   Fill({x0 - cell_x, y0 - cell_y}, {x0 + (n * 6 + 1) * cell_x, y0 + 8 * cell_y}, inked, color);
+}
+
+void Canvas::Paint(const std::function<Vec3f(float, float, Vec3f)>& color) {
+  ParallelFor(image_.height(), [&](int64_t y) {
+    for (int x = 0; x < image_.width(); ++x) {
+      Rgba8& pixel = image_(x, static_cast<int>(y));
+      const Vec3f old{SrgbToLinear(pixel.r), SrgbToLinear(pixel.g), SrgbToLinear(pixel.b)};
+      pixel = Encode(color((static_cast<float>(x) + 0.5f) / width_, (static_cast<float>(y) + 0.5f) / height_, old));
+    }
+  });
 }
 
 Texture Canvas::Finish(std::string name) {

@@ -43,6 +43,9 @@ class Canvas {
   /// pixel.
   void Fill(Vec2f min_px, Vec2f max_px, const std::function<bool(float, float)>& inside, Vec3f color);
 
+  /// Every pixel anew: `color(u, v, old)` of its centre (v downwards, linear); rows in parallel.
+  void Paint(const std::function<Vec3f(float, float, Vec3f)>& color);
+
   Texture Finish(std::string name);
 
  private:

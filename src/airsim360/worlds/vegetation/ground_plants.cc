@@ -40,6 +40,20 @@ Model MakeGrassTuft(uint32_t variant, uint64_t seed) {
   return JoinLayers("grass_tuft", layers);
 }
 
+// A round patch of mown lawn, thinning out towards its rim.
+Model MakeLawnPatch(uint32_t, uint64_t seed) {
+  RngStream random(seed, "lawn_patch");
+  std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
+  for (int i = 0; i < 420; ++i) {
+    const Vec3f p = OnDisc(0.50f, random) - Vec3f{0, 0, 0.008f};
+    const float a = kTau * static_cast<float>(random.Uniform()), rim = 1 - 0.5f * std::hypot(p.x, p.y);
+    const Vec3f lean = Vec3f{std::cos(a), std::sin(a), 0} * static_cast<float>(random.Uniform(0.2, 1.0));
+    AddBlade(layers[0], p, static_cast<float>(random.Uniform(0.045, 0.095)) * rim, static_cast<float>(random.Uniform(0.006, 0.010)),
+             lean, a + 1.57f, static_cast<int>(random.Index(kLeafCells)));
+  }
+  return JoinLayers("lawn_patch", layers);
+}
+
 // 45 dry leaves scattered over a disc, curled a little.
 Model MakeLeafLitter(uint32_t, uint64_t seed) {
   static const Vec3f tones[] = {{0.22f, 0.12f, 0.045f},
@@ -117,6 +131,7 @@ Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
 std::vector<PropKind> GroundPlantKinds() {
   return {
       {"grass_tuft", "vegetation/grass_tuft", 4, MakeGrassTuft, 0.1f, 0.05f, 0.35f, 150},
+      {"lawn_patch", "vegetation/grass_tuft", 3, MakeLawnPatch, 0.1f, 0.04f, 0.10f, 1300},
       {"leaf_litter", "vegetation/plant", 3, MakeLeafLitter, 0.1f, 0.01f, 0.08f, 150},
       {"flower_bed", "vegetation/flower", 4, MakeFlowerBed, 0.5f, 0.15f, 0.40f, 4000},
   };
