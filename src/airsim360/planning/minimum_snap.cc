@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -41,15 +43,24 @@ void CheckCounts(size_t waypoints, size_t durations) {
   Fail("numbers are not finite");
 }
 
-/// Cheap test of all numbers first; the culprit is looked for only if there is one.
-void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
-                  std::span<const double> durations) {
-  if (kernels.all_finite(&waypoints[0].x, 3 * waypoints.size()) &&
-      kernels.all_finite(durations.data(), durations.size()) &&
-      kernels.all_positive(durations.data(), durations.size())) {
-    return;
-  }
-  FailOnNumbers(kernels, waypoints, durations);
+/// Whether all prescribed derivatives are (positive) zeros.
+bool AtRest(const MinimumSnapProblem& problem) {
+  uint64_t bits[18], any = 0;
+  static_assert(offsetof(MinimumSnapProblem, end) ==
+                    offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives) &&
+                2 * sizeof(BoundaryDerivatives) == sizeof(bits));
+  std::memcpy(bits, &problem.start, sizeof(bits));
+  for (const uint64_t word : bits) any |= word;
+  return any == 0;
+}
+
+/// Asks for the lines of memory of numbers that are needed soon. They may lie behind the end of their array:
+/// portions of a batch usually follow each other.
+void Prefetch(const double* from, size_t skip, size_t count) {
+  constexpr size_t kLine = 64, kMost = 64 * kLine;
+  const uintptr_t begin = reinterpret_cast<uintptr_t>(from) + skip * sizeof(double);
+  const size_t bytes = std::min(count * sizeof(double), kMost);
+  for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(reinterpret_cast<const void*>(begin + i));
 }
 
 }  // namespace
@@ -60,7 +71,7 @@ struct MinimumSnapSolver::Impl {
   const AdjointKernels* adjoints = AIRSIM360_SELECT_KERNEL(kAdjointKernels);
   const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
-  bool free = false, refine = false;
+  bool free = false, refine = false, at_rest = true;
   std::vector<double> durations, coefficients;
   std::vector<double> cost_gradient, direct;
   AlignedBuffer waypoint_gradient;
@@ -69,15 +80,15 @@ struct MinimumSnapSolver::Impl {
 
   /// Takes the numbers and looks at them on the way.
   void Copy(const MinimumSnapProblem& problem) {
-    static_assert(sizeof(BoundaryDerivatives) == 9 * sizeof(double));
     const size_t segments = problem.durations.size();
     durations.resize(segments);
     const DurationCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
     const bool points =
         checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.Reserve(4 * segments + 4));
-    static_assert(offsetof(MinimumSnapProblem, end) ==
-                  offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives));
-    const bool ends_finite = checks->pad_points(&problem.start.v.x, 6, ends[0]);
+    const bool rest = AtRest(problem);
+    // Zeros stay from one problem to the next.
+    const bool ends_finite = (rest && at_rest) || checks->pad_points(&problem.start.v.x, 6, ends[0]);
+    at_rest = rest && ends_finite;
     if (!points || !check.valid || !ends_finite) {
       durations.clear();
       coefficients.clear();
@@ -101,6 +112,7 @@ struct MinimumSnapSolver::Impl {
         .end = ends[1],
         .free_start = free,
         .free_end = free,
+        .at_rest = at_rest,
         .workspace = workspace.Reserve(std::max({RouteWorkspace(segments), AdjointWorkspace(segments),
                                                  segments < kLeastChunkedSegments ? 0 : ChunkWorkspace()})),
         .coefficients = coefficients.data()};
@@ -233,8 +245,6 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   if (routes == 0) return;
   CheckCounts(segments + 1, segments);
   const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
-  CheckNumbers(checks, waypoints, durations);
-
   const BatchKernels* const kernels = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   static thread_local AlignedBuffer workspace;
   BatchArguments arguments = {};
@@ -242,17 +252,24 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   arguments.segments = segments;
   arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
   std::vector<size_t> uneven;
+  const size_t points = 3 * (segments + 1);
   for (size_t first = 0; first < routes; first += 8) {
+    const size_t count = std::min<size_t>(8, routes - first);
+    Prefetch(&waypoints[0].x, (first + 16) * points, 8 * points);
+    Prefetch(durations.data(), (first + 16) * segments, 8 * segments);
+    if (!checks.all_finite(&waypoints[first * (segments + 1)].x, count * points)) {
+      FailOnNumbers(checks, waypoints, durations);
+    }
     for (size_t lane = 0; lane < 8; ++lane) {
       // Lanes beyond the last route repeat it: they write the same numbers once more.
       const size_t route = std::min(first + lane, routes - 1);
       arguments.waypoints[lane] = &waypoints[route * (segments + 1)].x;
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
-      if (first + lane == route &&
-          (segments == 1 || checks.any_uneven(arguments.durations[lane], segments))) {
-        uneven.push_back(route);
-      }
+      if (lane >= count) continue;
+      const DurationCheck check = checks.check_durations(arguments.durations[lane], segments);
+      if (!check.valid) FailOnNumbers(checks, waypoints, durations);
+      if (segments == 1 || check.uneven) uneven.push_back(route);
     }
     kernels->batch[static_cast<int>(kind)](arguments);
   }

@@ -18,11 +18,12 @@ struct RouteArguments {
   const double* start;  ///< [3][4]: v, a, jerk
   const double* end;
   bool free_start, free_end;  ///< the highest derivative is free there; the kernels want both alike
+  bool at_rest = false;       ///< all prescribed derivatives are known to be zero
   double* workspace;          ///< RouteWorkspace(segments) doubles, 64-byte aligned
   double* coefficients;       ///< [segment][3][power]
 };
 
-constexpr size_t RouteWorkspace(size_t segments) { return segments * 8 * 8 + 256; }
+constexpr size_t RouteWorkspace(size_t segments) { return segments * 40 + 256; }
 
 /// Eight routes of equally many segments, from rest to rest.
 struct BatchArguments {
@@ -76,13 +77,14 @@ struct DurationCheck {
 
 struct CheckKernels {
   bool (*all_finite)(const double* x, size_t n);
-  bool (*all_positive)(const double* x, size_t n);
   /// A duration is more than 16 times its neighbour, or more than 8 times both of the next two on one side:
   /// double precision would lose more than about five digits there.
   bool (*any_uneven)(const double* durations, size_t n);
   /// Points [n][3] to [n][4], the fourth zero; whether all are finite.
   bool (*pad_points)(const double* points, size_t n, double* out);
+  /// Both: n >= 1.
   DurationCheck (*copy_durations)(const double* durations, size_t n, double* out);
+  DurationCheck (*check_durations)(const double* durations, size_t n);
 };
 
 }  // namespace airsim360::internal
