@@ -1,3 +1,4 @@
+#include "airsim360/planning/number_check.h"
 #include "airsim360/planning/spline_kernel.h"
 #include "airsim360/planning/spline_lanes.h"
 
@@ -5,9 +6,6 @@ namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
 typedef long long I4 __attribute__((vector_size(32)));
-
-/// Error grows with the fourth to fifth power of such ratios; see docs/trajectories.md.
-constexpr double kSingleRatio = 16, kDoubleRatio = 8;
 
 bool AnyLane(I4 mask) {
   long long any = 0;
@@ -35,11 +33,6 @@ bool AllFinite(const double* x, size_t n) {
   return finite;
 }
 
-AIRSIM360_INLINE bool UnevenHere(double a, double b, double c) {
-  const double low = a < b ? a : b, high = a < b ? b : a, right = b < c ? c : b;
-  return (high > kSingleRatio * low) | (a > kDoubleRatio * right) | (c > kDoubleRatio * high);
-}
-
 bool AnyUneven(const double* durations, size_t n) {
   if (n < 2) return false;
   I4 mask = {};
@@ -52,23 +45,11 @@ bool AnyUneven(const double* durations, size_t n) {
   return uneven || UnevenHere(durations[n - 2], durations[n - 1], durations[n - 1]);
 }
 
-/// Whole vectors are written, for the solvers read them so: narrower stores would not be forwarded.
-bool PadPoints(const double* points, size_t n, double* out) {
-  V4 sum = {};
-  for (size_t i = 0; i < n; ++i) {
-    const double* const p = points + 3 * i;
-    // Beyond the last point nothing may be read.
-    const V4 point =
-        i + 1 < n ? __builtin_shufflevector(Load4(p), V4{}, 0, 1, 2, 4) : V4{p[0], p[1], p[2], 0};
-    sum += point - point;
-    *reinterpret_cast<V4Memory*>(out + 4 * i) = point;
-  }
-  return sum[0] + sum[1] + sum[2] == 0;
-}
+bool PadPoints(const double* points, size_t n, double* out) { return Pad(points, n, out); }
 
 /// Most routes are even altogether, which least and largest duration tell.
 template <bool kCopy>
-AIRSIM360_INLINE DurationCheck Check(const double* durations, size_t n, double* out) {
+AIRSIM360_INLINE NumberCheck Check(const double* durations, size_t n, double* out) {
   double least = durations[0], largest = durations[0];
   bool valid = true;
   size_t i = 0;
@@ -99,13 +80,11 @@ AIRSIM360_INLINE DurationCheck Check(const double* durations, size_t n, double* 
   return {valid, !(largest <= kDoubleRatio * least) && AnyUneven(durations, n)};
 }
 
-DurationCheck CopyDurations(const double* durations, size_t n, double* out) {
+NumberCheck CopyDurations(const double* durations, size_t n, double* out) {
   return Check<true>(durations, n, out);
 }
 
-DurationCheck CheckDurations(const double* durations, size_t n) {
-  return Check<false>(durations, n, nullptr);
-}
+NumberCheck CheckDurations(const double* durations, size_t n) { return Check<false>(durations, n, nullptr); }
 
 }  // namespace
 

@@ -29,7 +29,7 @@ const Kernels kAvx512 = {&isa_avx512::kSplineKernels, &isa_avx512::kBatchKernels
                          &isa_avx512::kHullKernels};
 
 /// Everything the kernels compute for one route and kind.
-std::vector<double> Results(const Kernels& kernels, const Route& route, int kind, bool at_rest) {
+std::vector<double> Results(const Kernels& kernels, const Route& route, int kind) {
   const size_t segments = route.durations.size(), powers = kind == 0 ? 8 : 6;
   std::vector<double> knots, flat, coefficients(segments * 3 * powers);
   for (const Vec3d& p : route.waypoints) {
@@ -46,11 +46,17 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
                                     .end = rest,
                                     .free_start = kind == 1,
                                     .free_end = kind == 1,
-                                    .at_rest = at_rest,
                                     .workspace = workspace.data(),
                                     .coefficients = coefficients.data()};
   kernels.spline->route[kind](arguments);
   std::vector<double> all = coefficients;
+  if (kind == 0 && segments <= kFewSegments) {
+    std::vector<double> few(coefficients.size());
+    const NumberCheck check = kernels.spline->few[segments - 2](flat.data(), route.durations.data(),
+                                                                knots.data(), workspace.data(), few.data());
+    EXPECT_TRUE(check.valid);
+    all.insert(all.end(), few.begin(), few.end());
+  }
 
   BatchArguments batch = {.waypoints = {},
                           .stride = 3,
@@ -108,12 +114,12 @@ TEST(PlanningKernels, InstructionSetsAgreeBitForBit) {
   for (int kind = 0; kind < kSplineKinds; ++kind) {
     for (const size_t segments : {2, 3, 4, 5, 10, 77}) {
       const Route route = RandomRoute(segments, segments, false);
-      const std::vector<double> base = Results(kSse42, route, kind, segments < 10);
+      const std::vector<double> base = Results(kSse42, route, kind);
       const KernelIsa best = CurrentKernelIsa();
       for (const Kernels* other : {&kAvx2, &kAvx512}) {
         if (other == &kAvx2 && best < KernelIsa::kAvx2) continue;
         if (other == &kAvx512 && best < KernelIsa::kAvx512) continue;
-        const std::vector<double> values = Results(*other, route, kind, segments < 10);
+        const std::vector<double> values = Results(*other, route, kind);
         ASSERT_EQ(values.size(), base.size());
         EXPECT_EQ(std::memcmp(values.data(), base.data(), values.size() * sizeof(double)), 0)
             << "kind " << kind << ", " << segments << " segments";

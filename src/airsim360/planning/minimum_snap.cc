@@ -20,12 +20,14 @@ using namespace internal;
 
 [[noreturn]] void Fail(const std::string& text) { throw InputError("minimum snap: " + text); }
 
-void CheckCounts(size_t waypoints, size_t durations) {
+[[noreturn]] void FailOnCounts(size_t waypoints, size_t durations) {
   if (waypoints < 2) Fail(std::to_string(waypoints) + " waypoints, at least 2 are needed");
-  if (durations + 1 != waypoints) {
-    Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " +
-         std::to_string(durations));
-  }
+  Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " +
+       std::to_string(durations));
+}
+
+void CheckCounts(size_t waypoints, size_t durations) {
+  if (waypoints < 2 || durations + 1 != waypoints) FailOnCounts(waypoints, durations);
 }
 
 /// Names the number that is wrong.
@@ -43,15 +45,18 @@ void CheckCounts(size_t waypoints, size_t durations) {
   Fail("numbers are not finite");
 }
 
-/// Whether all prescribed derivatives are (positive) zeros.
+/// Whether all prescribed derivatives are (positive) zeros. In pairs, as a compiler is likely to have written
+/// them: wider loads would wait for the stores.
 bool AtRest(const MinimumSnapProblem& problem) {
-  uint64_t bits[18], any = 0;
+  typedef unsigned long long Pair __attribute__((vector_size(16), aligned(8), may_alias));
   static_assert(offsetof(MinimumSnapProblem, end) ==
                     offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives) &&
-                2 * sizeof(BoundaryDerivatives) == sizeof(bits));
-  std::memcpy(bits, &problem.start, sizeof(bits));
-  for (const uint64_t word : bits) any |= word;
-  return any == 0;
+                2 * sizeof(BoundaryDerivatives) == 9 * sizeof(Pair));
+  const Pair* const pairs = reinterpret_cast<const Pair*>(&problem.start);
+  const Pair any =
+      (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) | ((pairs[4] | pairs[5]) | (pairs[6] | pairs[7]))) |
+      pairs[8];
+  return (any[0] | any[1]) == 0;
 }
 
 /// Asks for the lines of memory of numbers that are needed soon. They may lie behind the end of their array:
@@ -78,28 +83,60 @@ struct MinimumSnapSolver::Impl {
   AlignedBuffer knots, workspace;
   alignas(64) double ends[2][12] = {};
 
+  /// Routes of few segments at rest, whose solution takes less time than the way to the general one.
+  bool SolveFew(const MinimumSnapProblem& problem) {
+    const size_t segments = problem.durations.size();
+    if (segments - 2 > kFewSegments - 2 || problem.kind != SplineKind::kMinimumSnap || problem.free_jerk ||
+        !AtRest(problem)) {
+      return false;
+    }
+    Resize(segments, 8);
+    const NumberCheck check = kernels->few[segments - 2](&problem.waypoints[0].x, problem.durations.data(),
+                                                         knots.data(), durations.data(), coefficients.data());
+    if (!check.valid) FailOnBadNumbers(problem);
+    kind = SplineKind::kMinimumSnap;
+    free = false;
+    if (!at_rest) std::memset(ends, 0, sizeof(ends));
+    at_rest = true;
+    if (check.uneven && problem.refine) RefineUneven(kind, *checks, Arguments());
+    return true;
+  }
+
+  void Resize(size_t segments, size_t powers) {
+    if (durations.size() != segments) {
+      durations.resize(segments);
+      knots.Reserve(4 * segments + 4);
+    }
+    if (coefficients.size() != segments * 3 * powers) coefficients.resize(segments * 3 * powers);
+  }
+
+  [[noreturn]] void FailOnBadNumbers(const MinimumSnapProblem& problem) {
+    durations.clear();
+    coefficients.clear();
+    FailOnNumbers(*checks, problem.waypoints, problem.durations);
+  }
+
   /// Takes the numbers and looks at them on the way.
   void Copy(const MinimumSnapProblem& problem) {
     const size_t segments = problem.durations.size();
-    durations.resize(segments);
-    const DurationCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
-    const bool points =
-        checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.Reserve(4 * segments + 4));
+    kind = problem.kind;
+    Resize(segments, static_cast<size_t>(PowersOf(kind)));
+    const NumberCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
+    if (!checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.data()) || !check.valid) {
+      FailOnBadNumbers(problem);
+    }
     const bool rest = AtRest(problem);
     // Zeros stay from one problem to the next.
-    const bool ends_finite = (rest && at_rest) || checks->pad_points(&problem.start.v.x, 6, ends[0]);
-    at_rest = rest && ends_finite;
-    if (!points || !check.valid || !ends_finite) {
+    if (!(rest && at_rest) && !checks->pad_points(&problem.start.v.x, 6, ends[0])) {
       durations.clear();
       coefficients.clear();
-      if (!points || !check.valid) FailOnNumbers(*checks, problem.waypoints, problem.durations);
+      at_rest = false;
       const bool at_end = checks->all_finite(&problem.start.v.x, 9);
       Fail(std::string("derivatives at the ") + (at_end ? "end" : "start") + " are not finite");
     }
-    kind = problem.kind;
+    at_rest = rest;
     free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
     refine = problem.refine && check.uneven;
-    coefficients.resize(segments * 3 * static_cast<size_t>(PowersOf(kind)));
   }
 
   RouteArguments Arguments() {
@@ -112,7 +149,6 @@ struct MinimumSnapSolver::Impl {
         .end = ends[1],
         .free_start = free,
         .free_end = free,
-        .at_rest = at_rest,
         .workspace = workspace.Reserve(std::max({RouteWorkspace(segments), AdjointWorkspace(segments),
                                                  segments < kLeastChunkedSegments ? 0 : ChunkWorkspace()})),
         .coefficients = coefficients.data()};
@@ -180,6 +216,7 @@ MinimumSnapSolver& MinimumSnapSolver::operator=(MinimumSnapSolver&&) noexcept = 
 
 void MinimumSnapSolver::Solve(const MinimumSnapProblem& problem) {
   CheckCounts(problem.waypoints.size(), problem.durations.size());
+  if (impl_->SolveFew(problem)) return;
   impl_->Copy(problem);
   impl_->Solve();
 }
@@ -267,7 +304,7 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
       if (lane >= count) continue;
-      const DurationCheck check = checks.check_durations(arguments.durations[lane], segments);
+      const NumberCheck check = checks.check_durations(arguments.durations[lane], segments);
       if (!check.valid) FailOnNumbers(checks, waypoints, durations);
       if (segments == 1 || check.uneven) uneven.push_back(route);
     }

@@ -254,7 +254,7 @@ AIRSIM360_INLINE Costate<V, D> EndCostate(const SegmentRecord<V, A, D>& record, 
   Costate<V, D> end;
   V sum = record.innovation[axis] * record.information;
   AIRSIM360_UNROLL
-  for (int i = 1; i <= D; ++i) {
+  for (int i = D; i >= 1; --i) {
     sum += record.gain[i - 1] * after[i - 1];
     end.at[i] = after[i - 1];
   }
@@ -262,15 +262,17 @@ AIRSIM360_INLINE Costate<V, D> EndCostate(const SegmentRecord<V, A, D>& record, 
   return end;
 }
 
-/// Costate at the segment's start from that at its end.
+/// Costate at the segment's start from that at its end. That of the position, which comes last, is added
+/// last.
 template <class S, class V, int D>
 AIRSIM360_INLINE Costate<V, D> StartCostate(const Costate<V, D>& end) {
   Costate<V, D> start;
+  start.at[0] = end.at[0];
   AIRSIM360_UNROLL
-  for (int i = 0; i <= D; ++i) {
-    V sum = end.at[0] * (S(1) / Factorial<S>(i));
+  for (int i = 1; i <= D; ++i) {
+    V sum = end.at[i];
     AIRSIM360_UNROLL
-    for (int k = 1; k <= i; ++k) sum += end.at[k] * (S(1) / Factorial<S>(i - k));
+    for (int k = i - 1; k >= 0; --k) sum += end.at[k] * (S(1) / Factorial<S>(i - k));
     start.at[i] = sum;
   }
   return start;

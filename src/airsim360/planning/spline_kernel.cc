@@ -1,6 +1,6 @@
 #include "airsim360/planning/spline_kernel.h"
 
-#include "airsim360/planning/spline_lanes.h"
+#include "airsim360/planning/number_check.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
@@ -187,40 +187,43 @@ class RouteSolver {
   AIRSIM360_INLINE void Meet(const Belief& belief) {
     // Everything in the units and the direction of time of the forward chain.
     const size_t f = Segments() - Common() - 1, b = f + 1;
-    const double to_forward = durations_[f] * SegmentInverse(b),
-                 to_backward = durations_[b] * SegmentInverse(f);
+    // Divisions of their own: nothing here waits for the inverses.
+    const double to_forward = durations_[f] / durations_[b], to_backward = durations_[b] / durations_[f];
     double forward_power[2 * D + 1], backward_power[2 * D + 1];  // powers of the two ratios
     forward_power[0] = backward_power[0] = 1;
     AIRSIM360_UNROLL
     for (int i = 1; i <= 2 * D; ++i) {
-      forward_power[i] = forward_power[i - 1] * to_forward;
-      backward_power[i] = backward_power[i - 1] * to_backward;
+      forward_power[i] = i == 1 ? to_forward : forward_power[i / 2] * forward_power[i - i / 2];
+      backward_power[i] = i == 1 ? to_backward : backward_power[i / 2] * backward_power[i - i / 2];
     }
     double sum[kPacked];
-    V4 costate[1][D], own[D];
+    V4 costate[1][D];
     AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
       AIRSIM360_UNROLL
       for (int j = i; j <= D; ++j) {
         const V2 both = belief.covariance[Packed(i, j, D)];
-        const double sign = (i + j) % 2 == 0 ? 1 : -1;
-        sum[Packed(i, j, D)] = both[0] + both[1] * (sign * backward_power[2 * D + 1 - i - j]);
+        const double other = both[1] * backward_power[2 * D + 1 - i - j];
+        sum[Packed(i, j, D)] = (i + j) % 2 == 0 ? both[0] + other : both[0] - other;
       }
-      own[i - 1] = belief.mean[0][i - 1];
-      costate[0][i - 1] = own[i - 1] - belief.mean[1][i - 1] * ((i % 2 == 0 ? 1 : -1) * forward_power[i]);
+      const V4 own = belief.mean[0][i - 1], other = belief.mean[1][i - 1] * forward_power[i];
+      costate[0][i - 1] = i % 2 == 0 ? own - other : own + other;
     }
     SolveSymmetric<D, 1>(sum, D, costate);
     AIRSIM360_UNROLL
     for (int i = 1; i <= D; ++i) {
-      V4 state = own[i - 1];
+      const V4 turned = costate[0][i - 1] * backward_power[2 * D + 1 - i];
+      costate_[0][i - 1] = costate[0][i - 1];
+      costate_[1][i - 1] = i % 2 == 0 ? -turned : turned;
+    }
+    AIRSIM360_UNROLL
+    for (int i = 1; i <= D; ++i) {
+      state_[i - 1] = belief.mean[1][i - 1];
       AIRSIM360_UNROLL
       for (int j = 1; j <= D; ++j) {
-        state -= costate[0][j - 1] * belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)][0];
+        state_[i - 1] -=
+            costate_[1][j - 1] * belief.covariance[i <= j ? Packed(i, j, D) : Packed(j, i, D)][1];
       }
-      const double sign = i % 2 == 0 ? 1 : -1;
-      state_[i - 1] = state * (sign * backward_power[i]);
-      costate_[0][i - 1] = costate[0][i - 1];
-      costate_[1][i - 1] = costate[0][i - 1] * (-sign * backward_power[2 * D + 1 - i]);
     }
   }
 
@@ -252,14 +255,8 @@ class RouteSolver {
       const double sign = chain == 1 && i % 2 != 0 ? -1 : 1;
       c[i] = (chain == 0 ? state[i - 1] : state_[i - 1]) * (sign / Factorial<double>(i));
     }
-    if constexpr (kFirst) {
-      const V4 inverse = Splat4(SegmentInverse(segment));
-      ScalePowers<kPowers>(inverse, c);
-      CloseGap<kPowers>(Splat4(durations_[segment]), inverse, Knot(segment + 1), c);
-      Store(c, segment);
-    } else {
-      StoreScaled(c, segment);
-    }
+    if constexpr (kFirst && chain == 1) CloseGap(c);
+    StoreScaled<kFirst && kRest && chain == 0>(c, segment);
     if constexpr (kFirst) return;
 
     // On to the step before.
@@ -276,7 +273,7 @@ class RouteSolver {
     V4 sum =
         record.innovation[chain] * (first && !kFree ? KnownInformation<Model>() : record.information[chain]);
     AIRSIM360_UNROLL
-    for (int i = 1; i <= D; ++i) {
+    for (int i = D; i >= 1; --i) {
       const V4 after = costate_[chain][i - 1];
       sum += after * (first && !kFree ? KnownGain<Model>(i) : record.gain[i - 1][chain]);
       end.at[i] = after;
@@ -296,13 +293,23 @@ class RouteSolver {
     state[D - 1] = rest * Factorial<double>(D);
   }
 
-  AIRSIM360_INLINE void Store(const V4* c, size_t segment) const {
-    double* const base = coefficients_ + segment * 3 * kPowers;
-    double* const out[3] = {base, base + kPowers, base + 2 * kPowers};
-    StoreLanes<kPowers>(c, out, 3);
+  /// Moves the highest coefficient (in units of the duration) so that the last segment ends at the last
+  /// waypoint: rounding of the others would show as a gap there.
+  AIRSIM360_INLINE void CloseGap(V4* c) const {
+    V4 term[kPowers];
+    AIRSIM360_UNROLL
+    for (int i = 0; i < kPowers; ++i) term[i] = c[i];
+    AIRSIM360_UNROLL
+    for (int count = kPowers; count > 1; count = (count + 1) / 2) {
+      AIRSIM360_UNROLL
+      for (int i = 0; i < count / 2; ++i) term[i] += term[count - 1 - i];
+    }
+    c[kPowers - 1] += Knot(Segments()) - term[0];
   }
 
-  /// The same of coefficients in units of the duration: scaled with powers in the lanes.
+  /// Of coefficients in units of the duration: scaled with powers in the lanes. kStill: powers 1 to
+  /// D have coefficients of zero.
+  template <bool kStill>
   AIRSIM360_INLINE void StoreScaled(const V4* c, size_t segment) {
     double* const base = coefficients_ + segment * 3 * kPowers;
     double* const out[3] = {base, base + kPowers, base + 2 * kPowers};
@@ -310,7 +317,17 @@ class RouteSolver {
     const V4 low =
         __builtin_shufflevector(one, inverse, 0, 5, 2, 7) * __builtin_shufflevector(one, square, 0, 1, 6, 7);
     const V4 scale[2] = {low, low * (square * square)};
-    StoreLanes<kPowers>(c, out, 3, scale);
+    if constexpr (kStill && kPowers == 8) {
+      V4 high[4] = {c[4], c[5], c[6], c[7]};
+      Transpose4(high[0], high[1], high[2], high[3]);
+      AIRSIM360_UNROLL
+      for (size_t axis = 0; axis < 3; ++axis) {
+        Store4(V4{knots_[4 * segment + axis], 0, 0, 0}, out[axis]);
+        Store4(high[axis] * scale[1], out[axis] + 4);
+      }
+    } else {
+      StoreLanes<kPowers>(c, out, 3, scale);
+    }
   }
 
   const double *const knots_, *const durations_, *const start_, *const end_;
@@ -332,28 +349,37 @@ void SolveRoute(const RouteArguments& arguments) {
   constexpr bool kLinear = Model::kIsLinear;
   if constexpr (Model::kStates == 3 && !kLinear) {
     if (arguments.free_start) return SolveRouteAs<Model, true, 0, false>(arguments);
-    if (arguments.at_rest) {
-      switch (arguments.segments) {
-        case 2:
-          return SolveRouteAs<Model, false, 2, true>(arguments);
-        case 3:
-          return SolveRouteAs<Model, false, 3, true>(arguments);
-        case 4:
-          return SolveRouteAs<Model, false, 4, true>(arguments);
-        case 5:
-          return SolveRouteAs<Model, false, 5, true>(arguments);
-        default:
-          break;
-      }
-    }
   }
   SolveRouteAs<Model, kLinear, 0, false>(arguments);
+}
+
+template <int kSegments>
+NumberCheck SolveFew(const double* waypoints, const double* durations, double* knots, double* durations_copy,
+                     double* coefficients) {
+  const bool points = Pad(waypoints, kSegments + 1, knots);
+  double least = durations[0], largest = least, finite = 0;
+  AIRSIM360_UNROLL
+  for (int i = 0; i < kSegments; ++i) {
+    const double duration = durations[i];
+    durations_copy[i] = duration;
+    least = duration < least ? duration : least;
+    largest = duration > largest ? duration : largest;
+    finite += duration - duration;
+  }
+  RouteArguments route = {};
+  route.knots = knots;
+  route.durations = durations;
+  route.coefficients = coefficients;
+  RouteSolver<SnapModel, false, kSegments, true>(route).Run();
+  const bool valid = points && least > 0 && finite == 0;
+  return {valid, !(largest <= kDoubleRatio * least)};
 }
 
 }  // namespace
 
 const SplineKernels kSplineKernels = {
     {SolveRoute<SnapModel>, SolveRoute<QuinticModel>, SolveRoute<JerkModel>},
+    {SolveFew<2>, SolveFew<3>, SolveFew<4>, SolveFew<5>},
 };
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -129,36 +129,35 @@ AIRSIM360_INLINE void StoreLanes(const V4* c, double* const* out, int lanes, con
   }
 }
 
-/// x = A^-1 b in place, A symmetric positive definite of n <= D <= 3 rows in packed form, for several b.
-/// Elimination without fractions: no division waits for another.
+/// x = A^-1 b in place, A symmetric positive definite of n <= D <= 3 rows in packed form, for several b. By
+/// cofactors, which give and take scaling of rows and columns and need but one division.
 template <int D, int A, class M, class V>
 AIRSIM360_INLINE void SolveSymmetric(const M* a, int n, V (*b)[D]) {
-  const M inverse_1 = 1.0 / a[0];
-  const M minor_22 = a[0] * a[Packed(2, 2, D)] - a[1] * a[1], inverse_2 = 1.0 / minor_22;
-  M minor_23 = M{}, inverse_3 = M{};
   if constexpr (D == 3) {
-    minor_23 = a[0] * a[Packed(2, 3, D)] - a[1] * a[2];
-    const M minor_33 = a[0] * a[Packed(3, 3, D)] - a[2] * a[2];
-    if (n == 3) inverse_3 = 1.0 / (minor_22 * minor_33 - minor_23 * minor_23);
+    if (n == 3) {
+      const M c11 = a[3] * a[5] - a[4] * a[4], c12 = a[2] * a[4] - a[1] * a[5],
+              c13 = a[1] * a[4] - a[2] * a[3];
+      const M c22 = a[0] * a[5] - a[2] * a[2], c23 = a[1] * a[2] - a[0] * a[4],
+              c33 = a[0] * a[3] - a[1] * a[1];
+      const M inverse = 1.0 / (a[0] * c11 + (a[1] * c12 + a[2] * c13));
+      AIRSIM360_UNROLL
+      for (int axis = 0; axis < A; ++axis) {
+        V* const x = b[axis];
+        const V b1 = x[0], b2 = x[1], b3 = x[2];
+        x[0] = (b1 * c11 + (b2 * c12 + b3 * c13)) * inverse;
+        x[1] = (b1 * c12 + (b2 * c22 + b3 * c23)) * inverse;
+        x[2] = (b1 * c13 + (b2 * c23 + b3 * c33)) * inverse;
+      }
+      return;
+    }
   }
+  const M a22 = a[Packed(2, 2, D)], inverse = 1.0 / (n == 1 ? a[0] : a[0] * a22 - a[1] * a[1]);
   AIRSIM360_UNROLL
   for (int axis = 0; axis < A; ++axis) {
     V* const x = b[axis];
-    if (n == 1) {
-      x[0] *= inverse_1;
-      continue;
-    }
-    V rest_2 = a[0] * x[1] - a[1] * x[0], rest_1 = x[0];
-    if constexpr (D == 3) {
-      if (n == 3) {
-        const V rest_3 = a[0] * x[2] - a[2] * x[0];
-        x[2] = (minor_22 * rest_3 - minor_23 * rest_2) * inverse_3;
-        rest_2 -= minor_23 * x[2];
-        rest_1 -= a[2] * x[2];
-      }
-    }
-    x[1] = rest_2 * inverse_2;
-    x[0] = (rest_1 - a[1] * x[1]) * inverse_1;
+    const V b1 = x[0], b2 = x[1];
+    x[0] = (n == 1 ? b1 : b1 * a22 - b2 * a[1]) * inverse;
+    if (n > 1) x[1] = (b2 * a[0] - b1 * a[1]) * inverse;
   }
 }
 
