@@ -20,19 +20,25 @@ template <int kPowers>
 class Group {
  public:
   Group(const ExcessArguments& arguments, size_t first) : args_(arguments), first_(first) {
+    alignas(64) double inverse[8], weight[8], g[3][kPowers][8];
     for (size_t lane = 0; lane < 8; ++lane) {
       const size_t segment = Segment(lane);
       const double duration = args_.durations[segment];
-      inverse_[lane] = 1 / duration;
+      inverse[lane] = 1 / duration;
       // Lanes beyond the last segment repeat it without weight.
-      weight_[lane] = first + lane < args_.segments ? args_.weight * duration : 0;
+      weight[lane] = first + lane < args_.segments ? args_.weight * duration : 0;
       double power = 1;
       for (size_t k = 0; k < kPowers; ++k, power *= duration) {
         power_[k][lane] = power;
         for (size_t axis = 0; axis < 3; ++axis) {
-          g_[axis][k][lane] = args_.coefficients[(3 * segment + axis) * kPowers + k] * power;
+          g[axis][k][lane] = args_.coefficients[(3 * segment + axis) * kPowers + k] * power;
         }
       }
+    }
+    inverse_ = Load8(inverse);
+    weight_ = Load8(weight);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < kPowers; ++k) g_[axis][k] = Load8(g[axis][k]);
     }
   }
 
@@ -90,21 +96,25 @@ class Group {
     for (int axis = 0; axis < 3; ++axis) {
       for (int k = 1; k < kPowers; ++k) by_duration += by_g_[axis][k] * g_[axis][k] * static_cast<double>(k);
     }
-    by_duration *= inverse_;
+    alignas(64) double by_t[8], by_g[3][kPowers][8];
+    Store8(by_duration * inverse_, by_t);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < kPowers; ++k) Store8(by_g_[axis][k], by_g[axis][k]);
+    }
     for (size_t lane = 0; lane < 8 && first_ + lane < args_.segments; ++lane) {
       const size_t segment = first_ + lane;
-      args_.by_duration[segment] = by_duration[lane];
+      args_.by_duration[segment] = by_t[lane];
       for (size_t axis = 0; axis < 3; ++axis) {
         double* const out = args_.by_coefficient + (3 * segment + axis) * kPowers;
-        for (size_t k = 0; k < kPowers; ++k) out[k] = by_g_[axis][k][lane] * power_[k][lane];
+        for (size_t k = 0; k < kPowers; ++k) out[k] = by_g[axis][k][lane] * power_[k][lane];
       }
     }
   }
 
   const ExcessArguments& args_;
   size_t first_;
-  V8 inverse_ = {}, weight_ = {}, sum_ = {}, g_[3][kPowers] = {}, power_[kPowers] = {},
-     by_g_[3][kPowers] = {};
+  V8 inverse_ = {}, weight_ = {}, sum_ = {}, g_[3][kPowers] = {}, by_g_[3][kPowers] = {};
+  double power_[kPowers][8];
 };
 
 double Excess(const ExcessArguments& arguments) {

@@ -5,8 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-AIRSIM360_INLINE V8 Larger(V8 a, V8 b) { return a > b ? a : b; }
-
 AIRSIM360_INLINE constexpr double Choose(int n, int k) {
   return Factorial<double>(n) / (Factorial<double>(k) * Factorial<double>(n - k));
 }
@@ -57,25 +55,26 @@ template <int kPowers>
 void Hulls(const HullArguments& args) {
   constexpr int n = kPowers - 1;
   for (size_t first = 0; first < args.segments; first += 8) {
-    V8 inverse = {}, v[3][8] = {}, a[3][8] = {};
+    alignas(64) double inverses[8], terms[3][n][8];
     for (size_t lane = 0; lane < 8; ++lane) {
       const size_t segment = first + lane < args.segments ? first + lane : args.segments - 1;
       const double duration = args.durations[segment];
-      inverse[lane] = 1 / duration;
+      inverses[lane] = 1 / duration;
       for (size_t axis = 0; axis < 3; ++axis) {
         const double* const c = args.coefficients + (3 * segment + axis) * kPowers;
         double power = duration;
-        for (size_t k = 1; k < kPowers; ++k, power *= duration) v[axis][k - 1][lane] = c[k] * power;
+        for (size_t k = 1; k < kPowers; ++k, power *= duration) terms[axis][k - 1][lane] = c[k] * power;
       }
     }
+    V8 v[3][8] = {}, a[3][8] = {};
     for (int axis = 0; axis < 3; ++axis) {
       AIRSIM360_UNROLL
       for (int k = 1; k <= n; ++k) {
-        v[axis][k - 1] *= static_cast<double>(k);
+        v[axis][k - 1] = Load8(terms[axis][k - 1]) * static_cast<double>(k);
         if (k > 1) a[axis][k - 2] = v[axis][k - 1] * static_cast<double>(k - 1);
       }
     }
-    const V8 inverse2 = inverse * inverse;
+    const V8 inverse = Load8(inverses), inverse2 = inverse * inverse;
     const size_t group = first / 8;
     Store8(SquaredNormControls<n - 1>(v, inverse2, args.speed_controls + group * 8 * kSpeedControls),
            args.speed_bounds + first);

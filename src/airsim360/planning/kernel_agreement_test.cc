@@ -50,6 +50,13 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
                                     .coefficients = coefficients.data()};
   kernels.spline->route[kind](arguments);
   std::vector<double> all = coefficients;
+  if (kind == 0 && segments <= kFewSegments) {
+    std::vector<double> few(coefficients.size());
+    const NumberCheck check = kernels.spline->few[segments - 2](flat.data(), route.durations.data(),
+                                                                knots.data(), workspace.data(), few.data());
+    EXPECT_TRUE(check.valid);
+    all.insert(all.end(), few.begin(), few.end());
+  }
 
   BatchArguments batch = {.waypoints = {},
                           .stride = 3,
@@ -105,7 +112,7 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
 
 TEST(PlanningKernels, InstructionSetsAgreeBitForBit) {
   for (int kind = 0; kind < kSplineKinds; ++kind) {
-    for (const size_t segments : {2, 3, 10, 77}) {
+    for (const size_t segments : {2, 3, 4, 5, 10, 77}) {
       const Route route = RandomRoute(segments, segments, false);
       const std::vector<double> base = Results(kSse42, route, kind);
       const KernelIsa best = CurrentKernelIsa();

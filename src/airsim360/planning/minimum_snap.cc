@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -18,12 +20,14 @@ using namespace internal;
 
 [[noreturn]] void Fail(const std::string& text) { throw InputError("minimum snap: " + text); }
 
-void CheckCounts(size_t waypoints, size_t durations) {
+[[noreturn]] void FailOnCounts(size_t waypoints, size_t durations) {
   if (waypoints < 2) Fail(std::to_string(waypoints) + " waypoints, at least 2 are needed");
-  if (durations + 1 != waypoints) {
-    Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " +
-         std::to_string(durations));
-  }
+  Fail(std::to_string(waypoints) + " waypoints need " + std::to_string(waypoints - 1) + " durations, not " +
+       std::to_string(durations));
+}
+
+void CheckCounts(size_t waypoints, size_t durations) {
+  if (waypoints < 2 || durations + 1 != waypoints) FailOnCounts(waypoints, durations);
 }
 
 /// Names the number that is wrong.
@@ -41,15 +45,27 @@ void CheckCounts(size_t waypoints, size_t durations) {
   Fail("numbers are not finite");
 }
 
-/// Cheap test of all numbers first; the culprit is looked for only if there is one.
-void CheckNumbers(const CheckKernels& kernels, std::span<const Vec3d> waypoints,
-                  std::span<const double> durations) {
-  if (kernels.all_finite(&waypoints[0].x, 3 * waypoints.size()) &&
-      kernels.all_finite(durations.data(), durations.size()) &&
-      kernels.all_positive(durations.data(), durations.size())) {
-    return;
-  }
-  FailOnNumbers(kernels, waypoints, durations);
+/// Whether all prescribed derivatives are (positive) zeros. In pairs, as a compiler is likely to have written
+/// them: wider loads would wait for the stores.
+bool AtRest(const MinimumSnapProblem& problem) {
+  typedef unsigned long long Pair __attribute__((vector_size(16), aligned(8), may_alias));
+  static_assert(offsetof(MinimumSnapProblem, end) ==
+                    offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives) &&
+                2 * sizeof(BoundaryDerivatives) == 9 * sizeof(Pair));
+  const Pair* const pairs = reinterpret_cast<const Pair*>(&problem.start);
+  const Pair any =
+      (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) | ((pairs[4] | pairs[5]) | (pairs[6] | pairs[7]))) |
+      pairs[8];
+  return (any[0] | any[1]) == 0;
+}
+
+/// Asks for the lines of memory of numbers that are needed soon. They may lie behind the end of their array:
+/// portions of a batch usually follow each other.
+void Prefetch(const double* from, size_t skip, size_t count) {
+  constexpr size_t kLine = 64, kMost = 64 * kLine;
+  const uintptr_t begin = reinterpret_cast<uintptr_t>(from) + skip * sizeof(double);
+  const size_t bytes = std::min(count * sizeof(double), kMost);
+  for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(reinterpret_cast<const void*>(begin + i));
 }
 
 }  // namespace
@@ -60,35 +76,67 @@ struct MinimumSnapSolver::Impl {
   const AdjointKernels* adjoints = AIRSIM360_SELECT_KERNEL(kAdjointKernels);
   const CheckKernels* checks = AIRSIM360_SELECT_KERNEL(kCheckKernels);
   SplineKind kind = SplineKind::kMinimumSnap;
-  bool free = false, refine = false;
+  bool free = false, refine = false, at_rest = true;
   std::vector<double> durations, coefficients;
   std::vector<double> cost_gradient, direct;
   AlignedBuffer waypoint_gradient;
   AlignedBuffer knots, workspace;
   alignas(64) double ends[2][12] = {};
 
+  /// Routes of few segments at rest, whose solution takes less time than the way to the general one.
+  bool SolveFew(const MinimumSnapProblem& problem) {
+    const size_t segments = problem.durations.size();
+    if (segments - 2 > kFewSegments - 2 || problem.kind != SplineKind::kMinimumSnap || problem.free_jerk ||
+        !AtRest(problem)) {
+      return false;
+    }
+    Resize(segments, 8);
+    const NumberCheck check = kernels->few[segments - 2](&problem.waypoints[0].x, problem.durations.data(),
+                                                         knots.data(), durations.data(), coefficients.data());
+    if (!check.valid) FailOnBadNumbers(problem);
+    kind = SplineKind::kMinimumSnap;
+    free = false;
+    if (!at_rest) std::memset(ends, 0, sizeof(ends));
+    at_rest = true;
+    if (check.uneven && problem.refine) RefineUneven(kind, *checks, Arguments());
+    return true;
+  }
+
+  void Resize(size_t segments, size_t powers) {
+    if (durations.size() != segments) {
+      durations.resize(segments);
+      knots.Reserve(4 * segments + 4);
+    }
+    if (coefficients.size() != segments * 3 * powers) coefficients.resize(segments * 3 * powers);
+  }
+
+  [[noreturn]] void FailOnBadNumbers(const MinimumSnapProblem& problem) {
+    durations.clear();
+    coefficients.clear();
+    FailOnNumbers(*checks, problem.waypoints, problem.durations);
+  }
+
   /// Takes the numbers and looks at them on the way.
   void Copy(const MinimumSnapProblem& problem) {
-    static_assert(sizeof(BoundaryDerivatives) == 9 * sizeof(double));
     const size_t segments = problem.durations.size();
-    durations.resize(segments);
-    const DurationCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
-    const bool points =
-        checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.Reserve(4 * segments + 4));
-    static_assert(offsetof(MinimumSnapProblem, end) ==
-                  offsetof(MinimumSnapProblem, start) + sizeof(BoundaryDerivatives));
-    const bool ends_finite = checks->pad_points(&problem.start.v.x, 6, ends[0]);
-    if (!points || !check.valid || !ends_finite) {
+    kind = problem.kind;
+    Resize(segments, static_cast<size_t>(PowersOf(kind)));
+    const NumberCheck check = checks->copy_durations(problem.durations.data(), segments, durations.data());
+    if (!checks->pad_points(&problem.waypoints[0].x, segments + 1, knots.data()) || !check.valid) {
+      FailOnBadNumbers(problem);
+    }
+    const bool rest = AtRest(problem);
+    // Zeros stay from one problem to the next.
+    if (!(rest && at_rest) && !checks->pad_points(&problem.start.v.x, 6, ends[0])) {
       durations.clear();
       coefficients.clear();
-      if (!points || !check.valid) FailOnNumbers(*checks, problem.waypoints, problem.durations);
+      at_rest = false;
       const bool at_end = checks->all_finite(&problem.start.v.x, 9);
       Fail(std::string("derivatives at the ") + (at_end ? "end" : "start") + " are not finite");
     }
-    kind = problem.kind;
+    at_rest = rest;
     free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
     refine = problem.refine && check.uneven;
-    coefficients.resize(segments * 3 * static_cast<size_t>(PowersOf(kind)));
   }
 
   RouteArguments Arguments() {
@@ -168,6 +216,7 @@ MinimumSnapSolver& MinimumSnapSolver::operator=(MinimumSnapSolver&&) noexcept = 
 
 void MinimumSnapSolver::Solve(const MinimumSnapProblem& problem) {
   CheckCounts(problem.waypoints.size(), problem.durations.size());
+  if (impl_->SolveFew(problem)) return;
   impl_->Copy(problem);
   impl_->Solve();
 }
@@ -233,8 +282,6 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   if (routes == 0) return;
   CheckCounts(segments + 1, segments);
   const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
-  CheckNumbers(checks, waypoints, durations);
-
   const BatchKernels* const kernels = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   static thread_local AlignedBuffer workspace;
   BatchArguments arguments = {};
@@ -242,17 +289,24 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   arguments.segments = segments;
   arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
   std::vector<size_t> uneven;
+  const size_t points = 3 * (segments + 1);
   for (size_t first = 0; first < routes; first += 8) {
+    const size_t count = std::min<size_t>(8, routes - first);
+    Prefetch(&waypoints[0].x, (first + 16) * points, 8 * points);
+    Prefetch(durations.data(), (first + 16) * segments, 8 * segments);
+    if (!checks.all_finite(&waypoints[first * (segments + 1)].x, count * points)) {
+      FailOnNumbers(checks, waypoints, durations);
+    }
     for (size_t lane = 0; lane < 8; ++lane) {
       // Lanes beyond the last route repeat it: they write the same numbers once more.
       const size_t route = std::min(first + lane, routes - 1);
       arguments.waypoints[lane] = &waypoints[route * (segments + 1)].x;
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
-      if (first + lane == route &&
-          (segments == 1 || checks.any_uneven(arguments.durations[lane], segments))) {
-        uneven.push_back(route);
-      }
+      if (lane >= count) continue;
+      const NumberCheck check = checks.check_durations(arguments.durations[lane], segments);
+      if (!check.valid) FailOnNumbers(checks, waypoints, durations);
+      if (segments == 1 || check.uneven) uneven.push_back(route);
     }
     kernels->batch[static_cast<int>(kind)](arguments);
   }

@@ -188,6 +188,20 @@ TEST(MinimumSnap, LongAndShortRoutesAgreeWithWideArithmetic) {
   }
 }
 
+TEST(MinimumSnap, RoutesAtRestOwnNothingToTheOneSolvedBefore) {
+  MinimumSnapSolver solver;
+  for (size_t segments = 2; segments <= 7; ++segments) {
+    const Route moving = RandomRoute(segments, segments, /*moving_ends=*/true);
+    solver.Solve(moving.Problem(SplineKind::kMinimumSnap, false));
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      const MinimumSnapProblem rest = {.waypoints = moving.waypoints, .durations = moving.durations};
+      solver.Solve(rest);
+      const PolynomialTrajectory exact = internal::WideOptimum(rest);
+      EXPECT_LT(LargestDifference(solver.Trajectory(), exact), 1e-12 * LargestCoefficient(exact)) << segments;
+    }
+  }
+}
+
 TEST(MinimumSnap, VeryUnevenTimesKeepTwelveDigits) {
   RngStream random(5, "uneven");
   for (int i = 0; i < 10; ++i) {

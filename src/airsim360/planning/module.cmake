@@ -4,3 +4,5 @@ airsim360_kernels(planning)
 foreach(isa sse42 avx2 avx512)
   target_compile_options(airsim360_planning_${isa} PRIVATE -Wno-psabi --param=max-completely-peeled-insns=4000 --param=max-completely-peel-times=32)
 endforeach()
+# One route is two chains of four lanes: longer vectors would only be written for narrower ones to wait for.
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/airsim360/planning/spline_kernel.cc PROPERTIES COMPILE_OPTIONS -mprefer-vector-width=256)

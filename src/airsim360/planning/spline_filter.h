@@ -157,41 +157,59 @@ AIRSIM360_INLINE void StepMean(const V* from, const V* to, SegmentRecord<V, A, M
   }
 }
 
-/// Gain of a segment and covariance at its end after its waypoint is seen.
-template <class S, class Model, class V, int A>
-AIRSIM360_INLINE void StepCovariance(SegmentRecord<V, A, Model::kStates>& record,
-                                     KnotBelief<V, A, Model::kStates>& next) {
-  constexpr int D = Model::kStates;
-  // Predicted = G P G^T + noise, rows 0 to D.
-  V half[D + 1][D];
+/// Gain of a unit segment, inverse variance of its innovation and covariance at its end after its waypoint is
+/// seen, from the covariance at its start.
+template <class S, class Model, class C>
+AIRSIM360_INLINE void FilterCovariance(const C* from, C* gain, C& information, C* to) {
+  constexpr int D = Model::kStates, kTerms = D * (D + 1) / 2;
+  // Predicted = G P G^T + noise, rows 0 to D. The variance of the position is what the division waits for, so
+  // it is summed on its own, as a tree.
+  C term[kTerms + 1];
+  AIRSIM360_UNROLL
+  for (int i = 1; i <= D; ++i) {
+    AIRSIM360_UNROLL
+    for (int j = i; j <= D; ++j) {
+      const int at = Packed(i, j, D);
+      term[at] = from[at] * (S(i == j ? 1 : 2) / (Factorial<S>(i) * Factorial<S>(j)));
+    }
+  }
+  term[kTerms - 1] += Noise<S, Model>(0, 0);
+  AIRSIM360_UNROLL
+  for (int count = kTerms; count > 1; count = (count + 1) / 2) {
+    AIRSIM360_UNROLL
+    for (int i = 0; i < count / 2; ++i) term[i] += term[count - 1 - i];
+  }
+  information = S(1) / term[0];
+  C half[D + 1][D];
   AIRSIM360_UNROLL
   for (int i = 0; i <= D; ++i) {
     AIRSIM360_UNROLL
     for (int j = 1; j <= D; ++j) {
-      V column[D];
+      C column[D];
       AIRSIM360_UNROLL
-      for (int k = 1; k <= D; ++k) {
-        column[k - 1] = record.start.covariance[k <= j ? Packed(k, j, D) : Packed(j, k, D)];
-      }
+      for (int k = 1; k <= D; ++k) column[k - 1] = from[k <= j ? Packed(k, j, D) : Packed(j, k, D)];
       half[i][j - 1] = Advance<S, D>(column, i);
     }
   }
-  const V variance = Advance<S, D>(half[0], 0) + Noise<S, Model>(0, 0);
-  record.information = S(1) / variance;
-  V cross[D];
+  C cross[D];
   AIRSIM360_UNROLL
   for (int j = 1; j <= D; ++j) {
     cross[j - 1] = Advance<S, D>(half[0], j) + Noise<S, Model>(0, j);
-    record.gain[j - 1] = cross[j - 1] * record.information;
+    gain[j - 1] = cross[j - 1] * information;
   }
   AIRSIM360_UNROLL
   for (int i = 1; i <= D; ++i) {
     AIRSIM360_UNROLL
     for (int j = i; j <= D; ++j) {
-      next.covariance[Packed(i, j, D)] =
-          (Advance<S, D>(half[i], j) + Noise<S, Model>(i, j)) - record.gain[i - 1] * cross[j - 1];
+      to[Packed(i, j, D)] = (Advance<S, D>(half[i], j) + Noise<S, Model>(i, j)) - gain[i - 1] * cross[j - 1];
     }
   }
+}
+
+template <class S, class Model, class V, int A>
+AIRSIM360_INLINE void StepCovariance(SegmentRecord<V, A, Model::kStates>& record,
+                                     KnotBelief<V, A, Model::kStates>& next) {
+  FilterCovariance<S, Model>(record.start.covariance, record.gain, record.information, next.covariance);
 }
 
 /// The same for a first segment whose highest derivative is free at its start: infinite prior variance.
@@ -236,7 +254,7 @@ AIRSIM360_INLINE Costate<V, D> EndCostate(const SegmentRecord<V, A, D>& record, 
   Costate<V, D> end;
   V sum = record.innovation[axis] * record.information;
   AIRSIM360_UNROLL
-  for (int i = 1; i <= D; ++i) {
+  for (int i = D; i >= 1; --i) {
     sum += record.gain[i - 1] * after[i - 1];
     end.at[i] = after[i - 1];
   }
@@ -244,15 +262,17 @@ AIRSIM360_INLINE Costate<V, D> EndCostate(const SegmentRecord<V, A, D>& record, 
   return end;
 }
 
-/// Costate at the segment's start from that at its end.
+/// Costate at the segment's start from that at its end. That of the position, which comes last, is added
+/// last.
 template <class S, class V, int D>
 AIRSIM360_INLINE Costate<V, D> StartCostate(const Costate<V, D>& end) {
   Costate<V, D> start;
+  start.at[0] = end.at[0];
   AIRSIM360_UNROLL
-  for (int i = 0; i <= D; ++i) {
-    V sum = end.at[0] * (S(1) / Factorial<S>(i));
+  for (int i = 1; i <= D; ++i) {
+    V sum = end.at[i];
     AIRSIM360_UNROLL
-    for (int k = 1; k <= i; ++k) sum += end.at[k] * (S(1) / Factorial<S>(i - k));
+    for (int k = i - 1; k >= 0; --k) sum += end.at[k] * (S(1) / Factorial<S>(i - k));
     start.at[i] = sum;
   }
   return start;
@@ -273,10 +293,11 @@ AIRSIM360_INLINE void SmoothStart(const KnotBelief<V, A, D>& belief, int axis, c
   }
 }
 
-/// Coefficients D + 1 and up, in local time over T. `costate` is that at the segment's start; for a segment
-/// walked backwards in time (`reversed`) and for linear controls that at the end of the walk.
+/// Coefficients D + 1 and up, in local time over T, but for their HighFactor. `costate` is that at the
+/// segment's start; for a segment walked backwards in time (`reversed`) and for linear controls that at the
+/// end of the walk.
 template <class S, class Model, bool reversed, class V>
-AIRSIM360_INLINE void HighCoefficients(const Costate<V, Model::kStates>& costate, V* high) {
+AIRSIM360_INLINE void HighTerms(const Costate<V, Model::kStates>& costate, V* high) {
   constexpr int D = Model::kStates;
   if constexpr (Model::kIsLinear) {
     // The control is the costate's polynomial projected on linear functions. Both components are taken from
@@ -288,15 +309,28 @@ AIRSIM360_INLINE void HighCoefficients(const Costate<V, Model::kStates>& costate
       if (i < D) linear -= costate.at[i] * (S(3) * LinearEffect<S, D>(i));
     }
     if constexpr (reversed) linear = -linear;
-    high[0] = (constant - linear) * (S(1) / Factorial<S>(D + 1));
-    high[1] = linear * (S(2) / Factorial<S>(D + 2));
+    high[0] = constant - linear;
+    high[1] = linear;
   } else {
     AIRSIM360_UNROLL
-    for (int m = 0; m <= D; ++m) {
-      const bool negative = reversed ? D % 2 == 1 : m % 2 == 0;
-      high[m] = costate.at[D - m] * ((negative ? -S(1) : S(1)) / Factorial<S>(D + 1 + m));
-    }
+    for (int m = 0; m <= D; ++m) high[m] = costate.at[D - m];
   }
+}
+
+template <class Model, bool reversed, class S = double>
+AIRSIM360_INLINE constexpr S HighFactor(int m) {
+  constexpr int D = Model::kStates;
+  if (Model::kIsLinear) return S(m == 0 ? 1 : 2) / Factorial<S>(D + 1 + m);
+  const bool negative = reversed ? D % 2 == 1 : m % 2 == 0;
+  return (negative ? -S(1) : S(1)) / Factorial<S>(D + 1 + m);
+}
+
+template <class S, class Model, bool reversed, class V>
+AIRSIM360_INLINE void HighCoefficients(const Costate<V, Model::kStates>& costate, V* high) {
+  constexpr int D = Model::kStates;
+  HighTerms<S, Model, reversed>(costate, high);
+  AIRSIM360_UNROLL
+  for (int m = 0; m < Model::kDegree - D; ++m) high[m] *= HighFactor<Model, reversed, S>(m);
 }
 
 /// Multiplies the costate of y by ratio^(2 D + 1 - i): into the units of the neighbour T_neighbour = ratio T.

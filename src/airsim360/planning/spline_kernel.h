@@ -22,7 +22,7 @@ struct RouteArguments {
   double* coefficients;       ///< [segment][3][power]
 };
 
-constexpr size_t RouteWorkspace(size_t segments) { return segments * 8 * 8 + 256; }
+constexpr size_t RouteWorkspace(size_t segments) { return segments * 40 + 256; }
 
 /// Eight routes of equally many segments, from rest to rest.
 struct BatchArguments {
@@ -46,8 +46,21 @@ struct ChunkArguments {
   const double *start, *end;  ///< [3][4], as in RouteArguments
 };
 
+struct NumberCheck {
+  bool valid;   ///< durations are positive and finite; points too where they are looked at
+  bool uneven;  ///< CheckKernels::any_uneven
+};
+
+constexpr size_t kFewSegments = 5;
+
 struct SplineKernels {
   void (*route[kSplineKinds])(const RouteArguments&);  ///< at least 2 segments
+  /// kMinimumSnap of 2 to kFewSegments segments (index 0: 2) from rest to rest, with waypoints [segments +
+  /// 1][3] and durations as they come: they are looked at and copied in passing, to knots [segments + 1][4]
+  /// and durations_copy. Where numbers are not valid the coefficients are of no use; `uneven` says only that
+  /// some duration is more than 8 times another.
+  NumberCheck (*few[kFewSegments - 1])(const double* waypoints, const double* durations, double* knots,
+                                       double* durations_copy, double* coefficients);
 };
 
 struct BatchKernels {
@@ -69,20 +82,16 @@ struct AdjointKernels {
   void (*adjoint[kSplineKinds])(const AdjointArguments&);
 };
 
-struct DurationCheck {
-  bool valid;   ///< all are positive and finite
-  bool uneven;  ///< CheckKernels::any_uneven
-};
-
 struct CheckKernels {
   bool (*all_finite)(const double* x, size_t n);
-  bool (*all_positive)(const double* x, size_t n);
   /// A duration is more than 16 times its neighbour, or more than 8 times both of the next two on one side:
   /// double precision would lose more than about five digits there.
   bool (*any_uneven)(const double* durations, size_t n);
   /// Points [n][3] to [n][4], the fourth zero; whether all are finite.
   bool (*pad_points)(const double* points, size_t n, double* out);
-  DurationCheck (*copy_durations)(const double* durations, size_t n, double* out);
+  /// Both: n >= 1.
+  NumberCheck (*copy_durations)(const double* durations, size_t n, double* out);
+  NumberCheck (*check_durations)(const double* durations, size_t n);
 };
 
 }  // namespace airsim360::internal

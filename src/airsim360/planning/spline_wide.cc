@@ -156,6 +156,18 @@ void StartDerivatives(const RouteArguments& arguments, size_t segment, size_t po
   }
 }
 
+/// Whether 64-bit mantissas are enough: they lose up to the fifth power of the largest ratio of durations
+/// that are near each other, which leaves 2e-13 here.
+bool LongDoubleWillDo(const double* durations, size_t n) {
+  constexpr size_t kNear = 5;
+  constexpr double kRatio = 20;
+  for (size_t i = 0; i < n; ++i) {
+    const auto [least, largest] = std::minmax_element(durations + i, durations + std::min(n, i + kNear));
+    if (*largest > kRatio * *least) return false;
+  }
+  return true;
+}
+
 /// Segments [first, last) solved again with what the solution has at their borders.
 void SolveAgain(SplineKind kind, const RouteArguments& all, size_t first, size_t last) {
   RouteArguments part = all;
@@ -175,6 +187,7 @@ void SolveAgain(SplineKind kind, const RouteArguments& all, size_t first, size_t
     part.end = end;
     part.free_end = false;
   }
+  if (LongDoubleWillDo(part.durations, part.segments)) return SolveKind<long double>(kind, part);
   SolveKind<Quad>(kind, part);
 }
 
@@ -182,8 +195,17 @@ void SolveAgain(SplineKind kind, const RouteArguments& all, size_t first, size_t
 
 void RefineUneven(SplineKind kind, const CheckKernels& kernels, const RouteArguments& arguments) {
   const size_t segments = arguments.segments;
+  constexpr size_t kBlock = 64;
   size_t first = segments, last = 0;  // the part being collected
   for (size_t i = 0; i + 1 < segments; ++i) {
+    // Block by block first.
+    if (i % kBlock == 0) {
+      while (i + 1 < segments &&
+             !kernels.any_uneven(arguments.durations + i, std::min(kBlock + 2, segments - i))) {
+        i += kBlock;
+      }
+      if (i + 1 >= segments) break;
+    }
     if (!kernels.any_uneven(arguments.durations + i, std::min<size_t>(3, segments - i))) continue;
     const size_t from = i > kMargin ? i - kMargin : 0, to = std::min(segments, i + 3 + kMargin);
     if (first < last && from > last) {
