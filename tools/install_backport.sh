@@ -1,10 +1,12 @@
 #!/bin/sh
-# Installs a package of Debian's bookworm-backports: tools/install_backport.sh PACKAGE. Where apt does not know that suite it is
-# asked for this once, by lists of its own; the sources of the system stay as they are. Exit status 1 where it cannot be had.
+# Installs a package of Debian's bookworm-backports: tools/install_backport.sh PACKAGE [OLDEST_VERSION]. Where apt does not
+# know that suite it is asked for this once, by lists of its own; the sources of the system stay as they are. Exit status 1
+# where it cannot be had.
 set -eu
 package="$1"
 suite=bookworm-backports
-dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' && exit 0
+installed="$(dpkg-query -W -f='${Status} ${Version}' "$package" 2>/dev/null | sed -n 's/^install ok installed //p')"
+[ -n "$installed" ] && dpkg --compare-versions "$installed" ge "${2:-0}" && exit 0
 sudo=""
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || { echo "not root and no sudo: run as root: apt-get install -t $suite $package" >&2; exit 1; }
