@@ -146,7 +146,10 @@ VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
                                            "IsFpvVehicle",
                                            "PawnPath",
                                            "Model",
-                                           "Parameters"};
+                                           "Parameters",
+                                           "LockStep",
+                                           "UseSerial",
+                                           "UseTcp"};
   SettingsObject object(node, parent.file(), parent.notices());
   VehicleSettings vehicle;
   object.Read("VehicleType", vehicle.type);
