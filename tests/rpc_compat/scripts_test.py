@@ -215,7 +215,7 @@ class Clock(FlightTest):
 class RaySensors(FlightTest):
     settings = {"Vehicles": {
         "Drone1": {"VehicleType": "SimpleFlight", "X": -2, "Sensors": {
-            "Lidar": {"SensorType": 6, "NumberOfChannels": 16, "PointsPerSecond": 100000, "VerticalFOVLower": -1, "VerticalFOVUpper": 5,
+            "Lidar": {"SensorType": 6, "NumberOfChannels": 16, "PointsPerSecond": 100000, "VerticalFOVLower": 0, "VerticalFOVUpper": 5,
                       "HorizontalFOVStart": -20, "HorizontalFOVEnd": 20, "DataFrame": "SensorLocalFrame"}}},
         "Drone2": {"VehicleType": "SimpleFlight", "X": 0}}}
 
