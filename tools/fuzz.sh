@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds every *_fuzz.cc with clang, AddressSanitizer and UndefinedBehaviorSanitizer and runs each for SECONDS.
-# Usage: tools/fuzz.sh BUILD_FOLDER JOBS SECONDS. A crashing input is kept in BUILD_FOLDER/artifacts.
+# Usage: tools/fuzz.sh BUILD_FOLDER JOBS SECONDS. 0 seconds: builds alone. A crashing input is kept in BUILD_FOLDER/artifacts.
 set -eu
 build="$1"; jobs="$2"; seconds="$3"
 cd "$(dirname "$0")/.."
@@ -11,6 +11,7 @@ fi
 targets=$(find src -name '*_fuzz.cc' -exec basename {} .cc \; | sort)
 # shellcheck disable=SC2086
 cmake --build "$build" -j "$jobs" --target $targets
+[ "$seconds" -gt 0 ] || exit 0  # to libFuzzer 0 would mean without end
 mkdir -p "$build/artifacts"
 for target in $targets; do
   corpus="$build/corpus/$target"
