@@ -75,11 +75,13 @@ class Server:
         client.close()
 
     def _answer(self, message):
-        if message[0] == NOTIFY:
+        kind = message[0] if isinstance(message, list) and message and isinstance(message[0], int) else None
+        length = {REQUEST: 4, NOTIFY: 3}.get(kind)
+        if length is None or len(message) != length or not (isinstance(message[-2], str) and isinstance(message[-1], list)):
+            raise ValueError("neither a call nor a notification")
+        if kind == NOTIFY:
             self._call(*message[1:])
             return None
-        if message[0] != REQUEST:
-            raise ValueError("neither a call nor a notification")
         failure, result = self._call(*message[2:])
         return pack([RESPONSE, message[1], failure, result])
 

@@ -20,6 +20,13 @@ class Handshake(ServerTest):
         self.assertEqual(raw.call("getServerVersion"), 1)
         self.assertEqual(raw.call("getMinRequiredClientVersion"), 1)
 
+    def test_settings_of_cosys_airsim_get_its_version(self):
+        server = Server(settings={"SettingsVersion": 2.0})
+        self.addCleanup(server.stop)
+        raw = RawClient(server.port)
+        self.addCleanup(raw.close)
+        self.assertEqual(raw.call("getServerVersion"), 4)
+
     def test_structs_are_maps_with_airsims_keys(self):
         state = self.raw().call("getMultirotorState", "")
         self.assertEqual(set(state), {"collision", "kinematics_estimated", "gps_location", "timestamp", "landed_state", "rc_data"})
@@ -211,6 +218,54 @@ class Life(unittest.TestCase):
         server = Server(settings={"Vehicles": {"A": {"VehicleType": "SimpleFlight"}}, "Unknown": 1})
         self.assertIn("'Unknown' is not known here", server.messages())
         self.assertEqual(server.stop(), 0)
+
+
+class SceneManager(unittest.TestCase):
+    """msgpackrpc.Server, with which scene managers of AirVLN and others listen."""
+
+    class Handler:
+        def ping(self):
+            return True
+
+        def reopen_scenes(self, ip, scenes):
+            if not scenes:
+                raise ValueError("no scenes")
+            return True, (ip, [30000 + i for i in range(len(scenes))])
+
+        def _secret(self):
+            return "secret"
+
+    def setUp(self):
+        import msgpackrpc
+        self.rpc = msgpackrpc
+        self.server = msgpackrpc.Server(self.Handler())
+        self.server.listen(msgpackrpc.Address("127.0.0.1", 0))
+        self.thread = threading.Thread(target=self.server.start)
+        self.thread.start()
+
+    def tearDown(self):
+        self.server.close()
+        self.thread.join(10)
+        self.assertFalse(self.thread.is_alive())
+
+    def test_calls_are_answered_and_errors_told(self):
+        clients = [self.rpc.Client(self.rpc.Address(*self.server.address), timeout=20) for _ in range(2)]
+        for client in clients:
+            self.addCleanup(client.close)
+            self.assertIs(client.call("ping"), True)
+            self.assertEqual(client.call("reopen_scenes", "127.0.0.1", [1, 2]), [True, ["127.0.0.1", [30000, 30001]]])
+            for call in (("reopen_scenes", "", []), ("nothing",), ("_secret",), ("ping", 1)):
+                with self.assertRaises(self.rpc.error.RPCError):
+                    client.call(*call)
+
+    def test_what_is_no_message_ends_that_connection_alone(self):
+        broken = socket.create_connection(self.server.address, 20)
+        self.addCleanup(broken.close)
+        broken.sendall(msgpack.packb([7, 7]))
+        self.assertEqual(broken.recv(10), b"")
+        client = self.rpc.Client(self.rpc.Address(*self.server.address), timeout=20)
+        self.addCleanup(client.close)
+        self.assertIs(client.call("ping"), True)
 
 
 if __name__ == "__main__":

@@ -212,6 +212,28 @@ class Clock(FlightTest):
         self.assertNear(second.position, list(first.position), 1e-3)
 
 
+class RaySensors(FlightTest):
+    settings = {"Vehicles": {
+        "Drone1": {"VehicleType": "SimpleFlight", "X": -2, "Sensors": {
+            "Lidar": {"SensorType": 6, "NumberOfChannels": 16, "PointsPerSecond": 100000, "VerticalFOVLower": 0, "VerticalFOVUpper": 5,
+                      "HorizontalFOVStart": -20, "HorizontalFOVEnd": 20, "DataFrame": "SensorLocalFrame"}}},
+        "Drone2": {"VehicleType": "SimpleFlight", "X": 0}}}
+
+    def test_lidar_meets_other_drones_where_they_are(self):
+        client = self.client()
+
+        def near():
+            data = client.getLidarData("Lidar", "Drone1")
+            points = np.reshape(data.point_cloud, (-1, 3))
+            chosen = (np.hypot(points[:, 0] - 2, points[:, 1]) < 0.6) & (np.abs(points[:, 2]) < 0.5)
+            return int(chosen.sum()), set(np.array(data.segmentation)[chosen])
+        count, ids = near()
+        self.assertGreater(count, 10)
+        self.assertEqual(ids, {client.simGetSegmentationObjectID("Drone2")})
+        client.simSetVehiclePose(airsim.Pose(airsim.Vector3r(0, 3, 0)), True, "Drone2")
+        self.assertEqual(near()[0], 0)
+
+
 class ManyDrones(FlightTest):
     settings = {"ClockSpeed": 6, "Vehicles": {
         "Drone1": {"VehicleType": "SimpleFlight", "X": -2, "Y": -2}, "Drone2": {"VehicleType": "SimpleFlight", "X": 2, "Y": 2, "Yaw": 90}}}

@@ -34,7 +34,7 @@ Mount AsMount(const RigidTransform& X_BS) {
 
 LidarSpec AsLidar(const SensorSettings& sensor) {
   LidarSpec spec;
-  spec.mount = AsMount(MountOf(sensor.pose, {0, 0, -1, 0, 0, 0}));
+  spec.mount = AsMount(MountOf(sensor.pose, {0, 0, 0, 0, 0, 0}));  // AirSim puts those of cars alone a metre higher
   spec.rate_hz = sensor.rotations_per_second;
   spec.channels = static_cast<uint64_t>(sensor.channels);
   const double shots = sensor.points_per_second / sensor.rotations_per_second / sensor.channels;

@@ -39,7 +39,8 @@ void NoticeOnce(const std::string& text) {
 
 void AddConnectionCalls(Api& api) {
   api.Read("ping", [](const Snapshot&) { return true; });
-  api.Read("getServerVersion", [](const Snapshot&) { return 1; });
+  // What the clients of AirSim, and of Cosys-AirSim, want at least.
+  api.Read("getServerVersion", [&api](const Snapshot&) { return api.session().settings().cosys ? 4 : 1; });
   api.Read("getMinRequiredClientVersion", [](const Snapshot&) { return 1; });
   AddClockCalls(api);
   api.Change("reset", [](Session& s) { s.Reset(); });

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
@@ -194,15 +195,16 @@ void SwapTriples(const void* from, size_t stride, size_t count, char* out) {
   if (count > 0) out[0] = in[2], out[1] = in[1], out[2] = in[0];
 }
 
-// The three pictures that are asked for most, without a choice at every pixel. False: another one.
-bool CommonRow(ImageContent content, const Frame& frame, int y, char* out) {
+// The pictures that are asked for most, without a choice at every pixel. False: another one.
+bool CommonRow(ImageContent content, const Frame& frame, int y, bool rgb_order, char* out) {
   static_assert(sizeof(Rgb8) == 3 && sizeof(EntityId) == 4 && std::endian::native == std::endian::little);
   if (content == ImageContent::kColor) {
     const auto row = frame.rgb.row(y);
-    SwapTriples(row.data(), sizeof(Rgb8), row.size(), out);
+    rgb_order ? (void)std::memcpy(out, row.data(), row.size_bytes())
+              : SwapTriples(row.data(), sizeof(Rgb8), row.size(), out);
     return true;
   }
-  if (content == ImageContent::kEntity) {
+  if (content == ImageContent::kEntity && !rgb_order) {
     const auto row = frame.entity.row(y);
     SwapTriples(row.data(), sizeof(EntityId), row.size(), out);
     return true;
@@ -267,17 +269,18 @@ airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const
   return {count, binary, {bytes, count * size}};
 }
 
-WireBlock BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                       const PixelOptions& options, BlockPool& pool) {
   const int width = Width(camera), height = Height(camera);
   const size_t size = 3 * static_cast<size_t>(width) * static_cast<size_t>(height);
   const std::shared_ptr<char[]> pixels = pool.Take(size);
   ForRows(camera, [&](int y) {
     char* out = pixels.get() + 3 * static_cast<size_t>(y) * static_cast<size_t>(width);
-    if (CommonRow(content, frame, y, out)) return;
+    if (CommonRow(content, frame, y, options.rgb_order, out)) return;
     for (int x = 0; x < width; ++x, out += 3) {
-      const Rgb8 c = ColorAt(content, frame, camera, options, x, y);
-      out[0] = static_cast<char>(c.b), out[1] = static_cast<char>(c.g), out[2] = static_cast<char>(c.r);
+      Rgb8 c = ColorAt(content, frame, camera, options, x, y);
+      if (!options.rgb_order) std::swap(c.r, c.b);
+      std::memcpy(out, &c, sizeof c);
     }
   });
   return {pixels, size};

@@ -32,6 +32,7 @@ void AddProducts(ImageContent content, Products& products);
 struct PixelOptions {
   bool half_depth = true;    ///< depth is rounded to half precision, as AirSim's readback does
   bool centimetres = false;  ///< 8-bit range is centimetres, held at 255
+  bool rgb_order = false;    ///< bytes of uncompressed pictures are R, G, B
   std::vector<uint32_t> const* segmentation = nullptr;  ///< id by entity
   std::vector<uint32_t> const* annotation = nullptr;
 };
@@ -45,8 +46,8 @@ std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const
 /// The same as it is sent; see airsim::FloatPixels.
 airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options, bool binary, BlockPool& pool);
-/// Three bytes a pixel in the order B, G, R.
-WireBlock BgrPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
+/// Three bytes a pixel in the order B, G, R, or R, G, B as the options say.
+WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                       const PixelOptions& options, BlockPool& pool);
 /// A PNG of the same picture.
 std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,

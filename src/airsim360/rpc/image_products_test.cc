@@ -33,17 +33,25 @@ TEST(ImageProducts, BytesAreBlueGreenRed) {
   const Frame frame = TinyFrame();
   const Camera camera = PinholeOf({4, 2, 90});
   BlockPool pool;
-  const WireBlock block = BgrPixelsOf(ImageContent::kColor, frame, camera, {}, pool);
+  const WireBlock block = BytePixelsOf(ImageContent::kColor, frame, camera, {}, pool);
   const std::string_view bytes = block.view();
   ASSERT_EQ(bytes.size(), 24u);
   for (size_t i = 0; i < 24; i += 3) EXPECT_EQ(bytes.substr(i, 3), std::string_view("\3\2\1"));
-  const WireBlock entities = BgrPixelsOf(ImageContent::kEntity, frame, camera, {}, pool);
+  const WireBlock entities = BytePixelsOf(ImageContent::kEntity, frame, camera, {}, pool);
   EXPECT_EQ(entities.view().substr(0, 6), std::string_view("\0\0\2\0\0\2", 6));
   EXPECT_EQ(entities.view().substr(21, 3), std::string_view("\0\0\2", 3));
   const std::vector<uint32_t> ids = {0, 5, 1};
-  const WireBlock labels = BgrPixelsOf(ImageContent::kSegmentation, frame, camera, {.segmentation = &ids}, pool);
+  const WireBlock labels = BytePixelsOf(ImageContent::kSegmentation, frame, camera, {.segmentation = &ids}, pool);
   EXPECT_EQ(static_cast<uint8_t>(labels.view()[0]), kSegmentationPalette[1].b);
   EXPECT_EQ(static_cast<uint8_t>(labels.view()[2]), kSegmentationPalette[1].r);
+
+  // The other order is each pixel turned round.
+  for (const ImageContent content : {ImageContent::kColor, ImageContent::kEntity, ImageContent::kSegmentation}) {
+    const WireBlock bgr = BytePixelsOf(content, frame, camera, {.segmentation = &ids}, pool);
+    const WireBlock rgb = BytePixelsOf(content, frame, camera, {.rgb_order = true, .segmentation = &ids}, pool);
+    ASSERT_EQ(rgb.size(), bgr.size());
+    for (size_t i = 0; i < rgb.size(); ++i) EXPECT_EQ(rgb.view()[i], bgr.view()[i / 3 * 3 + 2 - i % 3]);
+  }
 }
 
 TEST(ImageProducts, DepthIsRangeTimesTheCosine) {
@@ -55,7 +63,7 @@ TEST(ImageProducts, DepthIsRangeTimesTheCosine) {
   const auto range = FloatPixelsOf(ImageContent::kRange, frame, camera, {.half_depth = false});
   EXPECT_EQ(range[0], 10);
   BlockPool pool;
-  const WireBlock centimetres = BgrPixelsOf(ImageContent::kRange, frame, camera, {.centimetres = true}, pool);
+  const WireBlock centimetres = BytePixelsOf(ImageContent::kRange, frame, camera, {.centimetres = true}, pool);
   EXPECT_EQ(static_cast<uint8_t>(centimetres.view()[0]), 255);
 }
 

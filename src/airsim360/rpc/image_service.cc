@@ -138,6 +138,7 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
   PixelOptions options{.half_depth = !settings.float32_depth && !request.binary_float &&
                                      std::holds_alternative<Pinhole>(shot.camera),
                        .centimetres = settings.depth_in_centimetres && content == ImageContent::kRange,
+                       .rgb_order = settings.cosys,
                        .segmentation = &snapshot.world->segmentation};
   const auto layer = snapshot.world->annotations.find(request.annotation_name);
   if (layer != snapshot.world->annotations.end()) options.annotation = &layer->second;
@@ -147,7 +148,7 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
   } else if (request.compress) {
     response.image_data_uint8.bytes = WireBlock(PngOf(content, frame_, shot.camera, options));
   } else {
-    response.image_data_uint8.bytes = BgrPixelsOf(content, frame_, shot.camera, options, pool_);
+    response.image_data_uint8.bytes = BytePixelsOf(content, frame_, shot.camera, options, pool_);
   }
   return response;
 }

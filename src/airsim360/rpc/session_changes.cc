@@ -7,6 +7,14 @@
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
+namespace {
+
+// Names of the engine's own cubes, which scripts for AirSim spawn; here both are the asset "Cube".
+constexpr const char* kEngineCubes[] = {"1M_Cube", "1M_Cube_Chamfer"};
+
+bool IsEngineCube(const std::string& asset) { return std::ranges::find(kEngineCubes, asset) != std::end(kEngineCubes); }
+
+}  // namespace
 
 void Session::ObjectsMoved() {
   auto scene_state = std::make_shared<SceneState>();
@@ -57,12 +65,14 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
 std::vector<std::string> Session::AssetNames() const {
   std::vector<std::string> names;
   for (const SpawnStock& stock : extras_.stock) names.push_back(stock.asset);
+  names.insert(names.end(), std::begin(kEngineCubes), std::end(kEngineCubes));
   return names;
 }
 
 std::string Session::Spawn(const std::string& name, const std::string& asset, const ObjectPlace& place) {
   constexpr size_t kLongestName = 200;
-  const auto stock = std::ranges::find(extras_.stock, asset, &SpawnStock::asset);
+  const std::string& known = IsEngineCube(asset) ? "Cube" : asset;
+  const auto stock = std::ranges::find(extras_.stock, known, &SpawnStock::asset);
   if (stock == extras_.stock.end())
     throw std::runtime_error("There were no assets with name " + asset + " found in the Registry");
   if (name.empty() || name.size() > kLongestName)

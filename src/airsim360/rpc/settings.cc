@@ -13,6 +13,7 @@ namespace {
 using internal::SettingsObject;
 
 constexpr double kFar = 1e7;  // metres, m/s: nothing reasonable is beyond
+constexpr double kCosysSettingsVersion = 2;
 constexpr int kLargestSide = 8192;
 
 void ReadPose(SettingsObject& object, SettingsPose& pose) {
@@ -145,7 +146,10 @@ VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
                                            "IsFpvVehicle",
                                            "PawnPath",
                                            "Model",
-                                           "Parameters"};
+                                           "Parameters",
+                                           "LockStep",
+                                           "UseSerial",
+                                           "UseTcp"};
   SettingsObject object(node, parent.file(), parent.notices());
   VehicleSettings vehicle;
   object.Read("VehicleType", vehicle.type);
@@ -256,6 +260,7 @@ void ReadMode(SettingsObject& root, AirSimSettings& settings) {
   static const std::vector<std::string> kModes = {"Multirotor", "ComputerVision"};
   double version = 1.2;
   root.Read("SettingsVersion", version, 0, 100);
+  settings.cosys = version >= kCosysSettingsVersion;
   root.Read("SimMode", settings.sim_mode);
   if (settings.sim_mode.empty()) settings.sim_mode = kModes[0];
   if (std::find(kModes.begin(), kModes.end(), settings.sim_mode) == kModes.end()) {

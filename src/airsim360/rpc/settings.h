@@ -69,6 +69,7 @@ struct RecordingSettings {
 struct AirSimSettings {
   std::string text = "{}";  ///< of the file, for getSettingsString
   std::string sim_mode = "Multirotor";
+  bool cosys = false;  ///< SettingsVersion 2 or more: clients are Cosys-AirSim's (server version 4, R, G, B)
   double clock_speed = 1;
   std::string local_host_ip = "127.0.0.1";
   int port = 41451;
