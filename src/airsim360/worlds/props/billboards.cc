@@ -221,7 +221,7 @@ Texture Board(uint32_t variant) {
 
 // Pictures painted on bare walls: old advertisements, a sunset, shapes. Part of each has weathered off.
 Texture Mural(uint32_t variant) {
-  Canvas c(420, 300, {0.30f, 0.26f, 0.21f});
+  Canvas c(1008, 720, {0.30f, 0.26f, 0.21f});
   const Vec3f cream{0.52f, 0.47f, 0.36f}, ink{0.05f, 0.045f, 0.05f};
   switch (variant) {
     case 0:
