@@ -82,7 +82,6 @@ struct PictureFigures {
         if (frame.range(x, y) <= 0) continue;
         const Rgb32f a = frame.albedo(x, y);
         if (!(std::min({a.r, a.g, a.b}) >= 0 && std::max({a.r, a.g, a.b}) <= 1)) {
-          if (getenv("DBG")) fprintf(stderr, "%d %d cat %d range %g: %g %g %g\n", x, y, frame.semantic(x, y), frame.range(x, y), a.r, a.g, a.b);
           ++albedo_errors;
           continue;
         }
@@ -97,6 +96,7 @@ struct PictureFigures {
             {"below_5", dark / weight},
             {"above_250", bright / weight},
             {"unlabelled_pixels", void_pixels},
+            {"albedo_errors", albedo_errors},
             {"slope", statistics.slope / frames},
             {"flat", statistics.flat / frames},
             {"gradient", statistics.gradient / frames},

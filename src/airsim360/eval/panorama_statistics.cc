@@ -14,21 +14,15 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kWidth = 512, kHeight = 256, kView = 128;
+constexpr int kWidth = 512, kHeight = 256, kView = 96;
 constexpr double kPi = std::numbers::pi;
 using View = std::vector<double>;  // kView x kView luminances
 
-// Bilinear between pixel centres; columns wrap.
+// The nearest pixel; columns wrap.
 double Sample(const Image<float>& picture, double x, double y) {
-  x -= 0.5;
-  y = std::clamp(y - 0.5, 0.0, static_cast<double>(picture.height() - 1));
-  const auto x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(y);
-  const double tx = x - x0, ty = y - y0;
-  const auto at = [&](int i, int j) {
-    const int w = picture.width();
-    return static_cast<double>(picture(((i % w) + w) % w, std::min(j, picture.height() - 1)));
-  };
-  return (at(x0, y0) * (1 - tx) + at(x0 + 1, y0) * tx) * (1 - ty) + (at(x0, y0 + 1) * (1 - tx) + at(x0 + 1, y0 + 1) * tx) * ty;
+  const int w = picture.width(), column = static_cast<int>(std::floor(x)) % w;
+  const int row = std::clamp(static_cast<int>(y), 0, picture.height() - 1);
+  return static_cast<double>(picture(column < 0 ? column + w : column, row));
 }
 
 // A pinhole view of 80 degrees.
@@ -47,26 +41,17 @@ View Cut(const Image<float>& picture, double yaw, double pitch) {
   return view;
 }
 
-// Radix-2 transform in place; a.size() is a power of two.
-void Transform(std::vector<std::complex<double>>& a) {
-  const size_t n = a.size();
-  for (size_t i = 1, j = 0; i < n; ++i) {
-    size_t bit = n >> 1;
-    for (; j & bit; bit >>= 1) j ^= bit;
-    j ^= bit;
-    if (i < j) std::swap(a[i], a[j]);
-  }
-  for (size_t length = 2; length <= n; length *= 2) {
-    const std::complex<double> step = std::polar(1.0, -2 * kPi / static_cast<double>(length));
-    for (size_t i = 0; i < n; i += length) {
-      std::complex<double> w = 1;
-      for (size_t k = 0; k < length / 2; ++k, w *= step) {
-        const std::complex<double> u = a[i + k], v = a[i + k + length / 2] * w;
-        a[i + k] = u + v;
-        a[i + k + length / 2] = u - v;
-      }
-    }
-  }
+// Fourier transform of a line of kView values: small enough to be summed as it is defined.
+std::vector<std::complex<double>> Transform(const std::vector<std::complex<double>>& a) {
+  static const std::vector<std::complex<double>> roots = [] {
+    std::vector<std::complex<double>> r(kView);
+    for (int i = 0; i < kView; ++i) r[static_cast<size_t>(i)] = std::polar(1.0, -2 * kPi * i / kView);
+    return r;
+  }();
+  std::vector<std::complex<double>> out(kView);
+  for (size_t f = 0; f < kView; ++f)
+    for (size_t i = 0; i < kView; ++i) out[f] += a[i] * roots[f * i % kView];
+  return out;
 }
 
 // Exponent of the power spectrum by least squares over rings of one frequency each, under a Hann window.
@@ -77,24 +62,24 @@ double SpectrumSlope(const View& view) {
   const auto window = [](int i) { return 0.5 - 0.5 * std::cos(2 * kPi * (i + 0.5) / kView); };
   for (int j = 0; j < kView; ++j) {
     for (int i = 0; i < kView; ++i) rows[j][i] = (view[static_cast<size_t>(j) * kView + i] - mean) * window(i) * window(j);
-    Transform(rows[j]);
+    rows[j] = Transform(rows[j]);
   }
   std::vector<double> power(kView / 2, 0.0), count(kView / 2, 0.0);
   std::vector<std::complex<double>> column(kView);
   for (int i = 0; i < kView; ++i) {
     for (int j = 0; j < kView; ++j) column[j] = rows[j][i];
-    Transform(column);
+    const std::vector<std::complex<double>> spectrum = Transform(column);
     for (int j = 0; j < kView; ++j) {
       const int fx = i < kView / 2 ? i : i - kView, fy = j < kView / 2 ? j : j - kView;
       const auto ring = static_cast<size_t>(std::lround(std::hypot(fx, fy)));
       if (ring < power.size()) {
-        power[ring] += std::norm(column[j]);
+        power[ring] += std::norm(spectrum[j]);
         count[ring] += 1;
       }
     }
   }
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (size_t f = 3; f < 50; ++f) {
+  for (size_t f = 3; f < kView / 2; ++f) {
     const double x = std::log(static_cast<double>(f)), y = std::log(power[f] / count[f] + 1e-12);
     n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }

@@ -6,7 +6,7 @@
 namespace airsim360 {
 
 /// Means over eight square views of 80 degrees (four directions at pitch 0 and -35 degrees) cut from an equirectangular
-/// picture that is first brought to 512 x 256, on the luminance of sRGB values in [0, 1].
+/// picture that is first brought to 512 x 256 (views of 96 pixels, the nearest pixel each), on the luminance of sRGB values in [0, 1].
 struct PanoramaStatistics {
   double slope = 0;     ///< exponent s of the radial power spectrum 1 / f^s; real outdoor panoramas: 1.95 … 2.95
   double flat = 0;      ///< share of blocks of 8 x 8 pixels whose standard deviation is below 0.004; real: up to 0.094

@@ -80,7 +80,7 @@ void GrowGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, fl
       d.placer.shelf().PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), {tone * dry, tone, tone * 0.9f});
     }
   }
-  const auto tufts = static_cast<int>(box.area() * (per_m2 >= 2 ? 0.35f : per_m2));
+  const auto tufts = static_cast<int>(box.area() * (per_m2 >= 2 ? 0.7f : per_m2));
   for (int i = 0; i < tufts; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),
                   static_cast<float>(rng.Uniform(box.y0, box.y1))};

@@ -264,8 +264,10 @@ void DoorOpening(FacadePen& pen, const Dress& dress, float x0, float x1, float h
   pen.Use(S::kDoorWood);
   pen.Front(a, b, 0.12f, 2.35f, 0.16f);
   pen.Use(dress.trim);
-  pen.Bar(a - 0.2f, b + 0.2f, 0, 0.12f, -0.4f, 0);
-  pen.Bar(a - 0.3f, b + 0.3f, 2.55f, 2.65f, -0.7f, 0);
+  // Buildings of maps keep within their outline.
+  const bool bound = pen.reach() < 1;
+  pen.Bar(a - 0.2f, b + 0.2f, 0, 0.12f, bound ? -0.25f : -0.4f, 0);
+  pen.Bar(a - 0.3f, b + 0.3f, 2.55f, 2.65f, bound ? -0.25f : -0.7f, 0);
 }
 
 void BuildSimpleBay(FacadePen& pen, FacadeStyle style, const Dress& dress, const Bay& bay, RngStream& rng) {

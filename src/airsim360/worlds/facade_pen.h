@@ -50,6 +50,8 @@ class FacadePen {
   void Window(float x0, float x1, float z0, float z1, float y, const Sash& sash);
 
   MeshBuilder& mesh() { return mesh_; }
+  /// Factor of everything that stands proud of the wall.
+  float reach() const { return reach_; }
 
  private:
   MeshBuilder& mesh_;

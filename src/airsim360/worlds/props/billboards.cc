@@ -219,9 +219,9 @@ Texture Board(uint32_t variant) {
   return c.Finish("board " + std::to_string(variant));
 }
 
-// Pictures painted on bare walls: old advertisements, a sunset, shapes. Part of each has weathered off (transparent).
+// Pictures painted on bare walls: old advertisements, a sunset, shapes. Part of each has weathered off.
 Texture Mural(uint32_t variant) {
-  Canvas c(420, 300, {0.30f, 0.26f, 0.21f});
+  Canvas c(1008, 720, {0.30f, 0.26f, 0.21f});
   const Vec3f cream{0.52f, 0.47f, 0.36f}, ink{0.05f, 0.045f, 0.05f};
   switch (variant) {
     case 0:
@@ -254,11 +254,11 @@ Texture Mural(uint32_t variant) {
       c.Letters("DAILY", {0.5f, 0.62f}, 0.24f, cream, 1.2f);
       c.Letters("SINCE 1921", {0.5f, 0.87f}, 0.08f, cream, 0.9f);
   }
-  // Courses of the brick show through, the sun has bleached the rest unevenly.
+  // The brick shows through where the coat has weathered off.
   c.Paint([&](float u, float v, Vec3f old) {
-    const float worn = TileFractal(u, v, 5, 4, 5, 91 + variant), course = std::abs(std::remainder(v * 9.0f / 0.0725f, 1.0f));
+    const float worn = TileFractal(u, v, 5, 4, 5, 91 + variant);
     const Vec3f brick = Vec3f{0.21f, 0.135f, 0.095f} * (0.8f + 0.4f * TileNoise(u * 60, v * 124, 60, 124, 7));
-    const float keep = std::clamp((0.66f - worn) * 7, 0.25f, 0.92f) * (course > 0.42f ? 0.7f : 1.0f);
+    const float keep = std::clamp((0.66f - worn) * 7, 0.25f, 0.92f);
     return brick * (1 - keep) + old * keep;
   });
   return c.Finish("mural " + std::to_string(variant));
@@ -267,7 +267,7 @@ Texture Mural(uint32_t variant) {
 // A coat of paint of 12.6 m x 9 m on a wall at y = 0.
 Model MakeMural(uint32_t variant, uint64_t) {
   PropBuilder b("mural");
-  b.Use(Paint({1, 1, 1}, 0.85f), Mural(variant));
+  b.Use(Paint({1, 1, 1}, 0.85f), Mural(variant), {12.6f, 9});
   b.Sheet(4, 3, [](float u, float v) { return Vec3f{-6.3f + 12.6f * u, -0.02f, 9 * v}; }, {12.6f, 9});
   return b.Finish();
 }
