@@ -61,7 +61,7 @@ void ExpectTheCpusPaths(const Environment& environment, const std::string& what)
   Pair pair(scene, environment, Tier::kReference);
   RenderRequest request = ColorRequest(*scene, 64);
   request.tier = Tier::kReference;
-  request.samples = 12;
+  request.samples = 4;
   Frame cpu, gpu, other;
   pair.cpu->Render(request, cpu);
   pair.gpu->Render(request, gpu);

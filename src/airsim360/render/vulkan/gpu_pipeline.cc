@@ -37,8 +37,10 @@ struct Modules {
   ~Modules() {
     for (VkShaderModule m : list) vkDestroyShaderModule(device, m, nullptr);
   }
-  VkShaderModule Add(std::span<const uint32_t> code) {
-    const VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, code.size_bytes(),
+  // Every operation is rounded by itself, as on the CPU: shared functions then agree to the last bit on lavapipe.
+  VkShaderModule Add(std::span<const uint32_t> fused) {
+    const std::vector<uint32_t> code = WithoutContraction(fused);
+    const VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, nullptr, 0, code.size() * sizeof(uint32_t),
                                         code.data()};
     VkShaderModule out;
     CheckVk(vkCreateShaderModule(device, &info, nullptr, &out), "loading a shader");
