@@ -1,6 +1,7 @@
 // The copies of the kernels for different instruction sets give the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "airsim360/planning/aligned_buffer.h"
@@ -63,7 +64,10 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
                           .durations = {},
                           .segments = segments,
                           .workspace = workspace.data(),
-                          .coefficients = {}};
+                          .coefficients = {},
+                          .check = nullptr};
+  BatchCheck check;
+  batch.check = &check;
   std::vector<double> eight(8 * coefficients.size());
   for (size_t lane = 0; lane < 8; ++lane) {
     batch.waypoints[lane] = flat.data();
@@ -71,6 +75,9 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
     batch.coefficients[lane] = &eight[lane * coefficients.size()];
   }
   kernels.batch->batch[kind](batch);
+  EXPECT_EQ(check.least[7], *std::ranges::min_element(route.durations));
+  EXPECT_EQ(check.largest[7], *std::ranges::max_element(route.durations));
+  all.insert(all.end(), check.reach, check.reach + 8);
   all.insert(all.end(), eight.begin(), eight.end());
 
   std::vector<double> by_c(coefficients.size()), by_t(segments), by_w(4 * (segments + 1)),

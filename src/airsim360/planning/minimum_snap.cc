@@ -42,7 +42,7 @@ void CheckCounts(size_t waypoints, size_t durations) {
   for (size_t i = 0; i < waypoints.size(); ++i) {
     if (!kernels.all_finite(&waypoints[i].x, 3)) Fail("waypoint " + std::to_string(i) + " is not finite");
   }
-  Fail("numbers are not finite");
+  Fail("numbers are too large: the path is not finite");
 }
 
 /// Whether all prescribed derivatives are (positive) zeros. In pairs, as a compiler is likely to have written
@@ -57,15 +57,6 @@ bool AtRest(const MinimumSnapProblem& problem) {
       (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) | ((pairs[4] | pairs[5]) | (pairs[6] | pairs[7]))) |
       pairs[8];
   return (any[0] | any[1]) == 0;
-}
-
-/// Asks for the lines of memory of numbers that are needed soon. They may lie behind the end of their array:
-/// portions of a batch usually follow each other.
-void Prefetch(const double* from, size_t skip, size_t count) {
-  constexpr size_t kLine = 64, kMost = 64 * kLine;
-  const uintptr_t begin = reinterpret_cast<uintptr_t>(from) + skip * sizeof(double);
-  const size_t bytes = std::min(count * sizeof(double), kMost);
-  for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(reinterpret_cast<const void*>(begin + i));
 }
 
 }  // namespace
@@ -284,31 +275,37 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
   const BatchKernels* const kernels = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   static thread_local AlignedBuffer workspace;
+  BatchCheck check;
   BatchArguments arguments = {};
+  arguments.check = &check;
   arguments.stride = 3;
   arguments.segments = segments;
   arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
   std::vector<size_t> uneven;
-  const size_t points = 3 * (segments + 1);
   for (size_t first = 0; first < routes; first += 8) {
-    const size_t count = std::min<size_t>(8, routes - first);
-    Prefetch(&waypoints[0].x, (first + 16) * points, 8 * points);
-    Prefetch(durations.data(), (first + 16) * segments, 8 * segments);
-    if (!checks.all_finite(&waypoints[first * (segments + 1)].x, count * points)) {
-      FailOnNumbers(checks, waypoints, durations);
-    }
+    // Also behind the end: portions of a batch usually follow each other.
+    arguments.next_waypoints =
+        reinterpret_cast<uintptr_t>(waypoints.data()) + (first + 8) * (segments + 1) * sizeof(Vec3d);
+    arguments.next_durations =
+        reinterpret_cast<uintptr_t>(durations.data()) + (first + 8) * segments * sizeof(double);
     for (size_t lane = 0; lane < 8; ++lane) {
       // Lanes beyond the last route repeat it: they write the same numbers once more.
       const size_t route = std::min(first + lane, routes - 1);
       arguments.waypoints[lane] = &waypoints[route * (segments + 1)].x;
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
-      if (lane >= count) continue;
-      const NumberCheck check = checks.check_durations(arguments.durations[lane], segments);
-      if (!check.valid) FailOnNumbers(checks, waypoints, durations);
-      if (segments == 1 || check.uneven) uneven.push_back(route);
     }
     kernels->batch[static_cast<int>(kind)](arguments);
+    for (size_t lane = 0; lane < std::min<size_t>(8, routes - first); ++lane) {
+      const double least = check.least[lane], largest = check.largest[lane];
+      if (!(least > 0 && largest - largest == 0 && check.reach[lane] - check.reach[lane] == 0)) {
+        FailOnNumbers(checks, waypoints, durations);
+      }
+      if (segments == 1 ||
+          (largest > kEvenRatio * least && checks.any_uneven(arguments.durations[lane], segments))) {
+        uneven.push_back(first + lane);
+      }
+    }
   }
   if (uneven.empty()) return;
   MinimumSnapSolver solver;

@@ -326,7 +326,7 @@ class RouteSolver {
         Store4(high[axis] * scale[1], out[axis] + 4);
       }
     } else {
-      StoreLanes<kPowers>(c, out, 3, scale);
+      StorePowers<kPowers>(c, out, 3, scale);
     }
   }
 
