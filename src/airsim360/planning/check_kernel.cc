@@ -76,7 +76,8 @@ NumberCheck CopyDurations(const double* durations, size_t n, double* out) {
     largest = duration > largest ? duration : largest;
   }
   valid &= largest - largest == 0;
-  return {valid, !(largest <= kDoubleRatio * least) && AnyUneven(durations, n)};
+  const bool uneven = !(largest <= kDoubleRatio * least) && AnyUneven(durations, n);
+  return {valid, uneven || Extreme(least, largest)};
 }
 
 }  // namespace

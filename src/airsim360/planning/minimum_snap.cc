@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -89,7 +90,7 @@ struct MinimumSnapSolver::Impl {
     free = false;
     if (!at_rest) std::memset(ends, 0, sizeof(ends));
     at_rest = true;
-    if (check.uneven && problem.refine) RefineUneven(kind, *checks, Arguments());
+    if (check.uneven && problem.refine) Refine(Arguments());
     return true;
   }
 
@@ -145,14 +146,41 @@ struct MinimumSnapSolver::Impl {
         .coefficients = coefficients.data()};
   }
 
+  /// Durations that grow or shrink on and on can leave the range of double precision on the way to an answer
+  /// within it.
+  void Refine(const RouteArguments& arguments) {
+    if (checks->all_finite(coefficients.data(), coefficients.size())) {
+      RefineUneven(kind, *checks, arguments);
+    } else {
+      SolveRouteWide(kind, arguments);
+    }
+    FailIfNotFinite();
+  }
+
+  void FailIfNotFinite() {
+    if (checks->all_finite(coefficients.data(), coefficients.size())) return;
+    const auto [least, largest] = std::ranges::minmax(durations);
+    durations.clear();
+    coefficients.clear();
+    char text[160];
+    std::snprintf(
+        text, sizeof(text),
+        "the path leaves the range of numbers: durations from %g to %g s are too small or too different",
+        least, largest);
+    Fail(text);
+  }
+
   void Solve() {
     const RouteArguments arguments = Arguments();
-    if (arguments.segments == 1) return SolveRouteWide(kind, arguments);
+    if (arguments.segments == 1) {
+      SolveRouteWide(kind, arguments);
+      return FailIfNotFinite();
+    }
     const bool try_chunks = arguments.segments >= kLeastChunkedSegments && !free;
     if (!try_chunks || !SolveRouteInChunks(kind, *batches, arguments)) {
       kernels->route[static_cast<int>(kind)](arguments);
     }
-    if (refine) RefineUneven(kind, *checks, arguments);
+    if (refine) Refine(arguments);
   }
 
   /// Of a true optimum: by a duration less twice the Hamiltonian of the segment, here at its start; by a
@@ -301,7 +329,7 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
       if (!(least > 0 && largest - largest == 0 && check.reach[lane] - check.reach[lane] == 0)) {
         FailOnNumbers(checks, waypoints, durations);
       }
-      if (segments == 1 ||
+      if (segments == 1 || least < kShortestDuration || largest > kLongestDuration ||
           (largest > kEvenRatio * least && checks.any_uneven(arguments.durations[lane], segments))) {
         uneven.push_back(first + lane);
       }

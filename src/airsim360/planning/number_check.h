@@ -14,6 +14,10 @@ AIRSIM360_INLINE bool UnevenHere(double a, double b, double c) {
   return (high > kSingleRatio * low) | (a > kDoubleRatio * right) | (c > kDoubleRatio * high);
 }
 
+AIRSIM360_INLINE bool Extreme(double least, double largest) {
+  return (least < kShortestDuration) | (largest > kLongestDuration);
+}
+
 /// Points [n][3] to [n][4], the fourth zero; whether all are finite. Whole vectors are written, for the
 /// solvers read them so: narrower stores would not be forwarded.
 AIRSIM360_INLINE bool Pad(const double* points, size_t n, double* out) {

@@ -372,7 +372,7 @@ NumberCheck SolveFew(const double* waypoints, const double* durations, double* k
   route.coefficients = coefficients;
   RouteSolver<SnapModel, false, kSegments, true>(route).Run();
   const bool valid = points && least > 0 && finite == 0;
-  return {valid, !(largest <= kDoubleRatio * least)};
+  return {valid, !(largest <= kDoubleRatio * least) || Extreme(least, largest)};
 }
 
 }  // namespace

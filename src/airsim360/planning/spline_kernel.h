@@ -95,6 +95,8 @@ struct AdjointKernels {
 
 /// Durations of a route that differ at most so much count as even, wherever they are.
 constexpr double kEvenRatio = 8;
+/// Powers of longer or shorter ones may leave the range of numbers: they count as uneven.
+constexpr double kLongestDuration = 1e30, kShortestDuration = 1e-30;
 
 struct CheckKernels {
   bool (*all_finite)(const double* x, size_t n);
