@@ -22,11 +22,9 @@ struct Largest {
 };
 
 /// Of one segment at `samples` even times, both ends with it.
-[[gnu::target_clones("avx512f", "avx2", "default")]] Largest Sample(const double (*c)[8], double duration,
-                                                                    long samples) {
+Largest Sample(const double (*c)[8], double duration, long samples) {
   double speed2 = 0, acceleration2 = 0;
   const double step = duration / static_cast<double>(samples - 1);
-#pragma GCC ivdep
   for (int i = 0; i < static_cast<int>(samples); ++i) {
     const double t = step * i;
     double v2 = 0, a2 = 0;
