@@ -90,7 +90,7 @@ void Solves(size_t segments) {
 }
 
 void Batch() {
-  constexpr size_t kRoutes = 4096, kSegments = 10, kPortion = 64;
+  constexpr size_t kRoutes = 100'000, kSegments = 10, kPortion = 8;
   std::vector<Vec3d> waypoints;
   std::vector<double> durations, coefficients(kPortion * kSegments * 24);
   for (uint64_t i = 0; i < kRoutes; ++i) {

@@ -8,10 +8,35 @@ namespace {
 #ifdef __AVX512F__
 typedef V8 Lanes;
 constexpr int kLanes = 8;
+AIRSIM360_INLINE Lanes LoadLanes(const double* p) { return Load8(p); }
+AIRSIM360_INLINE void StoreRow(Lanes v, double* p) { Store8(v, p); }
+AIRSIM360_INLINE void Transpose(Lanes* row) { Transpose8(row); }
 #else
 typedef V4 Lanes;
 constexpr int kLanes = 4;
+AIRSIM360_INLINE Lanes LoadLanes(const double* p) { return Load4(p); }
+AIRSIM360_INLINE void StoreRow(Lanes v, double* p) { Store4(v, p); }
+AIRSIM360_INLINE void Transpose(Lanes* row) { Transpose4(row[0], row[1], row[2], row[3]); }
 #endif
+
+/// Puts element i of every lane's array into out(i).
+template <class Out>
+AIRSIM360_INLINE void LoadTransposed(const double* const* lanes, size_t count, Out&& out) {
+  for (size_t at = 0; at + kLanes <= count; at += kLanes) {
+    Lanes row[kLanes];
+    AIRSIM360_UNROLL
+    for (int i = 0; i < kLanes; ++i) row[i] = LoadLanes(lanes[i] + at);
+    Transpose(row);
+    AIRSIM360_UNROLL
+    for (size_t i = 0; i < kLanes; ++i) out(at + i) = row[i];
+  }
+  for (size_t at = count / kLanes * kLanes; at < count; ++at) {
+    double element[kLanes];
+    AIRSIM360_UNROLL
+    for (int i = 0; i < kLanes; ++i) element[i] = lanes[i][at];
+    out(at) = LoadLanes(element);
+  }
+}
 
 /// The routes or chunks first to first + kLanes - 1 in the lanes.
 template <class Model>
@@ -23,17 +48,34 @@ class BatchSolver {
         end_(arguments.segments),
         waypoints_(arguments.waypoints + first),
         durations_(arguments.durations + first),
+        next_waypoints_(first == 0 ? arguments.next_waypoints : 0),
+        next_durations_(first == 0 ? arguments.next_durations : 0),
         coefficients_(arguments.coefficients + first),
-        saved_(reinterpret_cast<Saved*>(arguments.workspace)) {}
+        knot_(reinterpret_cast<Lanes*>(arguments.workspace)),
+        saved_(reinterpret_cast<Saved*>(knot_ + arguments.stride * (arguments.segments + 1))) {}
 
   AIRSIM360_INLINE void Run() {
     Belief belief = {};  // at rest the mean starts at zero
-    LoadWaypoint(0, true);
+    Load();
     ForwardStep(0, true, belief);
     for (size_t k = 1; k < segments_; ++k) ForwardStep(k, false, belief);
     Lanes after[3][D] = {};
     EndCostates(belief, after);
-    for (size_t k = segments_; k-- > 0;) BackwardStep(k, k, after);
+    for (size_t k = segments_; k-- > 1;) BackwardStep<false>(k, k, after);
+    BackwardStep<true>(0, 0, after);
+  }
+
+  /// After Run. What is not finite anywhere has gone through the costates to the first segment.
+  AIRSIM360_INLINE void Check(BatchCheck& check, int first) const {
+    Lanes least = saved_[0].duration, largest = least;
+    for (size_t k = 1; k < segments_; ++k) {
+      const Lanes duration = saved_[k].duration;
+      least = duration < least ? duration : least;
+      largest = duration > largest ? duration : largest;
+    }
+    StoreRow(least, check.least + first);
+    StoreRow(largest, check.largest + first);
+    StoreRow(reach_, check.reach + first);
   }
 
   /// Chunks: the overlap before a chunk makes the filter forget that it did not start at the route's start,
@@ -41,7 +83,7 @@ class BatchSolver {
   AIRSIM360_INLINE void RunChunks(size_t overlap, const double* start, const double* end) {
     const size_t first = overlap, last = segments_ - overlap;
     Belief belief = {};
-    LoadWaypoint(0, true);
+    Load();
     ForwardStep(0, true, belief);
     for (size_t k = 1; k < first; ++k) ForwardStep(k, false, belief);
     if (start != nullptr) StartLane(start, belief);
@@ -51,7 +93,7 @@ class BatchSolver {
     Lanes after[3][D] = {};
     for (size_t k = segments_; k-- > last;) SkipBack(k, after);
     if (end != nullptr) EndLane(end, last, after);
-    for (size_t k = last; k-- > first;) BackwardStep(k, k - first, after);
+    for (size_t k = last; k-- > first;) BackwardStep<false>(k, k - first, after);
   }
 
  private:
@@ -59,46 +101,26 @@ class BatchSolver {
   using Belief = KnotBelief<Lanes, 3, D>;
   struct Saved {
     SegmentRecord<Lanes, 3, D> record;
-    Lanes duration, inverse, waypoint[3];  // of the segment's start
+    Lanes duration, inverse;
   };
 
-  /// Reads one number before a waypoint, behind the first one of a lane: always inside its array.
-  AIRSIM360_INLINE void LoadWaypoint(size_t k, bool first) {
-    const double* const* const w = waypoints_;
-    const size_t at = stride_ * k - (first ? 0 : 1);
-    AIRSIM360_UNROLL
-    for (int half = 0; half < kLanes / 4; ++half) {
-      V4 row[4];
-      AIRSIM360_UNROLL
-      for (int lane = 0; lane < 4; ++lane) row[lane] = Load4(w[4 * half + lane] + at);
-      Transpose4(row[0], row[1], row[2], row[3]);
-      AIRSIM360_UNROLL
-      for (int axis = 0; axis < 3; ++axis) {
-        V4* const out = reinterpret_cast<V4*>(&saved_[k].waypoint[axis]);
-        out[half] = row[first ? axis : axis + 1];
-      }
-    }
+  AIRSIM360_INLINE void Load() {
+    LoadTransposed(waypoints_, stride_ * (segments_ + 1), [&](size_t i) -> Lanes& { return knot_[i]; });
+    LoadTransposed(durations_, segments_, [&](size_t i) -> Lanes& { return saved_[i].duration; });
   }
-  AIRSIM360_INLINE Lanes Duration(size_t k) const {
-    const double* const* d = durations_;
-#ifdef __AVX512F__
-    return Lanes{d[0][k], d[1][k], d[2][k], d[3][k], d[4][k], d[5][k], d[6][k], d[7][k]};
-#else
-    return Lanes{d[0][k], d[1][k], d[2][k], d[3][k]};
-#endif
+  AIRSIM360_INLINE Lanes Knot(size_t k, int axis) const {
+    return knot_[stride_ * k + static_cast<size_t>(axis)];
   }
 
   AIRSIM360_INLINE void ForwardStep(size_t k, bool first, Belief& belief) {
-    const Lanes duration = Duration(k), inverse = 1.0 / duration;
-    saved_[k].duration = duration;
+    Prefetch(next_waypoints_, 3 * k, 3);
+    const Lanes duration = saved_[k].duration, inverse = 1.0 / duration;
     saved_[k].inverse = inverse;
     if (!first) ChangeUnits(duration * saved_[k - 1].inverse, saved_[k - 1].duration * inverse, belief);
-    LoadWaypoint(k + 1, false);
-    const Lanes delta[3] = {saved_[k + 1].waypoint[0] - saved_[k].waypoint[0],
-                            saved_[k + 1].waypoint[1] - saved_[k].waypoint[1],
-                            saved_[k + 1].waypoint[2] - saved_[k].waypoint[2]};
+    const Lanes delta[3] = {Knot(k + 1, 0) - Knot(k, 0), Knot(k + 1, 1) - Knot(k, 1),
+                            Knot(k + 1, 2) - Knot(k, 2)};
     if (first) {
-      FirstStep<Model>(Model::kIsLinear, delta, saved_[k].record, belief);
+      StepFromRest<Model>(Model::kIsLinear, delta, saved_[k].record, belief);
     } else {
       Step<Model>(delta, saved_[k].record, belief);
     }
@@ -159,13 +181,15 @@ class BatchSolver {
   }
 
   /// `to`: where its coefficients go, in segments of each lane.
+  template <bool kFirst>
   AIRSIM360_INLINE void BackwardStep(size_t k, size_t to, Lanes (*after)[D]) {
+    Prefetch(next_durations_, k, 1);
     Lanes scale[kPowers], costate_scale[D];
     PowerScales(saved_[k].inverse, scale);
-    if (k > 0) CostateScales(saved_[k - 1].duration * saved_[k].inverse, costate_scale);
-    BackwardAxis<0>(k, to, scale, costate_scale, after[0]);
-    BackwardAxis<1>(k, to, scale, costate_scale, after[1]);
-    BackwardAxis<2>(k, to, scale, costate_scale, after[2]);
+    if (!kFirst) CostateScales(saved_[k - 1].duration * saved_[k].inverse, costate_scale);
+    BackwardAxis<0, kFirst>(k, to, scale, costate_scale, after[0]);
+    BackwardAxis<1, kFirst>(k, to, scale, costate_scale, after[1]);
+    BackwardAxis<2, kFirst>(k, to, scale, costate_scale, after[2]);
   }
 
   /// From states and costates to coefficients.
@@ -183,25 +207,35 @@ class BatchSolver {
     ChangeCostateUnits<Lanes, D>(ratio, scale);
   }
 
-  template <int axis>
+  template <int axis, bool kFirst>
   AIRSIM360_INLINE void BackwardAxis(size_t k, size_t to, const Lanes* scale, const Lanes* costate_scale,
                                      Lanes* after) {
     const SegmentRecord<Lanes, 3, D>& record = saved_[k].record;
     const Costate<Lanes, D> end = EndCostate(record, axis, after);
     const Costate<Lanes, D> start = StartCostate<double>(end);
     Lanes c[kPowers];
-    c[0] = saved_[k].waypoint[axis];
-    SmoothStart(record.start, axis, start, c + 1);
+    c[0] = Knot(k, axis);
+    if constexpr (kFirst) {
+      AIRSIM360_UNROLL
+      for (int i = 1; i <= D; ++i) c[i] = Lanes{};
+    } else {
+      SmoothStart(record.start, axis, start, c + 1);
+    }
     HighTerms<double, Model, false>(Model::kIsLinear ? end : start, c + D + 1);
-    if (Model::kIsLinear && k == 0) FreeState(saved_[1].waypoint[axis], c);
+    if (Model::kIsLinear && kFirst) FreeState(Knot(1, axis), c);
     AIRSIM360_UNROLL
-    for (int i = 1; i < kPowers; ++i) c[i] *= scale[i];
+    for (int i = 1; i < kPowers; ++i) {
+      if (!kFirst || i > D || (Model::kIsLinear && i == D)) c[i] *= scale[i];
+    }
     if (k + 1 == end_) {
-      CloseGap<kPowers>(saved_[k].duration, saved_[k].inverse, saved_[k + 1].waypoint[axis], c);
+      CloseGap<kPowers>(saved_[k].duration, saved_[k].inverse, Knot(k + 1, axis), c);
     }
     Store(c, (3 * to + axis) * kPowers);
+    if constexpr (kFirst) {
+      reach_ += c[kPowers - 1];
+      return;
+    }
     NextCostate(start, after);
-    if (k == 0) return;
     AIRSIM360_UNROLL
     for (int i = 0; i < D; ++i) after[i] *= costate_scale[i];
   }
@@ -225,32 +259,49 @@ class BatchSolver {
     double* out[kLanes];
     AIRSIM360_UNROLL
     for (int lane = 0; lane < kLanes; ++lane) out[lane] = coefficients_[lane] + at;
-#ifdef __AVX512F__
-    if constexpr (kPowers == 8) return StoreTransposed8(c, out);
-    V4 low[kPowers], high[kPowers];
-    AIRSIM360_UNROLL
-    for (int i = 0; i < kPowers; ++i) {
-      low[i] = Low(c[i]);
-      high[i] = High(c[i]);
+    if constexpr (kPowers == kLanes) {
+      Lanes row[kLanes];
+      AIRSIM360_UNROLL
+      for (int i = 0; i < kLanes; ++i) row[i] = c[i];
+      Transpose(row);
+      AIRSIM360_UNROLL
+      for (int i = 0; i < kLanes; ++i) StoreRow(row[i], out[i]);
+      return;
     }
-    StoreLanes<kPowers>(low, out, 4);
-    StoreLanes<kPowers>(high, out + 4, 4);
-#else
-    StoreLanes<kPowers>(c, out, kLanes);
-#endif
+    AIRSIM360_UNROLL
+    for (int half = 0; half < kLanes / 4; ++half) {
+      V4 part[kPowers];
+      AIRSIM360_UNROLL
+      for (int i = 0; i < kPowers; ++i) part[i] = reinterpret_cast<const V4*>(&c[i])[half];
+      StorePowers<kPowers>(part, out + 4 * half, 4);
+    }
+  }
+
+  /// A little at a time: memory takes only so many requests at once.
+  AIRSIM360_INLINE static void Prefetch(uintptr_t from, size_t at, size_t lines) {
+    if (from == 0) return;
+    for (size_t i = 0; i < lines; ++i)
+      __builtin_prefetch(reinterpret_cast<const void*>(from + 64 * (at + i)));
   }
 
   size_t segments_, stride_;
   size_t end_;  // behind the last segment whose coefficients are wanted
   const double* const* waypoints_;
   const double* const* durations_;
+  uintptr_t next_waypoints_, next_durations_;
   double* const* coefficients_;
+  Lanes* knot_;  // [segments + 1][stride]
   Saved* saved_;
+  Lanes reach_ = {};
 };
 
 template <class Model>
 void SolveBatch(const BatchArguments& arguments) {
-  for (int first = 0; first < 8; first += kLanes) BatchSolver<Model>(arguments, first).Run();
+  for (int first = 0; first < 8; first += kLanes) {
+    BatchSolver<Model> solver(arguments, first);
+    solver.Run();
+    solver.Check(*arguments.check, first);
+  }
 }
 
 template <class Model>

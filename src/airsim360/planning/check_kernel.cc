@@ -48,8 +48,7 @@ bool AnyUneven(const double* durations, size_t n) {
 bool PadPoints(const double* points, size_t n, double* out) { return Pad(points, n, out); }
 
 /// Most routes are even altogether, which least and largest duration tell.
-template <bool kCopy>
-AIRSIM360_INLINE NumberCheck Check(const double* durations, size_t n, double* out) {
+NumberCheck CopyDurations(const double* durations, size_t n, double* out) {
   double least = durations[0], largest = durations[0];
   bool valid = true;
   size_t i = 0;
@@ -58,7 +57,7 @@ AIRSIM360_INLINE NumberCheck Check(const double* durations, size_t n, double* ou
     I4 bad = {};
     for (; i + 4 <= n; i += 4) {
       const V4 duration = Load4(durations + i);
-      if (kCopy) Store4(duration, out + i);
+      Store4(duration, out + i);
       low = duration < low ? duration : low;
       high = duration > high ? duration : high;
       bad |= ~(duration > V4{});
@@ -71,23 +70,18 @@ AIRSIM360_INLINE NumberCheck Check(const double* durations, size_t n, double* ou
   }
   for (; i < n; ++i) {
     const double duration = durations[i];
-    if (kCopy) out[i] = duration;
+    out[i] = duration;
     valid &= duration > 0;
     least = duration < least ? duration : least;
     largest = duration > largest ? duration : largest;
   }
   valid &= largest - largest == 0;
-  return {valid, !(largest <= kDoubleRatio * least) && AnyUneven(durations, n)};
+  const bool uneven = !(largest <= kDoubleRatio * least) && AnyUneven(durations, n);
+  return {valid, uneven || Extreme(least, largest)};
 }
-
-NumberCheck CopyDurations(const double* durations, size_t n, double* out) {
-  return Check<true>(durations, n, out);
-}
-
-NumberCheck CheckDurations(const double* durations, size_t n) { return Check<false>(durations, n, nullptr); }
 
 }  // namespace
 
-const CheckKernels kCheckKernels = {AllFinite, AnyUneven, PadPoints, CopyDurations, CheckDurations};
+const CheckKernels kCheckKernels = {AllFinite, AnyUneven, PadPoints, CopyDurations};
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -15,8 +15,21 @@ AIRSIM360_INLINE V8 Power(V8 x, int squarings, V8& one_less) {
   return x;
 }
 
-/// Eight segments in the lanes.
-template <int kPowers>
+/// A number of the basis for each share of the lanes.
+template <int kShare>
+AIRSIM360_INLINE auto Shares(const double* row) {
+  if constexpr (kShare == 1) {
+    return *row;
+  } else if constexpr (kShare == 2) {
+    return Join(Splat4(row[0]), Splat4(row[1]));
+  } else {
+    const V4 v = Load4(row);
+    return Join(__builtin_shufflevector(v, v, 0, 0, 1, 1), __builtin_shufflevector(v, v, 2, 2, 3, 3));
+  }
+}
+
+/// Eight segments in the lanes, or few segments kShare times.
+template <int kPowers, int kShare>
 class Group {
  public:
   Group(const ExcessArguments& arguments, size_t first) : args_(arguments), first_(first) {
@@ -26,7 +39,7 @@ class Group {
       const double duration = args_.durations[segment];
       inverse[lane] = 1 / duration;
       // Lanes beyond the last segment repeat it without weight.
-      weight[lane] = first + lane < args_.segments ? args_.weight * duration : 0;
+      weight[lane] = first + lane % kWidth < args_.segments ? args_.weight * duration : 0;
       double power = 1;
       for (size_t k = 0; k < kPowers; ++k, power *= duration) {
         power_[k][lane] = power;
@@ -43,7 +56,7 @@ class Group {
   }
 
   double Run() {
-    for (size_t j = 0; j < args_.samples; ++j) Sample(args_.basis + 16 * j);
+    for (size_t j = 0; j < args_.samples; j += kShare) Sample(args_.basis + 16 * j);
     Store();
     double total = 0;
     for (int lane = 0; lane < 8; ++lane) total += sum_[lane];
@@ -51,8 +64,11 @@ class Group {
   }
 
  private:
+  static constexpr size_t kWidth = 8 / kShare;  // segments
+
   size_t Segment(size_t lane) const {
-    return first_ + lane < args_.segments ? first_ + lane : args_.segments - 1;
+    const size_t segment = first_ + lane % kWidth;
+    return segment < args_.segments ? segment : args_.segments - 1;
   }
 
   AIRSIM360_INLINE void Sample(const double* basis) {
@@ -62,9 +78,9 @@ class Group {
       v[axis] = g_[axis][1];
       a[axis] = g_[axis][2] * 2.0;
       AIRSIM360_UNROLL
-      for (int k = 2; k < kPowers; ++k) v[axis] += g_[axis][k] * basis[k];
+      for (int k = 2; k < kPowers; ++k) v[axis] += g_[axis][k] * Shares<kShare>(basis + k * kShare);
       AIRSIM360_UNROLL
-      for (int k = 3; k < kPowers; ++k) a[axis] += g_[axis][k] * basis[8 + k];
+      for (int k = 3; k < kPowers; ++k) a[axis] += g_[axis][k] * Shares<kShare>(basis + (8 + k) * kShare);
     }
     const V8 inverse2 = inverse_ * inverse_;
     const V8 speed_unit = inverse2 * args_.inverse_speed;
@@ -82,9 +98,12 @@ class Group {
     for (int axis = 0; axis < 3; ++axis) {
       const V8 gv = by_v * v[axis], ga = by_a * a[axis];
       by_g_[axis][1] += gv;
-      by_g_[axis][2] += gv * basis[2] + ga * 2.0;
+      by_g_[axis][2] += gv * Shares<kShare>(basis + 2 * kShare) + ga * 2.0;
       AIRSIM360_UNROLL
-      for (int k = 3; k < kPowers; ++k) by_g_[axis][k] += gv * basis[k] + ga * basis[8 + k];
+      for (int k = 3; k < kPowers; ++k) {
+        by_g_[axis][k] +=
+            gv * Shares<kShare>(basis + k * kShare) + ga * Shares<kShare>(basis + (8 + k) * kShare);
+      }
     }
   }
 
@@ -101,14 +120,20 @@ class Group {
     for (int axis = 0; axis < 3; ++axis) {
       for (int k = 0; k < kPowers; ++k) Store8(by_g_[axis][k], by_g[axis][k]);
     }
-    for (size_t lane = 0; lane < 8 && first_ + lane < args_.segments; ++lane) {
+    for (size_t lane = 0; lane < kWidth && first_ + lane < args_.segments; ++lane) {
       const size_t segment = first_ + lane;
-      args_.by_duration[segment] = by_t[lane];
+      args_.by_duration[segment] = OverShares(by_t, lane);
       for (size_t axis = 0; axis < 3; ++axis) {
         double* const out = args_.by_coefficient + (3 * segment + axis) * kPowers;
-        for (size_t k = 0; k < kPowers; ++k) out[k] = by_g[axis][k][lane] * power_[k][lane];
+        for (size_t k = 0; k < kPowers; ++k) out[k] = OverShares(by_g[axis][k], lane) * power_[k][lane];
       }
     }
+  }
+
+  static double OverShares(const double* x, size_t lane) {
+    double sum = x[lane];
+    for (size_t i = lane + kWidth; i < 8; i += kWidth) sum += x[i];
+    return sum;
   }
 
   const ExcessArguments& args_;
@@ -117,12 +142,24 @@ class Group {
   double power_[kPowers][8];
 };
 
-double Excess(const ExcessArguments& arguments) {
+template <int kPowers, int kShare>
+double ExcessOf(const ExcessArguments& arguments) {
   double total = 0;
-  for (size_t first = 0; first < arguments.segments; first += 8) {
-    total += arguments.powers == 8 ? Group<8>(arguments, first).Run() : Group<6>(arguments, first).Run();
+  for (size_t first = 0; first < arguments.segments; first += 8 / kShare) {
+    total += Group<kPowers, kShare>(arguments, first).Run();
   }
   return total;
+}
+
+template <int kPowers>
+double ExcessShared(const ExcessArguments& arguments) {
+  return arguments.share == 4   ? ExcessOf<kPowers, 4>(arguments)
+         : arguments.share == 2 ? ExcessOf<kPowers, 2>(arguments)
+                                : ExcessOf<kPowers, 1>(arguments);
+}
+
+double Excess(const ExcessArguments& arguments) {
+  return arguments.powers == 8 ? ExcessShared<8>(arguments) : ExcessShared<6>(arguments);
 }
 
 }  // namespace

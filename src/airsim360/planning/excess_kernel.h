@@ -11,9 +11,11 @@ struct ExcessArguments {
   const double* coefficients;  ///< [segment][3][powers]
   const double* durations;
   size_t segments;
-  int powers;            ///< 8 or 6
-  const double* basis;   ///< [samples][16]: k tau^(k-1) for k = 0..7, then k (k-1) tau^(k-2)
+  int powers;  ///< 8 or 6
+  /// [samples / share][16][share]: k tau^(k-1) for k = 0..7, then k (k-1) tau^(k-2)
+  const double* basis;
   size_t samples;        ///< per segment
+  size_t share = 1;      ///< lanes that share the samples of a segment: ExcessShare or 1
   int squarings;         ///< exponent q = 2^squarings, at least 2
   double inverse_speed;  ///< 1 / (limit^2)
   double inverse_acceleration;
@@ -21,6 +23,12 @@ struct ExcessArguments {
   double* by_coefficient;  ///< out, like coefficients
   double* by_duration;     ///< out: at fixed coefficients
 };
+
+/// Few segments would leave lanes empty.
+constexpr size_t ExcessShare(size_t segments, size_t samples) {
+  const size_t share = segments <= 2 ? 4 : segments <= 4 ? 2 : 1;
+  return samples % share == 0 ? share : 1;
+}
 
 /// sum over samples of weight T ((|v| / v_max)^(2 q) + (|a| / a_max)^q).
 struct ExcessKernels {

@@ -1,6 +1,7 @@
 // The copies of the kernels for different instruction sets give the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "airsim360/planning/aligned_buffer.h"
@@ -63,7 +64,10 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
                           .durations = {},
                           .segments = segments,
                           .workspace = workspace.data(),
-                          .coefficients = {}};
+                          .coefficients = {},
+                          .check = nullptr};
+  BatchCheck check;
+  batch.check = &check;
   std::vector<double> eight(8 * coefficients.size());
   for (size_t lane = 0; lane < 8; ++lane) {
     batch.waypoints[lane] = flat.data();
@@ -71,23 +75,34 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
     batch.coefficients[lane] = &eight[lane * coefficients.size()];
   }
   kernels.batch->batch[kind](batch);
+  EXPECT_EQ(check.least[7], *std::ranges::min_element(route.durations));
+  EXPECT_EQ(check.largest[7], *std::ranges::max_element(route.durations));
+  all.insert(all.end(), check.reach, check.reach + 8);
   all.insert(all.end(), eight.begin(), eight.end());
 
   std::vector<double> by_c(coefficients.size()), by_t(segments), by_w(4 * (segments + 1)),
-      basis(16 * 5, 0.25);
-  all.push_back(kernels.excess->excess({.coefficients = coefficients.data(),
-                                        .durations = route.durations.data(),
-                                        .segments = segments,
-                                        .powers = static_cast<int>(powers),
-                                        .basis = basis.data(),
-                                        .samples = 5,
-                                        .squarings = 3,
-                                        .inverse_speed = 0.1,
-                                        .inverse_acceleration = 0.2,
-                                        .weight = 0.01,
-                                        .by_coefficient = by_c.data(),
-                                        .by_duration = by_t.data()}));
-  all.insert(all.end(), by_c.begin(), by_c.end());
+      basis(16 * 8, 0.25);
+  double excess[3];
+  for (const size_t share : {4, 2, 1}) {
+    excess[share / 2] = kernels.excess->excess({.coefficients = coefficients.data(),
+                                                .durations = route.durations.data(),
+                                                .segments = segments,
+                                                .powers = static_cast<int>(powers),
+                                                .basis = basis.data(),
+                                                .samples = 8,
+                                                .share = share,
+                                                .squarings = 3,
+                                                .inverse_speed = 0.1,
+                                                .inverse_acceleration = 0.2,
+                                                .weight = 0.01,
+                                                .by_coefficient = by_c.data(),
+                                                .by_duration = by_t.data()});
+    all.push_back(excess[share / 2]);
+    all.insert(all.end(), by_c.begin(), by_c.end());
+  }
+  // The same samples, differently added up.
+  EXPECT_NEAR(excess[1] / excess[0], 1, 1e-12);
+  EXPECT_NEAR(excess[2] / excess[0], 1, 1e-12);
   kernels.adjoint->adjoint[kind]({.route = arguments,
                                   .by_coefficient = by_c.data(),
                                   .by_duration = by_t.data(),

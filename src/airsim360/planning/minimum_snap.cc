@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -42,7 +43,7 @@ void CheckCounts(size_t waypoints, size_t durations) {
   for (size_t i = 0; i < waypoints.size(); ++i) {
     if (!kernels.all_finite(&waypoints[i].x, 3)) Fail("waypoint " + std::to_string(i) + " is not finite");
   }
-  Fail("numbers are not finite");
+  Fail("numbers are too large: the path is not finite");
 }
 
 /// Whether all prescribed derivatives are (positive) zeros. In pairs, as a compiler is likely to have written
@@ -57,15 +58,6 @@ bool AtRest(const MinimumSnapProblem& problem) {
       (((pairs[0] | pairs[1]) | (pairs[2] | pairs[3])) | ((pairs[4] | pairs[5]) | (pairs[6] | pairs[7]))) |
       pairs[8];
   return (any[0] | any[1]) == 0;
-}
-
-/// Asks for the lines of memory of numbers that are needed soon. They may lie behind the end of their array:
-/// portions of a batch usually follow each other.
-void Prefetch(const double* from, size_t skip, size_t count) {
-  constexpr size_t kLine = 64, kMost = 64 * kLine;
-  const uintptr_t begin = reinterpret_cast<uintptr_t>(from) + skip * sizeof(double);
-  const size_t bytes = std::min(count * sizeof(double), kMost);
-  for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(reinterpret_cast<const void*>(begin + i));
 }
 
 }  // namespace
@@ -98,7 +90,7 @@ struct MinimumSnapSolver::Impl {
     free = false;
     if (!at_rest) std::memset(ends, 0, sizeof(ends));
     at_rest = true;
-    if (check.uneven && problem.refine) RefineUneven(kind, *checks, Arguments());
+    if (check.uneven && problem.refine) Refine(Arguments());
     return true;
   }
 
@@ -154,14 +146,45 @@ struct MinimumSnapSolver::Impl {
         .coefficients = coefficients.data()};
   }
 
+  /// Durations that grow or shrink on and on can leave the range of double precision on the way to an answer
+  /// within it; not if the largest is at most 1e12 times the least, for no power above the twentieth appears.
+  void Refine(const RouteArguments& arguments) {
+    const auto [least, largest] = std::ranges::minmax(durations);
+    if (largest <= 1e12 * least && least >= kShortestDuration && largest <= kLongestDuration) {
+      return RefineUneven(kind, *checks, arguments);
+    }
+    if (checks->all_finite(coefficients.data(), coefficients.size())) {
+      RefineUneven(kind, *checks, arguments);
+    } else {
+      SolveRouteWide(kind, arguments);
+    }
+    FailIfNotFinite();
+  }
+
+  void FailIfNotFinite() {
+    if (checks->all_finite(coefficients.data(), coefficients.size())) return;
+    const auto [least, largest] = std::ranges::minmax(durations);
+    durations.clear();
+    coefficients.clear();
+    char text[160];
+    std::snprintf(
+        text, sizeof(text),
+        "the path leaves the range of numbers: durations from %g to %g s are too small or too different",
+        least, largest);
+    Fail(text);
+  }
+
   void Solve() {
     const RouteArguments arguments = Arguments();
-    if (arguments.segments == 1) return SolveRouteWide(kind, arguments);
+    if (arguments.segments == 1) {
+      SolveRouteWide(kind, arguments);
+      return FailIfNotFinite();
+    }
     const bool try_chunks = arguments.segments >= kLeastChunkedSegments && !free;
     if (!try_chunks || !SolveRouteInChunks(kind, *batches, arguments)) {
       kernels->route[static_cast<int>(kind)](arguments);
     }
-    if (refine) RefineUneven(kind, *checks, arguments);
+    if (refine) Refine(arguments);
   }
 
   /// Of a true optimum: by a duration less twice the Hamiltonian of the segment, here at its start; by a
@@ -284,31 +307,37 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
   const CheckKernels& checks = *AIRSIM360_SELECT_KERNEL(kCheckKernels);
   const BatchKernels* const kernels = AIRSIM360_SELECT_KERNEL(kBatchKernels);
   static thread_local AlignedBuffer workspace;
+  BatchCheck check;
   BatchArguments arguments = {};
+  arguments.check = &check;
   arguments.stride = 3;
   arguments.segments = segments;
   arguments.workspace = workspace.Reserve(BatchWorkspace(segments));
   std::vector<size_t> uneven;
-  const size_t points = 3 * (segments + 1);
   for (size_t first = 0; first < routes; first += 8) {
-    const size_t count = std::min<size_t>(8, routes - first);
-    Prefetch(&waypoints[0].x, (first + 16) * points, 8 * points);
-    Prefetch(durations.data(), (first + 16) * segments, 8 * segments);
-    if (!checks.all_finite(&waypoints[first * (segments + 1)].x, count * points)) {
-      FailOnNumbers(checks, waypoints, durations);
-    }
+    // Also behind the end: portions of a batch usually follow each other.
+    arguments.next_waypoints =
+        reinterpret_cast<uintptr_t>(waypoints.data()) + (first + 8) * (segments + 1) * sizeof(Vec3d);
+    arguments.next_durations =
+        reinterpret_cast<uintptr_t>(durations.data()) + (first + 8) * segments * sizeof(double);
     for (size_t lane = 0; lane < 8; ++lane) {
       // Lanes beyond the last route repeat it: they write the same numbers once more.
       const size_t route = std::min(first + lane, routes - 1);
       arguments.waypoints[lane] = &waypoints[route * (segments + 1)].x;
       arguments.durations[lane] = &durations[route * segments];
       arguments.coefficients[lane] = &coefficients[route * size];
-      if (lane >= count) continue;
-      const NumberCheck check = checks.check_durations(arguments.durations[lane], segments);
-      if (!check.valid) FailOnNumbers(checks, waypoints, durations);
-      if (segments == 1 || check.uneven) uneven.push_back(route);
     }
     kernels->batch[static_cast<int>(kind)](arguments);
+    for (size_t lane = 0; lane < std::min<size_t>(8, routes - first); ++lane) {
+      const double least = check.least[lane], largest = check.largest[lane];
+      if (!(least > 0 && largest - largest == 0 && check.reach[lane] - check.reach[lane] == 0)) {
+        FailOnNumbers(checks, waypoints, durations);
+      }
+      if (segments == 1 || least < kShortestDuration || largest > kLongestDuration ||
+          (largest > kEvenRatio * least && checks.any_uneven(arguments.durations[lane], segments))) {
+        uneven.push_back(first + lane);
+      }
+    }
   }
   if (uneven.empty()) return;
   MinimumSnapSolver solver;

@@ -44,8 +44,9 @@ class MinimumSnapSolver {
   MinimumSnapSolver& operator=(MinimumSnapSolver&&) noexcept;
 
   /// InputError for fewer than two waypoints, counts that disagree, numbers that are not finite, durations
-  /// that are not positive. Equal neighbouring waypoints are fine here: a loop through a point is a valid
-  /// path. After an error there is no last solution.
+  /// that are not positive, coefficients out of the range of double precision (only looked for at uneven
+  /// durations and with `refine`). Equal neighbouring waypoints are fine here: a loop through a point is a
+  /// valid path. After an error there is no last solution.
   void Solve(const MinimumSnapProblem& problem);
 
   int degree() const;

@@ -177,7 +177,7 @@ TEST(MinimumSnap, InfluenceOfOneWaypointDecaysByTheEulerFrobeniusRoot) {
 
 TEST(MinimumSnap, LongAndShortRoutesAgreeWithWideArithmetic) {
   for (const SplineKind kind : kKinds) {
-    for (const size_t segments : {2, 3, 7, 10, 64, 65, 100, 127, 257, 1000, 1003}) {
+    for (const size_t segments : {2, 3, 7, 10, 64, 65, 100, 127, 257, 1000, 1003, 2100}) {
       const Route route = RandomRoute(segments, segments, /*moving_ends=*/true);
       const MinimumSnapProblem problem = route.Problem(kind, false);
       const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
@@ -253,6 +253,26 @@ TEST(MinimumSnap, BatchGivesEachRouteItsOwnSolution) {
       }
     }
   }
+}
+
+TEST(MinimumSnap, AbsurdDurationsGiveAPathOrAnError) {
+  size_t refused = 0;
+  for (const double growth : {1e-30, 1e-6, 1e-3, 1e3, 1e6, 1e30, 1e120}) {
+    for (size_t segments = 1; segments <= 40; segments += 3) {
+      Route route = RandomRoute(segments, segments, false);
+      for (size_t i = 0; i < segments; ++i) {
+        route.durations[i] = std::max(1e-300, std::min(1e300, std::pow(growth, static_cast<double>(i) - 20)));
+      }
+      try {
+        const PolynomialTrajectory path = SolveMinimumSnap(route.Problem(SplineKind::kMinimumSnap, false));
+        for (const double c : path.coefficients()) ASSERT_TRUE(std::isfinite(c));
+      } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("durations from"), std::string::npos) << error.what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 0u);
 }
 
 TEST(MinimumSnap, BadProblemsAreRefused) {

@@ -1,16 +1,21 @@
 // What kernels look for in waypoints and durations. Included by kernels only.
 #pragma once
 
+#include "airsim360/planning/spline_kernel.h"
 #include "airsim360/planning/spline_lanes.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
 /// Error grows with the fourth to fifth power of such ratios; see docs/trajectories.md.
-constexpr double kSingleRatio = 16, kDoubleRatio = 8;
+constexpr double kSingleRatio = 16, kDoubleRatio = kEvenRatio;
 
 AIRSIM360_INLINE bool UnevenHere(double a, double b, double c) {
   const double low = a < b ? a : b, high = a < b ? b : a, right = b < c ? c : b;
   return (high > kSingleRatio * low) | (a > kDoubleRatio * right) | (c > kDoubleRatio * high);
+}
+
+AIRSIM360_INLINE bool Extreme(double least, double largest) {
+  return (least < kShortestDuration) | (largest > kLongestDuration);
 }
 
 /// Points [n][3] to [n][4], the fourth zero; whether all are finite. Whole vectors are written, for the

@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 
 /// Shorter routes are faster as one piece.
-constexpr size_t kLeastChunkedSegments = 768;
+constexpr size_t kLeastChunkedSegments = 2048;
 
 /// Written segments of a chunk at most; eight chunks and their overlaps fit a cache of 1 MB.
 constexpr size_t kChunkSegments = 192;

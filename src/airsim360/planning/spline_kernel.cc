@@ -326,7 +326,7 @@ class RouteSolver {
         Store4(high[axis] * scale[1], out[axis] + 4);
       }
     } else {
-      StoreLanes<kPowers>(c, out, 3, scale);
+      StorePowers<kPowers>(c, out, 3, scale);
     }
   }
 
@@ -372,7 +372,7 @@ NumberCheck SolveFew(const double* waypoints, const double* durations, double* k
   route.coefficients = coefficients;
   RouteSolver<SnapModel, false, kSegments, true>(route).Run();
   const bool valid = points && least > 0 && finite == 0;
-  return {valid, !(largest <= kDoubleRatio * least)};
+  return {valid, !(largest <= kDoubleRatio * least) || Extreme(least, largest)};
 }
 
 }  // namespace

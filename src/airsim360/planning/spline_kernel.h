@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "airsim360/base/kernel_isa.h"
 
@@ -24,6 +25,12 @@ struct RouteArguments {
 
 constexpr size_t RouteWorkspace(size_t segments) { return segments * 40 + 256; }
 
+/// What the kernels saw on the way, lane by lane.
+struct BatchCheck {
+  double least[8], largest[8];  ///< durations, but for NaN
+  double reach[8];              ///< finite only if all numbers were (and all results are)
+};
+
 /// Eight routes of equally many segments, from rest to rest.
 struct BatchArguments {
   const double* waypoints[8];  ///< [segments + 1][stride]
@@ -32,9 +39,13 @@ struct BatchArguments {
   size_t segments;
   double* workspace;  ///< BatchWorkspace(segments) doubles, 64-byte aligned
   double* coefficients[8];
+  BatchCheck* check;  ///< written; not by chunks
+  /// Where the next eight routes' waypoints and durations are expected, one route behind the other, or 0:
+  /// asked for in passing. Nothing need be there.
+  uintptr_t next_waypoints, next_durations;
 };
 
-constexpr size_t BatchWorkspace(size_t segments) { return (segments + 1) * 27 * 8; }
+constexpr size_t BatchWorkspace(size_t segments) { return (segments + 1) * 28 * 8; }
 
 /// Eight chunks of one long route whose ends are prescribed completely. Each has `overlap` segments before
 /// and behind those that are written; there the lanes of the route's ends repeat the end's waypoint and
@@ -82,6 +93,11 @@ struct AdjointKernels {
   void (*adjoint[kSplineKinds])(const AdjointArguments&);
 };
 
+/// Durations of a route that differ at most so much count as even, wherever they are.
+constexpr double kEvenRatio = 8;
+/// Powers of longer or shorter ones may leave the range of numbers: they count as uneven.
+constexpr double kLongestDuration = 1e30, kShortestDuration = 1e-30;
+
 struct CheckKernels {
   bool (*all_finite)(const double* x, size_t n);
   /// A duration is more than 16 times its neighbour, or more than 8 times both of the next two on one side:
@@ -89,9 +105,8 @@ struct CheckKernels {
   bool (*any_uneven)(const double* durations, size_t n);
   /// Points [n][3] to [n][4], the fourth zero; whether all are finite.
   bool (*pad_points)(const double* points, size_t n, double* out);
-  /// Both: n >= 1.
+  /// n >= 1.
   NumberCheck (*copy_durations)(const double* durations, size_t n, double* out);
-  NumberCheck (*check_durations)(const double* durations, size_t n);
 };
 
 }  // namespace airsim360::internal

@@ -30,16 +30,15 @@ AIRSIM360_INLINE V8 Load8(const double* p) { return *reinterpret_cast<const V8Me
 AIRSIM360_INLINE void Store8(V8 v, double* p) { *reinterpret_cast<V8Memory*>(p) = v; }
 AIRSIM360_INLINE V8 Larger(V8 a, V8 b) { return a > b ? a : b; }
 
-/// Writes eight coefficients for each lane: c[power] has a lane per destination.
-AIRSIM360_INLINE void StoreTransposed8(const V8* c, double* const* out) {
+/// Row i, lane j becomes row j, lane i.
+AIRSIM360_INLINE void Transpose8(V8* row) {
   V8 pair[8], four[8];
   AIRSIM360_UNROLL
   for (int i = 0; i < 8; i += 2) {
-    pair[i] = __builtin_shufflevector(c[i], c[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-    pair[i + 1] = __builtin_shufflevector(c[i], c[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    pair[i] = __builtin_shufflevector(row[i], row[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    pair[i + 1] = __builtin_shufflevector(row[i], row[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
   }
-  // four[0..3]: powers 0 to 3 of lanes (0, 4), (2, 6), (1, 5), (3, 7) in halves as 0 4 0 4; four[4..7]: 4
-  // to 7.
+  // four[0 .. 3]: rows 0 to 3 of lanes (0, 4), (2, 6), (1, 5), (3, 7), two by two; four[4 .. 7]: rows 4 to 7.
   AIRSIM360_UNROLL
   for (int i = 0; i < 8; i += 4) {
     AIRSIM360_UNROLL
@@ -52,8 +51,8 @@ AIRSIM360_INLINE void StoreTransposed8(const V8* c, double* const* out) {
   AIRSIM360_UNROLL
   for (int i = 0; i < 4; ++i) {
     const int lane = (i & 1) * 2 + (i >> 1);
-    Store8(__builtin_shufflevector(four[i], four[i + 4], 0, 1, 4, 5, 8, 9, 12, 13), out[lane]);
-    Store8(__builtin_shufflevector(four[i], four[i + 4], 2, 3, 6, 7, 10, 11, 14, 15), out[lane + 4]);
+    row[lane] = __builtin_shufflevector(four[i], four[i + 4], 0, 1, 4, 5, 8, 9, 12, 13);
+    row[lane + 4] = __builtin_shufflevector(four[i], four[i + 4], 2, 3, 6, 7, 10, 11, 14, 15);
   }
 }
 #else
@@ -105,7 +104,7 @@ AIRSIM360_INLINE void Transpose4(V4& a, V4& b, V4& c, V4& d) {
 /// Writes kPowers coefficients for each of the first lanes: c[power] has a lane per destination. `scale`:
 /// times these factors of powers 0 to 3 and 4 to 7.
 template <int kPowers>
-AIRSIM360_INLINE void StoreLanes(const V4* c, double* const* out, int lanes, const V4* scale = nullptr) {
+AIRSIM360_INLINE void StorePowers(const V4* c, double* const* out, int lanes, const V4* scale = nullptr) {
   V4 low[4], high[4];
   AIRSIM360_UNROLL
   for (int i = 0; i < 4; ++i) {
@@ -161,8 +160,7 @@ AIRSIM360_INLINE void SolveSymmetric(const M* a, int n, V (*b)[D]) {
   }
 }
 
-/// One forward step: fills the record of a segment, moves the belief to its end. The first segments start
-/// with known derivatives, but for the highest where that is free.
+/// One forward step: fills the record of a segment, moves the belief to its end.
 template <class Model, class V, int A>
 AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& record,
                            KnotBelief<V, A, Model::kStates>& belief) {
@@ -171,17 +169,24 @@ AIRSIM360_INLINE void Step(const V* delta, SegmentRecord<V, A, Model::kStates>& 
   const V zero[A] = {};
   StepMean<double, Model>(zero, delta, record, belief);
 }
+
+/// The same for a first segment, whose start has known derivatives of zero, but for the highest where that is
+/// free. The record does not keep the belief there.
 template <class Model, class V, int A>
-AIRSIM360_INLINE void FirstStep(bool free_start, const V* delta, SegmentRecord<V, A, Model::kStates>& record,
-                                KnotBelief<V, A, Model::kStates>& belief) {
-  record.start = belief;
+AIRSIM360_INLINE void StepFromRest(bool free_start, const V* delta,
+                                   SegmentRecord<V, A, Model::kStates>& record,
+                                   KnotBelief<V, A, Model::kStates>& belief) {
   if (free_start) {
     StepFreeCovariance<double, Model>(record, belief);
   } else {
     StepKnownCovariance<Model>(record, belief);
   }
-  const V zero[A] = {};
-  StepMean<double, Model>(zero, delta, record, belief);
+  AIRSIM360_UNROLL
+  for (int axis = 0; axis < A; ++axis) {
+    record.innovation[axis] = delta[axis];
+    AIRSIM360_UNROLL
+    for (int i = 0; i < Model::kStates; ++i) belief.mean[axis][i] = record.gain[i] * delta[axis];
+  }
 }
 
 /// Multiplies c[k] by factor^k.

@@ -12,7 +12,7 @@ __extension__ typedef __float128 Quad;
 
 /// Knots between an uneven place and the border of the part solved again; the influence of the border decays
 /// at least by 0.54 per knot.
-constexpr size_t kMargin = 24;
+constexpr size_t kMargin = 16;
 
 template <class Model, class S>
 class ChainSolver {

@@ -1,6 +1,7 @@
 #include "airsim360/planning/time_allocation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -20,22 +21,36 @@ struct Stage {
 };
 
 /// The mean tends to the maximum as the exponent grows; each stage starts where the last one ended.
-constexpr Stage kStages[] = {{3, 12, 1e-3, 40}, {5, 16, 3e-4, 60}, {7, 24, 1e-4, 100}, {9, 48, 3e-5, 120}};
+constexpr Stage kStages[] = {{3, 12, 1e-3, 40}, {6, 16, 3e-4, 60}, {9, 32, 1e-4, 120}};
 
-/// Rows of the first and second derivatives of tau^k at the midpoints of equal parts of [0, 1].
-std::vector<double> SampleBasis(size_t samples) {
+/// Rows of the first and second derivatives of tau^k at the midpoints of equal parts of [0, 1], as
+/// ExcessArguments::basis wants them.
+std::vector<double> SampleBasis(size_t samples, size_t share) {
   std::vector<double> basis(samples * 16);
   for (size_t j = 0; j < samples; ++j) {
+    double* const at = &basis[16 * (j - j % share) + j % share];
     const double tau = (static_cast<double>(j) + 0.5) / static_cast<double>(samples);
     double power = 1;  // tau^(k-2) while row k is written
     for (size_t k = 1; k < 8; ++k) {
-      basis[16 * j + k] = static_cast<double>(k) * (k == 1 ? 1 : power * tau);
+      at[k * share] = static_cast<double>(k) * (k == 1 ? 1 : power * tau);
       if (k < 2) continue;
-      basis[16 * j + 8 + k] = static_cast<double>(k * (k - 1)) * power;
+      at[(8 + k) * share] = static_cast<double>(k * (k - 1)) * power;
       power *= tau;
     }
   }
   return basis;
+}
+
+/// That of a stage, made once.
+const double* StageBasis(size_t stage, size_t share) {
+  static const auto all = [] {
+    std::array<std::array<std::vector<double>, 3>, std::size(kStages)> bases;
+    for (size_t i = 0; i < bases.size(); ++i) {
+      for (const size_t lanes : {1, 2, 4}) bases[i][lanes / 2] = SampleBasis(kStages[i].samples, lanes);
+    }
+    return bases;
+  }();
+  return all[stage][share / 2].data();
 }
 
 /// F(x) = log(total time) + log(factor by which the path must slow down, smoothed), x = log durations.
@@ -50,9 +65,10 @@ class Objective {
         by_duration_(durations_.size()),
         by_coefficient_(durations_.size() * 3 * static_cast<size_t>(PowersOf(kind))) {}
 
-  void SetStage(const Stage& stage) {
-    stage_ = stage;
-    basis_ = SampleBasis(stage.samples);
+  void SetStage(size_t stage) {
+    stage_ = kStages[stage];
+    share_ = internal::ExcessShare(durations_.size(), stage_.samples);
+    basis_ = StageBasis(stage, share_);
   }
 
   const std::vector<double>& Durations(const std::vector<double>& x) {
@@ -70,8 +86,9 @@ class Objective {
                           .durations = durations_.data(),
                           .segments = durations_.size(),
                           .powers = PowersOf(kind_),
-                          .basis = basis_.data(),
+                          .basis = basis_,
                           .samples = stage_.samples,
+                          .share = share_,
                           .squarings = stage_.squarings,
                           .inverse_speed = 1 / (limits_.speed * limits_.speed),
                           .inverse_acceleration = 1 / (limits_.acceleration * limits_.acceleration),
@@ -95,9 +112,11 @@ class Objective {
   TrajectoryLimits limits_;
   SplineKind kind_;
   Stage stage_ = kStages[0];
+  size_t share_ = 1;
   const internal::ExcessKernels* kernels_ = AIRSIM360_SELECT_KERNEL(kExcessKernels);
   MinimumSnapSolver solver_;
-  std::vector<double> durations_, by_duration_, by_coefficient_, basis_;
+  std::vector<double> durations_, by_duration_, by_coefficient_;
+  const double* basis_ = nullptr;
 };
 
 std::vector<double> Chords(std::span<const Vec3d> waypoints) {
@@ -133,10 +152,11 @@ int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, S
   std::vector<double> x;
   for (const double duration : durations) x.push_back(std::log(duration));
   int evaluations = 0;
-  for (const Stage& stage : kStages) {
-    objective.SetStage(stage);
+  for (size_t i = 0; i < std::size(kStages); ++i) {
+    objective.SetStage(i);
     evaluations += minimiser.Minimise(
-        x, {.max_evaluations = stage.max_evaluations, .tolerance = stage.tolerance}, std::ref(objective));
+        x, {.max_evaluations = kStages[i].max_evaluations, .tolerance = kStages[i].tolerance},
+        std::ref(objective));
   }
   durations = objective.Durations(x);
   return evaluations;
