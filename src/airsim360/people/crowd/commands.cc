@@ -15,6 +15,24 @@ std::string Text(Vec3d p) {
   return text;
 }
 
+/// The place nearest to p over the ground, however far and high.
+NavPoint NearestAtAll(const NavMesh& mesh, Vec3d p) {
+  const Box3f box = mesh.bounds();
+  const Vec3d q{std::clamp<double>(p.x, box.min.x, box.max.x), std::clamp<double>(p.y, box.min.y, box.max.y), p.z};
+  NavPoint nearest;
+  for (const double reach : {4.0, 40.0, 400.0}) {
+    double best = 1e18;
+    for (double z = box.min.z; z < box.max.z + 2; z += 2) {
+      const NavPoint point = mesh.Nearest({q.x, q.y, z}, reach);
+      if (!point.valid() || Norm(point.p_W - q) >= best) continue;
+      best = Norm(point.p_W - q);
+      nearest = point;
+    }
+    if (nearest.valid()) break;
+  }
+  return nearest;
+}
+
 class Commander {
  public:
   Commander(CrowdTick& tick, PersonIndex person) : tick_(tick), i_(person), agent_(tick.in.agents[person]), walker_(tick.in.walkers[person]) {}
@@ -54,6 +72,7 @@ class Commander {
     const auto found = std::find(names.begin(), names.end(), set.state);
     if (found == names.end()) throw InputError(UnknownChoiceMessage("state", set.state, names));
     const auto state = static_cast<uint8_t>(found - names.begin());
+    if (!(set.seconds >= 0 && set.seconds <= 86400)) throw InputError("seconds " + std::to_string(set.seconds) + " is not in 0 … 86400");
     agent_.left_ns[state] = -1;  // a command knows no cool-down
     EnterState(tick_, i_, state, set.seconds > 0 ? set.seconds : -1, set.seconds, "command");
   }
@@ -64,6 +83,7 @@ class Commander {
     Post(tick_, kNoPerson, i_, static_cast<uint8_t>(found - tick_.plan.messages.begin()));
   }
   void operator()(const ReleasePerson&) {
+    MustBePresent();
     agent_.commanded = false;
     DropGoal(tick_, i_);
   }
@@ -77,7 +97,7 @@ class Commander {
     const NavMesh& mesh = *tick_.model.navmesh;
     const NavPoint point = mesh.Nearest(p, 1);
     if (point.valid()) return point;
-    const NavPoint near = mesh.Nearest(p, 30);
+    const NavPoint near = NearestAtAll(mesh, p);
     throw InputError("nobody can stand at " + Text(p) + (near.valid() ? "; the nearest place is " + Text(near.p_W) : ""));
   }
   void Place(Vec3d p, double yaw) {

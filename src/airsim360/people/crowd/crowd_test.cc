@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -236,6 +237,43 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
   EXPECT_GT(Norm(crowd[0].p_WP - seat), 3);
 }
 
+// The example of docs/people_behaviour.md (tests run in the root of the sources), with trees in the file it names.
+TEST_F(CrowdFiles, TheFileOfTheDocsWorks) {
+  std::ifstream docs("docs/people_behaviour.md");
+  if (!docs) GTEST_SKIP() << "not in the root of the sources";
+  std::string line, yaml;
+  while (std::getline(docs, line) && line != "### people.yaml") {
+  }
+  while (std::getline(docs, line) && line.rfind("    ", 0) != 0) {
+  }
+  do yaml += line.substr(4) + "\n";
+  while (std::getline(docs, line) && line.rfind("    ", 0) == 0);
+  WriteTestFile(folder_, "my_trees.xml", kSocialTree);
+  TestCrowd crowd(Park(), File(yaml));
+  EXPECT_EQ(crowd.state.people.size(), 31u);
+  const PersonIndex ann = PersonByName(*crowd.model, "ann");
+  EXPECT_NEAR(crowd[ann].p_WP.x, 12, 0.01);
+  crowd.Run(20);
+  for (PersonIndex i = 0; i < 31; ++i) crowd.Do(i, MessagePerson{"goal"});
+  crowd.Run(1);
+  EXPECT_GT(crowd.Count(CrowdEvent::Kind::kTransition, "cheering", "message: goal"), 15u);
+}
+
+TEST_F(CrowdFiles, AShopperStopsBeforeADoorAndLooksAtIt) {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 20, 6);
+  ground.Box("construction/building", {0, 6, 0}, {20, 12, 6});
+  ground.Box("construction/door", {14, 5.9f, 0}, {15, 6, 2.2f});
+  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="buys"><Sequence><GoToPlace kind="shop"/><SetState state="standing" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
+  TestCrowd crowd(ground.Build(), File("trees: [trees.xml]\npeople:\n  - {at: [3, 2], behaviour: buys, age: 40}\n", tree));
+  crowd.Run(18);
+  EXPECT_NEAR(crowd[0].p_WP.x, 14.5, 0.3);
+  EXPECT_GT(crowd[0].p_WP.y, 4.4);
+  EXPECT_NEAR(std::remainder(crowd[0].yaw - 1.5708, 6.28318), 0, 0.35);
+  EXPECT_EQ(PersonStateName(*crowd.model, crowd.state, 0), "standing");
+  EXPECT_EQ(LastTransition(*crowd.model, crowd.state, 0).cause.substr(0, 4), "tree");
+}
+
 TEST(Crowd, WhoStandsInANarrowWayIsPassedOrMakesWay) {
   TestGround ground;
   ground.Floor("ground/floor", 0, 0, 20, 1.4f);
@@ -288,6 +326,14 @@ TEST(Crowd, SinglePeopleAreSpawnedSentSetAndRemoved) {
   EXPECT_THROW(crowd.Do(1, SpawnPerson{{5.1, 5, 0}, 1}), InputError);   // taken
   EXPECT_THROW(crowd.Do(1, SpawnPerson{{-20, 5, 0}, 1}), InputError);   // outside
   EXPECT_THROW(crowd.Do(0, SetPersonState{"dancing", 3}), InputError);
+  EXPECT_THROW(crowd.Do(0, SetPersonState{"waving", -3}), InputError);
+  EXPECT_THROW(crowd.Do(1, ReleasePerson{}), InputError);
+  try {
+    crowd.Do(0, SendPerson{{300, 5, 7}, 0});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the nearest place is (49."), std::string::npos) << error.what();
+  }
   EXPECT_THROW(crowd.Do(7, RemovePerson{}), InputError);
   crowd.Do(0, SendPerson{{15, 5, 0}, 1.5});
   crowd.Run(12);
@@ -330,6 +376,7 @@ TEST_F(CrowdFiles, BadInputNamesFileLineAndTheNearestChoice) {
   EXPECT_NE(ErrorOf("areas:\n  - {name: pot, polygon: [[8.4, 14.2], [9.6, 14.2], [9.6, 14.8], [8.4, 14.8]], count: 1}\n").find("people.yaml:2: nobody can walk in area 'pot'; the nearest walkable ground is at"), std::string::npos);
   EXPECT_NE(ErrorOf("areas:\n  - name: small\n    polygon: [[1, 1], [4, 1], [4, 4], [1, 4]]\n    count: 500\n").find("people.yaml:4: 500 people do not fit area 'small' (9 m2); at most"), std::string::npos);
   EXPECT_NE(ErrorOf("areas:\n  - count: 3\n    mix: {walkr: 1}\n").find("people.yaml:3: unknown behaviour 'walkr'; did you mean 'walker'?"), std::string::npos);
+  EXPECT_NE(ErrorOf("areas:\n  - {count: 2.5}\n").find("people.yaml:2: count: expected a whole number, found '2.5'"), std::string::npos);
   EXPECT_NE(ErrorOf("area: 3\n").find("people.yaml:1: people file: unknown key 'area'; did you mean 'areas'?"), std::string::npos);
   EXPECT_NE(ErrorOf("states:\n  - {name: x, upper: wawe}\n").find("people.yaml:2: unknown behaviour 'wawe'; did you mean 'wave'?"), std::string::npos);
   EXPECT_NE(ErrorOf("transitions:\n  - {to: walkin, message: call}\n").find("did you mean 'walking'?"), std::string::npos);

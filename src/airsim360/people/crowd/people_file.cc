@@ -57,6 +57,11 @@ class Reader {
     if (!(value >= low && value <= high)) Fail(node, what + ": expected " + range + ", found " + Shown(node));
     return value;
   }
+  double Whole(const YAML::Node& node, const std::string& what, double low, double high) const {
+    const double value = Number(node, what, low, high);
+    if (value != std::floor(value)) Fail(node, what + ": expected a whole number, found " + Shown(node));
+    return value;
+  }
   bool Flag(const YAML::Node& node, const std::string& what) const {
     try {
       if (node.IsScalar()) return node.as<bool>();
@@ -95,7 +100,7 @@ AreaEntry ReadArea(const Reader& r, const YAML::Node& node) {
             });
             if (area.polygon.size() < 3) r.Fail(v, "polygon: needs at least three corners");
           }},
-         {"count", [&](const YAML::Node& v) { area.count = std::floor(r.Number(v, "count", 0, 100000)); area.count_where = r.Where(v); }},
+         {"count", [&](const YAML::Node& v) { area.count = r.Whole(v, "count", 0, 100000); area.count_where = r.Where(v); }},
          {"density", [&](const YAML::Node& v) { area.density = r.Number(v, "density", 0, 5); area.count_where = r.Where(v); }},
          {"mix", [&](const YAML::Node& v) {
             if (!v.IsMap()) r.Fail(v, "mix: expected 'behaviour: weight' lines, found " + Reader::Shown(v));
