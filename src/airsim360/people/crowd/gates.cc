@@ -7,8 +7,8 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kWidest = 1.4;   // metres of a gate: farther out the way would grow long
-constexpr double kReach = 0.1;    // metres to a gate that is as good as passed: not before, or one would walk into its post
-constexpr double kBeyond = 1.5;   // metres beside a gate within which its line counts
+constexpr double kReach = 0.02;   // metres to a gate that is as good as passed
+constexpr double kBeside = 0.25;  // and beside it, beyond its line
 
 double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 double Cross2(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
@@ -60,8 +60,8 @@ Vec2d NearestInGate(const Gate& gate, Vec2d p) {
 
 bool HasPassed(const Gate& gate, Vec2d p) {
   const Vec2d off = p - NearestInGate(gate, p);
-  const double d2 = Dot2(off, off);
-  return d2 < kReach * kReach || (d2 < kBeyond * kBeyond && Dot2(off, gate.ahead) > 0);
+  const double beyond = Dot2(off, gate.ahead), beside = std::abs(Cross2(off, gate.ahead));
+  return Dot2(off, off) < kReach * kReach || (beyond > 0 && beyond < 1.5 && beside < kBeside);
 }
 
 }  // namespace airsim360::internal

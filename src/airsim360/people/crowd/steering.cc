@@ -23,6 +23,7 @@ constexpr double kNoShare = 0.05;      // of avoiding: not worth a thought
 constexpr double kArm = 2 * kBodyRadius + 0.036;       // metres: between the middles of people who touch or nearly do
 constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3; // seconds, m/s: who is stuck beside somebody nearer to a door
 constexpr double kSidestepAfter = 1;    // seconds that someone who stands is in the way
+constexpr double kCorner = 0.02;         // metres
 constexpr double kAcceleration = 4;    // m/s^2
 constexpr double kLevel = 1.6;         // metres of height beyond which people are on different floors
 constexpr int64_t kChunk = 128;        // people a task
@@ -244,7 +245,9 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
     const Vec2d off = from_a - edge * t;
     const double d2 = Dot2(off, off);
     if (d2 > wall_range * wall_range || std::abs(wall.za + t * (wall.zb - wall.za) - self.z) > kLevel) continue;
+    // At the very end of a wall nothing is said about what is beyond it: a corner is turned there.
     const double d = std::sqrt(d2), length = Norm2(edge);
+    if (d < kCorner && std::min(t, 1 - t) * length < kCorner) continue;
     const Vec2d normal = d > 1e-4 ? off * (1 / d) : Vec2d{-edge.y / length, edge.x / length};
     if (hard < kMaxWalls) planes[hard++] = {normal * (-d / kWallHorizon), normal};
   }

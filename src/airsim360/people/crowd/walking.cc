@@ -6,6 +6,7 @@
 namespace airsim360::internal {
 namespace {
 
+constexpr double kNearGate = 0.3;          // metres
 constexpr double kAheadOfRoad = 2.2;       // metres to a crossing where people stop at a red light: ways cut its corners
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
 constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
@@ -237,7 +238,15 @@ void WantVelocities(CrowdTick& tick) {
 
     // Gate by gate; slower before the end.
     while (agent.gate + 1 < agent.gates.size() && HasPassed(agent.gates[agent.gate], p)) ++agent.gate;
-    const Vec2d to = NearestInGate(agent.gates[agent.gate], p) - p;
+    Vec2d to = NearestInGate(agent.gates[agent.gate], p) - p;
+    if (agent.gate + 1 < agent.gates.size() && Length(to) < kNearGate) {
+      // Not before the next one is seen: the corner of a wall may be between.
+      const Vec2d next = NearestInGate(agent.gates[agent.gate + 1], p);
+      if (tick.model.navmesh->Straight(walker.at, next)) {
+        ++agent.gate;
+        to = next - p;
+      }
+    }
     const double d = Length(to);
     const bool last = agent.gate + 1 == agent.gates.size();
     walker.rest = d;

@@ -13,6 +13,8 @@ double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 
 // A gap of an edge narrower than that is rounding of the openings, not a wall.
 constexpr double kSliver = 0.06;
+// At a corner of a polygon, with rounding.
+constexpr double kAtCorner = 1e-3;
 
 uint32_t Root(std::vector<uint32_t>& parent, uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -184,9 +186,28 @@ NavPoint NavGraph::Nearest(Vec3d p, double reach) const {
   return best;
 }
 
+const NavPortal* NavGraph::OpeningAt(const NavPolygon& polygon, int i, Vec2d p, double tolerance) const {
+  const Vec2d a = polygon.corner[i], edge = polygon.corner[(i + 1) % polygon.corners] - a;
+  const double n2 = Dot2(edge, edge);
+  if (n2 <= 0) return nullptr;
+  const double n = std::sqrt(n2), s = Dot2(p - a, edge) / n2, beside = std::abs(Cross2(edge, p - a)) / n;
+  if (beside > tolerance) return nullptr;
+  const NavPortal* opening = nullptr;
+  double miss = tolerance / n;
+  for (uint32_t k = polygon.first_portal[i]; k < polygon.first_portal[i + 1]; ++k) {
+    const double out = std::max({0.0, portals[k].t0 - s, s - portals[k].t1});
+    if (out < miss) {
+      miss = out;
+      opening = &portals[k];
+    }
+  }
+  return opening;
+}
+
 NavPoint NavGraph::Walk(uint32_t index, Vec2d p, Vec2d target, bool slide, bool* stopped) const {
   if (stopped) *stopped = false;
-  int slides = 0;
+  int slides = 0, hops = 0;
+  uint32_t before = UINT32_MAX;
   for (int step = 0; step < 96; ++step) {
     // The edge through which the straight line leaves the polygon first.
     const NavPolygon& polygon = polygons[index];
@@ -206,20 +227,24 @@ NavPoint NavGraph::Walk(uint32_t index, Vec2d p, Vec2d target, bool slide, bool*
     if (exit < 0) return {index, {target.x, target.y, 0}};
     p = p + (target - p) * exit_t;
 
-    // Through an opening, if there is one here.
+    // Through an opening, if there is one here; at a corner another edge may have it.
     const Vec2d a = polygon.corner[exit], edge = polygon.corner[(exit + 1) % polygon.corners] - a;
-    const double n2 = Dot2(edge, edge), s = Dot2(p - a, edge) / n2, tolerance = kSliver / std::sqrt(n2);
-    const NavPortal* through = nullptr;
-    double miss = tolerance;
-    for (uint32_t k = polygon.first_portal[exit]; k < polygon.first_portal[exit + 1]; ++k) {
-      const double out = std::max({0.0, portals[k].t0 - s, s - portals[k].t1});
-      if (out < miss) {
-        miss = out;
-        through = &portals[k];
-      }
-    }
-    if (through) {
+    const double n2 = Dot2(edge, edge);
+    if (const NavPortal* through = OpeningAt(polygon, exit, p, kSliver)) {
+      before = index;
       index = through->neighbour;
+      continue;
+    }
+    const NavPortal* around = nullptr;
+    for (int i = 0; i < polygon.corners && !around && hops < 4; ++i) {
+      if (i == exit) continue;
+      around = OpeningAt(polygon, i, p, kAtCorner);
+      if (around && around->neighbour == before) around = nullptr;
+    }
+    if (around) {
+      ++hops;
+      before = index;
+      index = around->neighbour;
       continue;
     }
 

@@ -80,6 +80,8 @@ struct NavGraph {
   double HeightIn(uint32_t polygon, Vec2d p) const;
   bool Inside(uint32_t polygon, Vec2d p) const;
   NavPoint Nearest(Vec3d p, double reach) const;
+  /// The opening of edge i that p lies in or at most `tolerance` metres beside; null: a wall.
+  const NavPortal* OpeningAt(const NavPolygon& polygon, int i, Vec2d p, double tolerance) const;
   /// Walks from p in `polygon` towards the target; sliding or, if not, stopping at the first wall (`stopped`).
   NavPoint Walk(uint32_t polygon, Vec2d p, Vec2d target, bool slide, bool* stopped) const;
 };

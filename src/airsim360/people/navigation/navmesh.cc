@@ -124,7 +124,7 @@ void NavMesh::Impl::Finish() {
 std::unique_ptr<NavMesh::Impl> NavMesh::BuildAnew(const Scene& scene, const internal::TileGrid& grid,
                                                   const NavMeshOptions& options, Bytes* archive) {
   auto impl = std::make_unique<Impl>();
-  const double margin = (std::ceil(options.person_radius / options.cell) + 4) * options.cell;
+  const double margin = (std::ceil(options.person_radius / options.cell) + 6) * options.cell;
   const internal::GroundSource source(scene, grid, margin);
   impl->crossings = internal::FindCrossings(scene);
   impl->recast = std::make_unique<internal::RecastMesh>(grid, options);

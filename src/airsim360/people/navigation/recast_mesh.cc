@@ -29,6 +29,7 @@ Vec3d FromRecast(const float* v) { return {v[0], -v[2], v[1]}; }
 
 constexpr float kCellHeight = 0.05f;
 constexpr int kMaxPathPolygons = 1024;
+constexpr double kPassing = 0.2;  // metres: half of what the middles of two people who pass need
 
 template <class T, void (*Free)(T*)>
 struct Freer {
@@ -89,7 +90,7 @@ class TileBuilder {
     climb_ = static_cast<int>(std::floor(options.step_height / kCellHeight));
     height_ = static_cast<int>(std::ceil(options.person_height / kCellHeight));
     radius_ = static_cast<int>(std::ceil(options.person_radius / options.cell - 1e-6));
-    border_ = radius_ + 3;
+    border_ = radius_ + 5;  // what CloseNarrowWays looks at counts
     cells_ = static_cast<int>(std::lround(grid.edge / options.cell));
     x0_ = grid.x0 + (tile % grid.columns) * grid.edge;
     y0_ = grid.y0 + (tile / grid.columns) * grid.edge;
@@ -150,8 +151,52 @@ class TileBuilder {
       rcMarkConvexPolyArea(&context_, outline.data(), static_cast<int>(crossing.outline.size()), min_.v[1], max_.v[1],
                            static_cast<unsigned char>(GroundKind::kCrossing), *compact_);
     }
-    return rcErodeWalkableArea(&context_, radius_, *compact_) && rcBuildDistanceField(&context_, *compact_) &&
+    return rcErodeWalkableArea(&context_, radius_, *compact_) && CloseNarrowWays() && rcBuildDistanceField(&context_, *compact_) &&
            rcBuildRegions(&context_, *compact_, border_, 64, 400);
+  }
+
+  // Outdoors, ways in which two people cannot pass each other are none: they would stand head on for ever. What
+  // is left after taking kPassing from all sides and giving it back stays; doors of houses stay in any case.
+  bool CloseNarrowWays() {
+    const std::vector<unsigned char> before(compact_->areas, compact_->areas + compact_->spanCount);
+    const int passing = static_cast<int>(std::lround(kPassing / cell_));
+    if (!rcErodeWalkableArea(&context_, passing, *compact_)) return false;
+    std::vector<unsigned char> now(compact_->areas, compact_->areas + compact_->spanCount), next;
+    for (int pass = 0; pass < passing; ++pass) {
+      next = now;
+      for (int y = 0; y < compact_->height; ++y)
+        for (int x = 0; x < compact_->width; ++x) Widen(x, y, before, now, next);
+      now.swap(next);
+    }
+    for (size_t i = 0; i < before.size(); ++i) {
+      const auto kind = static_cast<GroundKind>(before[i]);
+      const bool indoors = kind == GroundKind::kFloor || kind == GroundKind::kStairs;
+      compact_->areas[i] = indoors || now[i] != RC_NULL_AREA ? before[i] : RC_NULL_AREA;
+    }
+    return true;
+  }
+  void Widen(int x, int y, const std::vector<unsigned char>& before, const std::vector<unsigned char>& now,
+             std::vector<unsigned char>& next) const {
+    const rcCompactCell& cell = compact_->cells[x + y * compact_->width];
+    for (unsigned i = cell.index; i < cell.index + cell.count; ++i) {
+      if (now[i] != RC_NULL_AREA || before[i] == RC_NULL_AREA) continue;
+      // Beside it or, around a corner, beside that.
+      for (int side = 0; side < 4 && next[i] == RC_NULL_AREA; ++side) {
+        const int beside = Beside(x, y, static_cast<int>(i), side);
+        if (beside < 0) continue;
+        const int bx = x + rcGetDirOffsetX(side), by = y + rcGetDirOffsetY(side);
+        const int around = Beside(bx, by, beside, (side + 1) & 3);
+        if (now[static_cast<size_t>(beside)] != RC_NULL_AREA || (around >= 0 && now[static_cast<size_t>(around)] != RC_NULL_AREA))
+          next[i] = before[i];
+      }
+    }
+  }
+  /// Span on a side of a span; -1: none.
+  int Beside(int x, int y, int span, int side) const {
+    const int connection = rcGetCon(compact_->spans[span], side);
+    if (connection == RC_NOT_CONNECTED) return -1;
+    const int bx = x + rcGetDirOffsetX(side), by = y + rcGetDirOffsetY(side);
+    return static_cast<int>(compact_->cells[bx + by * compact_->width].index) + connection;
   }
 
   bool Polygons() {
