@@ -17,7 +17,8 @@ void Stand(District& d, std::string name, std::string_view kind, Vec2f at, float
 
 void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& buildings) {
   const GroundRect reach = plan.reach();
-  const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(), [](const Block& b) { return b.kind == BlockKind::kPlaza; });
+  const auto plaza = std::find_if(plan.blocks.begin(), plan.blocks.end(),
+                                  [](const Block& b) { return b.kind == BlockKind::kPlaza; });
   const Vec2f c = plaza->inner().center();
   // The building next to the plaza that meets a condition.
   const auto nearest = [&](const auto& fits) {
@@ -40,7 +41,8 @@ void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& bu
     curtains->curtain_floor = 3;
   BuildingPlan* bottle = nearest([&](const BuildingPlan& b) {
     const bool flat = b.roof == RoofKind::kFlatGravel || b.roof == RoofKind::kFlatBitumen;
-    return flat && b.curtain_floor < 0 && b.outline.size() == 4 && b.height() > 12 && b.height() < 24 && std::min(b.bounds().width(), b.bounds().depth()) > 7;
+    const bool wide = std::min(b.bounds().width(), b.bounds().depth()) > 7;
+    return flat && wide && b.curtain_floor < 0 && b.outline.size() == 4 && b.height() > 12 && b.height() < 24;
   });
   if (bottle) {
     const Vec2f m = bottle->bounds().center(), a = (bottle->outline[0] + bottle->outline[1]) * 0.5f, in = m - a;
@@ -65,7 +67,8 @@ void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& bu
   }
   for (size_t k = first; k < std::min(first + 3, buildings.size()); ++k) {
     BuildingPlan& b = buildings[k];
-    b.name = "similar building " + std::to_string(k - first + 1);
+    b.name = "similar building ";
+    b.name += std::to_string(k - first + 1);
     b.style = FacadeStyle::kClassicStone;
     b.floors = 5;
     b.palette = 1;

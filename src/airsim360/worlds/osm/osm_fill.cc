@@ -81,7 +81,8 @@ void Dresser::Row(const RoadSegment& segment, double s0, double s1, double pitch
     const Footprint place = FootprintOf(kind, ToFloat(p), static_cast<float>(Yaw(front)));
     if (!Here(p) || OnOther(p, segment) || InBuilding(p) || !scene_.occupancy.IsFree(place)) continue;
     scene_.occupancy.Add(place);
-    scene_.Put(segment.id + "/" + kind + (side > 0 ? " left " : " right ") + std::to_string(++number), kind, scene_.On(p), Yaw(front), 1, rng.Index(8));
+    const std::string name = segment.id + "/" + kind + (side > 0 ? " left " : " right ") + std::to_string(++number);
+    scene_.Put(name, kind, scene_.On(p), Yaw(front), 1, rng.Index(8));
   }
 }
 

@@ -42,7 +42,8 @@ void Dresser::Barrier(const OsmWay& way) {
       for (const Ring& hole : patch.holes) points.insert(points.end(), hole.begin(), hole.end());
       const std::vector<uint32_t> t = Triangulate(patch);
       for (size_t i = 0; i + 2 < t.size(); i += 3)
-        mesh_.Triangle(scene_.On(points[t[i]], height), scene_.On(points[t[i + 1]], height), scene_.On(points[t[i + 2]], height), ToFloat(points[t[i]]), ToFloat(points[t[i + 1]]), ToFloat(points[t[i + 2]]));
+        mesh_.Triangle(scene_.On(points[t[i]], height), scene_.On(points[t[i + 1]], height), scene_.On(points[t[i + 2]], height),
+                       ToFloat(points[t[i]]), ToFloat(points[t[i + 1]]), ToFloat(points[t[i + 2]]));
     }
     return;
   }

@@ -63,7 +63,9 @@ void Dresser::Shrubs(const OsmArea& area) {
     for (double x = area.bounds.min.x; x < area.bounds.max.x && number < 400; x += 3) {
       const Vec2d p{x + rng.Uniform(0, 3), y + rng.Uniform(0, 3)};
       if (!Inside(area.patches[0], p) || OnRoad(p, 1) || paths_.Find(p, 1.6).owner != UINT32_MAX) continue;
-      scene_.Put(area.id + "/shrub " + std::to_string(++number), "shrub", scene_.On(p, -0.03), rng.Uniform(0, kTau), static_cast<float>(rng.Uniform(0.7, 1.3)), rng.Index(4));
+      const double turn = rng.Uniform(0, kTau);
+      const auto scale = static_cast<float>(rng.Uniform(0.7, 1.3));
+      scene_.Put(area.id + "/shrub " + std::to_string(++number), "shrub", scene_.On(p, -0.03), turn, scale, rng.Index(4));
     }
 }
 

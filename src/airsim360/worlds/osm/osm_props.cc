@@ -41,6 +41,13 @@ constexpr NodeKind kNodes[] = {
     {"amenity", "fast_food", "", false},
 };
 
+// "node/227 Church"
+std::string NameOf(const OsmNode& node) {
+  std::string name = OsmId("node", node.id);
+  if (node.tags.Has("name")) name.append(1, ' ').append(node.tags.Get("name"));
+  return name;
+}
+
 }  // namespace
 
 std::span<const NodeKind> NodeKinds() { return kNodes; }
@@ -101,7 +108,7 @@ void Dresser::Simple(const OsmNode& node) {
 
 void Dresser::Place(const OsmNode& node, std::string_view kind, bool kerbside) {
   RngStream rng(scene_.options.seed, OsmId("node", node.id));
-  const std::string name = OsmId("node", node.id) + (node.tags.Has("name") ? " " + std::string(node.tags.Get("name")) : "");
+  const std::string name = NameOf(node);
   auto [p, front] = Beside(node.p, kind == "bus_stop" ? 1.3 : 0.55);
   if (!kerbside && !OnRoad(node.p, 0.2)) p = node.p;
   // Benches look to the nearest path unless the map says where.
@@ -110,7 +117,8 @@ void Dresser::Place(const OsmNode& node, std::string_view kind, bool kerbside) {
     if (path.owner != UINT32_MAX && path.distance > 0.05) front = (path.point - p) * (1 / path.distance);
   }
   double yaw = Yaw(front);
-  if (const auto compass = ParseOsmNumber(node.tags.Get("direction"), 0, 360)) yaw = Yaw({std::sin(*compass * M_PI / 180), std::cos(*compass * M_PI / 180)});
+  if (const auto compass = ParseOsmNumber(node.tags.Get("direction"), 0, 360))
+    yaw = Yaw({std::sin(*compass * M_PI / 180), std::cos(*compass * M_PI / 180)});
   scene_.Put(name, kind, scene_.On(p), yaw, 1, rng.Index(8));
   scene_.occupancy.Add(FootprintOf(kind, ToFloat(p), static_cast<float>(yaw)));
 }
@@ -145,8 +153,11 @@ void Dresser::Bicycles(const OsmNode& node) {
   const EntityId entity = scene_.builder.AddEntity(OsmId("node", node.id), scene_.builder.tree().At("vehicle/bicycle"));
   const int count = std::clamp(static_cast<int>(ParseOsmNumber(node.tags.Get("capacity"), 1, 500).value_or(4)) / 2, 1, 6);
   const Vec2d along{-front.y, front.x};
-  for (int i = 0; i < count; ++i)
-    scene_.shelf.PlaceAs(entity, "bicycle", PlaceUpright(scene_.On(p + along * (0.75 * (i - 0.5 * count))), static_cast<float>(Yaw(front) + rng.Uniform(-0.1, 0.1))), rng.Index(3));
+  for (int i = 0; i < count; ++i) {
+    const Vec3f at = scene_.On(p + along * (0.75 * (i - 0.5 * count)));
+    const auto yaw = static_cast<float>(Yaw(front) + rng.Uniform(-0.1, 0.1));
+    scene_.shelf.PlaceAs(entity, "bicycle", PlaceUpright(at, yaw), rng.Index(3));
+  }
   scene_.occupancy.Add({ToFloat(p), {static_cast<float>(0.4 * count), 0.9f}, static_cast<float>(std::atan2(along.y, along.x))});
 }
 
@@ -161,7 +172,7 @@ void Dresser::Pole(const OsmNode& node) {
 
 void Dresser::Statue(const OsmNode& node) {
   if (InBuilding(node.p)) return;
-  const std::string name = OsmId("node", node.id) + (node.tags.Has("name") ? " " + std::string(node.tags.Get("name")) : "");
+  const std::string name = NameOf(node);
   mesh_.SetEntity(scene_.builder.AddEntity(name, scene_.builder.tree().At("construction/statue")));
   mesh_.SetMaterial(scene_.surfaces[Surface::kGranite]);
   const Vec3f p = scene_.On(node.p, -0.05);

@@ -243,7 +243,8 @@ Texture Mural(uint32_t variant) {
       c.Rectangle({0, 0}, {1, 1}, {0.05f, 0.20f, 0.22f});
       for (int i = 0; i < 9; ++i) {
         const float x = 0.1f + 0.1f * static_cast<float>(i), y = 0.5f + 0.28f * std::sin(2.1f * static_cast<float>(i));
-        c.Disc({x, y}, 0.10f + 0.05f * static_cast<float>(i % 3), i % 3 == 0 ? Vec3f{0.52f, 0.16f, 0.06f} : i % 3 == 1 ? cream : Vec3f{0.10f, 0.32f, 0.20f});
+        const Vec3f color = i % 3 == 0 ? Vec3f{0.52f, 0.16f, 0.06f} : i % 3 == 1 ? cream : Vec3f{0.10f, 0.32f, 0.20f};
+        c.Disc({x, y}, 0.10f + 0.05f * static_cast<float>(i % 3), color);
       }
       c.Line({0.0f, 0.9f}, {1.0f, 0.15f}, 0.05f, cream);
       break;

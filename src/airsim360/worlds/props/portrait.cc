@@ -99,7 +99,8 @@ struct Bust {
       const float bulge = ax < tie && p.y < -0.80f ? 0.035f * std::sqrt(std::max(0.0f, 1 - ax * ax / (tie * tie))) : 0;
       take(torso + 0.03f - bulge, ax < tie && p.y < -0.80f ? Cloth::kTie : Cloth::kShirt);
     } else {
-      const float lapel = 0.24f * std::clamp((p.y + 1.75f) / 0.7f, 0.0f, 1.0f) * (p.y > -0.98f ? std::clamp((-0.70f - p.y) / 0.28f, 0.0f, 1.0f) : 1.0f);
+      const float notch = p.y > -0.98f ? std::clamp((-0.70f - p.y) / 0.28f, 0.0f, 1.0f) : 1.0f;
+      const float lapel = 0.24f * std::clamp((p.y + 1.75f) / 0.7f, 0.0f, 1.0f) * notch;
       const bool on = front && ax < half + lapel && p.y > -1.72f;
       take(torso - (on ? 0.022f : 0.0f), on ? Cloth::kLapel : Cloth::kJacket);
     }
