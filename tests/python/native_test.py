@@ -52,8 +52,8 @@ class Worlds(unittest.TestCase):
 
 class Captures(unittest.TestCase):
     def test_dlpack_shares_the_memory_and_keeps_it(self):
-        c = ROOM.capture([0, 0, 3], Rig(width=64, products=["rgb", "range", "entity", "flow"]))
-        for name in ("rgb", "range", "entity", "flow"):
+        c = ROOM.capture([0, 0, 3], Rig(width=64, products=["rgb", "range", "entity", "normal"]))
+        for name in ("rgb", "range", "entity", "normal"):
             tensor = c.tensor(name)
             self.assertEqual(tensor.__dlpack_device__(), (1, 0))
             seen = np.from_dlpack(tensor)
