@@ -21,24 +21,33 @@ struct Largest {
   double speed2 = 0, acceleration2 = 0;
 };
 
-/// Of one segment at `samples` even times, both ends with it.
-Largest Sample(const double (*c)[8], double duration, long samples) {
-  double speed2 = 0, acceleration2 = 0;
+/// Of one segment at `samples` even times, both ends with it. Eight times at once.
+[[gnu::target_clones("avx512f", "avx2", "default")]] Largest Sample(const double (*c)[8], double duration,
+                                                                    long samples) {
+  typedef double V8 __attribute__((vector_size(64)));
+  V8 t = {}, speed2 = {}, acceleration2 = {};
   const double step = duration / static_cast<double>(samples - 1);
-  for (int i = 0; i < static_cast<int>(samples); ++i) {
-    const double t = step * i;
-    double v2 = 0, a2 = 0;
+  for (int lane = 0; lane < 8; ++lane) t[lane] = lane;
+  for (long i = 0; i < samples; i += 8) {
+    V8 tau = (t + static_cast<double>(i)) * step;
+    tau = tau < duration ? tau : V8{} + duration;
+    V8 v2 = {}, a2 = {};
     for (int axis = 0; axis < 3; ++axis) {
-      double v = 7 * c[axis][7], a = 42 * c[axis][7];
-      for (int k = 6; k >= 1; --k) v = v * t + k * c[axis][k];
-      for (int k = 6; k >= 2; --k) a = a * t + k * (k - 1) * c[axis][k];
+      V8 v = V8{} + 7 * c[axis][7], a = V8{} + 42 * c[axis][7];
+      for (int k = 6; k >= 1; --k) v = v * tau + k * c[axis][k];
+      for (int k = 6; k >= 2; --k) a = a * tau + k * (k - 1) * c[axis][k];
       v2 += v * v;
       a2 += a * a;
     }
     speed2 = v2 > speed2 ? v2 : speed2;
     acceleration2 = a2 > acceleration2 ? a2 : acceleration2;
   }
-  return {speed2, acceleration2};
+  Largest largest;
+  for (int lane = 0; lane < 8; ++lane) {
+    largest.speed2 = std::max(largest.speed2, speed2[lane]);
+    largest.acceleration2 = std::max(largest.acceleration2, acceleration2[lane]);
+  }
+  return largest;
 }
 
 /// 2 to 9 waypoints in a cube of 32 m, durations of 0.5 to 8 s, every third time moving at the ends.

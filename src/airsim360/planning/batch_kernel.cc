@@ -87,7 +87,10 @@ class BatchSolver {
     ForwardStep(0, true, belief);
     for (size_t k = 1; k < first; ++k) ForwardStep(k, false, belief);
     if (start != nullptr) StartLane(start, belief);
-    for (size_t k = first; k < segments_; ++k) ForwardStep(k, false, belief);
+    for (size_t k = first; k < segments_; ++k) {
+      ForwardStep(k, false, belief);
+      if (k < last) PrefetchCoefficients(k - first);
+    }
 
     end_ = last;
     Lanes after[3][D] = {};
@@ -274,6 +277,15 @@ class BatchSolver {
       AIRSIM360_UNROLL
       for (int i = 0; i < kPowers; ++i) part[i] = reinterpret_cast<const V4*>(&c[i])[half];
       StorePowers<kPowers>(part, out + 4 * half, 4);
+    }
+  }
+
+  /// Of one segment of each lane: the way back will write there.
+  AIRSIM360_INLINE void PrefetchCoefficients(size_t segment) const {
+    AIRSIM360_UNROLL
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const char* const at = reinterpret_cast<const char*>(coefficients_[lane] + segment * 3 * kPowers);
+      for (size_t i = 0; i < 3 * kPowers * sizeof(double); i += 64) __builtin_prefetch(at + i, 1);
     }
   }
 

@@ -59,14 +59,11 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
     all.insert(all.end(), few.begin(), few.end());
   }
 
-  BatchArguments batch = {.waypoints = {},
-                          .stride = 3,
-                          .durations = {},
-                          .segments = segments,
-                          .workspace = workspace.data(),
-                          .coefficients = {},
-                          .check = nullptr};
   BatchCheck check;
+  BatchArguments batch = {};
+  batch.stride = 3;
+  batch.segments = segments;
+  batch.workspace = workspace.data();
   batch.check = &check;
   std::vector<double> eight(8 * coefficients.size());
   for (size_t lane = 0; lane < 8; ++lane) {

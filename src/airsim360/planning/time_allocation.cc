@@ -71,6 +71,13 @@ class Objective {
     basis_ = StageBasis(stage, share_);
   }
 
+  /// Trials whose durations differ far more than these do not count: what the solver says of them is
+  /// rounding.
+  void SetStart(const std::vector<double>& durations) {
+    const auto [least, largest] = std::ranges::minmax(durations);
+    most_uneven_ = 1e3 * std::max(10.0, largest / least);
+  }
+
   const std::vector<double>& Durations(const std::vector<double>& x) {
     for (size_t i = 0; i < x.size(); ++i) durations_[i] = std::exp(x[i]);
     return durations_;
@@ -78,9 +85,13 @@ class Objective {
 
   double operator()(const std::vector<double>& x, std::vector<double>& gradient) {
     Durations(x);
-    solver_.Solve({.waypoints = waypoints_, .durations = durations_, .kind = kind_, .refine = false});
     double total = 0;
     for (const double duration : durations_) total += duration;
+    const auto [least, largest] = std::ranges::minmax(durations_);
+    if (!(largest <= most_uneven_ * least) || !std::isfinite(total)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    solver_.Solve({.waypoints = waypoints_, .durations = durations_, .kind = kind_, .refine = false});
     const double excess =
         kernels_->excess({.coefficients = solver_.coefficients().data(),
                           .durations = durations_.data(),
@@ -103,6 +114,7 @@ class Objective {
     for (size_t i = 0; i < x.size(); ++i) {
       const double by_time = 1 / total + root * (by_duration_[i] / excess - 1 / total);
       gradient[i] = by_time * durations_[i];
+      if (!std::isfinite(gradient[i])) return std::numeric_limits<double>::infinity();
     }
     return std::log(total) + root * std::log(excess);
   }
@@ -112,6 +124,7 @@ class Objective {
   TrajectoryLimits limits_;
   SplineKind kind_;
   Stage stage_ = kStages[0];
+  double most_uneven_ = 1e4;
   size_t share_ = 1;
   const internal::ExcessKernels* kernels_ = AIRSIM360_SELECT_KERNEL(kExcessKernels);
   MinimumSnapSolver solver_;
@@ -148,6 +161,7 @@ PolynomialTrajectory Fly(std::span<const Vec3d> waypoints, std::span<const doubl
 int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, SplineKind kind,
              std::vector<double>& durations) {
   Objective objective(waypoints, limits, kind);
+  objective.SetStart(durations);
   internal::Lbfgs minimiser;
   std::vector<double> x;
   for (const double duration : durations) x.push_back(std::log(duration));
