@@ -213,6 +213,7 @@ void WantVelocities(CrowdTick& tick) {
     walker.still = false;
     walker.rest = 0;
     walker.pressed = PressedBy(agent, tick.t_ns);
+    walker.aside = agent.at_place ? Flat(FeetOf(tick.plan, tick.in, i, tick.t_ns) - walker.at.p_W) : Vec2d{};
     if (!walker.present) continue;
     const StateDef& state = tick.plan.states[agent.state];
     const Vec2d p = Flat(walker.at.p_W);
