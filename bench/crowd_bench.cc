@@ -126,7 +126,8 @@ void Explain(const CrowdModel& model, const CrowdState& state, PersonIndex i) {
     const internal::Agent& a = state.internals->agents[k];
     const Vec3d d = w.at.p_W - self.at.p_W;
     std::printf("    %4u at %+.2f %+.2f, wants %+.2f %+.2f, does %+.2f %+.2f%s, %s, walk %d, gate %u of %zu, group %u%s%s\n", k, d.x, d.y, w.wanted.x,
-                w.wanted.y, w.v.x, w.v.y, w.still ? ", still" : "", std::string(PersonStateName(model, state, k)).c_str(), static_cast<int>(a.walk), a.gate,
+                w.wanted.y, w.v.x, w.v.y, w.still ? ", still" : "", std::string(PersonStateName(model, state, k)).c_str(),
+                static_cast<int>(a.walk), a.gate,
                 a.gates.size(), a.group, a.at_place ? ", at place" : "", a.hold ? ", red" : "");
   };
   std::printf("  stuck: %u at %.2f %.2f, t %.1f s\n", i, self.at.p_W.x, self.at.p_W.y, static_cast<double>(state.t_ns) * 1e-9);
@@ -167,8 +168,8 @@ void Soak(size_t people, double minutes, const char* world) {
     }
     if (tick % 12000 == 1200) std::printf("%5.0f min: heap %zu KiB, hash %016lx\n", static_cast<double>(tick) / 1200, mallinfo2().uordblks / 1024, HashCrowd(state));
   }
-  std::printf("%zu people, %.0f min: stuck %zu, messages lost %zu, closest %.3f m, hash %016lx; %.0f s of work\n", people, minutes, stuck, lost, closest,
-              HashCrowd(state), Milliseconds(began) / 1000);
+  std::printf("%zu people, %.0f min: stuck %zu, messages lost %zu, closest %.3f m, hash %016lx; %.0f s of work\n",
+              people, minutes, stuck, lost, closest, HashCrowd(state), Milliseconds(began) / 1000);
   for (const auto& [name, n] : transitions) std::printf("  -> %-20s %zu\n", name.c_str(), n);
 }
 
@@ -194,7 +195,8 @@ void Same(size_t people, double minutes) {
     char text[32];
     std::snprintf(text, sizeof text, "%016lx", hash);
     hashes[threads == 0] = text;
-    std::printf("%zu people, %.0f min, %d threads: hash of all poses %s (%.0f s of work)\n", people, minutes, ThreadCount(), text, Milliseconds(start) / 1000);
+    std::printf("%zu people, %.0f min, %d threads: hash of all poses %s (%.0f s of work)\n", people, minutes,
+                ThreadCount(), text, Milliseconds(start) / 1000);
   }
   std::printf("%s\n", hashes[0] == hashes[1] ? "the same" : "NOT THE SAME");
 }

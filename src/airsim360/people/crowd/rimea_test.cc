@@ -133,7 +133,7 @@ TEST(Rimea, Test12TheQueueFormsAtTheFirstBottleneckAndNotAtTheSecond) {
               run.seconds);
   EXPECT_EQ(run.left, 0u);
   EXPECT_GT(run.first, 20);
-  EXPECT_LT(run.second, 0.1 * run.first);
+  EXPECT_LT(run.second, 0.2 * run.first);
   EXPECT_GT(run.flow, 1.2);
   EXPECT_LT(run.flow, 1.9);
 }

@@ -35,6 +35,7 @@ constexpr double kSelfShare = 0.55;
 
 double Dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 double Norm2(Vec2d a) { return std::sqrt(Dot2(a, a)); }
+Vec2d BodyOf(const Walker& w) { return Vec2d{w.at.p_W.x, w.at.p_W.y} + w.aside; }
 
 /// How much of the avoiding is ours: who has the other more in front of them does more of it, and who is
 /// followed nothing, so that those in front of a door do not wait for those behind. The shares of two people
@@ -128,8 +129,9 @@ void Steering::Sort(std::span<const Walker> walkers) {
   for (const Walker& w : walkers) {
     if (!w.present) continue;
     ++present;
-    min_ = {std::min(min_.x, w.at.p_W.x), std::min(min_.y, w.at.p_W.y)};
-    max = {std::max(max.x, w.at.p_W.x), std::max(max.y, w.at.p_W.y)};
+    const Vec2d p = BodyOf(w);
+    min_ = {std::min(min_.x, p.x), std::min(min_.y, p.y)};
+    max = {std::max(max.x, p.x), std::max(max.y, p.y)};
   }
   seen_.resize(present);
   if (present == 0) return;
@@ -142,8 +144,8 @@ void Steering::Sort(std::span<const Walker> walkers) {
   cell_of_.resize(walkers.size());
   for (size_t i = 0; i < walkers.size(); ++i) {
     if (!walkers[i].present) continue;
-    const auto c = static_cast<uint32_t>((walkers[i].at.p_W.x - min_.x) / cell_);
-    const auto r = static_cast<uint32_t>((walkers[i].at.p_W.y - min_.y) / cell_);
+    const Vec2d p = BodyOf(walkers[i]);
+    const auto c = static_cast<uint32_t>((p.x - min_.x) / cell_), r = static_cast<uint32_t>((p.y - min_.y) / cell_);
     cell_of_[i] = r * static_cast<uint32_t>(columns_) + c;
     ++first_[cell_of_[i] + 1];
   }
@@ -151,7 +153,7 @@ void Steering::Sort(std::span<const Walker> walkers) {
   for (uint32_t i = 0; i < walkers.size(); ++i) {
     const Walker& w = walkers[i];
     if (!w.present) continue;
-    seen_[first_[cell_of_[i]]++] = {{w.at.p_W.x, w.at.p_W.y}, w.v, {}, w.at.p_W.z, 0, 0, i, false};
+    seen_[first_[cell_of_[i]]++] = {BodyOf(w), w.v, {}, w.at.p_W.z, 0, 0, i, false};
   }
   for (size_t k = first_.size() - 1; k > 0; --k) first_[k] = first_[k - 1];
   first_[0] = 0;
@@ -311,7 +313,7 @@ void Steering::Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t 
   const auto blocked = [&](Vec2d q) -> const Walker* {
     for (int i = 0; i < plan.close_count; ++i) {
       const Walker& other = walkers[plan.close[static_cast<size_t>(i)]];
-      const Vec2d o{other.at.p_W.x, other.at.p_W.y};
+      const Vec2d o = BodyOf(other);
       const double d2 = Dot2(q - o, q - o);
       if (d2 < 4 * kBodyRadius * kBodyRadius && d2 < Dot2(p - o, p - o)) return &other;
     }
@@ -326,7 +328,7 @@ void Steering::Advance(const NavMesh& mesh, std::span<Walker> walkers, uint32_t 
       moved = true;
       break;
     }
-    const Vec2d away = p - Vec2d{other->at.p_W.x, other->at.p_W.y};
+    const Vec2d away = p - BodyOf(*other);
     const double n = Norm2(away);
     if (n < 1e-9) break;
     const double into = Dot2(move, away) / n;

@@ -6,7 +6,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kNearGate = 0.3;          // metres
+constexpr double kNearGate = 0.3, kSeesGate = 2;  // metres
 constexpr double kAheadOfRoad = 2.2;       // metres to a crossing where people stop at a red light: ways cut its corners
 constexpr int64_t kCycle = 44 * kSecond;   // of traffic lights
 constexpr int64_t kShift = 800'000'000;    // of feet from the mesh to a seat beside it and back
@@ -165,6 +165,15 @@ void WatchWay(CrowdTick& tick, PersonIndex i) {
     }
   }
 
+  // Pushed aside, one may stand before a wall: another way from here, once a second.
+  if (walker.blocked > 0.3 && tick.t_ns % kSecond < kThinkEvery * kCrowdTickNs && distance > 1e-6 &&
+      !mesh.Straight(walker.at, p + to * std::min(1.0, kSeesGate / distance))) {
+    const int64_t since = agent.progress_ns;
+    SetGoal(tick, i, agent.goal, agent.goal_speed, agent.goal_reach);
+    agent.progress_ns = since;
+    return;
+  }
+
   // The next gate but one is seen already.
   if (agent.gate + 1 < agent.gates.size() && distance < 4 && ShortCut(mesh, walker.at, NearestInGate(agent.gates[agent.gate + 1], p)))
     ++agent.gate;
@@ -213,6 +222,7 @@ void WantVelocities(CrowdTick& tick) {
     walker.still = false;
     walker.rest = 0;
     walker.pressed = PressedBy(agent, tick.t_ns);
+    walker.aside = agent.at_place ? Flat(FeetOf(tick.plan, tick.in, i, tick.t_ns) - walker.at.p_W) : Vec2d{};
     if (!walker.present) continue;
     const StateDef& state = tick.plan.states[agent.state];
     const Vec2d p = Flat(walker.at.p_W);

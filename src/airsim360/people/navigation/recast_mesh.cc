@@ -178,7 +178,7 @@ class TileBuilder {
   void Widen(int x, int y, const std::vector<unsigned char>& before, const std::vector<unsigned char>& now,
              std::vector<unsigned char>& next) const {
     const rcCompactCell& cell = compact_->cells[x + y * compact_->width];
-    for (unsigned i = cell.index; i < cell.index + cell.count; ++i) {
+    for (size_t i = cell.index; i < size_t{cell.index} + cell.count; ++i) {
       if (now[i] != RC_NULL_AREA || before[i] == RC_NULL_AREA) continue;
       // Beside it or, around a corner, beside that.
       for (int side = 0; side < 4 && next[i] == RC_NULL_AREA; ++side) {
