@@ -100,7 +100,7 @@ std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot
 }
 
 std::shared_ptr<const RayTracer> ImageService::TracerOf(const Snapshot& snapshot, size_t vehicle) {
-  return ray_tracers_.At(StateOf(snapshot, vehicle));
+  return ray_tracers_.At(StateOf(snapshot, vehicle, 0));
 }
 
 const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot) {

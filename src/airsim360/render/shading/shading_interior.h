@@ -63,7 +63,7 @@ SHARED void interior_room(real a, real b, real half_a, real half_b, real da, rea
   real ta = (sel(da > 0.0f, right, left) - a) / sel(rabs(da) > 1e-5f, da, real(1e-5f));
   real tb = (sel(db > 0.0f, high, low) - b) / sel(rabs(db) > 1e-5f, db, real(1e-5f));
   real tn = deep / into;
-  real t = rmin(rmin(ta, tb), tn);
+  real t = rmax(rmin(rmin(ta, tb), tn), real(0.0f));  // points a hair outside of the pane look at its edge
   mask_t on_side = (ta < tb) && (ta < tn);
   mask_t on_level = (tb <= ta) && (tb < tn);
   real x = a + da * t;
