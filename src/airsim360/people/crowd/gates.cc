@@ -38,7 +38,7 @@ std::vector<Gate> GatesOf(const NavMesh& mesh, const NavPath& path) {
   const std::vector<Vec3d>& corners = path.corners;
   for (size_t k = 1; k < corners.size(); ++k) {
     const Vec2d in = Unit(Flat(corners[k]) - Flat(corners[k - 1]));
-    Gate gate{corners[k], {}, in};
+    Gate gate{corners[k], {}, in, 0};
     if (k + 1 < corners.size()) {
       const Vec2d out = Unit(Flat(corners[k + 1]) - Flat(corners[k]));
       const double turn = Cross2(in, out);
@@ -48,7 +48,8 @@ std::vector<Gate> GatesOf(const NavMesh& mesh, const NavPath& path) {
     }
     gates.push_back(gate);
   }
-  if (gates.empty() && !corners.empty()) gates.push_back({corners.back(), {}, {}});
+  if (gates.empty() && !corners.empty()) gates.push_back({corners.back(), {}, {}, 0});
+  for (size_t k = gates.size(); k-- > 1;) gates[k - 1].onward = gates[k].onward + Norm(gates[k].p - gates[k - 1].p);
   return gates;
 }
 

@@ -15,6 +15,7 @@ struct Gate {
   Vec3d p;
   Vec2d side;   ///< metres, away from what the way turns around
   Vec2d ahead;  ///< unit vector through the gate
+  double onward = 0;  ///< metres from here to the goal
 };
 
 /// One gate a corner of the way, less its start; the last one is the goal.

@@ -111,10 +111,10 @@ TEST(Rimea, Test7WalkingSpeedsFollowTheDistributionByAge) {
     EXPECT_NEAR((crowd[i].p_WP.x - x[i]) / 10, crowd.model->people[i].free_speed, 0.05) << i;
 }
 
-// 1,000 people in 30 x 20 m in the guideline; here a quarter of both, as dense.
+// 1,000 people in 30 x 20 m in the guideline; here half of both, as dense.
 TEST(Rimea, Test9ClosingTwoOfFourExitsAboutDoublesTheTime) {
-  const DoorRun four = EmptyRoom(15, 10, 250, false), two = EmptyRoom(15, 10, 250, true);
-  std::printf("250 people: %.1f s through four exits, %.1f s through two; %.2f and %.2f people a second and door\n", four.seconds, two.seconds,
+  const DoorRun four = EmptyRoom(21, 14, 500, false), two = EmptyRoom(21, 14, 500, true);
+  std::printf("500 people: %.1f s through four exits, %.1f s through two; %.2f and %.2f people a second and door\n", four.seconds, two.seconds,
               four.flow, two.flow);
   EXPECT_EQ(four.left + two.left, 0u);
   EXPECT_GT(two.seconds / four.seconds, 1.7);

@@ -22,6 +22,7 @@ constexpr double kShareSlope = 0.6;    // how fast the work of avoiding goes ove
 constexpr double kNoShare = 0.05;      // of avoiding: not worth a thought
 constexpr double kArm = 2 * kBodyRadius + 0.036;       // metres: between the middles of people who touch or nearly do
 constexpr double kYieldAfter = 0.4, kYieldSpeed = 0.3; // seconds, m/s: who is stuck beside somebody nearer to a door
+constexpr double kLoosenAfter = 4, kLoosenUntil = 4.6;  // seconds
 constexpr double kSidestepAfter = 1;    // seconds that someone who stands is in the way
 constexpr double kCorner = 0.02;         // metres
 constexpr double kAcceleration = 4;    // m/s^2
@@ -117,7 +118,8 @@ void Steering::Step(const NavMesh& mesh, std::span<Walker> walkers, std::span<co
     if (!walker.present) continue;
     Advance(mesh, walkers, i, dt);
     const bool stands = Dot2(walker.v, walker.v) < 0.05 * 0.05 && Dot2(walker.wanted, walker.wanted) > 0.01;
-    walker.blocked = stands ? std::min(walker.blocked + dt, 3.0) : std::max(0.0, walker.blocked - 2 * dt);
+    walker.blocked = stands ? walker.blocked + dt : std::max(0.0, walker.blocked - 2 * dt);
+    if (walker.blocked > kLoosenUntil) walker.blocked = kSidestepAfter;
   }
 }
 
@@ -275,6 +277,7 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
     if (planes_used < planes.size() && Dot2(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
       planes[planes_used++] = AvoidDisc(d, self.v, obstacle.v, kSpaceRadius + obstacle.radius, kHorizon, dt, 1);
   }
+  yields |= self.blocked > kLoosenAfter;  // nothing has helped: let go for a moment, each at another time
   if (yields) {
     wanted = forward * -kYieldSpeed;
     cap = std::max(cap, kYieldSpeed);

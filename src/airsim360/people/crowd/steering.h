@@ -21,7 +21,7 @@ struct Walker {
   Vec2d wanted;         ///< velocity they would like
   double free_speed = 1.34;
   double pressed = 0;   ///< 0 … 1: how much they want through, after standing for a while; they squeeze past others
-  double rest = 0;      ///< metres to where they turn next (a door): who is nearer goes first; 0 = unknown
+  double rest = 0;      ///< metres to where they go: who is nearer goes first at doors; 0 = unknown
   double blocked = 0;   ///< seconds that they have stood though they want on
   Vec2d aside;          ///< of the body from `at`, metres: seats are beside the mesh
   bool present = true;  ///< in the world

@@ -259,7 +259,7 @@ void WantVelocities(CrowdTick& tick) {
     }
     const double d = Length(to);
     const bool last = agent.gate + 1 == agent.gates.size();
-    walker.rest = d;
+    walker.rest = d + agent.gates[agent.gate].onward;
     if (last && d < agent.goal_reach) {
       agent.walk = Walk::kArrived;
       continue;
