@@ -210,7 +210,7 @@ TEST(Skinning, PropsThatAreNotShownTakeNoSpace) {
   SkinBody(*body, 0, RestPose(*body, {}), {}, positions);
   for (const PropRange& prop : body->levels[0].props) {
     for (uint32_t v = 1; v < prop.vertex_count; ++v)
-      EXPECT_EQ(positions[prop.first_vertex], positions[prop.first_vertex + v]);
+      EXPECT_LT(Norm(positions[prop.first_vertex] - positions[prop.first_vertex + v]), 0.003f);
   }
 }
 

@@ -64,11 +64,16 @@ void SkinBody(const Body& body, int level, const SkeletonPose& pose, Vec3d p_W_o
     positions[v] = Apply(mix, p);
   }
 
-  // Props that are not shown are a point inside the trunk.
+  // Props that are not shown shrink to a millimetre inside the trunk, each at a place of its own: Embree cannot part
+  // geometries that all are one point.
+  constexpr float kShrunk = 1e-3f;
   const Vec3f inside = VecCast<float>(pose[Joint::kSpine2].p - p_W_origin);
-  for (const PropRange& prop : shape.props) {
+  for (size_t k = 0; k < shape.props.size(); ++k) {
+    const PropRange& prop = shape.props[k];
     if (pose.Shows(prop.prop)) continue;
-    std::fill_n(positions.begin() + prop.first_vertex, prop.vertex_count, inside);
+    const Vec3f place = inside + Vec3f{0.006f, 0.008f, 0.010f} * static_cast<float>(k);
+    const Vec3f* rest = &shape.mesh.positions[prop.first_vertex];
+    for (uint32_t v = 0; v < prop.vertex_count; ++v) positions[prop.first_vertex + v] = place + (rest[v] - rest[0]) * kShrunk;
   }
 }
 

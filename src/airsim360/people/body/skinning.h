@@ -14,7 +14,7 @@
 namespace airsim360 {
 
 /// Vertices of a level in the pose, relative to `p_W_origin` (axes of W). Props that the pose does not show
-/// shrink to a point inside the body. `positions` is resized. Linear blend skinning with 4 influences.
+/// shrink to a millimetre inside the body. `positions` is resized. Linear blend skinning with 4 influences.
 void SkinBody(const Body& body, int level, const SkeletonPose& pose, Vec3d p_W_origin,
               std::vector<Vec3f>& positions);
 
