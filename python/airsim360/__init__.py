@@ -13,7 +13,7 @@ docs/python.md has every name.
 import importlib as _importlib
 
 __version__ = "0.1.0"
-__all__ = ["Capture", "Drone", "DroneState", "Lidar", "LidarScan", "Plan", "Recording", "Rig", "Simulation", "Snapshot", "Threads",
+__all__ = ["Capture", "Drone", "DroneState", "Lidar", "LidarScan", "Plan", "Recording", "Rig", "Simulation", "Snapshot", "Tensor", "Threads",
            "VectorEnvironment", "World", "airsim", "drone_catalog", "gym", "metrics", "plan_minimum_snap", "thread_count", "worlds"]
 
 
