@@ -163,7 +163,9 @@ TEST(Heading, AlongTheVelocityInEveryFormat) {
   for (size_t i = 1; i + 1 < setpoints.size(); ++i) {
     EXPECT_LT(YawGap(setpoints[i][12], std::atan2(setpoints[i][7], setpoints[i][6])), 0.02);
     const double difference = std::remainder(setpoints[i + 1][12] - setpoints[i - 1][12], 2 * std::numbers::pi);
-    if (i > 25 && i + 27 < setpoints.size()) EXPECT_NEAR(setpoints[i][13], difference / 0.04, 0.1);
+    if (i > 25 && i + 27 < setpoints.size()) {
+      EXPECT_NEAR(setpoints[i][13], difference / 0.04, 0.1);
+    }
   }
 }
 
