@@ -25,6 +25,7 @@
 #include "airsim360/people/crowd/test_ring.h"
 #include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/world_loader.h"
+#include "blocks.h"
 
 namespace {
 
@@ -32,16 +33,6 @@ using namespace airsim360;
 using Clock = std::chrono::steady_clock;
 
 double Milliseconds(Clock::time_point since) { return std::chrono::duration<double, std::milli>(Clock::now() - since).count(); }
-
-/// A town like that of the reference: blocks with streets of pavement between them.
-std::shared_ptr<const Scene> Blocks(float edge, float pitch) {
-  internal::TestGround ground("blocks");
-  ground.Floor("ground/sidewalk", 0, 0, edge, edge);
-  for (float x = pitch / 4; x + pitch / 2 < edge; x += pitch)
-    for (float y = pitch / 4; y + pitch / 2 < edge; y += pitch)
-      ground.Box("construction/building", {x, y, 0}, {x + pitch / 2, y + pitch / 2, 8});
-  return ground.Build();
-}
 
 struct Times {
   std::vector<double> ms;
@@ -56,7 +47,7 @@ struct Times {
 };
 
 void TimeSteps(size_t people, float edge) {
-  const auto scene = Blocks(edge, 40);
+  const auto scene = Blocks(edge);
   auto start = Clock::now();
   const auto mesh = NavMesh::Build(*scene);
   const double build = Milliseconds(start);
@@ -114,7 +105,7 @@ void Doors(PersonIndex people) {
 }
 
 std::shared_ptr<const Scene> SceneOf(const char* world) {
-  return std::strcmp(world, "blocks") == 0 ? Blocks(200, 40) : LoadWorld({.world = world});
+  return std::strcmp(world, "blocks") == 0 ? Blocks(200) : LoadWorld({.world = world});
 }
 
 /// Why somebody stands: those around them.
@@ -179,7 +170,7 @@ void Same(size_t people, double minutes) {
   for (const int threads : {1, 0}) {
     const ThreadLimit limit(threads);
     const auto start = Clock::now();
-    const PopulatedScene populated = Populate(Blocks(120, 40), {.count = people, .level = 3, .seed = 1});
+    const PopulatedScene populated = Populate(Blocks(120), {.count = people, .level = 3, .seed = 1});
     PeopleState state = *populated.people->start;
     uint64_t hash = 0;
     for (int64_t tick = 0; tick < static_cast<int64_t>(minutes * 60 * 20); ++tick) {
@@ -212,7 +203,7 @@ const char* ColorOf(GroundKind kind) {
 }
 
 void Trace(const char* world, size_t people, double seconds, const char* out, const char* file) {
-  const auto scene = std::filesystem::exists(world) || std::strcmp(world, "blocks") != 0 ? LoadWorld({.world = world}) : Blocks(120, 40);
+  const auto scene = std::filesystem::exists(world) || std::strcmp(world, "blocks") != 0 ? LoadWorld({.world = world}) : Blocks(120);
   auto start = Clock::now();
   const auto mesh = NavMesh::Build(*scene);
   const Box3f box = mesh->bounds();

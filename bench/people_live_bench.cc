@@ -11,9 +11,9 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/people/navigation/test_ground.h"
 #include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/world_loader.h"
+#include "blocks.h"
 
 namespace {
 
@@ -23,17 +23,6 @@ double Now() {
   timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-/// Blocks of 20 m with streets of pavement of 20 m between them.
-std::shared_ptr<const Scene> Blocks(float edge) {
-  constexpr float kPitch = 40;
-  internal::TestGround ground("blocks");
-  ground.Floor("ground/sidewalk", 0, 0, edge, edge);
-  for (float x = kPitch / 4; x + kPitch / 2 < edge; x += kPitch)
-    for (float y = kPitch / 4; y + kPitch / 2 < edge; y += kPitch)
-      ground.Box("construction/building", {x, y, 0}, {x + kPitch / 2, y + kPitch / 2, 8});
-  return ground.Build();
 }
 
 void Print(const char* what, std::vector<double> ms, size_t people) {

@@ -1,9 +1,7 @@
 // Colours of tier `fast` are the CPU's.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cmath>
-#include <sstream>
 
 #include "airsim360/worlds/worlds.h"
 #include "color_compare.h"
@@ -94,12 +92,11 @@ TEST(GpuColor, OfBentMeshesIsTheCpus) {
 
 TEST(GpuColor, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  std::istringstream worlds(std::getenv("AIRSIM360_GPU_WORLDS") ? std::getenv("AIRSIM360_GPU_WORLDS") : "");
-  std::string world;
-  if (!(worlds >> world)) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
-  do {
+  const std::vector<std::string> worlds = WorldsAskedFor();
+  if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
+  for (const std::string& world : worlds) {
     ExpectTheCpus(BuildWorld(world, {.seed = 1}), {}, world);
-  } while (worlds >> world);
+  }
 }
 
 TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {

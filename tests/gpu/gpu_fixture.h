@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "airsim360/render/vulkan/gpu.h"
 
@@ -21,6 +25,13 @@ namespace airsim360::test {
       GTEST_SKIP() << why                                                                                   \
                    << " (apt-get install -t bookworm-backports mesa-vulkan-drivers brings a software one)"; \
   } while (false)
+
+/// Worlds that take longer to build than the other tests together: AIRSIM360_GPU_WORLDS="city_park downtown_west".
+inline std::vector<std::string> WorldsAskedFor() {
+  const char* names = std::getenv("AIRSIM360_GPU_WORLDS");
+  std::istringstream words(names ? names : "");
+  return {std::istream_iterator<std::string>(words), {}};
+}
 
 /// What differs between two label pictures of one request.
 struct LabelDifference {

@@ -1,8 +1,6 @@
 // Tier `high` is the CPU's: the same random choices, so that what is left is rounding, and choices that hang on it.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <sstream>
 
 #include "airsim360/worlds/worlds.h"
 #include "color_compare.h"
@@ -88,14 +86,13 @@ TEST(GpuReference, OfARoomByNightIsTheCpus) {
 
 TEST(GpuHigh, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  std::istringstream worlds(std::getenv("AIRSIM360_GPU_WORLDS") ? std::getenv("AIRSIM360_GPU_WORLDS") : "");
-  std::string world;
-  if (!(worlds >> world)) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
-  do {
+  const std::vector<std::string> worlds = WorldsAskedFor();
+  if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
+  for (const std::string& world : worlds) {
     const auto scene = BuildWorld(world, {.seed = 1});
     Pair pair(scene, {}, Tier::kHigh);
     ExpectTheCpus(pair, ColorRequest(*scene, 128), world, 0.5, 0.03);
-  } while (worlds >> world);
+  }
 }
 
 TEST(GpuHigh, TurningByColumnsRollsThePicture) {

@@ -1,9 +1,7 @@
 // Labels of the GPU are those of the CPU, through every camera.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <numbers>
-#include <sstream>
 
 #include "airsim360/render/cpu/test_room.h"
 #include "airsim360/worlds/worlds.h"
@@ -116,16 +114,14 @@ TEST(GpuLabels, OfFurnishedRoomsAreTheCpus) {
   }
 }
 
-// Worlds that take longer to build than the other tests together: AIRSIM360_GPU_WORLDS="city_park downtown_west".
 TEST(GpuLabels, OfWorldsAskedForAreTheCpus) {
   AIRSIM360_NEEDS_GPU();
-  std::istringstream worlds(std::getenv("AIRSIM360_GPU_WORLDS") ? std::getenv("AIRSIM360_GPU_WORLDS") : "");
-  std::string world;
-  if (!(worlds >> world)) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
-  do {
+  const std::vector<std::string> worlds = test::WorldsAskedFor();
+  if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
+  for (const std::string& world : worlds) {
     const auto scene = BuildWorld(world, {.seed = 1});
     ExpectTheCpus(scene, FromSpawn(*scene));
-  } while (worlds >> world);
+  }
 }
 
 // Cards of leaves around the camera: triangles that are holes all over, in part, and nowhere, in every wrap mode.

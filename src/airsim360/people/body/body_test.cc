@@ -173,7 +173,7 @@ TEST(Skinning, TheRestPoseIsTheMeshMoved) {
   }
 }
 
-TEST(Skinning, LevelsOfDetailAreOneEntity) {
+std::shared_ptr<const Scene> BareGround() {
   SceneBuilder builder("empty");
   const EntityId ground = builder.AddEntity("ground", builder.tree().At("ground/pavement"));
   Mesh plane;
@@ -181,9 +181,13 @@ TEST(Skinning, LevelsOfDetailAreOneEntity) {
   plane.triangles = {{0, 1, 2}};
   builder.AddMaterial({});
   builder.AddInstance({builder.AddMesh(plane), {}, ground});
+  return builder.Build();
+}
+
+TEST(Skinning, LevelsOfDetailAreOneEntity) {
   const std::vector<PersonInScene> people{{"a", MakeBody(Person(0)), 1, true}, {"b", MakeBody(Person(1)), 2, true}};
   std::vector<PersonRef> refs;
-  const auto scene = AddPeople(builder.Build(), people, refs);
+  const auto scene = AddPeople(BareGround(), people, refs);
   EXPECT_EQ(refs[0].level_count, 3);
   EXPECT_EQ(refs[1].level_count, 2);
   for (const PersonRef& ref : refs) {
@@ -215,14 +219,7 @@ TEST(Skinning, PropsThatAreNotShownTakeNoSpace) {
 }
 
 TEST(Skinning, PeopleAreEntitiesAfterThoseOfTheScene) {
-  SceneBuilder builder("empty");
-  const EntityId ground = builder.AddEntity("ground", builder.tree().At("ground/pavement"));
-  Mesh plane;
-  plane.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  plane.triangles = {{0, 1, 2}};
-  builder.AddMaterial({});
-  builder.AddInstance({builder.AddMesh(plane), {}, ground});
-  const auto bare = builder.Build();
+  const auto bare = BareGround();
   std::vector<PersonInScene> people;
   for (int i = 0; i < 3; ++i) people.push_back({"person/" + std::to_string(i), MakeBody(Person(i)), 2});
   std::vector<PersonRef> refs;
