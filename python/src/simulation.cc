@@ -43,7 +43,7 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
 
 Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
                        double dt, const py::object& wind)
-    : world_(std::move(world)) {
+    : world_(std::move(world)), renderers_(world_->device()) {
   if (people < 0 || people > 10000)
     throw InputError("people: " + std::to_string(people) + " is not in 0 ... 10000");
   if (!(dt >= 1e-5 && dt <= 0.1))
@@ -149,9 +149,7 @@ std::shared_ptr<Capture> Simulation::Take(const Rig& given, size_t i) {
   if (rig.products.flow) next = After(*state, given.flow_dt, i);
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
-  std::unique_ptr<Renderer>& renderer = renderers_[rig.tier];
-  if (!renderer) renderer = MakeCpuRenderer(base_, {.tier = rig.tier});
-  CaptureRig(rig, body, state->t_ns, *renderer, *capture, rig.products.flow ? &next : nullptr);
+  CaptureRig(rig, body, state->t_ns, renderers_.For(rig.tier, base_), *capture, rig.products.flow ? &next : nullptr);
   return capture;
 }
 

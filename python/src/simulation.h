@@ -42,7 +42,7 @@ class Simulation {
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
-  std::map<Tier, std::unique_ptr<Renderer>> renderers_;
+  Renderers renderers_;
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
 };

@@ -20,6 +20,7 @@ struct ServerOptions {
   int port = 41451;  ///< 0 = any free one
   bool lockstep = false;
   Tier tier = Tier::kFast;
+  DeviceChoice device = {.device = "cpu"};  ///< that draws the pictures
   uint64_t seed = 0;
   TcpLimits limits = {};
   std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene (Populate); null = nobody
