@@ -18,7 +18,7 @@ class PathSampler {
   Vec2f Pair(uint32_t index, uint32_t pair) const {
     const uint64_t h = MixBits(key_ + pair), g = MixBits(h);
     // A shuffle that keeps every aligned power of two of samples together keeps their stratification.
-    const uint32_t i = Scramble(index, static_cast<uint32_t>(h));
+    const uint32_t i = Reverse(Scramble(Reverse(index), static_cast<uint32_t>(h)));
     uint32_t y = 0;
     for (uint32_t k = i, v = 1u << 31; k != 0; k >>= 1, v ^= v >> 1) {
       if (k & 1) y ^= v;
