@@ -10,9 +10,9 @@ take turns; seconds are those of a frame, without starting, loading or building 
 figures of Cycles are given: the whole call, in which Blender also walks through all its objects, and the sampling
 alone, as its own log has it. Ratios use the smaller one.
 
-References are means of parts with seeds of their own; what their halves differ by is printed. With --keep, what has been exported and rendered stays in DIR
-and later calls go on from there; --seconds after the start of the step `quality` no
-further part is begun.
+References are means of parts with seeds of their own; what their halves differ by is printed. With --keep, what has been
+exported and rendered stays in DIR and later calls go on from there; --seconds after the start of the step `quality`
+no further part is begun.
 """
 import argparse
 import json
@@ -136,10 +136,9 @@ def label_agreement(labels, cycles, size, X_WC, folder):
     """Ids and range of one frame."""
     names = json.loads((labels / "entities.json").read_text())
     sky = next((int(key) for key, value in names.items() if value["category_path"] == "sky"), 0)
-    frames = [folder / f"labels_{seed}.exr" for seed in range(9)]
-    for seed, exr in enumerate(frames):
-        cycles.ask(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=X_WC, seed=seed, out=str(exr))
-    for name, value in compare(labels, frames, sky).items():
+    exr = folder / "labels.exr"
+    cycles.ask(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=X_WC, out=str(exr))
+    for name, value in compare(labels, exr, sky).items():
         print(f"  {name:26} {value:.3g}" if isinstance(value, float) else f"  {name:26} {value}")
 
 
