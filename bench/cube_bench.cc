@@ -1,9 +1,10 @@
 // What other simulators do with our own tracer: six 90 degree faces, then a correct look-up into the
 // panorama, against tracing the panorama itself. Colour (tier fast, no antialiasing), range and entity ids,
-// rendered and remapped on all threads from tables made beforehand. Usage: cube_bench [--width W] [--rounds
-// N] [--out DIR] Prints medians of alternating rounds for faces of W / pi pixels (the panorama's resolution
-// at the equator) and of W / 4 (the width many tools take). --out writes the last six faces as PNG for other
-// stitchers to time.
+// rendered and remapped on all threads from tables made beforehand.
+// Usage: cube_bench [--width W] [--rounds N] [--out DIR]
+// Prints medians of alternating rounds for faces of W / pi pixels (the panorama's resolution at the equator)
+// and of W / 4 (the width many tools take). --out writes the faces and the panorama as PNG, a folder a size,
+// for nona_bench.py and other stitchers to time.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -149,10 +150,12 @@ int main(int argc, char** argv) {
         "pixels\n",
         size, d, s, r, (s + r) / d,
         100.0 * static_cast<double>(wrong) / static_cast<double>(direct.entity.size()));
+    if (out.empty()) continue;
+    const std::string folder = out + "/" + std::to_string(size);
+    CreateWritableFolder(folder);
+    for (size_t f = 0; f < 6; ++f)
+      WriteFileAtomically(folder + "/" + kCubeFaceNames[static_cast<int>(kFaces[f])] + ".png",
+                          EncodePng(faces[f].rgb));
+    WriteFileAtomically(folder + "/direct.png", EncodePng(direct.rgb));
   }
-  if (out.empty()) return 0;
-  CreateWritableFolder(out);
-  for (size_t f = 0; f < 6; ++f)
-    WriteFileAtomically(out + "/" + kCubeFaceNames[static_cast<int>(kFaces[f])] + ".png",
-                        EncodePng(faces[f].rgb));
 }

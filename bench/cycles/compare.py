@@ -1,16 +1,22 @@
 #!/usr/bin/env python3
 """Side by side with Cycles (Debian's Blender 3.4) on the CPU: the same exported world, camera, threads and machine.
 
-    python3 bench/cycles/compare.py [--world downtown_west] [--size 2048x1024] [--threads 2] [--rounds 7]
-                                    [--quality-size 512x256] [--reference-spp 4096] [--skip-quality]
+    /usr/bin/python3 bench/cycles/compare.py [--world map_town] [--size 2048x1024] [--threads 2] [--rounds 7]
+        [--pose x,y,z,yaw] [--steps box,labels,fast,high,quality] [--quality-size 256x128] [--reference-spp 4096]
+        [--own-spp 512] [--keep DIR] [--seconds S]
 
 Needs blender, python3-numpy, python3-pil and build/bin/{airsim360,frame_server}. Both renderers stay in memory and
 take turns; seconds are those of a frame, without starting, loading or building acceleration structures. Two
 figures of Cycles are given: the whole call, in which Blender also walks through all its objects, and the sampling
 alone, as its own log has it. Ratios use the smaller one.
+
+References are means of parts with seeds of their own; what their halves differ by is printed. With --keep, what has been
+exported and rendered stays in DIR and later calls go on from there; --seconds after the start of the step `quality`
+no further part is begun.
 """
 import argparse
 import json
+import math
 import pathlib
 import re
 import statistics
@@ -19,10 +25,12 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 import numpy
 from exr import read_exr
 from labels import compare
+from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 BIN = HERE.parents[1] / "build/bin"
@@ -116,21 +124,22 @@ def parse_size(text):
     return [int(v) for v in text.split("x")]
 
 
-def label_agreement(program, cycles, world, pose, size, threads, folder):
-    """Ids and range of one frame."""
+def camera_pose(program, world, pose, size, threads, folder):
+    """Our labels at the pose, as a dataset of one frame; its folder and X_WC."""
     out = folder / f"labels_{world}"
-    subprocess.run([program, "render", "--world", world, f"--pose={pose}", "--size", "x".join(map(str, size)), "--tier", "labels",
+    subprocess.run([program, "render", "--world", world, *([f"--pose={pose}"] if pose else []), "--size", "x".join(map(str, size)), "--tier", "labels",
                     "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
-    frame = json.loads((out / "frames.jsonl").read_text().splitlines()[0])
-    names = json.loads((out / "entities.json").read_text())
+    return out, json.loads((out / "frames.jsonl").read_text().splitlines()[0])["X_WC"]
+
+
+def label_agreement(labels, cycles, size, X_WC, folder):
+    """Ids and range of one frame."""
+    names = json.loads((labels / "entities.json").read_text())
     sky = next((int(key) for key, value in names.items() if value["category_path"] == "sky"), 0)
     exr = folder / "labels.exr"
-    ask = dict(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=frame["X_WC"], out=str(exr))
-    cycles.ask(**ask)
-    result = compare(out, exr, sky)
-    for name, value in result.items():
+    cycles.ask(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=X_WC, out=str(exr))
+    for name, value in compare(labels, exr, sky).items():
         print(f"  {name:26} {value:.3g}" if isinstance(value, float) else f"  {name:26} {value}")
-    return frame["X_WC"]
 
 
 def paired_speed(name, ours, cycles, our_ask, their_ask, rounds):
@@ -146,8 +155,25 @@ def paired_speed(name, ours, cycles, our_ask, their_ask, rounds):
           f"ratio {statistics.median(ratios):.2f} [{ratios[0]:.2f} … {ratios[-1]:.2f}]")
 
 
-def quality(ours, cycles, pose, size, sky, sun, spp, folder):
-    """Error against each renderer's own reference, in display values, weighted by solid angle."""
+def reference(render, name, spp, folder, deadline, part):
+    """Mean of parts of `part` samples with seeds of their own, kept in `folder`; None if time ran out before the last."""
+    parts = []
+    for index in range(spp // part):
+        path = folder / f"{name}_{part}_{index}.npy"
+        if not path.exists():
+            if time.monotonic() > deadline:
+                print(f"  {name}: {index} of {spp // part} parts so far")
+                return None
+            numpy.save(path, render(part, 100 + index)[0])
+        parts.append(numpy.load(path))
+    half = len(parts) // 2
+    noise = ws_psnr(*(shown(numpy.mean(p, 0), parts[0]) for p in (parts[:half], parts[half:]))) if half else math.inf
+    print(f"  {name}: {spp} samples in {len(parts)} parts; its halves agree to {noise:.2f} dB")
+    return numpy.mean(parts, 0)
+
+
+def quality(ours, cycles, pose, size, sky, sun, own_spp, spp, folder, deadline):
+    """Error against each renderer's own reference, and the other's, in display values, weighted by solid angle."""
     path = folder / "radiance.exr"
 
     def mine(tier, samples, seed):
@@ -158,62 +184,91 @@ def quality(ours, cycles, pose, size, sky, sun, spp, folder):
         answer = cycles.ask(size=size, samples=samples, bounces=4, X_WC=pose, seed=seed, out=str(path), sky=sky, sun_strength=sun)
         return colors(path), min(answer["seconds"], answer.get("sampling", answer["seconds"]))
 
-    own_reference, _ = mine("reference", spp, 7)
-    high, high_seconds = mine("high", 0, 1)
-    print(f"  high: WS-PSNR {ws_psnr(shown(high, own_reference), shown(own_reference, own_reference)):.2f} dB against "
-          f"our reference of {spp} paths a pixel, {high_seconds:.3f} s at {size[0]}x{size[1]}")
-    their_reference, _ = theirs(spp, 7)
-    for samples in (4, 16, 64):
-        picture, seconds = theirs(samples, 1)
-        print(f"  Cycles {samples:3} spp: WS-PSNR {ws_psnr(shown(picture, their_reference), shown(their_reference, their_reference)):.2f} dB "
-              f"against its own reference of {spp} spp, {seconds:.3f} s")
-    a, b = shown(own_reference, own_reference), shown(their_reference, own_reference)
-    print(f"  our reference against Cycles' reference: WS-PSNR {ws_psnr(a, b):.2f} dB")
+    own = reference(lambda n, seed: mine("reference", n, seed), "our reference", own_spp, folder, deadline, 64)
+    other = reference(theirs, "Cycles' reference", spp, folder, deadline, 256)
+    if own is None or other is None:
+        return
+
+    def error(picture, truth):
+        return ws_psnr(shown(picture, truth), shown(truth, truth))
+    theirs(1, 0)  # warm
+    for name, render in (("high", lambda seed: mine("high", 0, seed)), *((f"Cycles {n} spp", lambda seed, n=n: theirs(n, seed))
+                                                                          for n in (4, 16, 64))):
+        pictures, seconds = zip(*(render(seed) for seed in (1, 2, 3)))
+        against = [statistics.median(error(p, truth) for p in pictures) for truth in (own, other)]
+        print(f"  {name:13} {against[0]:6.2f} dB against our reference, {against[1]:6.2f} dB against Cycles', "
+              f"{statistics.median(seconds):.3f} s at {size[0]}x{size[1]}")
+    print(f"  our reference against Cycles' reference: {error(own, other):.2f} dB, mean light {own.mean() / other.mean():.3f} of theirs")
+    for name, picture in (("ours", own), ("cycles", other), ("high", mine("high", 0, 1)[0]), ("cycles16", theirs(16, 1)[0])):
+        Image.fromarray((shown(picture, own) * 255 + 0.5).astype(numpy.uint8)).save(folder / f"quality_{name}.png")
+
+
+def open_both(world, threads, folder):
+    """Our renderer in tier `high`, our sky without sun as a picture, and the sun's irradiance."""
+    ours = Server([BIN / "frame_server", world, str(threads), "high"])
+    sky = folder / "sky.exr"
+    (folder / "dot.obj").write_text("v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nf 1 2 3\n")
+    picture = Server([BIN / "frame_server", str(folder / "dot.obj"), str(threads), "fast", world])
+    picture.ask(size=[2048, 1024], tier="fast", aa_samples=1, labels=False, radiance=str(sky),
+                X_WC={"p": [0, 0, 30], "q_wxyz": [0.5, -0.5, 0.5, -0.5]})
+    picture.close()
+    write_exr(sky, numpy.minimum(colors(sky), 30))  # the disc is the sun lamp's
+    return ours, str(sky), picture.ready["sun_irradiance"]
+
+
+def measure_world(world, pose, steps, arguments, folder):
+    size, threads = arguments.size, arguments.threads
+    glb = folder / f"{world}.glb"
+    if not glb.exists():
+        subprocess.run([BIN / "airsim360", "world", "export", world, "--out", glb], check=True)
+    cycles = Cycles(glb, threads)
+    print(f"{world}, {size[0]}x{size[1]}, {threads} threads; Blender took {cycles.ready['import_seconds']:.0f} s to open it")
+    labels, X_WC = camera_pose(BIN / "airsim360", world, pose, size, threads, folder)
+    if "labels" in steps:
+        print(" labels and range:")
+        label_agreement(labels, cycles, size, X_WC, folder)
+    if steps & {"fast", "high", "quality"}:
+        ours, sky, sun = open_both(world, threads, folder)
+        light = dict(sky=sky, sun_strength=sun)
+        if "fast" in steps:
+            paired_speed("fast, all labels, no antialiasing / Cycles 1 spp, direct light, Z, index, normal", ours, cycles,
+                         dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
+                         dict(size=size, samples=1, bounces=0, X_WC=X_WC, **light), arguments.rounds)
+        if "high" in steps:
+            paired_speed("high, all labels, antialiased / Cycles 16 spp, 4 bounces", ours, cycles,
+                         dict(size=size, tier="high", X_WC=X_WC),
+                         dict(size=size, samples=16, bounces=4, X_WC=X_WC, **light), arguments.rounds)
+        if "quality" in steps:
+            print(" quality:")
+            deadline = time.monotonic() + arguments.seconds
+            quality(ours, cycles, X_WC, arguments.quality_size, sky, sun, arguments.own_spp,
+                    arguments.reference_spp, folder, deadline)
+        ours.close()
+    cycles.close()
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--world", default="downtown_west")
-    parser.add_argument("--pose", default="-19,-7,8,40")
+    parser.add_argument("--world", default="map_town")
+    parser.add_argument("--pose", help="default: the world's spawn")
     parser.add_argument("--size", type=parse_size, default=[2048, 1024])
-    parser.add_argument("--quality-size", type=parse_size, default=[512, 256])
+    parser.add_argument("--quality-size", type=parse_size, default=[256, 128])
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--reference-spp", type=int, default=4096)
-    parser.add_argument("--skip-quality", action="store_true")
+    parser.add_argument("--own-spp", type=int, default=512, help="of our reference, whose error is that of `high` but for its noise")
+    parser.add_argument("--steps", default="box,labels,fast,high,quality")
+    parser.add_argument("--keep")
+    parser.add_argument("--seconds", type=float, default=math.inf)
     arguments = parser.parse_args()
+    steps = set(arguments.steps.split(","))
     with tempfile.TemporaryDirectory(prefix="airsim360_cycles_") as name:
-        folder = pathlib.Path(name)
-        for world, pose in (("box_room", "0.3,-0.2,1.6,20"), (arguments.world, arguments.pose)):
-            glb = folder / f"{world}.glb"
-            subprocess.run([BIN / "airsim360", "world", "export", world, "--out", glb], check=True)
-            cycles = Cycles(glb, arguments.threads)
-            print(f"{world}, {arguments.size[0]}x{arguments.size[1]}, {arguments.threads} threads; Blender took "
-                  f"{cycles.ready['import_seconds']:.0f} s to open it\n labels and range:")
-            X_WC = label_agreement(BIN / "airsim360", cycles, world, pose, arguments.size, arguments.threads, folder)
-            if world == "box_room":
-                cycles.close()
-        ours = Server([BIN / "frame_server", arguments.world, str(arguments.threads), "high"])
-        sky = folder / "sky.exr"
-        (folder / "dot.obj").write_text("v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nf 1 2 3\n")
-        picture = Server([BIN / "frame_server", str(folder / "dot.obj"), str(arguments.threads), "fast", arguments.world])
-        picture.ask(size=[2048, 1024], tier="fast", aa_samples=1, labels=False, radiance=str(sky),
-                    X_WC={"p": [0, 0, 30], "q_wxyz": [0.5, -0.5, 0.5, -0.5]})
-        sun = picture.ready["sun_irradiance"]
-        picture.close()
-        light = colors(sky)
-        write_exr(sky, numpy.minimum(light, 30))  # the disc is the sun lamp's
-        print(" speed:")
-        size = arguments.size
-        paired_speed("fast, all labels, no antialiasing / Cycles 1 spp, direct light, Z, index, normal", ours, cycles,
-                     dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
-                     dict(size=size, samples=1, bounces=0, X_WC=X_WC, sky=str(sky), sun_strength=sun), arguments.rounds)
-        paired_speed("high, all labels, antialiased / Cycles 16 spp, 4 bounces", ours, cycles,
-                     dict(size=size, tier="high", X_WC=X_WC),
-                     dict(size=size, samples=16, bounces=4, X_WC=X_WC), max(3, arguments.rounds // 2))
-        if not arguments.skip_quality:
-            print(" quality:")
-            quality(ours, cycles, X_WC, arguments.quality_size, str(sky), sun, arguments.reference_spp, folder)
+        folder = pathlib.Path(arguments.keep or name)
+        folder.mkdir(parents=True, exist_ok=True)
+        if "box" in steps:
+            measure_world("box_room", "0.3,-0.2,1.6,20", {"labels"}, arguments, folder)
+        if steps - {"box"}:
+            measure_world(arguments.world, arguments.pose, steps, arguments, folder)
 
 
 if __name__ == "__main__":

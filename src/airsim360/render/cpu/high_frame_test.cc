@@ -168,25 +168,5 @@ TEST(HighFrame, DenoisingComesCloserToManyRaysAndKeepsTheMean) {
   EXPECT_NEAR(sum[1] / total, 0, 0.01);
 }
 
-// The seam passes over the whole scene in steps that are no whole columns.
-TEST(HighFrame, TheSeamHasTheContrastOfAnyOtherColumn) {
-  constexpr int kWidth = 64;
-  double seam = 0, inside = 0;
-  for (int k = 0; k < kWidth; ++k) {
-    const double yaw = 2 * std::numbers::pi * (k + static_cast<double>(k) / kWidth) / kWidth;
-    RenderRequest request = Request(kWidth);
-    request.X_WC = BodyPose({0.3, 0.2, 1.7}, yaw, 0, 0) * CameraInBody();
-    const Image<Rgb8> image = Render(request).rgb;
-    for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        const double step = std::abs(image(x, y).g - image((x + 1) % kWidth, y).g);
-        if (x == kWidth - 1) seam += step;
-        inside += step / kWidth;
-      }
-    }
-  }
-  EXPECT_NEAR(seam / inside, 1, 0.02);
-}
-
 }  // namespace
 }  // namespace airsim360
