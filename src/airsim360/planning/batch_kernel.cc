@@ -190,20 +190,9 @@ class BatchSolver {
     Lanes scale[kPowers], costate_scale[D];
     PowerScales(saved_[k].inverse, scale);
     if (!kFirst) CostateScales(saved_[k - 1].duration * saved_[k].inverse, costate_scale);
-    // The costates first, which the segment before waits for.
-    Costate<Lanes, D> end[3], start[3];
-    AIRSIM360_UNROLL
-    for (int axis = 0; axis < 3; ++axis) {
-      end[axis] = EndCostate(saved_[k].record, axis, after[axis]);
-      start[axis] = StartCostate<double>(end[axis]);
-      if (kFirst) continue;
-      NextCostate(start[axis], after[axis]);
-      AIRSIM360_UNROLL
-      for (int i = 0; i < D; ++i) after[axis][i] *= costate_scale[i];
-    }
-    BackwardAxis<0, kFirst>(k, to, scale, end[0], start[0]);
-    BackwardAxis<1, kFirst>(k, to, scale, end[1], start[1]);
-    BackwardAxis<2, kFirst>(k, to, scale, end[2], start[2]);
+    BackwardAxis<0, kFirst>(k, to, scale, costate_scale, after[0]);
+    BackwardAxis<1, kFirst>(k, to, scale, costate_scale, after[1]);
+    BackwardAxis<2, kFirst>(k, to, scale, costate_scale, after[2]);
   }
 
   /// From states and costates to coefficients.
@@ -222,9 +211,11 @@ class BatchSolver {
   }
 
   template <int axis, bool kFirst>
-  AIRSIM360_INLINE void BackwardAxis(size_t k, size_t to, const Lanes* scale, const Costate<Lanes, D>& end,
-                                     const Costate<Lanes, D>& start) {
+  AIRSIM360_INLINE void BackwardAxis(size_t k, size_t to, const Lanes* scale, const Lanes* costate_scale,
+                                     Lanes* after) {
     const SegmentRecord<Lanes, 3, D>& record = saved_[k].record;
+    const Costate<Lanes, D> end = EndCostate(record, axis, after);
+    const Costate<Lanes, D> start = StartCostate<double>(end);
     Lanes c[kPowers];
     c[0] = Knot(k, axis);
     if constexpr (kFirst) {
@@ -243,7 +234,13 @@ class BatchSolver {
       CloseGap<kPowers>(saved_[k].duration, saved_[k].inverse, Knot(k + 1, axis), c);
     }
     Store(c, (3 * to + axis) * kPowers);
-    if constexpr (kFirst) reach_ += c[kPowers - 1];
+    if constexpr (kFirst) {
+      reach_ += c[kPowers - 1];
+      return;
+    }
+    NextCostate(start, after);
+    AIRSIM360_UNROLL
+    for (int i = 0; i < D; ++i) after[i] *= costate_scale[i];
   }
 
   /// The highest state at a free start closes the distance to the next waypoint.
