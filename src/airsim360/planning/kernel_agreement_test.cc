@@ -74,6 +74,7 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
   kernels.batch->batch[kind](batch);
   EXPECT_EQ(check.least[7], *std::ranges::min_element(route.durations));
   EXPECT_EQ(check.largest[7], *std::ranges::max_element(route.durations));
+  EXPECT_EQ(check.plain, check.largest[7] <= kEvenRatio * check.least[7]);
   all.insert(all.end(), check.reach, check.reach + 8);
   all.insert(all.end(), eight.begin(), eight.end());
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -22,6 +23,9 @@ struct Stage {
 
 /// The mean tends to the maximum as the exponent grows; each stage starts where the last one ended.
 constexpr Stage kStages[] = {{3, 12, 1e-3, 40}, {6, 16, 3e-4, 60}, {9, 32, 1e-4, 120}};
+
+/// Limits that make a flight take longer than this (seconds) are taken for a mistake.
+constexpr double kLongestFlight = 1e9;
 
 /// Powers of samples far within the limits are kept from leaving the normal numbers.
 constexpr double kLeastExponent = -930, kLeastPower = 0x1p-930;
@@ -216,6 +220,12 @@ AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const Trajec
   if (options.sample_interval > 0) {
     const double steps = std::ceil(best.duration() / options.sample_interval * (1 - 1e-12));
     best = Slowed(best, std::max(1.0, steps * options.sample_interval / best.duration()));
+  }
+  if (!(best.duration() <= kLongestFlight)) {
+    char text[160];
+    std::snprintf(text, sizeof(text), "limits: within %g m/s and %g m/s^2 the flight would take %.3g s",
+                  limits.speed, limits.acceleration, best.duration());
+    throw InputError(text);
   }
   const TrajectoryPeaks peaks = CertifiedPeaks(best);
   const double bound = RestToRestTime(length, limits.speed, limits.acceleration);
