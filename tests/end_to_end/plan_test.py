@@ -170,12 +170,38 @@ class Waypoints(ProgramTest):
         ]:
             self.file.write_text(text)
             self.run_bad(2, "plan", "--waypoints", self.file, *LIMITS, "--out", out, says=says)
+        yaml = "waypoints:\n- {x: 0, y: 0, z: 2%s}\n- {x: %s, y: 0, z: 2%s}\n"
+        gpx = '<gpx>\n<wpt lat="47" lon="8"/>\n<wpt lat="%s" lon="8"/>\n</gpx>\n'
+        kml = "<kml><coordinates>\n8,47,5\n%s\n</coordinates></kml>\n"
+        for name, text, says in [
+            ("r.yaml", yaml % ("", "0", ""), ["r.yaml:3", "(0, 0, 2) coincides"]),
+            ("r.yaml", yaml % (", t: 3", "1", ", t: 2.5"), ["r.yaml:3", "2.5 s after 3 s"]),
+            ("r.yaml", yaml % ("", ".nan", ""), ["r.yaml:3", ".nan"]),
+            ("r.yaml", yaml.split("%s}", 1)[0] + "}\n", ["r.yaml:2", "at least two"]),
+            ("r.json", '{"waypoints": [{"x": 0, "y": 0, "z": 2},\n{"x": 0, "y": 0, "z": 2}]}', ["r.json:2", "coincides"]),
+            ("r.gpx", gpx % "47", ["r.gpx:3", "coincides"]),
+            ("r.gpx", gpx % "nan", ["r.gpx:3", "nan"]),
+            ("r.gpx", gpx % "95", ["r.gpx:3", "95"]),
+            ("r.gpx", '<gpx>\n<wpt lat="47" lon="8"/></gpx>', ["r.gpx:2", "at least two"]),
+            ("r.kml", kml % "8,47,5", ["r.kml:3", "coincides"]),
+            ("r.kml", kml % "8,4x,5", ["r.kml:3", "4x"]),
+            ("r.kml", kml % "", ["r.kml:2", "at least two"]),
+        ]:
+            (self.folder / name).write_text(text)
+            self.run_bad(2, "plan", "--waypoints", self.folder / name, *LIMITS, "--out", out, says=says)
         self.file.write_text("0,0,2\n1,0,2\n")
         for arguments, says in [
             (["--vmax", "0", "--amax", "1"], ["--vmax"]),
             (["--vmax", "-3", "--amax", "1"], ["--vmax", "-3"]),
             (["--vmax", "nan", "--amax", "1"], ["--vmax", "nan"]),
             (["--vmax", "3"], ["--amax"]),
+            (["--vmax", "3", "--amax", "1e-300"], ["1e-300"]),
+            ([*LIMITS, "--climb", "-2"], ["--climb", "-2"]),
+            ([*LIMITS, "--axis-vmax", "1,0,2"], ["--axis-vmax"]),
+            ([*LIMITS, "--axis-amax", "1,2"], ["--axis-amax", "1,2"]),
+            ([*LIMITS, "--drone", "humminbird"], ["did you mean 'hummingbird'"]),
+            ([*LIMITS, "--minimise", "jrk"], ["did you mean 'jerk'"]),
+            ([*LIMITS, "--minimise", "jerk", "--order", "7"], ["--order"]),
             ([*LIMITS, "--order", "6"], ["--order", "6"]),
             ([*LIMITS, "--dt", "-1"], ["--dt", "-1"]),
             ([*LIMITS, "--format", "jsn"], ["did you mean 'json'"]),
@@ -185,6 +211,49 @@ class Waypoints(ProgramTest):
         self.run_bad(2, "plan", "--waypoints", self.file, *LIMITS, "--out", self.folder / "x.foo", says=["x.foo"])
         self.run_bad(2, "plan", *LIMITS, "--out", out, says=["--waypoints"])
         self.assertFalse(out.exists())
+
+
+    def test_vertical_axis_and_drone_limits_hold_and_one_of_them_binds(self):
+        out = self.folder / "l.json"
+        climbing = "0,0,0\n0,0,30\n40,30,5\n"
+        self.file.write_text(climbing)
+        wide = ["--vmax", "50", "--amax", "50"]
+        for flags, axis, order, sign, limit in [
+            (["--climb", "2"], 2, 1, 1, 2), (["--descent", "1.5"], 2, 1, -1, 1.5),
+            (["--axis-vmax", "3,90,90"], 0, 1, 1, 3), (["--axis-amax", "90,0.5,90"], 1, 2, 0, 0.5),
+        ]:
+            self.run_ok("plan", "--waypoints", self.file, *wide, *flags, "--out", out)
+            trajectory = Trajectory(out)
+            values = [trajectory.at(trajectory.duration * k / 5000, order)[axis] for k in range(5001)]
+            most = max(abs(v) if sign == 0 else sign * v for v in values)
+            self.assertLessEqual(most, limit * (1 + 1e-12), flags)
+            self.assertGreater(most, limit * (1 - 1e-4), flags)
+        report = json.loads(self.run_ok("plan", "--waypoints", self.file, *wide, "--drone", "hummingbird", "--out", out,
+                                        "--json").stdout)
+        self.assertTrue(report["within_limits"])
+        trajectory = Trajectory(out)
+        thrust = rate = 0
+        for k in range(5001):
+            a, j = (trajectory.at(trajectory.duration * k / 5000, order) for order in (2, 3))
+            a[2] += 9.80665
+            cross = [a[1] * j[2] - a[2] * j[1], a[2] * j[0] - a[0] * j[2], a[0] * j[1] - a[1] * j[0]]
+            thrust, rate = max(thrust, norm(a)), max(rate, norm(cross) / norm(a) ** 2)
+        for most, peak, limit in [(thrust, "max_thrust", "thrust_limit"), (rate, "max_body_rate", "body_rate_limit")]:
+            self.assertLessEqual(most, report[peak] * (1 + 1e-9))
+            self.assertGreater(most, report[peak] * (1 - 1e-4))
+            self.assertLessEqual(report[peak], report[limit])
+        self.assertGreater(max(report["max_thrust"] / report["thrust_limit"], report["max_body_rate"] / report["body_rate_limit"]), 1 - 1e-6)
+
+    def test_least_jerk_has_less_jerk_than_the_papers_quintic(self):
+        self.file.write_text("x,y,z,t\n0,0,2,0\n10,0,3,2\n10,10,4,5\n")
+        costs = []
+        for flags in (["--order", "5"], ["--minimise", "jerk"]):
+            out = self.folder / "j.json"
+            self.run_ok("plan", "--waypoints", self.file, *flags, "--out", out)
+            trajectory = Trajectory(out)
+            self.assertEqual(trajectory.json["order"], 5)
+            costs.append(sum(norm(trajectory.at(5 * (k + 0.5) / 5000, 3)) ** 2 for k in range(5000)) / 1000)
+        self.assertLess(costs[1], 0.999 * costs[0])
 
 
 class FreeFlights(ProgramTest):
@@ -213,6 +282,13 @@ class FreeFlights(ProgramTest):
         self.assertFalse(read_json(out)["collision_free"])
         self.run_ok(*command, "--avoid")
         self.assertTrue(read_json(out)["collision_free"])
+
+    def test_waypoints_in_a_surface_are_refused_with_or_without_avoid(self):
+        route, out = self.folder / "r.csv", self.folder / "out.json"
+        route.write_text("x,y,z\n0,0,2\n3,0.3,0.8\n0,3,2\n")
+        for flags in ([], ["--avoid"]):
+            self.run_bad(2, "plan", "--waypoints", route, *LIMITS, "--world", "box_room", "--out", out, *flags,
+                         says=["r.csv:3", "waypoint 2 (3.00, 0.30, 0.80)", "only 0.2 m"])
 
     def test_says_why_there_is_no_way(self):
         route, out = self.folder / "r.csv", self.folder / "out.json"

@@ -8,6 +8,8 @@
 #include <cstdio>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/prompt/drone_file.h"
 
 namespace airsim360 {
 namespace {
@@ -124,6 +126,42 @@ Shard ParseShard(const std::string& text) {
       shard.index < 0 || shard.count < 1 || shard.index >= shard.count)
     throw InputError("--shard: '" + text + "' is not I/N with I from 0 to N - 1, for example 0/4");
   return shard;
+}
+
+double CheckPositive(const char* flag, double value) {
+  if (value > 0 && std::isfinite(value)) return value;
+  if (value == 0) throw InputError(std::string(flag) + ": missing or 0; give a number above zero");
+  char text[96];
+  std::snprintf(text, sizeof(text), "%s: %g is not a number above zero", flag, value);
+  throw InputError(text);
+}
+
+std::vector<double> ParseNumbers(const char* flag, const std::string& text, size_t count, const char* form) {
+  std::vector<double> values;
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  while (p < end) {
+    double value;
+    const auto [stop, error] = std::from_chars(p, end, value);
+    if (error != std::errc() || !std::isfinite(value) || (stop != end && *stop != ',')) break;
+    values.push_back(value);
+    p = stop == end ? end : stop + 1;
+    if (stop != end && p == end) p = nullptr;  // a comma at the end
+    if (p == nullptr) break;
+  }
+  if (p != end || values.size() != count)
+    throw InputError(std::string(flag) + ": '" + text + "' is not " + form);
+  return values;
+}
+
+DroneModel FindDrone(const std::string& text) {
+  for (const CatalogDrone& drone : DroneCatalog()) {
+    if (drone.name == text) return CatalogModel(text);
+  }
+  if (text.ends_with(".yaml") || text.ends_with(".yml")) return ReadDroneFile(text).model;
+  // One word that is no name is a misspelt one.
+  if (text.find(' ') == std::string::npos) return CatalogModel(text);
+  return DroneFromPrompt(text).model;
 }
 
 void PrintJson(const nlohmann::ordered_json& value) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "airsim360/dataset/spec.h"
+#include "airsim360/flight/drone_model.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/renderer.h"
 
@@ -48,6 +49,15 @@ struct Shard {
   int64_t index = 0, count = 1;
 };
 Shard ParseShard(const std::string& text);
+
+/// `value`; InputError naming the flag unless it is a finite number above zero.
+double CheckPositive(const char* flag, double value);
+
+/// "a,b,…": exactly `count` finite numbers; InputError "flag: 'text' is not `form`" otherwise.
+std::vector<double> ParseNumbers(const char* flag, const std::string& text, size_t count, const char* form);
+
+/// A name of the catalogue, a drone .yaml, or words. InputError naming what is wrong with it.
+DroneModel FindDrone(const std::string& text);
 
 /// Prints one JSON object on stdout.
 void PrintJson(const nlohmann::ordered_json& value);

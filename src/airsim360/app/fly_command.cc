@@ -32,17 +32,6 @@ struct FlyArguments {
   PeopleArguments people;
 };
 
-// A name of the catalogue, a YAML file, or words.
-DroneModel FindDrone(const std::string& text) {
-  for (const CatalogDrone& drone : DroneCatalog()) {
-    if (drone.name == text) return CatalogModel(text);
-  }
-  if (text.ends_with(".yaml") || text.ends_with(".yml")) return ReadDroneFile(text).model;
-  // One word that is no name is a misspelt one.
-  if (text.find(' ') == std::string::npos) return CatalogModel(text);
-  return DroneFromPrompt(text).model;
-}
-
 WorldWind ReadWind(const std::string& text) {
   WorldWind wind;
   if (text.empty()) return wind;
@@ -168,9 +157,8 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   const WorldWind wind = ReadWind(arguments.wind);
   if (!arguments.pose.empty()) ParsePose(arguments.pose);
 
-  const OpenedWorld world =
-      OpenWorld(arguments.world, globals, arguments.frames > 0 ? tier : Tier::kLabels, {},
-                arguments.people.Request(globals.seed));
+  const OpenedWorld world = OpenWorld(arguments.world, globals, arguments.frames > 0 ? tier : Tier::kLabels,
+                                      {}, arguments.people.Request(globals.seed));
   SetStart(arguments, *world.scene, trajectory.get(), setup);
   SimModel model = world.Model(SimModel{}.dt_ns);
   model.wind = wind;
@@ -202,8 +190,9 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("fly", "fly one drone through a world, with dynamics and sensors");
   auto arguments = std::make_shared<FlyArguments>();
   command
-      ->add_option("--world", arguments->world,
-                   "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
+      ->add_option(
+          "--world", arguments->world,
+          "name (airsim360 worlds) or path of a .glb, .gltf, .obj, .city.json, .osm, .osm.pbf or world .yaml")
       ->required();
   command->add_option("--out", arguments->out, "folder of trajectory.csv, sensors/ and frames/")->required();
   command->add_option("--drone", arguments->drone,

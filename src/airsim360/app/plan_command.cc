@@ -1,5 +1,6 @@
 // airsim360 plan: smooth flights through waypoints within limits, free of collisions in a world; the waypoint
 // set.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/plan_dataset.h"
+#include "airsim360/app/plan_limits.h"
 #include "airsim360/app/plan_output.h"
 #include "airsim360/app/plan_waypoints.h"
 #include "airsim360/base/error.h"
@@ -26,22 +28,15 @@ constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of the map around
 struct PlanArguments {
   WaypointArguments waypoints;
   WaypointSetArguments set;
-  std::string world, out, format, yaw, origin = "47.397742,8.545594,488";
-  double vmax = 0, amax = 0, dt = 0, clearance = 0.5;
-  int order = 7;
+  LimitArguments limits;
+  std::string world, out, format, yaw, origin = "47.397742,8.545594,488", minimise = "snap";
+  double dt = 0, clearance = 0.5;
+  int order = 0;
   bool avoid = false;
 };
 
 double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double CheckPositive(const char* flag, double value) {
-  if (value > 0 && std::isfinite(value)) return value;
-  if (value == 0) throw InputError(std::string(flag) + ": missing or 0; give a number above zero");
-  char text[96];
-  std::snprintf(text, sizeof(text), "%s: %g is not a number above zero", flag, value);
-  throw InputError(text);
 }
 
 GeoPoint ParseOrigin(const std::string& text) {
@@ -124,9 +119,37 @@ struct Planned {
   std::vector<Vec3d> waypoints;
 };
 
-Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, const PlanWorld& world) {
-  const SplineKind kind = arguments.order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
-  const FlightOptions options{.limits = {.speed = arguments.vmax, .acceleration = arguments.amax},
+// --order and --minimise.
+SplineKind ParseKind(const PlanArguments& arguments) {
+  const int order = arguments.order;
+  if (order != 0 && order != 5 && order != 7)
+    throw InputError("--order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
+  const std::vector<std::string> quantities = {"snap", "jerk"};
+  if (std::find(quantities.begin(), quantities.end(), arguments.minimise) == quantities.end())
+    throw InputError("--minimise: " + UnknownChoiceMessage("quantity", arguments.minimise, quantities));
+  if (arguments.minimise == "snap") return order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
+  if (order == 7) throw InputError("--order: 7 has least snap; least jerk is of order 5");
+  return SplineKind::kMinimumJerk;
+}
+
+// InputError for a waypoint whose surroundings no flight through it can keep to.
+void CheckWaypointsAreFree(const PlanWaypoints& waypoints, const PlanWorld& world, double radius) {
+  for (size_t i = 0; i < waypoints.points.size(); ++i) {
+    const Vec3d p = waypoints.points[i].p;
+    const double clearance = world.clearance->Clearance(p, radius);
+    if (clearance >= radius) continue;
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  ": waypoint %zu (%.2f, %.2f, %.2f) is only %.3g m from a surface; --clearance is %g m",
+                  i + 1, p.x, p.y, p.z, clearance, radius);
+    throw InputError(waypoints.sources[i] + text);
+  }
+}
+
+Planned Plan(const PlanArguments& arguments, const TrajectoryLimits& limits, const PlanWaypoints& waypoints,
+             const PlanWorld& world) {
+  const SplineKind kind = ParseKind(arguments);
+  const FlightOptions options{.limits = limits,
                               .allocation = {.kind = kind, .sample_interval = arguments.dt},
                               .radius = arguments.clearance};
   const bool timed = waypoints.points.front().has_time;
@@ -145,6 +168,7 @@ Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, con
                                    : AllocateTimes(waypoints.Positions(), options.limits, options.allocation);
   std::optional<Certificate> certificate;
   if (world.bounded) {
+    CheckWaypointsAreFree(waypoints, world, arguments.clearance);
     certificate = Certify(flight.trajectory, flight.peaks, *world.bounded, arguments.clearance);
     if (!certificate->certified) {
       char text[160];
@@ -158,12 +182,11 @@ Planned Plan(const PlanArguments& arguments, const PlanWaypoints& waypoints, con
   return {std::move(flight), certificate, 0, waypoints.Positions()};
 }
 
-void Report(const PlanArguments& arguments, const Planned& planned, const PlanRecord& record,
+void Report(const TrajectoryLimits& limits, const Planned& planned, const PlanRecord& record,
             const std::vector<std::filesystem::path>& files, double plan_ms, bool json) {
   const PolynomialTrajectory& path = record.trajectory;
   const double length = ArcLength(path);
-  const bool within = (arguments.vmax == 0 || record.peaks.speed.value <= arguments.vmax * (1 + 1e-9)) &&
-                      (arguments.amax == 0 || record.peaks.acceleration.value <= arguments.amax * (1 + 1e-9));
+  const bool within = RespectsLimits(path, limits);
   if (json) {
     nlohmann::ordered_json out = {{"order", path.degree()},
                                   {"segments", path.segments()},
@@ -175,6 +198,7 @@ void Report(const PlanArguments& arguments, const Planned& planned, const PlanRe
                                   {"within_limits", within},
                                   {"waypoints_added", planned.added},
                                   {"plan_ms", plan_ms}};
+    ReportDrone(path, limits, out);
     if (record.lower_bound > 0) out["time_lower_bound"] = record.lower_bound;
     if (record.certificate) {
       out["collision_free"] = record.certificate->certified;
@@ -204,8 +228,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   if (!arguments.format.empty()) output.formats = ParseList("--format", arguments.format, PlanFormats());
   FormatsToWrite(output);
   output.origin = ParseOrigin(arguments.origin);
-  if (arguments.order != 5 && arguments.order != 7)
-    throw InputError("--order: " + std::to_string(arguments.order) + " is not 5 or 7; did you mean 7?");
+  ParseKind(arguments);
   if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
   CheckPositive("--clearance", arguments.clearance);
   const YawRule yaw = ParseYaw(arguments.yaw);
@@ -221,10 +244,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   if (!waypoints.points.empty()) CheckWaypoints(waypoints);
   const bool timed = !waypoints.points.empty() && waypoints.points.front().has_time;
   if (timed && arguments.avoid) throw InputError("--avoid: the waypoints have times; remove the column t");
-  for (const auto& [flag, value] :
-       {std::pair{"--vmax", arguments.vmax}, std::pair{"--amax", arguments.amax}}) {
-    if (value != 0 || !timed) CheckPositive(flag, value);
-  }
+  const TrajectoryLimits limits = ParseLimits(arguments.limits, timed);
   if (!arguments.world.empty()) {
     world = OpenPlanWorld(arguments.world, globals.seed);
     if (waypoints.points.empty()) {
@@ -236,7 +256,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   }
 
   const double start = Seconds();
-  const Planned planned = Plan(arguments, waypoints, world);
+  const Planned planned = Plan(arguments, limits, waypoints, world);
   const double plan_ms = 1e3 * (Seconds() - start);
   const PolynomialTrajectory& path = planned.flight.trajectory;
   const PlanRecord record{.trajectory = path,
@@ -250,9 +270,9 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
                           .waypoints = planned.waypoints};
   output.plot.title = "degree " + std::to_string(path.degree()) + ", " + std::to_string(path.segments()) +
                       " segments" + (arguments.world.empty() ? "" : ", " + arguments.world);
-  output.plot.max_speed = arguments.vmax;
-  output.plot.max_acceleration = arguments.amax;
-  Report(arguments, planned, record, WritePlan(record, output), plan_ms, globals.json);
+  output.plot.max_speed = arguments.limits.vmax;
+  output.plot.max_acceleration = arguments.limits.amax;
+  Report(limits, planned, record, WritePlan(record, output), plan_ms, globals.json);
 }
 
 }  // namespace
@@ -267,12 +287,12 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
       ->required();
   command->add_option("--waypoints", w.file,
                       "CSV x,y,z[,t] (metres east-north-up, seconds), YAML, GPX or KML");
-  command->add_option("--vmax", a->vmax, "greatest speed, m/s");
-  command->add_option("--amax", a->amax, "greatest acceleration, m/s^2");
+  AddLimitFlags(*command, a->limits);
   command->add_option("--dt", a->dt,
                       "seconds between samples; the flight takes a multiple of it (default: 0.1, any)");
   command->add_option("--order", a->order,
                       "degree: 7, the true minimum of snap (default), or 5, as in the paper");
+  command->add_option("--minimise", a->minimise, "snap (default) or jerk (then of degree 5)");
   command->add_option("--world", a->world, "name or file of a world: the flight is checked against it");
   command->add_flag("--avoid", a->avoid, "go around what is in the way in --world");
   command->add_option("--clearance", a->clearance, "metres to keep from every surface (default 0.5)");

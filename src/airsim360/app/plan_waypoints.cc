@@ -1,10 +1,11 @@
 #include "airsim360/app/plan_waypoints.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/planning/area_routes.h"
 #include "airsim360/planning/random_route.h"
@@ -16,25 +17,6 @@ namespace airsim360 {
 namespace {
 
 const std::vector<std::string> kRoutes = {"coverage", "orbit", "road", "random"};
-
-// "a,b,…": exactly `count` finite numbers.
-std::vector<double> ParseNumbers(const char* flag, const std::string& text, size_t count, const char* form) {
-  std::vector<double> values;
-  const char* p = text.data();
-  const char* const end = p + text.size();
-  while (p < end) {
-    double value;
-    const auto [stop, error] = std::from_chars(p, end, value);
-    if (error != std::errc() || !std::isfinite(value) || (stop != end && *stop != ',')) break;
-    values.push_back(value);
-    p = stop == end ? end : stop + 1;
-    if (stop != end && p == end) p = nullptr;  // a comma at the end
-    if (p == nullptr) break;
-  }
-  if (p != end || values.size() != count)
-    throw InputError(std::string(flag) + ": '" + text + "' is not " + form);
-  return values;
-}
 
 Vec3d ParsePlace(const char* flag, const std::string& text) {
   const auto v = ParseNumbers(flag, text, 3, "x,y,z in metres");
@@ -145,10 +127,12 @@ void CheckWaypoints(const PlanWaypoints& waypoints) {
                      " waypoint; a trajectory needs at least two");
   }
   for (size_t i = 1; i < points.size(); ++i) {
-    if (!(Norm(points[i].p - points[i - 1].p) > 1e-6)) {
-      throw InputError(waypoints.sources[i] + ": waypoint " + std::to_string(i + 1) +
-                       " coincides with the one before it");
-    }
+    const Vec3d p = points[i].p;
+    if (Norm(p - points[i - 1].p) > 1e-6) continue;
+    char text[160];
+    std::snprintf(text, sizeof(text), ": waypoint %zu (%.9g, %.9g, %.9g) coincides with the one before it",
+                  i + 1, p.x, p.y, p.z);
+    throw InputError(waypoints.sources[i] + text);
   }
 }
 

@@ -28,6 +28,10 @@ class YamlReader : public ConfigVisitor {
     if (!node.IsMap()) throw InputError(Where(file, node.Mark()) + "expected 'key: value' lines");
   }
 
+  size_t line() const override {
+    const YAML::Mark mark = node_.Mark();
+    return mark.is_null() ? 0 : static_cast<size_t>(mark.line) + 1;
+  }
   void Field(std::string_view name, std::string_view, bool& value) override {
     Read(name, "true or false", value);
   }

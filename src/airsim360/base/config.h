@@ -24,6 +24,8 @@ namespace airsim360 {
 class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
+  /// Line of the file at which the struct being read begins, from 1; 0 where there is no file.
+  virtual size_t line() const { return 0; }
   virtual void Field(std::string_view name, std::string_view help, bool& value) = 0;
   virtual void Field(std::string_view name, std::string_view help, uint64_t& value) = 0;
   /// Numbers outside [low, high] are refused.

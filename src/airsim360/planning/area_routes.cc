@@ -12,8 +12,11 @@ namespace airsim360 {
 std::vector<Vec3d> CoverageRoute(const CoverageArea& area) {
   constexpr double kMaxLanes = 10'000;
   const Vec2d size = area.max - area.min;
-  if (!(size.x > 0 && size.y > 0)) throw InputError("coverage: the area has no size");
-  if (!(area.spacing > 0)) throw InputError("coverage: the spacing must be positive");
+  if (!(size.x > 0 && size.y > 0))
+    throw InputError("coverage: the area is " + std::to_string(size.x) + " by " + std::to_string(size.y) +
+                     " m; it needs a size");
+  if (!(area.spacing > 0))
+    throw InputError("coverage: the spacing is " + std::to_string(area.spacing) + " m, must be positive");
   // Lanes along u; the rectangle's corners in (u, v) say how far they reach.
   const double c = std::cos(area.heading), s = std::sin(area.heading);
   const Vec2d middle = (area.min + area.max) * 0.5;
@@ -41,9 +44,11 @@ std::vector<Vec3d> CoverageRoute(const CoverageArea& area) {
 }
 
 std::vector<Vec3d> OrbitRoute(const Orbit& orbit) {
-  if (!(orbit.radius > 0)) throw InputError("orbit: the radius must be positive");
+  if (!(orbit.radius > 0))
+    throw InputError("orbit: the radius is " + std::to_string(orbit.radius) + " m, must be positive");
   if (!(std::fabs(orbit.turns) > 0 && std::fabs(orbit.turns) <= 1000))
-    throw InputError("orbit: turns must not be zero, and at most 1000");
+    throw InputError("orbit: turns are " + std::to_string(orbit.turns) +
+                     ", must not be zero, and at most 1000");
   const int legs =
       std::max(2, static_cast<int>(std::ceil(std::fabs(orbit.turns) * std::max(orbit.points_per_turn, 3))));
   std::vector<Vec3d> route;

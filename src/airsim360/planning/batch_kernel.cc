@@ -65,8 +65,9 @@ class BatchSolver {
     BackwardStep<true>(0, 0, after);
   }
 
-  /// After Run. What is not finite anywhere has gone through the costates to the first segment.
-  AIRSIM360_INLINE void Check(BatchCheck& check, int first) const {
+  /// After Run: whether all lanes are plain. What is not finite anywhere has gone through the costates to the
+  /// first segment.
+  AIRSIM360_INLINE bool Check(BatchCheck& check, int first) const {
     Lanes least = saved_[0].duration, largest = least;
     for (size_t k = 1; k < segments_; ++k) {
       const Lanes duration = saved_[k].duration;
@@ -76,6 +77,12 @@ class BatchSolver {
     StoreRow(least, check.least + first);
     StoreRow(largest, check.largest + first);
     StoreRow(reach_, check.reach + first);
+    const auto good = (least >= kShortestDuration) & (largest <= kLongestDuration) &
+                      (largest <= least * kEvenRatio) & (reach_ - reach_ == Lanes{});
+    long long all = -1;
+    AIRSIM360_UNROLL
+    for (int lane = 0; lane < kLanes; ++lane) all &= good[lane];
+    return all != 0;
   }
 
   /// Chunks: the overlap before a chunk makes the filter forget that it did not start at the route's start,
@@ -117,6 +124,7 @@ class BatchSolver {
 
   AIRSIM360_INLINE void ForwardStep(size_t k, bool first, Belief& belief) {
     Prefetch(next_waypoints_, 3 * k, 3);
+    if (first) Prefetch(next_waypoints_, 3 * segments_, 4);  // 24 (segments + 1) numbers, not aligned
     const Lanes duration = saved_[k].duration, inverse = 1.0 / duration;
     saved_[k].inverse = inverse;
     if (!first) ChangeUnits(duration * saved_[k - 1].inverse, saved_[k - 1].duration * inverse, belief);
@@ -309,10 +317,11 @@ class BatchSolver {
 
 template <class Model>
 void SolveBatch(const BatchArguments& arguments) {
+  arguments.check->plain = true;
   for (int first = 0; first < 8; first += kLanes) {
     BatchSolver<Model> solver(arguments, first);
     solver.Run();
-    solver.Check(*arguments.check, first);
+    arguments.check->plain &= solver.Check(*arguments.check, first);
   }
 }
 

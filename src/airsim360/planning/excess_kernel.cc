@@ -5,26 +5,23 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-/// x^(2^squarings), and the same less one power.
-AIRSIM360_INLINE V8 Power(V8 x, int squarings, V8& one_less) {
-  one_less = V8{} + 1.0;
-  for (int i = 0; i < squarings; ++i) {
+/// x and its next smaller power while both are squared again and again: x^(2^n) and x^(2^n - 1).
+struct Powers {
+  V8 x, one_less;
+
+  AIRSIM360_INLINE void Square() {
     one_less *= x;
     x *= x;
   }
-  return x;
-}
+};
 
-/// A number of the basis for each share of the lanes.
+/// A row of the basis: one number for all lanes, or one for each.
 template <int kShare>
-AIRSIM360_INLINE auto Shares(const double* row) {
+AIRSIM360_INLINE auto Row(const double* basis, int row) {
   if constexpr (kShare == 1) {
-    return *row;
-  } else if constexpr (kShare == 2) {
-    return Join(Splat4(row[0]), Splat4(row[1]));
+    return basis[row];
   } else {
-    const V4 v = Load4(row);
-    return Join(__builtin_shufflevector(v, v, 0, 0, 1, 1), __builtin_shufflevector(v, v, 2, 2, 3, 3));
+    return Load8(basis + 8 * row);
   }
 }
 
@@ -33,13 +30,13 @@ template <int kPowers, int kShare>
 class Group {
  public:
   Group(const ExcessArguments& arguments, size_t first) : args_(arguments), first_(first) {
-    alignas(64) double inverse[8], weight[8], g[3][kPowers][8];
-    for (size_t lane = 0; lane < 8; ++lane) {
+    alignas(64) double inverse[kWidth], weight[kWidth], g[3][kPowers][kWidth];
+    for (size_t lane = 0; lane < kWidth; ++lane) {
       const size_t segment = Segment(lane);
       const double duration = args_.durations[segment];
       inverse[lane] = 1 / duration;
       // Lanes beyond the last segment repeat it without weight.
-      weight[lane] = first + lane % kWidth < args_.segments ? args_.weight * duration : 0;
+      weight[lane] = first + lane < args_.segments ? args_.weight * duration : 0;
       double power = 1;
       for (size_t k = 0; k < kPowers; ++k, power *= duration) {
         power_[k][lane] = power;
@@ -48,15 +45,15 @@ class Group {
         }
       }
     }
-    inverse_ = Load8(inverse);
-    weight_ = Load8(weight);
+    inverse_ = Repeated(inverse);
+    weight_ = Repeated(weight);
     for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < kPowers; ++k) g_[axis][k] = Load8(g[axis][k]);
+      for (int k = 0; k < kPowers; ++k) g_[axis][k] = Repeated(g[axis][k]);
     }
   }
 
   double Run() {
-    for (size_t j = 0; j < args_.samples; j += kShare) Sample(args_.basis + 16 * j);
+    for (size_t j = 0; j < args_.samples; j += kShare) Sample(args_.basis + j / kShare * ExcessBasisSize(kShare));
     Store();
     double total = 0;
     for (int lane = 0; lane < 8; ++lane) total += sum_[lane];
@@ -66,8 +63,22 @@ class Group {
  private:
   static constexpr size_t kWidth = 8 / kShare;  // segments
 
+  /// For every share of the lanes.
+  AIRSIM360_INLINE static V8 Repeated(const double* x) {
+    if constexpr (kShare == 1) {
+      return Load8(x);
+    } else if constexpr (kShare == 2) {
+      const V4 v = Load4(x);
+      return Join(v, v);
+    } else {
+      const V2 v = Load2(x);
+      const V4 twice = __builtin_shufflevector(v, v, 0, 1, 0, 1);
+      return Join(twice, twice);
+    }
+  }
+
   size_t Segment(size_t lane) const {
-    const size_t segment = first_ + lane % kWidth;
+    const size_t segment = first_ + lane;
     return segment < args_.segments ? segment : args_.segments - 1;
   }
 
@@ -78,9 +89,9 @@ class Group {
       v[axis] = g_[axis][1];
       a[axis] = g_[axis][2] * 2.0;
       AIRSIM360_UNROLL
-      for (int k = 2; k < kPowers; ++k) v[axis] += g_[axis][k] * Shares<kShare>(basis + k * kShare);
+      for (int k = 2; k < kPowers; ++k) v[axis] += g_[axis][k] * Row<kShare>(basis, k);
       AIRSIM360_UNROLL
-      for (int k = 3; k < kPowers; ++k) a[axis] += g_[axis][k] * Shares<kShare>(basis + (8 + k) * kShare);
+      for (int k = 3; k < kPowers; ++k) a[axis] += g_[axis][k] * Row<kShare>(basis, 8 + k);
     }
     const V8 inverse2 = inverse_ * inverse_;
     const V8 speed_unit = inverse2 * args_.inverse_speed;
@@ -88,21 +99,28 @@ class Group {
     const V8 speed = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * speed_unit;
     const V8 acceleration = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * acceleration_unit;
 
-    V8 speed_less, acceleration_less;
-    sum_ += weight_ * (Power(speed, args_.squarings, speed_less) +
-                       Power(acceleration, args_.squarings - 1, acceleration_less));
+    // Side by side: each is a chain of multiplications.
+    const V8 one = V8{} + 1.0;
+    Powers of_speed = {Larger(speed, V8{} + args_.least_speed), one};
+    Powers of_acceleration = {Larger(acceleration, V8{} + args_.least_acceleration), one};
+    of_speed.Square();
+    for (int i = 1; i < args_.squarings; ++i) {
+      of_speed.Square();
+      of_acceleration.Square();
+    }
+    sum_ += weight_ * (of_speed.x + of_acceleration.x);
     const double q = static_cast<double>(1LL << args_.squarings);
-    const V8 by_v = weight_ * speed_less * speed_unit * (2 * q);
-    const V8 by_a = weight_ * acceleration_less * acceleration_unit * q;
+    const V8 by_v = weight_ * of_speed.one_less * speed_unit * (2 * q);
+    const V8 by_a = weight_ * of_acceleration.one_less * acceleration_unit * q;
     AIRSIM360_UNROLL
     for (int axis = 0; axis < 3; ++axis) {
       const V8 gv = by_v * v[axis], ga = by_a * a[axis];
       by_g_[axis][1] += gv;
-      by_g_[axis][2] += gv * Shares<kShare>(basis + 2 * kShare) + ga * 2.0;
+      by_g_[axis][2] += gv * Row<kShare>(basis, 2) + ga * 2.0;
       AIRSIM360_UNROLL
       for (int k = 3; k < kPowers; ++k) {
         by_g_[axis][k] +=
-            gv * Shares<kShare>(basis + k * kShare) + ga * Shares<kShare>(basis + (8 + k) * kShare);
+            gv * Row<kShare>(basis, k) + ga * Row<kShare>(basis, 8 + k);
       }
     }
   }
@@ -139,7 +157,7 @@ class Group {
   const ExcessArguments& args_;
   size_t first_;
   V8 inverse_ = {}, weight_ = {}, sum_ = {}, g_[3][kPowers] = {}, by_g_[3][kPowers] = {};
-  double power_[kPowers][8];
+  double power_[kPowers][kWidth];
 };
 
 template <int kPowers, int kShare>

@@ -74,11 +74,12 @@ std::vector<double> Results(const Kernels& kernels, const Route& route, int kind
   kernels.batch->batch[kind](batch);
   EXPECT_EQ(check.least[7], *std::ranges::min_element(route.durations));
   EXPECT_EQ(check.largest[7], *std::ranges::max_element(route.durations));
+  EXPECT_EQ(check.plain, check.largest[7] <= kEvenRatio * check.least[7]);
   all.insert(all.end(), check.reach, check.reach + 8);
   all.insert(all.end(), eight.begin(), eight.end());
 
   std::vector<double> by_c(coefficients.size()), by_t(segments), by_w(4 * (segments + 1)),
-      basis(16 * 8, 0.25);
+      basis(8 * 16 * 8, 0.25);
   double excess[3];
   for (const size_t share : {4, 2, 1}) {
     excess[share / 2] = kernels.excess->excess({.coefficients = coefficients.data(),

@@ -328,6 +328,7 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
       arguments.coefficients[lane] = &coefficients[route * size];
     }
     kernels->batch[static_cast<int>(kind)](arguments);
+    if (check.plain && segments > 1) continue;
     for (size_t lane = 0; lane < std::min<size_t>(8, routes - first); ++lane) {
       const double least = check.least[lane], largest = check.largest[lane];
       if (!(least > 0 && largest - largest == 0 && check.reach[lane] - check.reach[lane] == 0)) {

@@ -29,6 +29,7 @@ constexpr size_t RouteWorkspace(size_t segments) { return segments * 40 + 256; }
 struct BatchCheck {
   double least[8], largest[8];  ///< durations, but for NaN
   double reach[8];              ///< finite only if all numbers were (and all results are)
+  bool plain;                   ///< all lanes are finite, even and within the range of durations
 };
 
 /// Eight routes of equally many segments, from rest to rest.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -23,20 +24,28 @@ struct Stage {
 /// The mean tends to the maximum as the exponent grows; each stage starts where the last one ended.
 constexpr Stage kStages[] = {{3, 12, 1e-3, 40}, {6, 16, 3e-4, 60}, {9, 32, 1e-4, 120}};
 
+/// Limits that make a flight take longer than this (seconds) are taken for a mistake.
+constexpr double kLongestFlight = 1e9;
+
+/// Powers of samples far within the limits are kept from leaving the normal numbers.
+constexpr double kLeastExponent = -930, kLeastPower = 0x1p-930;
+
 /// Rows of the first and second derivatives of tau^k at the midpoints of equal parts of [0, 1], as
 /// ExcessArguments::basis wants them.
 std::vector<double> SampleBasis(size_t samples, size_t share) {
-  std::vector<double> basis(samples * 16);
+  const size_t size = internal::ExcessBasisSize(share), lanes = size / 16, copies = lanes / share;
+  std::vector<double> basis(samples / share * size);
   for (size_t j = 0; j < samples; ++j) {
-    double* const at = &basis[16 * (j - j % share) + j % share];
     const double tau = (static_cast<double>(j) + 0.5) / static_cast<double>(samples);
-    double power = 1;  // tau^(k-2) while row k is written
+    double rows[16] = {}, power = 1;  // tau^(k-2) while row k is written
     for (size_t k = 1; k < 8; ++k) {
-      at[k * share] = static_cast<double>(k) * (k == 1 ? 1 : power * tau);
+      rows[k] = static_cast<double>(k) * (k == 1 ? 1 : power * tau);
       if (k < 2) continue;
-      at[(8 + k) * share] = static_cast<double>(k * (k - 1)) * power;
+      rows[8 + k] = static_cast<double>(k * (k - 1)) * power;
       power *= tau;
     }
+    double* const at = &basis[j / share * size + j % share * copies];
+    for (size_t k = 0; k < 16; ++k) std::fill_n(at + k * lanes, copies, rows[k]);
   }
   return basis;
 }
@@ -67,6 +76,7 @@ class Objective {
 
   void SetStage(size_t stage) {
     stage_ = kStages[stage];
+    least_speed_ = std::exp2(kLeastExponent / static_cast<double>(1LL << stage_.squarings));
     share_ = internal::ExcessShare(durations_.size(), stage_.samples);
     basis_ = StageBasis(stage, share_);
   }
@@ -103,10 +113,12 @@ class Objective {
                           .squarings = stage_.squarings,
                           .inverse_speed = 1 / (limits_.speed * limits_.speed),
                           .inverse_acceleration = 1 / (limits_.acceleration * limits_.acceleration),
+                          .least_speed = least_speed_,
+                          .least_acceleration = least_speed_ * least_speed_,
                           .weight = 1 / (total * static_cast<double>(stage_.samples)),
                           .by_coefficient = by_coefficient_.data(),
                           .by_duration = by_duration_.data()});
-    if (!(excess > 0) || !std::isfinite(excess)) return std::numeric_limits<double>::infinity();
+    if (!(excess > 4 * kLeastPower) || !std::isfinite(excess)) return std::numeric_limits<double>::infinity();
 
     // log excess / (2 q), and the share of the total time in the weights.
     solver_.Backpropagate(by_coefficient_, by_duration_, {});
@@ -124,7 +136,7 @@ class Objective {
   TrajectoryLimits limits_;
   SplineKind kind_;
   Stage stage_ = kStages[0];
-  double most_uneven_ = 1e4;
+  double most_uneven_ = 1e4, least_speed_ = 0;
   size_t share_ = 1;
   const internal::ExcessKernels* kernels_ = AIRSIM360_SELECT_KERNEL(kExcessKernels);
   MinimumSnapSolver solver_;
@@ -208,6 +220,12 @@ AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const Trajec
   if (options.sample_interval > 0) {
     const double steps = std::ceil(best.duration() / options.sample_interval * (1 - 1e-12));
     best = Slowed(best, std::max(1.0, steps * options.sample_interval / best.duration()));
+  }
+  if (!(best.duration() <= kLongestFlight)) {
+    char text[160];
+    std::snprintf(text, sizeof(text), "limits: within %g m/s and %g m/s^2 the flight would take %.3g s",
+                  limits.speed, limits.acceleration, best.duration());
+    throw InputError(text);
   }
   const TrajectoryPeaks peaks = CertifiedPeaks(best);
   const double bound = RestToRestTime(length, limits.speed, limits.acceleration);

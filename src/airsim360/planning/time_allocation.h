@@ -28,7 +28,7 @@ double RestToRestTime(double distance, double max_speed, double max_acceleration
 /// Durations for which the optimal spline through the waypoints, at rest at both ends, is as short in time as
 /// could be found, exactly within the limits. Speed and acceleration limits must be finite; the other limits
 /// hold by uniform slowing. InputError for fewer than two waypoints, neighbouring ones that coincide, limits
-/// that are not positive.
+/// that are not positive or would make the flight take more than 1e9 s.
 AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits,
                                   const AllocationOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 
@@ -99,6 +100,12 @@ Waypoint ParseRow(const std::vector<Field>& fields, const std::vector<size_t>& c
 
 }  // namespace
 
+std::string TimeDoesNotGrow(double before, double t) {
+  char text[80];
+  std::snprintf(text, sizeof(text), "t does not grow: %.9g s after %.9g s", t, before);
+  return text;
+}
+
 std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name) {
   std::vector<Waypoint> waypoints;
   std::vector<size_t> columns;
@@ -125,7 +132,7 @@ std::vector<Waypoint> ParseRouteCsv(std::string_view text, std::string_view name
       Fail(place, 1, "more than " + std::to_string(kMaxWaypoints) + " points");
     if (waypoints.size() > 1 && waypoints.back().has_time &&
         waypoints.back().t <= waypoints[waypoints.size() - 2].t) {
-      Fail(place, 1, "t does not grow");
+      Fail(place, 1, TimeDoesNotGrow(waypoints[waypoints.size() - 2].t, waypoints.back().t));
     }
   }
   if (waypoints.empty()) throw InputError(std::string(name) + ": no points");

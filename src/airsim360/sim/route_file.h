@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,9 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
 /// likewise; documents with a DOCTYPE are refused.
 std::vector<Waypoint> ParseRouteXml(std::string_view text, std::string_view name,
                                     const std::optional<GeoPoint>& origin = std::nullopt);
+
+/// Message for a waypoint whose time is not after that of the one before.
+std::string TimeDoesNotGrow(double before, double t);
 
 /// By the extension: .yaml, .yml, .json, .gpx, .kml; anything else is CSV. Files up to 64 MiB.
 std::vector<Waypoint> ReadRouteFile(const std::filesystem::path& path,

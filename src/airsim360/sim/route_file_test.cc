@@ -29,15 +29,18 @@ TEST(RouteYaml, HasTheFieldsOfCsv) {
   EXPECT_TRUE(route[0].has_yaw && !route[1].has_yaw);
   EXPECT_NEAR(route[0].yaw, std::numbers::pi / 2, 1e-15);
   EXPECT_EQ(route[1].t, 2.5);
+  EXPECT_EQ(route[0].line, 2u);
+  EXPECT_EQ(route[1].line, 3u);
 }
 
 TEST(RouteYaml, ErrorsNameThePlace) {
   const auto message = [](const char* text) { return MessageOf([&] { ParseRouteYaml(text, "r.yaml"); }); };
   EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, w: 3}\n").find("r.yaml:2:"), std::string::npos);
-  EXPECT_NE(message("waypoints:\n- {x: 1, y: 2}\n").find("entry 1"), std::string::npos);
+  EXPECT_NE(message("waypoints:\n- {x: 1, y: 2}\n").find("r.yaml:2: waypoint 1 lacks"), std::string::npos);
   EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, z: nan}\n").find("r.yaml:2:"), std::string::npos);
   EXPECT_NE(
-      message("waypoints:\n- {x: 1, y: 2, z: 1, t: 3}\n- {x: 1, y: 2, z: 1, t: 3}\n").find("t does not grow"),
+      message("waypoints:\n- {x: 1, y: 2, z: 1, t: 3}\n- {x: 1, y: 2, z: 1, t: 2}\n")
+          .find("r.yaml:3: waypoint 2: t does not grow: 2 s after 3 s"),
       std::string::npos);
   EXPECT_NE(message("waypoints: []\n").find("no points"), std::string::npos);
 }
@@ -78,7 +81,7 @@ TEST(RouteXml, ErrorsNameThePlace) {
             std::string::npos)
       << message("<gpx>\n<wpt lat=\"x\" lon=\"1\"/>\n</gpx>");
   EXPECT_NE(message("<gpx>\n<wpt lon=\"1\"/></gpx>").find("attribute 'lat' is missing"), std::string::npos);
-  EXPECT_NE(message("<gpx><wpt lat=\"91\" lon=\"1\"/></gpx>").find("out of range"), std::string::npos);
+  EXPECT_NE(message("<gpx><wpt lat=\"91\" lon=\"1\"/></gpx>").find("latitude 91"), std::string::npos);
   EXPECT_NE(message("<gpx><wpt lat=\"9").find("does not end"), std::string::npos);
   EXPECT_NE(message("<!DOCTYPE x><gpx/>").find("DOCTYPE"), std::string::npos);
   EXPECT_NE(message("<gpx></gpx>").find("no points"), std::string::npos);

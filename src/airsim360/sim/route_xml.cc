@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -93,8 +94,11 @@ std::string_view NameOf(std::string_view tag) {
 }
 
 void CheckPlace(const Reader& reader, size_t at, const GeoPoint& p) {
-  if (std::fabs(p.latitude_deg) > 90 || std::fabs(p.longitude_deg) > 360)
-    reader.Fail(at, "latitude and longitude are out of range");
+  if (std::fabs(p.latitude_deg) <= 90 && std::fabs(p.longitude_deg) <= 360) return;
+  char text[96];
+  std::snprintf(text, sizeof(text), "latitude %.9g or longitude %.9g is out of range", p.latitude_deg,
+                p.longitude_deg);
+  reader.Fail(at, text);
 }
 
 // lon,lat[,alt] with white space between.

@@ -15,6 +15,7 @@ constexpr double kNotGiven = -kFarthest;
 
 struct Entry {
   double x = kNotGiven, y = kNotGiven, z = kNotGiven, yaw_deg = kNotGiven, t = kNotGiven;
+  size_t line = 0;
 };
 
 }  // namespace
@@ -25,6 +26,7 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
   ReadYaml(text, name, [&](ConfigVisitor& v) {
     v.Field("frame", "W: x east, y north, z up", frame);
     v.List("waypoints", "places to pass", entries, [](ConfigVisitor& e, Entry& entry) {
+      entry.line = e.line();
       e.Field("x", "metres east", entry.x, -kFarthest, kFarthest);
       e.Field("y", "metres north", entry.y, -kFarthest, kFarthest);
       e.Field("z", "metres up", entry.z, -kFarthest, kFarthest);
@@ -37,10 +39,12 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
   if (entries.empty()) throw InputError(where + ": no points");
   std::vector<Waypoint> waypoints;
   for (const Entry& e : entries) {
-    const std::string entry = where + ": entry " + std::to_string(waypoints.size() + 1) + " of 'waypoints'";
+    const std::string entry =
+        where + ":" + std::to_string(e.line) + ": waypoint " + std::to_string(waypoints.size() + 1);
     if (e.x == kNotGiven || e.y == kNotGiven || e.z == kNotGiven)
       throw InputError(entry + " lacks x, y or z");
     Waypoint w;
+    w.line = e.line;
     w.p = {e.x, e.y, e.z};
     w.has_yaw = e.yaw_deg != kNotGiven;
     if (w.has_yaw) w.yaw = e.yaw_deg * std::numbers::pi / 180;
@@ -49,7 +53,7 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
     if (!waypoints.empty() && w.has_time != waypoints.back().has_time)
       throw InputError(entry + ": all waypoints need a time t, or none");
     if (!waypoints.empty() && w.has_time && !(w.t > waypoints.back().t))
-      throw InputError(entry + ": t does not grow");
+      throw InputError(entry + ": " + TimeDoesNotGrow(waypoints.back().t, w.t));
     waypoints.push_back(w);
   }
   return waypoints;
