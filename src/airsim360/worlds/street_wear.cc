@@ -9,6 +9,9 @@ namespace {
 // Heights over the asphalt, each layer above those that it may cover; markings lie two millimetres above all of them.
 constexpr float kStainLift = 0.002f, kPatchLift = 0.003f, kSealLift = 0.004f;
 
+// Less would be a sliver at the edge that a stain is cut to: twice its area, square metres.
+constexpr float kLeastArea = 2e-5f;
+
 // A point of what is worn at (s, d), metres.
 using Place = std::function<Vec3f(float s, float d, float lift)>;
 
@@ -23,12 +26,10 @@ void LaySpot(Ground& ground, const Place& at, float s, float d, float radius, fl
   for (int k = 0; k <= corners; ++k) {
     const float a = turn + 6.2831853f * static_cast<float>(k) / static_cast<float>(corners), r = radius * Uniform(rng, 0.65f, 1.25f);
     const Vec3f p = k == corners ? first : at(s + stretch * r * std::cos(a), d + r * std::sin(a), lift);
-    if (k == 0)
-      first = p;
-    else if (Cross(last - middle, p - middle).z > 0)
-      ground.mesh().Triangle(middle, last, p, uv(middle), uv(last), uv(p));
-    else
-      ground.mesh().Triangle(middle, p, last, uv(middle), uv(p), uv(last));
+    const float side = k == 0 ? 0.0f : Cross(last - middle, p - middle).z;
+    if (k == 0) first = p;
+    if (side > kLeastArea) ground.mesh().Triangle(middle, last, p, uv(middle), uv(last), uv(p));
+    if (side < -kLeastArea) ground.mesh().Triangle(middle, p, last, uv(middle), uv(p), uv(last));
     last = p;
   }
 }
@@ -40,7 +41,9 @@ void LayBand(Ground& ground, const Place& at, Vec2f a, Vec2f b, float wa, float 
   const Vec2f n{-v.y / l, v.x / l};
   const auto p = [&](Vec2f q, float w) { return at(q.x + n.x * w, q.y + n.y * w, lift); };
   Vec3f corners[4] = {p(a, -wa), p(b, -wb), p(b, wb), p(a, wa)};
-  if (Cross(corners[1] - corners[0], corners[2] - corners[0]).z < 0) std::swap(corners[1], corners[3]);
+  const float side = Cross(corners[1] - corners[0], corners[2] - corners[0]).z;
+  if (std::abs(side) < kLeastArea) return;
+  if (side < 0) std::swap(corners[1], corners[3]);
   ground.Quad(corners[0], corners[1], corners[2], corners[3]);
 }
 

@@ -159,7 +159,7 @@ void Canvas::Letters(std::string_view text, Vec2f center, float size, Vec3f colo
   // As wide as cells of six by seven would be, as far as that does not distort the letters.
   const SignLettering line(text);
   const float high = size * height_, cells = 6 * static_cast<float>(text.size()) - 1;
-  const float wide = high * std::clamp(cells / 7 * stretch / std::max(0.1f, line.width()), 0.6f, 1.3f);
+  const float wide = high * std::clamp(cells / 7 * stretch / std::max(0.1f, line.width()), 0.6f, 1.15f);
   const float x0 = center.x * width_ - line.width() * wide / 2, y0 = center.y * height_ - high / 2;
   Fill({x0, y0}, {x0 + line.width() * wide, y0 + high}, [&](float x, float y) { return line.Inked((x - x0) / wide, (y - y0) / high); },
        color);
