@@ -13,6 +13,7 @@
 #include "airsim360/trace/ray_tracer.h"
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/massing.h"
+#include "airsim360/worlds/mesh_builder.h"
 #include "airsim360/worlds/new_york_city/manhattan.h"
 #include "airsim360/worlds/test_real_towns.h"
 #include "airsim360/worlds/world_floor.h"
@@ -308,13 +309,65 @@ TEST(DowntownWest, LotsHeightsTreesAndLampsAreDistributedAsInRealTowns) {
   EXPECT_LE(d.lamps, 0.25);
 }
 
-// Midtown's towers are no West Village, whose figures these are: lots and heights are printed, not bounded.
-TEST(NewYorkCity, TreesAndLampsAreDistributedAsInRealTowns) {
+TEST(NewYorkCity, LotsHeightsTreesAndLampsAreDistributedAsInRealTowns) {
   const StreetPlan plan = PlanNewYorkCity();
   const Distances d =
       CompareWithRealTowns("new_york_city", NewYork(), internal::PlanManhattan(plan, {}).buildings, plan.reach());
+  EXPECT_LE(d.areas, 0.25);
+  EXPECT_LE(d.heights, 0.25);
   EXPECT_LE(d.trees, 0.25);
   EXPECT_LE(d.lamps, 0.25);
+}
+
+// A library that has every model: a box of a metre.
+class BoxLibrary : public ModelSource {
+ public:
+  std::optional<Model> Load(std::string_view name) const override {
+    MeshBuilder box;
+    box.Box({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1});
+    Model model{box.Finish(std::string(name)), {Material{}}, {}, "Box, nobody, CC0-1.0"};
+    return model;
+  }
+};
+
+TEST(DowntownWest, HasTheSameEntitiesWithAndWithoutALibraryOfModels) {
+  const BoxLibrary library;
+  const auto with = internal::BuildDowntownWest({.models = &library});
+  const Scene& without = *Downtown().scene;
+  EXPECT_FALSE(with->attributions.empty());
+  EXPECT_TRUE(without.attributions.empty());
+  ASSERT_EQ(with->entities.size(), without.entities.size());
+  for (size_t i = 0; i < without.entities.size(); ++i) {
+    ASSERT_EQ(with->entities[i].name, without.entities[i].name);
+    ASSERT_EQ(with->entities[i].category, without.entities[i].category);
+  }
+}
+
+// Ids of 17 bits reach the picture and the table of entities.
+TEST(ManyEntities, MoreThanSixteenBitsCountAreToldApart) {
+  constexpr int kRow = 266;
+  SceneBuilder builder("many");
+  MeshBuilder plate;
+  plate.Box({-0.4f, -0.4f, 0}, {0.4f, 0.4f, 0.1f}, MeshBuilder::kTop);
+  builder.AddMaterial({});
+  const MeshId mesh = builder.AddMesh(plate.Finish("plate"));
+  const CategoryId bench = builder.tree().At("furniture/seating/bench");
+  for (int i = 0; i < kRow * kRow; ++i) {
+    const Vec3f at{static_cast<float>(i % kRow), static_cast<float>(i / kRow), 0};
+    builder.AddInstance({mesh, PlaceUpright(at), builder.AddEntity("plate", bench)});
+  }
+  builder.AddSky();
+  const auto tracer = std::make_shared<const RayTracer>(builder.Build());
+  RenderRequest request;
+  request.camera = Equirectangular{512, 256};
+  request.X_WC = BodyPose({kRow - 2.0, kRow - 2.0, 3}, 0, 0, 0) * CameraInBody();
+  request.tier = Tier::kLabels;
+  Frame frame;
+  MakeCpuRenderer(tracer)->Render(request, frame);
+  std::set<EntityId> seen;
+  for (EntityId id : frame.entity.pixels()) seen.insert(id);
+  EXPECT_GT(std::count_if(seen.begin(), seen.end(), [](EntityId id) { return id > 65536; }), 100);
+  for (EntityId id : seen) EXPECT_EQ(tracer->scene().entity(id).id, id);
 }
 
 void ExpectFloorReached(const char* name, const Built& built) {
@@ -368,6 +421,27 @@ TEST(Manhattan, IsAFunctionOfItsSeedAndTiersStandOnTheTierBelow) {
     for (Vec2f p : a.buildings[i].outline) EXPECT_TRUE(a.buildings[i - 1].bounds().Contains(p));
   }
   EXPECT_TRUE(differs);
+}
+
+TEST(Manhattan, HousesAndTheirYardsKeepOffEachOther) {
+  const internal::Manhattan city = internal::PlanManhattan(PlanNewYorkCity(), {.seed = 2});
+  const auto meet = [](const GroundRect& a, const GroundRect& b) {
+    return std::min(a.x1, b.x1) - std::max(a.x0, b.x0) > 0.02f && std::min(a.y1, b.y1) - std::max(a.y0, b.y0) > 0.02f;
+  };
+  EXPECT_GT(city.yards.size(), 50u);
+  for (size_t i = 0; i < city.buildings.size(); ++i) {
+    const BuildingPlan& a = city.buildings[i];
+    EXPECT_EQ(a.edges.size(), a.outline.size());
+    EXPECT_EQ(a.party_height.size(), a.outline.size());
+    if (a.base > 0) continue;
+    for (size_t k = i + 1; k < city.buildings.size(); ++k) {
+      const BuildingPlan& b = city.buildings[k];
+      if (b.block != a.block) break;
+      EXPECT_FALSE(b.base == 0 && meet(a.bounds(), b.bounds())) << i << " " << k;
+    }
+    for (const internal::BackYard& yard : city.yards)
+      EXPECT_FALSE(yard.block == a.block && meet(a.bounds(), yard.rect)) << i;
+  }
 }
 
 }  // namespace

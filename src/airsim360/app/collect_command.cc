@@ -223,7 +223,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,
-                      "beside rgb,range,semantic,entity: normal,position,albedo,material,sky,flow,coverage");
+                      "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");
   command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");

@@ -161,7 +161,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   AddEnvironmentFlags(*command, arguments->environment);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,
-                      "beside rgb,range,semantic,entity: normal,position,albedo,material,sky,flow,coverage");
+                      "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");
   command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }

@@ -57,6 +57,7 @@ std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& inde
 // True if all frames and all files that describe them are there: SHA256SUMS is the last file written.
 bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   if (spec.material && !fs::exists(folder / "materials.json")) return false;
+  if (spec.part && !fs::exists(folder / "parts.json")) return false;
   if (!spec.people.empty()) {
     const std::map<std::string, std::string> made = {{"coco_keypoints", "person_keypoints.json"},
                                                      {"kitti", "kitti/label_2"},
@@ -198,6 +199,7 @@ void WriteSummaries(const CollectInput& input) {
   write("frames.jsonl", AsBytes(FramesJsonl(index)));
   write("entities.json", AsBytes(EntitiesJson(index, input.scene)));
   if (input.spec.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
+  if (input.spec.part) write("parts.json", AsBytes(PartsJson()));
   if (input.people) {
     const std::string people = PeopleJsonl(index, input.spec);
     write("people.jsonl", AsBytes(people));

@@ -14,6 +14,7 @@
 #include "airsim360/dataset/verify.h"
 #include "airsim360/dataset/version.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/scene/parts.h"
 
 namespace airsim360 {
 namespace {
@@ -259,6 +260,7 @@ TEST_F(DatasetTest, ProductsOnRequestHaveTheirFilesAndFlowNamesThePoseItLeadsTo)
     }
   }
   EXPECT_TRUE(fs::exists(folder_ / "a" / "materials.json"));
+  EXPECT_EQ(Json::parse(ReadTextFile(folder_ / "a" / "parts.json"))["2"]["name"], "door");
   EXPECT_EQ(VerifyDataset(folder_ / "a").findings.size(), 0u);
 
   // The pose that flow leads to is that of the next frame; after the last one the body flies on.
@@ -268,6 +270,28 @@ TEST_F(DatasetTest, ProductsOnRequestHaveTheirFilesAndFlowNamesThePoseItLeadsTo)
   ASSERT_EQ(lines.size(), 4u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(lines[i]["X_WC_next"], lines[i + 1]["X_WC"]);
   EXPECT_EQ(lines[3]["X_WC_next"]["p"], Json({4.0, 0.0, 2.0}));
+}
+
+TEST(EncodeExtra, PartsTellTheGlassOfABuildingFromItsWallAndFromOtherGlass) {
+  SceneBuilder builder("parts");
+  const CategoryId building = builder.tree().At("construction/building"), lamp = builder.tree().At("furniture/lighting/street_light");
+  Material glass, wall;
+  glass.name = "glass dark";
+  wall.name = "brick";
+  builder.AddMaterial(glass);
+  builder.AddMaterial(wall);
+  const auto scene = builder.Build();
+  Frame frame;
+  frame.semantic = Image<CategoryId>(4, 1);
+  frame.material = Image<uint16_t>(4, 1);
+  for (int x = 0; x < 3; ++x) frame.semantic(x, 0) = x == 2 ? lamp : building;
+  frame.material(0, 0) = frame.material(2, 0) = 1;
+  frame.material(1, 0) = 2;
+  const Image<uint16_t> parts = DecodeGrayPng(internal::EncodeExtra("part", frame, *scene), "part");
+  EXPECT_EQ(parts(0, 0), static_cast<uint8_t>(Part::kWindow));
+  EXPECT_EQ(parts(1, 0), 0);
+  EXPECT_EQ(parts(2, 0), 0);
+  EXPECT_EQ(parts(3, 0), 0);
 }
 
 TEST(EncodeExtra, FlowAndCoverageReadBackExactly) {

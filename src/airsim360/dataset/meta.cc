@@ -90,6 +90,7 @@ Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
   if (spec.albedo)
     json["albedo"] = "8-bit sRGB PNG: base colour of the surface without any light; black = nothing hit";
   if (spec.material) json["material"] = "16-bit PNG: key of materials.json; 0 = nothing hit";
+  if (spec.part) json["part"] = "8-bit PNG: key of parts.json, which part of the pixel's entity this is; 0 = its body, or nothing hit";
   if (spec.sky) json["sky"] = "8-bit PNG: 255 = the ray through the pixel centre meets the sky, else 0";
   if (spec.flow) {
     json["flow"] =

@@ -37,7 +37,7 @@ Products ProductsOf(const DatasetSpec& spec) {
           .normal = spec.normal,
           .position = spec.position,
           .albedo = spec.albedo,
-          .material = spec.material,
+          .material = spec.material || spec.part,
           .coverage = spec.coverage,
           .flow = spec.flow,
           .radiance = spec.radiance && spec.tier != Tier::kLabels};

@@ -39,7 +39,7 @@ struct DatasetSpec {
   bool auto_exposure = false;  ///< of every picture its own
   bool radiance = false;       ///< linear light, radiance/STEM.exr
   LensModel lens = LensModel::kIdeal;
-  bool position = false, albedo = false, material = false, sky = false, flow = false, coverage = false;
+  bool position = false, albedo = false, material = false, part = false, sky = false, flow = false, coverage = false;
   std::string people;        ///< who they are, in words with the SHA-256 of their files; empty = nobody
   bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
   bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
@@ -59,6 +59,7 @@ struct OptionalProduct {
 inline constexpr OptionalProduct kOptionalProducts[] = {
     {"normal", ".png", &DatasetSpec::normal},     {"position", ".exr", &DatasetSpec::position},
     {"albedo", ".png", &DatasetSpec::albedo},     {"material", ".png", &DatasetSpec::material},
+    {"part", ".png", &DatasetSpec::part},
     {"sky", ".png", &DatasetSpec::sky},           {"flow", ".exr", &DatasetSpec::flow},
     {"coverage", ".exr", &DatasetSpec::coverage},
 };

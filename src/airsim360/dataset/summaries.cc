@@ -5,6 +5,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/dataset/people/person_record.h"
+#include "airsim360/scene/parts.h"
 
 namespace airsim360 {
 namespace {
@@ -82,6 +83,12 @@ std::string MaterialsJson(const Scene& scene) {
     text += (i > 0 ? ",\n\"" : "\n\"") + std::to_string(i + 1) + "\": " + Dump(json);
   }
   return text + "\n}\n";
+}
+
+std::string PartsJson() {
+  Json json = Json::object();
+  for (size_t i = 1; i < std::size(kPartNames); ++i) json[std::to_string(i)] = {{"name", kPartNames[i]}};
+  return json.dump(1) + "\n";
 }
 
 std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene) {

@@ -19,6 +19,8 @@ std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, con
 std::string PeopleJsonl(const DatasetIndex& index, const DatasetSpec& spec);
 /// materials.json: value in material/*.png -> name and appearance of every material of the scene.
 std::string MaterialsJson(const Scene& scene);
+/// parts.json: value in part/*.png -> name of the part.
+std::string PartsJson();
 /// README.md: the dataset card.
 std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
 /// contact_sheet.png: colour | range | semantic | entity, one row for each of up to kContactRows frames

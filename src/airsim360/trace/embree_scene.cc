@@ -16,9 +16,9 @@ constexpr uint32_t kLastGeneration = 15;          // two bits of a ray mask each
 constexpr uint32_t kAllGenerations = 0x55555555;  // times kMaskSolid or kMaskClearPanes
 
 // Robust: rays do not slip between neighbouring triangles, which would write a wrong label.
-SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality) {
+SceneHandle NewScene(RTCDevice device, RTCBuildQuality quality, bool robust = true) {
   SceneHandle scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   rtcSetSceneBuildQuality(scene.get(), quality);
   return scene;
 }
@@ -90,6 +90,14 @@ std::unique_ptr<AlphaGeometry> MakeAlpha(const MeshGeometry& geometry, const Sce
   return alpha;
 }
 
+// Mostly leaves: they have gaps anyway, and a tenth of the time of a picture full of trees is what robustness costs there.
+bool IsFoliage(const Mesh& mesh, const std::vector<Material>& materials) {
+  uint64_t leaves = 0;
+  for (const MeshPart& part : mesh.parts)
+    leaves += materials[part.material].kind == SurfaceKind::kFoliage ? part.triangle_count : 0;
+  return 2 * leaves > mesh.triangles.size();
+}
+
 bool IsIdentity(const AffineTransform& X) { return X == AffineTransform(); }
 
 }  // namespace
@@ -111,8 +119,10 @@ EmbreeScene::EmbreeScene(const Scene& scene, const RayTracerOptions& options) {
 
 void EmbreeScene::SplitMeshes(const Scene& scene, const std::vector<uint32_t>& uses, bool sort_alpha) {
   groups_.resize(scene.meshes.size());
+  foliage_.resize(scene.meshes.size());
   ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
     if (uses[m] == 0) return;
+    foliage_[m] = IsFoliage(scene.meshes[m], scene.materials);
     const std::vector<Group> all = Classify(scene.meshes[m], scene, sort_alpha);
     auto opaque = SelectTriangles(scene.meshes[m], all, Group::kOpaque);
     auto tested = SelectTriangles(scene.meshes[m], all, Group::kTested);
@@ -177,10 +187,12 @@ void EmbreeScene::BuildSubScenes(const Scene& scene, const std::vector<uint32_t>
 
 void EmbreeScene::BuildSubScene(const Mesh& mesh, MeshId id) {
   const Vec3f* vertices = PaddedVertices(mesh, nullptr, mesh_vertices_[id]);
-  SceneHandle sub_scene = NewScene(device_.get(), RTC_BUILD_QUALITY_HIGH);
+  // Spatial splits gain nothing among leaves.
+  const bool foliage = foliage_[id] != 0;
+  const RTCBuildQuality quality = foliage ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
+  SceneHandle sub_scene = NewScene(device_.get(), quality, !foliage);
   for (unsigned i = 0; i < groups_[id].size(); ++i) {
-    AttachGeometry(sub_scene.get(), i, *groups_[id][i], vertices, mesh.positions.size(),
-                   RTC_BUILD_QUALITY_HIGH);
+    AttachGeometry(sub_scene.get(), i, *groups_[id][i], vertices, mesh.positions.size(), quality);
   }
   rtcCommitScene(sub_scene.get());
   sub_scenes_[id] = std::move(sub_scene);

@@ -100,6 +100,7 @@ class EmbreeScene {
 
   DeviceHandle device_;
   std::vector<MeshGroups> groups_;                     // by mesh
+  std::vector<uint8_t> foliage_;                       // by mesh: 1 = mostly leaves, traced without robustness
   std::vector<std::vector<Vec3f>> mesh_vertices_;      // by mesh: padded copy, where one was needed
   std::vector<std::vector<Vec3f>> instance_vertices_;  // by instance: baked or padded copy
   std::vector<SceneHandle> sub_scenes_;                // by mesh; null where not instanced

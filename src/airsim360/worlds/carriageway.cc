@@ -4,6 +4,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/street_markings.h"
+#include "airsim360/worlds/street_wear.h"
 
 namespace airsim360 {
 namespace {
@@ -13,7 +14,7 @@ using internal::kPaintLift;
 using internal::StreetRect;
 
 constexpr float kCornerRadius = 6, kGutterWidth = 0.35f;
-constexpr float kPatchLift = 0.003f, kIronLift = 0.005f;
+constexpr float kIronLift = 0.005f;
 
 // Lanes of one side: where each begins, counted from the middle of the street, and its centre line.
 struct Lane {
@@ -25,7 +26,9 @@ std::vector<Lane> LanesOf(StreetKind kind) {
   return {{0, 1.72f}};
 }
 
-void LayStretch(Ground& ground, const StreetStretch& street, const std::string& name, Surface asphalt) {
+// Lanes were resurfaced piece by piece: each is cut into a few lengths of different age. `worn` false = all alike.
+void LayStretch(Ground& ground, const StreetStretch& street, const std::string& name, Surface asphalt, bool worn, RngStream& rng) {
+  static constexpr Surface kAges[] = {Surface::kCarriagewayFresh, Surface::kCarriagewayOld, Surface::kCarriagewayPale};
   const float hw = street.line.half_width;
   ground.Begin("road " + name, "ground/road", asphalt);
   // Texture coordinates follow the street, across and along. The shader's wheel tracks lie around a lane whose centre is
@@ -36,43 +39,19 @@ void LayStretch(Ground& ground, const StreetStretch& street, const std::string& 
     for (size_t i = 0; i < lanes.size(); ++i) {
       const float from = lanes[i].from, to = i + 1 < lanes.size() ? lanes[i + 1].from : edge, shift = 1.72f - lanes[i].center;
       const float d0 = side > 0 ? from : -to, d1 = side > 0 ? to : -from, u0 = d0 + side * shift, u1 = d1 + side * shift;
-      ground.mesh().QuadUv(street.At(s0, d0), street.At(s1, d0), street.At(s1, d1), street.At(s0, d1), {u0, s0}, {u0, s1},
-                           {u1, s1}, {u1, s0});
+      for (float s = s0; s < s1;) {
+        float end = worn ? s + static_cast<float>(rng.Uniform(12, 60)) : s1;
+        if (end > s1 - 8) end = s1;
+        if (worn) ground.Use(rng.Chance(0.45) ? kAges[rng.Index(3)] : asphalt);
+        ground.mesh().QuadUv(street.At(s, d0), street.At(end, d0), street.At(end, d1), street.At(s, d1), {u0, s}, {u0, end}, {u1, end},
+                             {u1, s});
+        s = end;
+      }
     }
   }
   ground.Use(Surface::kGutter);
   StreetRect(ground, street, street.s0, street.s1, -hw, -hw + kGutterWidth, 0);
   StreetRect(ground, street, street.s0, street.s1, hw - kGutterWidth, hw, 0);
-}
-
-// Repairs and cracks: part of the road entity that was laid last.
-void LayWear(Ground& ground, const StreetStretch& street, RngStream& rng) {
-  const float hw = street.line.half_width - 0.6f;
-  const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
-  for (int i = 0; i < 4; ++i) {
-    const float s = uniform(street.s0 + 6, street.s1 - 12), d = uniform(0.3f, hw - 2.2f),
-                side = rng.Chance(0.5) ? 1.0f : -1.0f;
-    const float d0 = side > 0 ? d : -d - 1.7f, length = uniform(1.2f, 5);
-    ground.Use(Surface::kTar);
-    StreetRect(ground, street, s - 0.03f, s + length + 0.03f, d0 - 0.03f, d0 + 1.73f, kPatchLift);
-    ground.Use(rng.Chance(0.6) ? Surface::kAsphaltPatch : Surface::kAsphaltOld);
-    StreetRect(ground, street, s, s + length, d0, d0 + 1.7f, kPatchLift + 0.001f);
-  }
-  // Sealed cracks wander along the street within one half of it.
-  ground.Use(Surface::kTar);
-  for (int i = 0; i < 7; ++i) {
-    const float side = rng.Chance(0.5) ? 1.0f : -1.0f;
-    float s = uniform(street.s0 + 2, street.s1 - 14), d = uniform(0.8f, hw - 0.8f);
-    for (int k = 0; k < 14; ++k) {
-      const float next_s = s + uniform(0.3f, 0.9f), next_d = std::clamp(d + uniform(-0.35f, 0.35f), 0.3f, hw);
-      const float w = uniform(0.012f, 0.028f);
-      const float a0 = side * d - w, a1 = side * d + w, b0 = side * next_d - w, b1 = side * next_d + w;
-      ground.Quad(street.At(s, a0, kPatchLift), street.At(next_s, b0, kPatchLift),
-                  street.At(next_s, b1, kPatchLift), street.At(s, a1, kPatchLift));
-      s = next_s;
-      d = next_d;
-    }
-  }
 }
 
 void LayDrains(Ground& ground, const StreetStretch& street) {
@@ -137,42 +116,6 @@ Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, cons
   return {middle, rim};
 }
 
-// Sealed cracks and repairs on a crossing, draped over its fan; part of the entity laid last.
-void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
-  const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
-  const auto on = [&](float x, float y, float lift) { return Vec3f{x, y, fan.Height({x, y}) + lift}; };
-  const float reach = 8.5f;
-  for (int i = 0; i < 6; ++i) {
-    const float x0 = fan.middle.x + uniform(-reach, reach - 3),
-                y0 = fan.middle.y + uniform(-reach, reach - 3);
-    const int nx = 4 + static_cast<int>(rng.Index(8)), ny = 3 + static_cast<int>(rng.Index(5));
-    ground.Use(rng.Chance(0.6) ? Surface::kAsphaltPatch : Surface::kAsphaltOld);
-    for (int k = 0; k < nx * ny; ++k) {
-      const float x = x0 + 0.4f * static_cast<float>(k % nx), y = y0 + 0.4f * static_cast<float>(k / nx);
-      if (std::hypot(x + 0.2f - fan.middle.x, y + 0.2f - fan.middle.y) < 0.9f)
-        continue;  // the cover in the middle
-      ground.Quad(on(x, y, 0.006f), on(x + 0.4f, y, 0.006f), on(x + 0.4f, y + 0.4f, 0.006f),
-                  on(x, y + 0.4f, 0.006f));
-    }
-  }
-  ground.Use(Surface::kTar);
-  for (int i = 0; i < 18; ++i) {
-    float x = fan.middle.x + uniform(-reach, reach), y = fan.middle.y + uniform(-reach, reach),
-          a = uniform(0, 6.28f);
-    for (int k = 0; k < 12; ++k) {
-      a += uniform(-0.5f, 0.5f);
-      const float step = uniform(0.3f, 0.7f), nx = x + step * std::cos(a), ny = y + step * std::sin(a),
-                  w = uniform(0.012f, 0.026f);
-      const float px = -std::sin(a) * w, py = std::cos(a) * w;
-      if (std::max(std::abs(nx - fan.middle.x), std::abs(ny - fan.middle.y)) > reach + 2) break;
-      ground.Quad(on(x - px, y - py, 0.009f), on(nx - px, ny - py, 0.009f), on(nx + px, ny + py, 0.009f),
-                  on(x + px, y + py, 0.009f));
-      x = nx;
-      y = ny;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed) {
@@ -192,9 +135,9 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
                                    crossings[k + 1].center - crossings[k + 1].half_width - kCornerRadius};
         const std::string name =
             std::string(along_x ? "EW" : "NS") + std::to_string(i) + "." + std::to_string(k);
-        LayStretch(ground, street, name, rng.Chance(0.3) ? Surface::kCarriagewayOld : Surface::kCarriageway);
+        LayStretch(ground, street, name, rng.Chance(0.3) ? Surface::kCarriagewayOld : Surface::kCarriageway, is_core(i), rng);
         if (!is_core(i)) continue;
-        LayWear(ground, street, rng);
+        internal::LayWear(ground, street, rng);
         LayDrains(ground, street);
         internal::LayMarkings(
             ground, street, name,
@@ -211,10 +154,12 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
                                   std::to_string(i) + "." + std::to_string(k),
                                   rng.Chance(0.4) ? Surface::kCarriagewayOld : Surface::kCarriageway);
       if (!is_core(i) || !is_core(k)) continue;
-      LayJunctionWear(ground, fan, rng);
+      internal::LayJunctionWear(ground, fan, rng);
       if (plan.north_south[i].kind == StreetKind::kBoulevard)
         internal::LayJunctionGuides(ground, fan, plan.north_south[i], plan.east_west[k],
                                     std::to_string(i) + "." + std::to_string(k));
+      else if (plan.north_south[i].kind == StreetKind::kAvenue && (i + k) % 2 == 1)
+        internal::LayJunctionBox(ground, fan, plan.north_south[i], plan.east_west[k], std::to_string(i) + "." + std::to_string(k));
     }
   }
   return core;

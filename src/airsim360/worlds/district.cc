@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/props/families.h"
 
 namespace airsim360::internal {
 
@@ -63,23 +64,48 @@ float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p) {
   return best;
 }
 
+namespace {
+
+// Tone of mown grass: wanders over some ten metres.
+Vec3f LawnTone(Vec2f p, RngStream& rng) {
+  const float wide = std::sin(0.31f * p.x + 1.7f * std::sin(0.17f * p.y)) + std::sin(0.23f * p.y + 1.3f * std::sin(0.29f * p.x));
+  const float tone = 1.22f + 0.07f * wide + static_cast<float>(rng.Uniform(-0.03, 0.03)), dry = 1 + 0.05f * wide;
+  return {tone * dry, tone, tone * 0.9f};
+}
+
+// Tiles where they fit, patches along the edges.
+void LayMownGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, const GroundRect& box, float z, RngStream& rng) {
+  constexpr float kPitch = kLawnTile / 2;
+  for (float y = box.y0; y < box.y1; y += kLawnTile) {
+    for (float x = box.x0; x < box.x1; x += kLawnTile) {
+      const GroundRect cell{x, y, x + kLawnTile, y + kLawnTile};
+      const std::vector<Vec2f> corners = cell.Outline();
+      const bool whole = EdgeDistance(outline, cell.center()) > kLawnTile / 2 &&
+                         std::all_of(corners.begin(), corners.end(), [&](Vec2f p) { return InPolygon(outline, p); });
+      const auto turn = static_cast<float>(rng.Uniform(0, 6.283));
+      if (whole) {
+        const Vec2f p = cell.center();
+        d.placer.shelf().PlaceAs(lawn, "lawn_tile", PlaceUpright({p.x, p.y, z}, turn), rng.Index(4), LawnTone(p, rng));
+        continue;
+      }
+      for (int k = 0; k < 4; ++k) {
+        const Vec2f p{x + kPitch * (static_cast<float>(k % 2) + static_cast<float>(rng.Uniform())),
+                      y + kPitch * (static_cast<float>(k / 2) + static_cast<float>(rng.Uniform()))};
+        if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.3f) continue;
+        d.placer.shelf().PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), LawnTone(p, rng));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 void GrowGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2) {
   GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
   for (Vec2f p : outline)
     box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   RngStream rng(d.seed, "grass", lawn);
-  // Mown grass all over, its tone wandering over some ten metres.
-  constexpr float kPitch = 0.64f;
-  for (float y = box.y0; per_m2 >= 2 && y < box.y1; y += kPitch) {
-    for (float x = box.x0; x < box.x1; x += kPitch) {
-      const Vec2f p{x + kPitch * static_cast<float>(rng.Uniform()), y + kPitch * static_cast<float>(rng.Uniform())};
-      const auto turn = static_cast<float>(rng.Uniform(0, 6.283)), chance = static_cast<float>(rng.Uniform(-0.05, 0.05));
-      if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.3f) continue;
-      const float wide = std::sin(0.31f * p.x + 1.7f * std::sin(0.17f * p.y)) + std::sin(0.23f * p.y + 1.3f * std::sin(0.29f * p.x));
-      const float tone = 1.22f + 0.09f * wide + chance, dry = 1 + 0.05f * wide;
-      d.placer.shelf().PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), {tone * dry, tone, tone * 0.9f});
-    }
-  }
+  if (per_m2 >= 2) LayMownGrass(d, lawn, outline, box, z, rng);
   const auto tufts = static_cast<int>(box.area() * (per_m2 >= 2 ? 0.7f : per_m2));
   for (int i = 0; i < tufts; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),

@@ -29,7 +29,8 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
   for (const Block& block : plan.blocks) {
     const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
-    LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs);
+    LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs, "ground/pavement/modular",
+                block.kind != BlockKind::kBackdrop);
     if (block.kind == BlockKind::kPlaza) {
       PlaceDowntownLandmarks(district, block);
       BuildPlaza(district, block);

@@ -60,9 +60,9 @@ std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, ui
 /// Where a crosswalk meets the kerb, measured along a block side from the end of the kerb return.
 inline constexpr float kCrosswalkStart = 0.9f, kCrosswalkWidth = 3.0f;
 
-/// Lays kerbs (0.13 m, dropped at crosswalks) and pavement fields around a block.
-void LayPavement(Ground& ground, const Block& block, Surface slabs,
-                 std::string_view category = "ground/pavement/modular");
+/// Lays kerbs (0.13 m, dropped at crosswalks) and pavement fields around a block; `worn`: with gum, stains and replaced slabs.
+void LayPavement(Ground& ground, const Block& block, Surface slabs, std::string_view category = "ground/pavement/modular",
+                 bool worn = false);
 
 /// Side `side` (0 south, 1 east, 2 north, 3 west) of a block: origin and directions of its kerb line.
 struct BlockSide {

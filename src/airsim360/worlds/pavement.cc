@@ -3,7 +3,9 @@
 #include <numbers>
 #include <vector>
 
+#include "airsim360/base/random.h"
 #include "airsim360/worlds/ground.h"
+#include "airsim360/worlds/street_wear.h"
 
 namespace airsim360 {
 namespace {
@@ -83,7 +85,8 @@ void LayKerb(Ground& ground, const Block& block, int side) {
     strip(arc(r, i), arc(r, i + 1), arc(r - kKerbWidth, i), arc(r - kKerbWidth, i + 1), 0, 0);
 }
 
-void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category) {
+void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category, bool worn) {
+  RngStream rng(static_cast<uint64_t>(block.row * 8 + block.column), "pavement wear", static_cast<uint64_t>(side));
   const BlockSide line = SideOf(block, side);
   const SideProfile profile(line.length, block.corner_radius);
   const float r = block.corner_radius, s0 = r, s1 = line.length - r;
@@ -106,6 +109,9 @@ void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std:
       ground.Quad(at(stops[i], depths[k]), at(stops[i + 1], depths[k]), at(stops[i + 1], depths[k + 1]),
                   at(stops[i], depths[k + 1]));
     }
+    if (!worn || stops[i + 1] - stops[i] < 1.5f) continue;
+    const auto lifted = [&](float s, float d, float lift) { return at(s, d) + Vec3f{0, 0, lift}; };
+    internal::LayPavementWear(ground, lifted, stops[i], stops[i + 1], depths[1] + 0.03f, block.pavement, slabs, rng);
   }
 }
 
@@ -126,10 +132,10 @@ void LayCorner(Ground& ground, const Block& block, int side, Surface slabs, std:
 
 }  // namespace
 
-void LayPavement(Ground& ground, const Block& block, Surface slabs, std::string_view category) {
+void LayPavement(Ground& ground, const Block& block, Surface slabs, std::string_view category, bool worn) {
   for (int side = 0; side < 4; ++side) {
     LayKerb(ground, block, side);
-    LayFields(ground, block, side, slabs, category);
+    LayFields(ground, block, side, slabs, category, worn);
     LayCorner(ground, block, side, slabs, category);
   }
 }

@@ -3,9 +3,10 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
-#include "airsim360/image/draw.h"
 #include "airsim360/worlds/recipe_shapes.h"
+#include "airsim360/worlds/sign_lettering.h"
 
 namespace airsim360::internal {
 
@@ -74,20 +75,21 @@ Texel Sign(float u, float v) {
               x = u * 5 - (5 - width) / 2;
   Texel texel{sign.ground, 0, 0.55f};
   if (y < 0.04f || y > 0.96f) texel.color = sign.letters * 0.8f;
-  const float cx = x / unit, cy = (y * 0.8f - 2 * unit) / unit;
-  if (cx < -1 || cy < -1 || cy > 8 || cx > n * 6 + 1) return texel;
-  // Letters rounded by blending the four nearest cells of the bitmap.
-  const auto bit = [&](int column, int row) {
-    const auto letter = static_cast<size_t>(std::max(0, column) / 6);
-    const int in = column - static_cast<int>(letter) * 6;
-    if (column < 0 || row < 0 || row > 6 || in > 4 || letter >= sign.text.size()) return 0.0f;
-    return HasInk(sign.text[letter], in, row) ? 1.0f : 0.0f;
-  };
-  const float fx = std::floor(cx - 0.5f), fy = std::floor(cy - 0.5f), s = cx - 0.5f - fx, t = cy - 0.5f - fy;
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-  const float ink =
-      Mix(Mix(bit(ix, iy), bit(ix + 1, iy), s), Mix(bit(ix, iy + 1), bit(ix + 1, iy + 1), s), t);
-  texel.color = Mix(sign.ground, sign.letters, Step(0.42f, 0.52f, ink));
+  // Four by four samples of the texel's area.
+  static const std::vector<SignLettering> lines = [] {
+    std::vector<SignLettering> made;
+    for (size_t i = 0; i < kSignStyles.size(); ++i) made.emplace_back(kSignStyles[i].text, 0.13f + 0.02f * static_cast<float>(i % 4));
+    return made;
+  }();
+  const SignLettering& line = lines[index];
+  const float high = 7 * unit, top = y * 0.8f - 2 * unit, scale = line.width() / width;
+  if (x < -0.02f || x > width + 0.02f || top < -0.02f || top > high + 0.02f) return texel;
+  float ink = 0;
+  for (int k = 0; k < 16; ++k) {
+    const float dx = (static_cast<float>(k % 4) - 1.5f) * 0.0015f, dy = (static_cast<float>(k / 4) - 1.5f) * 0.003f;
+    ink += line.Inked((x + dx) * scale, (top + dy) / high) ? 1.0f / 16 : 0.0f;
+  }
+  texel.color = Mix(sign.ground, sign.letters, ink);
   return texel;
 }
 

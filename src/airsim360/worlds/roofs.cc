@@ -33,8 +33,10 @@ void FlatDeck(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& p
   const float deck = plan.height(), top = deck + ParapetHeight(plan);
   const std::vector<Vec2f> inner = OffsetConvex(plan.outline, kParapetThickness);
   mesh.SetEntity(roof);
-  mesh.SetMaterial(
-      surfaces[plan.roof == RoofKind::kFlatGravel ? Surface::kRoofGravel : Surface::kRoofBitumen]);
+  // Some have a coat that throws the sun back.
+  mesh.SetMaterial(surfaces[plan.seed % 5 == 0                      ? Surface::kAsphaltPale
+                            : plan.roof == RoofKind::kFlatGravel ? Surface::kRoofGravel
+                                                                 : Surface::kRoofBitumen]);
   mesh.Polygon(inner, deck);
   // A flashing strip folds up along the parapet, coping lies on top.
   mesh.SetMaterial(surfaces[Surface::kRoofBitumen]);
@@ -121,12 +123,49 @@ void Bulkhead(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& p
            MeshBuilder::kFront | MeshBuilder::kTop | MeshBuilder::kLeft | MeshBuilder::kRight);
 }
 
+// On the narrow deck of a row house: a hatch over the stairs, chimneys at the shared walls, a skylight, vents.
+void HouseClutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, const BuildingPlan& plan, EntityId building,
+                  EntityId roof) {
+  RngStream rng(plan.seed, "house roof");
+  const GroundRect r = plan.bounds().Inset(kParapetThickness);
+  const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
+  if (r.width() < 3 || r.depth() < 6) return;
+  const float z = plan.height(), third = r.depth() / 3;
+  constexpr unsigned kSides = MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack;
+  const auto box = [&](Surface surface, Vec2f at, Vec2f half, float z0, float z1, bool top) {
+    mesh.SetMaterial(surfaces[surface]);
+    mesh.Box({at.x - half.x, at.y - half.y, z0}, {at.x + half.x, at.y + half.y, z1}, kSides | (top ? MeshBuilder::kTop : 0u));
+  };
+  // The hatch in the middle third, chimneys in the outer ones.
+  const float cx = r.center().x, y = r.y0 + third * uniform(1.2f, 1.8f);
+  mesh.SetEntity(building);
+  const Vec2f hatch{cx + uniform(-0.3f, 0.3f) * (r.width() - 2), y};
+  box(WallSurfaceOf(plan), hatch, {0.65f, 1.2f}, z, z + 2.2f, false);
+  box(Surface::kCoping, hatch, {0.75f, 1.3f}, z + 2.2f, z + 2.3f, true);
+  box(rng.Chance(0.5) ? Surface::kDoorGreen : Surface::kFrameDark, hatch - Vec2f{0, 0.02f}, {0.4f, 1.21f}, z, z + 1.95f, true);
+  for (int i = 0; i < 2; ++i) {
+    const Vec2f at{i == 0 ? r.x0 + 0.45f : r.x1 - 0.45f, r.y0 + third * (i == 0 ? uniform(0.3f, 0.9f) : uniform(2.1f, 2.7f))};
+    if (rng.Chance(0.25)) continue;
+    box(Surface::kBrickBrown, at, {0.3f, uniform(0.4f, 0.9f)}, z, z + uniform(1.5f, 2.2f), true);
+    box(Surface::kBrickRed, at, {0.12f, 0.12f}, z + 1.5f, z + 2.5f, true);
+  }
+  mesh.SetEntity(roof);
+  const Vec2f light{cx + uniform(-0.6f, 0.6f), r.y0 + third * (rng.Chance(0.5) ? 0.5f : 2.5f)};
+  box(Surface::kMetal, light, {0.55f, 0.8f}, z, z + 0.3f, false);
+  box(Surface::kGlassBlue, light, {0.5f, 0.75f}, z + 0.3f, z + 0.38f, true);
+  for (float t : {0.15f, 0.85f}) shelf.Place("roof_vent", {cx + uniform(-0.25f, 0.25f) * r.width(), r.y0 + r.depth() * t, z}, 0, rng.Index(3));
+  if (rng.Chance(0.35)) shelf.Place("antenna", {r.x1 - 0.6f, r.y0 + third * 1.1f, z}, 0, rng.Index(3));
+}
+
 // Machines on a deck: a row of air conditioners, vents, sometimes a tank and antennas, a duct and pipes.
 void Clutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, const BuildingPlan& plan,
              EntityId building, EntityId roof) {
   RngStream rng(plan.seed, "roof clutter");
   const GroundRect deck = plan.bounds().Inset(1.6f);
-  if (deck.width() < 5 || deck.depth() < 5) return;
+  if (deck.width() < 5 || deck.depth() < 5) {
+    if (plan.upper.empty()) HouseClutter(mesh, surfaces, shelf, plan, building, roof);
+    return;
+  }
   const float z = plan.height();
   Occupancy taken;
   // The cut corner of a chamfered outline stays free.

@@ -187,4 +187,32 @@ void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, con
   }
 }
 
+void LayJunctionBox(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name) {
+  const float hx = ns.half_width - 1, hy = ew.half_width - 0.6f, half = 0.075f;
+  const auto on = [&](float x, float y) { return Vec3f{ns.center + x, ew.center + y, fan.Height({ns.center + x, ew.center + y}) + 0.011f}; };
+  ground.Begin("box " + name, "ground/lane_marking", Surface::kPaintWhite);
+  // A line in pieces short enough to follow the crown; `n` = its unit normal.
+  const auto line = [&](Vec2f a, Vec2f b, Vec2f n) {
+    const int pieces = std::max(1, static_cast<int>(std::hypot(b.x - a.x, b.y - a.y) / 0.8f));
+    for (int i = 0; i < pieces; ++i) {
+      const Vec2f p = a + (b - a) * (static_cast<float>(i) / static_cast<float>(pieces)),
+                  q = a + (b - a) * (static_cast<float>(i + 1) / static_cast<float>(pieces));
+      ground.Quad(on(p.x + n.x * half, p.y + n.y * half), on(q.x + n.x * half, q.y + n.y * half), on(q.x - n.x * half, q.y - n.y * half),
+                  on(p.x - n.x * half, p.y - n.y * half));
+    }
+  };
+  line({-hx, -hy}, {hx, -hy}, {0, -1});
+  line({-hx, hy}, {hx, hy}, {0, -1});
+  line({-hx, -hy}, {-hx, hy}, {1, 0});
+  line({hx, -hy}, {hx, hy}, {1, 0});
+  constexpr float kPitch = 1.9f, kDiagonal = 0.70710678f;
+  for (float c = -hx - hy + kPitch / 2; c < hx + hy; c += kPitch) {
+    // x - y = c, clipped to the box, and its mirror image.
+    const float y0 = std::max(-hy, -hx - c), y1 = std::min(hy, hx - c);
+    if (y1 - y0 < 0.3f) continue;
+    line({y0 + c, y0}, {y1 + c, y1}, {kDiagonal, -kDiagonal});
+    line({-y1 - c, y1}, {-y0 - c, y0}, {-kDiagonal, -kDiagonal});
+  }
+}
+
 }  // namespace airsim360::internal

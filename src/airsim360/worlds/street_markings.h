@@ -38,4 +38,7 @@ void LayMarkings(Ground& ground, const StreetStretch& street, const std::string&
 void LayJunctionGuides(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew,
                        const std::string& name);
 
+/// The hatched box of a crossing that must not be blocked: white diagonals in a frame, draped over the fan.
+void LayJunctionBox(Ground& ground, const Fan& fan, const StreetLine& ns, const StreetLine& ew, const std::string& name);
+
 }  // namespace airsim360::internal

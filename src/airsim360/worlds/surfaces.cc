@@ -142,6 +142,9 @@ constexpr Row kRows[] = {
      0,
      kSolid,
      G::kCarriageway},
+    {S::kCarriagewayFresh, "carriageway fresh", R::kAsphaltFresh, Gray(1.45f), 0.8f, 0.10f, 0, kSolid, G::kCarriageway},
+    {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.62f, 1.58f, 1.50f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.75f, 1.70f, 1.60f}, 0.8f, 0.10f},
 };
 static_assert(std::size(kRows) == static_cast<size_t>(S::kCount));
 

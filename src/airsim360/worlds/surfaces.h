@@ -93,6 +93,9 @@ enum class Surface {
   kIronBlack,
   kCarriageway,  ///< its u runs across the street, 0 in the middle, so that the shader finds the wheel tracks
   kCarriagewayOld,
+  kCarriagewayFresh,
+  kCarriagewayPale,
+  kAsphaltPale,
   kCount
 };
 

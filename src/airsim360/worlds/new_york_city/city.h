@@ -17,7 +17,9 @@ EntityId PlaceNamed(District& district, std::string name, std::string_view kind,
 
 /// Planted islands in the middle of the boulevards.
 void LayMedians(District& district, const std::vector<StreetStretch>& streets);
-/// Yards behind the houses, the plaza with its café, the building site.
+/// Gardens, terraces and soil behind the houses, with fences, trees and seats.
+void LayBackYards(District& district, const Manhattan& city);
+/// The middle of the blocks, the plaza with its café, the building site.
 void BuildOpenLots(District& district, const Manhattan& city);
 /// The park with the lake, the island and the red bridge.
 void BuildLakePark(District& district, const Block& block);

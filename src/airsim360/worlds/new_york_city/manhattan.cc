@@ -57,11 +57,20 @@ struct Design {
   int palette;
   float height;
   int tiers;
+  bool houses = false;
 };
 
+// A tower, or the low style of a row of houses. Half of the corners and two thirds of the other lots are houses: with several
+// on a lot, seven buildings in ten have no more than six storeys, as in the real city.
 Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
   Design d{};
-  if (lot.corner()) {
+  const bool corner = lot.corner();
+  d.houses = rng.Chance(corner ? 0.52 : 0.68);
+  if (d.houses) {
+    d.style = core && !corner && rng.Chance(0.45) ? F::kBrownstone : F::kBrickWalkUp;
+    d.tiers = 1;
+    d.height = 16;
+  } else if (corner) {
     static constexpr F kStyles[] = {F::kDeco, F::kConcreteGrid, F::kCurtainWall,
                                     F::kDeco, F::kRibbon,       F::kClassicStone,
                                     F::kDeco, F::kBrickLoft,    F::kCurtainWall};
@@ -69,29 +78,18 @@ Design DrawDesign(const Lot& lot, bool core, float scale, RngStream& rng) {
     d.height = static_cast<float>(34 + 75 * rng.Uniform() * rng.Uniform() + 32 * rng.Uniform()) * scale;
     const double pick = rng.Uniform();
     d.tiers = pick < 0.4 ? 3 : pick < 0.75 ? 2 : 1;
+  } else if (rng.Chance(0.3)) {
+    d.style = F::kBrickLoft;
+    d.height = static_cast<float>(rng.Uniform(18, 34));
+    d.tiers = 1;
   } else {
-    const double pick = rng.Uniform();
-    if (pick < 0.36) {
-      d.style = F::kBrickWalkUp;
-      d.height = static_cast<float>(rng.Uniform(16, 23));
-    } else if (pick < 0.5) {
-      d.style = F::kBrownstone;
-      d.height = static_cast<float>(rng.Uniform(13, 17));
-    } else if (pick < 0.64) {
-      d.style = F::kBrickLoft;
-      d.height = static_cast<float>(rng.Uniform(22, 42));
-    } else {
-      static constexpr F kStyles[] = {F::kDeco, F::kCurtainWall,  F::kRibbon,
-                                      F::kDeco, F::kConcreteGrid, F::kClassicStone};
-      d.style = kStyles[rng.Index(6)];
-      d.height = static_cast<float>(30 + 50 * rng.Uniform()) * scale;
-      d.tiers = rng.Chance(0.5) ? 3 : 2;
-    }
-    d.tiers = std::max(1, d.tiers);
+    static constexpr F kStyles[] = {F::kDeco, F::kCurtainWall, F::kRibbon, F::kDeco, F::kConcreteGrid, F::kClassicStone};
+    d.style = kStyles[rng.Index(6)];
+    d.height = static_cast<float>(30 + 50 * rng.Uniform()) * scale;
+    d.tiers = rng.Chance(0.5) ? 3 : 2;
   }
   // Low ones have no tiers; classic stone stays below its natural height.
   if (d.style == F::kClassicStone) d.height = std::min(d.height, 48.0f);
-  if (!core && d.style == F::kBrownstone) d.style = F::kBrickWalkUp;
   if (d.height < 33) d.tiers = 1;
   d.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(d.style).palettes)));
   return d;
@@ -129,20 +127,38 @@ EdgeKind KindOf(const Lot& lot, int facing) {
   return lot.corner() ? EdgeKind::kParty : EdgeKind::kRear;
 }
 
-// Corner lots reach deeper than their neighbour: that part of the shared wall looks into the yard.
-void SplitAtYard(const Lot& lot, BuildingPlan& plan) {
-  if (!lot.corner()) return;
-  const int inner = lot.index == 0 ? 1 : 3;
-  const float at = lot.row == 0 ? lot.rect.y1 - kRearYard : lot.rect.y0 + kRearYard;
-  for (size_t e = 0; e < plan.outline.size(); ++e) {
-    const Vec2f a = plan.outline[e], b = plan.outline[(e + 1) % plan.outline.size()];
-    if (Facing(a, b) != inner) continue;
-    const auto next = static_cast<std::ptrdiff_t>(e + 1);
-    const bool yard_first = (b.y > a.y) == (lot.row == 1);
-    plan.outline.insert(plan.outline.begin() + next, {a.x, at});
-    plan.edges.insert(plan.edges.begin() + next, yard_first ? EdgeKind::kParty : EdgeKind::kRear);
-    plan.edges[e] = yard_first ? EdgeKind::kRear : EdgeKind::kParty;
-    return;
+// What of a shared side wall reaches beyond its neighbour's back looks into a yard: an edge of its own there, with windows
+// in large buildings.
+void SplitAtYards(std::vector<BuildingPlan>& plans, size_t first) {
+  for (size_t i = first; i < plans.size(); ++i) {
+    BuildingPlan& plan = plans[i];
+    for (size_t e = 0; plan.base == 0 && e < plan.edges.size(); ++e) {
+      const Vec2f a = plan.outline[e], b = plan.outline[(e + 1) % plan.outline.size()];
+      if (plan.edges[e] != EdgeKind::kParty || std::abs(a.x - b.x) > 0.01f) continue;
+      const float x = a.x + (b.y > a.y ? 0.5f : -0.5f), y0 = std::min(a.y, b.y), y1 = std::max(a.y, b.y);
+      // What the neighbour covers of it.
+      float low = y1, high = y0;
+      for (size_t k = first; k < plans.size(); ++k) {
+        const GroundRect r = plans[k].bounds();
+        if (k == i || plans[k].base > 0 || x < r.x0 || x > r.x1) continue;
+        low = std::min(low, std::max(y0, r.y0));
+        high = std::max(high, std::min(y1, r.y1));
+      }
+      const EdgeKind open = plan.height() > 30 ? EdgeKind::kRear : EdgeKind::kParty;
+      const bool covered_low = low - y0 < 1;  // at its southern end
+      const float at = covered_low ? high : low;
+      if (high <= low) {
+        plan.edges[e] = open;
+      } else if (at - y0 > 1 && y1 - at > 1) {
+        const auto next = static_cast<std::ptrdiff_t>(e + 1);
+        const bool covered_first = (b.y > a.y) == covered_low;
+        plan.outline.insert(plan.outline.begin() + next, {a.x, at});
+        plan.edges.insert(plan.edges.begin() + next, covered_first ? open : EdgeKind::kParty);
+        plan.edges[e] = covered_first ? EdgeKind::kParty : open;
+        ++e;  // the new edge is done
+      }
+    }
+    plan.party_height.assign(plan.outline.size(), 0);
   }
 }
 
@@ -173,7 +189,6 @@ void AddTiers(const Lot& lot, const Design& design, uint64_t seed, std::vector<B
       const int facing = Facing(plan.outline[e], plan.outline[(e + 1) % plan.outline.size()]);
       plan.edges.push_back(i == 0 ? KindOf(lot, facing) : EdgeKind::kStreet);
     }
-    if (i == 0) SplitAtYard(lot, plan);
     plan.party_height.assign(plan.outline.size(), 0);
     plan.floors = storeys(tops[i] - (i == 0 ? metrics.ground_height : foot));
     plan.roof = rng.Chance(0.5) ? RoofKind::kFlatGravel : RoofKind::kFlatBitumen;
@@ -228,16 +243,40 @@ std::vector<Lot> CutRow(const Block& block, size_t index, int row, float first, 
   return lots;
 }
 
-// A row of brownstones on one wide lot.
-void AddRowHouses(const Lot& lot, const Design& design, uint64_t seed, std::vector<BuildingPlan>& out) {
-  const int houses = std::max(1, static_cast<int>(std::lround(lot.rect.width() / 6.8f)));
-  for (int i = 0; i < houses; ++i) {
+// Houses of 18 to 25 feet side by side on one lot: brownstones alike in a row, walk-ups each of its own height and depth.
+// At a corner the outermost reaches back along the avenue.
+void AddHouses(const Lot& lot, const Design& design, uint64_t seed, Manhattan& city) {
+  RngStream rng(seed, "houses");
+  const bool row = design.style == F::kBrownstone;
+  const auto count = std::max(1, static_cast<int>(std::lround(lot.rect.width() / (row ? rng.Uniform(5.6, 6.8) : rng.Uniform(5.9, 7.6)))));
+  const float w = lot.rect.width() / static_cast<float>(count), floor = MetricsOf(design.style).floor_height,
+              ground = MetricsOf(design.style).ground_height;
+  const auto row_depth = static_cast<float>(rng.Uniform(12.5, 16));
+  const int row_floors = 2 + static_cast<int>(rng.Index(2));
+  for (int i = 0; i < count; ++i) {
     Lot house = lot;
-    const float w = lot.rect.width() / static_cast<float>(houses);
     house.rect.x0 = lot.rect.x0 + w * static_cast<float>(i);
     house.rect.x1 = house.rect.x0 + w;
-    AddTiers(house, {design.style, (design.palette + i / 2) % 3, design.height, 1},
-             seed + static_cast<uint64_t>(i), out);
+    const bool outer = lot.corner() && i == (lot.index == 0 ? 0 : count - 1);
+    float depth = row ? row_depth + static_cast<float>(rng.Chance(0.25) ? rng.Uniform(1.5, 4) : 0)
+                      : static_cast<float>(rng.Uniform(12.5, 21));
+    if (outer) {
+      depth = lot.rect.depth();
+    } else {
+      house.index = 1;  // not at a corner: walls shared on both sides
+      house.count = 3;
+    }
+    const GroundRect whole = house.rect;
+    (lot.row == 0 ? house.rect.y1 : house.rect.y0) = lot.row == 0 ? whole.y0 + depth : whole.y1 - depth;
+    const double pick = rng.Uniform();
+    const int floors = outer ? 3 + (pick < 0.65) + (pick < 0.25) : row ? row_floors + (pick < 0.15) : pick < 0.16 ? 2 : pick < 0.50 ? 3 : pick < 0.84 ? 4 : 5;
+    const int palette = row ? (design.palette + i / 3) % 3 : static_cast<int>(rng.Index(4));
+    AddTiers(house, {design.style, palette, ground + floor * static_cast<float>(floors), 1}, seed + static_cast<uint64_t>(i), city.buildings);
+    if (!outer && whole.depth() - depth > 4) {
+      const GroundRect yard = lot.row == 0 ? GroundRect{whole.x0, house.rect.y1, whole.x1, whole.y1}
+                                           : GroundRect{whole.x0, whole.y0, whole.x1, house.rect.y0};
+      city.yards.push_back({lot.block, yard, lot.row == 0 ? 1.0f : -1.0f});
+    }
   }
 }
 
@@ -263,30 +302,32 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
               static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(design.style).palettes)));
           if (design.style == FacadeStyle::kBrownstone && (lot.corner() || design.height > 20))
             design.style = FacadeStyle::kBrickWalkUp;
+          design.houses = design.houses && (design.style == FacadeStyle::kBrownstone || design.style == FacadeStyle::kBrickWalkUp);
         }
         if (const Role* role = RoleOf(block, row, lot.index, lot.count)) {
           lot.role = role->name;
           lot.use = role->use;
           design = {role->style, role->palette, role->height, role->tiers};
         }
+        lot.style = design.style;
+        lot.houses = design.houses;
         if (lot.use == LotUse::kBuilding) {
           const size_t from = city.buildings.size();
-          if (design.style == FacadeStyle::kBrownstone) {
-            AddRowHouses(lot, design, seed, city.buildings);
+          if (lot.houses) {
+            AddHouses(lot, design, seed, city);
           } else {
             AddTiers(lot, design, seed, city.buildings);
           }
           lot.podium = city.buildings[from].height();
           lot.height = city.buildings.back().height();
-          if (!lot.corner() && lot.role.empty() && design.style != FacadeStyle::kBrownstone &&
-              rng.Chance(0.14))
+          if (!lot.corner() && lot.role.empty() && !lot.houses && rng.Chance(0.25))
             city.buildings[from].awnings = false;
           if (lot.role == "grid tower") city.buildings.back().curtain_floor = 3;
         }
-        lot.style = design.style;
         city.lots.push_back(lot);
       }
     }
+    SplitAtYards(city.buildings, first);
     HidePartyWalls(city.buildings, first);
   }
   return city;

@@ -1,5 +1,5 @@
-// Parcels and buildings of Manhattan blocks: two rows of lots back to back, towers with setbacks at the
-// avenues, walk-ups and row houses between.
+// Parcels and buildings of Manhattan blocks: two rows of lots back to back, towers with setbacks among walk-ups and
+// row houses of 20 to 25 feet, as in the streets that give the figures of data/osm/distributions.csv.
 #pragma once
 
 #include <string>
@@ -25,13 +25,22 @@ struct Lot {
   std::string role;  ///< "" or the name of a hand-set lot: "deco corner", "grid tower", …
   float height = 0;  ///< of the highest roof
   float podium = 0;  ///< of the roof at the street
+  bool houses = false;  ///< cut into narrow houses, each with a back yard
   FacadeStyle style = FacadeStyle::kBrickWalkUp;
   bool corner() const { return index == 0 || index + 1 == count; }
+};
+
+/// The yard behind a house, down to the middle of the block.
+struct BackYard {
+  size_t block = 0;
+  GroundRect rect;
+  float out = 1;  ///< +1: the house stands south of it, -1: north
 };
 
 struct Manhattan {
   std::vector<Lot> lots;
   std::vector<BuildingPlan> buildings;  ///< block by block; a tier follows the one that it stands on
+  std::vector<BackYard> yards;
 };
 
 /// How tall and how mixed: 1 is New York's Midtown.

@@ -31,12 +31,13 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
 
   // Ground, buildings, then what hangs on them and stands between them; the unique things first.
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
-  for (const Block& block : plan.blocks) LayPavement(ground, block, Surface::kSlabs, "ground/sidewalk");
+  for (const Block& block : plan.blocks) LayPavement(ground, block, Surface::kSlabs, "ground/sidewalk", block.kind != BlockKind::kBackdrop);
   BuildBuildings(district, city.buildings, true);
   HangSigns(district, city, options.city.billboards);
   PlaceLandmarks(district, city);
   LayMedians(district, streets);
   BuildOpenLots(district, city);
+  LayBackYards(district, city);
   for (const Block& block : plan.blocks)
     if (block.kind == BlockKind::kPark) BuildLakePark(district, block);
   FurnishNewYorkPavements(district, city, density);
@@ -58,6 +59,7 @@ WorldInfo NewYorkCityInfo() {
           "outdoor",
           FreeGroundArea(plan, PlanManhattan(plan, {}).buildings),
           {"barrier/fence/metal_fence",
+           "barrier/fence/wood_fence",
            "construction/awning",
            "construction/bridge",
            "construction/building",

@@ -131,7 +131,7 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
     const Lot& at = city.lots[i];
     RngStream rng(d.seed, "signs", i);
     if (at.use != LotUse::kBuilding || !reach.Contains(at.rect.center())) continue;
-    if (at.style == FacadeStyle::kBrownstone || at.podium < 14) continue;
+    if (at.style == FacadeStyle::kBrownstone || (at.houses && !at.corner())) continue;
     const bool free = at.role.empty();
     if (at.corner() && free) {
       const WallLine wall = AvenueWall(at);
@@ -141,8 +141,8 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
                     static_cast<float>(rng.Uniform(0.75, 1.05)));
       if (rng.Chance(0.5))
         boards.Hang(wall, at.style, "banner", "banner", rng.Index(4), wall.length - 4, 7.5f,
-                    at.podium > 20 ? 0.9f : 0.6f);
-      if (rng.Chance(0.35) && at.height < 45)
+                    at.podium > 20 && !at.houses ? 0.9f : 0.6f);
+      if (rng.Chance(0.35) && at.height < 45 && !at.houses)
         RaiseRoofBoard(d, at, StreetWall(at), "roof billboard", 5 + rng.Index(7), 0.9f);
     } else if (!at.corner() && free && rng.Chance(0.3)) {
       const WallLine wall = StreetWall(at);

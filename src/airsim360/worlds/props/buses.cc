@@ -56,7 +56,7 @@ Model MakeBus(uint32_t variant, uint64_t) {
   b.BevelBox({-1.08f, -kHalfLength - 0.012f, 1.05f}, {1.08f, -kHalfLength + 0.02f, 2.45f}, 0.01f);
   b.BevelBox({-0.95f, kHalfLength - 0.02f, 1.55f}, {0.95f, kHalfLength + 0.012f, 2.35f}, 0.01f);
   Canvas sign(256, 48, {0.008f, 0.008f, 0.008f});
-  sign.Text(variant ? "24 GROVE AVE" : "7 MARKET ST", {0.5f, 0.5f}, 0.62f, {0.90f, 0.38f, 0.02f});
+  sign.Letters(variant ? "24 GROVE AVE" : "7 MARKET ST", {0.5f, 0.5f}, 0.62f, {0.90f, 0.38f, 0.02f});
   Material display = Paint({1, 1, 1}, 0.5f);
   b.Use(display, sign.Finish(variant ? "line 24" : "line 7"));
   b.Picture({-0.80f, -kHalfLength - 0.002f, 2.52f}, {0.80f, -kHalfLength - 0.002f, 2.52f},

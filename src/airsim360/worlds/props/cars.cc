@@ -39,7 +39,7 @@ void AddDetails(PropBuilder& b, const CarShape& s, const Material& paint) {
   // Plates.
   Canvas plate(128, 64, {0.72f, 0.73f, 0.70f});
   plate.Rectangle({0, 0}, {1, 0.2f}, {0.02f, 0.06f, 0.25f});
-  plate.Text("7KR360", {0.5f, 0.6f}, 0.36f, {0.03f, 0.04f, 0.12f});
+  plate.Letters("7KR360", {0.5f, 0.6f}, 0.36f, {0.03f, 0.04f, 0.12f});
   b.Use(Paint({1, 1, 1}), plate.Finish("plate"));
   b.Picture({-0.15f, nose - 0.022f, low - 0.21f}, {0.15f, nose - 0.022f, low - 0.21f},
             {0.15f, nose - 0.022f, low - 0.07f}, {-0.15f, nose - 0.022f, low - 0.07f});
@@ -103,7 +103,7 @@ Model MakeTaxi(uint32_t variant, uint64_t) {
   PropBuilder b("taxi sign");
   const float roof = Lookup(shape.top, 0.15f);
   Canvas canvas(128, 48, {0.85f, 0.80f, 0.62f});
-  canvas.Text("TAXI", {0.5f, 0.5f}, 0.6f, {0.02f, 0.02f, 0.02f});
+  canvas.Letters("TAXI", {0.5f, 0.5f}, 0.6f, {0.02f, 0.02f, 0.02f});
   b.Use(Plastic({0.02f, 0.02f, 0.02f}));
   b.BevelBox({-0.40f, 0.05f, roof - 0.03f}, {0.40f, 0.25f, roof + 0.20f}, 0.02f);
   b.Use(Paint({1, 1, 1}), canvas.Finish("taxi sign"));

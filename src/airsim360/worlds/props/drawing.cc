@@ -9,7 +9,7 @@
 #include "airsim360/base/random.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
-#include "airsim360/image/draw.h"
+#include "airsim360/worlds/sign_lettering.h"
 
 namespace airsim360::internal {
 namespace {
@@ -155,38 +155,14 @@ void Canvas::RegularPolygon(Vec2f center, float r, int sides, float turn, Vec3f 
       color);
 }
 
-void Canvas::Text(std::string_view text, Vec2f center, float size, Vec3f color) {
-  const float cell = size * height_ / 7, advance = 6 * cell;
-  float x0 = center.x * width_ - (static_cast<float>(text.size()) * advance - cell) / 2;
-  const float y0 = center.y * height_ - 3.5f * cell;
-  for (char c : text) {
-    const auto inked = [&](float x, float y) {
-      return HasInk(c, static_cast<int>(std::floor((x - x0) / cell)),
-                    static_cast<int>(std::floor((y - y0) / cell)));
-    };
-    Fill({x0, y0}, {x0 + 5 * cell, y0 + 7 * cell}, inked, color);
-    x0 += advance;
-  }
-}
-
 void Canvas::Letters(std::string_view text, Vec2f center, float size, Vec3f color, float stretch) {
-  const float cell_y = size * height_ / 7, cell_x = cell_y * stretch, n = static_cast<float>(text.size());
-  const float x0 = center.x * width_ - (n * 6 - 1) * cell_x / 2, y0 = center.y * height_ - 3.5f * cell_y;
-  const auto bit = [&](int column, int row) {
-    if (column < 0 || row < 0 || row > 6 || column % 6 > 4) return 0.0f;
-    const auto letter = static_cast<size_t>(column / 6);
-    return letter < text.size() && HasInk(text[letter], column % 6, row) ? 1.0f : 0.0f;
-  };
-  // The four nearest cells are blended; where they sum to enough there is ink.
-  const auto inked = [&](float x, float y) {
-    const float cx = (x - x0) / cell_x - 0.5f, cy = (y - y0) / cell_y - 0.5f, fx = std::floor(cx),
-                fy = std::floor(cy), s = cx - fx, t = cy - fy;
-    const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-    const float low = bit(ix, iy) * (1 - s) + bit(ix + 1, iy) * s,
-                high = bit(ix, iy + 1) * (1 - s) + bit(ix + 1, iy + 1) * s;
-    return low * (1 - t) + high * t > 0.36f;
-  };
-  Fill({x0 - cell_x, y0 - cell_y}, {x0 + (n * 6 + 1) * cell_x, y0 + 8 * cell_y}, inked, color);
+  // As wide as cells of six by seven would be, as far as that does not distort the letters.
+  const SignLettering line(text);
+  const float high = size * height_, cells = 6 * static_cast<float>(text.size()) - 1;
+  const float wide = high * std::clamp(cells / 7 * stretch / std::max(0.1f, line.width()), 0.6f, 1.15f);
+  const float x0 = center.x * width_ - line.width() * wide / 2, y0 = center.y * height_ - high / 2;
+  Fill({x0, y0}, {x0 + line.width() * wide, y0 + high}, [&](float x, float y) { return line.Inked((x - x0) / wide, (y - y0) / high); },
+       color);
 }
 
 void Canvas::Paint(const std::function<Vec3f(float, float, Vec3f)>& color) {

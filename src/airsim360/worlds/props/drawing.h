@@ -1,5 +1,4 @@
-// Pictures for props: tiling noise textures, and posters, signs and stripes out of simple shapes and bitmap
-// letters.
+// Pictures for props: tiling noise textures, and posters, signs and stripes out of simple shapes and letters.
 #pragma once
 
 #include <functional>
@@ -34,10 +33,8 @@ class Canvas {
   /// Filled regular polygon with `sides` corners at distance `r` (picture heights), first corner `turn`
   /// radians from +x.
   void RegularPolygon(Vec2f center, float r, int sides, float turn, Vec3f color);
-  /// Capital letters, digits and " .-!&%" centred on a point; `size` = height of a letter in picture heights.
-  void Text(std::string_view text, Vec2f center, float size, Vec3f color);
-  /// The same letters with rounded corners and bold strokes, their cells `stretch` times as wide as high: for
-  /// billboards.
+  /// A line of SignLettering centred on a point; `size` = height of a letter in picture heights, `stretch` = width of a letter
+  /// relative to 5/7 of its height.
   void Letters(std::string_view text, Vec2f center, float size, Vec3f color, float stretch = 1);
   /// Applies `color` where `inside(x, y)`; x and y in pixels from the top left, blended over 4x4 samples a
   /// pixel.

@@ -8,6 +8,8 @@
 
 namespace airsim360::internal {
 
+inline constexpr float kLawnTile = 1.28f;  ///< edge of a "lawn_tile", metres
+
 std::vector<PropKind> BarrierKinds();  // fences, railings, bollards
 std::vector<PropKind> BusKinds();
 std::vector<PropKind> CarKinds();  // cars and vans

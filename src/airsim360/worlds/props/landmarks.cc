@@ -159,7 +159,7 @@ Model MakeFoodTruck(uint32_t, uint64_t) {
   b.Picture({1.126f, -2.0f, 2.50f}, {1.126f, 3.0f, 2.50f}, {1.126f, 3.0f, 2.86f}, {1.126f, -2.0f, 2.86f});
   b.Picture({-1.126f, 2.9f, 1.6f}, {-1.126f, -1.0f, 1.6f}, {-1.126f, -1.0f, 2.35f}, {-1.126f, 2.9f, 2.35f});
   Canvas menu(160, 192, {0.012f, 0.013f, 0.012f});
-  menu.Text("MENU", {0.5f, 0.1f}, 0.1f, {0.8f, 0.55f, 0.1f});
+  menu.Letters("MENU", {0.5f, 0.1f}, 0.1f, {0.8f, 0.55f, 0.1f});
   for (int i = 0; i < 6; ++i) {
     const float y = 0.25f + 0.12f * static_cast<float>(i);
     menu.Line({0.1f, y}, {0.65f, y}, 0.03f, {0.7f, 0.7f, 0.65f});

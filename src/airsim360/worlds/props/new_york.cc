@@ -26,7 +26,7 @@ Model MakeNewspaperBox(uint32_t variant, uint64_t) {
   b.BevelBox({-0.13f, -0.16f, 1.09f}, {0.13f, 0.02f, 1.24f}, 0.02f);
   Canvas page(128, 112, {0.62f, 0.61f, 0.56f});
   page.Rectangle({0, 0}, {1, 0.24f}, kTones[variant] * 0.8f);
-  page.Text(kTitles[variant], {0.5f, 0.12f}, 0.12f, {0.8f, 0.8f, 0.76f});
+  page.Letters(kTitles[variant], {0.5f, 0.12f}, 0.12f, {0.8f, 0.8f, 0.76f});
   page.Rectangle({0.06f, 0.30f}, {0.60f, 0.68f}, {0.18f, 0.20f, 0.22f});
   for (int i = 0; i < 9; ++i) {
     const float y = 0.32f + 0.07f * static_cast<float>(i);
@@ -175,7 +175,7 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
   Canvas board(256, 96, variant ? Vec3f{0.03f, 0.08f, 0.35f} : Vec3f{0.62f, 0.36f, 0.01f});
   board.Letters("HOT DOGS", {0.5f, 0.34f}, 0.36f,
                 variant ? Vec3f{0.8f, 0.5f, 0.02f} : Vec3f{0.45f, 0.02f, 0.02f}, 0.85f);
-  board.Text("PRETZEL   COLD DRINKS", {0.5f, 0.78f}, 0.14f, {0.8f, 0.8f, 0.76f});
+  board.Letters("PRETZEL   COLD DRINKS", {0.5f, 0.78f}, 0.14f, {0.8f, 0.8f, 0.76f});
   const Texture face = board.Finish(variant ? "hot dogs blue" : "hot dogs yellow");
   b.Use(Paint({1, 1, 1}, 0.4f), face);
   b.Picture({-0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 1.06f},

@@ -152,7 +152,7 @@ TEST(Canvas, ADiscHasTheAreaOfACircle) {
 
 TEST(Canvas, TextIsCentredAndAsHighAsAsked) {
   Canvas canvas(300, 100, {0, 0, 0});
-  canvas.Text("STOP", {0.5f, 0.5f}, 0.42f, {1, 1, 1});
+  canvas.Letters("STOP", {0.5f, 0.5f}, 0.42f, {1, 1, 1});
   const Texture t = canvas.Finish("text");
   int top = 100, bottom = -1, left = 300, right = -1;
   for (int y = 0; y < 100; ++y) {

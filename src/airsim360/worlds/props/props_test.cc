@@ -170,6 +170,23 @@ TEST_P(EveryKind, MakesASceneThatPassesItsChecks) {
   EXPECT_EQ(scene->meshes.size(), static_cast<size_t>(kind().variants));
 }
 
+TEST_P(EveryKind, IsTheSameEntityWithAndWithoutAModelOfTheLibrary) {
+  for (size_t v = 0; v < kind().library.size(); ++v) {
+    const OneModel library{std::string(kind().library[v].name)};
+    if (kind().library[v].name.empty()) continue;
+    for (const ModelSource* models : {static_cast<const ModelSource*>(&library), static_cast<const ModelSource*>(nullptr)}) {
+      EXPECT_EQ(MakeProp(kind(), static_cast<uint32_t>(v), 7, models).mesh.triangles.size() == 2, models != nullptr);
+      SceneBuilder builder("shelf");
+      PropShelf shelf(builder, models, 7);
+      const EntityId entity = shelf.Place(GetParam(), {}, 0, static_cast<uint32_t>(v));
+      const auto scene = builder.Build();
+      EXPECT_EQ(scene->tree[scene->entity(entity).category].path, kind().category);
+      EXPECT_EQ(scene->entity(entity).name, GetParam());
+      EXPECT_EQ(scene->attributions.size(), models != nullptr ? 1u : 0u);
+    }
+  }
+}
+
 TEST(PropKinds, AreSortedAndHaveDistinctNames) {
   const auto& kinds = PropKinds();
   for (size_t i = 1; i < kinds.size(); ++i) EXPECT_LT(kinds[i - 1].name, kinds[i].name);

@@ -25,13 +25,13 @@ Texture Poster(uint32_t variant) {
       for (int i = 6; i > 0; --i)
         c.Disc({0.5f, 0.42f}, 0.045f * static_cast<float>(i),
                i % 2 ? Vec3f{0.75f, 0.20f, 0.05f} : Vec3f{0.85f, 0.55f, 0.08f});
-      c.Text("NIGHT", {0.5f, 0.09f}, 0.085f, kWhite);
-      c.Text("MUSIC", {0.5f, 0.76f}, 0.085f, {0.85f, 0.55f, 0.08f});
-      c.Text("PLAZA STAGE 8 PM", {0.5f, 0.90f}, 0.032f, kWhite);
+      c.Letters("NIGHT", {0.5f, 0.09f}, 0.085f, kWhite);
+      c.Letters("MUSIC", {0.5f, 0.76f}, 0.085f, {0.85f, 0.55f, 0.08f});
+      c.Letters("PLAZA STAGE 8 PM", {0.5f, 0.90f}, 0.032f, kWhite);
       break;
     case 1:
       c.Rectangle({0, 0}, {1, 0.22f}, {0.28f, 0.05f, 0.03f});
-      c.Text("MARKET", {0.5f, 0.11f}, 0.09f, {0.80f, 0.72f, 0.50f});
+      c.Letters("MARKET", {0.5f, 0.11f}, 0.09f, {0.80f, 0.72f, 0.50f});
       for (int i = 0; i < 5; ++i)
         c.Disc({0.18f + 0.16f * static_cast<float>(i), 0.50f + 0.06f * static_cast<float>(i % 2)}, 0.075f,
                i % 2 ? Vec3f{0.55f, 0.04f, 0.02f} : Vec3f{0.30f, 0.38f, 0.04f});
@@ -39,8 +39,8 @@ Texture Poster(uint32_t variant) {
         c.Line({0.18f + 0.16f * static_cast<float>(i), 0.45f}, {0.20f + 0.16f * static_cast<float>(i), 0.38f},
                0.012f, {0.08f, 0.12f, 0.02f});
       c.Rectangle({0.08f, 0.68f}, {0.92f, 0.72f}, {0.20f, 0.10f, 0.04f});
-      c.Text("EVERY SATURDAY", {0.5f, 0.82f}, 0.042f, kBlack);
-      c.Text("9 - 14", {0.5f, 0.91f}, 0.05f, {0.28f, 0.05f, 0.03f});
+      c.Letters("EVERY SATURDAY", {0.5f, 0.82f}, 0.042f, kBlack);
+      c.Letters("9 - 14", {0.5f, 0.91f}, 0.05f, {0.28f, 0.05f, 0.03f});
       break;
     case 2:
       c.Rectangle({0.10f, 0.08f}, {0.58f, 0.52f}, {0.62f, 0.05f, 0.03f});
@@ -48,19 +48,19 @@ Texture Poster(uint32_t variant) {
       c.Rectangle({0.62f, 0.29f}, {0.90f, 0.52f}, {0.78f, 0.55f, 0.03f});
       for (float y : {0.055f, 0.275f, 0.54f}) c.Line({0.06f, y}, {0.94f, y}, 0.014f, kBlack);
       for (float x : {0.08f, 0.60f, 0.92f}) c.Line({x, 0.04f}, {x, 0.56f}, 0.014f, kBlack);
-      c.Text("FORM", {0.5f, 0.67f}, 0.10f, kBlack);
-      c.Text("& COLOR", {0.5f, 0.79f}, 0.07f, kBlack);
-      c.Text("CITY GALLERY", {0.5f, 0.91f}, 0.042f, kBlack);
+      c.Letters("FORM", {0.5f, 0.67f}, 0.10f, kBlack);
+      c.Letters("& COLOR", {0.5f, 0.79f}, 0.07f, kBlack);
+      c.Letters("CITY GALLERY", {0.5f, 0.91f}, 0.042f, kBlack);
       break;
     default:
       c.Disc({0.72f, 0.22f}, 0.10f, {0.85f, 0.62f, 0.15f});
       for (int i = 0; i < 4; ++i)
         c.Line({-0.1f, 0.50f + 0.05f * static_cast<float>(i)}, {1.1f, 0.40f + 0.05f * static_cast<float>(i)},
                0.022f, i % 2 ? Vec3f{0.10f, 0.45f, 0.60f} : kWhite);
-      c.Text("RIVER", {0.36f, 0.13f}, 0.075f, kWhite);
-      c.Text("RUN", {0.36f, 0.23f}, 0.075f, kWhite);
-      c.Text("10 K", {0.5f, 0.75f}, 0.12f, {0.85f, 0.62f, 0.15f});
-      c.Text("JOIN US IN MAY", {0.5f, 0.90f}, 0.042f, kWhite);
+      c.Letters("RIVER", {0.36f, 0.13f}, 0.075f, kWhite);
+      c.Letters("RUN", {0.36f, 0.23f}, 0.075f, kWhite);
+      c.Letters("10 K", {0.5f, 0.75f}, 0.12f, {0.85f, 0.62f, 0.15f});
+      c.Letters("JOIN US IN MAY", {0.5f, 0.90f}, 0.042f, kWhite);
   }
   return c.Finish("poster " + std::to_string(variant));
 }
@@ -92,30 +92,30 @@ Texture SignFace(uint32_t variant) {
     case 0: {
       Canvas c(256, 256, kWhite);
       c.RegularPolygon({0.5f, 0.5f}, 0.515f, 8, kTau / 16, kRed);
-      c.Text("STOP", {0.5f, 0.5f}, 0.23f, kWhite);
+      c.Letters("STOP", {0.5f, 0.5f}, 0.23f, kWhite);
       return c.Finish("sign stop");
     }
     case 1: {
       Canvas c(192, 256, kWhite);
-      c.Text("NO", {0.5f, 0.12f}, 0.11f, kRed);
+      c.Letters("NO", {0.5f, 0.12f}, 0.11f, kRed);
       c.Disc({0.5f, 0.47f}, 0.25f, kRed);
       c.Disc({0.5f, 0.47f}, 0.20f, kWhite);
-      c.Text("P", {0.51f, 0.47f}, 0.27f, kBlack);
+      c.Letters("P", {0.51f, 0.47f}, 0.27f, kBlack);
       c.Line({0.28f, 0.31f}, {0.72f, 0.63f}, 0.045f, kRed);
-      c.Text("ANY TIME", {0.5f, 0.86f}, 0.09f, kRed);
+      c.Letters("ANY TIME", {0.5f, 0.86f}, 0.09f, kRed);
       return c.Finish("sign no parking");
     }
     case 2:
     case 3: {
       Canvas c(512, 96, kGreen);
-      c.Text(variant == 2 ? "MARKET ST" : "GROVE AVE", {0.5f, 0.5f}, 0.58f, kWhite);
+      c.Letters(variant == 2 ? "MARKET ST" : "GROVE AVE", {0.5f, 0.5f}, 0.58f, kWhite);
       return c.Finish(variant == 2 ? "sign market st" : "sign grove ave");
     }
     case 4: {
       Canvas c(192, 256, kWhite);
-      c.Text("SPEED", {0.5f, 0.16f}, 0.13f, kBlack);
-      c.Text("LIMIT", {0.5f, 0.33f}, 0.13f, kBlack);
-      c.Text("25", {0.5f, 0.68f}, 0.38f, kBlack);
+      c.Letters("SPEED", {0.5f, 0.16f}, 0.13f, kBlack);
+      c.Letters("LIMIT", {0.5f, 0.33f}, 0.13f, kBlack);
+      c.Letters("25", {0.5f, 0.68f}, 0.38f, kBlack);
       return c.Finish("sign speed limit");
     }
     default: {

@@ -86,8 +86,8 @@ Model MakeBusStop(uint32_t variant, uint64_t) {
   Canvas ad(192, 320, variant ? Vec3f{0.55f, 0.10f, 0.04f} : Vec3f{0.05f, 0.30f, 0.36f});
   ad.Disc({0.5f, 0.40f}, 0.20f, {0.80f, 0.72f, 0.55f});
   ad.Disc({0.62f, 0.36f}, 0.13f, variant ? Vec3f{0.55f, 0.10f, 0.04f} : Vec3f{0.05f, 0.30f, 0.36f});
-  ad.Text(variant ? "COFFEE" : "GO GREEN", {0.5f, 0.74f}, 0.075f, {0.80f, 0.78f, 0.72f});
-  ad.Text(variant ? "FRESH DAILY" : "RIDE THE BUS", {0.5f, 0.86f}, 0.042f, {0.80f, 0.78f, 0.72f});
+  ad.Letters(variant ? "COFFEE" : "GO GREEN", {0.5f, 0.74f}, 0.075f, {0.80f, 0.78f, 0.72f});
+  ad.Letters(variant ? "FRESH DAILY" : "RIDE THE BUS", {0.5f, 0.86f}, 0.042f, {0.80f, 0.78f, 0.72f});
   b.Use(Plastic({1, 1, 1}, 0.2f), ad.Finish(variant ? "advert coffee" : "advert bus"));
   b.Picture({1.815f, 0.50f, 0.35f}, {1.815f, -0.58f, 0.35f}, {1.815f, -0.58f, 2.15f}, {1.815f, 0.50f, 2.15f});
   b.Picture({1.985f, -0.58f, 0.35f}, {1.985f, 0.50f, 0.35f}, {1.985f, 0.50f, 2.15f}, {1.985f, -0.58f, 2.15f});
@@ -102,7 +102,7 @@ Model MakeBusStop(uint32_t variant, uint64_t) {
     b.BevelBox({x - 0.02f, 0.30f, 0}, {x + 0.02f, 0.34f, 0.43f}, 0.004f);
   }
   Canvas sign(256, 64, {0.02f, 0.10f, 0.30f});
-  sign.Text(variant ? "GROVE AVE 24" : "MARKET ST 7", {0.5f, 0.5f}, 0.42f, {0.8f, 0.8f, 0.8f});
+  sign.Letters(variant ? "GROVE AVE 24" : "MARKET ST 7", {0.5f, 0.5f}, 0.42f, {0.8f, 0.8f, 0.8f});
   b.Use(Plastic({1, 1, 1}, 0.3f), sign.Finish(variant ? "stop grove" : "stop market"));
   b.Picture({-0.6f, -0.852f, 2.445f}, {0.6f, -0.852f, 2.445f}, {0.6f, -0.852f, 2.512f},
             {-0.6f, -0.852f, 2.512f});

@@ -68,8 +68,8 @@ Model MakeMailbox(uint32_t, uint64_t) {
   b.BevelBox({-0.12f, -0.055f, 0.08f}, {0.12f, -0.034f, 0.10f}, 0.005f);
   b.Place({});
   Canvas label(256, 96, {0.75f, 0.75f, 0.75f});
-  label.Text("CITY MAIL", {0.5f, 0.34f}, 0.30f, blue);
-  label.Text("PICK UP 5 PM", {0.5f, 0.75f}, 0.16f, {0.35f, 0.02f, 0.02f});
+  label.Letters("CITY MAIL", {0.5f, 0.34f}, 0.30f, blue);
+  label.Letters("PICK UP 5 PM", {0.5f, 0.75f}, 0.16f, {0.35f, 0.02f, 0.02f});
   b.Use(Paint({1, 1, 1}), label.Finish("city mail"));
   b.Picture({-0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.62f}, {0.18f, -0.2615f, 0.755f},
             {-0.18f, -0.2615f, 0.755f});

@@ -17,12 +17,12 @@ constexpr const char* kNames[3] = {"HOT DOGS", "FRESH TACOS", "ICE CREAM"};
 Texture MenuBoard(uint32_t variant) {
   Canvas canvas(256, 192, {0.012f, 0.013f, 0.012f});
   const Vec3f chalk{0.72f, 0.72f, 0.66f};
-  canvas.Text("MENU", {0.5f, 0.12f}, 0.12f, {0.80f, 0.55f, 0.10f});
+  canvas.Letters("MENU", {0.5f, 0.12f}, 0.12f, {0.80f, 0.55f, 0.10f});
   const char* lines[3][4] = {{"CLASSIC    4.50", "CHILI      5.50", "PRETZEL    3.00", "LEMONADE   2.50"},
                              {"AL PASTOR  4.00", "CARNITAS   4.25", "FISH       5.00", "HORCHATA   3.00"},
                              {"VANILLA    3.50", "PISTACHIO  4.00", "SUNDAE     6.00", "WATER      1.50"}};
   for (int i = 0; i < 4; ++i)
-    canvas.Text(lines[variant][i], {0.5f, 0.33f + 0.17f * static_cast<float>(i)}, 0.075f, chalk);
+    canvas.Letters(lines[variant][i], {0.5f, 0.33f + 0.17f * static_cast<float>(i)}, 0.075f, chalk);
   return canvas.Finish(std::string("menu ") + kNames[variant]);
 }
 
@@ -30,7 +30,7 @@ Texture NameBoard(uint32_t variant) {
   Canvas canvas(512, 96, kTones[variant]);
   canvas.Rectangle({0.01f, 0.06f}, {0.99f, 0.94f}, {0.80f, 0.76f, 0.66f});
   canvas.Rectangle({0.016f, 0.10f}, {0.984f, 0.90f}, kTones[variant] * 0.85f);
-  canvas.Text(kNames[variant], {0.5f, 0.5f}, 0.5f, {0.85f, 0.82f, 0.74f});
+  canvas.Letters(kNames[variant], {0.5f, 0.5f}, 0.5f, {0.85f, 0.82f, 0.74f});
   return canvas.Finish(std::string("name ") + kNames[variant]);
 }
 

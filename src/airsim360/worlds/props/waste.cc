@@ -25,7 +25,7 @@ Texture RecycleLabel(const char* word, Vec3f ground) {
     const float a = kTau * (0.24f + static_cast<float>(i) / 3) - kTau / 4;
     canvas.RegularPolygon(at(0.24f, 0.19f), 0.065f, 3, -a - kTau / 4, white);
   }
-  canvas.Text(word, {0.5f, 0.80f}, 0.085f, white);
+  canvas.Letters(word, {0.5f, 0.80f}, 0.085f, white);
   return canvas.Finish(std::string("recycle ") + word);
 }
 

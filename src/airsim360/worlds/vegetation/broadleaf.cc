@@ -35,6 +35,7 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
                      0.75f,
                      {0.17f, 0.14f, 0.11f}};
   s.growth.step = 0.20f;
+  s.min_branch = 0.012f;
   s.growth.influence = 1.7f;
   s.growth.kill = 0.42f * b.radius / 4.0f;
   s.leaves = static_cast<int>(17000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
@@ -68,6 +69,7 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
                      0.6f,
                      {0.20f, 0.18f, 0.15f}};
   s.growth.step = 0.20f;
+  s.min_branch = 0.012f;
   s.growth.influence = 1.5f;
   s.growth.kill = 0.34f;
   s.growth.tropism = {0, 0, 0.45f};

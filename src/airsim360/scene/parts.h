@@ -1,0 +1,17 @@
+// Parts of things (windows and doors of a house, leaves and trunk of a tree), told apart beside the entity.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace airsim360 {
+
+/// What a surface is of the entity that it belongs to. Append only: the values stand in files.
+enum class Part : uint8_t { kNone, kWindow, kDoor, kBalcony, kShutter, kWheel, kFoliage, kTrunk };
+inline constexpr const char* kPartNames[] = {"", "window", "door", "balcony", "shutter", "wheel", "foliage", "trunk"};
+
+/// The part that a material named `material` is of an entity in `category` (a path of the semantic tree): words of the name
+/// ("glass dark", "Door_02") for buildings, vehicles and plants; balconies by their category. kNone = the body of the thing.
+Part PartOf(std::string_view category, std::string_view material);
+
+}  // namespace airsim360
