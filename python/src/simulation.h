@@ -1,6 +1,7 @@
 // The simulation that Python holds.
 #pragma once
 
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/capture.h"
 #include "handles.h"
 
@@ -9,7 +10,7 @@ namespace airsim360::python {
 class Simulation {
  public:
   Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
-             const py::object& wind);
+             const py::object& wind, DeviceChoice device);
 
   SimLoop& loop() { return *loop_; }
   const std::shared_ptr<const SimModel>& model() const { return model_; }
@@ -21,6 +22,8 @@ class Simulation {
   void Post(const py::object& drone, Command command, double timeout);
   /// Without the GIL.
   std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
+  /// The same with the pictures left in memory of the GPU, for CUDA; without the GIL.
+  std::shared_ptr<CudaCapture> TakeCuda(const Rig& rig, size_t i);
   NextTrigger After(const SimState& now, double seconds, size_t i) const;
   /// One turn of a lidar now, with bodies of others; without the GIL.
   std::shared_ptr<LidarScan> Scan(const Lidar& lidar, size_t i);
@@ -42,9 +45,13 @@ class Simulation {
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
+  DeviceChoice device_;
   std::map<Tier, std::unique_ptr<Renderer>> renderers_;
+  std::unique_ptr<CudaRenderer> cuda_;
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
+  Renderer& RendererLocked(Tier tier);
+  void CaptureLocked(const Rig& rig, size_t i, Renderer& renderer, Capture& capture);
 };
 
 /// The commands of Simulation (simulation_commands.cc).

@@ -239,9 +239,8 @@ void GpuSlot::Wait() {
   gpu_ms_ = static_cast<double>(stamps[1] - stamps[0]) * static_cast<double>(device_.timestamp_period_ns()) * 1e-6;
 }
 
-std::vector<GpuFrame> GpuSlot::Frames() const {
+std::vector<GpuFrame> GpuSlot::FramesAt(const std::byte* base) const {
   std::vector<GpuFrame> frames;
-  const std::byte* base = read_back_.mapped();
   for (const Place& p : places_) {
     const size_t n = static_cast<size_t>(p.width) * static_cast<size_t>(p.height);
     GpuFrame f;

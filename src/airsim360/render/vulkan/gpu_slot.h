@@ -34,7 +34,12 @@ class GpuSlot {
   void Submit(std::span<const RenderRequest> requests, GpuCameras& cameras, const Work& work);
   /// Waits for the GPU. RuntimeError if it was lost.
   void Wait();
-  std::vector<GpuFrame> Frames() const;
+  std::vector<GpuFrame> Frames() const { return FramesAt(read_back_.mapped()); }
+  /// The same for a copy of the pictures at `base`.
+  std::vector<GpuFrame> FramesAt(const std::byte* base) const;
+  /// Where the GPU left the pictures, one after another, and how many bytes they are.
+  const GpuBuffer& pictures() const { return pictures_.size() > 0 ? pictures_ : read_back_; }
+  size_t bytes() const { return bytes_; }
   /// Time of the last tracing, by the clock of the GPU; after Wait.
   double gpu_ms() const { return gpu_ms_; }
 
