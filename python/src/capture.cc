@@ -5,6 +5,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/render/filter/tone_map.h"
 #include "handles.h"
+#include "tensor.h"
 
 namespace airsim360::python {
 namespace {
@@ -75,6 +76,26 @@ auto Picture(Image<Pixel> Frame::*image, int channels) {
   };
 }
 
+// The pictures of a capture in memory of a CUDA device.
+Tensor PictureOf(const CudaCapture& capture, const std::string& product) {
+  ToProducts({product});  // names the nearest where there is no such product
+  const GpuFrame& f = capture.pictures->frame();
+  const auto& keep = capture.pictures;
+  Tensor tensor;
+  if (product == "rgb") tensor = CudaTensor<uint8_t>(f.rgb, 3, keep);
+  if (product == "range") tensor = CudaTensor<float>(f.range, 0, keep);
+  if (product == "semantic") tensor = CudaTensor<CategoryId>(f.semantic, 0, keep);
+  if (product == "entity") tensor = CudaTensor<EntityId>(f.entity, 0, keep);
+  if (product == "normal") tensor = CudaTensor<float>(f.normal, 3, keep);
+  if (product == "position") tensor = CudaTensor<float>(f.position, 3, keep);
+  if (product == "albedo") tensor = CudaTensor<float>(f.albedo, 3, keep);
+  if (product == "material") tensor = CudaTensor<uint16_t>(f.material, 0, keep);
+  if (product == "flow") tensor = CudaTensor<float>(f.flow, 2, keep);
+  if (product == "radiance") tensor = CudaTensor<float>(f.radiance, 3, keep);
+  if (tensor.data == nullptr) throw InputError("product '" + product + "' was not captured: name it in Rig(products=…)");
+  return tensor;
+}
+
 }  // namespace
 
 void BindCapture(py::module_& m) {
@@ -140,6 +161,11 @@ Pictures are views of this object's memory (no copies); those that the rig was n
       .def_property_readonly(
           "render_ms", [](const Capture& c) { return c.stats.render_ms; }, "Rays and shading alone.")
       .def_property_readonly("rays", [](const Capture& c) { return c.stats.rays; });
+
+  py::class_<CudaCapture, Capture, std::shared_ptr<CudaCapture>>(m, "CudaCapture", R"(A capture whose pictures stay in memory of the GPU.
+
+rgb, range and so on are None; tensor("rgb") is a tensor of CUDA for from_dlpack of torch, jax or cupy.)")
+      .def("tensor", &PictureOf, py::arg("product"), "A picture for from_dlpack of torch, jax or cupy, without a copy.");
 }
 
 }  // namespace airsim360::python

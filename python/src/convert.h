@@ -64,6 +64,7 @@ void BindState(py::module_& m);
 void BindSimulation(py::module_& m);
 void BindPlanning(py::module_& m);
 void BindMetrics(py::module_& m);
+void BindVideo(py::module_& m);
 void BindVectorEnvironment(py::module_& m);
 
 }  // namespace airsim360::python

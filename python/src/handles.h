@@ -11,6 +11,7 @@
 #include "airsim360/planning/certificate.h"
 #include "airsim360/planning/polynomial_trajectory.h"
 #include "airsim360/planning/trajectory_limits.h"
+#include "airsim360/render/cuda/cuda_renderer.h"
 #include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/sim_loop.h"
@@ -67,6 +68,11 @@ class World {
 
 /// Entities of a scene by id, as dictionaries.
 py::list EntitiesOf(const Scene& scene);
+
+/// A capture that never left the GPU: the images of its frame are empty.
+struct CudaCapture : Capture {
+  std::shared_ptr<const CudaPictures> pictures;
+};
 
 /// What and how a trigger captures.
 struct Rig {

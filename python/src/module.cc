@@ -53,5 +53,6 @@ PYBIND11_MODULE(_native, m) {
   BindState(m);
   BindSimulation(m);
   BindMetrics(m);
+  BindVideo(m);
   BindVectorEnvironment(m);
 }

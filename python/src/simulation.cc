@@ -140,16 +140,31 @@ NextTrigger Simulation::After(const SimState& now, double seconds, size_t i) con
   return {then.vehicles[i].motion.X_WB, SceneStateOf(*model_, then, i)};
 }
 
-std::shared_ptr<Capture> Simulation::Take(const Rig& given, size_t i) {
+void Simulation::CaptureLocked(const Rig& given, size_t i, Renderer& renderer, Capture& capture) {
   const std::shared_ptr<const SimState> state = loop_->Snapshot();
   PanoramicRig rig = given.rig;
   rig.state = SceneStateOf(*model_, *state, i);
-  const Kinematics& body = state->vehicles[i].motion;
   NextTrigger next;
   if (rig.products.flow) next = After(*state, given.flow_dt, i);
+  CaptureRig(rig, state->vehicles[i].motion, state->t_ns, renderer, capture, rig.products.flow ? &next : nullptr);
+}
+
+std::shared_ptr<Capture> Simulation::Take(const Rig& rig, size_t i) {
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
-  CaptureRig(rig, body, state->t_ns, renderers_.For(rig.tier, base_), *capture, rig.products.flow ? &next : nullptr);
+  CaptureLocked(rig, i, renderers_.For(rig.rig.tier, base_), *capture);
+  return capture;
+}
+
+std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
+  const DeviceChoice& device = renderers_.device();
+  if (device.device == "cpu") throw InputError("memory: 'cuda' needs a GPU that renders: World(…, device=\"vulkan\")");
+  if (rig.rig.lens != LensModel::kIdeal) throw InputError("memory: the lens real360 is made on the CPU; use memory=\"cpu\"");
+  auto capture = std::make_shared<CudaCapture>();
+  const std::lock_guard lock(render_mutex_);
+  if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(base_, RendererOptions{.tier = rig.rig.tier}, GpuOptions{.gpu = device.gpu});
+  CaptureLocked(rig, i, *cuda_, *capture);
+  capture->pictures = cuda_->Take();
   return capture;
 }
 

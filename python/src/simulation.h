@@ -21,6 +21,8 @@ class Simulation {
   void Post(const py::object& drone, Command command, double timeout);
   /// Without the GIL.
   std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
+  /// The same with the pictures left in memory of the GPU, for CUDA; without the GIL.
+  std::shared_ptr<CudaCapture> TakeCuda(const Rig& rig, size_t i);
   NextTrigger After(const SimState& now, double seconds, size_t i) const;
   /// One turn of a lidar now, with bodies of others; without the GIL.
   std::shared_ptr<LidarScan> Scan(const Lidar& lidar, size_t i);
@@ -43,8 +45,10 @@ class Simulation {
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
   Renderers renderers_;
+  std::unique_ptr<CudaRenderer> cuda_;
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
+  void CaptureLocked(const Rig& rig, size_t i, Renderer& renderer, Capture& capture);
 };
 
 /// The commands of Simulation (simulation_commands.cc).

@@ -1,4 +1,5 @@
 // Simulation's names in Python, but for the commands.
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/base/error.h"
@@ -23,6 +24,21 @@ std::shared_ptr<Recording> StopRecording(Simulation& sim) {
   std::optional<Recording> recording = sim.loop().StopRecording();
   if (!recording) throw InputError("stop_recording: nothing is being recorded");
   return std::make_shared<Recording>(std::move(*recording));
+}
+
+py::list Gpus() {
+  py::list list;
+  for (const GpuInfo& gpu : ListGpus()) {
+    py::dict d;
+    d["index"] = gpu.index;
+    d["name"] = gpu.name;
+    d["driver"] = gpu.driver;
+    d["software"] = gpu.software;
+    d["missing"] = gpu.missing;
+    d["uuid"] = py::bytes(reinterpret_cast<const char*>(gpu.uuid.data()), gpu.uuid.size());
+    list.append(std::move(d));
+  }
+  return list;
 }
 
 py::dict ReplayFrom(const Simulation& sim, const Recording& recording, const Snapshot& start) {
@@ -77,10 +93,13 @@ void BindSimulation(py::module_& m) {
 
 drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
 commands give the same bytes with any number of threads. people: how many
-walk about. wind: (3,) m/s in W.)");
-  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
-          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
-          py::arg("dt") = 0.001, py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
+walk about. wind: (3,) m/s in W. Pictures are drawn on the world's device.)");
+  sim.def(py::init([](std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
+                      const py::object& wind) {
+            return std::make_unique<Simulation>(std::move(world), drones, people, seed, dt, wind);
+          }),
+          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0, py::arg("dt") = 0.001,
+          py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
       .def(
           "step",
           [](Simulation& s, int64_t n) {
@@ -105,13 +124,25 @@ walk about. wind: (3,) m/s in W.)");
           py::arg("drone") = 0, "DroneState of a drone by number or name.")
       .def(
           "capture",
-          [](Simulation& s, const Rig& rig, const py::object& drone) {
+          [](Simulation& s, const Rig& rig, const py::object& drone, const std::string& memory) -> py::object {
             const size_t i = s.Find(drone);
-            const py::gil_scoped_release release;
-            return s.Take(rig, i);
+            static const std::vector<std::string> kMemories = {"cpu", "cuda"};
+            if (std::ranges::count(kMemories, memory) == 0) throw InputError("memory: " + UnknownChoiceMessage("memory", memory, kMemories));
+            std::shared_ptr<Capture> on_cpu;
+            std::shared_ptr<CudaCapture> on_gpu;
+            {
+              const py::gil_scoped_release release;
+              if (memory == "cuda") {
+                on_gpu = s.TakeCuda(rig, i);
+              } else {
+                on_cpu = s.Take(rig, i);
+              }
+            }
+            return on_gpu ? py::cast(on_gpu) : py::cast(on_cpu);
           },
-          py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("drone") = 0,
-          "What the rig on a drone sees now; its own body is hidden. Changes nothing.")
+          py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("drone") = 0, py::arg("memory") = "cpu",
+          "What the rig on a drone sees now; its own body is hidden. Changes nothing. memory=\"cuda\": a CudaCapture, whose pictures "
+          "stay on the GPU.")
       .def(
           "scan",
           [](Simulation& s, const Lidar& lidar, const py::object& drone) {
@@ -173,6 +204,7 @@ walk about. wind: (3,) m/s in W.)");
           "yaw, behaviour, visible.")
       .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
   BindCommands(sim);
+  m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
 }
 
 }  // namespace airsim360::python

@@ -19,6 +19,7 @@ DeviceChoice ToDevice(const std::string& device, int gpu) {
   static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
   if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end())
     throw InputError("device: " + UnknownChoiceMessage("device", device, kDevices));
+  if (gpu >= 0 && device == "cpu") throw InputError("gpu: device 'cpu' uses no GPU; say device=\"vulkan\"");
   return {device, gpu};
 }
 

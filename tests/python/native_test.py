@@ -2,6 +2,7 @@
 import gc
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -83,6 +84,15 @@ class Captures(unittest.TestCase):
         gc.collect()
         np.testing.assert_array_equal(kept, expected)
 
+    def test_dlpack_gives_versioned_capsules_to_those_who_know_them(self):
+        tensor = ROOM.capture([0, 0, 3], Rig(width=32, products=["range"])).tensor("range")
+        self.assertIn('"dltensor"', repr(tensor.__dlpack__()))
+        self.assertIn('"dltensor"', repr(tensor.__dlpack__(max_version=(0, 8))))
+        self.assertIn('"dltensor_versioned"', repr(tensor.__dlpack__(max_version=(1, 0), dl_device=(1, 0), copy=False)))
+        for stream in (1, 0):
+            with self.assertRaises(ValueError):
+                tensor.__dlpack__(stream=stream)
+
     def test_dlpack_names_what_is_not_there(self):
         c = ROOM.capture([0, 0, 3], Rig(width=32, products=["range"]))
         with self.assertRaisesRegex(ValueError, "not captured"):
@@ -91,6 +101,37 @@ class Captures(unittest.TestCase):
             c.tensor("rnge")
         with self.assertRaises(BufferError):
             c.tensor("range").__dlpack__(dl_device=(2, 0))
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed (apt-get install ffmpeg)")
+    def test_videos_of_captures_and_arrays(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.mp4")
+            sim = Simulation(ROOM, airborne())
+            with airsim360.VideoWriter(path, encoder="libx264") as video:
+                for _ in range(3):
+                    sim.run(0.1)
+                    video.add(sim.capture(Rig(width=64)))
+                self.assertEqual((len(video), video.encoder), (3, "libx264"))
+                self.assertEqual(os.listdir(folder), [])
+            data = open(path, "rb").read()
+            for box in (b"ftyp", b"sv3d", b"st3d", b"GSpherical"):
+                self.assertIn(box, data)
+            with airsim360.VideoWriter(path, spherical=False) as video:
+                video.add(np.zeros((48, 64, 3), np.uint8))
+                video.add(np.full((48, 64, 3), 255, np.uint8), t=0.5)
+                with self.assertRaisesRegex(ValueError, "64x48"):
+                    video.add(np.zeros((48, 48, 3), np.uint8))
+                with self.assertRaisesRegex(ValueError, "after one at"):
+                    video.add(np.zeros((48, 64, 3), np.uint8), t=0.5)
+            self.assertNotIn(b"sv3d", open(path, "rb").read())
+            other = os.path.join(folder, "b.mp4")
+            with self.assertRaises(KeyError):
+                with airsim360.VideoWriter(other) as video:
+                    video.add(np.zeros((48, 64, 3), np.uint8))
+                    raise KeyError
+            self.assertFalse(os.path.exists(other))
+            with self.assertRaisesRegex(ValueError, "did you mean 'libx265'"):
+                airsim360.VideoWriter(other, encoder="libx265x")
 
     def test_shapes_types_and_the_room_itself(self):
         c = ROOM.capture([0, 0, 3], Rig(width=256, products=["rgb", "range", "semantic", "entity", "normal", "position"]))

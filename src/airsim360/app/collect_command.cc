@@ -5,6 +5,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/collect_human.h"
+#include "airsim360/app/collect_processes.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
@@ -14,6 +15,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/dataset/video.h"
 #include "airsim360/planning/export_text.h"
 #include "airsim360/sim/route_file.h"
 #include "airsim360/sim/survey.h"
@@ -30,11 +32,13 @@ struct CollectArguments {
   std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
   std::string pano_frame = "body", shard = "0/1", out, products, plan, recipe, subset;
   int64_t frames = 0;  // 0: not given
+  double fps = 0;      // 0: not given
   int samples = 0;
   bool normal = false, no_denoise = false;
   EnvironmentFlags environment;
   PictureArguments picture;
   PeopleArguments people;
+  ProcessArguments processes;
 };
 
 // A choice among two or more words.
@@ -45,16 +49,21 @@ size_t ParseChoice(const char* flag, const std::string& value, const std::vector
   return static_cast<size_t>(found - choices.begin());
 }
 
-// People, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
-void SetPeople(const CollectArguments& arguments, DatasetSpec& spec) {
+// The video, people, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
+void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
   const std::vector<std::string> formats = ParseList(
-      "--format", arguments.format, {"native", "coco", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
+      "--format", arguments.format,
+      {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
   spec.people = arguments.people.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
   for (const std::string format : kPeopleFormats) {
     const bool coco = format == "coco_keypoints" && wanted("coco") && !spec.people.empty();
     if (wanted(format) || coco) spec.people_formats.push_back(format);
   }
+  spec.video = wanted("video");
+  if (spec.video && spec.tier == Tier::kLabels)
+    throw InputError("--format: a video needs colours; use --tier fast instead of labels");
+  if (spec.video) CheckVideo({spec.width, spec.height}, {});
   spec.crops = wanted("crops");
   spec.overlay = wanted("overlay");
   if (spec.people.empty() && (spec.crops || spec.overlay || !spec.people_formats.empty()))
@@ -78,7 +87,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
   if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
-  SetPeople(arguments, spec);
+  SetFormats(arguments, spec);
   spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
                                                                                            : RgbFormat::kPng;
   spec.pano_frame = ParseChoice("--pano-frame", arguments.pano_frame, {"body", "level"}) == 1
@@ -87,7 +96,27 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
   const Shard shard = ParseShard(arguments.shard);
   spec.shard = shard.index;
   spec.shards = shard.count;
+  if (arguments.fps > 0 && arguments.frames > 0) throw InputError("--fps: give either --frames or --fps, not both");
   return spec;
+}
+
+// The moments of frames along a route: as many as are wanted, evenly, or one each 1 / fps seconds.
+std::vector<int64_t> ShotTimes(const CollectArguments& arguments, const Route& route) {
+  if (arguments.fps == 0) return EvenTimes(route, arguments.frames > 0 ? arguments.frames : kDefaultFrames);
+  const auto frames = static_cast<int64_t>(std::floor(route.duration() * arguments.fps + 1e-9)) + 1;
+  if (frames > kMaxFrames)
+    throw InputError("--fps: " + std::to_string(frames) + " frames are more than " + std::to_string(kMaxFrames));
+  std::vector<int64_t> times;
+  for (int64_t i = 0; i < frames; ++i) times.push_back(std::llround(static_cast<double>(i) * 1e9 / arguments.fps));
+  return times;
+}
+
+// What meta.json says of the frames of a route: nothing where they are so many, evenly.
+std::string Rate(const CollectArguments& arguments) {
+  if (arguments.fps == 0) return "";
+  char text[48];
+  std::snprintf(text, sizeof text, ", %.9g frames/s", arguments.fps);
+  return text;
 }
 
 // The route and the moments of its frames; fills spec.route and spec.frames.
@@ -101,9 +130,9 @@ Plan PlanFromFile(const CollectArguments& arguments, DatasetSpec& spec) {
   const std::vector<Waypoint> waypoints = ReadRouteFile(arguments.route);
   Plan plan{std::make_shared<const Route>(RouteThrough(waypoints, kFileRouteSpeed)), {}};
   const std::string hash = "sha256:" + Sha256HexOfFile(arguments.route);
-  if (arguments.frames > 0) {
-    plan.shot_times_ns = EvenTimes(*plan.route, arguments.frames);
-    spec.route = "even along " + hash;
+  if (arguments.frames > 0 || arguments.fps > 0) {
+    plan.shot_times_ns = ShotTimes(arguments, *plan.route);
+    spec.route = "even along " + hash + Rate(arguments);
   } else {
     for (const RouteNode& node : plan.route->nodes())
       plan.shot_times_ns.push_back(std::llround(node.t * 1e9));
@@ -116,8 +145,8 @@ Plan PlanFromFile(const CollectArguments& arguments, DatasetSpec& spec) {
 Plan PlanFromTrajectory(const CollectArguments& arguments, DatasetSpec& spec) {
   const PlannedPath path = ReadPlanFile(arguments.plan);
   Plan plan{std::make_shared<const Route>(Route::Along(path.trajectory, path.yaw)), {}};
-  plan.shot_times_ns = EvenTimes(*plan.route, arguments.frames > 0 ? arguments.frames : kDefaultFrames);
-  spec.route = "planned sha256:" + Sha256HexOfFile(arguments.plan);
+  plan.shot_times_ns = ShotTimes(arguments, *plan.route);
+  spec.route = "planned sha256:" + Sha256HexOfFile(arguments.plan) + Rate(arguments);
   return plan;
 }
 
@@ -127,8 +156,8 @@ Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, Datase
     plan = PlanFromTrajectory(arguments, spec);
   } else if (arguments.route == "auto") {
     plan.route = std::make_shared<const Route>(PlanSurvey(tracer, {.seed = spec.seed}));
-    plan.shot_times_ns = EvenTimes(*plan.route, arguments.frames > 0 ? arguments.frames : kDefaultFrames);
-    spec.route = "auto";
+    plan.shot_times_ns = ShotTimes(arguments, *plan.route);
+    spec.route = "auto" + Rate(arguments);
   } else {
     plan = PlanFromFile(arguments, spec);
   }
@@ -144,6 +173,8 @@ Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, Datase
 void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
   if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.people.people.empty())
     throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan and --people");
+  if (arguments.processes.processes > 1 || !globals.gpus.empty() || arguments.fps > 0)
+    throw InputError("--recipe: it takes no --fps, --processes or several GPUs; use --shard I/N in several runs");
   CollectArguments with_people = arguments;
   with_people.people.people = "1";
   CollectHumanSets({.recipe = arguments.recipe,
@@ -157,7 +188,9 @@ void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) 
                    globals);
 }
 
-void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals) {
+void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
+  if (arguments.processes.is_worker()) BecomeWorker(arguments.processes, globals);
+  const int processes = arguments.processes.is_worker() ? 1 : CountProcesses(arguments.processes, globals);
   if (!arguments.recipe.empty()) return RunRecipe(arguments, globals);
   if (arguments.world.empty()) throw InputError("--world is required");
   if (!arguments.subset.empty()) throw InputError("--subset: it is about --recipe; add --recipe omni360-human");
@@ -167,12 +200,12 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
   if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
   if (!arguments.plan.empty() && arguments.route != "auto")
     throw InputError("--plan: give either --plan or --route, not both");
-  const OpenedWorld world =
-      OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
+  const OpenedWorld world = OpenWorld(arguments.world, globals, spec.tier, arguments.environment,
+                                      arguments.people.Request(globals.seed), processes == 1);
   spec.environment = DescribeEnvironment(world.environment);
   const Plan plan = MakePlan(arguments, *world.tracer, spec);
   const Flight flight = FlyRoute(world.Model(kRouteStepNs), plan.route, plan.shot_times_ns);
-  if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
+  if (flight.least_clearance < kTouching && !arguments.processes.is_worker()) LogWarning("the route touches or enters a surface of the world");
   CollectInput input{spec, *world.scene, flight, arguments.out};
   input.people = world.people;
   input.tracer = world.tracer;
@@ -183,7 +216,9 @@ void RunCollect(const CollectArguments& arguments, const GlobalOptions& globals)
                                             .cost_snap = IntegralOfSquaredDerivative(*path, 4),
                                             .yaw = ConstantYaw{planned.yaw.value_or(0)}});
   }
-  const CollectResult result = Collect(input, *world.renderer);
+  if (arguments.processes.is_worker()) return RunWorker(input, *world.renderer);
+  const CollectResult result =
+      processes == 1 ? Collect(input, *world.renderer) : Collect(input, RenderInProcesses(processes));
   ReportRun(world, spec, result, arguments.out, globals.json);
 }
 
@@ -208,14 +243,16 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       "fly a trajectory of `airsim360 plan` (its JSON or YAML), frames spread evenly over it");
   command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
+  command->add_option("--fps", arguments->fps, "instead of --frames: so many frames a second of the flight")
+      ->check(CLI::Range(0.001, 1000.0));
   command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");
   command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
                       "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
   command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
   command->add_option("--format", arguments->format,
-                      "native,coco (default native, which includes COCO panoptic and people.jsonl); of people also "
-                      "coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
+                      "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "
+                      "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
   command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
   command->add_option("--pano-frame", arguments->pano_frame,
                       "body or level: turn with the body or only with its heading");
@@ -227,6 +264,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");
+  arguments->processes.AddTo(*command);
   command->callback([arguments, &globals] { RunCollect(*arguments, globals); });
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace airsim360 {
 
@@ -14,6 +15,7 @@ struct GlobalOptions {
   int threads = 0;              ///< 0 = all cores
   std::string device = "auto";  ///< auto, cpu or vulkan
   int gpu = -1;                 ///< index of a GPU; -1 = the best
+  std::vector<int> gpus;        ///< of `collect --gpu 0,1` or all: several, then `gpu` is the first
 };
 
 /// Each adds one subcommand to `app`. The command runs in its callback, after all flags are parsed; `globals`
@@ -30,6 +32,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals);
 void AddServeCommand(CLI::App& app, GlobalOptions& globals);
 void AddAgentCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
+void AddVideoCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
 
 }  // namespace airsim360

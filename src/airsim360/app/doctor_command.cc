@@ -8,6 +8,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/version.h"
 #include "airsim360/render/vulkan/gpu.h"
+#include "airsim360/video/video_writer.h"
 
 namespace airsim360 {
 namespace {
@@ -45,6 +46,7 @@ Check CheckGpus() {
 
 std::vector<Check> RunChecks() {
   const bool models = Exists("/usr/share/sweethome3d/furniture");
+  const bool ffmpeg = HasFfmpeg();
   const bool exiftool = Exists("/usr/bin/exiftool");
   return {
       {"airsim360", true, kVersion, ""},
@@ -55,6 +57,8 @@ std::vector<Check> RunChecks() {
       {"sweethome3d-furniture", models,
        "furniture and vehicles of the worlds; without it procedural ones are used",
        models ? "" : "sudo apt-get install sweethome3d-furniture"},
+      {"ffmpeg", ffmpeg, "360 degree videos: fly --video, collect --format video, video",
+       ffmpeg ? "" : "sudo apt-get install ffmpeg"},
       {"exiftool", exiftool, "only to look at the GPano metadata of pictures",
        exiftool ? "" : "sudo apt-get install libimage-exiftool-perl"},
   };

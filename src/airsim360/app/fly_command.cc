@@ -10,9 +10,11 @@
 #include "airsim360/app/fly_run.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/video_arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
+#include "airsim360/dataset/video.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/planning/time_allocation.h"
@@ -25,11 +27,12 @@ namespace fs = std::filesystem;
 
 struct FlyArguments {
   std::string world, drone = "hummingbird", controller = "indi", waypoints, script, pose, sensors, wind, out,
-                     size = "1024x512", tier = "fast";
-  double vmax = 4, amax = 4, speed = 0;
+                     size = "1024x512", tier = "fast", pano_frame, video;
+  double vmax = 4, amax = 4, speed = 0, fps = VideoOptions{}.frame_rate;
   int64_t frames = 0;
   bool record = false;
   PeopleArguments people;
+  VideoArguments encoding;
 };
 
 WorldWind ReadWind(const std::string& text) {
@@ -122,24 +125,53 @@ void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
   if (result.recording) WriteRecording(out / "run.a360", *result.recording);
 }
 
-void WriteFrames(const FlyArguments& arguments, uint64_t seed, const OpenedWorld& world,
-                 const FlyResult& result) {
-  if (arguments.frames == 0) return;
+// What frames and videos of the flight look like. A video is level unless told otherwise: nobody likes a sphere that rolls.
+DatasetSpec SpecOf(const FlyArguments& arguments, uint64_t seed, bool video) {
   DatasetSpec spec;
   spec.command = "fly";
   spec.world = arguments.world;
   spec.seed = seed;
   const ImageSize size = ParseSize(arguments.size);
+  CheckPanoramaSize(size);
   spec.width = size.width;
   spec.height = size.height;
   spec.tier = ParseTierArgument(arguments.tier);
   spec.frames = arguments.frames;
   spec.route = "flight of " + arguments.drone;
   spec.people = arguments.people.Describe();
+  const std::string frame = arguments.pano_frame.empty() ? (video ? "level" : "body") : arguments.pano_frame;
+  const std::vector<std::string> frames = {"body", "level"};
+  if (std::ranges::count(frames, frame) == 0) throw InputError("--pano-frame: " + UnknownChoiceMessage("value", frame, frames));
+  spec.pano_frame = frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
+  return spec;
+}
+
+void WriteFrames(const FlyArguments& arguments, uint64_t seed, const OpenedWorld& world, const FlyResult& result) {
+  if (arguments.frames == 0) return;
+  const DatasetSpec spec = SpecOf(arguments, seed, false);
   CollectInput input{spec, *world.scene, result.flight, fs::path(arguments.out) / "frames"};
   input.people = world.people;
   input.tracer = world.tracer;
   Collect(input, *world.renderer);
+}
+
+std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, uint64_t seed, const OpenedWorld& world, FlyResult& result) {
+  if (arguments.video.empty()) return {};
+  const DatasetSpec spec = SpecOf(arguments, seed, true);
+  Flight flight;
+  flight.shots = std::move(result.video);
+  CollectInput input{spec, *world.scene, flight, {}};
+  input.people = world.people;
+  input.tracer = world.tracer;
+  return FilmFlight(input, *world.renderer, arguments.video, arguments.encoding.Options(arguments.fps));
+}
+
+// Everything that can be wrong with a video, before anything is loaded.
+void CheckVideoFlags(const FlyArguments& arguments) {
+  const DatasetSpec spec = SpecOf(arguments, 0, true);
+  if (arguments.video.empty()) return;
+  if (spec.tier == Tier::kLabels) throw InputError("--video: it needs colours; use --tier fast instead of labels");
+  CheckVideo({spec.width, spec.height}, arguments.encoding.Options(arguments.fps));
 }
 
 void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
@@ -152,13 +184,14 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   const auto trajectory = arguments.waypoints.empty() ? nullptr : PlanWaypoints(arguments);
   FlyJob job;
   job.tasks = TasksOf(arguments, trajectory);
-  CheckPanoramaSize(ParseSize(arguments.size));
+  CheckVideoFlags(arguments);
   const Tier tier = ParseTierArgument(arguments.tier);
+  const bool pictures = arguments.frames > 0 || !arguments.video.empty();
   const WorldWind wind = ReadWind(arguments.wind);
   if (!arguments.pose.empty()) ParsePose(arguments.pose);
 
-  const OpenedWorld world = OpenWorld(arguments.world, globals, arguments.frames > 0 ? tier : Tier::kLabels,
-                                      {}, arguments.people.Request(globals.seed));
+  const OpenedWorld world =
+      OpenWorld(arguments.world, globals, pictures ? tier : Tier::kLabels, {}, arguments.people.Request(globals.seed));
   SetStart(arguments, *world.scene, trajectory.get(), setup);
   SimModel model = world.Model(SimModel{}.dt_ns);
   model.wind = wind;
@@ -167,19 +200,28 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   job.model = std::make_shared<const SimModel>(std::move(model));
   job.speed = arguments.speed;
   job.frames = arguments.frames;
+  if (!arguments.video.empty()) job.video_fps = arguments.fps;
   if (arguments.record) job.record_note = arguments.world + ", " + arguments.drone;
   job.log = [](const std::string& text) { LogInfo(text); };
   CreateWritableFolder(arguments.out);
-  const FlyResult result = RunFlight(job);
+  FlyResult result = RunFlight(job);
   WriteFiles(arguments, result);
   WriteFrames(arguments, globals.seed, world, result);
+  const std::optional<VideoResult> video = WriteVideo(arguments, globals.seed, world, result);
   if (globals.json) {
-    PrintJson(ResultJson(arguments, setup.model, result, *world.scene));
+    nlohmann::ordered_json json = ResultJson(arguments, setup.model, result, *world.scene);
+    if (video)
+      json["video"] = {{"file", arguments.video}, {"pictures", video->pictures}, {"seconds", video->seconds},
+                       {"encoder", video->encoder}, {"render_ms", video->render_ms / static_cast<double>(video->pictures)}};
+    PrintJson(json);
     return;
   }
   std::printf("%s: %.1f s of flight, %zu events, least clearance %.2f m, %.1f times real time\n",
               arguments.out.c_str(), result.pace.simulated, result.events.size(),
               result.flight.least_clearance, result.pace.real_time_factor);
+  if (video)
+    std::printf("%s: %lld pictures, %.2f s (%s)\n", arguments.video.c_str(), static_cast<long long>(video->pictures), video->seconds,
+                video->encoder.c_str());
   if (result.tracking_rms >= 0)
     std::printf("tracking error %.3f m rms, %.3f m at most\n", result.tracking_rms, result.tracking_max);
 }
@@ -221,6 +263,11 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(int64_t{0}, int64_t{1000000}));
   command->add_option("--size", arguments->size, "WxH of the panoramas (default 1024x512)");
   command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
+  command->add_option("--pano-frame", arguments->pano_frame,
+                      "body or level: turn with the body or only with its heading (default body, of videos level)");
+  command->add_option("--video", arguments->video, "FILE.mp4: a 360 degree video of the flight; needs the program ffmpeg");
+  command->add_option("--fps", arguments->fps, "pictures a second of the video (default 30)")->check(CLI::Range(0.1, 240.0));
+  arguments->encoding.AddTo(*command);
   arguments->people.AddTo(*command);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
   command->callback([arguments, &globals] { RunFly(*arguments, globals); });

@@ -38,6 +38,7 @@ class Pilot {
     slice_ns_ = std::max(slice_ns_ - slice_ns_ % job.model->dt_ns, job.model->dt_ns);
     if (!job.record_note.empty()) loop_.StartRecording(job.record_note);
     Note(*loop_.Snapshot());
+    NotePicture();
   }
 
   /// The people at each sample of the trajectory, if frames are wanted of it.
@@ -64,7 +65,7 @@ class Pilot {
     const int64_t end_ns = loop_.t_ns() + static_cast<int64_t>(task.seconds * 1e9);
     bool done = false;
     while (!done && loop_.t_ns() < end_ns) {
-      pacer_.Run(std::min(end_ns, loop_.t_ns() + slice_ns_));
+      Advance(std::min(end_ns, loop_.t_ns() + slice_ns_));
       const auto state = loop_.Snapshot();
       Note(*state);
       Compare(task, *state);
@@ -76,6 +77,22 @@ class Pilot {
         result_.events.push_back(event);
       }
     }
+  }
+
+  // Runs on, and takes the pictures on the way: they change nothing.
+  void Advance(int64_t to_ns) {
+    for (; job_.video_fps > 0 && PictureNs() <= to_ns; NotePicture()) pacer_.Run(PictureNs());
+    pacer_.Run(to_ns);
+  }
+  // When the next picture is due, a whole number of steps.
+  int64_t PictureNs() const {
+    const int64_t dt_ns = job_.model->dt_ns;
+    return std::llround(static_cast<double>(result_.video.size()) * 1e9 / job_.video_fps / static_cast<double>(dt_ns)) * dt_ns;
+  }
+  void NotePicture() {
+    if (job_.video_fps == 0) return;
+    const auto state = loop_.Snapshot();
+    result_.video.push_back({state->t_ns, state->vehicles[0].motion, state->people});
   }
 
   void Note(const SimState& state) {

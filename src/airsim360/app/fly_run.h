@@ -17,12 +17,14 @@ struct FlyJob {
   std::vector<FlyTask> tasks;
   double speed = 0;                             ///< of the clock, 0 = as fast as the machine can
   int64_t frames = 0;                           ///< pictures, spread evenly over the flight once it is known
+  double video_fps = 0;                         ///< of the shots for a video, from the start on; 0 = none
   std::string record_note;                      ///< not empty: the run is recorded
   std::function<void(const std::string&)> log;  ///< told of tasks and events
 };
 
 struct FlyResult {
   Flight flight;              ///< trajectory at 100 Hz; shots at the times of the frames
+  std::vector<Shot> video;    ///< at FlyJob::video_fps, each at the nearest step
   std::string sensor_csv[4];  ///< imu, gnss, barometer, magnetometer: all samples of the first of each
   std::vector<SimEvent> events;
   double tracking_rms = -1, tracking_max = -1;  ///< metres, of trajectory tasks; -1 = there were none

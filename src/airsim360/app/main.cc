@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "airsim360/app/commands.h"
+#include "airsim360/app/gpu_choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/version.h"
@@ -77,14 +78,17 @@ void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<T
           },
           "auto, cpu or vulkan (default auto: a GPU where one traces rays)")
       ->group("Common");
+  const bool several = command.get_name() == "collect";
   command
-      .add_option_function<int>(
+      .add_option_function<std::string>(
           "--gpu",
-          [&](int gpu) {
-            if (gpu < 0 || gpu > 255) throw InputError("--gpu: " + std::to_string(gpu) + " is not in 0 … 255");
-            globals.gpu = gpu;
+          [&globals, several](const std::string& text) {
+            globals.gpus = ParseGpus(text, several);
+            globals.gpu = globals.gpus.front();
+            if (globals.gpus.size() == 1) globals.gpus.clear();
           },
-          "index of the GPU to use, as 'airsim360 doctor' lists them (default: the best)")
+          std::string("index of the GPU to use, as 'airsim360 doctor' lists them (default: the best)") +
+              (several ? "; several (0,1) or all: a process for each" : ""))
       ->group("Common");
 }
 
@@ -132,6 +136,7 @@ int ParseAndRun(int argc, char** argv) {
   AddCollectCommand(app, globals);
   AddPlanCommand(app, globals);
   AddVerifyCommand(app, globals);
+  AddVideoCommand(app, globals);
   AddStitchCommand(app, globals);
   AddEvalCommand(app, globals);
   AddFlyCommand(app, globals);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/base/error.h"
 #include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/world_loader.h"
@@ -17,8 +18,10 @@ SimModel OpenedWorld::Model(int64_t dt_ns) const {
 }
 
 OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
-                      const EnvironmentFlags& flags, const PeopleRequest& people) {
-  ApplyFlags(flags, {});  // wrong ones are found before the world is loaded
+                      const EnvironmentFlags& flags, const PeopleRequest& people, bool renders) {
+  // Wrong flags are found before the world is loaded.
+  ApplyFlags(flags, {});
+  if (globals.gpu >= 0 && globals.device == "cpu") throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
   opened.scene = LoadWorld({.world = world, .seed = globals.seed});
@@ -29,8 +32,9 @@ OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Ti
   }
   opened.tracer = std::make_shared<const RayTracer>(opened.scene);
   opened.environment = ApplyFlags(flags, opened.scene->environment);
-  opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
-                                 {globals.device, globals.gpu});
+  if (renders)
+    opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
+                                   {globals.device, globals.gpu});
   opened.load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return opened;

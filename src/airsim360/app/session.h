@@ -27,9 +27,9 @@ struct OpenedWorld {
   /// A simulation of it without drones.
   SimModel Model(int64_t dt_ns) const;
 };
-/// Seed and device are those of `globals`.
+/// Seed and device are those of `globals`. Without `renders` there is no renderer: other processes have theirs.
 OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
-                      const EnvironmentFlags& flags = {}, const PeopleRequest& people = {});
+                      const EnvironmentFlags& flags = {}, const PeopleRequest& people = {}, bool renders = true);
 
 /// Prints what a run did: JSON or a few lines of text.
 void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,

@@ -4,6 +4,7 @@
 
 #include "airsim360/dataset/summaries.h"
 #include "airsim360/dataset/version.h"
+#include "airsim360/dataset/video.h"
 
 namespace airsim360 {
 namespace {
@@ -71,6 +72,7 @@ std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, con
   for (const ProductFolder& folder : ProductFolders(spec)) {
     text += "- `" + folder.name + "/*" + folder.extension + "`\n";
   }
+  if (spec.video) text += std::string("- `") + kVideoName + "` the colour pictures as a 360 degree video\n";
   text +=
       "- `frames.jsonl` pose, velocity and SHA-256 of every file, one line a frame; `entities.json`; "
       "`panoptic.json` (COCO panoptic)\n"

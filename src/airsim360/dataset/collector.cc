@@ -1,7 +1,8 @@
 #include "airsim360/dataset/collector.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <functional>
 #include <map>
 
 #include "airsim360/base/error.h"
@@ -11,8 +12,9 @@
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/frame_writer.h"
 #include "airsim360/dataset/people/people_export.h"
-#include "airsim360/sim/people/labels.h"
+#include "airsim360/dataset/shot_source.h"
 #include "airsim360/dataset/summaries.h"
+#include "airsim360/dataset/video.h"
 
 namespace airsim360 {
 
@@ -58,6 +60,7 @@ std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& inde
 bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   if (spec.material && !fs::exists(folder / "materials.json")) return false;
   if (spec.part && !fs::exists(folder / "parts.json")) return false;
+  if (spec.video && !fs::exists(folder / kVideoName)) return false;
   if (!spec.people.empty()) {
     const std::map<std::string, std::string> made = {{"coco_keypoints", "person_keypoints.json"},
                                                      {"kitti", "kitti/label_2"},
@@ -77,114 +80,27 @@ bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   return true;
 }
 
-PanoramicRig MakeRig(const DatasetSpec& spec, const View& view) {
-  PanoramicRig rig;
-  rig.camera = view.camera;
-  rig.pano_frame = spec.pano_frame;
-  rig.tier = spec.tier;
-  rig.products = ProductsOf(spec);
-  rig.samples = spec.samples;
-  rig.denoise = spec.denoise;
-  rig.exposure_ev = spec.exposure_ev;
-  rig.tone = spec.tone;
-  rig.auto_exposure = spec.auto_exposure;
-  rig.seed = spec.seed;
-  rig.lens = spec.lens;
-  return rig;
-}
-
-// Where flow leads to: the next frame of the whole flight; from the last one on, as the body moves there, for
-// as long as the frame before took.
-double NextSeconds(const std::vector<Shot>& shots, size_t frame) {
-  constexpr double kLoneFrameSeconds = 0.1;  // a single frame has no interval of its own
-  if (frame + 1 < shots.size()) return static_cast<double>(shots[frame + 1].t_ns - shots[frame].t_ns) * 1e-9;
-  return frame > 0 ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
-}
-RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
-  if (frame + 1 < shots.size()) return shots[frame + 1].body.X_WB;
-  return Extrapolate(shots[frame].body, NextSeconds(shots, frame));
-}
-
-/// The people of the frames: what they look like, and their labels.
-class PeopleSource {
- public:
-  explicit PeopleSource(const CollectInput& input) : input_(input) {
-    if (input.people) dynamic_.emplace(input.tracer);
-  }
-  /// The scene at a shot; nullptr without people.
-  std::shared_ptr<const SceneState> StateOf(const Shot& shot) {
-    if (!input_.people || !shot.people) return nullptr;
-    return Shown(PosesOf(shot), shot.t_ns);
-  }
-  /// The scene that flow leads to, with the same levels of detail: the next frame's, after the last one as people would go on.
-  std::shared_ptr<const SceneState> StateAfter(const std::vector<Shot>& shots, size_t frame) {
-    const Shot& shot = shots[frame];
-    const bool last = frame + 1 == shots.size();
-    if (!input_.people || !shot.people || (!last && !shots[frame + 1].people)) return nullptr;
-    const int64_t t_ns = last ? shot.t_ns + std::llround(NextSeconds(shots, frame) * 1e9) : shots[frame + 1].t_ns;
-    PeoplePoses poses = last ? PosesLater(*input_.people, *shot.people, t_ns + input_.people->epoch_ns) : PosesOf(shots[frame + 1]);
-    poses.levels = LevelsOf(shot);
-    return Shown(poses, t_ns);
-  }
-  FrameLabels Label(const Shot& shot, const std::shared_ptr<const SceneState>& state,
-                    const EncodeContext& context, const std::vector<Capture>& captures) {
-    FrameLabels labels;
-    if (!state) return labels;
-    const PeoplePoses poses = PosesOf(shot);
-    const std::shared_ptr<const RayTracer> tracer = dynamic_->At(state);
-    for (size_t v = 0; v < captures.size(); ++v) {
-      labels.push_back(
-          LabelPeople({*input_.people, poses, *tracer, context.views[v].camera, captures[v].X_WC}));
-    }
-    return labels;
-  }
-
- private:
-  std::vector<uint8_t> LevelsOf(const Shot& shot) const {
-    return LevelsFor(*input_.people, shot.people->crowd.people, shot.body.X_WB.p);
-  }
-  PeoplePoses PosesOf(const Shot& shot) const {
-    PeoplePoses poses = PosesAt(*input_.people, *shot.people, shot.t_ns + input_.people->epoch_ns);
-    poses.levels = LevelsOf(shot);
-    return poses;
-  }
-  std::shared_ptr<const SceneState> Shown(const PeoplePoses& poses, int64_t t_ns) const {
-    auto state = std::make_shared<SceneState>();
-    state->t_ns = t_ns;
-    ShowPeople(*input_.people, poses, *state);
-    return state;
-  }
-  const CollectInput& input_;
-  std::optional<DynamicTracer> dynamic_;
-};
-
-// Renders and writes the missing frames.
-void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, Renderer& renderer,
-                 DatasetIndex& index, CollectResult& result) {
+// Renders and writes frames; `done` is told of each.
+void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, Renderer& renderer, DatasetIndex& index,
+                 const std::function<void(int64_t frame)>& done, CollectResult& result) {
   const EncodeContext context = MakeEncodeContext(input.spec, input.scene, input.people.get());
-  PeopleSource people(input);
+  internal::ShotSource source(input);
   FrameWriter writer(context, index, input.out);
-  ProgressBar progress("collect", static_cast<int64_t>(frames.size()));
-  for (int64_t frame : frames) {
-    const Shot& shot = input.flight.shots.at(static_cast<size_t>(frame));
+  for (const int64_t frame : frames) {
     const auto i = static_cast<size_t>(frame);
-    const std::shared_ptr<const SceneState> state = people.StateOf(shot);
-    NextTrigger next{NextPose(input.flight.shots, i), state};
-    if (input.spec.flow) next.state = people.StateAfter(input.flight.shots, i);
     std::vector<Capture> captures = writer.Acquire();
-    for (size_t v = 0; v < captures.size(); ++v) {
-      PanoramicRig rig = MakeRig(input.spec, context.views[v]);
-      rig.state = state;
-      CaptureRig(rig, shot.body, shot.t_ns, renderer, captures[v], &next);
-      result.render_ms += captures[v].stats.render_ms;
-      result.rays += captures[v].stats.rays;
+    const auto state = source.Take(i, context.views, ProductsOf(input.spec), renderer, captures);
+    for (const Capture& capture : captures) {
+      result.render_ms += capture.stats.render_ms;
+      result.rays += capture.stats.rays;
     }
-    FrameLabels labels = people.Label(shot, state, context, captures);
+    FrameLabels labels = source.Label(i, state, context.views, captures);
     writer.Submit(frame, std::move(captures), std::move(labels));
-    progress.Update(++result.written);
+    ++result.written;
+    done(frame);
   }
   writer.Finish();
-  result.write_ms = writer.write_ms();
+  result.write_ms += writer.write_ms();
 }
 
 // Writes the files that are made from all frames, and last the checksums of everything.
@@ -211,6 +127,10 @@ void WriteSummaries(const CollectInput& input) {
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
   write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
   if (!input.trajectory_json.empty()) write("trajectory.json", AsBytes(input.trajectory_json));
+  if (input.spec.video) {
+    FilmDataset(input.out, input.out / kVideoName, {});
+    checksums[kVideoName] = Sha256HexOfFile(input.out / kVideoName);
+  }
   write("contact_sheet.png", ContactSheetPng(index, input.spec, input.out));
   write("README.md", AsBytes(CardMarkdown(index, input.spec, input.scene)));
 
@@ -223,9 +143,14 @@ void WriteSummaries(const CollectInput& input) {
   WriteFileAtomically(input.out / kChecksumsName, text);
 }
 
-}  // namespace
+void CheckNothingIsMissing(const CollectInput& input) {
+  DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
+  const size_t missing = MissingFrames(input, index).size();
+  if (missing > 0) throw RuntimeError("collect: " + std::to_string(missing) + " frames are still missing: run it again to finish it");
+}
 
-CollectResult Collect(const CollectInput& input, Renderer& renderer) {
+// Rendered here, or elsewhere where `renderer` is null.
+CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderElsewhere& elsewhere) {
   if (static_cast<int64_t>(input.flight.shots.size()) != input.spec.frames) {
     throw RuntimeError("collect: the flight has " + std::to_string(input.flight.shots.size()) +
                        " shots for " + std::to_string(input.spec.frames) + " frames");
@@ -241,18 +166,50 @@ CollectResult Collect(const CollectInput& input, Renderer& renderer) {
     CreateWritableFolder(input.out / folder.name);
   if (input.spec.overlay) CreateWritableFolder(input.out / "overlay");
   if (input.spec.crops) CreateWritableFolder(input.out / "crops");
+  std::vector<int64_t> missing;
   {
     DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
-    const std::vector<int64_t> missing = MissingFrames(input, index);
+    missing = MissingFrames(input, index);
     if (missing.empty() && IsFinished(input.out, input.spec)) {
       result.already_complete = true;
       return result;
     }
     fs::remove(input.out / kChecksumsName);
-    WriteFrames(input, missing, renderer, index, result);
-    result.wall_ms = Milliseconds(start);
+    if (renderer) {
+      ProgressBar progress("collect", static_cast<int64_t>(missing.size()));
+      WriteFrames(input, missing, *renderer, index, [&](int64_t) { progress.Update(result.written); }, result);
+    }
   }
+  if (!renderer && !missing.empty()) {
+    ProgressBar progress("collect", static_cast<int64_t>(missing.size()));
+    // A frame that was begun twice counts once.
+    const auto all = static_cast<int64_t>(missing.size());
+    elsewhere(missing, [&] { progress.Update(std::min(++result.written, all)); }, result);
+    result.written = all;
+    CheckNothingIsMissing(input);
+  }
+  result.wall_ms = Milliseconds(start);
   WriteSummaries(input);
+  return result;
+}
+
+}  // namespace
+
+CollectResult Collect(const CollectInput& input, Renderer& renderer) { return Run(input, &renderer, {}); }
+
+CollectResult Collect(const CollectInput& input, const RenderElsewhere& elsewhere) { return Run(input, nullptr, elsewhere); }
+
+CollectResult CollectPart(const CollectInput& input, Renderer& renderer, std::span<const int64_t> frames,
+                          const std::function<void(int64_t frame)>& done) {
+  CollectResult result{.frames = static_cast<int64_t>(frames.size())};
+  DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
+  const std::vector<int64_t> journal = index.Frames();
+  std::vector<int64_t> wanted;
+  for (const int64_t frame : frames) {
+    if (frame < 0 || frame >= input.spec.frames) throw RuntimeError("collect: there is no frame " + std::to_string(frame));
+    if (!std::ranges::binary_search(journal, frame)) wanted.push_back(frame);
+  }
+  WriteFrames(input, wanted, renderer, index, done, result);
   return result;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "airsim360/dataset/spec.h"
@@ -39,5 +41,18 @@ struct CollectResult {
 /// threads, interruptions or time. InputError if `out` holds something else; RuntimeError if writing fails:
 /// what was done so far stays valid.
 CollectResult Collect(const CollectInput& input, Renderer& renderer);
+
+/// Has other processes write the frames `missing` by CollectPart; calls `written` after each and adds to the times and rays
+/// of the result. Returns when all are in the journal; throws if that cannot be.
+using RenderElsewhere =
+    std::function<void(const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result)>;
+
+/// The same dataset, byte for byte, with the frames rendered elsewhere.
+CollectResult Collect(const CollectInput& input, const RenderElsewhere& elsewhere);
+
+/// Writes those of `frames` that are not in the journal yet into a dataset that another process has begun and will finish;
+/// several may do so at once, with different frames. `done` is told of each.
+CollectResult CollectPart(const CollectInput& input, Renderer& renderer, std::span<const int64_t> frames,
+                          const std::function<void(int64_t frame)>& done);
 
 }  // namespace airsim360

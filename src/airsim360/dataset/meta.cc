@@ -36,6 +36,7 @@ Json ParametersJson(const DatasetSpec& spec) {
   json["exposure"] = spec.auto_exposure ? Json("auto") : Json(spec.exposure_ev);
   json["radiance"] = spec.radiance;
   json["lens"] = kLensModelNames[static_cast<int>(spec.lens)];
+  if (spec.video) json["video"] = "libx264, crf 18";
   if (!spec.people.empty()) {
     json["people"] = spec.people;
     json["crops"] = spec.crops;

@@ -43,6 +43,7 @@ struct DatasetSpec {
   std::string people;        ///< who they are, in words with the SHA-256 of their files; empty = nobody
   bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
   bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
+  bool video = false;        ///< video.mp4: the colour pictures at their times
   std::vector<std::string> people_formats;  ///< of kPeopleFormats, in that order
 };
 

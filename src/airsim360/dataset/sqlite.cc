@@ -14,6 +14,8 @@ Database::Database(std::filesystem::path path, Mode mode)
   handle_.reset(handle);
   if (code != SQLITE_OK) Fail();
   sqlite3_extended_result_codes(handle, 1);
+  constexpr int kPatienceMs = 60'000;  // while another process of the same collection writes
+  sqlite3_busy_timeout(handle, kPatienceMs);
 }
 
 void Database::Fail() const {

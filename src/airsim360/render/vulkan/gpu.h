@@ -1,6 +1,7 @@
 // Rendering on a GPU through Vulkan's ray tracing pipelines.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,6 +19,8 @@ struct GpuInfo {
   std::string driver;    ///< name and version of the driver
   bool software = false; ///< runs on the CPU (Mesa's lavapipe): correct, slower than the CPU renderer
   std::string missing;   ///< what it lacks to render; empty = nothing
+  std::array<uint8_t, 16> uuid{};  ///< by which other interfaces (CUDA) know the device
+  bool shares_memory = false;      ///< can give memory to them (VK_KHR_external_memory_fd)
 };
 
 /// Whether this machine has a device file of a GPU (a DRM render node, NVIDIA's, WSL's): without one Vulkan can only find
@@ -53,6 +56,17 @@ struct GpuFrame {
   std::span<const CoveragePixel> coverage;
 };
 
+/// Memory of the GPU that another interface can open.
+class GpuSharedMemory {
+ public:
+  virtual ~GpuSharedMemory() = default;
+  virtual size_t size() const = 0;       ///< of the pictures in it, bytes
+  virtual size_t allocated() const = 0;  ///< what the driver made of it, bytes
+  virtual bool dedicated() const = 0;    ///< whether the memory is of this buffer alone
+  /// An opaque file descriptor of it, which the caller owns. RuntimeError where the driver gives none.
+  virtual int Open() const = 0;
+};
+
 /// A renderer that also works ahead: up to GpuOptions::frames_in_flight submissions at once. Not for several threads at a
 /// time.
 class GpuRenderer : public Renderer {
@@ -68,6 +82,14 @@ class GpuRenderer : public Renderer {
   /// Whether later submissions copy their pictures to memory of the CPU (at first they do). Without that Wait gives
   /// frames of empty spans, on devices with memory of their own: what reading back costs.
   virtual void ReadBack(bool wanted) = 0;
+  /// Room for the pictures of a submission, to be shared with another interface; it must go before the renderer.
+  /// RuntimeError where the driver shares no memory, or has none left.
+  virtual std::unique_ptr<GpuSharedMemory> Share(size_t bytes) = 0;
+  /// Bytes that Copy takes.
+  virtual size_t PictureBytes(uint64_t ticket) = 0;
+  /// Waits for a submission, copies its pictures there without leaving the GPU and waits for that. The frames' spans begin at
+  /// `base`, where the other interface sees the memory.
+  virtual std::vector<GpuFrame> Copy(uint64_t ticket, GpuSharedMemory& to, const std::byte* base) = 0;
   virtual const GpuInfo& gpu() const = 0;
   /// Time of the ray tracing of the last submission waited for, by the GPU's own clock, ms.
   virtual double gpu_ms() const = 0;

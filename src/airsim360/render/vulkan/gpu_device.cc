@@ -83,18 +83,27 @@ std::string TooOld(uint32_t version) {
          std::to_string(VK_API_VERSION_MINOR(version)) + ", 1.2 is needed: update it";
 }
 
+std::vector<VkExtensionProperties> ExtensionsOf(VkPhysicalDevice physical) {
+  uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  return extensions;
+}
+
+bool Contains(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
 // What a device lacks; empty = nothing.
 std::string Missing(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
   if (properties.apiVersion < VK_API_VERSION_1_2) return TooOld(properties.apiVersion);
-  uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  const std::vector<VkExtensionProperties> extensions = ExtensionsOf(physical);
   for (const char* name : kExtensions) {
-    const auto is = [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; };
-    if (std::none_of(extensions.begin(), extensions.end(), is)) return std::string("no ") + name;
+    if (!Contains(extensions, name)) return std::string("no ") + name;
   }
   Features features;
   vkGetPhysicalDeviceFeatures2(physical, &features.core);
@@ -105,7 +114,8 @@ std::string Missing(VkPhysicalDevice physical) {
 }
 
 GpuInfo Describe(VkPhysicalDevice physical, int index) {
-  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, nullptr};
+  VkPhysicalDeviceIDProperties identity{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES, nullptr};
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &identity};
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(physical, &properties);
   GpuInfo info;
@@ -114,6 +124,8 @@ GpuInfo Describe(VkPhysicalDevice physical, int index) {
   info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   info.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   info.missing = Missing(physical);
+  std::copy(std::begin(identity.deviceUUID), std::end(identity.deviceUUID), info.uuid.begin());
+  info.shares_memory = Contains(ExtensionsOf(physical), VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME);
   return info;
 }
 
@@ -289,8 +301,10 @@ void GpuDevice::OpenDevice(VkPhysicalDevice physical) {
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
   info.queueCreateInfoCount = copy_family_ != queue_family_ ? 2 : 1;
   info.pQueueCreateInfos = queues;
-  info.enabledExtensionCount = static_cast<uint32_t>(std::size(kExtensions));
-  info.ppEnabledExtensionNames = kExtensions;
+  std::vector<const char*> extensions(std::begin(kExtensions), std::end(kExtensions));
+  if (info_.shares_memory) extensions.push_back(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME);
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   CheckVk(vkCreateDevice(physical, &info, nullptr, &device_), "opening the device");
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
   vkGetDeviceQueue(device_, copy_family_, 0, &copy_queue_);

@@ -11,6 +11,7 @@
 #include "airsim360/render/vulkan/gpu_path.h"
 #include "airsim360/render/vulkan/gpu_shade.h"
 #include "airsim360/render/vulkan/gpu_shaders.h"
+#include "airsim360/render/vulkan/gpu_share.h"
 #include "airsim360/render/vulkan/gpu_slot.h"
 
 namespace airsim360 {
@@ -121,6 +122,16 @@ class VulkanRenderer : public GpuRenderer {
     work.passes.insert(work.passes.end(), 2, {replay_.get()});
     return (time() - once) / 2;
   }
+  std::unique_ptr<GpuSharedMemory> Share(size_t bytes) override { return MakeSharedBuffer(device_, bytes); }
+  size_t PictureBytes(uint64_t ticket) override { return SlotOf(ticket).bytes(); }
+  std::vector<GpuFrame> Copy(uint64_t ticket, GpuSharedMemory& to, const std::byte* base) override {
+    GpuSlot& slot = SlotOf(ticket);
+    slot.Wait();
+    gpu_ms_ = slot.gpu_ms();
+    CopyToShared(device_, slot.pictures(), slot.bytes(), to);
+    return slot.FramesAt(base);
+  }
+
   const GpuInfo& gpu() const override { return device_.info(); }
   double gpu_ms() const override { return gpu_ms_; }
   std::vector<std::string> messages() const override { return device_.messages(); }

@@ -152,7 +152,7 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
   auto* params = reinterpret_cast<GpuFrameParams*>(cursor.Take(sizeof(GpuFrameParams), parameters_));
   *params = {};
   auto* list = reinterpret_cast<GpuCamera*>(cursor.Take(requests.size() * sizeof(GpuCamera), params->cameras));
-  const VkDeviceAddress base = (device_.discrete() ? pictures_ : read_back_).address();
+  const VkDeviceAddress base = pictures().address();
   for (size_t i = 0; i < requests.size(); ++i) {
     GpuCamera camera{};
     cameras.Fill(requests[i], work.history != nullptr ? work.history->frames() : 0, cursor, camera);

@@ -45,6 +45,9 @@ class GpuSlot {
   std::vector<GpuFrame> Frames() const { return FramesAt(reads_back_ ? read_back_.mapped() : nullptr); }
   /// The same for a copy of the pictures at `base`.
   std::vector<GpuFrame> FramesAt(const std::byte* base) const;
+  /// Where the GPU left the pictures, one after another, and how many bytes they are.
+  const GpuBuffer& pictures() const { return device_.discrete() ? pictures_ : read_back_; }
+  size_t bytes() const { return bytes_; }
   /// Time of the last tracing, by the clock of the GPU; after Wait.
   double gpu_ms() const { return gpu_ms_; }
 

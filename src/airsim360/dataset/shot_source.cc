@@ -1,0 +1,103 @@
+#include "airsim360/dataset/shot_source.h"
+
+#include <cmath>
+
+namespace airsim360::internal {
+namespace {
+
+PanoramicRig MakeRig(const DatasetSpec& spec, const View& view, const Products& products) {
+  PanoramicRig rig;
+  rig.camera = view.camera;
+  rig.pano_frame = spec.pano_frame;
+  rig.tier = spec.tier;
+  rig.products = products;
+  rig.samples = spec.samples;
+  rig.denoise = spec.denoise;
+  rig.exposure_ev = spec.exposure_ev;
+  rig.tone = spec.tone;
+  rig.auto_exposure = spec.auto_exposure;
+  rig.seed = spec.seed;
+  rig.lens = spec.lens;
+  return rig;
+}
+
+// Where flow leads to: the next frame of the whole flight; from the last one on, as the body moves there, for
+// as long as the frame before took.
+double NextSeconds(const std::vector<Shot>& shots, size_t frame) {
+  constexpr double kLoneFrameSeconds = 0.1;  // a single frame has no interval of its own
+  if (frame + 1 < shots.size()) return static_cast<double>(shots[frame + 1].t_ns - shots[frame].t_ns) * 1e-9;
+  return frame > 0 ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
+}
+RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
+  if (frame + 1 < shots.size()) return shots[frame + 1].body.X_WB;
+  return Extrapolate(shots[frame].body, NextSeconds(shots, frame));
+}
+
+}  // namespace
+
+ShotSource::ShotSource(const CollectInput& input) : input_(input) {
+  if (input.people) dynamic_.emplace(input.tracer);
+}
+
+std::shared_ptr<const SceneState> ShotSource::Take(size_t frame, const std::vector<View>& views, const Products& products,
+                                                   Renderer& renderer, std::vector<Capture>& captures) {
+  const std::vector<Shot>& shots = input_.flight.shots;
+  const Shot& shot = shots.at(frame);
+  const std::shared_ptr<const SceneState> state = StateOf(shot);
+  NextTrigger next{NextPose(shots, frame), state};
+  if (products.flow) next.state = StateAfter(frame);
+  for (size_t v = 0; v < views.size(); ++v) {
+    PanoramicRig rig = MakeRig(input_.spec, views[v], products);
+    rig.state = state;
+    CaptureRig(rig, shot.body, shot.t_ns, renderer, captures[v], &next);
+  }
+  return state;
+}
+
+FrameLabels ShotSource::Label(size_t frame, const std::shared_ptr<const SceneState>& state, const std::vector<View>& views,
+                              const std::vector<Capture>& captures) {
+  FrameLabels labels;
+  if (!state) return labels;
+  const PeoplePoses poses = PosesOf(input_.flight.shots.at(frame));
+  const std::shared_ptr<const RayTracer> tracer = dynamic_->At(state);
+  for (size_t v = 0; v < captures.size(); ++v)
+    labels.push_back(LabelPeople({*input_.people, poses, *tracer, views[v].camera, captures[v].X_WC}));
+  return labels;
+}
+
+// The scene at a shot; nullptr without people.
+std::shared_ptr<const SceneState> ShotSource::StateOf(const Shot& shot) const {
+  if (!input_.people || !shot.people) return nullptr;
+  return Shown(PosesOf(shot), shot.t_ns);
+}
+
+// The scene that flow leads to, with the same levels of detail: the next frame's, after the last one as people would go on.
+std::shared_ptr<const SceneState> ShotSource::StateAfter(size_t frame) const {
+  const std::vector<Shot>& shots = input_.flight.shots;
+  const Shot& shot = shots[frame];
+  const bool last = frame + 1 == shots.size();
+  if (!input_.people || !shot.people || (!last && !shots[frame + 1].people)) return nullptr;
+  const int64_t t_ns = last ? shot.t_ns + std::llround(NextSeconds(shots, frame) * 1e9) : shots[frame + 1].t_ns;
+  PeoplePoses poses = last ? PosesLater(*input_.people, *shot.people, t_ns + input_.people->epoch_ns) : PosesOf(shots[frame + 1]);
+  poses.levels = LevelsOf(shot);
+  return Shown(poses, t_ns);
+}
+
+std::vector<uint8_t> ShotSource::LevelsOf(const Shot& shot) const {
+  return LevelsFor(*input_.people, shot.people->crowd.people, shot.body.X_WB.p);
+}
+
+PeoplePoses ShotSource::PosesOf(const Shot& shot) const {
+  PeoplePoses poses = PosesAt(*input_.people, *shot.people, shot.t_ns + input_.people->epoch_ns);
+  poses.levels = LevelsOf(shot);
+  return poses;
+}
+
+std::shared_ptr<const SceneState> ShotSource::Shown(const PeoplePoses& poses, int64_t t_ns) const {
+  auto state = std::make_shared<SceneState>();
+  state->t_ns = t_ns;
+  ShowPeople(*input_.people, poses, *state);
+  return state;
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,36 @@
+// The shots of a flight as a renderer sees them: the rig, where flow leads to, the people of that moment.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "airsim360/dataset/collector.h"
+#include "airsim360/dataset/encode.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360::internal {
+
+class ShotSource {
+ public:
+  /// `input` must outlive it.
+  explicit ShotSource(const CollectInput& input);
+  /// Fills one capture for each of `views` at a shot of the flight and returns the state that they show (nullptr without people).
+  std::shared_ptr<const SceneState> Take(size_t frame, const std::vector<View>& views, const Products& products, Renderer& renderer,
+                                         std::vector<Capture>& captures);
+  /// What is to be written of the people in these captures.
+  FrameLabels Label(size_t frame, const std::shared_ptr<const SceneState>& state, const std::vector<View>& views,
+                    const std::vector<Capture>& captures);
+
+ private:
+  std::shared_ptr<const SceneState> StateOf(const Shot& shot) const;
+  std::shared_ptr<const SceneState> StateAfter(size_t frame) const;
+  PeoplePoses PosesOf(const Shot& shot) const;
+  std::vector<uint8_t> LevelsOf(const Shot& shot) const;
+  std::shared_ptr<const SceneState> Shown(const PeoplePoses& poses, int64_t t_ns) const;
+
+  const CollectInput& input_;
+  std::optional<DynamicTracer> dynamic_;
+};
+
+}  // namespace airsim360::internal
