@@ -95,9 +95,7 @@ TEST(GpuColor, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   const std::vector<std::string> worlds = WorldsAskedFor();
   if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
-  for (const std::string& world : worlds) {
-    ExpectTheCpus(BuildWorld(world, {.seed = 1}), {}, world);
-  }
+  for (const std::string& world : worlds) ExpectTheCpus(WorldOf(world), {}, world);
 }
 
 TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {

@@ -151,7 +151,7 @@ TEST(GpuLabels, OfWorldsAskedForAreTheCpus) {
   const std::vector<std::string> worlds = test::WorldsAskedFor();
   if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
   for (const std::string& world : worlds) {
-    const auto scene = BuildWorld(world, {.seed = 1});
+    const auto scene = test::WorldOf(world);
     ExpectTheCpus(scene, FromSpawn(*scene));
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/tcp_server.h"

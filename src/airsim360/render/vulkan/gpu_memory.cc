@@ -11,7 +11,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kBlock = size_t{32} << 20, kStaging = size_t{32} << 20, kAlign = 256, kTail = 16;
+// Few cards let the CPU see much of their memory: blocks of that are smaller.
+constexpr size_t kBlock = size_t{32} << 20, kUploadBlock = size_t{4} << 20, kStaging = size_t{32} << 20, kAlign = 256, kTail = 16;
 
 constexpr VkBufferUsageFlags kUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
@@ -132,7 +133,7 @@ GpuRange GpuArena::Take(size_t size) {
   const size_t rounded = RoundUp(size + kTail);
   if (blocks_.empty() || next_ + rounded > blocks_.back().size()) {
     // A small rest is given up; a large request gets a block of its own.
-    blocks_.emplace_back(device_, std::max(kBlock, rounded), kind_);
+    blocks_.emplace_back(device_, std::max(kind_ == MemoryKind::kUpload ? kUploadBlock : kBlock, rounded), kind_);
     next_ = 0;
   }
   const GpuBuffer& block = blocks_.back();

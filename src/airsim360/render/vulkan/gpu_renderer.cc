@@ -189,7 +189,9 @@ class VulkanRenderer : public GpuRenderer {
       work.high = high_tables_->address();
       work.numbers = kGpuHighPlanes;
       const bool denoise = std::ranges::any_of(requests, &RenderRequest::denoise);
-      work.history = requests.front().temporal && denoise ? &history_ : nullptr;
+      const bool temporal = requests.front().temporal;
+      work.frames = temporal ? history_.frames() : 0;
+      work.history = temporal && denoise ? &history_ : nullptr;
       AddHighPasses(denoise, antialias, work);
       return work;
     }
@@ -250,7 +252,7 @@ class VulkanRenderer : public GpuRenderer {
     const RenderRequest& first = requests.front();
     const Scene& scene = tracer_->scene();
     for (const RenderRequest& r : requests) {
-      if (r.temporal && r.tier == Tier::kHigh && requests.size() > 1)
+      if (r.temporal && requests.size() > 1)
         throw InputError("GPU: light of the last frame is kept for one camera, not for the " + std::to_string(requests.size()) +
                          " of a submission");
       if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)

@@ -155,8 +155,8 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
   const VkDeviceAddress base = pictures().address();
   for (size_t i = 0; i < requests.size(); ++i) {
     GpuCamera camera{};
-    cameras.Fill(requests[i], work.history != nullptr ? work.history->frames() : 0, cursor, camera);
-    if (work.history != nullptr && requests[i].temporal) work.history->Fill(requests[i], cameras.field(), camera);
+    cameras.Fill(requests[i], work.frames, cursor, camera);
+    if (work.history != nullptr) work.history->Fill(requests[i], cameras.field(), camera);
     uint64_t* const to[kProducts] = {&camera.range,    &camera.entity, &camera.semantic, &camera.normal,   &camera.position,
                               &camera.material, &camera.flow,   &camera.albedo,   &camera.radiance, &camera.rgb,
                               &camera.coverage};

@@ -34,7 +34,8 @@ class GpuSlot {
     VkDeviceAddress shade = 0, high = 0, path = 0;  ///< GpuShade of colour tiers, GpuHigh, GpuPath
     float exposure = 1;
     size_t numbers = 0;             ///< that passes keep of each pixel for each other
-    GpuHistory* history = nullptr;  ///< tier `high`; used where the request is temporal
+    GpuHistory* history = nullptr;  ///< tier `high`, where light of the last frame is mixed in
+    uint64_t frames = 0;            ///< that are added up (RenderRequest::temporal)
     bool read_back = true;  ///< pictures go to memory of the CPU
   };
   /// Starts `work` on all requests. The slot must be free.
