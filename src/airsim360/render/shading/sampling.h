@@ -28,6 +28,14 @@ inline uint32_t OwenScramble(uint32_t x, uint32_t seed) {
   return ReverseBits(x);
 }
 
+/// A hash of 32 bits (Wellons's lowbias32). Seeds of scrambles must go through one: neighbouring or related ones would
+/// tie the coordinates of a point together.
+inline uint32_t HashBits(uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
 /// Point `index` of the (0, 2)-sequence scrambled by `seed`: any 2^k points from a multiple of 2^k on are
 /// stratified in [0, 1)^2 in every way.
 inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
@@ -35,8 +43,9 @@ inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
   for (uint32_t i = index, v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1) {
     if (i & 1) y ^= v;
   }
-  const uint32_t x = OwenScramble(ReverseBits(index), seed);
-  y = OwenScramble(y, seed * 0x9e3779b1u + 0x7f4a7c15u);
+  const uint32_t hash = HashBits(seed);
+  const uint32_t x = OwenScramble(ReverseBits(index), hash);
+  y = OwenScramble(y, HashBits(hash));
   return {static_cast<float>(x >> 8) * 0x1p-24f, static_cast<float>(y >> 8) * 0x1p-24f};
 }
 

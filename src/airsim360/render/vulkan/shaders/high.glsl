@@ -38,13 +38,20 @@ uint OwenScramble(uint x, uint seed) {
   return bitfieldReverse(x);
 }
 
+uint HashBits(uint x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
 vec2 SobolPoint(uint index, uint seed) {
   uint y = 0;
   for (uint i = index, v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1) {
     if ((i & 1u) != 0) y ^= v;
   }
-  const uint x = OwenScramble(bitfieldReverse(index), seed);
-  y = OwenScramble(y, seed * 0x9e3779b1u + 0x7f4a7c15u);
+  const uint hash = HashBits(seed);
+  const uint x = OwenScramble(bitfieldReverse(index), hash);
+  y = OwenScramble(y, HashBits(hash));
   return vec2(float(x >> 8), float(y >> 8)) * (1.0 / 16777216.0);
 }
 
