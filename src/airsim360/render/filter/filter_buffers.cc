@@ -31,8 +31,7 @@ int FilterBuffers::StepX(int y, int step) const {
 
 int FilterBuffers::PixelsAcross(int y) const {
   if (!planes_.sphere) return 1;
-  const int half = static_cast<int>(std::lround((across_[y] - 1) / 2));
-  return 2 * std::min(half, planes_.width / 8) + 1;
+  return std::max(1, static_cast<int>(std::lround(std::min(across_[y], static_cast<float>(planes_.width) / 4))));
 }
 
 void FilterBuffers::Resize(bool own_planes) {

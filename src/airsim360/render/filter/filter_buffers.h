@@ -27,7 +27,8 @@ class FilterBuffers {
   const CameraRays& rays() const { return rays_; }
   /// Columns from a row's pixels to their neighbours `step` rows away.
   int StepX(int y, int step) const;
-  /// How many pixels of the row are as wide as one is high, an odd number.
+  /// How many pixels of the row are as wide as one is high: as many as lie between the first taps, which would
+  /// otherwise never mix the columns between them.
   int PixelsAcross(int y) const;
 
  private:

@@ -69,7 +69,8 @@ struct SunDirections {
   void Make(int first, int last) {
     for (int k = first; k < last; ++k) {
       for (int phase = 0; phase < 16; ++phase) {
-        const auto index = static_cast<uint32_t>(16 * k + phase);
+        // The rays of one round of a pixel are an aligned block of points, so they spread over disc and pixel.
+        const auto index = static_cast<uint32_t>(16 * kSunRound * (k / kSunRound) + kSunRound * phase + k % kSunRound);
         at[k][phase] = disc_.At(SobolPoint(index, seed_ ^ 0x68bc21ebu));
         const Vec2f u = SobolPoint(index, seed_ ^ 0x02e5be93u);
         offset[k][phase] = {u.x - 0.5f, u.y - 0.5f};

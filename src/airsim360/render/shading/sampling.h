@@ -27,8 +27,8 @@ inline uint32_t ReverseBits(uint32_t x) {
 /// Point `index` of the (0, 2)-sequence scrambled by `seed`: any 2^k points from a multiple of 2^k on are
 /// stratified in [0, 1)^2 in every way.
 inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
-  return {unit_of(owen_scramble(ReverseBits(index), seed)),
-          unit_of(owen_scramble(sobol_second(index), seed * 0x9e3779b1u + 0x7f4a7c15u))};
+  const uint32_t hash = hash_bits(seed);
+  return {unit_of(owen_scramble(ReverseBits(index), hash)), unit_of(owen_scramble(sobol_second(index), hash_bits(hash)))};
 }
 
 /// Unit vector of a point of the unit square, areas kept.

@@ -13,6 +13,14 @@ SHARED word owen_hash(word x, word seed) {
 }
 SHARED word owen_scramble(word x, word seed) { return reverse_bits(owen_hash(reverse_bits(x), seed)); }
 
+// A hash of 32 bits (Wellons's lowbias32). Seeds of scrambles must go through one: neighbouring or related ones would tie the
+// coordinates of a point together.
+SHARED word hash_bits(word x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
 // The second coordinate of Sobol's point `index` in units of 2^-32; the first is the index with its bits reversed.
 SHARED word sobol_second(word index) {
   word y = 0u;

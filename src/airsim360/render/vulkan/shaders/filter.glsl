@@ -9,11 +9,10 @@ int StepX(int y, int step) {
   return min(most, int(floor(min(1e6, float(step) * camera.row_tables.v[camera.height + uint(y)]) + 0.5)));
 }
 
-/// How many pixels of the row are as wide as one is high, an odd number.
+/// How many pixels of the row are as wide as one is high.
 int PixelsAcross(int y) {
   if (camera.separable == 0) return 1;
-  const int half_ = int(floor((camera.row_tables.v[camera.height + uint(y)] - 1.0) / 2.0 + 0.5));
-  return 2 * min(half_, int(camera.width) / 8) + 1;
+  return max(1, int(floor(min(camera.row_tables.v[camera.height + uint(y)], float(camera.width) / 4.0) + 0.5)));
 }
 
 /// Index of the pixel (dx, dy) from a pixel, over poles and seam; -1 = none.

@@ -29,8 +29,8 @@ void Put3(uint plane, uint i, vec3 x) { Put(plane, i, x.x), Put(plane + 1, i, x.
 void PutWord(uint plane, uint i, uint x) { words.v[plane * plane_size + i] = x; }
 
 vec2 SobolPoint(uint index, uint seed) {
-  return vec2(unit_of(owen_scramble(bitfieldReverse(index), seed)),
-              unit_of(owen_scramble(sobol_second(index), seed * 0x9e3779b1u + 0x7f4a7c15u)));
+  const uint hash = hash_bits(seed);
+  return vec2(unit_of(owen_scramble(bitfieldReverse(index), hash)), unit_of(owen_scramble(sobol_second(index), hash_bits(hash))));
 }
 
 vec3 SpherePoint(vec2 u) {
