@@ -122,7 +122,7 @@ TEST(WorldClearance, CertifiedFlightsKeepTheirDistanceFromEveryTriangle) {
     const CertifiedFlight flight = FlyFree({{-27, y, 1.2}, {27, -0.7 * y, 1.5}}, world, options);
     ASSERT_TRUE(flight.certificate.certified);
     const PolynomialTrajectory& path = flight.flight.trajectory;
-    constexpr int kSamples = 600;
+    constexpr int kSamples = 300;
     for (int i = 0; i <= kSamples; ++i) {
       const Vec3d p = path.At(path.duration() * i / kSamples).p;
       double distance = 1e9;
