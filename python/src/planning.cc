@@ -34,8 +34,21 @@ Surroundings MapAround(World& world, const std::vector<Vec3d>& points, bool with
   return around;
 }
 
-AllocatedTrajectory AtTimes(const std::vector<Vec3d>& points, const std::vector<double>& times,
-                            SplineKind kind) {
+struct PlanArguments {
+  std::vector<Vec3d> points;
+  std::optional<std::vector<double>> times;
+  TrajectoryLimits limits;
+  SplineKind kind;
+  BoundaryDerivatives start, end;
+  bool moving;  ///< start or end is not at rest
+  std::shared_ptr<World> world;
+  double clearance;
+  bool avoid;
+};
+
+AllocatedTrajectory AtTimes(const PlanArguments& a) {
+  const std::vector<Vec3d>& points = a.points;
+  const std::vector<double>& times = *a.times;
   if (times.size() != points.size())
     throw InputError("times: " + std::to_string(times.size()) + " for " + std::to_string(points.size()) +
                      " waypoints");
@@ -45,25 +58,28 @@ AllocatedTrajectory AtTimes(const std::vector<Vec3d>& points, const std::vector<
     if (!(durations.back() > 0))
       throw InputError("times[" + std::to_string(i) + "] is not after the one before it");
   }
-  PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations, .kind = kind});
+  PolynomialTrajectory path = SolveMinimumSnap(
+      {.waypoints = points, .durations = durations, .start = a.start, .end = a.end, .kind = a.kind});
   const TrajectoryPeaks peaks = CertifiedPeaks(path);
   return {std::move(path), peaks, 0, 0};
 }
 
-struct PlanArguments {
-  std::vector<Vec3d> points;
-  std::optional<std::vector<double>> times;
-  double vmax, amax;
-  SplineKind kind;
-  std::shared_ptr<World> world;
-  double clearance;
-  bool avoid;
-};
+/// Times that suit a flight from rest to rest, stretched as the moving ends need.
+AllocatedTrajectory WithinLimits(const PlanArguments& a) {
+  AllocatedTrajectory rest = AllocateTimes(a.points, a.limits, {.kind = a.kind});
+  if (!a.moving) return rest;
+  PolynomialTrajectory path = SolveWithinLimits({.waypoints = a.points,
+                                                 .durations = rest.trajectory.durations(),
+                                                 .start = a.start,
+                                                 .end = a.end,
+                                                 .kind = a.kind},
+                                                a.limits);
+  const TrajectoryPeaks peaks = CertifiedPeaks(path);
+  return {std::move(path), peaks, 0, 0};
+}
 
 Plan Solve(const PlanArguments& a) {
-  const FlightOptions options{.limits = {.speed = a.vmax, .acceleration = a.amax},
-                              .allocation = {.kind = a.kind},
-                              .radius = a.clearance};
+  const FlightOptions options{.limits = a.limits, .allocation = {.kind = a.kind}, .radius = a.clearance};
   Plan plan;
   plan.waypoints = a.points;
   std::optional<AllocatedTrajectory> flight;
@@ -76,8 +92,7 @@ Plan Solve(const PlanArguments& a) {
     plan.waypoints = std::move(free.waypoints);
     flight = std::move(free.flight);
   } else {
-    flight = a.times ? AtTimes(a.points, *a.times, a.kind)
-                     : AllocateTimes(a.points, options.limits, options.allocation);
+    flight = a.times ? AtTimes(a) : WithinLimits(a);
     if (a.world) {
       const Surroundings around = MapAround(*a.world, a.points, false);
       plan.certificate = Certify(flight->trajectory, flight->peaks, *around.bounded, a.clearance);
@@ -89,14 +104,73 @@ Plan Solve(const PlanArguments& a) {
   return plan;
 }
 
-Plan PlanMinimumSnap(const py::object& waypoints, const std::optional<std::vector<double>>& times,
-                     double vmax, double amax, int order, const std::shared_ptr<World>& world,
-                     double clearance, bool avoid) {
-  PlanArguments a{ToPoints(waypoints, "waypoints"), times, vmax,      amax,
-                  SplineKind::kMinimumSnap,         world, clearance, avoid};
+/// The other limits by their names.
+void ReadLimits(const py::dict& values, TrajectoryLimits& limits) {
+  const std::vector<std::string> names = {"axis_vmax", "axis_amax", "climb",
+                                          "descent",   "thrust",    "body_rate"};
+  const auto axes = [](const py::handle& value, const char* name) {
+    return ToPoints(py::make_tuple(value), name).at(0);
+  };
+  for (const auto& [key, value] : values) {
+    const std::string name = py::str(key);
+    if (name == "axis_vmax") {
+      limits.axis_speed = axes(value, "axis_vmax");
+    } else if (name == "axis_amax") {
+      limits.axis_acceleration = axes(value, "axis_amax");
+    } else if (name == "climb") {
+      limits.climb = value.cast<double>();
+    } else if (name == "descent") {
+      limits.descent = value.cast<double>();
+    } else if (name == "thrust") {
+      limits.thrust_per_mass = value.cast<double>();
+    } else if (name == "body_rate") {
+      limits.body_rate = value.cast<double>();
+    } else {
+      throw InputError("limits: " + UnknownChoiceMessage("limit", name, names));
+    }
+  }
+}
+
+/// Up to three rows: velocity, acceleration, jerk.
+BoundaryDerivatives ReadEnd(const py::object& value, const char* what, bool& moving) {
+  if (value.is_none()) return {};
+  const std::vector<Vec3d> rows = ToPoints(value, what);
+  if (rows.size() > 3) throw InputError(std::string(what) + ": at most velocity, acceleration and jerk");
+  BoundaryDerivatives end;
+  Vec3d* const fields[] = {&end.v, &end.a, &end.jerk};
+  for (size_t i = 0; i < rows.size(); ++i) {
+    *fields[i] = rows[i];
+    moving |= Norm(rows[i]) > 0;
+  }
+  return end;
+}
+
+SplineKind ReadKind(int order, const std::string& minimise) {
   if (order != 5 && order != 7)
     throw InputError("order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
-  if (order == 5) a.kind = SplineKind::kPaperQuintic;
+  if (minimise == "jerk" && order == 5) return SplineKind::kMinimumJerk;
+  if (minimise != "snap") throw InputError("minimise: '" + minimise + "' is not snap, or jerk with order=5");
+  return order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
+}
+
+Plan PlanMinimumSnap(const py::object& waypoints, const std::optional<std::vector<double>>& times,
+                     double vmax, double amax, int order, const std::shared_ptr<World>& world,
+                     double clearance, bool avoid, const py::dict& limits, const std::string& minimise,
+                     const py::object& start, const py::object& end) {
+  PlanArguments a{.points = ToPoints(waypoints, "waypoints"),
+                  .times = times,
+                  .limits = {.speed = vmax, .acceleration = amax},
+                  .kind = ReadKind(order, minimise),
+                  .start = {},
+                  .end = {},
+                  .moving = false,
+                  .world = world,
+                  .clearance = clearance,
+                  .avoid = avoid};
+  ReadLimits(limits, a.limits);
+  a.start = ReadEnd(start, "start", a.moving);
+  a.end = ReadEnd(end, "end", a.moving);
+  if (avoid && a.moving) throw InputError("avoid: flights around obstacles start and end at rest");
   if (avoid && !world) throw InputError("avoid: give the world whose surfaces are to be avoided");
   if (avoid && times) throw InputError("avoid: times cannot be given, waypoints are added");
   if (!(clearance > 0 && std::isfinite(clearance)))
@@ -184,12 +258,15 @@ void BindPlanning(py::module_& m) {
           py::arg("dt") = 0.1, "As at(), every dt seconds and at the end.");
   m.def("plan_minimum_snap", &PlanMinimumSnap, py::arg("waypoints"), py::arg("times") = py::none(),
         py::arg("vmax") = 4.0, py::arg("amax") = 4.0, py::arg("order") = 7, py::arg("world") = py::none(),
-        py::arg("clearance") = 0.5, py::arg("avoid") = false,
+        py::arg("clearance") = 0.5, py::arg("avoid") = false, py::arg("limits") = py::dict(),
+        py::arg("minimise") = "snap", py::arg("start") = py::none(), py::arg("end") = py::none(),
         R"(The smoothest flight through waypoints (N, 3) of W, at rest at both ends.
 
 times: (N,) seconds; None: the fastest that were found within vmax (m/s) and amax (m/s^2). order: 7 (minimum snap) or 5
-(the paper's quintic). world: the flight is checked against its surfaces with `clearance` metres; avoid: it is led around
-them.)");
+(the paper's quintic; with minimise="jerk" least jerk). world: the flight is checked against its surfaces with `clearance`
+metres; avoid: it is led around them. limits: more of them, axis_vmax and axis_amax (3,), climb, descent (m/s), thrust
+(m/s^2, of a drone: |a + g|), body_rate (rad/s, roll and pitch). start, end: (1 to 3, 3), velocity, acceleration and jerk
+there.)");
 }
 
 }  // namespace airsim360::python

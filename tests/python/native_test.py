@@ -459,6 +459,24 @@ class Planning(unittest.TestCase):
             checked = airsim360.plan_minimum_snap(points, vmax=3, amax=4, world=ROOM, clearance=share * least)
             self.assertEqual(checked.certificate["certified"], free)
 
+    def test_other_limits_and_moving_ends(self):
+        points = np.array([[0, 0, 0], [0, 0, 20], [30, 20, 5]], float)
+        plan = airsim360.plan_minimum_snap(points, vmax=40, amax=40, limits=dict(climb=2, axis_amax=[1.5, 40, 40]))
+        samples = plan.sample(plan.duration / 4000)
+        climb, push = samples["v"][:, 2].max(), np.abs(samples["a"][:, 0]).max()
+        self.assertLessEqual(climb, 2 + 1e-9)
+        self.assertLessEqual(push, 1.5 + 1e-9)
+        self.assertGreater(max(climb / 2, push / 1.5), 1 - 1e-3)
+        plan = airsim360.plan_minimum_snap(points, vmax=8, amax=6, start=[[1, 2, 0], [0.5, 0, 0]], end=[[0, 0, -1]])
+        ends = plan.at([0, plan.duration])
+        np.testing.assert_allclose(ends["v"], [[1, 2, 0], [0, 0, -1]], atol=1e-9)
+        np.testing.assert_allclose(ends["a"], [[0.5, 0, 0], [0, 0, 0]], atol=1e-8)
+        self.assertLessEqual(plan.max_speed, 8)
+        self.assertGreater(max(plan.max_speed / 8, plan.max_acceleration / 6), 1 - 1e-4)
+        jerk = [(airsim360.plan_minimum_snap(points, times=[0, 4, 9], order=5, minimise=m).sample(1e-3)["jerk"] ** 2).sum()
+                for m in ("snap", "jerk")]
+        self.assertLess(jerk[1], 0.999 * jerk[0])
+
     def test_avoid_goes_around_the_cube(self):
         ends = [[1.5, 0, 0.5], [4.5, 0, 0.5]]
         through = airsim360.plan_minimum_snap(ends, world=ROOM, clearance=0.3)
@@ -481,7 +499,11 @@ class Planning(unittest.TestCase):
         for arguments in (dict(waypoints=[[0, 0, 0]]), dict(waypoints=[[0, 0, 0], [1, 0, math.inf]]),
                           dict(waypoints=[[0, 0, 0], [1, 0, 0]], times=[0, 0]), dict(waypoints=[[0, 0], [1, 0]]),
                           dict(waypoints=[[0, 0, 0], [1, 0, 0]], order=6), dict(waypoints=[[0, 0, 0], [1, 0, 0]], vmax=-1),
-                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], avoid=True)):
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], avoid=True),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], limits=dict(climbs=1)),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], limits=dict(climb=-1)),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], minimise="jerk"),
+                          dict(waypoints=[[0, 0, 0], [1, 0, 0]], start=[[9, 0, 0]])):
             with self.subTest(arguments), self.assertRaises(ValueError):
                 airsim360.plan_minimum_snap(**arguments)
 

@@ -58,12 +58,15 @@ std::vector<Vec3d> RandomWaypoints(const WaypointArguments& arguments,
   const Vec3d spawn =
       tracer->scene().spawn ? VecCast<double>(*tracer->scene().spawn) : (box.min + box.max) * 0.5;
   const ReachableSpace space(*map, spawn, clearance);
+  const WorldClearance surfaces(tracer, map);
+  const BoundedClearance space_for_flights(surfaces, box);
+  constexpr double kSpare = 0.25;  // metres that the legs keep beyond the clearance, for the curves
   const RandomRouteOptions options{
-      .min_length = range[0], .max_length = range[1], .room = clearance + map->voxel()};
+      .min_length = range[0], .max_length = range[1], .room = clearance + kSpare};
   RngStream random(seed, "random route");
   constexpr int kDraws = 2000;
   for (int i = 0; i < kDraws; ++i) {
-    if (auto route = DrawRoute(*map, space, options, random)) return *route;
+    if (auto route = DrawRoute(*map, space, space_for_flights, options, random)) return *route;
   }
   throw InputError("--route: no random route of " + arguments.length + " m fits into the world");
 }

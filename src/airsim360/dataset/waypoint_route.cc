@@ -40,6 +40,7 @@ namespace {
 
 constexpr int kDraws = 400;           // of a route before it is given up
 constexpr int kCorrections = 4;       // rounds of adding waypoints before another draw is cheaper
+constexpr double kSpare = 0.25;       // metres that the legs keep beyond the radius, for the curves
 constexpr double kCurveShare = 0.97;  // legs are drawn a little shorter than their curves may be long
 
 }  // namespace
@@ -48,12 +49,12 @@ WaypointRoute MakeWaypointRoute(const WaypointSpace& space, const WaypointWorld&
                                 int64_t index, double radius) {
   const RandomRouteOptions draw{.min_length = world.min_length,
                                 .max_length = world.max_length * kCurveShare,
-                                .room = radius + space.map().voxel(),
+                                .room = radius + kSpare,
                                 .min_legs = 2,
                                 .max_legs = world.max_length > 60 ? 6 : 4};
   RngStream random(seed, "waypoint set " + world.name, static_cast<uint64_t>(index));
   for (int i = 0; i < kDraws; ++i) {
-    auto waypoints = DrawRoute(space.map(), space.reachable(), draw, random);
+    auto waypoints = DrawRoute(space.map(), space.reachable(), space.world(), draw, random);
     if (!waypoints) continue;
     WaypointRoute route;
     for (const KinematicSet& set : KinematicSets()) {

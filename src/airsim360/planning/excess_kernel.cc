@@ -53,7 +53,8 @@ class Group {
   }
 
   double Run() {
-    for (size_t j = 0; j < args_.samples; j += kShare) Sample(args_.basis + j / kShare * ExcessBasisSize(kShare));
+    for (size_t j = 0; j < args_.samples; j += kShare)
+      Sample(args_.basis + j / kShare * ExcessBasisSize(kShare));
     Store();
     double total = 0;
     for (int lane = 0; lane < 8; ++lane) total += sum_[lane];
@@ -119,8 +120,7 @@ class Group {
       by_g_[axis][2] += gv * Row<kShare>(basis, 2) + ga * 2.0;
       AIRSIM360_UNROLL
       for (int k = 3; k < kPowers; ++k) {
-        by_g_[axis][k] +=
-            gv * Row<kShare>(basis, k) + ga * Row<kShare>(basis, 8 + k);
+        by_g_[axis][k] += gv * Row<kShare>(basis, k) + ga * Row<kShare>(basis, 8 + k);
       }
     }
   }

@@ -46,6 +46,14 @@ void CheckCounts(size_t waypoints, size_t durations) {
   Fail("numbers are too large: the path is not finite");
 }
 
+/// Routes of few segments are solved again sooner: it costs little, and at their ends nothing evens out what
+/// a long segment beside short ones loses.
+bool UnevenFew(std::span<const double> durations) {
+  if (durations.size() > kFewSegments) return false;
+  const auto [least, largest] = std::ranges::minmax(durations);
+  return largest > kEvenRatio * least;
+}
+
 /// Whether all prescribed derivatives are (positive) zeros. In pairs, as a compiler is likely to have written
 /// them: wider loads would wait for the stores.
 bool AtRest(const MinimumSnapProblem& problem) {
@@ -128,7 +136,7 @@ struct MinimumSnapSolver::Impl {
     }
     at_rest = rest;
     free = kind == SplineKind::kPaperQuintic || (kind == SplineKind::kMinimumSnap && problem.free_jerk);
-    refine = problem.refine && check.uneven;
+    refine = problem.refine && (check.uneven || UnevenFew(problem.durations));
   }
 
   RouteArguments Arguments() {
@@ -335,7 +343,8 @@ void SolveMinimumSnapBatch(std::span<const Vec3d> waypoints, std::span<const dou
         FailOnNumbers(checks, waypoints, durations);
       }
       if (segments == 1 || least < kShortestDuration || largest > kLongestDuration ||
-          (largest > kEvenRatio * least && checks.any_uneven(arguments.durations[lane], segments))) {
+          (largest > kEvenRatio * least &&
+           (segments <= kFewSegments || checks.any_uneven(arguments.durations[lane], segments)))) {
         uneven.push_back(first + lane);
       }
     }

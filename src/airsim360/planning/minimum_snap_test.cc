@@ -214,6 +214,19 @@ TEST(MinimumSnap, VeryUnevenTimesKeepTwelveDigits) {
   }
 }
 
+TEST(MinimumSnap, ShortRoutesKeepTwelveDigitsWithALongSegmentAnywhere) {
+  RngStream random(7, "short uneven");
+  for (int i = 0; i < 600; ++i) {
+    Route route = RandomRoute(2 + static_cast<size_t>(i) % 4, static_cast<uint64_t>(i), i % 8 == 0);
+    for (double& duration : route.durations)
+      duration = 0.5 * std::pow(i % 3 == 0 ? 7.9 : 64, random.Uniform());
+    const MinimumSnapProblem problem = route.Problem(SplineKind::kMinimumSnap, false);
+    const PolynomialTrajectory trajectory = SolveMinimumSnap(problem);
+    EXPECT_LT(LargestDifference(trajectory, internal::WideOptimum(problem)),
+              1e-12 * LargestCoefficient(trajectory));
+  }
+}
+
 TEST(MinimumSnap, LongUnevenRoutesKeepTwelveDigits) {
   RngStream random(6, "long uneven");
   Route route = RandomRoute(1000, 1, true);

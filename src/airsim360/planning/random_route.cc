@@ -12,20 +12,9 @@ namespace {
 constexpr int kStarts = 200, kTurns = 12;     // draws of a start, and of each leg
 constexpr double kTurn = 0.7, kClimb = 0.12;  // radians, standard deviations from leg to leg
 
-// The map alone as a world.
-class MapClearance : public ClearanceQuery {
- public:
-  explicit MapClearance(const ClearanceField& field) : field_(field) {}
-  double Clearance(Vec3d p, double max_distance) const override {
-    return std::min(field_.At(p), max_distance);
-  }
-
- private:
-  const ClearanceField& field_;
-};
-
 std::optional<Vec3d> DrawStart(const ClearanceField& field, const ReachableSpace& space,
-                               const RandomRouteOptions& options, RngStream& random) {
+                               const ClearanceQuery& world, const RandomRouteOptions& options,
+                               RngStream& random) {
   for (int i = 0; i < kStarts; ++i) {
     const int x = static_cast<int>(random.Index(static_cast<uint32_t>(field.size(0))));
     const int y = static_cast<int>(random.Index(static_cast<uint32_t>(field.size(1))));
@@ -34,7 +23,7 @@ std::optional<Vec3d> DrawStart(const ClearanceField& field, const ReachableSpace
     const double u = random.Uniform();
     const double height = options.min_height + u * u * (options.max_height - options.min_height);
     p.z = field.BottomOfColumn(x, y) + height;
-    if (field.At(p) >= options.room && space.Contains(p)) return p;
+    if (space.Contains(p) && world.LowerBound(p, options.room, options.room) >= options.room) return p;
   }
   return std::nullopt;
 }
@@ -42,13 +31,13 @@ std::optional<Vec3d> DrawStart(const ClearanceField& field, const ReachableSpace
 }  // namespace
 
 std::optional<std::vector<Vec3d>> DrawRoute(const ClearanceField& field, const ReachableSpace& space,
-                                            const RandomRouteOptions& options, RngStream& random) {
-  const MapClearance world(field);
+                                            const ClearanceQuery& world, const RandomRouteOptions& options,
+                                            RngStream& random) {
   const double length = random.Uniform(options.min_length, options.max_length);
   const int legs =
       options.min_legs +
       static_cast<int>(random.Index(static_cast<uint32_t>(options.max_legs - options.min_legs + 1)));
-  const std::optional<Vec3d> start = DrawStart(field, space, options, random);
+  const std::optional<Vec3d> start = DrawStart(field, space, world, options, random);
   if (!start) return std::nullopt;
   // Shares of the length.
   std::vector<double> share(static_cast<size_t>(legs));

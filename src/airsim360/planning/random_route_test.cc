@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "airsim360/planning/analytic_world.h"
 #include "airsim360/planning/arc_length.h"
+#include "airsim360/planning/certificate.h"
 #include "airsim360/planning/minimum_snap.h"
 #include "airsim360/planning/search.h"
 
@@ -23,6 +25,18 @@ ClearanceField Town() {
   builder.Add(Box3d{{35.9, 24, 0}, {36, 36, 10}});
   return builder.Build();
 }
+
+// The map alone as a world.
+class MapWorld : public ClearanceQuery {
+ public:
+  explicit MapWorld(const ClearanceField& field) : field_(field) {}
+  double Clearance(Vec3d p, double max_distance) const override {
+    return std::min(field_.At(p), max_distance);
+  }
+
+ private:
+  const ClearanceField& field_;
+};
 
 TEST(ReachableSpace, EndsAtClosedWalls) {
   const ClearanceField field = Town();
@@ -45,8 +59,8 @@ TEST(RandomRoute, IsReachableClearOfTheLengthAskedForAndReproducible) {
   int drawn = 0;
   for (uint64_t seed = 0; seed < 60; ++seed) {
     RngStream a(seed, "route"), b(seed, "route");
-    const auto route = DrawRoute(field, space, options, a);
-    EXPECT_EQ(route, DrawRoute(field, space, options, b));
+    const auto route = DrawRoute(field, space, MapWorld(field), options, a);
+    EXPECT_EQ(route, DrawRoute(field, space, MapWorld(field), options, b));
     if (!route) continue;
     ++drawn;
     const double length = PolylineLength(*route);
@@ -62,6 +76,34 @@ TEST(RandomRoute, IsReachableClearOfTheLengthAskedForAndReproducible) {
     }
   }
   EXPECT_GT(drawn, 30);
+}
+
+TEST(RandomRoute, FindsGapsThatTheMapIsTooCoarseFor) {
+  // A wall with a slit of 2 m, which the map's voxels of 2 m close for a leg that needs 0.75 m to either
+  // side.
+  const Box3d left{{-20, -0.5, -20}, {-1, 0.5, 20}}, right{{1, -0.5, -20}, {20, 0.5, 20}};
+  ClearanceFieldBuilder builder({{-20, -20, -20}, {20, 20, 20}}, 2);
+  builder.Add(left);
+  builder.Add(right);
+  const ClearanceField field = builder.Build();
+  const AnalyticWorld exact({}, {left, right});
+  const BoundedClearance world(exact, field.box());
+  const ReachableSpace space(field, {0, -10, 0}, 0.5);
+  const RandomRouteOptions options{.min_length = 10, .max_length = 30, .room = 0.75};
+  int through = 0;
+  for (uint64_t seed = 0; seed < 2000; ++seed) {
+    RngStream random(seed, "route");
+    const auto route = DrawRoute(field, space, world, options, random);
+    if (!route) continue;
+    for (size_t i = 0; i + 1 < route->size(); ++i) {
+      const Vec3d a = (*route)[i], b = (*route)[i + 1];
+      if ((a.y > 0) == (b.y > 0)) continue;
+      ++through;
+      EXPECT_LT(std::abs(a.x + (b.x - a.x) * a.y / (a.y - b.y)), 0.25);
+      EXPECT_FALSE(SegmentIsClear(a, b, MapWorld(field), options.room));
+    }
+  }
+  EXPECT_GT(through, 0);
 }
 
 TEST(ArcLength, IsTheDistanceOnAStraightFlightAndTheSumOfFineChordsOnOthers) {

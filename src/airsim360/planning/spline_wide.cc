@@ -195,6 +195,7 @@ void SolveAgain(SplineKind kind, const RouteArguments& all, size_t first, size_t
 
 void RefineUneven(SplineKind kind, const CheckKernels& kernels, const RouteArguments& arguments) {
   const size_t segments = arguments.segments;
+  if (segments <= kFewSegments) return SolveAgain(kind, arguments, 0, segments);
   constexpr size_t kBlock = 64;
   size_t first = segments, last = 0;  // the part being collected
   for (size_t i = 0; i + 1 < segments; ++i) {

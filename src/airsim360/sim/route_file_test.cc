@@ -38,10 +38,9 @@ TEST(RouteYaml, ErrorsNameThePlace) {
   EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, w: 3}\n").find("r.yaml:2:"), std::string::npos);
   EXPECT_NE(message("waypoints:\n- {x: 1, y: 2}\n").find("r.yaml:2: waypoint 1 lacks"), std::string::npos);
   EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, z: nan}\n").find("r.yaml:2:"), std::string::npos);
-  EXPECT_NE(
-      message("waypoints:\n- {x: 1, y: 2, z: 1, t: 3}\n- {x: 1, y: 2, z: 1, t: 2}\n")
-          .find("r.yaml:3: waypoint 2: t does not grow: 2 s after 3 s"),
-      std::string::npos);
+  EXPECT_NE(message("waypoints:\n- {x: 1, y: 2, z: 1, t: 3}\n- {x: 1, y: 2, z: 1, t: 2}\n")
+                .find("r.yaml:3: waypoint 2: t does not grow: 2 s after 3 s"),
+            std::string::npos);
   EXPECT_NE(message("waypoints: []\n").find("no points"), std::string::npos);
 }
 

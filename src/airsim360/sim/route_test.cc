@@ -136,7 +136,7 @@ TEST(RouteCsv, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(ParseError("x,y,z\n1,2,nan\n"), "route.csv:2:5: nan: not a finite number");
   EXPECT_EQ(ParseError("x,y\n"), "route.csv:1:1: column 'z' is missing from the header");
   EXPECT_EQ(ParseError("x,y,z,x\n"), "route.csv:1:7: column 'x' is there twice");
-  EXPECT_EQ(ParseError("x,y,z,t\n0,0,0,1\n0,0,0,1\n"), "route.csv:3:1: t does not grow");
+  EXPECT_EQ(ParseError("x,y,z,t\n0,0,0,1\n0,0,0,1\n"), "route.csv:3:1: t does not grow: 1 s after 1 s");
   EXPECT_EQ(ParseError("# nothing\n"), "route.csv: no points");
   EXPECT_NE(
       ParseError("x,y,z,yawdeg\n").find("route.csv:1:7: unknown column 'yawdeg'; did you mean 'yaw_deg'?"),

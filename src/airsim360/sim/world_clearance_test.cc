@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/planning/point_to_point.h"
 #include "airsim360/sim/road_route.h"
 #include "airsim360/sim/world_loader.h"
 
@@ -77,6 +80,58 @@ TEST(WorldClearance, LowerBoundsAreBoundsAndExactWhereTheMapIsNotEnough) {
     }
     EXPECT_LE(world.Clearance(p, 20), exact + 1e-5);
   }
+}
+
+double DistanceToSegment(Vec3d p, Vec3d a, Vec3d b) {
+  const double length2 = Dot(b - a, b - a), along = Dot(p - a, b - a);
+  return Norm(p - a - (b - a) * (length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0));
+}
+
+// By the triangle's plane if the foot of p is inside, else by its edges: nothing that Embree does.
+double DistanceToTriangle(Vec3d p, const std::array<Vec3d, 3>& t) {
+  const Vec3d n = Cross(t[1] - t[0], t[2] - t[0]);
+  bool inside = Dot(n, n) > 0;
+  double distance = 1e9;
+  for (size_t i = 0; i < 3; ++i) {
+    const Vec3d a = t[i], b = t[(i + 1) % 3];
+    inside &= Dot(Cross(n, b - a), p - a) >= 0;
+    distance = std::min(distance, DistanceToSegment(p, a, b));
+  }
+  return inside ? std::fabs(Dot(p - t[0], n)) / Norm(n) : distance;
+}
+
+TEST(WorldClearance, CertifiedFlightsKeepTheirDistanceFromEveryTriangle) {
+  const auto scene = Grove();
+  std::vector<std::array<Vec3d, 3>> triangles;
+  for (const Instance& instance : scene->instances) {
+    const Mesh& mesh = scene->meshes[instance.mesh];
+    for (const Vec3u t : mesh.triangles) {
+      triangles.push_back({VecCast<double>(instance.X_WM * mesh.positions[t.x]),
+                           VecCast<double>(instance.X_WM * mesh.positions[t.y]),
+                           VecCast<double>(instance.X_WM * mesh.positions[t.z])});
+    }
+  }
+  const auto tracer = std::make_shared<const RayTracer>(scene);
+  const Box3d box = FlightBox(*tracer);
+  const WorldClearance surfaces(tracer, MapScene(*scene, box, 0.5));
+  const BoundedClearance world(surfaces, box);
+  constexpr double kRadius = 0.4;
+  const FlightOptions options{.limits = {.speed = 6, .acceleration = 4}, .allocation = {}, .radius = kRadius};
+  double least = 1e9;
+  for (const double y : {-20.0, -7.0, 6.0, 19.0}) {
+    const CertifiedFlight flight = FlyFree({{-27, y, 1.2}, {27, -0.7 * y, 1.5}}, world, options);
+    ASSERT_TRUE(flight.certificate.certified);
+    const PolynomialTrajectory& path = flight.flight.trajectory;
+    constexpr int kSamples = 300;
+    for (int i = 0; i <= kSamples; ++i) {
+      const Vec3d p = path.At(path.duration() * i / kSamples).p;
+      double distance = 1e9;
+      for (const auto& triangle : triangles) distance = std::min(distance, DistanceToTriangle(p, triangle));
+      EXPECT_GE(distance, kRadius);
+      least = std::min(least, distance);
+    }
+  }
+  EXPECT_LT(least, kRadius + 0.3);  // they did fly among the leaves
 }
 
 TEST(FlightBox, IsTheRoomInsideAndOverTheGroundOutside) {
