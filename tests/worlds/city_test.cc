@@ -444,5 +444,25 @@ TEST(Manhattan, HousesAndTheirYardsKeepOffEachOther) {
   }
 }
 
+// A wall is left out up to the neighbour's roof only where the neighbour stands: elsewhere one would look into the house.
+TEST(Manhattan, NoWallIsHiddenWhereNoNeighbourStands) {
+  const internal::Manhattan city = internal::PlanManhattan(PlanNewYorkCity(), {});
+  for (const BuildingPlan& plan : city.buildings) {
+    for (size_t e = 0; e < plan.edges.size(); ++e) {
+      if (plan.edges[e] != EdgeKind::kParty || plan.party_height[e] <= plan.base) continue;
+      const Vec2f a = plan.outline[e], v = plan.outline[(e + 1) % plan.outline.size()] - a;
+      const Vec2f out = Vec2f{v.y, -v.x} * (0.5f / std::hypot(v.x, v.y));
+      for (float t = 0.05f; t < 1; t += 0.1f) {
+        const Vec2f p = a + v * t + out;
+        EXPECT_TRUE(std::any_of(city.buildings.begin(), city.buildings.end(),
+                                [&](const BuildingPlan& other) {
+                                  return other.base == 0 && other.bounds().Contains(p) && other.height() >= plan.party_height[e] - 0.01f;
+                                }))
+            << p.x << " " << p.y;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace airsim360

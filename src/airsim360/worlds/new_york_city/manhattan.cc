@@ -127,32 +127,36 @@ EdgeKind KindOf(const Lot& lot, int facing) {
   return lot.corner() ? EdgeKind::kParty : EdgeKind::kRear;
 }
 
-// What of a shared side wall reaches beyond its neighbour's back looks into a yard: an edge of its own there, with windows
-// in large buildings.
+// What of a shared wall reaches beyond its neighbour looks into a yard: an edge of its own there, with windows in large
+// buildings.
 void SplitAtYards(std::vector<BuildingPlan>& plans, size_t first) {
   for (size_t i = first; i < plans.size(); ++i) {
     BuildingPlan& plan = plans[i];
     for (size_t e = 0; plan.base == 0 && e < plan.edges.size(); ++e) {
+      if (plan.edges[e] != EdgeKind::kParty) continue;
       const Vec2f a = plan.outline[e], b = plan.outline[(e + 1) % plan.outline.size()];
-      if (plan.edges[e] != EdgeKind::kParty || std::abs(a.x - b.x) > 0.01f) continue;
-      const float x = a.x + (b.y > a.y ? 0.5f : -0.5f), y0 = std::min(a.y, b.y), y1 = std::max(a.y, b.y);
+      const bool along_y = std::abs(a.x - b.x) < 0.01f;
+      const float t0 = along_y ? std::min(a.y, b.y) : std::min(a.x, b.x), t1 = along_y ? std::max(a.y, b.y) : std::max(a.x, b.x);
+      const float beyond = along_y ? a.x + (b.y > a.y ? 0.5f : -0.5f) : a.y + (b.x > a.x ? -0.5f : 0.5f);
       // What the neighbour covers of it.
-      float low = y1, high = y0;
+      float low = t1, high = t0;
       for (size_t k = first; k < plans.size(); ++k) {
         const GroundRect r = plans[k].bounds();
-        if (k == i || plans[k].base > 0 || x < r.x0 || x > r.x1) continue;
-        low = std::min(low, std::max(y0, r.y0));
-        high = std::max(high, std::min(y1, r.y1));
+        const float r0 = along_y ? r.y0 : r.x0, r1 = along_y ? r.y1 : r.x1;
+        const bool there = along_y ? beyond > r.x0 && beyond < r.x1 : beyond > r.y0 && beyond < r.y1;
+        if (k == i || plans[k].base > 0 || !there || r1 < t0 + 0.05f || r0 > t1 - 0.05f) continue;
+        low = std::min(low, std::max(t0, r0));
+        high = std::max(high, std::min(t1, r1));
       }
       const EdgeKind open = plan.height() > 30 ? EdgeKind::kRear : EdgeKind::kParty;
-      const bool covered_low = low - y0 < 1;  // at its southern end
+      const bool covered_low = low - t0 < t1 - high;  // nearer to its lower end
       const float at = covered_low ? high : low;
       if (high <= low) {
         plan.edges[e] = open;
-      } else if (at - y0 > 1 && y1 - at > 1) {
+      } else if (at - t0 > 0.05f && t1 - at > 0.05f) {
         const auto next = static_cast<std::ptrdiff_t>(e + 1);
-        const bool covered_first = (b.y > a.y) == covered_low;
-        plan.outline.insert(plan.outline.begin() + next, {a.x, at});
+        const bool rising = along_y ? b.y > a.y : b.x > a.x, covered_first = rising == covered_low;
+        plan.outline.insert(plan.outline.begin() + next, along_y ? Vec2f{a.x, at} : Vec2f{at, a.y});
         plan.edges.insert(plan.edges.begin() + next, covered_first ? open : EdgeKind::kParty);
         plan.edges[e] = covered_first ? EdgeKind::kParty : open;
         ++e;  // the new edge is done

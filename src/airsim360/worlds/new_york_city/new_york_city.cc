@@ -15,7 +15,7 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
   SceneBuilder builder("new_york_city");
   builder.AddSky();
   builder.environment() = {
-      .sun_azimuth_deg = 256, .sun_elevation_deg = 56, .turbidity = 2.6, .cloud_cover = 0.3};
+      .sun_azimuth_deg = 256, .sun_elevation_deg = 66, .turbidity = 2.6, .cloud_cover = 0.3};
   const Surfaces surfaces = AddSurfaces(builder);
   const StreetPlan plan = PlanNewYorkCity();
   PropShelf shelf(builder, options.models, options.seed);
