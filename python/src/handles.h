@@ -12,6 +12,7 @@
 #include "airsim360/planning/polynomial_trajectory.h"
 #include "airsim360/planning/trajectory_limits.h"
 #include "airsim360/render/cuda/cuda_renderer.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/sim_loop.h"
 #include "convert.h"
@@ -24,13 +25,33 @@ struct Lidar {
   RigidTransform X_BS;
 };
 
+/// Renderers of a scene, made when first asked for.
+class Renderers {
+ public:
+  explicit Renderers(DeviceChoice device) : device_(std::move(device)) {}
+  const DeviceChoice& device() const { return device_; }
+  /// RuntimeError where the device cannot be had.
+  Renderer& For(Tier tier, const std::shared_ptr<const RayTracer>& tracer) {
+    // One renderer on a GPU draws all tiers: the scene need not be there twice.
+    std::unique_ptr<Renderer>& renderer = made_[device_.device == "cpu" ? tier : Tier::kLabels];
+    if (!renderer) renderer = MakeRenderer(tracer, {.tier = tier}, device_);
+    return *renderer;
+  }
+
+ private:
+  DeviceChoice device_;
+  std::map<Tier, std::unique_ptr<Renderer>> made_;
+};
+
 /// A world with its tracer and renderers, made when first asked for.
 class World {
  public:
-  World(const std::string& name, uint64_t seed, bool models);
+  /// InputError for another `device` than auto, cpu or vulkan.
+  World(const std::string& name, uint64_t seed, bool models, const std::string& device, int gpu);
   const Scene& scene() const { return *scene_; }
   const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   const std::string& name() const { return name_; }
+  const DeviceChoice& device() const { return renderers_.device(); }
   /// Both without the GIL.
   std::shared_ptr<const RayTracer> tracer();
   std::shared_ptr<Capture> Render(const PanoramicRig& rig, const Kinematics& body);
@@ -41,7 +62,7 @@ class World {
   std::shared_ptr<const Scene> scene_;
   std::mutex mutex_;  // of what follows; never waited for with the GIL held
   std::shared_ptr<const RayTracer> tracer_;
-  std::map<Tier, std::unique_ptr<Renderer>> renderers_;
+  Renderers renderers_;
   std::shared_ptr<const RayTracer> TracerLocked();
 };
 

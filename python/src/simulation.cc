@@ -39,18 +39,11 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
                   0);
 }
 
-void CheckDevice(const DeviceChoice& choice) {
-  static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
-  if (std::ranges::count(kDevices, choice.device) == 0) throw InputError("device: " + UnknownChoiceMessage("device", choice.device, kDevices));
-  if (choice.gpu >= 0 && choice.device == "cpu") throw InputError("gpu: device 'cpu' uses no GPU; say device=\"vulkan\"");
-}
-
 }  // namespace
 
 Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
-                       double dt, const py::object& wind, DeviceChoice device)
-    : world_(std::move(world)), device_(std::move(device)) {
-  CheckDevice(device_);
+                       double dt, const py::object& wind)
+    : world_(std::move(world)), renderers_(world_->device()) {
   if (people < 0 || people > 10000)
     throw InputError("people: " + std::to_string(people) + " is not in 0 ... 10000");
   if (!(dt >= 1e-5 && dt <= 0.1))
@@ -147,12 +140,6 @@ NextTrigger Simulation::After(const SimState& now, double seconds, size_t i) con
   return {then.vehicles[i].motion.X_WB, SceneStateOf(*model_, then, i)};
 }
 
-Renderer& Simulation::RendererLocked(Tier tier) {
-  std::unique_ptr<Renderer>& renderer = renderers_[tier];
-  if (!renderer) renderer = MakeRenderer(base_, {.tier = tier}, device_);
-  return *renderer;
-}
-
 void Simulation::CaptureLocked(const Rig& given, size_t i, Renderer& renderer, Capture& capture) {
   const std::shared_ptr<const SimState> state = loop_->Snapshot();
   PanoramicRig rig = given.rig;
@@ -165,16 +152,17 @@ void Simulation::CaptureLocked(const Rig& given, size_t i, Renderer& renderer, C
 std::shared_ptr<Capture> Simulation::Take(const Rig& rig, size_t i) {
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
-  CaptureLocked(rig, i, RendererLocked(rig.rig.tier), *capture);
+  CaptureLocked(rig, i, renderers_.For(rig.rig.tier, base_), *capture);
   return capture;
 }
 
 std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
-  if (device_.device == "cpu") throw InputError("memory: 'cuda' needs a GPU that renders: Simulation(…, device=\"vulkan\")");
+  const DeviceChoice& device = renderers_.device();
+  if (device.device == "cpu") throw InputError("memory: 'cuda' needs a GPU that renders: World(…, device=\"vulkan\")");
   if (rig.rig.lens != LensModel::kIdeal) throw InputError("memory: the lens real360 is made on the CPU; use memory=\"cpu\"");
   auto capture = std::make_shared<CudaCapture>();
   const std::lock_guard lock(render_mutex_);
-  if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(base_, RendererOptions{.tier = rig.rig.tier}, GpuOptions{.gpu = device_.gpu});
+  if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(base_, RendererOptions{.tier = rig.rig.tier}, GpuOptions{.gpu = device.gpu});
   CaptureLocked(rig, i, *cuda_, *capture);
   capture->pictures = cuda_->Take();
   return capture;

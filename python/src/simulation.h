@@ -1,7 +1,6 @@
 // The simulation that Python holds.
 #pragma once
 
-#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/capture.h"
 #include "handles.h"
 
@@ -10,7 +9,7 @@ namespace airsim360::python {
 class Simulation {
  public:
   Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
-             const py::object& wind, DeviceChoice device);
+             const py::object& wind);
 
   SimLoop& loop() { return *loop_; }
   const std::shared_ptr<const SimModel>& model() const { return model_; }
@@ -45,12 +44,10 @@ class Simulation {
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
-  DeviceChoice device_;
-  std::map<Tier, std::unique_ptr<Renderer>> renderers_;
-  std::unique_ptr<CudaRenderer> cuda_;
+  Renderers renderers_;
+  std::unique_ptr<CudaRenderer> cuda_;  // made when first asked for
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
-  Renderer& RendererLocked(Tier tier);
   void CaptureLocked(const Rig& rig, size_t i, Renderer& renderer, Capture& capture);
 };
 

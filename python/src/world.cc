@@ -1,4 +1,6 @@
 // Worlds: what they hold, rays into them, pictures of them.
+#include <algorithm>
+
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -10,8 +12,22 @@
 
 namespace airsim360::python {
 
-World::World(const std::string& name, uint64_t seed, bool models)
-    : name_(name), scene_(LoadWorld({.world = name, .seed = seed, .use_models = models})) {}
+namespace {
+
+// Wrong names are found before the world is built.
+DeviceChoice ToDevice(const std::string& device, int gpu) {
+  static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
+  if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end())
+    throw InputError("device: " + UnknownChoiceMessage("device", device, kDevices));
+  return {device, gpu};
+}
+
+}  // namespace
+
+World::World(const std::string& name, uint64_t seed, bool models, const std::string& device, int gpu)
+    : name_(name), renderers_(ToDevice(device, gpu)) {
+  scene_ = LoadWorld({.world = name, .seed = seed, .use_models = models});
+}
 
 std::shared_ptr<const RayTracer> World::TracerLocked() {
   if (!tracer_) tracer_ = std::make_shared<const RayTracer>(scene_);
@@ -25,10 +41,8 @@ std::shared_ptr<const RayTracer> World::tracer() {
 
 std::shared_ptr<Capture> World::Render(const PanoramicRig& rig, const Kinematics& body) {
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<Renderer>& renderer = renderers_[rig.tier];
-  if (!renderer) renderer = MakeCpuRenderer(TracerLocked(), {.tier = rig.tier});
   auto capture = std::make_shared<Capture>();
-  CaptureRig(rig, body, 0, *renderer, *capture);
+  CaptureRig(rig, body, 0, renderers_.For(rig.tier, TracerLocked()), *capture);
   return capture;
 }
 
@@ -134,9 +148,14 @@ void BindWorld(py::module_& m) {
   py::class_<World, std::shared_ptr<World>>(
       m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm or world .yaml.
 
+`device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
+says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
+
 ValueError names the nearest world where there is none of that name.)")
-      .def(py::init<const std::string&, uint64_t, bool>(), py::arg("name"), py::arg("seed") = 0,
-           py::arg("models") = true, py::call_guard<py::gil_scoped_release>())
+      .def(py::init<const std::string&, uint64_t, bool, const std::string&, int>(), py::arg("name"), py::arg("seed") = 0,
+           py::arg("models") = true, py::kw_only(), py::arg("device") = "auto", py::arg("gpu") = -1,
+           py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("device", [](const World& w) { return w.device().device; })
       .def_property_readonly("name", &World::name)
       .def_property_readonly(
           "entities", [](const World& w) { return EntitiesOf(w.scene()); },

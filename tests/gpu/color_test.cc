@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "airsim360/base/error.h"
 #include "airsim360/worlds/worlds.h"
 #include "color_compare.h"
 
@@ -94,9 +95,7 @@ TEST(GpuColor, OfWorldsAskedForIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   const std::vector<std::string> worlds = WorldsAskedFor();
   if (worlds.empty()) GTEST_SKIP() << "AIRSIM360_GPU_WORLDS names no world";
-  for (const std::string& world : worlds) {
-    ExpectTheCpus(BuildWorld(world, {.seed = 1}), {}, world);
-  }
+  for (const std::string& world : worlds) ExpectTheCpus(WorldOf(world), {}, world);
 }
 
 TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
@@ -121,12 +120,16 @@ TEST(GpuColor, ManyCamerasAndEveryCurveAreWhatEachIsAlone) {
   }
 }
 
-TEST(GpuColor, WhatItCannotDrawIsNamed) {
+TEST(GpuColor, ItsRaysCanBeTracedOnceMoreAlone) {
   AIRSIM360_NEEDS_GPU();
-  EXPECT_EQ(GpuCannot(Tier::kFast), "");
-  EXPECT_EQ(GpuCannot(Tier::kHigh), "");
-  EXPECT_NE(GpuCannot(Tier::kHigh, {}, true), "");
-  EXPECT_NE(GpuCannot(Tier::kFast, {.coverage = true}).find("coverage"), std::string::npos);
+  const auto scene = BuildWorld("sunlit_room", {.seed = 1});
+  Pair pair(scene, ClearSky(40), Tier::kFast);
+  RenderRequest request = ColorRequest(*scene, 32);
+  request.aa_samples = 1;
+  pair.gpu->TraceAloneMs(request);
+  request.tier = Tier::kHigh;
+  EXPECT_THROW(pair.gpu->TraceAloneMs(request), InputError);
+  for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }
 
 }  // namespace

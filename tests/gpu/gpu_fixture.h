@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "airsim360/render/vulkan/gpu.h"
+#include "airsim360/worlds/worlds.h"
 
 namespace airsim360::test {
 
@@ -31,6 +32,14 @@ inline std::vector<std::string> WorldsAskedFor() {
   const char* names = std::getenv("AIRSIM360_GPU_WORLDS");
   std::istringstream words(names ? names : "");
   return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// A world, kept until another one is asked for.
+inline std::shared_ptr<const Scene> WorldOf(const std::string& name) {
+  static std::string last;
+  static std::shared_ptr<const Scene> scene;
+  if (name != last) scene = nullptr, scene = BuildWorld(name, {.seed = 1}), last = name;
+  return scene;
 }
 
 /// What differs between two label pictures of one request.

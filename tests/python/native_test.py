@@ -51,6 +51,23 @@ class Worlds(unittest.TestCase):
             World("box_rom")
 
 
+    def test_a_gpu_draws_the_labels_of_the_cpu(self):
+        with self.assertRaisesRegex(ValueError, "vulkan"):
+            World("box_room", device="vulcan")
+        rig = Rig(width=64, tier="labels")
+        try:
+            world = World("box_room", device="vulkan")
+            ours = world.capture([0, 0, 3], rig)
+        except RuntimeError as error:
+            self.skipTest(str(error))
+        self.assertEqual(world.device, "vulkan")
+        theirs = World("box_room", device="cpu").capture([0, 0, 3], rig)
+        self.assertLessEqual(np.count_nonzero(ours.entity != theirs.entity), 2)
+        # Drones of a simulation see the same room.
+        seen = Simulation(world, drones=airborne((0, 0, 3))).capture(rig)
+        self.assertLessEqual(np.count_nonzero(seen.entity != ours.entity), 2)
+
+
 class Captures(unittest.TestCase):
     def test_dlpack_shares_the_memory_and_keeps_it(self):
         c = ROOM.capture([0, 0, 3], Rig(width=64, products=["rgb", "range", "entity", "normal"]))

@@ -39,6 +39,22 @@ class RoomTest(ServerTest):
         return np.frombuffer(response.image_data_uint8, np.uint8).reshape(response.height, response.width, 3)
 
 
+class OnAGpu(RoomTest):
+    arguments = ("--lockstep", "--device", "vulkan")
+
+    @classmethod
+    def setUpClass(cls):
+        try:
+            super().setUpClass()
+        except RuntimeError as error:
+            raise unittest.SkipTest(str(error))
+
+    def test_depth_of_a_wall_is_that_of_the_cpu(self):
+        self.put(0, 0, 3)
+        planar = self.picture("0", 1)
+        np.testing.assert_allclose(planar[60:84, 8:248], 4.75, rtol=1e-3)
+
+
 class Depths(RoomTest):
     def test_planar_and_perspective_depth_of_a_wall(self):
         self.put(0, 0, 3)  # the north wall is 5 m ahead, the camera 0.25 m in front of the middle

@@ -54,6 +54,7 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
   options.port = arguments.port >= 0 ? arguments.port : options.settings.port;
   options.lockstep = arguments.lockstep;
   options.tier = ParseTierArgument(arguments.tier);
+  options.device = {globals.device, globals.gpu};
   options.seed = globals.seed;
   options.assets = AssetsOf(globals.seed);
   return options;

@@ -36,8 +36,7 @@ ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tr
                            const ImageOptions& options)
     : session_(session), tracer_(std::move(tracer)), options_(options), ray_tracers_(tracer_) {
   const SnapshotPointer snapshot = session_.snapshot();
-  environment_version_ = snapshot->world->environment_version;
-  renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = snapshot->world->environment});
+  MakeRendererFor(*snapshot->world);
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -81,9 +80,13 @@ void ImageService::Run() {
 }
 
 void ImageService::FollowEnvironment(const WorldView& world) {
-  if (world.environment_version == environment_version_) return;
+  if (renderer_ == nullptr || world.environment_version != environment_version_) MakeRendererFor(world);
+}
+
+void ImageService::MakeRendererFor(const WorldView& world) {
+  renderer_.reset();  // a GPU need not hold two
+  renderer_ = MakeRenderer(tracer_, {.tier = options_.tier, .environment = world.environment}, options_.device);
   environment_version_ = world.environment_version;
-  renderer_ = MakeCpuRenderer(tracer_, {.tier = options_.tier, .environment = world.environment});
 }
 
 // What has moved, as vehicle `self` sees it `later` seconds after the snapshot: objects, people, and the bodies of the

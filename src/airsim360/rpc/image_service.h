@@ -9,6 +9,7 @@
 #include <mutex>
 #include <thread>
 
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/rpc/image_products.h"
 #include "airsim360/rpc/session.h"
 
@@ -16,6 +17,7 @@ namespace airsim360 {
 
 struct ImageOptions {
   Tier tier = Tier::kFast;
+  DeviceChoice device = {.device = "cpu"};
 };
 
 /// Everything but Post and Trigger belongs to jobs, which run in the service's thread.
@@ -61,6 +63,7 @@ class ImageService {
   void Run();
   const Frame& RenderShot(const Snapshot& snapshot, const Shot& shot);
   void FollowEnvironment(const WorldView& world);
+  void MakeRendererFor(const WorldView& world);
   std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self, double later) const;
   std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
                               size_t vehicle, bool external) const;

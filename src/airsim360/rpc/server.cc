@@ -70,7 +70,7 @@ AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptio
                                                             .seed = options.seed,
                                                             .environment = options.environment,
                                                             .people = options.people});
-  impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier});
+  impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier, options.device});
   impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "airsim360/render/renderer.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/tcp_server.h"
@@ -20,6 +21,7 @@ struct ServerOptions {
   int port = 41451;  ///< 0 = any free one
   bool lockstep = false;
   Tier tier = Tier::kFast;
+  DeviceChoice device = {.device = "cpu"};  ///< that draws the pictures
   uint64_t seed = 0;
   TcpLimits limits = {};
   std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene (Populate); null = nobody

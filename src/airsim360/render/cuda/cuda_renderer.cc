@@ -80,6 +80,7 @@ class CudaRenderer::Pictures : public CudaPictures {
 CudaRenderer::CudaRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options, const GpuOptions& gpu)
     : shared_(std::make_shared<Shared>()) {
   shared_->gpu = MakeVulkanRenderer(std::move(tracer), options, gpu);
+  shared_->gpu->ReadBack(false);
   shared_->cuda = std::make_unique<CudaDevice>(shared_->gpu->gpu().uuid);
 }
 

@@ -6,6 +6,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/math/vector.h"
+#include "airsim360/render/shading/sampling.h"
 
 namespace airsim360::internal {
 
@@ -18,34 +19,12 @@ class PathSampler {
   Vec2f Pair(uint32_t index, uint32_t pair) const {
     const uint64_t h = MixBits(key_ + pair), g = MixBits(h);
     // A shuffle that keeps every aligned power of two of samples together keeps their stratification.
-    const uint32_t i = Scramble(index, static_cast<uint32_t>(h));
-    uint32_t y = 0;
-    for (uint32_t k = i, v = 1u << 31; k != 0; k >>= 1, v ^= v >> 1) {
-      if (k & 1) y ^= v;
-    }
-    return {Unit(Reverse(Scramble(i, static_cast<uint32_t>(g)))),
-            Unit(Reverse(Scramble(Reverse(y), static_cast<uint32_t>(g >> 32))))};
+    const uint32_t i = owen_hash(index, static_cast<uint32_t>(h));
+    return {unit_of(ReverseBits(owen_hash(i, static_cast<uint32_t>(g)))),
+            unit_of(owen_scramble(sobol_second(i), static_cast<uint32_t>(g >> 32)))};
   }
 
  private:
-  static uint32_t Reverse(uint32_t x) {
-    x = __builtin_bswap32(x);
-    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
-    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
-    return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
-  }
-  // Every bit flipped by a hash of the lower ones: Owen's scramble of the number with its bits reversed
-  // (Laine & Karras 2011; constants of Burley, JCGT 9(4), 2020).
-  static uint32_t Scramble(uint32_t x, uint32_t seed) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return x;
-  }
-  static float Unit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
-
   uint64_t key_;
 };
 

@@ -16,28 +16,19 @@ inline uint32_t ReverseBits(uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// Nested uniform scramble of a number's bits, most significant first (Laine & Karras 2011, as improved by
-/// Burley, JCGT 9(4), 2020).
-inline uint32_t OwenScramble(uint32_t x, uint32_t seed) {
-  x = ReverseBits(x);
-  x ^= x * 0x3d20adeau;
-  x += seed;
-  x *= (seed >> 16) | 1u;
-  x ^= x * 0x05526c56u;
-  x ^= x * 0x53a22864u;
-  return ReverseBits(x);
-}
+#define SHARED inline
+#define word uint32_t
+#define reverse_bits ReverseBits
+#include "airsim360/render/shading/shading_points.h"
+#undef SHARED
+#undef word
+#undef reverse_bits
 
 /// Point `index` of the (0, 2)-sequence scrambled by `seed`: any 2^k points from a multiple of 2^k on are
 /// stratified in [0, 1)^2 in every way.
 inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
-  uint32_t y = 0;
-  for (uint32_t i = index, v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1) {
-    if (i & 1) y ^= v;
-  }
-  const uint32_t x = OwenScramble(ReverseBits(index), seed);
-  y = OwenScramble(y, seed * 0x9e3779b1u + 0x7f4a7c15u);
-  return {static_cast<float>(x >> 8) * 0x1p-24f, static_cast<float>(y >> 8) * 0x1p-24f};
+  return {unit_of(owen_scramble(ReverseBits(index), seed)),
+          unit_of(owen_scramble(sobol_second(index), seed * 0x9e3779b1u + 0x7f4a7c15u))};
 }
 
 /// Unit vector of a point of the unit square, areas kept.

@@ -19,16 +19,11 @@ class AutoRenderer : public Renderer {
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override {
     if (gpu_) {
-      const std::string what = GpuCannot(request.tier, request.products, request.temporal);
-      if (what.empty()) {
-        try {
-          return gpu_->Render(request, frame);
-        } catch (const RuntimeError& error) {
-          LogWarning(std::string("device: going on with the cpu: ") + error.what());
-          gpu_.reset();
-        }
-      } else if (!cpu_) {
-        LogInfo("device: cpu for " + what + ", which the GPU cannot draw yet");
+      try {
+        return gpu_->Render(request, frame);
+      } catch (const RuntimeError& error) {
+        LogWarning(std::string("device: going on with the cpu: ") + error.what());
+        gpu_.reset();
       }
     }
     if (!cpu_) cpu_ = MakeCpuRenderer(tracer_, options_);
@@ -48,6 +43,8 @@ std::optional<std::string> WhyNot(int wanted) {
   std::string why = "no GPU";
   bool hardware = wanted >= 0;
   const std::vector<GpuInfo> gpus = ListGpus(&why);
+  if (const int count = static_cast<int>(gpus.size()); count > 0 && wanted >= count)
+    return "there is no GPU " + std::to_string(wanted) + ", the last is " + std::to_string(count - 1) + ": " + gpus.back().name;
   for (const GpuInfo& gpu : gpus) {
     if (wanted >= 0 && gpu.index != wanted) continue;
     if (gpu.missing.empty() && (!gpu.software || wanted >= 0)) return {};
@@ -56,7 +53,8 @@ std::optional<std::string> WhyNot(int wanted) {
     why = gpu.name + ": " + gpu.missing;
   }
   // A device file whose Vulkan driver is missing.
-  if (!hardware && !gpus.empty()) why = "this machine has a GPU, but no Vulkan driver for it is installed";
+  if (!hardware && !gpus.empty())
+    why = "this machine has a GPU, but no Vulkan driver for it was found (VK_DRIVER_FILES names one elsewhere; docs/gpu.md)";
   return why;
 }
 
@@ -66,17 +64,12 @@ std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, 
                                        const DeviceChoice& choice) {
   if (choice.device == "cpu") return MakeCpuRenderer(std::move(tracer), options);
   const GpuOptions gpu_options{.gpu = choice.gpu, .fault = choice.fault};
-  const std::string cannot = GpuCannot(options.tier);
-  if (choice.device == "vulkan") {
-    if (!cannot.empty()) throw RuntimeError("--device vulkan cannot draw " + cannot + " yet; use --device cpu");
-    return MakeVulkanRenderer(std::move(tracer), options, gpu_options);
-  }
+  if (choice.device == "vulkan") return MakeVulkanRenderer(std::move(tracer), options, gpu_options);
   if (choice.device != "auto") {
     static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
     throw InputError("--device: " + UnknownChoiceMessage("device", choice.device, kDevices));
   }
   std::optional<std::string> why = WhyNot(choice.gpu);
-  if (!why && !cannot.empty()) why = "the GPU cannot draw " + cannot + " yet";
   if (!why) {
     try {
       auto gpu = MakeVulkanRenderer(tracer, options, gpu_options);

@@ -14,10 +14,10 @@ struct DeviceChoice {
   GpuFault fault = GpuFault::kNone;
 };
 
-/// `cpu`: the CPU renderer. `vulkan`: the GPU's; RuntimeError saying why where there is none, and from Render for what it cannot
-/// draw. `auto`: a GPU in hardware where one can draw `options.tier`, else the CPU. Where the machine has no GPU and none was
-/// asked for nothing is opened and nothing said; else one line on stderr names the device or says why it is the CPU. What a
-/// GPU cannot draw, or fails at (out of memory, lost), goes on on the CPU, with a line too. InputError for other devices.
+/// `cpu`: the CPU renderer. `vulkan`: the GPU's; RuntimeError saying why where there is none. `auto`: a GPU in hardware where
+/// there is one, else the CPU. Where the machine has no GPU and none was asked for nothing is opened and nothing said; else one
+/// line on stderr names the device or says why it is the CPU. What a GPU fails at (out of memory, lost) goes on on the CPU, with
+/// a line too. InputError for other devices.
 std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                                        const DeviceChoice& choice);
 

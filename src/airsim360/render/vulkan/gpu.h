@@ -36,6 +36,7 @@ enum class GpuFault { kNone, kNoVulkan, kOldDriver, kNoMemory, kNoFrameMemory, k
 struct GpuOptions {
   int gpu = -1;           ///< index of GpuInfo; -1 = the best that can render, hardware before software
   bool validate = false;  ///< run under VK_LAYER_KHRONOS_validation with synchronisation checks (tests)
+  bool discrete = false;  ///< software too uploads and reads back by copies, as a GPU with memory of its own (tests)
   int frames_in_flight = 3;
   GpuFault fault = GpuFault::kNone;
 };
@@ -52,6 +53,7 @@ struct GpuFrame {
   std::span<const Rgb32f> albedo, radiance;
   std::span<const uint16_t> material;
   std::span<const FlowPixel> flow;
+  std::span<const CoveragePixel> coverage;
 };
 
 /// Memory of the GPU that another interface can open.
@@ -77,6 +79,9 @@ class GpuRenderer : public Renderer {
   virtual std::vector<GpuFrame> Wait(uint64_t ticket) = 0;
   /// Gives the memory back for later submissions.
   virtual void Release(uint64_t ticket) = 0;
+  /// Whether later submissions copy their pictures to memory of the CPU (at first they do). Without that Wait gives
+  /// frames of empty spans, on devices with memory of their own: what reading back costs.
+  virtual void ReadBack(bool wanted) = 0;
   /// Room for the pictures of a submission, to be shared with another interface; it must go before the renderer.
   /// RuntimeError where the driver shares no memory, or has none left.
   virtual std::unique_ptr<GpuSharedMemory> Share(size_t bytes) = 0;
@@ -88,12 +93,12 @@ class GpuRenderer : public Renderer {
   virtual const GpuInfo& gpu() const = 0;
   /// Time of the ray tracing of the last submission waited for, by the GPU's own clock, ms.
   virtual double gpu_ms() const = 0;
+  /// Time of tracing once more all rays that a picture of tier `fast` without antialiasing sends, and doing nothing else, by the
+  /// GPU's clock, ms: what no renderer can go below. InputError for other tiers.
+  virtual double TraceAloneMs(const RenderRequest& request) = 0;
   /// What the validation layers have said (GpuOptions::validate).
   virtual std::vector<std::string> messages() const = 0;
 };
-
-/// What the GPU renderer cannot draw yet (a tier, a product, RenderRequest::temporal), in words; empty = it can.
-std::string GpuCannot(Tier tier, const Products& products = {}, bool temporal = false);
 
 /// Opens a device and uploads the scene. RuntimeError saying why where that fails: no Vulkan, no such GPU, an old driver, no
 /// memory.

@@ -79,6 +79,13 @@ void PutSeed(uint64_t seed, GpuCamera& out) {
 
 }  // namespace
 
+Mat3d FromProjection(const Camera& camera, const RayField& field) {
+  Mat3d R;
+  for (int i = 0; i < 9; ++i) R.m[i / 3][i % 3] = field.R[i];
+  if (const auto* face = std::get_if<CubeFace>(&camera)) R = R * CubeFaceRotation(face->face);
+  return R;
+}
+
 int PathSamples(const RenderRequest& request) {
   return request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
 }
@@ -87,6 +94,10 @@ int EdgeSamples(const RenderRequest& request) {
   if (!request.products.rgb && !(request.tier == Tier::kHigh && request.products.radiance)) return 1;
   if (request.tier != Tier::kFast && request.tier != Tier::kHigh) return 1;
   return std::clamp(request.aa_samples, 1, kMaxSamples);
+}
+
+int PointsOfPixel(const RenderRequest& request) {
+  return request.products.coverage ? std::clamp(request.aa_samples, 1, kMaxSamples) : EdgeSamples(request);
 }
 
 std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
@@ -98,8 +109,8 @@ std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
 }
 
 size_t GpuCameras::Size(const RenderRequest& request) {
-  const int samples = EdgeSamples(request);
-  size_t size = 256 + (samples > 1 ? static_cast<size_t>(8 * 6 * 4 * (samples - 1)) : 0);
+  const int points = PointsOfPixel(request);
+  size_t size = 256 + (points > 1 ? static_cast<size_t>(8 * 6 * 4 * (points - 1)) : 0);
   const Camera& camera = request.camera;
   if (std::holds_alternative<Equirectangular>(camera))
     size += sizeof(float) * 5 * static_cast<size_t>(Padded(Width(camera)) + Padded(Height(camera)));
@@ -128,7 +139,7 @@ VkDeviceAddress GpuCameras::Table(const Camera& camera, const RayField& field) {
   return buffer.address();
 }
 
-void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCamera& out) {
+void GpuCameras::Fill(const RenderRequest& request, uint64_t frames, UploadCursor& upload, GpuCamera& out) {
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   rays_.Update(request.camera, request.X_WC.R);
   const RayField& field = rays_.field();
@@ -139,6 +150,7 @@ void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCam
   PutVector(request.X_WC.p, out.origin);
   for (int i = 0; i < 9; ++i) out.R[i] = static_cast<float>(field.R[i]);
   PutProjection(request.camera, out);
+  PutMatrix(FromProjection(request.camera, field), out.projection_R);
   if (field.separable) {
     const int columns = Padded(field.width), rows = Padded(field.height);
     out.stride = static_cast<uint32_t>(columns), out.stride_rows = static_cast<uint32_t>(rows);
@@ -159,18 +171,19 @@ void GpuCameras::Fill(const RenderRequest& request, UploadCursor& upload, GpuCam
   } else {
     out.rays = Table(request.camera, field);
   }
-  if (const int samples = EdgeSamples(request); samples > 1) FillOffsets(samples, upload, out);
+  if (const int points = PointsOfPixel(request); points > 1) FillOffsets(points, upload, out);
+  out.samples = static_cast<uint32_t>(EdgeSamples(request));
   if (request.products.flow) FillNext(request, out);
-  if (request.tier == Tier::kHigh) FillHigh(request, upload, out);
+  if (request.tier == Tier::kHigh) FillHigh(request, frames, upload, out);
   if (request.tier == Tier::kReference) {
     PutSeed(request.seed, out);
     out.paths = static_cast<uint32_t>(PathSamples(request));
   }
 }
 
-void GpuCameras::FillHigh(const RenderRequest& request, UploadCursor& upload, GpuCamera& out) {
+void GpuCameras::FillHigh(const RenderRequest& request, uint64_t frames, UploadCursor& upload, GpuCamera& out) {
   const RayField& field = rays_.field();
-  PutSeed(request.seed, out);
+  PutSeed(request.seed + frames * 0x9e3779b97f4a7c15ull, out);
   out.edge_seed = static_cast<uint32_t>(request.seed << 8);
   out.denoise = request.denoise ? 1 : 0;
   auto* const to = reinterpret_cast<float*>(upload.Take(2 * sizeof(float) * static_cast<size_t>(field.height), out.row_tables));
@@ -181,14 +194,14 @@ void GpuCameras::FillHigh(const RenderRequest& request, UploadCursor& upload, Gp
   }
 }
 
-void GpuCameras::FillOffsets(int samples, UploadCursor& upload, GpuCamera& out) {
+void GpuCameras::FillOffsets(int points, UploadCursor& upload, GpuCamera& out) {
   std::vector<PixelOffset> offsets;
-  MakeSampleOffsets(rays_, samples, offsets);
+  MakeSampleOffsets(rays_, points, offsets);
   auto* to = reinterpret_cast<float*>(upload.Take(24 * offsets.size(), out.offsets));
   for (const PixelOffset& o : offsets) {
     for (const double x : {o.dx, o.dy, o.sin_theta, o.cos_theta, o.sin_phi, o.cos_phi}) *to++ = static_cast<float>(x);
   }
-  out.samples = static_cast<uint32_t>(samples);
+  out.points = static_cast<uint32_t>(points);
 }
 
 void GpuCameras::FillNext(const RenderRequest& request, GpuCamera& out) {
@@ -201,10 +214,7 @@ void GpuCameras::FillNext(const RenderRequest& request, GpuCamera& out) {
   const Vec3d eye = VecCast<double>(VecCast<float>(request.X_WC_next->p));
   PutVector(eye, out.next_origin);
   PutVector(VecCast<double>(VecCast<float>(request.X_WC.p)) - eye, out.eye_offset);
-  Mat3d R;
-  for (int i = 0; i < 9; ++i) R.m[i / 3][i % 3] = next_rays_.field().R[i];
-  if (const auto* face = std::get_if<CubeFace>(&request.camera)) R = R * CubeFaceRotation(face->face);
-  PutMatrix(R, out.next_R);
+  PutMatrix(FromProjection(request.camera, next_rays_.field()), out.next_R);
 }
 
 }  // namespace airsim360::internal

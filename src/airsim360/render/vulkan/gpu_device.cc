@@ -170,7 +170,23 @@ VkInstance MakeInstance(bool validate, GpuFault fault = GpuFault::kNone) {
   return instance;
 }
 
-// The device asked for, or the best.
+// Hardware before software, a GPU with memory of its own before one that shares the CPU's.
+int Rank(VkPhysicalDevice physical) {
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  switch (properties.deviceType) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+// The device asked for, or the best: of equal ones the first.
 VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuFault fault, GpuInfo& info) {
   const std::vector<VkPhysicalDevice> devices = PhysicalDevices(instance);
   if (devices.empty()) throw RuntimeError(std::string("Vulkan knows no device; ") + kHowToGetADriver);
@@ -183,7 +199,7 @@ VkPhysicalDevice Choose(VkInstance instance, int wanted, GpuFault fault, GpuInfo
     const GpuInfo& d = all.back();
     list += (i ? ", " : "") + std::to_string(i) + " = " + d.name;
     reasons += (i ? "; " : "") + d.name + ": " + d.missing;
-    if (d.missing.empty() && (best < 0 || (all[static_cast<size_t>(best)].software && !d.software)))
+    if (d.missing.empty() && (best < 0 || Rank(devices[i]) > Rank(devices[static_cast<size_t>(best)])))
       best = static_cast<int>(i);
   }
   if (wanted >= static_cast<int>(devices.size()))
@@ -211,7 +227,10 @@ void CheckVk(VkResult result, const char* what) {
 GpuDevice::GpuDevice(const GpuOptions& options) : fault_(options.fault) {
   try {
     OpenInstance(options.validate);
-    OpenDevice(Choose(instance_, options.gpu, fault_, info_));
+    const VkPhysicalDevice physical = Choose(instance_, options.gpu, fault_, info_);
+    discrete_ = options.discrete || !info_.software;
+    ReadLimits(physical);
+    OpenDevice(physical);
     LoadFunctions();
   } catch (...) {
     Close();
@@ -250,47 +269,60 @@ void GpuDevice::OpenInstance(bool validate) {
   CheckVk(create(instance_, &info, nullptr, &messenger_), "listening to validation");
 }
 
-void GpuDevice::OpenDevice(VkPhysicalDevice physical) {
-  // A queue family that computes; hardware has one that does everything at index 0.
+// A family that computes (hardware has one that does everything at index 0), and one that only copies.
+void GpuDevice::ChooseQueues(VkPhysicalDevice physical) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
   while (queue_family_ < count && !(families[queue_family_].queueFlags & VK_QUEUE_COMPUTE_BIT)) ++queue_family_;
   if (queue_family_ == count) throw RuntimeError("GPU '" + info_.name + "' has no compute queue");
+  copy_family_ = queue_family_;
+  for (uint32_t i = count; i-- > 0;) {
+    constexpr VkQueueFlags kMore = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    if ((families[i].queueFlags & VK_QUEUE_TRANSFER_BIT) && !(families[i].queueFlags & kMore)) copy_family_ = i;
+  }
+  const uint32_t bits = families[queue_family_].timestampValidBits;
+  timestamp_mask_ = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
+}
 
+void GpuDevice::OpenDevice(VkPhysicalDevice physical) {
+  ChooseQueues(physical);
+  if (timestamp_mask_ == 0) timestamp_period_ns_ = 0;
   Features features;
   features.v11.storageBuffer16BitAccess = VK_TRUE;
   features.v12.bufferDeviceAddress = features.v12.scalarBlockLayout = VK_TRUE;
   features.v12.storageBuffer8BitAccess = VK_TRUE;
   features.structure.accelerationStructure = features.pipeline.rayTracingPipeline = VK_TRUE;
   const float priority = 1;
-  const VkDeviceQueueCreateInfo queue{
-      VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queue_family_, 1, &priority};
+  VkDeviceQueueCreateInfo queues[2] = {
+      {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queue_family_, 1, &priority},
+      {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, copy_family_, 1, &priority}};
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
-  info.queueCreateInfoCount = 1;
-  info.pQueueCreateInfos = &queue;
+  info.queueCreateInfoCount = copy_family_ != queue_family_ ? 2 : 1;
+  info.pQueueCreateInfos = queues;
   std::vector<const char*> extensions(std::begin(kExtensions), std::end(kExtensions));
   if (info_.shares_memory) extensions.push_back(VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME);
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
   CheckVk(vkCreateDevice(physical, &info, nullptr, &device_), "opening the device");
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+  vkGetDeviceQueue(device_, copy_family_, 0, &copy_queue_);
   const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                      VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family_};
   CheckVk(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "making a command pool");
+}
 
-  // Limits.
+void GpuDevice::ReadLimits(VkPhysicalDevice physical) {
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+  VkPhysicalDeviceVulkan11Properties v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, &structure_limits_};
   structure_limits_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR;
+  structure_limits_.pNext = &pipeline_limits_;
   pipeline_limits_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR;
-  pipeline_limits_.pNext = &structure_limits_;
-  VkPhysicalDeviceProperties2 properties{
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &pipeline_limits_, {}};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v11, {}};
   vkGetPhysicalDeviceProperties2(physical, &properties);
-  timestamp_period_ns_ = families[queue_family_].timestampValidBits > 0
-                             ? properties.properties.limits.timestampPeriod
-                             : 0.0f;
+  most_memory_ = v11.maxMemoryAllocationSize;
+  timestamp_period_ns_ = properties.properties.limits.timestampPeriod;
 }
 
 void GpuDevice::LoadFunctions() {
@@ -319,6 +351,10 @@ void GpuDevice::Run(const std::function<void(VkCommandBuffer)>& record) {
                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
   CheckVk(vkBeginCommandBuffer(commands, &begin), "recording");
   record(commands);
+  const VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
+                            VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &all, 0, nullptr, 0,
+                       nullptr);
   CheckVk(vkEndCommandBuffer(commands), "recording");
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr};
   submit.commandBufferCount = 1;

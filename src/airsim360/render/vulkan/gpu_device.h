@@ -40,6 +40,11 @@ class GpuDevice {
   VkDevice device() const { return device_; }
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
+  /// Copies pictures while the other traces, where the device has engines for that alone; else the same as queue().
+  VkQueue copy_queue() const { return copy_queue_; }
+  uint32_t copy_family() const { return copy_family_; }
+  /// Whether memory of the GPU is its own: what the CPU writes and reads is copied.
+  bool discrete() const { return discrete_; }
   const RayTracingApi& rt() const { return rt_; }
   const GpuInfo& info() const { return info_; }
   GpuFault fault() const { return fault_; }
@@ -49,7 +54,11 @@ class GpuDevice {
     return structure_limits_;
   }
   float timestamp_period_ns() const { return timestamp_period_ns_; }
-  /// Records, submits and waits.
+  /// Bits of a timestamp that count.
+  uint64_t timestamp_mask() const { return timestamp_mask_; }
+  /// Largest piece of memory, bytes.
+  VkDeviceSize most_memory() const { return most_memory_; }
+  /// Records, submits and waits; what was written is visible to all that is submitted later.
   void Run(const std::function<void(VkCommandBuffer)>& record);
   /// What the validation layers said since the device was opened (empty without them).
   const std::vector<std::string>& messages() const { return messages_; }
@@ -57,6 +66,8 @@ class GpuDevice {
  private:
   void OpenInstance(bool validate);
   void OpenDevice(VkPhysicalDevice physical);
+  void ChooseQueues(VkPhysicalDevice physical);
+  void ReadLimits(VkPhysicalDevice physical);
   void LoadFunctions();
   void Close();
 
@@ -65,8 +76,12 @@ class GpuDevice {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool pool_ = VK_NULL_HANDLE;
-  uint32_t queue_family_ = 0;
+  VkQueue copy_queue_ = VK_NULL_HANDLE;
+  uint32_t queue_family_ = 0, copy_family_ = 0;
+  bool discrete_ = false;
   float timestamp_period_ns_ = 0;
+  uint64_t timestamp_mask_ = 0;
+  VkDeviceSize most_memory_ = 0;
   RayTracingApi rt_{};
   GpuInfo info_;
   GpuFault fault_ = GpuFault::kNone;

@@ -44,6 +44,23 @@ void PutSunMap(GpuArena& arena, const SunMapView& map, GpuHigh& out) {
 
 }  // namespace
 
+void GpuHistory::Fill(const RenderRequest& request, const RayField& field, GpuCamera& out) {
+  constexpr size_t kPlanes = 11;
+  const bool usable = field.width == width_ && field.height == height_ && field.separable == separable_;
+  if (!usable) {
+    // Frames in flight may read it.
+    vkDeviceWaitIdle(device_.device());
+    planes_ = GpuBuffer(device_, kPlanes * sizeof(float) * static_cast<size_t>(field.width) * static_cast<size_t>(field.height),
+                        MemoryKind::kDevice);
+  }
+  out.history = planes_.address();
+  out.history_use = usable ? 2 : 1;  // as in filter.rgen: only kept, or mixed too
+  for (int i = 0; i < 9; ++i) out.history_R[i] = static_cast<float>(R_.m[i / 3][i % 3]);
+  for (int i = 0; i < 3; ++i) out.history_offset[i] = static_cast<float>(request.X_WC.p[i] - p_[i]);
+  width_ = field.width, height_ = field.height, separable_ = field.separable;
+  R_ = FromProjection(request.camera, field), p_ = request.X_WC.p;
+}
+
 GpuHighTables::GpuHighTables(GpuDevice& device, const Shader& shader, const RayTracer& tracer) : arena_(device) {
   const Shader::Impl& impl = shader.impl();
   const Scene& scene = tracer.scene();

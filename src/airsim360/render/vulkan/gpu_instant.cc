@@ -21,11 +21,12 @@ VkDeviceSize ScratchAlign(const GpuDevice& device) {
   return std::max<VkDeviceSize>(device.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);
 }
 
-VkAccelerationStructureKHR Create(GpuDevice& device, const GpuBuffer& storage,
+VkAccelerationStructureKHR Create(GpuDevice& device, VkBuffer buffer, size_t offset, size_t size,
                                   VkAccelerationStructureTypeKHR type, VkDeviceAddress& address) {
   VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR, nullptr};
-  info.buffer = storage.handle();
-  info.size = storage.size();
+  info.buffer = buffer;
+  info.offset = offset;
+  info.size = size;
   info.type = type;
   VkAccelerationStructureKHR structure;
   CheckVk(device.rt().create_structure(device.device(), &info, nullptr, &structure), "making a structure");
@@ -96,7 +97,9 @@ GpuInstant::GpuInstant(GpuDevice& device, const GpuScene& scene)
       scene_(scene),
       structures_(device, (scene.scene().instances.size() + 1) * sizeof(VkAccelerationStructureInstanceKHR),
                   MemoryKind::kUpload),
-      records_(device, (scene.scene().instances.size() + 1) * sizeof(GpuInstance), MemoryKind::kUpload) {
+      records_(device, (scene.scene().instances.size() + 1) * sizeof(GpuInstance), MemoryKind::kUpload),
+      body_vertices_(device, MemoryKind::kUpload),
+      body_memory_(device) {
   const auto& instances = scene.scene().instances;
   for (uint32_t i = 0; i < instances.size(); ++i) WriteInstance(i, instances[i].X_WM, false, nullptr);
   VkAccelerationStructureGeometryKHR geometry;
@@ -109,7 +112,8 @@ GpuInstant::GpuInstant(GpuDevice& device, const GpuScene& scene)
                           &sizes);
   tlas_storage_ = GpuBuffer(device, sizes.accelerationStructureSize, MemoryKind::kDevice);
   scratch_ = GpuBuffer(device, sizes.buildScratchSize + ScratchAlign(device), MemoryKind::kDevice);
-  tlas_ = Create(device, tlas_storage_, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, tlas_address_);
+  tlas_ = Create(device, tlas_storage_.handle(), 0, tlas_storage_.size(), VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
+                 tlas_address_);
 }
 
 GpuInstant::~GpuInstant() {
@@ -122,8 +126,9 @@ GpuInstant::~GpuInstant() {
 
 void GpuInstant::WriteInstance(uint32_t index, const AffineTransform& X, bool hidden, const Body* body) {
   const Instance& instance = scene_.scene().instances[index];
-  auto& out = reinterpret_cast<VkAccelerationStructureInstanceKHR*>(structures_.mapped())[index];
-  auto& record = reinterpret_cast<GpuInstance*>(records_.mapped())[index];
+  // Put together here and written at once: memory of a GPU is slow to read, and bit fields would be.
+  VkAccelerationStructureInstanceKHR out{};
+  GpuInstance record{};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) out.transform.matrix[i][j] = record.A[3 * i + j] = X.A.m[i][j];
     out.transform.matrix[i][3] = record.p[i] = X.p[i];
@@ -134,12 +139,14 @@ void GpuInstant::WriteInstance(uint32_t index, const AffineTransform& X, bool hi
   out.instanceShaderBindingTableRecordOffset = 0;
   out.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
   out.accelerationStructureReference = structure;
-  record.positions = body != nullptr ? body->vertices.address() : scene_.positions(instance.mesh);
+  record.positions = body != nullptr ? body->vertices.address : scene_.positions(instance.mesh);
   const bool bent_normals = body != nullptr && !body->weld.empty();
   record.normals = bent_normals ? static_cast<uint32_t>(body->weld.size()) : 0;
   record.mesh = instance.mesh;
   record.entity = instance.entity;
   record.hidden = hidden ? 1 : 0;
+  reinterpret_cast<VkAccelerationStructureInstanceKHR*>(structures_.mapped())[index] = out;
+  reinterpret_cast<GpuInstance*>(records_.mapped())[index] = record;
 }
 
 GpuInstant::Body& GpuInstant::MakeBody(MeshId mesh) {
@@ -149,16 +156,15 @@ GpuInstant::Body& GpuInstant::MakeBody(MeshId mesh) {
   const Mesh& shape = scene.meshes[mesh];
   if (!shape.normals.empty()) body.weld = WeldVertices(shape);
   const size_t vectors = shape.positions.size() + body.weld.size();
-  body.vertices = GpuBuffer(device_, vectors * sizeof(Vec3f) + 16, MemoryKind::kUpload);
+  body.vertices = body_vertices_.Take(vectors * sizeof(Vec3f));
   MeshBuild build;
-  scene_.Describe(mesh, body.vertices.address(), kBodyFlags, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR,
-                  build);
-  body.storage = GpuBuffer(device_, build.sizes.accelerationStructureSize, MemoryKind::kDevice);
-  body.scratch =
-      GpuBuffer(device_, std::max(build.sizes.buildScratchSize, build.sizes.updateScratchSize) + ScratchAlign(device_),
-                MemoryKind::kDevice);
-  body.structure =
-      Create(device_, body.storage, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, body.address);
+  scene_.Describe(mesh, body.vertices.address, kBodyFlags, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR, build);
+  const size_t align = ScratchAlign(device_);
+  const size_t scratch = std::max(build.sizes.buildScratchSize, build.sizes.updateScratchSize);
+  body.scratch = Up(body_memory_.Take(scratch + align).address, align);
+  const GpuRange storage = body_memory_.Take(build.sizes.accelerationStructureSize);
+  body.structure = Create(device_, storage.buffer, storage.offset, build.sizes.accelerationStructureSize,
+                          VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, body.address);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     if (scene.instances[i].mesh == mesh) body.instances.push_back(i);
   }
@@ -181,9 +187,9 @@ void GpuInstant::Set(const std::shared_ptr<const SceneState>& state) {
     now.insert(now.end(), body.instances.begin(), body.instances.end());
     if (body.positions == deformed.positions) continue;
     body.positions = deformed.positions;
-    std::memcpy(body.vertices.mapped(), deformed.positions->data(), deformed.positions->size() * sizeof(Vec3f));
+    std::memcpy(body.vertices.mapped, deformed.positions->data(), deformed.positions->size() * sizeof(Vec3f));
     if (!body.weld.empty()) {
-      auto* normals = reinterpret_cast<Vec3f*>(body.vertices.mapped()) + deformed.positions->size();
+      auto* normals = reinterpret_cast<Vec3f*>(body.vertices.mapped) + deformed.positions->size();
       std::vector<Vec3f> bent(body.weld.size());
       BendNormals(scene.meshes[deformed.mesh], *deformed.positions, body.weld, bent);
       std::memcpy(normals, bent.data(), bent.size() * sizeof(Vec3f));
@@ -217,27 +223,31 @@ void GpuInstant::Record(VkCommandBuffer commands) {
 }
 
 void GpuInstant::RecordBodies(VkCommandBuffer commands) {
-  bool any = false;
+  // All in one call, so that the GPU builds them side by side.
+  const auto count = static_cast<size_t>(std::ranges::count_if(bodies_, [](const auto& b) { return b.second.changed; }));
+  if (count == 0) return;
+  const auto builds = std::make_unique<MeshBuild[]>(count);
+  std::vector<VkAccelerationStructureBuildGeometryInfoKHR> infos;
+  std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> ranges;
   for (auto& [mesh, body] : bodies_) {
     if (!body.changed) continue;
     const bool anew = body.refits < 0 || body.refits + 1 >= kRefitsOfABuild;
-    MeshBuild build;
-    scene_.Describe(mesh, body.vertices.address(), kBodyFlags,
+    MeshBuild& build = builds[infos.size()];
+    scene_.Describe(mesh, body.vertices.address, kBodyFlags,
                     anew ? VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR
                          : VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR,
                     build);
     build.info.srcAccelerationStructure = anew ? VK_NULL_HANDLE : body.structure;
     build.info.dstAccelerationStructure = body.structure;
-    build.info.scratchData.deviceAddress = Up(body.scratch.address(), ScratchAlign(device_));
-    const VkAccelerationStructureBuildRangeInfoKHR* ranges = build.ranges.data();
-    device_.rt().build(commands, 1, &build.info, &ranges);
+    build.info.scratchData.deviceAddress = body.scratch;
+    infos.push_back(build.info);
+    ranges.push_back(build.ranges.data());
     body.refits = anew ? 0 : body.refits + 1;
     body.changed = false;
-    any = true;
   }
-  if (any)
-    Barrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
-            VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
+  device_.rt().build(commands, static_cast<uint32_t>(count), infos.data(), ranges.data());
+  Barrier(commands, VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+          VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR);
 }
 
 void GpuInstant::RecordTop(VkCommandBuffer commands) {

@@ -30,8 +30,9 @@ class GpuInstant {
  private:
   // A deformed mesh. Refitted, every 30th time built anew.
   struct Body {
-    GpuBuffer vertices, storage, scratch;  // vertices: positions, then normals where the mesh has some
-    std::vector<uint32_t> weld;            // of vertices with normals
+    GpuRange vertices;           // positions, then normals where the mesh has some
+    VkDeviceAddress scratch = 0;
+    std::vector<uint32_t> weld;  // of vertices with normals
     VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
     VkDeviceAddress address = 0;
     std::shared_ptr<const std::vector<Vec3f>> positions;
@@ -48,6 +49,7 @@ class GpuInstant {
   const GpuScene& scene_;
   GpuBuffer structures_, records_;  // VkAccelerationStructureInstanceKHR and GpuInstance of every instance
   GpuBuffer tlas_storage_, scratch_;
+  GpuArena body_vertices_, body_memory_;  // of all bodies
   VkAccelerationStructureKHR tlas_ = VK_NULL_HANDLE;
   VkDeviceAddress tlas_address_ = 0;
   std::shared_ptr<const SceneState> state_;

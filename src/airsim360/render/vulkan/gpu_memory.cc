@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "airsim360/base/error.h"
@@ -9,7 +11,8 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr size_t kBlock = size_t{32} << 20, kStaging = size_t{32} << 20, kAlign = 256, kTail = 16;
+// Few cards let the CPU see much of their memory: blocks of that are smaller.
+constexpr size_t kBlock = size_t{32} << 20, kUploadBlock = size_t{4} << 20, kStaging = size_t{32} << 20, kAlign = 256, kTail = 16;
 
 constexpr VkBufferUsageFlags kUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
@@ -35,16 +38,35 @@ std::array<VkMemoryPropertyFlags, 3> WishesOf(MemoryKind kind) {
   return {kLocal, 0, 0};
 }
 
+void CheckSize(const GpuDevice& device, size_t size) {
+  if (size <= device.most_memory()) return;
+  const auto gib = [](size_t bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f GiB", static_cast<double>(bytes) / (1 << 30));
+    return std::string(text);
+  };
+  throw RuntimeError("GPU: " + gib(size) + " in one piece are more than " + device.info().name + " gives (" +
+                     gib(device.most_memory()) + "): render a smaller picture or fewer cameras");
+}
+
 size_t RoundUp(size_t n) { return (n + kAlign - 1) / kAlign * kAlign; }
 
 }  // namespace
 
 GpuBuffer::GpuBuffer(GpuDevice& device, size_t size, MemoryKind kind) : device_(&device), size_(size) {
   if (size == 0) return;
+  CheckSize(device, size);
   const VkDevice d = device.device();
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, nullptr};
   info.size = size;
   info.usage = kUsage;
+  // Pictures are written by one queue and copied by another.
+  const uint32_t families[2] = {device.queue_family(), device.copy_family()};
+  if (families[0] != families[1]) {
+    info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+    info.queueFamilyIndexCount = 2;
+    info.pQueueFamilyIndices = families;
+  }
   try {
     CheckVk(vkCreateBuffer(d, &info, nullptr, &buffer_), "making a buffer");
     VkMemoryRequirements needs;
@@ -70,7 +92,7 @@ GpuBuffer::GpuBuffer(GpuDevice& device, size_t size, MemoryKind kind) : device_(
     CheckVk(result, "allocating memory");
     CheckVk(vkBindBufferMemory(d, buffer_, memory_, 0), "binding memory");
     coherent_ = (got & kCoherent) != 0;
-    if (got & kVisible) {
+    if ((got & kVisible) && !(kind == MemoryKind::kDevice && device.discrete())) {
       void* p;
       CheckVk(vkMapMemory(d, memory_, 0, VK_WHOLE_SIZE, 0, &p), "mapping memory");
       mapped_ = static_cast<std::byte*>(p);
@@ -111,12 +133,13 @@ GpuRange GpuArena::Take(size_t size) {
   const size_t rounded = RoundUp(size + kTail);
   if (blocks_.empty() || next_ + rounded > blocks_.back().size()) {
     // A small rest is given up; a large request gets a block of its own.
-    blocks_.emplace_back(device_, std::max(kBlock, rounded), MemoryKind::kDevice);
+    blocks_.emplace_back(device_, std::max(kind_ == MemoryKind::kUpload ? kUploadBlock : kBlock, rounded), kind_);
     next_ = 0;
   }
   const GpuBuffer& block = blocks_.back();
-  const GpuRange range{block.handle(), next_, block.address() + next_};
-  next_ += rounded, used_ += rounded;
+  const GpuRange range{block.handle(), next_, block.address() + next_,
+                       block.mapped() != nullptr ? block.mapped() + next_ : nullptr};
+  next_ += rounded;
   return range;
 }
 
@@ -127,21 +150,27 @@ GpuRange GpuArena::Put(std::span<const std::byte> bytes) {
 }
 
 void GpuArena::Write(const GpuRange& range, std::span<const std::byte> bytes) {
-  const auto block = std::find_if(blocks_.begin(), blocks_.end(),
-                                  [&](const GpuBuffer& b) { return b.handle() == range.buffer; });
-  if (std::byte* mapped = block->mapped()) {
-    std::memcpy(mapped + range.offset, bytes.data(), bytes.size());
+  if (range.mapped != nullptr) {
+    std::memcpy(range.mapped, bytes.data(), bytes.size());
     return;
   }
   if (staging_.size() == 0) staging_ = GpuBuffer(device_, kStaging, MemoryKind::kUpload);
-  for (size_t done = 0; done < bytes.size(); done += kStaging) {
-    const size_t n = std::min(kStaging, bytes.size() - done);
-    std::memcpy(staging_.mapped(), bytes.data() + done, n);
-    device_.Run([&](VkCommandBuffer commands) {
-      const VkBufferCopy copy{0, range.offset + done, n};
-      vkCmdCopyBuffer(commands, staging_.handle(), range.buffer, 1, &copy);
-    });
+  for (size_t done = 0; done < bytes.size();) {
+    if (staged_ == kStaging) Flush();
+    const size_t n = std::min(kStaging - staged_, bytes.size() - done);
+    std::memcpy(staging_.mapped() + staged_, bytes.data() + done, n);
+    copies_.push_back({range.buffer, {staged_, range.offset + done, n}});
+    staged_ += n, done += n;
   }
+}
+
+void GpuArena::Flush() {
+  if (copies_.empty()) return;
+  device_.Run([&](VkCommandBuffer commands) {
+    for (const Copy& copy : copies_) vkCmdCopyBuffer(commands, staging_.handle(), copy.to, 1, &copy.part);
+  });
+  copies_.clear();
+  staged_ = 0;
 }
 
 }  // namespace airsim360::internal

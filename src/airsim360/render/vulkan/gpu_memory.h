@@ -51,12 +51,13 @@ struct GpuRange {
   VkBuffer buffer = VK_NULL_HANDLE;
   size_t offset = 0;
   VkDeviceAddress address = 0;
+  std::byte* mapped = nullptr;  ///< as the CPU sees it; nullptr where it does not
 };
 
-/// Device memory handed out in one direction, given back all at once.
+/// Memory handed out in one direction from a few large allocations (drivers allow 4,096), given back all at once.
 class GpuArena {
  public:
-  explicit GpuArena(GpuDevice& device) : device_(device) {}
+  explicit GpuArena(GpuDevice& device, MemoryKind kind = MemoryKind::kDevice) : device_(device), kind_(kind) {}
   /// Aligned to 256 bytes; 16 bytes are added at the end, so that wide reads of the last element stay inside.
   GpuRange Take(size_t size);
   /// Takes a range and fills it.
@@ -65,17 +66,29 @@ class GpuArena {
   GpuRange Put(const std::vector<T>& values) {
     return Put(std::as_bytes(std::span<const T>(values)));
   }
-  /// Copies bytes to a range, through a staging buffer where the CPU does not see the memory.
+  /// Copies bytes to a range, through a staging buffer where the CPU does not see the memory: there they arrive with Flush.
   void Write(const GpuRange& range, std::span<const std::byte> bytes);
-  size_t used() const { return used_; }
-  /// Frees the staging buffer; call it when loading is over.
-  void EndUploads() { staging_ = GpuBuffer(); }
+  /// Brings all that was written to where it belongs; call it before the GPU reads.
+  void Flush();
+  /// Flushes and frees the staging buffer; call it when loading is over.
+  void EndUploads() {
+    Flush();
+    staging_ = GpuBuffer();
+  }
 
  private:
+  struct Copy {
+    VkBuffer to;
+    VkBufferCopy part;
+  };
+
   GpuDevice& device_;
+  MemoryKind kind_;
   std::vector<GpuBuffer> blocks_;
-  size_t next_ = 0, used_ = 0;  // in the last block; in all
+  size_t next_ = 0;  // in the last block
   GpuBuffer staging_;
+  size_t staged_ = 0;
+  std::vector<Copy> copies_;  // from the staging buffer
 };
 
 }  // namespace airsim360::internal

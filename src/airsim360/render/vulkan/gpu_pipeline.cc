@@ -24,12 +24,6 @@ constexpr Group kTable[kGroups] = {{kRaygen, kNone, kNone}, {kMissStage, kNone, 
 constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
                                           VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR;
 
-// As in common.glsl.
-struct Push {
-  VkDeviceAddress frame;
-  int32_t pass, pad;
-};
-
 // Shader modules that go with their scope.
 struct Modules {
   VkDevice device;
@@ -52,7 +46,7 @@ struct Modules {
 }  // namespace
 
 GpuPipeline::GpuPipeline(GpuDevice& device, std::span<const uint32_t> raygen) : device_(device) {
-  const VkPushConstantRange push{kAllStages, 0, sizeof(Push)};
+  const VkPushConstantRange push{kAllStages, 0, sizeof(GpuPush)};
   VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr};
   info.pushConstantRangeCount = 1;
   info.pPushConstantRanges = &push;
@@ -125,10 +119,9 @@ void GpuPipeline::MakeTable() {
   hit_ = {start + hit_at, stride, stride * kHitGroups};
 }
 
-void GpuPipeline::Trace(VkCommandBuffer commands, VkDeviceAddress frame, int32_t pass, uint32_t width, uint32_t height,
+void GpuPipeline::Trace(VkCommandBuffer commands, const GpuPush& push, uint32_t width, uint32_t height,
                         uint32_t depth) const {
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline_);
-  const Push push{frame, pass, 0};
   vkCmdPushConstants(commands, layout_, kAllStages, 0, sizeof(push), &push);
   const VkStridedDeviceAddressRegionKHR callable{};
   device_.rt().trace_rays(commands, &raygen_, &miss_, &hit_, &callable, width, height, depth);

@@ -7,6 +7,12 @@
 
 namespace airsim360::internal {
 
+/// What a pass is told, as in common.glsl.
+struct GpuPush {
+  VkDeviceAddress frame;  ///< its parameters
+  int32_t pass, paths;    ///< for shaders that do several things; paths of a pixel
+};
+
 class GpuPipeline {
  public:
   GpuPipeline(GpuDevice& device, std::span<const uint32_t> raygen);
@@ -14,10 +20,8 @@ class GpuPipeline {
   GpuPipeline(const GpuPipeline&) = delete;
   GpuPipeline& operator=(const GpuPipeline&) = delete;
 
-  /// Records the tracing of width x height x depth invocations with the parameters at an address; `pass` is for shaders that
-  /// do several things.
-  void Trace(VkCommandBuffer commands, VkDeviceAddress frame, int32_t pass, uint32_t width, uint32_t height,
-             uint32_t depth) const;
+  /// Records the tracing of width x height x depth invocations.
+  void Trace(VkCommandBuffer commands, const GpuPush& push, uint32_t width, uint32_t height, uint32_t depth) const;
 
  private:
   void MakePipeline(std::span<const uint32_t> raygen);

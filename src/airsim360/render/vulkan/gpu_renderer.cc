@@ -16,13 +16,6 @@
 
 namespace airsim360 {
 
-std::string GpuCannot(Tier tier, const Products& products, bool temporal) {
-  const bool color = (products.rgb || products.radiance) && tier != Tier::kLabels;
-  if (color && tier == Tier::kHigh && temporal) return "light kept from the last frame";
-  if (products.coverage) return "product 'coverage'";
-  return "";
-}
-
 namespace {
 
 using namespace internal;
@@ -52,7 +45,7 @@ void CopyFrame(const GpuFrame& from, Frame& to) {
   Take(from.material, w, h, to.material);
   Take(from.flow, w, h, to.flow);
   Take(from.radiance, w, h, to.radiance);
-  to.coverage = {};
+  Take(from.coverage, w, h, to.coverage);
 }
 
 class VulkanRenderer : public GpuRenderer {
@@ -64,6 +57,7 @@ class VulkanRenderer : public GpuRenderer {
         device_(options),
         scene_(device_, std::shared_ptr<const Scene>(tracer_, &tracer_->scene())),
         cameras_(device_),
+        history_(device_),
         labels_(device_, LabelsRaygen()) {
     if (options.frames_in_flight < 1 || options.frames_in_flight > 16)
       throw InputError("frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 … 16");
@@ -90,20 +84,9 @@ class VulkanRenderer : public GpuRenderer {
 
   uint64_t Submit(std::span<const RenderRequest> requests) override {
     Check(requests);
-    const auto free = std::ranges::find(slots_, 0u, [](const auto& slot) { return slot->ticket; });
-    if (free == slots_.end())
-      throw RuntimeError("GPU: all " + std::to_string(slots_.size()) + " frames in flight are taken; release one");
-    const bool idle = std::ranges::all_of(slots_, [](const auto& slot) { return slot->ticket == 0; });
-    if (idle) cameras_.Trim();
-    const bool shaded = std::ranges::any_of(
-        requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
-    if (shaded) {
-      PrepareColor();
-      (*free)->Submit(requests, cameras_, ColorWork(requests));
-    } else {
-      (*free)->Submit(requests, cameras_, {.passes = {{&labels_}}});
-    }
-    return (*free)->ticket = ++last_ticket_;
+    if (requests.front().tier == Tier::kHigh && std::ranges::any_of(requests, &WantsColor))
+      history_.Count(requests.front().temporal);
+    return Start(requests);
   }
 
   std::vector<GpuFrame> Wait(uint64_t ticket) override {
@@ -128,17 +111,57 @@ class VulkanRenderer : public GpuRenderer {
     CopyToShared(device_, slot.pictures(), slot.bytes(), to);
     return slot.FramesAt(base);
   }
-
+  void ReadBack(bool wanted) override { read_back_ = wanted; }
+  double TraceAloneMs(const RenderRequest& request) override {
+    if (request.tier != Tier::kFast || !WantsColor(request)) throw InputError("GPU: rays are recorded of tier 'fast' alone");
+    Check({&request, 1});
+    PrepareColor();
+    GpuSlot::Work work{.shade = shade_->address(request.tone), .numbers = kGpuRecordPlanes, .read_back = false};
+    work.passes.push_back({Made(record_, RecordRaygen())});
+    const auto time = [&] {
+      const uint64_t ticket = Start({&request, 1}, work);
+      Wait(ticket);
+      Release(ticket);
+      return gpu_ms_;
+    };
+    // Recorded and traced once, then recorded and traced three times.
+    work.passes.push_back({Made(replay_, ReplayRaygen())});
+    time();
+    const double once = time();
+    work.passes.insert(work.passes.end(), 2, {replay_.get()});
+    return (time() - once) / 2;
+  }
   const GpuInfo& gpu() const override { return device_.info(); }
   double gpu_ms() const override { return gpu_ms_; }
   std::vector<std::string> messages() const override { return device_.messages(); }
 
  private:
+  uint64_t Start(std::span<const RenderRequest> requests) { return Start(requests, WorkFor(requests)); }
+  uint64_t Start(std::span<const RenderRequest> requests, const GpuSlot::Work& work) {
+    const auto free = std::ranges::find(slots_, 0u, [](const auto& slot) { return slot->ticket; });
+    if (free == slots_.end())
+      throw RuntimeError("GPU: all " + std::to_string(slots_.size()) + " frames in flight are taken; release one");
+    const bool idle = std::ranges::all_of(slots_, [](const auto& slot) { return slot->ticket == 0; });
+    if (idle) cameras_.Trim();
+    (*free)->Submit(requests, cameras_, work);
+    return (*free)->ticket = ++last_ticket_;
+  }
+  GpuSlot::Work WorkFor(std::span<const RenderRequest> requests) {
+    const bool shaded = std::ranges::any_of(
+        requests, [](const RenderRequest& r) { return WantsColor(r) || r.products.albedo; });
+    if (shaded) PrepareColor();
+    GpuSlot::Work work = shaded ? ColorWork(requests) : GpuSlot::Work{.passes = {{&labels_}}};
+    work.read_back = read_back_;
+    if (std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.coverage; }))
+      work.passes.push_back({Made(coverage_, CoverageRaygen())});
+    return work;
+  }
   // Stops to add so that the picture is exposed by its own histogram: it is rendered once for that alone.
   double AutoEv(RenderRequest request) {
     request.products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true};
     Image<Rgb32f> radiance;
-    const uint64_t ticket = Submit({&request, 1});
+    request.temporal = false;
+    const uint64_t ticket = Start({&request, 1});
     const GpuFrame frame = Wait(ticket).front();
     Take(frame.radiance, frame.width, frame.height, radiance);
     Release(ticket);
@@ -163,7 +186,12 @@ class VulkanRenderer : public GpuRenderer {
     if (requests.front().tier == Tier::kHigh) {
       PrepareHigh();
       work.high = high_tables_->address();
-      AddHighPasses(std::ranges::any_of(requests, &RenderRequest::denoise), antialias, work);
+      work.numbers = kGpuHighPlanes;
+      const bool denoise = std::ranges::any_of(requests, &RenderRequest::denoise);
+      const bool temporal = requests.front().temporal;
+      work.frames = temporal ? history_.frames() : 0;
+      work.history = temporal && denoise ? &history_ : nullptr;
+      AddHighPasses(denoise, antialias, work);
       return work;
     }
     const bool paths = requests.front().tier == Tier::kReference && std::ranges::any_of(requests, &WantsColor);
@@ -179,22 +207,29 @@ class VulkanRenderer : public GpuRenderer {
   }
   void AddHighPasses(bool denoise, bool antialias, GpuSlot::Work& work) {
     // Numbers as in filter.rgen.
-    constexpr int kLoad = 0, kLevel = 5, kLevels = 5;
+    constexpr int kLoad = 0, kLevel = 5, kLevels = 5, kRemember = 10, kKeep = 11;
     const GpuPipeline* filter = Made(filter_, FilterRaygen());
     work.passes.push_back({Made(high_, HighRaygen())});
     work.passes.push_back({Made(high_light_, HighLightRaygen())});
-    for (int pass = kLoad; pass < kLevel + kLevels && (denoise || pass == kLoad); ++pass)
-      work.passes.push_back({filter, pass});
+    work.passes.push_back({filter, kLoad});
+    if (work.history != nullptr) work.passes.insert(work.passes.end(), {{filter, kRemember}, {filter, kKeep}});
+    for (int pass = kLoad + 1; pass < kLevel + kLevels && denoise; ++pass) work.passes.push_back({filter, pass});
     work.passes.push_back({Made(combine_, CombineRaygen())});
     if (antialias) work.passes.push_back({Made(high_edges_, HighEdgesRaygen())});
   }
   void AddPathPasses(std::span<const RenderRequest> requests, GpuSlot::Work& work) {
     if (!path_tables_) path_tables_ = std::make_unique<GpuPathTables>(device_, *shader_, *tracer_);
     work.path = path_tables_->address();
+    work.numbers = kGpuPathPlanes;
     int most = 0;
-    for (const RenderRequest& r : requests) most = std::max(most, PathSamples(r));
-    for (int pass = 0; pass * kGpuPathsOfAPass < most; ++pass)
-      work.passes.push_back({Made(path_, PathRaygen()), pass});
+    uint64_t pixels = 0;
+    for (const RenderRequest& r : requests) {
+      most = std::max(most, PathSamples(r));
+      pixels += static_cast<uint64_t>(Width(r.camera)) * static_cast<uint64_t>(Height(r.camera));
+    }
+    const int paths = GpuPathsOfAPass(pixels);
+    for (int first = 0; first < most; first += paths)
+      work.passes.push_back({Made(path_, PathRaygen()), first, paths, first > 0});
   }
   void PrepareHigh() {
     if (!high_tables_) high_tables_ = std::make_unique<GpuHighTables>(device_, *shader_, *tracer_);
@@ -216,8 +251,9 @@ class VulkanRenderer : public GpuRenderer {
     const RenderRequest& first = requests.front();
     const Scene& scene = tracer_->scene();
     for (const RenderRequest& r : requests) {
-      if (const std::string what = GpuCannot(r.tier, r.products, r.temporal); !what.empty())
-        throw RuntimeError("device 'vulkan' cannot draw " + what + " yet; use --device cpu");
+      if (r.temporal && requests.size() > 1)
+        throw InputError("GPU: light of the last frame is kept for one camera, not for the " + std::to_string(requests.size()) +
+                         " of a submission");
       if (r.state != first.state || r.next_state != first.next_state || r.tier != first.tier || r.tone != first.tone)
         throw InputError("GPU: the cameras of a submission must share state, tier and tone curve");
       if (r.products.material && scene.materials.size() > kMaxMaterials)
@@ -233,15 +269,17 @@ class VulkanRenderer : public GpuRenderer {
   GpuDevice device_;
   GpuScene scene_;
   GpuCameras cameras_;
+  GpuHistory history_;
   GpuPipeline labels_;
   std::unique_ptr<Shader> shader_;  // this and the next two: made when colour is first wanted
   std::unique_ptr<GpuShadeTables> shade_;
   std::unique_ptr<GpuHighTables> high_tables_;
   std::unique_ptr<GpuPathTables> path_tables_;
-  std::unique_ptr<GpuPipeline> color_, edges_, high_, high_light_, filter_, combine_, high_edges_, path_;
+  std::unique_ptr<GpuPipeline> color_, edges_, high_, high_light_, filter_, combine_, high_edges_, path_, coverage_, record_, replay_;
   std::vector<std::unique_ptr<GpuSlot>> slots_;
   uint64_t last_ticket_ = 0;
-  double gpu_ms_ = 0;
+  double gpu_ms_ = 0;  // of the submission waited for last
+  bool read_back_ = true;
 };
 
 }  // namespace

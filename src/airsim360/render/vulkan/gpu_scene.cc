@@ -81,6 +81,7 @@ GpuScene::GpuScene(GpuDevice& device, std::shared_ptr<const Scene> scene)
   for (const Entity& entity : s.entities) categories.push_back(entity.category);
   categories_ = arena_.Put(categories);
   UploadAlphas();
+  arena_.Flush();
   BuildStructures(used);
   arena_.EndUploads();
 }

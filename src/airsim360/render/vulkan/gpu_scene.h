@@ -40,8 +40,6 @@ class GpuScene {
   /// is.
   void Describe(MeshId mesh, VkDeviceAddress positions, VkBuildAccelerationStructureFlagsKHR flags,
                 VkBuildAccelerationStructureModeKHR mode, MeshBuild& out) const;
-  GpuArena& arena() { return arena_; }
-  size_t memory() const { return arena_.used(); }
 
  private:
   void UploadMesh(MeshId id);

@@ -32,6 +32,15 @@ constexpr uint32_t kHighEdgesRaygen[] = {
 constexpr uint32_t kPathRaygen[] = {
 #include "path.rgen.inc"
 };
+constexpr uint32_t kCoverageRaygen[] = {
+#include "coverage.rgen.inc"
+};
+constexpr uint32_t kRecordRaygen[] = {
+#include "record.rgen.inc"
+};
+constexpr uint32_t kReplayRaygen[] = {
+#include "replay.rgen.inc"
+};
 constexpr uint32_t kLightMiss[] = {
 #include "light.rmiss.inc"
 };
@@ -78,6 +87,9 @@ std::span<const uint32_t> FilterRaygen() { return kFilterRaygen; }
 std::span<const uint32_t> CombineRaygen() { return kCombineRaygen; }
 std::span<const uint32_t> HighEdgesRaygen() { return kHighEdgesRaygen; }
 std::span<const uint32_t> PathRaygen() { return kPathRaygen; }
+std::span<const uint32_t> CoverageRaygen() { return kCoverageRaygen; }
+std::span<const uint32_t> RecordRaygen() { return kRecordRaygen; }
+std::span<const uint32_t> ReplayRaygen() { return kReplayRaygen; }
 std::span<const uint32_t> LightMissShader() { return kLightMiss; }
 std::span<const uint32_t> HitShader() { return kHit; }
 std::span<const uint32_t> MissShader() { return kMissShader; }

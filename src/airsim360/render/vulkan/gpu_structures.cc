@@ -10,6 +10,8 @@ namespace {
 
 constexpr VkDeviceSize kBatchBytes = VkDeviceSize{256} << 20;  // of structures and scratch at once
 constexpr size_t kBatchMeshes = 1024;
+constexpr VkBuildAccelerationStructureFlagsKHR kFlags = VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR |
+                                                        VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
 
 VkDeviceSize Up(VkDeviceSize n, VkDeviceSize to) { return (n + to - 1) / to * to; }
 
@@ -95,8 +97,7 @@ void GpuScene::BuildStructures(const std::vector<MeshId>& used) {
   VkDeviceSize bytes = 0;
   for (MeshId mesh : used) {
     MeshBuild build;
-    Describe(mesh, records_[mesh].positions, VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR,
-             VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR, build);
+    Describe(mesh, records_[mesh].positions, kFlags, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR, build);
     const VkDeviceSize needs = build.sizes.accelerationStructureSize + build.sizes.buildScratchSize;
     if (!batch.empty() && (bytes + needs > kBatchBytes || batch.size() == kBatchMeshes)) {
       BuildBatch(batch);
@@ -108,9 +109,6 @@ void GpuScene::BuildStructures(const std::vector<MeshId>& used) {
 }
 
 void GpuScene::BuildBatch(const std::vector<MeshId>& batch) {
-  constexpr VkBuildAccelerationStructureFlagsKHR kFlags =
-      VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR |
-      VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
   const auto count = static_cast<uint32_t>(batch.size());
   const VkDeviceSize scratch_align =
       std::max<VkDeviceSize>(device_.structure_limits().minAccelerationStructureScratchOffsetAlignment, 256);

@@ -1,7 +1,7 @@
 // Rays of cameras, and labels of what they meet.
 
 const uint kWantRange = 1, kWantEntity = 2, kWantSemantic = 4, kWantNormal = 8, kWantPosition = 16,
-           kWantMaterial = 32, kWantFlow = 64, kWantAlbedo = 128, kWantRadiance = 256, kWantRgb = 512;
+           kWantMaterial = 32, kWantFlow = 64, kWantAlbedo = 128, kWantRadiance = 256, kWantRgb = 512, kWantCoverage = 1024;
 
 layout(location = 0) rayPayloadEXT Hit hit;
 
@@ -18,6 +18,33 @@ bool PixelRay(GpuCamera camera, uvec2 pixel, out vec3 direction) {
   const vec3 ray = Load3(camera.rays, pixel.y * camera.width + pixel.x);
   direction = Turn(camera.R, ray);
   return ray != vec3(0.0);
+}
+
+/// Distance from the centre of a fisheye picture, in focal lengths, of what is `theta` from its axis.
+float FisheyeRadius(GpuCamera camera, float theta) {
+  const float t = theta * theta;
+  return theta * (1.0 + t * (camera.distortion[0] + t * (camera.distortion[1] +
+                             t * (camera.distortion[2] + t * camera.distortion[3]))));
+}
+
+/// Pixel position that sees a direction of the frame of the projection; false = none.
+bool Project(GpuCamera camera, vec3 d, out vec2 pixel) {
+  pixel = vec2(0.0);
+  if (camera.projection == 0) {
+    const float x = float(camera.width) * (atan2_approx(d.x, d.z) / (2.0 * SHADE_PI) + 0.5);
+    pixel = vec2(x, float(camera.height) * (0.5 - atan2_approx(-d.y, length(d.xz)) / SHADE_PI));
+    return true;
+  }
+  const vec2 focal = vec2(camera.focal[0], camera.focal[1]), center = vec2(camera.center[0], camera.center[1]);
+  if (camera.projection == 1) {
+    if (!(d.z > 0.0)) return false;
+    pixel = focal * d.xy / d.z + center;
+  } else {
+    const float across = length(d.xy), theta = atan2_approx(across, d.z);
+    if (!(theta <= camera.max_theta)) return false;
+    pixel = focal * FisheyeRadius(camera, theta) * (across > 0.0 ? d.xy / across : vec2(1.0, 0.0)) + center;
+  }
+  return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= float(camera.width) && pixel.y <= float(camera.height);
 }
 
 /// Index in the image of a canonical pixel.

@@ -14,21 +14,30 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) buffer Bytes { uint
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer High;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PathTables;
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Meshes;
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Instances;
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Alphas;
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Cameras;
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Meshes;
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Instances;
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Alphas;
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Cameras;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Flows;
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Coverages;
 #define ADDRESS(T) T
 #include "records.h"
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Meshes { GpuMesh v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Instances { GpuInstance v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Alphas { GpuAlpha v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Cameras { GpuCamera v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Meshes { GpuMesh v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Instances { GpuInstance v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Alphas { GpuAlpha v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Cameras { GpuCamera v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Flows { GpuFlow v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Coverages { GpuCoverage v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Frames { GpuFrameParams v; };
 
-layout(push_constant, scalar) uniform Push { Frames frame; int pass; int pad; } push;
+layout(push_constant, scalar) uniform Push { Frames frame; int pass; int paths; } push;
+
+// The source that all back ends share; more in shade.glsl.
+#include "airsim360/render/shading/shading_glsl.h"
+#include "airsim360/render/shading/shading_shared.h"
+#define word uint
+#define reverse_bits bitfieldReverse
+#include "airsim360/render/shading/shading_points.h"
 
 const uint kMiss = 0xffffffffu;
 const uint kHasUvs = 1, kSorted = 2, kHasEntities = 4;

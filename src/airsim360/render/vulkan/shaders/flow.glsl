@@ -1,29 +1,5 @@
 // Where the point of a pixel is at the next instant (render/cpu/flow.cc in single precision, about the eye).
 
-/// Pixel position that sees a direction of C; false = none.
-bool Project(GpuCamera camera, vec3 d, out vec2 pixel) {
-  const float kPi = 3.14159265358979;
-  pixel = vec2(0.0);
-  if (camera.projection == 0) {
-    const float x = float(camera.width) * (atan(d.x, d.z) / (2.0 * kPi) + 0.5);
-    pixel = vec2(x, float(camera.height) * (0.5 - atan(-d.y, length(d.xz)) / kPi));
-    return true;
-  }
-  const vec2 focal = vec2(camera.focal[0], camera.focal[1]), center = vec2(camera.center[0], camera.center[1]);
-  if (camera.projection == 1) {
-    if (!(d.z > 0.0)) return false;
-    pixel = focal * d.xy / d.z + center;
-  } else {
-    const float across = length(d.xy), theta = atan(across, d.z);
-    if (!(theta <= camera.max_theta)) return false;
-    const float t2 = theta * theta;
-    const float r = theta * (1.0 + t2 * (camera.distortion[0] + t2 * (camera.distortion[1] +
-                                         t2 * (camera.distortion[2] + t2 * camera.distortion[3]))));
-    pixel = focal * r * (across > 0.0 ? d.xy / across : vec2(1.0, 0.0)) + center;
-  }
-  return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= float(camera.width) && pixel.y <= float(camera.height);
-}
-
 /// A point of a surface in W at the next instant less where it is now.
 vec3 MotionOf(Hit h, uint primitive) {
   GpuInstance now = push.frame.v.instances.v[h.instance], then = push.frame.v.next_instances.v[h.instance];

@@ -18,24 +18,16 @@ float MapSun(vec3 p) {
 /// Irradiance by one of the eight probes around, chosen by its weight; by all where that one is inside a solid.
 vec3 NearProbe(vec3 p, vec3 n) {
   if (view.has_probes == 0) return UniformFrom(n);
-  const float cells = view.probe_cells_per_metre;
-  const vec3 q = p + n * (0.45 / cells);
-  const float x = min(view.probe_max[0] + 0.9999, max(0.0, (q.x - view.probe_origin[0]) * cells));
-  const float y = min(view.probe_max[1] + 0.9999, max(0.0, (q.y - view.probe_origin[1]) * cells));
-  const float h = min(view.height_last, max(0.0, (q.z - view.height_origin) * view.height_scale));
-  const float z = view.layer_of_height.v[int(floor(h + 0.5))];
-  const float x0 = min(floor(x), view.probe_max[0]), y0 = min(floor(y), view.probe_max[1]),
-              z0 = min(floor(z), view.probe_max[2]);
-  const uint lowest = uint(int(z0) * view.probe_stride_z + int(y0) * view.probe_stride_y + int(x0)) * 16;
+  const ProbeCell cell = ProbeCellAt(p, n);
   const uvec3 millimetres = uvec3(ivec3(floor(p * 1024.0)));
   uint hash = millimetres.x * 0x9e3779b1u ^ millimetres.y * 0x85ebca77u ^ millimetres.z * 0xc2b2ae3du;
   hash = (hash ^ (hash >> 16)) * 0x7feb352du;
   hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
   hash = hash ^ (hash >> 16);
-  uint at = lowest;
-  if (float(hash & 0x3ffu) * (1.0 / 1024.0) < x - x0) at += 16u;
-  if (float((hash >> 10) & 0x3ffu) * (1.0 / 1024.0) < y - y0) at += uint(view.probe_stride_y) * 16u;
-  if (float((hash >> 20) & 0x3ffu) * (1.0 / 1024.0) < z - z0) at += uint(view.probe_stride_z) * 16u;
+  uint at = cell.lowest;
+  if (float(hash & 0x3ffu) * (1.0 / 1024.0) < cell.inside.x) at += 16u;
+  if (float((hash >> 10) & 0x3ffu) * (1.0 / 1024.0) < cell.inside.y) at += uint(view.probe_stride_y) * 16u;
+  if (float((hash >> 20) & 0x3ffu) * (1.0 / 1024.0) < cell.inside.z) at += uint(view.probe_stride_z) * 16u;
   Floats t = view.probes;
   if (t.v[at + 3] < 0.5) return SampleProbes(p, n, n, n).front;
   const vec3 e = vec3(t.v[at], t.v[at + 1], t.v[at + 2]) + vec3(t.v[at + 4], t.v[at + 5], t.v[at + 6]) * n.x +

@@ -28,24 +28,9 @@ void Put(uint plane, uint i, float x) { planes.v[plane * plane_size + i] = x; }
 void Put3(uint plane, uint i, vec3 x) { Put(plane, i, x.x), Put(plane + 1, i, x.y), Put(plane + 2, i, x.z); }
 void PutWord(uint plane, uint i, uint x) { words.v[plane * plane_size + i] = x; }
 
-uint OwenScramble(uint x, uint seed) {
-  x = bitfieldReverse(x);
-  x ^= x * 0x3d20adeau;
-  x += seed;
-  x *= (seed >> 16) | 1u;
-  x ^= x * 0x05526c56u;
-  x ^= x * 0x53a22864u;
-  return bitfieldReverse(x);
-}
-
 vec2 SobolPoint(uint index, uint seed) {
-  uint y = 0;
-  for (uint i = index, v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1) {
-    if ((i & 1u) != 0) y ^= v;
-  }
-  const uint x = OwenScramble(bitfieldReverse(index), seed);
-  y = OwenScramble(y, seed * 0x9e3779b1u + 0x7f4a7c15u);
-  return vec2(float(x >> 8), float(y >> 8)) * (1.0 / 16777216.0);
+  return vec2(unit_of(owen_scramble(bitfieldReverse(index), seed)),
+              unit_of(owen_scramble(sobol_second(index), seed * 0x9e3779b1u + 0x7f4a7c15u)));
 }
 
 vec3 SpherePoint(vec2 u) {

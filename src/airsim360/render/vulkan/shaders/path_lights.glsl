@@ -1,12 +1,12 @@
 // Lights of tier `reference`: the sun's disc, the sky, lamps (render/reference/path_lights.cc, render/lights/light_tree.cc,
 // render/shading/sky_sampler.cc for one lane).
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LightNodes;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathLamps;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LampParts;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightNodes;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PathLamps;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LampParts;
 #include "path_records.h"
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LightNodes { GpuLightNode v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathLamps { GpuPathLamp v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LampParts { GpuLampPart v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightNodes { GpuLightNode v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PathLamps { GpuPathLamp v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LampParts { GpuLampPart v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PathTables { GpuPath v; };
 #define tables push.frame.v.path.v
 

@@ -138,6 +138,9 @@ Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
     // Rays of light start with the tint (t, bary), which panes change.
     hit.instance = looks ? kMiss : 0u;
     hit.t = 1.0, hit.bary = vec2(1.0);
+#ifdef RECORD
+    RecordRay(origin, to, reach, looks);
+#endif
     traceRayEXT(accelerationStructureEXT(push.frame.v.tlas),
                 looks ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xff,
                 looks ? 0 : 3, 1, looks ? 0 : 1, origin, 0.0, to, reach, 0);

@@ -44,6 +44,7 @@ struct GpuCamera {
   ADDRESS(Floats) position;
   ADDRESS(Shorts) material;
   ADDRESS(Flows) flow;
+  ADDRESS(Coverages) coverage;
   ADDRESS(Floats) albedo;
   ADDRESS(Floats) radiance;
   ADDRESS(Bytes) rgb;
@@ -65,14 +66,20 @@ struct GpuCamera {
   float focal[2], center[2];
   float distortion[4];
   float max_theta;
+  float projection_R[9];        // from the frame of the projection (of cube faces: the face's) to W
   float exposure;
   uint samples;                 // of a pixel on an edge; 0, 1 = no antialiasing
+  uint points;                  // of a pixel in `offsets`, its centre included: those of `samples` and of coverage
   uint paths;                   // of a pixel; tier reference
   // Tiers high and reference.
-  ADDRESS(Floats) planes;       // high.glsl; of tier reference sums of radiance
+  ADDRESS(Floats) planes;       // high.glsl; of tier reference sums of radiance, then numbers of paths
   ADDRESS(Floats) row_tables;   // by row: ambient rays of a pixel; then its height over its width
   uint high_seed[2];
   uint edge_seed;
+  uint history_use;             // kHistory...: light of the last frame
+  ADDRESS(Floats) history;      // filter.rgen
+  float history_R[9];           // its frame of the projection to W
+  float history_offset[3];      // origin less its origin
   uint denoise;                 // 0 or 1
 };
 
@@ -80,6 +87,11 @@ struct GpuFlow {
   float dx, dy, range;
   uint occluded;
   float motion[3];
+};
+
+struct GpuCoverage {            // CoveragePixel
+  uint entity[4];
+  float share[4];
 };
 
 struct GpuFrameParams {

@@ -1,14 +1,39 @@
 // Points of a pixel beside its centre, and random numbers as the CPU has them.
 
-vec3 RayAt(GpuCamera camera, ivec2 p) {
-  p = clamp(p, ivec2(0), ivec2(int(camera.width) - 1, int(camera.height) - 1));
-  return Load3(camera.rays, uint(p.y) * camera.width + uint(p.x));
+/// The angle from a fisheye's axis at a distance from the centre of its picture (ThetaOfRadius); below 0: none.
+float FisheyeTheta(GpuCamera camera, float r) {
+  const float last = FisheyeRadius(camera, camera.max_theta);
+  if (!(r <= last)) return -1.0;
+  // Newton, kept inside a bracket that halves whenever a step would leave it.
+  float low = 0.0, high = camera.max_theta, theta = min(r, camera.max_theta);
+  for (int k = 0; k < 24; ++k) {
+    const float t = theta * theta, error = FisheyeRadius(camera, theta) - r;
+    if (error == 0.0) break;
+    if (error > 0.0) high = theta;
+    else low = theta;
+    const float slope = 1.0 + t * (3.0 * camera.distortion[0] + t * (5.0 * camera.distortion[1] +
+                                   t * (7.0 * camera.distortion[2] + t * 9.0 * camera.distortion[3])));
+    float next = theta - error / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const float change = abs(next - theta);
+    theta = next;
+    if (change <= 1e-7 * theta) break;
+  }
+  return theta;
+}
+
+/// Direction through a point of a picture that is no panorama, in the frame of its projection; 0 0 0 = none.
+vec3 ProjectionRay(GpuCamera camera, vec2 at) {
+  const vec2 q = (at - vec2(camera.center[0], camera.center[1])) / vec2(camera.focal[0], camera.focal[1]);
+  if (camera.projection == 1) return normalize(vec3(q, 1.0));
+  const float r = length(q), theta = FisheyeTheta(camera, r);
+  if (theta < 0.0) return vec3(0.0);
+  return vec3(q * (r > 0.0 ? sin_approx(theta) / r : 1.0), sin_approx(theta + 0.5 * SHADE_PI));
 }
 
 /// Direction in W through the point (dx, dy) from a canonical pixel's centre, with the sines and cosines of the angles that makes
-/// in a panorama: of the azimuth, of the elevation.
+/// in a panorama: of the azimuth, of the elevation. 0 0 0: there is no ray.
 vec3 RayThrough(GpuCamera camera, uvec2 pixel, vec2 at, vec4 turn) {
-  const float dx = at.x, dy = at.y;
   if (camera.separable != 0) {
     const float sa = turn.x, ca = turn.y, sb = turn.z, cb = turn.w;
     const float st0 = camera.columns.v[3 * camera.stride + pixel.x], ct0 = camera.columns.v[4 * camera.stride + pixel.x];
@@ -16,13 +41,7 @@ vec3 RayThrough(GpuCamera camera, uvec2 pixel, vec2 at, vec4 turn) {
     const float st = st0 * ca + ct0 * sa, ct = ct0 * ca - st0 * sa, sp = sp0 * cb + cp0 * sb, cp = cp0 * cb - sp0 * sb;
     return Turn(camera.R, vec3(cp * st, -sp, cp * ct));
   }
-  // Between the neighbours' rays.
-  const ivec2 p = ivec2(pixel);
-  const vec3 here = RayAt(camera, p);
-  const vec3 right = RayAt(camera, p + ivec2(1, 0)), left = RayAt(camera, p - ivec2(1, 0));
-  const vec3 down = RayAt(camera, p + ivec2(0, 1)), up = RayAt(camera, p - ivec2(0, 1));
-  if (right == vec3(0.0) || left == vec3(0.0) || up == vec3(0.0) || down == vec3(0.0)) return Turn(camera.R, here);
-  return Turn(camera.R, normalize(here + dx * 0.5 * (right - left) + dy * 0.5 * (down - up)));
+  return Turn(camera.projection_R, ProjectionRay(camera, vec2(pixel) + 0.5 + at));
 }
 
 /// Direction in W through a point of a canonical pixel, `s` being a row of camera.offsets: dx dy, then sines and cosines of the
@@ -50,4 +69,13 @@ uvec2 Mix(uvec2 x) {
   x = Times(FoldDown(x, 30), uvec2(0x1ce4e5b9u, 0xbf58476du));
   x = Times(FoldDown(x, 27), uvec2(0x133111ebu, 0x94d049bbu));
   return FoldDown(x, 31);
+}
+
+/// Index of the pixel beside (x, y) of a picture's rows in k: left, right, up, down; its own beyond a border.
+uint Beside(GpuCamera camera, ivec2 at, int k) {
+  const int w = int(camera.width), h = int(camera.height);
+  int x = at.x + (k == 0 ? -1 : k == 1 ? 1 : 0);
+  const int y = clamp(at.y + (k == 2 ? -1 : k == 3 ? 1 : 0), 0, h - 1);
+  x = camera.separable != 0 ? (x + w) % w : clamp(x, 0, w - 1);
+  return uint(y * w + x);
 }

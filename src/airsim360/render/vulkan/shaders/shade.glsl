@@ -1,22 +1,20 @@
-// Tables of the colour tiers, and the shading source that all back ends share.
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Triangles;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadedInstances;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Materials;
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Textures;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Panes;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Lamps;
+// Tables of the colour tiers, and the rest of the shading source that all back ends share.
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Triangles;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadedInstances;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Materials;
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Textures;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Panes;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lamps;
 #include "shade_records.h"
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Triangles { GpuTriangle v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadedInstances { GpuShaded v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Materials { GpuMaterial v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Textures { GpuTexture v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Panes { GpuPane v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Lamps { GpuLamp v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Triangles { GpuTriangle v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadedInstances { GpuShaded v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Materials { GpuMaterial v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Textures { GpuTexture v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Panes { GpuPane v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lamps { GpuLamp v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { GpuShade v; };
 #define view push.frame.v.shade.v
 
-#include "airsim360/render/shading/shading_glsl.h"
-#include "airsim360/render/shading/shading_shared.h"
 // A name of the header that GLSL keeps for itself.
 #define in in_
 #include "airsim360/render/shading/shading_bsdf.h"

@@ -72,27 +72,37 @@ vec3 UniformFrom(vec3 a) {
              vec3(0.0));
 }
 
-Ambient SampleProbes(vec3 p, vec3 g, vec3 n, vec3 r) {
-  Ambient out_light;
-  if (view.has_probes == 0) {
-    out_light.front = UniformFrom(n), out_light.back = UniformFrom(-n), out_light.reflected = UniformFrom(r);
-    return out_light;
-  }
+/// The eight probes around a point of a surface.
+struct ProbeCell {
+  uint lowest;  // where the numbers of the lowest corner begin in view.probes
+  vec3 inside;  // place between its corners, 0 … 1
+};
+ProbeCell ProbeCellAt(vec3 p, vec3 normal) {
   const float cells = view.probe_cells_per_metre;
-  const vec3 q = p + g * (0.45 / cells);
+  const vec3 q = p + normal * (0.45 / cells);
   const float x = min(view.probe_max[0] + 0.9999, max(0.0, (q.x - view.probe_origin[0]) * cells));
   const float y = min(view.probe_max[1] + 0.9999, max(0.0, (q.y - view.probe_origin[1]) * cells));
   const float h = min(view.height_last, max(0.0, (q.z - view.height_origin) * view.height_scale));
   const float z = view.layer_of_height.v[int(floor(h + 0.5))];
   const float x0 = min(floor(x), view.probe_max[0]), y0 = min(floor(y), view.probe_max[1]),
               z0 = min(floor(z), view.probe_max[2]);
-  const vec3 f = vec3(x - x0, y - y0, z - z0);
-  const uint base = uint(int(z0) * view.probe_stride_z + int(y0) * view.probe_stride_y + int(x0)) * 16;
+  return ProbeCell(uint(int(z0) * view.probe_stride_z + int(y0) * view.probe_stride_y + int(x0)) * 16,
+                   vec3(x - x0, y - y0, z - z0));
+}
+
+Ambient SampleProbes(vec3 p, vec3 g, vec3 n, vec3 r) {
+  Ambient out_light;
+  if (view.has_probes == 0) {
+    out_light.front = UniformFrom(n), out_light.back = UniformFrom(-n), out_light.reflected = UniformFrom(r);
+    return out_light;
+  }
+  const ProbeCell cell = ProbeCellAt(p, g);
+  const vec3 f = cell.inside;
   float t[16];
   for (int j = 0; j < 16; ++j) t[j] = 0.0;
   for (int k = 0; k < 8; ++k) {
     const float w = ((k & 1) != 0 ? f.x : 1.0 - f.x) * ((k & 2) != 0 ? f.y : 1.0 - f.y) * ((k & 4) != 0 ? f.z : 1.0 - f.z);
-    const uint at = base + ((k & 1) != 0 ? 16u : 0u) + ((k & 2) != 0 ? uint(view.probe_stride_y) * 16u : 0u) +
+    const uint at = cell.lowest + ((k & 1) != 0 ? 16u : 0u) + ((k & 2) != 0 ? uint(view.probe_stride_y) * 16u : 0u) +
                     ((k & 4) != 0 ? uint(view.probe_stride_z) * 16u : 0u);
     for (int j = 0; j < 16; ++j) t[j] += view.probes.v[at + j] * w;
   }

@@ -1,0 +1,28 @@
+// Even random points, once for C++ and GLSL: words of 32 bits are `word`, reverse_bits turns their order round. Include after
+// defining SHARED and both.
+
+// Nested uniform scramble of a number whose bits are reversed: every bit flipped by a hash of the lower ones (Laine & Karras
+// 2011; constants of Burley, JCGT 9(4), 2020).
+SHARED word owen_hash(word x, word seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+SHARED word owen_scramble(word x, word seed) { return reverse_bits(owen_hash(reverse_bits(x), seed)); }
+
+// The second coordinate of Sobol's point `index` in units of 2^-32; the first is the index with its bits reversed.
+SHARED word sobol_second(word index) {
+  word y = 0u;
+  word v = 0x80000000u;
+  for (word i = index; i != 0u; i >>= 1) {
+    if ((i & 1u) != 0u) y ^= v;
+    v ^= v >> 1;
+  }
+  return y;
+}
+
+// [0, 1) in steps of 2^-24.
+SHARED float unit_of(word x) { return float(x >> 8) * (1.0f / 16777216.0f); }
