@@ -7,7 +7,6 @@
 
 #include "airsim360/dataset/collector.h"
 #include "airsim360/dataset/encode.h"
-#include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
 
