@@ -45,7 +45,7 @@ class Simulation {
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
   Renderers renderers_;
-  std::unique_ptr<CudaRenderer> cuda_;
+  std::unique_ptr<CudaRenderer> cuda_;  // made when first asked for
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
   void CaptureLocked(const Rig& rig, size_t i, Renderer& renderer, Capture& capture);

@@ -93,13 +93,10 @@ void BindSimulation(py::module_& m) {
 
 drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
 commands give the same bytes with any number of threads. people: how many
-walk about. wind: (3,) m/s in W. Pictures are drawn on the world's device.)");
-  sim.def(py::init([](std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed, double dt,
-                      const py::object& wind) {
-            return std::make_unique<Simulation>(std::move(world), drones, people, seed, dt, wind);
-          }),
-          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0, py::arg("dt") = 0.001,
-          py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
+walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
+  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
+          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
+          py::arg("dt") = 0.001, py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
       .def(
           "step",
           [](Simulation& s, int64_t n) {

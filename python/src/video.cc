@@ -16,13 +16,14 @@ class Video {
       : path_(path), fps_(fps), width_(width), height_(height) {
     options_ = {.frame_rate = fps, .encoder = encoder, .quality = quality, .spherical = spherical};
     CheckVideoOptions(options_);
+    CheckVideoPath(path_);
     if (width != 0 || height != 0) CheckVideo({width, height}, options_);
   }
 
   void Add(const py::object& picture, const std::optional<double>& t) {
     std::optional<Image<Rgb8>> copy;
     const Image<Rgb8>* rgb = nullptr;
-    int64_t t_ns = std::llround(static_cast<double>(count_) * 1e9 / fps_);
+    std::optional<int64_t> t_ns;
     if (py::isinstance<Capture>(picture)) {
       const auto& capture = picture.cast<const Capture&>();
       rgb = &capture.frame.rgb;
@@ -34,12 +35,17 @@ class Video {
     if (t) t_ns = std::llround(Finite(*t, "t") * 1e9);
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex_);
+    // Captures of a world all have time 0, and a simulation may go back.
+    const bool given = t.has_value();
+    const bool later = t_ns && (count_ == 0 || *t_ns > last_ns_);
+    if (!given && !later) t_ns = count_ == 0 ? 0 : last_ns_ + std::llround(1e9 / fps_);
     if (closed_) throw InputError("add: the video is closed");
     if (!writer_) {
       if (width_ == 0) width_ = rgb->width(), height_ = rgb->height();
       writer_ = std::make_unique<VideoWriter>(path_, width_, height_, options_);
     }
-    writer_->Add(*rgb, t_ns);
+    writer_->Add(*rgb, *t_ns);
+    last_ns_ = *t_ns;
     ++count_;
   }
 
@@ -68,7 +74,7 @@ class Video {
   VideoOptions options_;
   std::mutex mutex_;  // never waited for with the GIL held
   std::unique_ptr<VideoWriter> writer_;
-  int64_t count_ = 0;
+  int64_t count_ = 0, last_ns_ = 0;
   bool closed_ = false;
 };
 
@@ -89,7 +95,8 @@ hevc_vaapi. quality: 0 (best) ... 51.)")
            py::arg("height") = 0, py::arg("fps") = 30.0, py::arg("spherical") = true, py::arg("encoder") = "auto",
            py::arg("quality") = VideoOptions{}.quality)
       .def("add", &Video::Add, py::arg("picture"), py::arg("t") = py::none(),
-           "A Capture (shown from its t_ns on) or (H, W, 3) uint8 (1 / fps after the last); t: seconds instead.")
+           "A Capture (shown from its t_ns on if that is later than the last picture) or (H, W, 3) uint8; else 1 / fps after the last. t: seconds "
+           "instead.")
       .def(
           "close",
           [](Video& v) {

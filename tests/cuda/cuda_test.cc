@@ -43,7 +43,9 @@ class Cuda : public testing::Test {
     request_.tier = Tier::kLabels;
     request_.products = {.rgb = false, .range = true, .semantic = true, .entity = true, .normal = true};
   }
-  std::unique_ptr<CudaRenderer> Make() { return std::make_unique<CudaRenderer>(tracer_, RendererOptions{}, GpuOptions{.gpu = gpu_.index}); }
+  std::unique_ptr<CudaRenderer> Make(bool discrete = false) {
+    return std::make_unique<CudaRenderer>(tracer_, RendererOptions{}, GpuOptions{.gpu = gpu_.index, .discrete = discrete});
+  }
   std::shared_ptr<const CudaPictures> Take(CudaRenderer& renderer) {
     Frame frame;
     renderer.Render(request_, frame);
@@ -84,19 +86,22 @@ class Cuda : public testing::Test {
 TEST_F(Cuda, SharedMemoryHoldsThePicturesOfTheVulkanRenderer) {
   const Frame expected = Expected();
   ASSERT_NO_FATAL_FAILURE(FindHeader(expected));
-  const auto renderer = Make();
-  const auto pictures = Take(*renderer);
-  const GpuFrame& f = pictures->frame();
-  ASSERT_EQ(f.width, 64);
-  EXPECT_TRUE(std::ranges::equal(f.range, expected.range.pixels()));
-  EXPECT_TRUE(std::ranges::equal(f.entity, expected.entity.pixels()));
-  EXPECT_TRUE(std::ranges::equal(f.semantic, expected.semantic.pixels()));
-  EXPECT_TRUE(std::ranges::equal(f.normal, expected.normal.pixels()));
-  EXPECT_TRUE(f.rgb.empty());
+  for (const bool discrete : {false, true}) {
+    const auto renderer = Make(discrete);
+    const auto pictures = Take(*renderer);
+    const GpuFrame& f = pictures->frame();
+    ASSERT_EQ(f.width, 64);
+    EXPECT_TRUE(std::ranges::equal(f.range, expected.range.pixels()));
+    EXPECT_TRUE(std::ranges::equal(f.entity, expected.entity.pixels()));
+    EXPECT_TRUE(std::ranges::equal(f.semantic, expected.semantic.pixels()));
+    EXPECT_TRUE(std::ranges::equal(f.normal, expected.normal.pixels()));
+    EXPECT_TRUE(f.rgb.empty());
+  }
 }
 
 TEST_F(Cuda, TheValidationLayersHaveNothingToSay) {
-  const auto renderer = MakeVulkanRenderer(tracer_, {}, {.gpu = gpu_.index, .validate = true});
+  const auto renderer = MakeVulkanRenderer(tracer_, {}, {.gpu = gpu_.index, .validate = true, .discrete = true});
+  renderer->ReadBack(false);
   for (int i = 0; i < 2; ++i) {
     const uint64_t ticket = renderer->Submit({&request_, 1});
     const auto memory = renderer->Share(renderer->PictureBytes(ticket));
@@ -129,7 +134,8 @@ TEST_F(Cuda, CallsComeInOrderWithTheSizesOfTheBuffer) {
   // Each picture begins at a multiple of 64 bytes: range, entity 4 bytes a pixel, semantic 2, normal 12.
   const std::string size = std::to_string(64 * 32 * (4 + 4 + 2 + 12));
   for (const std::string& call : {std::string("cuInit 0\n"), std::string("cuDeviceGetCount\n"), std::string("cuDevicePrimaryCtxRetain"),
-                                  std::string("cuImportExternalMemory type 1 size "), "cuExternalMemoryGetMappedBuffer offset 0 size " + size + "\n"}) {
+                                  std::string("cuImportExternalMemory type 1 size "),
+                                  "cuExternalMemoryGetMappedBuffer offset 0 size " + size + "\n"}) {
     at = calls.find(call, at);
     ASSERT_NE(at, std::string::npos) << call << " in\n" << calls;
   }

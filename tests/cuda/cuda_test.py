@@ -72,8 +72,8 @@ class CudaTensors(unittest.TestCase):
         cls.fake.fake_cuda_calls.restype = ctypes.c_char_p
         cls.fake.fake_cuda_set_header.argtypes = [ctypes.c_ulonglong]
         cls.fake.fake_cuda_set_uuid(1, gpu["uuid"])
-        cls.world = World("box_room")
-        cls.sim = Simulation(cls.world, device="vulkan", gpu=gpu["index"])
+        cls.world = World("box_room", device="vulkan", gpu=gpu["index"])
+        cls.sim = Simulation(cls.world)
         cls.expected = cls.sim.capture(RIG)
         # lavapipe's shared memory begins behind bytes of its own.
         first = Consumer(cls.sim.capture(RIG, memory="cuda").tensor("range").__dlpack__())
@@ -84,7 +84,7 @@ class CudaTensors(unittest.TestCase):
 
     def setUp(self):
         self.fake.fake_cuda_set_header(self.header)
-        self.sim = Simulation(self.world, device="vulkan", gpu=software_gpu()["index"])
+        self.sim = Simulation(self.world)
         self.fake.fake_cuda_forget()
 
     def calls(self):
@@ -167,20 +167,16 @@ class CudaTensors(unittest.TestCase):
 
     def test_what_cannot_be_is_said(self):
         with self.assertRaisesRegex(ValueError, "device=\"vulkan\""):
-            Simulation(self.world).capture(RIG, memory="cuda")
+            Simulation(World("box_room", device="cpu")).capture(RIG, memory="cuda")
         with self.assertRaisesRegex(ValueError, "did you mean 'cuda'"):
             self.sim.capture(RIG, memory="cude")
         with self.assertRaisesRegex(ValueError, "not captured"):
             self.sim.capture(RIG, memory="cuda").tensor("flow")
-        with self.assertRaisesRegex(ValueError, "did you mean 'vulkan'"):
-            Simulation(self.world, device="vulcan")
-        with self.assertRaisesRegex(ValueError, "gpu"):
-            Simulation(self.world, gpu=0)
         library = os.environ["AIRSIM360_LIBCUDA"]
         os.environ["AIRSIM360_LIBCUDA"] = "/nowhere/libcuda.so.1"
         try:
             with self.assertRaisesRegex(RuntimeError, "CUDA: no driver"):
-                Simulation(self.world, device="vulkan", gpu=software_gpu()["index"]).capture(RIG, memory="cuda")
+                Simulation(self.world).capture(RIG, memory="cuda")
         finally:
             os.environ["AIRSIM360_LIBCUDA"] = library
 

@@ -189,7 +189,8 @@ int cuMemcpyDtoH_v2(void* to, unsigned long long from, size_t size) {
 }
 int cuMemcpyDtoDAsync_v2(unsigned long long to, unsigned long long from, size_t size, void* stream) {
   LOCK;
-  if (const int error = Note("cuMemcpyDtoDAsync_v2", std::to_string(size) + " stream " + std::to_string(reinterpret_cast<intptr_t>(stream)))) return error;
+  const std::string what = std::to_string(size) + " stream " + std::to_string(reinterpret_cast<intptr_t>(stream));
+  if (const int error = Note("cuMemcpyDtoDAsync_v2", what)) return error;
   std::memcpy(reinterpret_cast<void*>(to), reinterpret_cast<const void*>(from), size);
   return pushed < 1 ? kInvalid : 0;
 }

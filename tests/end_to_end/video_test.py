@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, ProgramTest, tree
+from program import PROGRAM, ProgramTest, run, tree
 
 ROOM = ["--world", "box_room", "--size", "256x128"]
 
@@ -23,7 +23,8 @@ def probe(path):
 def psnr(video, pictures):
     """dB of each decoded frame against the pictures (a pattern like rgb/%06d.png), by ffmpeg's own filter."""
     shown = subprocess.run(["ffmpeg", "-v", "error", "-i", str(video), "-i", str(pictures), "-lavfi",
-                            "[0:v]settb=1/25,setpts=N,scale=in_color_matrix=bt709:in_range=limited:flags=bicubic+accurate_rnd+full_chroma_int,format=rgb24[a];"
+                            "[0:v]settb=1/25,setpts=N,scale=in_color_matrix=bt709:in_range=limited:"
+                            "flags=bicubic+accurate_rnd+full_chroma_int,format=rgb24[a];"
                             "[1:v]settb=1/25,setpts=N,format=rgb24[b];[a][b]psnr=f=-", "-f", "null", "-"], capture_output=True, text=True, check=True)
     return [float(word[9:]) for line in shown.stdout.splitlines() for word in line.split() if word.startswith("psnr_avg:")]
 
@@ -95,7 +96,7 @@ class Videos(ProgramTest):
         for sign in (signal.SIGINT, signal.SIGKILL):
             process = subprocess.Popen([PROGRAM, "fly", *ROOM, "--script", "hover 60", "--video", str(folder / "a.mp4"), "--out",
                                         str(self.folder / "o")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(2.5)
+            time.sleep(1)
             self.assertIsNone(process.poll(), "it still films")
             process.send_signal(sign)
             process.wait()
@@ -109,6 +110,7 @@ class Videos(ProgramTest):
             (["fly", *ROOM, "--video", self.folder / "v.mp4", "--encoder", "x264", "--out", out], ["--encoder", "libx264"]),
             (["fly", *ROOM, "--video", self.folder / "v.mp4", "--quality", "60", "--out", out], ["--quality", "60"]),
             (["fly", *ROOM, "--video", self.folder / "v.mp4", "--tier", "labels", "--out", out], ["--video", "labels"]),
+            (["fly", *ROOM, "--video", self.folder / "v.webm", "--out", out], ["v.webm", "did you mean", "v.mp4"]),
             (["video", self.folder, "--out", self.folder / "v.mp4"], ["not a dataset"]),
         ]:
             self.run_bad(2, *arguments, says=says)
@@ -134,8 +136,10 @@ class WithoutFfmpeg(ProgramTest):
         stub.write_text("#!/bin/sh\necho 'no such codec' >&2\nexit 1\n")
         stub.chmod(0o755)
         environment = {**os.environ, "AIRSIM360_FFMPEG": str(stub)}
-        self.run_bad(1, "fly", *ROOM, "--script", "takeoff 1", "--video", self.folder / "v.mp4", "--out", self.folder / "a",
-                     says=["ffmpeg (libx264): no such codec"], env=environment)
+        result = run("fly", *ROOM, "--script", "takeoff 1", "--encoder", "libx264", "--video", self.folder / "v.mp4", "--out", self.folder / "a",
+                     env=environment)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("airsim360: error: ffmpeg (libx264): no such codec\n", result.stderr)
         self.assertFalse((self.folder / "v.mp4").exists())
 
 

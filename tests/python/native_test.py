@@ -124,6 +124,9 @@ class Captures(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, "after one at"):
                     video.add(np.zeros((48, 64, 3), np.uint8), t=0.5)
             self.assertNotIn(b"sv3d", open(path, "rb").read())
+            with airsim360.VideoWriter(path, fps=10) as video:
+                for x in range(3):
+                    video.add(ROOM.capture([x, 0, 3], Rig(width=64)))  # these have no time
             other = os.path.join(folder, "b.mp4")
             with self.assertRaises(KeyError):
                 with airsim360.VideoWriter(other) as video:

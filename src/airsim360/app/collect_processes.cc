@@ -211,7 +211,9 @@ void BecomeWorker(const ProcessArguments& arguments, GlobalOptions& globals) {
 
 void RunWorker(const CollectInput& input, Renderer& renderer) {
   std::vector<int64_t> frames;
-  for (std::string line; std::getline(std::cin, line) && line != "end";) frames.push_back(std::stoll(line));
+  std::string line;
+  while (std::getline(std::cin, line) && line != "end") frames.push_back(std::stoll(line));
+  if (line != "end") throw RuntimeError("--worker: the process that knows the frames is gone");
   const CollectResult result = CollectPart(input, renderer, frames, [](int64_t frame) {
     std::printf("frame %lld\n", static_cast<long long>(frame));
     std::fflush(stdout);

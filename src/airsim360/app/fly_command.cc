@@ -171,6 +171,7 @@ void CheckVideoFlags(const FlyArguments& arguments) {
   const DatasetSpec spec = SpecOf(arguments, 0, true);
   if (arguments.video.empty()) return;
   if (spec.tier == Tier::kLabels) throw InputError("--video: it needs colours; use --tier fast instead of labels");
+  CheckVideoPath(arguments.video);
   CheckVideo({spec.width, spec.height}, arguments.encoding.Options(arguments.fps));
 }
 

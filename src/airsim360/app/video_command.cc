@@ -19,6 +19,7 @@ struct VideoCommandArguments {
 };
 
 void RunVideo(const VideoCommandArguments& arguments, bool json) {
+  CheckVideoPath(arguments.out);
   const VideoOptions options = arguments.video.Options(arguments.fps.value_or(VideoOptions{}.frame_rate));
   const VideoResult result = FilmDataset(arguments.folder, arguments.out, options, arguments.fps);
   if (json) {

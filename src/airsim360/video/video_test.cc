@@ -68,8 +68,8 @@ class Video : public testing::Test {
   // The pictures of a video as ffmpeg decodes them.
   std::vector<Image<Rgb8>> Decode(const fs::path& video, int width, int height) {
     const fs::path raw = folder_ / "raw";
-    Run("ffmpeg -y -loglevel error -i " + video.string() + " -vsync passthrough -f rawvideo -pix_fmt rgb24 -sws_flags bicubic+accurate_rnd+full_chroma_int " +
-        raw.string());
+    Run("ffmpeg -y -loglevel error -i " + video.string() +
+        " -vsync passthrough -f rawvideo -pix_fmt rgb24 -sws_flags bicubic+accurate_rnd+full_chroma_int " + raw.string());
     const Bytes bytes = ReadFile(raw);
     const size_t one = static_cast<size_t>(width) * static_cast<size_t>(height) * 3;
     std::vector<Image<Rgb8>> pictures;
@@ -252,6 +252,7 @@ TEST_F(Video, WrongPicturesAndOptionsAreNamed) {
   EXPECT_THROW(writer.Add(Picture(64, 32, 0), 6), InputError);
   EXPECT_THROW(VideoWriter(folder_ / "a.mp4", 8, 4, {}), InputError);
   EXPECT_THROW(VideoWriter(folder_, 128, 64, {}), InputError);
+  EXPECT_THROW(CheckVideoPath("flight.webm"), InputError);
   EXPECT_THROW(CheckVideoOptions({.encoder = "x264"}), InputError);
   EXPECT_THROW(CheckVideoOptions({.quality = 52}), InputError);
   EXPECT_THROW(CheckVideoOptions({.frame_rate = NAN}), InputError);

@@ -101,6 +101,8 @@ void CheckVideoOptions(const VideoOptions& options) {
   const std::vector<std::string> encoders(std::begin(kVideoEncoders), std::end(kVideoEncoders));
   if (std::ranges::count(encoders, options.encoder) == 0)
     throw InputError("encoder: " + UnknownChoiceMessage("encoder", options.encoder, encoders));
+  if (options.encoder.ends_with("vaapi") && RenderNode().empty())
+    throw InputError("encoder: '" + options.encoder + "' needs a GPU (/dev/dri/renderD*), which this machine lacks; use auto");
   if (options.quality < 0 || options.quality > 51)
     throw InputError("quality: " + std::to_string(options.quality) + " is not in 0 (best) … 51");
   if (!(options.frame_rate >= 0.001 && options.frame_rate <= 1000))
@@ -112,6 +114,14 @@ void CheckVideo(VideoSize size, const VideoOptions& options) {
   CheckVideoOptions(options);
   if (std::min(size.width, size.height) < kLeastSide || std::max(size.width, size.height) > kMostSide)
     throw InputError("video: " + SizeText(size.width, size.height) + " is not within 16 … 16384 pixels a side");
+}
+
+void CheckVideoPath(const fs::path& path) {
+  if (path.filename().empty() || fs::is_directory(path)) throw InputError("video: '" + path.string() + "' is a folder; give a file name");
+  const std::string extension = path.extension().string();
+  if (extension == ".mp4" || extension == ".m4v" || extension == ".mov") return;
+  const std::string nearest = fs::path(path).replace_extension(".mp4").string();
+  throw InputError("video: '" + path.string() + "' is not the name of an MP4 file; did you mean '" + nearest + "'?");
 }
 
 bool HasFfmpeg() {
@@ -136,8 +146,7 @@ struct VideoWriter::Impl {
 VideoWriter::VideoWriter(fs::path path, int width, int height, const VideoOptions& options)
     : impl_(new Impl{std::move(path), width, height, options, {}, internal::OwnedFd(), {}, {}}) {
   CheckVideo({width, height}, options);
-  if (impl_->path.filename().empty() || fs::is_directory(impl_->path))
-    throw InputError("video: '" + impl_->path.string() + "' is a folder; give a file name");
+  CheckVideoPath(impl_->path);
   if (impl_->path.has_parent_path()) CreateWritableFolder(impl_->path.parent_path());
   impl_->file = NamelessFile(impl_->path);
   impl_->encoder = ChooseEncoder(width, height, options);

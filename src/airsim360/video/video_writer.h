@@ -30,6 +30,8 @@ struct VideoSize {
 void CheckVideoOptions(const VideoOptions& options);
 /// The same, and InputError for sizes below 16x16 or above 16384.
 void CheckVideo(VideoSize size, const VideoOptions& options);
+/// InputError for a folder, or a name that does not end as MP4 files do.
+void CheckVideoPath(const std::filesystem::path& path);
 /// Whether there is an ffmpeg.
 bool HasFfmpeg();
 
@@ -37,7 +39,7 @@ bool HasFfmpeg();
 /// limited range, no reordered pictures. Nothing stands at `path` before Finish, whatever happens.
 class VideoWriter {
  public:
-  /// InputError as CheckVideo; RuntimeError if it cannot write there.
+  /// InputError as CheckVideo and CheckVideoPath; RuntimeError if it cannot write there.
   VideoWriter(std::filesystem::path path, int width, int height, const VideoOptions& options);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;

@@ -102,6 +102,15 @@ class VulkanRenderer : public GpuRenderer {
     slot.ticket = 0;
   }
 
+  std::unique_ptr<GpuSharedMemory> Share(size_t bytes) override { return MakeSharedBuffer(device_, bytes); }
+  size_t PictureBytes(uint64_t ticket) override { return SlotOf(ticket).bytes(); }
+  std::vector<GpuFrame> Copy(uint64_t ticket, GpuSharedMemory& to, const std::byte* base) override {
+    GpuSlot& slot = SlotOf(ticket);
+    slot.Wait();
+    gpu_ms_ = slot.gpu_ms();
+    CopyToShared(device_, slot.pictures(), slot.bytes(), to);
+    return slot.FramesAt(base);
+  }
   void ReadBack(bool wanted) override { read_back_ = wanted; }
   double TraceAloneMs(const RenderRequest& request) override {
     if (request.tier != Tier::kFast || !WantsColor(request)) throw InputError("GPU: rays are recorded of tier 'fast' alone");
@@ -122,16 +131,6 @@ class VulkanRenderer : public GpuRenderer {
     work.passes.insert(work.passes.end(), 2, {replay_.get()});
     return (time() - once) / 2;
   }
-  std::unique_ptr<GpuSharedMemory> Share(size_t bytes) override { return MakeSharedBuffer(device_, bytes); }
-  size_t PictureBytes(uint64_t ticket) override { return SlotOf(ticket).bytes(); }
-  std::vector<GpuFrame> Copy(uint64_t ticket, GpuSharedMemory& to, const std::byte* base) override {
-    GpuSlot& slot = SlotOf(ticket);
-    slot.Wait();
-    gpu_ms_ = slot.gpu_ms();
-    CopyToShared(device_, slot.pictures(), slot.bytes(), to);
-    return slot.FramesAt(base);
-  }
-
   const GpuInfo& gpu() const override { return device_.info(); }
   double gpu_ms() const override { return gpu_ms_; }
   std::vector<std::string> messages() const override { return device_.messages(); }
