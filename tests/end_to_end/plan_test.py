@@ -228,7 +228,7 @@ class Waypoints(ProgramTest):
             most = max(abs(v) if sign == 0 else sign * v for v in values)
             self.assertLessEqual(most, limit * (1 + 1e-12), flags)
             self.assertGreater(most, limit * (1 - 1e-4), flags)
-        report = json.loads(self.run_ok("plan", "--waypoints", self.file, *wide, "--drone", "hummingbird", "--out", out,
+        report = json.loads(self.run_ok("plan", "--waypoints", self.file, "--vmax", "300", "--amax", "300", "--drone", "hummingbird", "--out", out,
                                         "--json").stdout)
         self.assertTrue(report["within_limits"])
         trajectory = Trajectory(out)

@@ -136,7 +136,7 @@ SplineKind ParseKind(const PlanArguments& arguments) {
 void CheckWaypointsAreFree(const PlanWaypoints& waypoints, const PlanWorld& world, double radius) {
   for (size_t i = 0; i < waypoints.points.size(); ++i) {
     const Vec3d p = waypoints.points[i].p;
-    const double clearance = world.clearance->Clearance(p, radius);
+    const double clearance = world.clearance->Clearance(p, radius + 1);
     if (clearance >= radius) continue;
     char text[200];
     std::snprintf(text, sizeof(text),

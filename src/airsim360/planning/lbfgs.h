@@ -30,6 +30,7 @@ class Lbfgs {
     std::vector<double> past;
     double value = objective(x, gradient_);
     int evaluations = 1;
+    if (!std::isfinite(value)) return evaluations;
     while (evaluations < options.max_evaluations) {
       past.push_back(value);
       const size_t window = static_cast<size_t>(options.patience);

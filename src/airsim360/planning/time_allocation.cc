@@ -169,6 +169,14 @@ PolynomialTrajectory Fly(std::span<const Vec3d> waypoints, std::span<const doubl
                        limits);
 }
 
+/// Slowed down where a path within the limits of speed and acceleration breaks another.
+PolynomialTrajectory WithOtherLimits(PolynomialTrajectory path, const TrajectoryLimits& limits) {
+  TrajectoryLimits others = limits;
+  others.speed = others.acceleration = TrajectoryLimits::kNone;
+  if (WithinLimits(path, others)) return path;
+  return ScaleToLimits(path, limits);
+}
+
 /// Improves the durations of a feasible path stage by stage; returns the number of evaluations.
 int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, SplineKind kind,
              std::vector<double>& durations) {
@@ -209,13 +217,18 @@ AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const Trajec
     length += chord;
     durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
   }
-  PolynomialTrajectory best = Fly(waypoints, durations, options.kind, limits);
+  // As fast as speed and acceleration allow, which is where the objective has its numbers.
+  const TrajectoryLimits norms = {.speed = limits.speed, .acceleration = limits.acceleration};
+  PolynomialTrajectory best = Fly(waypoints, durations, options.kind, norms);
   int evaluations = 0;
   if (options.optimise && durations.size() > 1) {
     durations.assign(best.durations().begin(), best.durations().end());
     evaluations = Optimise(waypoints, limits, options.kind, durations);
-    PolynomialTrajectory optimised = Fly(waypoints, durations, options.kind, limits);
+    PolynomialTrajectory optimised = WithOtherLimits(Fly(waypoints, durations, options.kind, norms), limits);
+    best = WithOtherLimits(std::move(best), limits);
     if (optimised.duration() < best.duration()) best = std::move(optimised);
+  } else {
+    best = WithOtherLimits(std::move(best), limits);
   }
   if (options.sample_interval > 0) {
     const double steps = std::ceil(best.duration() / options.sample_interval * (1 - 1e-12));

@@ -85,5 +85,16 @@ TEST(TimeAllocation, BadRoutesAreRefused) {
   EXPECT_THROW(AllocateTimes(RandomWalk(2, 1), {.speed = 16}), InputError);
 }
 
+TEST(TimeAllocation, OtherLimitsAreTouchedByAFlightNoLongerThanTheFastestSlowedDown) {
+  const std::vector<Vec3d> waypoints = {{0, 0, 0}, {0, 0, 30}, {40, 30, 5}};
+  const TrajectoryLimits norms = {.speed = 50, .acceleration = 50};
+  TrajectoryLimits limits = norms;
+  limits.axis_speed.x = 3;
+  const PolynomialTrajectory fast = AllocateTimes(waypoints, norms).trajectory;
+  const PolynomialTrajectory slow = AllocateTimes(waypoints, limits).trajectory;
+  EXPECT_NEAR(PeakOfAxis(slow, 1, 0).value, 3, 1e-8);
+  EXPECT_LE(slow.duration(), ScaleToLimits(fast, limits).duration() * (1 + 1e-9));
+}
+
 }  // namespace
 }  // namespace airsim360
