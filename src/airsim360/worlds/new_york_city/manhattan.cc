@@ -153,7 +153,7 @@ void SplitAtYards(std::vector<BuildingPlan>& plans, size_t first) {
       const float at = covered_low ? high : low;
       if (high <= low) {
         plan.edges[e] = open;
-      } else if (at - t0 > 0.05f && t1 - at > 0.05f) {
+      } else if (at - t0 > 1 && t1 - at > 1) {
         const auto next = static_cast<std::ptrdiff_t>(e + 1);
         const bool rising = along_y ? b.y > a.y : b.x > a.x, covered_first = rising == covered_low;
         plan.outline.insert(plan.outline.begin() + next, along_y ? Vec2f{a.x, at} : Vec2f{at, a.y});
@@ -163,6 +163,25 @@ void SplitAtYards(std::vector<BuildingPlan>& plans, size_t first) {
       }
     }
     plan.party_height.assign(plan.outline.size(), 0);
+  }
+}
+
+// Walls whose neighbour falls short by less than what is worth an edge are built whole: what is behind it, nobody sees.
+void ShowUncoveredWalls(std::vector<BuildingPlan>& plans, size_t first) {
+  for (size_t i = first; i < plans.size(); ++i) {
+    BuildingPlan& plan = plans[i];
+    for (size_t e = 0; e < plan.edges.size(); ++e) {
+      if (plan.party_height[e] <= 0) continue;
+      const Vec2f a = plan.outline[e], v = plan.outline[(e + 1) % plan.outline.size()] - a;
+      const Vec2f out = Vec2f{v.y, -v.x} * (0.5f / std::hypot(v.x, v.y));
+      for (float t : {0.01f, 0.99f}) {
+        const Vec2f p = a + v * t + out;
+        const bool covered = std::any_of(plans.begin() + static_cast<std::ptrdiff_t>(first), plans.end(), [&](const BuildingPlan& other) {
+          return other.base == 0 && other.bounds().Contains(p) && other.height() >= plan.party_height[e] - 0.01f;
+        });
+        if (!covered) plan.party_height[e] = 0;
+      }
+    }
   }
 }
 
@@ -333,6 +352,7 @@ Manhattan PlanManhattan(const StreetPlan& plan, const ManhattanOptions& options)
     }
     SplitAtYards(city.buildings, first);
     HidePartyWalls(city.buildings, first);
+    ShowUncoveredWalls(city.buildings, first);
   }
   return city;
 }
