@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kSide = 16;
 constexpr float kSunAngle = 0.0093f;          // width of the disc, radians (0.53 degrees)
-constexpr int kSunRounds = 2, kSunRound = 4;  // rays of a pixel in a penumbra: rounds of so many
-constexpr int kSunSamples = kSunRounds * kSunRound;
+// Rays of a pixel where a shadow ends: always as many. Stopping where the first ones agree would make penumbrae narrower.
+constexpr int kSunSamples = 4;
 constexpr int kMaxSmoothing = 3;  // pixels
 
 // Index of the surface of each pixel of a tile, -1 = none.
@@ -66,11 +66,11 @@ struct SunDirections {
     for (uint32_t phase = 0; phase < 16; ++phase)
       at[0][phase] = disc_.At(SobolPoint(phase, seed_ ^ 0x68bc21ebu));
   }
-  void Make(int first, int last) {
-    for (int k = first; k < last; ++k) {
+  // The rays of a pixel are an aligned block of points, so they spread over disc and pixel.
+  void MakeAll() {
+    for (int k = 0; k < kSunSamples; ++k) {
       for (int phase = 0; phase < 16; ++phase) {
-        // The rays of one round of a pixel are an aligned block of points, so they spread over disc and pixel.
-        const auto index = static_cast<uint32_t>(16 * kSunRound * (k / kSunRound) + kSunRound * phase + k % kSunRound);
+        const auto index = static_cast<uint32_t>(kSunSamples * phase + k);
         at[k][phase] = disc_.At(SobolPoint(index, seed_ ^ 0x68bc21ebu));
         const Vec2f u = SobolPoint(index, seed_ ^ 0x02e5be93u);
         offset[k][phase] = {u.x - 0.5f, u.y - 0.5f};
@@ -134,7 +134,7 @@ class SunTile {
     return lit && dark;
   }
 
-  // More where neighbours disagree, from all over the pixel, in rounds while they differ.
+  // More where neighbours disagree, from all over the pixel.
   void TraceEdges(uint8_t* penumbra) {
     const SurfaceGrid grid(*sampling_.layout, rays_);
     int edge[kBatch], count = 0;
@@ -142,18 +142,13 @@ class SunTile {
       const int i = grid.at[pixel];
       if (i >= 0 && asked_[i] && AtShadowEdge(rays_, s_, grid, asked_, pixel)) edge[count++] = i;
     }
-    for (int round = 0; round < kSunRounds && count > 0; ++round) {
-      TraceRound(edge, count, round);
-      const int sent = kSunRound * (round + 1);
-      int mixed = 0;
-      for (int n = 0; n < count; ++n) {
-        const int i = edge[n];
-        s_.sunlit[i] = static_cast<float>(sent - blocked_[i]) / static_cast<float>(sent);
-        if (blocked_[i] == 0 || blocked_[i] == sent) continue;
-        edge[mixed++] = i;
-        if (round == 0) penumbra[rays_.slot[i]] = Smoothing(i);
-      }
-      count = mixed;
+    directions_.MakeAll();
+    for (int n = 0; n < count; ++n) AddRays(edge[n]);
+    if (queue_.count > 0) Count();
+    for (int n = 0; n < count; ++n) {
+      const int i = edge[n];
+      s_.sunlit[i] = static_cast<float>(kSunSamples - blocked_[i]) / kSunSamples;
+      if (blocked_[i] != 0 && blocked_[i] != kSunSamples) penumbra[rays_.slot[i]] = Smoothing(i);
     }
   }
 
@@ -168,36 +163,24 @@ class SunTile {
  private:
   int Phase(int i) const { return sampling_.layout->phase[rays_.slot[i]]; }
 
-  void TraceRound(const int* edge, int count, int round) {
-    const int first = kSunRound * round, last = first + kSunRound;
-    directions_.Make(first, last);
-    for (int n = 0; n < count; ++n) {
-      const int i = edge[n], phase = Phase(i);
-      const Vec3f start = SunStart(rays_, s_, i, to_sun_);
-      for (int k = first; k < last; ++k) {
-        queue_.Add(start + WithinPixel(rays_, s_, i, directions_.offset[k][phase], sampling_.cone_angle),
-                   directions_.at[k][phase], i);
-        if (queue_.count == 16) Count(round == 0);
-      }
+  void AddRays(int i) {
+    const int phase = Phase(i);
+    const Vec3f start = SunStart(rays_, s_, i, to_sun_);
+    for (int k = 0; k < kSunSamples; ++k) {
+      queue_.Add(start + WithinPixel(rays_, s_, i, directions_.offset[k][phase], sampling_.cone_angle),
+                 directions_.at[k][phase], i);
+      if (queue_.count == 16) Count();
     }
-    if (queue_.count > 0) Count(round == 0);
   }
 
-  // Adds up what a full queue meets; without distances, at half the cost, only whether.
-  void Count(bool distances) {
-    bool occluded[16] = {};
+  // Adds up what a queue meets.
+  void Count() {
     queue_.Close();
-    if (distances)
-      shader_.tracer->Intersect16(queue_.valid, queue_.rays, false);
-    else
-      shader_.tracer->Occluded16(queue_.valid, queue_.rays, occluded, false);
+    shader_.tracer->Intersect16(queue_.valid, queue_.rays, false);
     for (int k = 0; k < queue_.count; ++k) {
-      const int i = queue_.lane[k];
-      if (distances) {
-        occluded[k] = queue_.rays.geometry[k] != kMiss;
-        if (occluded[k]) away_[i] += queue_.rays.t_far[k];
-      }
-      blocked_[i] += occluded[k] ? 1 : 0;
+      if (queue_.rays.geometry[k] == kMiss) continue;
+      away_[queue_.lane[k]] += queue_.rays.t_far[k];
+      ++blocked_[queue_.lane[k]];
     }
     queue_.count = 0;
   }
