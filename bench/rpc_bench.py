@@ -138,9 +138,9 @@ def rendered_here(world):
     """The same pictures without a server: a function that renders them in this process, where the compiled module is there."""
     try:
         import airsim360
+        place = airsim360.World(world)
     except ImportError:
         return None
-    place = airsim360.World(world)
     ground = place.raycast([place.spawn], [[0, 0, -1]])[0][0]
     position = place.spawn - [0, 0, ground - 0.04]
     rig = airsim360.Rig(width=2048, height=1024, tier="fast")
