@@ -2,7 +2,6 @@
 import math
 import os
 import tempfile
-import time
 import unittest
 
 from harness import ServerTest
@@ -14,7 +13,7 @@ GROUND = "v -400 0 400\nv 400 0 400\nv 400 0 -400\nv -400 0 -400\nf 1 2 3 4\n"
 
 
 class OpenGround(ServerTest):
-    settings = {"ClockSpeed": 30}
+    settings, arguments = {}, ("--lockstep",)  # as fast as it can, and the same every time
 
     @classmethod
     def setUpClass(cls):
@@ -34,7 +33,19 @@ class OpenGround(ServerTest):
         self.drone.reset()
         self.drone.enableApiControl(True)
         self.drone.armDisarm(True)
-        self.assertTrue(self.drone.takeoffAsync().get())
+        self.assertTrue(self.fly(self.drone.takeoffAsync()))
+
+    def fly(self, move, seconds=120, see=None):
+        """The move's answer; `see` is told the places on the way."""
+        done = []
+        move.attach_callback(done.append)
+        for _ in range(4 * seconds):
+            if done:
+                return move.get()
+            self.drone.simContinueForTime(0.25)
+            if see:
+                see(self.place())
+        return self.fail(f"the move has not ended after {seconds} s")
 
     def place(self):
         p = self.drone.getMultirotorState().kinematics_estimated.position
@@ -42,39 +53,32 @@ class OpenGround(ServerTest):
 
     def land(self):
         """As scripts end: afterwards it lies on the ground and can take off again."""
-        self.assertTrue(self.drone.landAsync().get())
+        self.assertTrue(self.fly(self.drone.landAsync()))
         self.assertGreater(self.place()[2], -0.1, "it still hung in the air when it said that it had landed")
         self.assertTrue(self.drone.armDisarm(False))
-        time.sleep(0.1)
+        self.drone.simContinueForTime(1)
         self.assertEqual(self.drone.getMultirotorState().landed_state, airsim.LandedState.Landed)
         self.assertTrue(self.drone.armDisarm(True))
-        self.assertTrue(self.drone.takeoffAsync().get(), "the next script takes off at once")
+        self.assertTrue(self.fly(self.drone.takeoffAsync()), "the next script takes off at once")
 
     def test_a_landing_after_a_descent_ends_on_the_ground(self):
-        self.drone.moveToPositionAsync(0, 0, -20, 5).join()
-        self.drone.moveToPositionAsync(0, 0, -5, 2).join()
+        self.fly(self.drone.moveToPositionAsync(0, 0, -20, 5))
+        self.fly(self.drone.moveToPositionAsync(0, 0, -5, 2))
         self.land()
 
     def test_the_rectangle_of_path_py_is_flown_and_the_drone_comes_home(self):
         z = -5
-        self.drone.moveToZAsync(z, 1).join()
+        self.fly(self.drone.moveToZAsync(z, 1))
         corners = [(125, 0), (125, -130), (0, -130), (0, 0)]
         path = [airsim.Vector3r(x, y, z) for x, y in corners]
-        started = self.drone.getMultirotorState().timestamp
-        flight = self.drone.moveOnPathAsync(path, 12, 120, airsim.DrivetrainType.ForwardOnly, airsim.YawMode(False, 0), 20, 1)
-        nearest = [math.inf] * 4
         seen = []
-        while not flight._done.is_set():
-            x, y, height = self.place()
-            seen.append(height)
-            nearest = [min(best, math.hypot(x - cx, y - cy)) for best, (cx, cy) in zip(nearest, corners)]
-        self.assertTrue(flight.get(), "the path ends by itself")
-        self.assertLess((self.drone.getMultirotorState().timestamp - started) * 1e-9, 80)
-        self.assertLess(max(nearest), 15, nearest)  # the carrot 20 m ahead cuts corners
-        self.assertLess(max(abs(height - z) for height in seen), 2)
-        self.drone.moveToPositionAsync(0, 0, z, 1).join()
-        x, y, _ = self.place()
-        self.assertLess(math.hypot(x, y), 1.5)
+        flight = self.drone.moveOnPathAsync(path, 12, 120, airsim.DrivetrainType.ForwardOnly, airsim.YawMode(False, 0), 20, 1)
+        self.assertTrue(self.fly(flight, 80, seen.append), "the path ends by itself")
+        for corner in corners:  # the carrot 20 m ahead cuts them
+            self.assertLess(min(math.dist(place[:2], corner) for place in seen), 12, corner)
+        self.assertLess(max(abs(place[2] - z) for place in seen), 2)
+        self.fly(self.drone.moveToPositionAsync(0, 0, z, 1))
+        self.assertLess(math.hypot(*self.place()[:2]), 1.5)
         self.land()
 
 
