@@ -4,7 +4,6 @@ Where it cannot be had (another machine or server, another user, another system)
 """
 import collections
 import ctypes
-import fcntl
 import mmap
 import os
 import socket
@@ -13,6 +12,11 @@ import threading
 import weakref
 
 import numpy as np
+
+try:
+    import fcntl
+except ImportError:  # clients run on other systems too
+    fcntl = None
 
 _BYTES = 128 << 20  # of address space; only what pictures fill is taken of the machine's memory
 _ALIGNMENT = 64  # of regions, as the server wants it
