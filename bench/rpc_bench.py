@@ -110,23 +110,12 @@ def panorama_loop(server, airsim, seconds=5):
     print(f"{'Fly360 loop, 448x224 RGB + range + state + command':58s} {count / (time.perf_counter() - start):9.1f} Hz   bar 15, stretch 30")
 
 
-def large_capture(server, airsim, world):
-    """What the call takes beyond the renderer's own time for it."""
-    client = airsim.MultirotorClient(port=server.port)
-    client.simPause(True)
-    client.simSetPanoramaResolution("panorama_original", 2048, 1024)
-    client.simTriggerPanoramaCapture("panorama_original")
-    requests = [airsim.ImageRequest("panorama_original", 0, False, False), airsim.ImageRequest("panorama_depth", 0, True, False),
-                airsim.ImageRequest("panorama_entity", 0, False, False)]
-    client.simGetImages(requests)
-    raw = Raw(server.port)
-    wire = [request.to_msgpack() for request in requests]
-    # The answer is taken off the socket and not decoded: what is measured is the server.
-    message = msgpack.packb([0, 1, "simGetImages", [wire, "", False]])
+def answer_reader(raw, method, *arguments):
+    """A function that makes a call and takes its answer off the socket without decoding it: what is measured is the server."""
+    message = msgpack.packb([0, 1, method, arguments])
     raw.socket.sendall(message)
-    size, data = 0, b""
-    unpacker = msgpack.Unpacker(raw=False, max_buffer_size=1 << 30)
-    while size == 0 or unpacker.tell() < size:
+    size, unpacker = 0, msgpack.Unpacker(raw=False, max_buffer_size=1 << 30)
+    while True:
         data = raw.socket.recv(1 << 20)
         size += len(data)
         unpacker.feed(data)
@@ -137,19 +126,64 @@ def large_capture(server, airsim, world):
             pass
     buffer = memoryview(bytearray(size))
 
-    def fetch():
+    def read():
         raw.socket.sendall(message)
         got = 0
         while got < size:
             got += raw.socket.recv_into(buffer[got:])
+    return read
+
+
+def rendered_here(world):
+    """The same pictures without a server: a function that renders them in this process, where the compiled module is there."""
+    try:
+        import airsim360
+        place = airsim360.World(world)
+    except ImportError:
+        return None
+    ground = place.raycast([place.spawn], [[0, 0, -1]])[0][0]
+    position = place.spawn - [0, 0, ground - 0.04]
+    rig = airsim360.Rig(width=2048, height=1024, tier="fast")
+    return lambda: place.capture(position, rig, yaw=np.pi / 2)
+
+
+def large_capture(server, airsim, world, rounds):
+    """What calls take beyond the renderer's own time for them, and how that compares with rendering without a server."""
+    client = airsim.MultirotorClient(port=server.port)
+    client.simPause(True)
+    client.simSetPanoramaResolution("panorama_original", 2048, 1024)
+    client.simTriggerPanoramaCapture("panorama_original")
+    requests = [airsim.ImageRequest("panorama_original", 0, False, False), airsim.ImageRequest("panorama_depth", 0, True, False),
+                airsim.ImageRequest("panorama_entity", 0, False, False)]
+
+    def ours():
+        for response in client.simGetImages(requests):
+            response.pixels()
+
+    raw = Raw(server.port)
+    wire = [{name: getattr(request, name) for name in ("camera_name", "image_type", "pixels_as_float", "compress")} for request in requests]
+    calls = {"our client, NumPy arrays": ours,
+             "raw socket, floats as bytes": answer_reader(raw, "simGetImages", [{**r, "binary_float": True} for r in wire], "", False),
+             "raw socket, AirSim's own request": answer_reader(raw, "simGetImages", wire, "", False)}
     # Each call beside its own rendering: what else the machine does slows both.
-    calls, renders = [], []
-    for _ in range(20):
-        calls.append(timed(fetch, 1)[0])
-        renders.append(float(raw.call("simGetRenderMilliseconds")))
-    rest = 100 * (np.array(calls) / renders - 1)
-    print(f"{'2048x1024 RGB + range + entity, one call, ' + world:58s} {np.median(calls):9.1f} ms   rendering {np.median(renders):.1f} ms, "
-          f"the rest {np.median(rest):.1f} % (least {rest.min():.1f} %)   bar 5 %")
+    render = lambda: float(raw.call("simGetRenderMilliseconds"))
+    here, alone = rendered_here(world), []
+    times = {name: [] for name in calls}
+    for call in calls.values():
+        call()
+    for _ in range(rounds):
+        for name, call in calls.items():
+            times[name].append((timed(call, 1)[0], render()))
+        if here:
+            alone.append(timed(here, 1)[0])
+    for name, pairs in times.items():
+        call, rendering = np.array(pairs).T
+        rest = 100 * (call / rendering - 1)
+        print(f"{'2048x1024 RGB + range + entity, ' + name:66s} {np.median(call):8.1f} ms   rendering {np.median(rendering):.1f} ms, "
+              f"beyond it {np.median(call - rendering):.2f} ms = {np.median(rest):.2f} % (quartiles {np.percentile(rest, 25):.2f} "
+              f"{np.percentile(rest, 75):.2f})   bar 5 %   {world}", flush=True)
+    if alone:
+        print(f"{'  the same rendered in a process without a server':66s} {np.median(alone):8.1f} ms", flush=True)
 
 
 def soak(program, world, airsim, seconds, clients=16, drones=10):
@@ -248,14 +282,17 @@ def main():
     parser.add_argument("--soak", type=float, default=0, help="seconds of 16 clients and 10 drones; 0 = not")
     parser.add_argument("--kills", type=int, default=0, help="clients killed in the middle of calls; 0 = none")
     parser.add_argument("--no-latencies", action="store_true", help="leave out the figures of a quiet connection")
+    parser.add_argument("--rounds", type=int, default=20, help="of the large capture, each with all kinds of calls")
+    parser.add_argument("--only-large", action="store_true", help="of those only the large capture")
     arguments = parser.parse_args()
     sys.path.insert(0, arguments.python)
     import airsim360.airsim as airsim
     if not arguments.no_latencies:
         server = Server(arguments.program, arguments.world, {})
-        latencies(server, airsim)
-        panorama_loop(server, airsim)
-        large_capture(server, airsim, arguments.world)
+        if not arguments.only_large:
+            latencies(server, airsim)
+            panorama_loop(server, airsim)
+        large_capture(server, airsim, arguments.world, arguments.rounds)
         server.stop()
     if arguments.kills > 0:
         kills(arguments.program, arguments.world, arguments.kills)

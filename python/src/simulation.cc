@@ -132,20 +132,12 @@ void Simulation::Post(const py::object& drone, Command command, double timeout) 
   loop_->Post({i, FlightCommand{std::move(command), std::llround(timeout * 1e9)}});
 }
 
-// What vehicle `i` and everything else will have come to: the steps of `seconds`, taken beside the simulation.
-NextTrigger Simulation::After(const SimState& now, double seconds, size_t i) const {
-  SimState then = now;
-  const auto steps = std::llround(seconds * 1e9 / static_cast<double>(model_->dt_ns));
-  for (int64_t step = 0; step < steps; ++step) Step(*model_, {}, then);
-  return {then.vehicles[i].motion.X_WB, SceneStateOf(*model_, then, i)};
-}
-
 void Simulation::CaptureLocked(const Rig& given, size_t i, Renderer& renderer, Capture& capture) {
   const std::shared_ptr<const SimState> state = loop_->Snapshot();
   PanoramicRig rig = given.rig;
   rig.state = SceneStateOf(*model_, *state, i);
   NextTrigger next;
-  if (rig.products.flow) next = After(*state, given.flow_dt, i);
+  if (rig.products.flow) next = InstantAfter(*model_, *state, i, given.flow_dt);
   CaptureRig(rig, state->vehicles[i].motion, state->t_ns, renderer, capture, rig.products.flow ? &next : nullptr);
 }
 

@@ -23,7 +23,6 @@ class Simulation {
   std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
   /// The same with the pictures left in memory of the GPU, for CUDA; without the GIL.
   std::shared_ptr<CudaCapture> TakeCuda(const Rig& rig, size_t i);
-  NextTrigger After(const SimState& now, double seconds, size_t i) const;
   /// One turn of a lidar now, with bodies of others; without the GIL.
   std::shared_ptr<LidarScan> Scan(const Lidar& lidar, size_t i);
   /// The same of a lidar of the drone's sensor set, by name ("" = the first); InputError naming the nearest.

@@ -219,6 +219,17 @@ class Life(unittest.TestCase):
         self.assertIn("'Unknown' is not known here", server.messages())
         self.assertEqual(server.stop(), 0)
 
+    def test_it_ends_also_while_the_simulation_does_not_keep_up(self):
+        drones = {f"D{i}": {"VehicleType": "SimpleFlight", "X": i} for i in range(-3, 4)}
+        server = Server(settings={"ClockSpeed": 1000, "Vehicles": drones})
+        client = RawClient(server.port)
+        self.addCleanup(client.close)
+        for name in drones:
+            client.call("enableApiControl", True, name)
+            client.send("moveByVelocityZ", 0.0, 0.0, -2.0, 3e38, 0, {"is_rate": True, "yaw_or_rate": 0.0}, name)
+        self.assertIs(client.call("ping"), True)
+        self.assertEqual(server.stop(), 0)
+
 
 class SceneManager(unittest.TestCase):
     """msgpackrpc.Server, with which scene managers of AirVLN and others listen."""

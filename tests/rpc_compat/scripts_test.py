@@ -196,6 +196,17 @@ class Clock(FlightTest):
         self.assertEqual(client.getMultirotorState().timestamp - start, 560_000_000)
         self.assertTrue(client.simIsPause())
 
+    def test_sensors_have_values_before_time_passes(self):
+        client = self.client()
+        for again in (False, True):
+            if again:
+                client.simContinueForTime(1)
+                client.reset()
+            self.assertAlmostEqual(client.getBarometerData().pressure, 99900, delta=1000)
+            self.assertAlmostEqual(client.getMagnetometerData().magnetic_field_body.get_length(), 0.53, delta=0.1)
+            self.assertAlmostEqual(client.getImuData().linear_acceleration.z_val, -9.8, delta=1)
+            self.assertEqual(client.getImuData().time_stamp, client.getMultirotorState().timestamp)
+
     def test_the_same_calls_give_the_same_flight(self):
         def fly():
             client = self.client()

@@ -6,6 +6,7 @@ once: `.join()` waits and never raises, `.get()` raises what the server has answ
 import msgpackrpc
 
 from . import types as _types
+from .lending import lend
 from .types import (AngleLevelControllerGains, AngleRateControllerGains, DrivetrainType,
                     PositionControllerGains, RCData, VelocityControllerGains, YawMode)
 
@@ -183,6 +184,7 @@ class VehicleClient:
 
     def __init__(self, ip="", port=41451, timeout_value=3600):
         self.client = msgpackrpc.Client(msgpackrpc.Address(ip or "127.0.0.1", port), timeout=timeout_value)
+        self._lending, self._may_lend = None, True
 
     def getClientVersion(self):
         return 1
@@ -211,8 +213,36 @@ class VehicleClient:
 
     def simGetImages(self, requests, vehicle_name="", external=False):
         """Pictures of one instant, as a list of ImageResponse in the order of the requests."""
-        answer = self.client.call("simGetImages", requests, vehicle_name, external)
-        return [_types.ImageResponse.from_msgpack(item) for item in answer]
+        pictures = None
+        if any(getattr(r, "pixels_as_float", False) or not getattr(r, "compress", True) for r in requests):
+            pictures = self._lent_images(requests, vehicle_name, external)
+        if pictures is None:
+            answer = self.client.call("simGetImages", requests, vehicle_name, external)
+            pictures = [_types.ImageResponse.from_msgpack(item) for item in answer]
+        return pictures
+
+    def _lent_images(self, requests, vehicle_name, external):
+        """The pictures through memory lent to the server; None where they have to come as usual."""
+        if self._may_lend and self._lending is None:
+            self._lending = lend(self.client.address.host, self.client.address.port)
+            self._may_lend = self._lending is not None
+        lending, region = self._lending, None
+        if lending is not None:
+            region = lending.take()
+        if region is None:
+            return None
+        try:
+            answer = self.client.call("simGetImagesLent", requests, vehicle_name, external, lending.token, region.offset,
+                                      region.size)
+        except msgpackrpc.error.RPCError:
+            # A wrong request, which the usual call then tells of; or a server that was started anew: lent to once more.
+            self._lending = None
+            return None
+        except BaseException:
+            lending.lose(region)
+            raise
+        lending.wanted = max(answer["wanted"], 4096)
+        return [_types.ImageResponse.from_msgpack(item, region, place) for item, place in zip(answer["images"], answer["places"])]
 
     def simSetDistortionParams(self, camera_name, distortion_params, vehicle_name="", external=False):
         for name, value in distortion_params.items():

@@ -264,11 +264,55 @@ class ImageResponse(MsgpackMixin):
               "compress": True, "width": 0, "height": 0, "image_type": ImageType.Scene, "annotation_name": ""}
 
     @classmethod
-    def from_msgpack(cls, encoded):
+    def from_msgpack(cls, encoded, region=None, place=(0, 0)):
+        """`region`, `place` (offset, size): where the pixels lie in lent memory, if they do."""
         made = super().from_msgpack(encoded)
-        if isinstance(made.image_data_float, bytes):
+        if place[1] > 0:
+            if made.pixels_as_float:
+                made.image_data_float = region.view(*place, "<f4")
+            else:
+                made._lent = region.view(*place, np.uint8)
+                del made.image_data_uint8
+        elif isinstance(made.image_data_float, bytes):
             made.image_data_float = np.frombuffer(made.image_data_float, dtype="<f4")
         return made
+
+    def __getattr__(self, name):
+        # Bytes are made of lent memory when somebody asks for them.
+        if name != "image_data_uint8" or "_lent" not in vars(self):
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        self.image_data_uint8 = self._lent.tobytes()
+        del self._lent
+        return self.image_data_uint8
+
+    def pixels(self):
+        """The picture as a read-only array, without a copy: (height, width, 3) uint8, or float32 (height, width), flow
+        (height, width, 2). ValueError for a PNG."""
+        if self.pixels_as_float:
+            flat, channels = np.asarray(self.image_data_float, np.float32), ()
+        elif self.compress:
+            raise ValueError("pixels(): the picture is a PNG; ask for compress=False")
+        else:
+            flat, channels = vars(self).get("_lent"), (3,)
+            if flat is None:
+                flat = np.frombuffer(self.image_data_uint8, np.uint8)
+        if flat.size == 2 * self.width * self.height:
+            channels = (2,)
+        return flat.reshape(self.height, self.width, *channels)
+
+    def __getstate__(self):
+        return self.to_msgpack()
+
+    def to_msgpack(self, *args, **kwargs):
+        self.image_data_uint8  # pylint: disable=pointless-statement  # made of lent memory
+        return vars(self)
+
+    def __eq__(self, other):
+        return type(self) is type(other) and all(
+            np.array_equal(value, getattr(other, name)) for name, value in self.to_msgpack().items())
+
+    def __repr__(self):
+        return f"<{type(self).__name__}> " + repr(self.to_msgpack())
 
 
 class CarControls(_Numbers):

@@ -92,4 +92,16 @@ struct ImageResponse {
   }
 };
 
+/// Ours: pictures of which some lie in memory that the client has lent. The pixels of image i are the `size` bytes at `offset`
+/// of that memory; size 0: they are in the image.
+struct LentImages {
+  std::vector<ImageResponse> images;
+  std::vector<std::pair<uint64_t, uint64_t>> places;  ///< offset, size
+  uint64_t wanted = 0;                                ///< bytes of a region that holds all of them
+  template <class V>
+  void Visit(V& v) {
+    v("images", images), v("places", places), v("wanted", wanted);
+  }
+};
+
 }  // namespace airsim360::airsim

@@ -12,11 +12,13 @@ namespace airsim360 {
 /// arguments, in their order on the wire; `optional` of the last may be missing.
 class Api {
  public:
-  Api(Session& session, ImageService& images) : session_(session), images_(images) {}
+  Api(Session& session, ImageService& images, const MemoryLoans& loans)
+      : session_(session), images_(images), loans_(loans) {}
 
   MethodTable& table() { return table_; }
   Session& session() { return session_; }
   ImageService& images() { return images_; }
+  const MemoryLoans& loans() const { return loans_; }
 
   /// f(const Snapshot&, …): answers from the present snapshot, in the server's own thread; must be quick.
   template <class F>
@@ -96,6 +98,7 @@ class Api {
 
   Session& session_;
   ImageService& images_;
+  const MemoryLoans& loans_;
   MethodTable table_;
 };
 

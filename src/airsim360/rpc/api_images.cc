@@ -27,6 +27,25 @@ bool SetPanoramaResolution(Session& s, const std::string& name, int width, int h
   return true;
 }
 
+// The answer without what lies in the region: the client has that already.
+airsim::LentImages LeaveIn(const LentRegion& region, std::vector<airsim::ImageResponse> images) {
+  airsim::LentImages lent{std::move(images), {}, region.wanted()};
+  for (airsim::ImageResponse& image : lent.images) {
+    WireBlock& pixels = image.pixels_as_float ? image.image_data_float.bytes : image.image_data_uint8.bytes;
+    if (!region.Has(pixels.data())) {
+      lent.places.emplace_back(0, 0);
+      continue;
+    }
+    lent.places.emplace_back(region.OffsetOf(pixels.data()), pixels.size());
+    pixels = {};
+  }
+  return lent;
+}
+
+void CheckCount(const std::vector<airsim::ImageRequest>& requests) {
+  if (requests.size() > kMostRequests) throw std::invalid_argument("more than 64 images in one call");
+}
+
 }  // namespace
 
 void AddImageCalls(Api& api) {
@@ -34,10 +53,19 @@ void AddImageCalls(Api& api) {
       "simGetImages",
       [](ImageService& images, const SnapshotPointer& now, const std::vector<airsim::ImageRequest>& requests,
          const std::string& vehicle, const airsim::External& external) {
-        if (requests.size() > kMostRequests) throw std::invalid_argument("more than 64 images in one call");
+        CheckCount(requests);
         return images.Capture(now, requests, vehicle, external.external);
       },
       1);
+  // Ours: `token` and the region are of memory that the client has lent (MemoryLoans). Floats are as with binary_float.
+  api.Picture("simGetImagesLent",
+              [&api](ImageService& images, const SnapshotPointer& now, std::vector<airsim::ImageRequest> requests,
+                     const std::string& vehicle, bool external, uint64_t token, uint64_t offset, uint64_t size) {
+                CheckCount(requests);
+                LentRegion region(api.loans().Find(token), offset, size);
+                for (airsim::ImageRequest& request : requests) request.binary_float = true;
+                return LeaveIn(region, images.Capture(now, requests, vehicle, external, &region));
+              });
   api.Picture(
       "simGetImage",
       [](ImageService& images, const SnapshotPointer& now, const airsim::CameraName& camera,

@@ -33,7 +33,7 @@ PathOptions Options(const Session& s, double velocity, DrivetrainType drivetrain
 template <class Make>
 void Begin(Session& s, const Reply& reply, Text name, const Make& make) {
   VehicleControl& control = s.control(name);
-  const FlightView view = control.ViewOf(s.vehicle(control));
+  const FlightView view = control.ViewOf(s.vehicle(control), s.state().t_ns);
   control.Start(make(view), s.state().t_ns, reply);
 }
 
@@ -86,7 +86,7 @@ void AddPathCalls(Api& api) {
   api.Start("moveToZ", [](Session& s, const Reply& reply, float z, float velocity, float timeout_sec,
                           const YawMode& yaw, float lookahead, float adaptive_lookahead, Text vehicle) {
     const VehicleControl& control = s.control(vehicle);
-    Vec3d p_N = control.ViewOf(s.vehicle(control)).p_N;
+    Vec3d p_N = control.ViewOf(s.vehicle(control), s.state().t_ns).p_N;
     p_N.z = z;
     MoveTo(s, reply, {p_N}, timeout_sec,
            Options(s, velocity, DrivetrainType::kMaxDegreeOfFreedom, yaw, lookahead, adaptive_lookahead),
@@ -107,7 +107,7 @@ void AddWholeCalls(Api& api) {
   });
   api.Start("hover", [](Session& s, const Reply& reply, Text vehicle) {
     const VehicleControl& control = s.control(vehicle);
-    const Vec3d p_N = control.ViewOf(s.vehicle(control)).p_N;
+    const Vec3d p_N = control.ViewOf(s.vehicle(control), s.state().t_ns).p_N;
     MoveTo(s, reply, {p_N}, kForever,
            Options(s, kHoverSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, 1, 0), vehicle);
   });

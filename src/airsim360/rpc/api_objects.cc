@@ -88,8 +88,9 @@ void AddPoseCalls(Api& api) {
   });
   api.Read("simGetObjectScale", [&api](const Snapshot& now, Text name) {
     const EntityId entity = api.session().objects().Find(name, now.world->names);
-    if (entity == kNoEntity) return NoPose().position;
-    return airsim::ToVector(PlaceIn(*now.world, api.session().objects(), entity).scale);
+    if (entity == kNoEntity) return airsim::Vector3r{};  // as AirSim
+    const ObjectPlace place = PlaceIn(*now.world, api.session().objects(), entity);
+    return place.hidden ? airsim::Vector3r{} : airsim::ToVector(place.scale);
   });
   api.Change("simSetObjectScale", [](Session& s, Text name, const airsim::Vector3r& scale) {
     const Vec3d factor = CheckedScale(scale);

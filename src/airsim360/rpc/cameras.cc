@@ -83,7 +83,8 @@ const CameraSetup& FindCamera(const CameraMap& cameras, const std::string& name)
     if (!choices.empty()) choices += ", ";
     choices += known;
   }
-  throw std::invalid_argument("Camera '" + name + "' not found or not available; the cameras are " + choices);
+  throw std::invalid_argument("Camera '" + name + "' not found or not available; " +
+                              (choices.empty() ? "there are none of this kind" : "the cameras are " + choices));
 }
 
 Camera PinholeOf(const CaptureSettings& capture) {

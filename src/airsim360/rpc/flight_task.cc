@@ -36,8 +36,7 @@ class LandTask : public FlightTask {
  public:
   explicit LandTask(double seconds) { timeout = seconds; }
   TaskTurn Turn(const FlightView& view) override {
-    // The sign counts: a drone that still climbs is also taken for landed.
-    still_turns_ = view.v_N.z <= kStillSpeed ? still_turns_ + 1 : 0;
+    still_turns_ = view.touches && view.v_N.z <= kStillSpeed ? still_turns_ + 1 : 0;
     TaskTurn turn{NedVelocity({0, 0, kLandingSpeed}, kNoTurning), {}};
     if (still_turns_ > kLandedTurns) turn.result = true;
     return turn;

@@ -17,6 +17,7 @@ struct FlightView {
   Vec3d p_N, v_N;
   double yaw_deg = 0;   ///< clockwise from north
   double yaw_rate = 0;  ///< rad/s, about F's z axis
+  bool touches = false;  ///< something, within the last tenth of a second
   Vec3d origin_W;
   airsim::RCData rc;
 };
@@ -52,7 +53,8 @@ TaskPointer MakeTimedTask(Command command, double duration);
 /// texts for a lookahead that makes no sense.
 TaskPointer MakePathTask(const FlightView& start, const std::vector<Vec3d>& path_N, double timeout,
                          const PathOptions& options);
-/// Sinks at 0.2 m/s until it has stopped sinking.
+/// Sinks at 0.2 m/s until something below has stopped it. (AirSim's also ends where a faster descent is caught so hard that
+/// the drone rises for a moment: scripts that then disarm drop it.)
 TaskPointer MakeLandTask(double timeout);
 /// Turns in place. `wrap`: the error is measured round the circle (AirSim does not).
 TaskPointer MakeRotateTask(const FlightView& start, double yaw_deg, double margin_deg, double timeout,

@@ -99,11 +99,17 @@ TEST(FlightTask, LookaheadsThatMakeNoSenseAreRefused) {
   refused({.velocity = 1, .drivetrain = airsim::DrivetrainType::kForwardOnly, .yaw = kYaw});
 }
 
-TEST(FlightTask, LandingEndsWhenTheDroneSinksNoMore) {
+TEST(FlightTask, LandingEndsWhenTheGroundHasStoppedTheDrone) {
   ToyDrone drone;
   drone.view.v_N.z = 0.2;
   const auto task = MakeLandTask(60);
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(task->Turn(drone.view).result);
+  // In the air it may well rise for a moment: a descent has been caught.
+  drone.view.v_N.z = -0.1;
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(task->Turn(drone.view).result);
+  drone.view.touches = true;
+  drone.view.v_N.z = 0.2;
+  EXPECT_FALSE(task->Turn(drone.view).result);
   drone.view.v_N.z = 0;
   EXPECT_EQ(Fly(*task, drone, 0.1), std::nullopt);
   drone.view.v_N.z = 0;

@@ -1,5 +1,7 @@
 #include "airsim360/rpc/image_products.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -182,17 +184,25 @@ void AddProducts(ImageContent content, Products& products) {
 
 namespace {
 
-// The third, second and first byte of each of `count` values that begin `stride` bytes apart, without gaps.
-// Four bytes are written at a time; the last value of a row by itself, so that nothing beyond it is touched.
-void SwapTriples(const void* from, size_t stride, size_t count, char* out) {
+// The third, second and first byte of each of `count` values of kStride bytes, without gaps. Sixteen bytes at a time (every
+// processor that the kernels run on has SSSE3), the last values by themselves: nothing beyond the row is touched.
+template <size_t kStride>
+__attribute__((target("ssse3"))) void SwapTriples(const void* from, size_t count, char* out) {
+  static_assert(kStride == 3 || kStride == 4);
+  constexpr size_t kValues = 16 / kStride;
+  const __m128i order = kStride == 3 ? _mm_setr_epi8(2, 1, 0, 5, 4, 3, 8, 7, 6, 11, 10, 9, 14, 13, 12, -1)
+                                     : _mm_setr_epi8(2, 1, 0, 6, 5, 4, 10, 9, 8, 14, 13, 12, -1, -1, -1, -1);
   const char* in = static_cast<const char*>(from);
-  for (size_t i = 0; i + 1 < count; ++i, in += stride, out += 3) {
-    uint32_t value;
-    std::memcpy(&value, in, sizeof value);
-    value = __builtin_bswap32(value) >> 8;
-    std::memcpy(out, &value, sizeof value);
+  size_t left = count;
+  // Both ends are within the row: what is written too much belongs to the next value.
+  for (; left >= kValues + 2; left -= kValues, in += kValues * kStride, out += 3 * kValues) {
+    const __m128i values = _mm_loadu_si128(reinterpret_cast<const __m128i*>(in));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(values, order));
   }
-  if (count > 0) out[0] = in[2], out[1] = in[1], out[2] = in[0];
+  for (; left > 0; --left, in += kStride, out += 3) {
+    const char first = in[0], second = in[1], third = in[2];
+    out[0] = third, out[1] = second, out[2] = first;
+  }
 }
 
 // The pictures that are asked for most, without a choice at every pixel. False: another one.
@@ -201,12 +211,12 @@ bool CommonRow(ImageContent content, const Frame& frame, int y, bool rgb_order, 
   if (content == ImageContent::kColor) {
     const auto row = frame.rgb.row(y);
     rgb_order ? (void)std::memcpy(out, row.data(), row.size_bytes())
-              : SwapTriples(row.data(), sizeof(Rgb8), row.size(), out);
+              : SwapTriples<sizeof(Rgb8)>(row.data(), row.size(), out);
     return true;
   }
   if (content == ImageContent::kEntity && !rgb_order) {
     const auto row = frame.entity.row(y);
-    SwapTriples(row.data(), sizeof(EntityId), row.size(), out);
+    SwapTriples<sizeof(EntityId)>(row.data(), row.size(), out);
     return true;
   }
   return false;
@@ -214,8 +224,11 @@ bool CommonRow(ImageContent content, const Frame& frame, int y, bool rgb_order, 
 
 bool CommonRow(ImageContent content, const Frame& frame, int y, bool half, float* out) {
   if (content != ImageContent::kRange) return false;
-  for (const float range : frame.range.row(y)) {
-    *out++ = range <= 0 ? kSkyDepth : half ? RoundToHalf(range) : std::min(range, kSkyDepth);
+  const auto row = frame.range.row(y);
+  if (half) {
+    for (const float range : row) *out++ = range <= 0 ? kSkyDepth : RoundToHalf(range);
+  } else {
+    for (const float range : row) *out++ = range <= 0 ? kSkyDepth : std::min(range, kSkyDepth);
   }
   return true;
 }
@@ -255,10 +268,10 @@ std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const
 }
 
 airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
-                                 const PixelOptions& options, bool binary, BlockPool& pool) {
+                                 const PixelOptions& options, bool binary, const TakeBytes& take) {
   const size_t row = FloatsInRow(content, camera), count = row * static_cast<size_t>(Height(camera));
   const size_t size = binary ? sizeof(float) : kWireFloatBytes;
-  const std::shared_ptr<char[]> bytes = pool.Take(count * size);
+  const std::shared_ptr<char[]> bytes = take(count * size);
   ForRows(camera, [&](int y) {
     char* out = bytes.get() + size * row * static_cast<size_t>(y);
     if (binary) return FloatRow(content, frame, camera, options, y, reinterpret_cast<float*>(out));
@@ -270,10 +283,10 @@ airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const
 }
 
 WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                      const PixelOptions& options, BlockPool& pool) {
+                      const PixelOptions& options, const TakeBytes& take) {
   const int width = Width(camera), height = Height(camera);
   const size_t size = 3 * static_cast<size_t>(width) * static_cast<size_t>(height);
-  const std::shared_ptr<char[]> pixels = pool.Take(size);
+  const std::shared_ptr<char[]> pixels = take(size);
   ForRows(camera, [&](int y) {
     char* out = pixels.get() + 3 * static_cast<size_t>(y) * static_cast<size_t>(width);
     if (CommonRow(content, frame, y, options.rgb_order, out)) return;

@@ -45,10 +45,10 @@ std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const
                                  const PixelOptions& options);
 /// The same as it is sent; see airsim::FloatPixels.
 airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
-                                 const PixelOptions& options, bool binary, BlockPool& pool);
+                                 const PixelOptions& options, bool binary, const TakeBytes& take);
 /// Three bytes a pixel in the order B, G, R, or R, G, B as the options say.
 WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
-                      const PixelOptions& options, BlockPool& pool);
+                      const PixelOptions& options, const TakeBytes& take);
 /// A PNG of the same picture.
 std::string PngOf(ImageContent content, const Frame& frame, const Camera& camera,
                   const PixelOptions& options);

@@ -20,6 +20,8 @@ TEST(ImageProducts, HalvesAreRoundedToTheNearest) {
   EXPECT_EQ(RoundToHalf(65519.9f), 65504);
 }
 
+std::shared_ptr<char[]> Fresh(size_t size) { return std::shared_ptr<char[]>(new char[size]); }
+
 Frame TinyFrame() {
   Frame frame;
   frame.range = Image<float>(4, 2, 10.0f);
@@ -32,7 +34,7 @@ Frame TinyFrame() {
 TEST(ImageProducts, BytesAreBlueGreenRed) {
   const Frame frame = TinyFrame();
   const Camera camera = PinholeOf({4, 2, 90});
-  BlockPool pool;
+  const TakeBytes pool = Fresh;
   const WireBlock block = BytePixelsOf(ImageContent::kColor, frame, camera, {}, pool);
   const std::string_view bytes = block.view();
   ASSERT_EQ(bytes.size(), 24u);
@@ -62,7 +64,7 @@ TEST(ImageProducts, DepthIsRangeTimesTheCosine) {
   EXPECT_EQ(planar[7], kSkyDepth);
   const auto range = FloatPixelsOf(ImageContent::kRange, frame, camera, {.half_depth = false});
   EXPECT_EQ(range[0], 10);
-  BlockPool pool;
+  const TakeBytes pool = Fresh;
   const WireBlock centimetres = BytePixelsOf(ImageContent::kRange, frame, camera, {.centimetres = true}, pool);
   EXPECT_EQ(static_cast<uint8_t>(centimetres.view()[0]), 255);
 }
@@ -70,7 +72,7 @@ TEST(ImageProducts, DepthIsRangeTimesTheCosine) {
 TEST(ImageProducts, FloatsOnTheWireAreTheFloatsOfTheImage) {
   const Frame frame = TinyFrame();
   const Camera camera = PinholeOf({4, 2, 90});
-  BlockPool pool;
+  const TakeBytes pool = Fresh;
   const auto expected = FloatPixelsOf(ImageContent::kPlanarDepth, frame, camera, {});
   const auto stock = FloatBytesOf(ImageContent::kPlanarDepth, frame, camera, {}, false, pool);
   const auto ours = FloatBytesOf(ImageContent::kPlanarDepth, frame, camera, {}, true, pool);
@@ -83,6 +85,39 @@ TEST(ImageProducts, FloatsOnTheWireAreTheFloatsOfTheImage) {
   for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(static_cast<float>(value.items[i].real), expected[i]);
   ASSERT_EQ(ours.bytes.size(), expected.size() * sizeof(float));
   EXPECT_EQ(std::memcmp(ours.bytes.data(), expected.data(), ours.bytes.size()), 0);
+}
+
+// Rows of all lengths around those that whole vectors fill, each with a guard behind it.
+TEST(ImageProducts, EveryPixelOfARowIsSwappedAndNothingBehindIt) {
+  for (int width = 1; width < 50; ++width) {
+    Frame frame;
+    frame.rgb = Image<Rgb8>(width, 1);
+    frame.entity = Image<EntityId>(width, 1);
+    for (int x = 0; x < width; ++x) {
+      const auto v = static_cast<uint8_t>(3 * x);
+      frame.rgb(x, 0) = {v, static_cast<uint8_t>(v + 1), static_cast<uint8_t>(v + 2)};
+      frame.entity(x, 0) = 0x40000000u + 0x10203u * static_cast<uint32_t>(x);
+    }
+    const size_t size = 3 * static_cast<size_t>(width);
+    const TakeBytes guarded = [&](size_t) {
+      auto bytes = Fresh(size + 16);
+      std::memset(bytes.get(), 0x55, size + 16);
+      return bytes;
+    };
+    const Camera camera = PinholeOf({width, 1, 90});
+    for (const ImageContent content : {ImageContent::kColor, ImageContent::kEntity}) {
+      const WireBlock block = BytePixelsOf(content, frame, camera, {}, guarded);
+      for (int x = 0; x < width; ++x) {
+        const EntityId id = frame.entity(x, 0);
+        const Rgb8 c = content == ImageContent::kColor ? frame.rgb(x, 0)
+                                                       : Rgb8{static_cast<uint8_t>(id), static_cast<uint8_t>(id >> 8),
+                                                              static_cast<uint8_t>(id >> 16)};
+        const uint8_t expected[] = {c.b, c.g, c.r};
+        ASSERT_EQ(std::memcmp(block.data() + 3 * x, expected, 3), 0) << width << " " << x;
+      }
+      for (size_t i = size; i < size + 16; ++i) ASSERT_EQ(block.data()[i], 0x55) << width;
+    }
+  }
 }
 
 TEST(BlockPool, MemoryIsUsedAgainOnceItsLastHolderHasLetGo) {

@@ -22,8 +22,9 @@ bool SameProjection(const Camera& a, const Camera& b) {
 // One rendering: what requests with the same camera and projection share.
 struct ImageService::Shot {
   Camera camera;
-  RigidTransform X_WA, X_WA_next;
+  RigidTransform X_WA;
   size_t self = kNobody;  // the vehicle that looks
+  RigidTransform X_BA;    // of the camera on it
   Products products;
   std::vector<std::pair<size_t, ImageContent>> requests;  // index and what it shows
 };
@@ -89,10 +90,14 @@ void ImageService::MakeRendererFor(const WorldView& world) {
   environment_version_ = world.environment_version;
 }
 
-// What has moved, as vehicle `self` sees it `later` seconds after the snapshot: objects, people, and the bodies of the
-// other drones.
-std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot, size_t self, double later) const {
-  const std::shared_ptr<const SceneState> bodies = SceneStateLater(*snapshot.model, snapshot.state, self, later);
+// What has moved, as vehicle `self` sees it: objects, people, and the bodies of the other drones.
+std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot, size_t self) const {
+  return WithObjects(snapshot, SceneStateOf(*snapshot.model, snapshot.state, self));
+}
+
+// Adds the objects that calls have moved.
+std::shared_ptr<const SceneState> ImageService::WithObjects(const Snapshot& snapshot,
+                                                            std::shared_ptr<const SceneState> bodies) const {
   if (snapshot.world->places.empty()) return bodies;
   auto state = bodies ? std::make_shared<SceneState>(*bodies) : std::make_shared<SceneState>();
   for (const auto& [entity, place] : snapshot.world->places)
@@ -103,7 +108,7 @@ std::shared_ptr<const SceneState> ImageService::StateOf(const Snapshot& snapshot
 }
 
 std::shared_ptr<const RayTracer> ImageService::TracerOf(const Snapshot& snapshot, size_t vehicle) {
-  return ray_tracers_.At(StateOf(snapshot, vehicle, 0));
+  return ray_tracers_.At(StateOf(snapshot, vehicle));
 }
 
 const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot) {
@@ -112,10 +117,12 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
   // Without colours there is no shading to be paid for.
   request.tier = shot.products.rgb ? options_.tier : Tier::kLabels;
   request.products = shot.products;
-  request.state = StateOf(snapshot, shot.self, 0);
+  request.state = StateOf(snapshot, shot.self);
   if (shot.products.flow) {
-    request.X_WC_next = shot.X_WA_next * CameraInBody();
-    request.next_state = StateOf(snapshot, shot.self, kFlowSeconds);
+    const NextTrigger next = InstantAfter(*snapshot.model, snapshot.state, shot.self, kFlowSeconds);
+    const bool carried = shot.self != kNobody;
+    request.X_WC_next = (carried ? next.X_WB * shot.X_BA : shot.X_WA) * CameraInBody();
+    request.next_state = WithObjects(snapshot, next.state);
   }
   render_ms_ += renderer_->Render(request, frame_).render_ms;
   return frame_;
@@ -123,7 +130,7 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
 
 airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request, ImageContent content,
                                             const Snapshot& snapshot, const Shot& shot,
-                                            Vec3d origin_W) {
+                                            Vec3d origin_W, LentRegion* region) {
   airsim::ImageResponse response;
   response.camera_name = request.camera_name.text;
   response.image_type = request.image_type;
@@ -145,13 +152,16 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
                        .segmentation = &snapshot.world->segmentation};
   const auto layer = snapshot.world->annotations.find(request.annotation_name);
   if (layer != snapshot.world->annotations.end()) options.annotation = &layer->second;
+  const TakeBytes take = [&](size_t size) {
+    std::shared_ptr<char[]> lent = region != nullptr ? region->Take(size) : nullptr;
+    return lent ? lent : pool_.Take(size);
+  };
   if (request.pixels_as_float) {
-    response.image_data_float =
-        FloatBytesOf(content, frame_, shot.camera, options, request.binary_float, pool_);
+    response.image_data_float = FloatBytesOf(content, frame_, shot.camera, options, request.binary_float, take);
   } else if (request.compress) {
     response.image_data_uint8.bytes = WireBlock(PngOf(content, frame_, shot.camera, options));
   } else {
-    response.image_data_uint8.bytes = BytePixelsOf(content, frame_, shot.camera, options, pool_);
+    response.image_data_uint8.bytes = BytePixelsOf(content, frame_, shot.camera, options, take);
   }
   return response;
 }
@@ -173,12 +183,11 @@ std::vector<ImageService::Shot> ImageService::PlanShots(const std::vector<airsim
     shot.camera = ProjectionOf(camera, type);
     shot.products.rgb = false;
     if (external) {
-      shot.X_WA = shot.X_WA_next = airsim::FromPose(airsim::ToMount(camera.X_BA), session_.origin_W());
+      shot.X_WA = airsim::FromPose(airsim::ToMount(camera.X_BA), session_.origin_W());
     } else {
-      const Kinematics& body = snapshot.state.vehicles[vehicle].motion;
-      shot.X_WA = body.X_WB * camera.X_BA;
+      shot.X_WA = CameraPoseIn(snapshot, vehicle, camera);
       shot.self = vehicle;
-      shot.X_WA_next = Extrapolate(body, kFlowSeconds) * camera.X_BA;
+      shot.X_BA = camera.X_BA;
     }
     const auto same = std::find_if(shots.begin(), shots.end(), [&](const Shot& other) {
       return SameProjection(other.camera, shot.camera) && other.X_WA.p == shot.X_WA.p &&
@@ -208,7 +217,8 @@ SnapshotPointer ImageService::InstantFor(const std::vector<airsim::ImageRequest>
 
 std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& now,
                                                          const std::vector<airsim::ImageRequest>& requests,
-                                                         const std::string& vehicle, bool external) {
+                                                         const std::string& vehicle, bool external,
+                                                         LentRegion* region) {
   // Cameras of the world need no vehicle.
   external = external && vehicle.empty();
   const size_t index = external ? 0 : now->Find(vehicle);
@@ -219,7 +229,7 @@ std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& 
   for (const Shot& shot : PlanShots(requests, *instant, index, external)) {
     RenderShot(*instant, shot);
     for (const auto& [i, content] : shot.requests) {
-      responses[i] = Respond(requests[i], content, *instant, shot, origin_W);
+      responses[i] = Respond(requests[i], content, *instant, shot, origin_W, region);
     }
   }
   return responses;

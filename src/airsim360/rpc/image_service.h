@@ -12,6 +12,7 @@
 #include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/rpc/image_products.h"
 #include "airsim360/rpc/session.h"
+#include "airsim360/rpc/shared_memory.h"
 
 namespace airsim360 {
 
@@ -39,10 +40,12 @@ class ImageService {
   void Trigger(const std::string& vehicle, SnapshotPointer snapshot);
 
   /// The pictures of one call: all from one instant, that of the last trigger where a panorama is among them.
-  /// std::exception for a camera or vehicle that there is not.
+  /// `region`: pixels that are not compressed are written there as far as they fit. std::exception for a camera or vehicle
+  /// that there is not.
   std::vector<airsim::ImageResponse> Capture(const SnapshotPointer& now,
                                              const std::vector<airsim::ImageRequest>& requests,
-                                             const std::string& vehicle, bool external);
+                                             const std::string& vehicle, bool external,
+                                             LentRegion* region = nullptr);
   /// Labels (range, semantic, entity) of an ordinary camera now, and its pose.
   struct View {
     const Frame* frame;
@@ -64,13 +67,15 @@ class ImageService {
   const Frame& RenderShot(const Snapshot& snapshot, const Shot& shot);
   void FollowEnvironment(const WorldView& world);
   void MakeRendererFor(const WorldView& world);
-  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self, double later) const;
+  std::shared_ptr<const SceneState> StateOf(const Snapshot& snapshot, size_t self) const;
+  std::shared_ptr<const SceneState> WithObjects(const Snapshot& snapshot,
+                                                std::shared_ptr<const SceneState> bodies) const;
   std::vector<Shot> PlanShots(const std::vector<airsim::ImageRequest>& requests, const Snapshot& snapshot,
                               size_t vehicle, bool external) const;
   SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
                              size_t vehicle);
   airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content,
-                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W);
+                                const Snapshot& snapshot, const Shot& shot, Vec3d origin_W, LentRegion* region);
 
   Session& session_;
   std::shared_ptr<const RayTracer> tracer_;

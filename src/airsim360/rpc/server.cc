@@ -38,6 +38,7 @@ struct AirSimServer::Impl {
   OpenConnections connections;
   std::mutex tcp_mutex;
   std::unique_ptr<TcpServer> tcp;
+  MemoryLoans loans;
   std::unique_ptr<ImageService> images;
   std::unique_ptr<RecordingWriter> recording;
   std::unique_ptr<Session> session;
@@ -72,7 +73,7 @@ AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptio
                                                             .people = options.people});
   impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier, options.device});
   impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
-  impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images);
+  impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,
                          AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls,
                          AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
@@ -90,6 +91,7 @@ AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptio
                       },
                   .on_close = [impl = impl_.get()](ConnectionId id) { impl->connections.Close(id); }},
       options.limits);
+  impl_->loans.Listen(impl_->tcp->port());
 }
 
 AirSimServer::~AirSimServer() {

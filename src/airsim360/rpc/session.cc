@@ -129,6 +129,7 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
     vehicle.drone.p_WB = vehicle.motion.X_WB.p;
     start = vehicle.motion.X_WB;
     state_.vehicles.push_back(vehicle);
+    SampleSensors(index);
   } else {
     state_.vehicles.push_back(VehicleAt(*model_, X_WB));
   }
@@ -222,8 +223,13 @@ void Session::StepOnce() {
   }
 }
 
+bool Session::Stopping() {
+  const std::lock_guard lock(jobs_mutex_);
+  return stopping_;
+}
+
 void Session::Run() {
-  while (true) {
+  while (!Stopping()) {
     RunJobs();
     const int64_t due = std::min(pacer_.Due(state_.t_ns), state_.t_ns + kSliceNs);
     bool stepped = false;

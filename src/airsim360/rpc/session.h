@@ -85,10 +85,13 @@ class Session {
   bool RunJobs();
   void StepOnce();
   void Publish();
+  bool Stopping();
   void BuildVehicles();
   void RebuildModel();
   void AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB);
   RigidTransform StartPose(const VehicleSettings& settings) const;
+  /// What the sensors of a drone read before time has passed: as AirSim's they have values at once.
+  void SampleSensors(size_t index);
 
   SessionOptions options_;
   ObjectIndex objects_;

@@ -111,6 +111,13 @@ void Session::Teleport(const VehicleControl& control, const RigidTransform& X_WB
   moved.autopilot.has_reference = moved.autopilot.has_history = 0;
 }
 
+void Session::SampleSensors(size_t index) {
+  constexpr int64_t kLongest = 1'000'000'000;  // no sensor is slower
+  Vehicle& vehicle = state_.vehicles[index];
+  StepSensors(model_->drones[index]->setup().sensors, model_->world, static_cast<uint32_t>(index), MotionOf(vehicle),
+              state_.t_ns, kLongest, vehicle.sensors);
+}
+
 void Session::Reset() {
   for (const auto& control : controls_) {
     control->Reset(false);
@@ -127,6 +134,7 @@ void Session::Reset() {
     reset.drone.p_WB = start.p;
     reset.drone.q_WB = ToQuaternion(start.R);
     reset.command.id = id + 1;
+    SampleSensors(control->index());
   }
   state_.wind_W = model_->wind.mean_W;
 }

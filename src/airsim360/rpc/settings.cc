@@ -153,11 +153,10 @@ VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
   SettingsObject object(node, parent.file(), parent.notices());
   VehicleSettings vehicle;
   object.Read("VehicleType", vehicle.type);
-  std::transform(vehicle.type.begin(), vehicle.type.end(), vehicle.type.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  // As AirSim: in capitals or not.
   const auto type = std::find_if(kTypes.begin(), kTypes.end(), [&](const std::string& name) {
     return std::equal(name.begin(), name.end(), vehicle.type.begin(), vehicle.type.end(),
-                      [](unsigned char a, char b) { return std::tolower(a) == b; });
+                      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
   });
   if (type == kTypes.end()) {
     object.Fail(node, "VehicleType: " + UnknownChoiceMessage("vehicle type", vehicle.type, kTypes));

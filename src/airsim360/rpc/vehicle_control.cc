@@ -9,6 +9,8 @@ namespace {
 // AirSim's SimpleFlight (Params.hpp): without a goal for this long the drone holds its place.
 constexpr int64_t kGoalTimeoutNs = 60'000'000;
 constexpr auto kTaskPeriodNs = static_cast<int64_t>(kTaskPeriod * 1e9);
+// A drone that stands with its rotors turning does not touch the ground in every step.
+constexpr int64_t kTouchNs = 100'000'000;
 // When it has taken off or landed: motor output, vertical speed, all speeds.
 constexpr double kCollisionSpeed = 0.02;
 constexpr double kFlyingOutput = 0.1, kFlyingSpeed = 0.01, kLandedSpeed = 0.08;
@@ -83,7 +85,7 @@ void VehicleControl::Start(TaskPointer task, int64_t t_ns, const Reply& reply) {
   running_ = Running{std::move(task), t_ns, t_ns, reply};
 }
 
-FlightView VehicleControl::ViewOf(const Vehicle& vehicle) const {
+FlightView VehicleControl::ViewOf(const Vehicle& vehicle, int64_t t_ns) const {
   const Kinematics& motion = vehicle.motion;
   const Mat3d R_NF = NedRotation(motion.X_WB.R);
   FlightView view;
@@ -92,6 +94,7 @@ FlightView VehicleControl::ViewOf(const Vehicle& vehicle) const {
   view.v_N = NedFromWorld(motion.v_WB);
   view.yaw_deg = std::atan2(R_NF.m[1][0], R_NF.m[0][0]) * 180 / std::numbers::pi;
   view.yaw_rate = FrdFromBody(motion.w_WB_B).z;
+  view.touches = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kTouchNs;
   view.rc = status_.rc;
   return view;
 }
@@ -103,7 +106,7 @@ std::optional<FlightCommand> VehicleControl::TurnTask(const Vehicle& vehicle, in
     return {};
   }
   running_->next_ns += kTaskPeriodNs;
-  const TaskTurn turn = running_->task->Turn(ViewOf(vehicle));
+  const TaskTurn turn = running_->task->Turn(ViewOf(vehicle, t_ns));
   if (turn.result) Finish(*turn.result);
   // Without API control a move runs and steers nothing.
   if (!turn.command || !status_.api_control) return {};
@@ -123,7 +126,7 @@ std::optional<FlightCommand> VehicleControl::Plan(const Vehicle& vehicle, int64_
   if (!hold_at_ns_ || t_ns < *hold_at_ns_ || running_) return {};
   // No goal any more: the drone stays where it is.
   hold_at_ns_.reset();
-  const FlightView view = ViewOf(vehicle);
+  const FlightView view = ViewOf(vehicle, t_ns);
   return FlightCommand{NedPosition(view.p_N, {true, 0}, view.origin_W), 0};
 }
 

@@ -34,7 +34,8 @@ class VehicleControl {
   /// simGetCollisionInfo: whether it has collided since the last call.
   bool TakeCollision();
 
-  FlightView ViewOf(const Vehicle& vehicle) const;
+  /// What a move sees at time t.
+  FlightView ViewOf(const Vehicle& vehicle, int64_t t_ns) const;
   const VehicleStatus& status() const { return status_; }
   const VehicleSettings& settings() const { return settings_; }
   size_t index() const { return index_; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -31,12 +32,15 @@ class WireBlock {
 using WireBlocks = std::vector<WireBlock>;
 size_t SizeOf(const WireBlocks& blocks);
 
+/// Memory of `size` bytes that is not written yet, for a block.
+using TakeBytes = std::function<std::shared_ptr<char[]>(size_t size)>;
+
 /// Memory of large blocks, used again when the last holder has let go: fresh pages would cost as much as
 /// filling them. Thread-safe; blocks may outlive the pool.
 class BlockPool {
  public:
   BlockPool() : shelf_(std::make_shared<Shelf>()) {}
-  /// Memory that is not written yet.
+  /// As TakeBytes.
   std::shared_ptr<char[]> Take(size_t size);
 
  private:

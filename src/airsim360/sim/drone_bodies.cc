@@ -5,7 +5,6 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/body/drone_body.h"
-#include "airsim360/sensors/rig.h"
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
@@ -55,6 +54,26 @@ DroneBodyRef AddBody(const DroneBodySpec& body, MeshId mesh, Scene& scene) {
   return {static_cast<uint32_t>(scene.instances.size() - 1), entity};
 }
 
+// What has moved at `state`; people have the meshes for how far they were from vehicle `self` at `seen`.
+std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimState& state, size_t self,
+                                               const SimState& seen) {
+  auto scene_state = std::make_shared<SceneState>();
+  scene_state->t_ns = state.t_ns;
+  const size_t count = std::min(model.drones.size(), state.vehicles.size());
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t instance = model.drones[i]->setup().instance;
+    if (instance != kMiss) scene_state->moved.push_back({instance, PlaceOf(state.vehicles[i].motion.X_WB), i == self});
+  }
+  if (model.people && state.people) {
+    PeoplePoses poses = PosesLater(*model.people, *state.people, state.t_ns + model.people->epoch_ns);
+    if (self < seen.vehicles.size() && seen.people)
+      poses.levels = LevelsFor(*model.people, seen.people->crowd.people, seen.vehicles[self].motion.X_WB.p);
+    ShowPeople(*model.people, poses, *scene_state);
+  }
+  std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
+  return scene_state;
+}
+
 }  // namespace
 
 Model DroneBodyModel(const DroneModel& drone) {
@@ -94,28 +113,15 @@ std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
 }
 
 std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self) {
-  return SceneStateLater(model, state, self, 0);
+  return SceneStateAt(model, state, self, state);
 }
 
-std::shared_ptr<const SceneState> SceneStateLater(const SimModel& model, const SimState& state, size_t self, double dt) {
-  auto scene_state = std::make_shared<SceneState>();
-  scene_state->t_ns = state.t_ns + std::llround(dt * 1e9);
-  const size_t count = std::min(model.drones.size(), state.vehicles.size());
-  for (size_t i = 0; i < count; ++i) {
-    const uint32_t instance = model.drones[i]->setup().instance;
-    if (instance == kMiss) continue;
-    const Kinematics& motion = state.vehicles[i].motion;
-    scene_state->moved.push_back({instance, PlaceOf(dt > 0 ? Extrapolate(motion, dt) : motion.X_WB), i == self});
-  }
-  if (model.people && state.people) {
-    PeoplePoses poses = PosesLater(*model.people, *state.people, scene_state->t_ns + model.people->epoch_ns);
-    // By where people are now, also for later: flow needs the same meshes at both instants.
-    if (self < state.vehicles.size())
-      poses.levels = LevelsFor(*model.people, state.people->crowd.people, state.vehicles[self].motion.X_WB.p);
-    ShowPeople(*model.people, poses, *scene_state);
-  }
-  std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
-  return scene_state;
+NextTrigger InstantAfter(const SimModel& model, const SimState& now, size_t self, double seconds) {
+  SimState then = now;
+  const auto steps = std::llround(seconds * 1e9 / static_cast<double>(model.dt_ns));
+  for (int64_t step = 0; step < steps; ++step) Step(model, {}, then);
+  const RigidTransform X_WB = self < then.vehicles.size() ? then.vehicles[self].motion.X_WB : RigidTransform{};
+  return {X_WB, SceneStateAt(model, then, self, now)};
 }
 
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "airsim360/scene/model_source.h"
+#include "airsim360/sensors/rig.h"
 #include "airsim360/sim/step.h"
 
 namespace airsim360 {
@@ -43,9 +44,9 @@ inline constexpr size_t kNobody = SIZE_MAX;
 /// all are shown), and the people as they stand at state.t_ns. Drones without a body are left out.
 std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimState& state, size_t self);
 
-/// SceneStateOf `dt` seconds later, for optical flow: drones go on at the speed and turn rate that they have, people do
-/// what they are about to do.
-std::shared_ptr<const SceneState> SceneStateLater(const SimModel& model, const SimState& state, size_t self, double dt);
+/// The instant that optical flow leads to: vehicle `self` and what else has moved `seconds` after `now` if commands stay,
+/// by steps taken beside the simulation. As SceneStateOf, people with the meshes that they have now, which flow needs.
+NextTrigger InstantAfter(const SimModel& model, const SimState& now, size_t self, double seconds);
 
 /// The scene of `base` without any of the bodies and people, for SimModel::tracer; `base` itself if there are
 /// none.

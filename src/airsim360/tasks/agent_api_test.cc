@@ -211,6 +211,7 @@ TEST(AgentOpenApi, IsJsonAndEveryPathOfItIsAnswered) {
       const std::string body = path.ends_with("/step") ? R"({"action": "hover"})" : "";
       const int status = agent.api.Handle({verb, target, body}).status;
       EXPECT_TRUE(status == 200 || status == 201) << verb << " " << target << " " << status;
+      EXPECT_TRUE(operation["responses"].contains("default")) << "what mistakes are answered with: " << target;
     }
   }
   // Names of presets and kinds of actions are those that the decoder knows.

@@ -149,7 +149,7 @@ TEST(SimPeople, GoOnWalkingInTheStateThatFlowLeadsTo) {
   const SimPeople& people = *room.populated.people;
   SimState state = StartState(*room.model);
   for (int i = 0; i < 1234; ++i) Step(*room.model, {}, state);
-  const auto now = SceneStateOf(*room.model, state, 0), later = SceneStateLater(*room.model, state, 0, 0.3);
+  const auto now = SceneStateOf(*room.model, state, 0), later = InstantAfter(*room.model, state, 0, 0.3).state;
   EXPECT_EQ(later->t_ns, state.t_ns + 300'000'000);
   ASSERT_EQ(now->moved.size(), later->moved.size());
   double moved = 0;
