@@ -4,16 +4,20 @@
 // reflections, ambient. They are then traced again, same packets, same order, same scene objects, same flags,
 // with nothing else done; the time to read the records from memory is measured too and taken off. Frame and
 // replay take turns; the table shows medians and their ratios, on one thread and on all.
-//   fast     antialiasing off: edges would add camera rays chosen by what was shaded
+//   fast     antialiasing off
+//   fast aa  the same with 4 samples on edges, whose rays are recorded and traced again like all others
 //   high     4 ambient rays, antialiasing off
 //   high aa  the same with 4 samples on edges
 // With --latitude: what fewer rays towards the poles save at equal error (WS-PSNR against 64 rays).
-// Compare ratios, not milliseconds.
+// Compare ratios, not milliseconds. --processor takes processor time of all threads instead of time, for a
+// machine that does other work, too. With --profile: frames of one kind (--kind) on one thread and nothing
+// else, for a profiler.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -35,7 +39,8 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   int width = 2048, rounds = 7;
   std::string scene;  // one of the names below, or a world; empty = the four
-  bool latitude = false, json = false;
+  std::string kind;   // empty = all
+  bool latitude = false, json = false, profile = false, processor = false;
 };
 
 struct World {
@@ -54,10 +59,17 @@ World MakeWorld(const std::string& name) {
   return {name, scene, VecCast<double>(scene->spawn.value_or(scene->bounds.center()))};
 }
 
-double Milliseconds(const std::function<void()>& job) {
-  const auto start = Clock::now();
+double Now(bool processor) {
+  if (!processor) return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+double Milliseconds(const Options& options, const std::function<void()>& job) {
+  const double start = Now(options.processor);
   job();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return Now(options.processor) - start;
 }
 
 double Median(std::vector<double> v) {
@@ -79,10 +91,17 @@ void MeasureRatios(const Options& options, const World& world, Renderer& rendere
     int aa_samples;
   };
   for (const Kind kind :
-       {Kind{"fast", Tier::kFast, 1}, Kind{"high", Tier::kHigh, 1}, Kind{"high aa", Tier::kHigh, 4}}) {
+       {Kind{"fast", Tier::kFast, 1}, Kind{"fast aa", Tier::kFast, 4}, Kind{"high", Tier::kHigh, 1},
+        Kind{"high aa", Tier::kHigh, 4}}) {
+    if (!options.kind.empty() && options.kind != kind.name) continue;
     const RenderRequest request = MakeRequest(options, world, kind.tier, kind.aa_samples);
     Frame frame;
     renderer.Render(request, frame);  // warms up
+    if (options.profile) {
+      const ThreadLimit one(1);
+      for (int round = 0; round < options.rounds; ++round) renderer.Render(request, frame);
+      continue;
+    }
     std::vector<bench::RecordedPacket> packets;
     bench::RayCounts rays;
     {
@@ -98,9 +117,9 @@ void MeasureRatios(const Options& options, const World& world, Renderer& rendere
       std::vector<double> whole, raw, read;
       double sum = 0;
       for (int round = 0; round < options.rounds; ++round) {
-        whole.push_back(Milliseconds([&] { renderer.Render(request, frame); }));
-        raw.push_back(Milliseconds([&] { sum += bench::Replay(packets, true); }));
-        read.push_back(Milliseconds([&] { sum += bench::Replay(packets, false); }));
+        whole.push_back(Milliseconds(options, [&] { renderer.Render(request, frame); }));
+        raw.push_back(Milliseconds(options, [&] { sum += bench::Replay(packets, true); }));
+        read.push_back(Milliseconds(options, [&] { sum += bench::Replay(packets, false); }));
       }
       const double frame_ms = Median(whole), raw_ms = Median(raw) - Median(read);
       if (threads == 1) one_thread = frame_ms;
@@ -145,7 +164,7 @@ void MeasureLatitude(const Options& options, const World& world, Renderer& rende
   const auto measure = [&](int samples, bool latitude, double& ms, double& mse) {
     std::vector<double> times;
     for (int i = 0; i < options.rounds; ++i)
-      times.push_back(Milliseconds([&] { render(samples, latitude, 2, frame); }));
+      times.push_back(Milliseconds(options, [&] { render(samples, latitude, 2, frame); }));
     ms = Median(times), mse = WsMse(frame.rgb, truth.rgb);
     std::printf("%-14s latitude %-3s %2d rays: %8.1f ms, WS-PSNR %.2f dB\n", world.name.c_str(),
                 latitude ? "on" : "off", samples, ms, 10 * std::log10(255 * 255 / mse));
@@ -167,6 +186,12 @@ Options Parse(int argc, char** argv) {
       options.json = true;
     else if (flag == "--latitude")
       options.latitude = true;
+    else if (flag == "--processor")
+      options.processor = true;
+    else if (flag == "--profile")
+      options.profile = true;
+    else if (flag == "--kind" && i + 1 < argc)
+      options.kind = argv[++i];
     else if (flag == "--width" && i + 1 < argc)
       options.width = std::atoi(argv[++i]) / 64 * 64;
     else if (flag == "--rounds" && i + 1 < argc)
@@ -176,7 +201,7 @@ Options Parse(int argc, char** argv) {
     else {
       std::fprintf(stderr,
                    "color_bench [--json] [--latitude] [--scene box|city|forest|instances|WORLD] [--width N] "
-                   "[--rounds N]\n");
+                   "[--rounds N] [--kind fast|\"fast aa\"|high|\"high aa\"] [--processor] [--profile]\n");
       std::exit(2);
     }
   }

@@ -50,8 +50,8 @@ class ArchiveWriter {
     Put(text.size());
     Raw(std::span<const char>(text));
   }
-  template <PlainValue T>
-  void Put(const std::vector<T>& list) {
+  template <PlainValue T, class Allocator>
+  void Put(const std::vector<T, Allocator>& list) {
     Put(list.size());
     Raw(std::span<const T>(list));
   }
@@ -106,8 +106,8 @@ class ArchiveReader {
     text.resize(Count(1));
     Raw(std::span<char>(text));
   }
-  template <PlainValue T>
-  void Get(std::vector<T>& list) {
+  template <PlainValue T, class Allocator>
+  void Get(std::vector<T, Allocator>& list) {
     list.resize(Count(sizeof(T)));
     Raw(std::span<T>(list));
   }

@@ -82,12 +82,17 @@ const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
 class EmptyInactiveLanes {
  public:
   EmptyInactiveLanes(const int* lanes, RayHit16& rays) : lanes_(lanes), rays_(rays) {
+    int all = -1;
+    for (int i = 0; i < 16; ++i) all &= lanes[i];
+    full_ = all == -1;
+    if (full_) return;
     for (int i = 0; i < 16; ++i) {
       kept_[i] = rays.t_far[i];
       rays.t_far[i] = lanes[i] != 0 ? kept_[i] : -std::numeric_limits<float>::infinity();
     }
   }
   ~EmptyInactiveLanes() {
+    if (full_) return;
     for (int i = 0; i < 16; ++i) rays_.t_far[i] = lanes_[i] != 0 ? rays_.t_far[i] : kept_[i];
   }
   EmptyInactiveLanes(const EmptyInactiveLanes&) = delete;
@@ -96,6 +101,7 @@ class EmptyInactiveLanes {
  private:
   const int* lanes_;
   RayHit16& rays_;
+  bool full_;  // all lanes are active: nothing to do
   float kept_[16];
 };
 

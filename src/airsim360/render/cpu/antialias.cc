@@ -49,7 +49,8 @@ class EdgeTile {
   int pixel_count() const { return pixel_count_; }
   int x(int pixel) const { return x_[pixel]; }
   int y(int pixel) const { return y_[pixel]; }
-  bool on_silhouette(int pixel) const { return (edge_[pixel] & kSilhouette) != 0; }
+  // Another entity that looks different: surely an edge that shows.
+  bool on_visible_silhouette(int pixel) const { return edge_[pixel] == (kSilhouette | kContrastEdge); }
   // Darkest to lightest of the pixel's samples so far, of 255.
   int contrast(int pixel) const { return high_[pixel] - low_[pixel]; }
   int ray_count() const { return ray_count_; }
@@ -207,11 +208,12 @@ int Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
     }
   };
 
-  // Silhouettes get all their rays at once; others the rest when the first differs from the centre.
-  for (int i = 0; i < tile.pixel_count(); ++i) add_rays(i, 1, tile.on_silhouette(i) ? task.samples : 2);
+  // Silhouettes that show get all their rays at once; others the rest when the first differs from the centre.
+  for (int i = 0; i < tile.pixel_count(); ++i)
+    add_rays(i, 1, tile.on_visible_silhouette(i) ? task.samples : 2);
   tile.Finish();
   for (int i = 0; i < tile.pixel_count(); ++i) {
-    if (!tile.on_silhouette(i) && tile.contrast(i) > kContrast / 2) add_rays(i, 2, task.samples);
+    if (!tile.on_visible_silhouette(i) && tile.contrast(i) > kContrast / 2) add_rays(i, 2, task.samples);
   }
   tile.Finish();
   for (int i = 0; i < tile.pixel_count(); ++i) {

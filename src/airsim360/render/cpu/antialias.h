@@ -44,8 +44,8 @@ class Antialiaser {
                  Image<uint8_t>& edges) const;
   /// Replaces the colours of marked pixels by the mean, in display-linear light, of `samples` rays spread
   /// over the pixel (box filter of one pixel). Tone mapping before the mean keeps edges of highlights smooth.
-  /// A pixel that only contrasts with a neighbour of the same entity gets one ray more at first, and the rest
-  /// if that one looks different. Returns the number of rays.
+  /// A pixel that only contrasts with a neighbour of the same entity, or borders on another entity that looks
+  /// the same, gets one ray more at first, and the rest if that one looks different. Returns the number of rays.
   int64_t Run(const AntialiasTask& task);
 
  private:

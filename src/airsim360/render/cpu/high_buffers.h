@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "airsim360/base/table_vector.h"
 #include "airsim360/image/image.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/cpu/tile_kernel.h"
@@ -22,7 +23,7 @@ struct HighBuffers {
   Image<uint8_t> penumbra;            ///< as HighTile::penumbra
   Image<Rgb32f> radiance;
   Image<uint8_t> luma, edges;
-  std::vector<LightTerms> terms;  ///< of each tile
+  TableVector<LightTerms> terms;  ///< of each tile
   std::vector<uint8_t> smooth;    ///< of each tile: 1 if it has penumbrae
 
   void Resize(int width, int height);

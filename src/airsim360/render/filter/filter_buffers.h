@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "airsim360/base/table_vector.h"
 #include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/filter/denoiser.h"
 #include "airsim360/render/filter/filter_planes.h"
@@ -40,8 +41,8 @@ class FilterBuffers {
 
   CameraRays rays_;
   FilterPlanes planes_{};
-  std::vector<float> floats_;
-  std::vector<uint32_t> ids_;
+  TableVector<float> floats_;
+  TableVector<uint32_t> ids_;
   std::vector<float> across_;  // 1 / cos(latitude) of rows
 };
 

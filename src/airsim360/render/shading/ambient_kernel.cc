@@ -67,12 +67,9 @@ KERNEL real SunSeen(const SunMapView& map, real3 p) {
   const real last = real(static_cast<float>(map.size - 1)), zero = real(0.0f);
   const real column = affine(map.column), row = affine(map.row);
   const mask_t inside = (column > 0.0f) && (column < last) && (row > 0.0f) && (row < last);
-  alignas(64) int32_t index[kLanes];
-  alignas(64) float height[kLanes];
-  (to_int(rmin(last, rmax(zero, row))) * map.size + to_int(rmin(last, rmax(zero, column))))
-      .copy_to(index, stdx::vector_aligned);
-  for (int i = 0; i < kLanes; ++i) height[i] = map.heights[index[i]];
-  return sel(inside && (affine(map.height) + map.bias < load(height)), zero, real(1.0f));
+  const real height = GatherFloats(
+      map.heights, to_int(rmin(last, rmax(zero, row))) * map.size + to_int(rmin(last, rmax(zero, column))));
+  return sel(inside && (affine(map.height) + map.bias < height), zero, real(1.0f));
 }
 
 /// Irradiance by probes: one of the eight around, chosen with the probability of its weight (which is right

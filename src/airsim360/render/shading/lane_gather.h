@@ -82,6 +82,56 @@ KERNEL void GatherRows(At at, void* rows) {
   out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
 }
 
+/// One word, of whatever type, in all lanes of a row.
+KERNEL void SpreadWord(const float* word, void* row) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, word, sizeof bits);
+  ureal(bits).copy_to(static_cast<uint32_t*>(row), stdx::vector_aligned);
+}
+
+/// Makes `lanes`, an array in memory, stay there, so that its elements are read as plain integers: compilers
+/// would otherwise take them out of the vector they come from, one shuffle each.
+template <class T>
+KERNEL void KeepInMemory(T& lanes) {
+  asm volatile("" : "+m"(lanes));
+}
+
+/// base[index] of every lane.
+KERNEL ireal GatherWords(const uint32_t* base, ireal index) {
+#if defined(__AVX512F__)
+  alignas(64) int32_t lanes[kLanes];
+  index.copy_to(lanes, stdx::vector_aligned);
+  _mm512_store_si512(lanes, _mm512_i32gather_epi32(_mm512_load_si512(lanes), base, 4));
+  return ireal(lanes, stdx::vector_aligned);
+#else
+  alignas(64) int32_t at[kLanes], lanes[kLanes];
+  index.copy_to(at, stdx::vector_aligned);
+  for (int i = 0; i < kLanes; ++i) lanes[i] = static_cast<int32_t>(base[at[i]]);
+  return ireal(lanes, stdx::vector_aligned);
+#endif
+}
+KERNEL real GatherFloats(const float* base, ireal index) {
+  return from_bits(GatherWords(reinterpret_cast<const uint32_t*>(base), index));
+}
+/// bases[lane][index] of every lane.
+KERNEL ireal GatherWordsAt(const uint32_t* const* bases, ireal index) {
+  alignas(64) int32_t at[kLanes], lanes[kLanes];
+  index.copy_to(at, stdx::vector_aligned);
+#if defined(__AVX512F__)
+  const auto half = [&](int first) __attribute__((always_inline)) {
+    const __m512i offset = _mm512_slli_epi64(
+        _mm512_cvtepi32_epi64(_mm256_load_si256(reinterpret_cast<const __m256i*>(at + first))), 2);
+    const __m512i address = _mm512_add_epi64(_mm512_loadu_si512(bases + first), offset);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(lanes + first),
+                       _mm512_i64gather_epi32(address, nullptr, 1));
+  };
+  half(0), half(8);
+#else
+  for (int i = 0; i < kLanes; ++i) lanes[i] = static_cast<int32_t>(bases[i][at[i]]);
+#endif
+  return ireal(lanes, stdx::vector_aligned);
+}
+
 KERNEL real3 Rgb(real4 c) { return {c.x, c.y, c.z}; }
 KERNEL ureal Bits(const uint32_t* lanes) { return ureal(lanes, stdx::vector_aligned); }
 /// A number in [0, 1) of mixed bits.

@@ -40,7 +40,8 @@ struct Response {
   real3 sun;       ///< radiance by the sun if it is seen
 };
 
-KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d) {
+/// `sun` false: nobody asks what the sun does.
+KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d, bool sun) {
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
   const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
   const real kind = load(s.kind + i);
@@ -59,6 +60,8 @@ KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, rea
   out.leaf = bsdf.through * through;
   out.straight = bsdf_straight(bsdf, seen);
 
+  out.sun = Grey(0);
+  if (!sun) return out;
   // The sun as a point, so lobes narrower than its disc take the disc's width.
   real pdf = real(0.0f);
   const real3 shine =
@@ -99,7 +102,8 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real3 p = load3(s.px + i, s.py + i, s.pz + i);
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
   const real3 r = load3(s.rx + i, s.ry + i, s.rz + i);
-  const Response surface = RespondTo(view, s, i, d);
+  const real sunlit = load(s.sunlit + i);
+  const Response surface = RespondTo(view, s, i, d, stdx::any_of(sunlit > 0.0f));
 
   const Ambient ambient = SampleProbes(view, p, g, n, r);
   // Leaves hide each other from the sky, which probes metres apart do not know.
@@ -107,7 +111,7 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real3 body = (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) *
                      (crown * SHADE_INV_PI);
   const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;
-  real3 light = body + Behind(s, i, surface.straight) + surface.sun * load(s.sunlit + i) + mirrored +
+  real3 light = body + Behind(s, i, surface.straight) + surface.sun * sunlit + mirrored +
                 OwnAndLamps(view, s, i, surface);
   if (view.has_sky > 0.5f) {
     real3 kept, added;
@@ -120,7 +124,7 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
 KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
                         LightTerms& out) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
-  const Response surface = RespondTo(view, s, i, d);
+  const Response surface = RespondTo(view, s, i, d, view.has_sky > 0.5f);
   // The traced ray is what the coat mirrors where there is one, else what the skin does. What no ray was sent
   // for mirrors the same light that the body gets.
   const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > 0.05f;
@@ -149,6 +153,25 @@ KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
   const real x2 = dot3(off, off) * (1.0f / (0.004625f * 0.004625f));
   const real limb = 0.4f + 0.6f * rroot(rmax(1.0f - x2, real(0.0f)));
   return Uniform(view.sun_radiance) * sel(x2 < 1.0f, limb * 1.25f, real(0.0f));
+}
+
+/// The low three bytes of every lane, one after another.
+KERNEL void StorePacked(ureal lanes, uint8_t* to) {
+  alignas(64) uint32_t words[kLanes];
+  lanes.copy_to(words, stdx::vector_aligned);
+  const __m128i order = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
+  for (int q = 0; q < kLanes / 4; ++q) {
+    const __m128i four =
+        _mm_shuffle_epi8(_mm_load_si128(reinterpret_cast<const __m128i*>(words + 4 * q)), order);
+    // Four bytes too many, where the next four pixels come.
+    if (q + 1 < kLanes / 4) {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(to + 12 * q), four);
+    } else {
+      _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 12 * q), four);
+      const int rest = _mm_extract_epi32(four, 2);
+      __builtin_memcpy(to + 12 * q + 8, &rest, 4);
+    }
+  }
 }
 
 }  // namespace
@@ -195,8 +218,7 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
 
 void ToneMapRow(const float* r, const float* g, const float* b, int count, float exposure, int curve,
                 Rgb8* out) {
-  alignas(64) uint32_t shown[kLanes];
-  const auto map = [&](real3 light, Rgb8 * to, int n) __attribute__((always_inline)) {
+  const auto map = [&](real3 light) __attribute__((always_inline)) {
     const real3 exposed = light * real(exposure);
     const real3 c = curve == kAgx      ? agx_curve(exposed)
                     : curve == kLinear ? linear_curve(exposed)
@@ -204,23 +226,21 @@ void ToneMapRow(const float* r, const float* g, const float* b, int count, float
     const auto code = [](real x) __attribute__((always_inline)) {
       return stdx::static_simd_cast<ureal>(to_int(srgb_encode(x) * 255.0f + 0.5f));
     };
-    (code(c.x) | code(c.y) << 8 | code(c.z) << 16).copy_to(shown, stdx::vector_aligned);
-    // Four bytes at a time, each over the last of those before.
-    auto* bytes = reinterpret_cast<uint8_t*>(to);
-    for (int k = 0; k < n - 1; ++k) __builtin_memcpy(bytes + 3 * k, &shown[k], 4);
-    __builtin_memcpy(bytes + 3 * (n - 1), &shown[n - 1], 3);
+    return code(c.x) | code(c.y) << 8 | code(c.z) << 16;
   };
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    map({real(r + i, stdx::element_aligned), real(g + i, stdx::element_aligned),
-         real(b + i, stdx::element_aligned)},
-        out + i, kLanes);
+    StorePacked(map({real(r + i, stdx::element_aligned), real(g + i, stdx::element_aligned),
+                     real(b + i, stdx::element_aligned)}),
+                reinterpret_cast<uint8_t*>(out + i));
   }
   if (i == count) return;
   // The rest, in a vector filled up with zeros.
   alignas(64) float rest[3][kLanes] = {};
   for (int k = 0; i + k < count; ++k) rest[0][k] = r[i + k], rest[1][k] = g[i + k], rest[2][k] = b[i + k];
-  map(load3(rest[0], rest[1], rest[2]), out + i, count - i);
+  uint8_t bytes[3 * kLanes];
+  StorePacked(map(load3(rest[0], rest[1], rest[2])), bytes);
+  __builtin_memcpy(static_cast<void*>(out + i), bytes, 3 * static_cast<size_t>(count - i));
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -154,7 +154,7 @@ void LightProbes::BakeRow(const ProbeLight& world, int y, int z) {
 
 // Probes inside solids take the mean of their valid neighbours, for places where all eight are inside.
 void LightProbes::FillInvalid() {
-  const std::vector<float> baked = probes_;
+  const TableVector<float> baked = probes_;
   const int steps[6] = {1, -1, nx_, -nx_, nx_ * ny_, -nx_ * ny_};
   ParallelFor(nz_, [&](int64_t z) {
     for (int64_t k = z * nx_ * ny_; k < (z + 1) * nx_ * ny_; ++k) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "airsim360/base/table_vector.h"
 #include "airsim360/render/shading/probe_rays.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/render/shading/sky.h"
@@ -58,7 +59,7 @@ class LightProbes {
   std::vector<float> layers_;  ///< heights
   float height_step_ = 0.125f;
   std::vector<float> layer_of_height_;  ///< fractional layer, height_step_ apart from origin_.z
-  std::vector<float> probes_;
+  TableVector<float> probes_;
   std::vector<uint8_t> valid_;
 };
 

@@ -85,7 +85,9 @@ void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
 
 float Shader::Exposure() const { return impl_->exposure; }
 
-void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s) const {
+void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around,
+                              SunPixel* sun) const {
+  if (around != nullptr) internal::GuessReflections(*around, rays, s);
   RaySet hits, misses;
   LightSet light;
   // Radiance of the rays just traced, handed to `put` with the surface that sent each.
@@ -101,6 +103,7 @@ void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s) const {
     s.reflected_r[slot] = r, s.reflected_g[slot] = g, s.reflected_b[slot] = b;
     s.traced[slot] = 1;
   });
+  if (sun != nullptr) internal::KeepReflections(rays, s, sun);
   internal::TraceClear(*tracer, rays, s, hits, misses);
   shade([&](uint32_t slot, float r, float g, float b) {
     s.behind_r[slot] = r, s.behind_g[slot] = g, s.behind_b[slot] = b;
@@ -145,7 +148,7 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, cons
   LightByLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
-    FollowRays(rays, surfaces);
+    FollowRays(rays, surfaces, around, sun);
   }
   kernels.light(view, rays, surfaces, light);
 }
@@ -195,6 +198,12 @@ void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeigh
   RaySet surfaces, sky;
   internal::SplitHits(hits, surfaces, sky);
   const auto put = [&](const RaySet& set, const LightSet& light) {
+    if (set.count == hits.count) {  // none was left out, so the order is the same
+      std::copy_n(light.r, set.count, radiance.r);
+      std::copy_n(light.g, set.count, radiance.g);
+      std::copy_n(light.b, set.count, radiance.b);
+      return;
+    }
     for (int i = 0; i < set.count; ++i) {
       const uint32_t slot = set.slot[i];
       radiance.r[slot] = light.r[i], radiance.g[slot] = light.g[i], radiance.b[slot] = light.b[i];

@@ -40,7 +40,9 @@ struct Shader::Impl {
   void LightByLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
   /// Traces the rays that mirrors and clear panes send on (where the surfaces say so) and shades what they
   /// meet in the same way, once.
-  void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces) const;
+  /// `around` and `sun` as in Shader::Shade, for what is seen in panes.
+  void FollowRays(const internal::RaySet& rays, internal::SurfaceSet& surfaces,
+                  const SunNeighbours* around = nullptr, SunPixel* sun = nullptr) const;
   /// Radiance of surfaces; `bounce` 0 = seen by the camera, 1 = seen in another surface. The rest as in
   /// Shader::Shade.
   void ShadeSurfaces(internal::RaySet& rays, int bounce, internal::LightSet& light,

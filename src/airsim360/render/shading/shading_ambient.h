@@ -28,6 +28,7 @@ static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& tab
   const real y = rmin(real(table.height - 2.0f), rmax(real(0.0f), rfloor(row)));
   alignas(64) int32_t index[kLanes];
   ((to_int(y) * table.stride + to_int(x)) * 4).copy_to(index, stdx::vector_aligned);
+  KeepInMemory(index);
   const real fx = column - x, fy = row - y;
   const auto texel = [&](int32_t offset) __attribute__((always_inline)) {
     return Rgb(
@@ -46,16 +47,11 @@ KERNEL real CloudShadow(const CloudShadowView& map, real3 p) {
   const real x = shadow_column(p.x, above, map.slant_x, map.origin_x, map.cells_per_metre, size);
   const real y = shadow_column(p.y, above, map.slant_y, map.origin_y, map.cells_per_metre, size);
   const real x0 = rfloor(x), y0 = rfloor(y);
-  alignas(64) int32_t index[kLanes];
-  (to_int(y0) * map.size + to_int(x0)).copy_to(index, stdx::vector_aligned);
-  alignas(64) float t[4][kLanes];
-  for (int i = 0; i < kLanes; ++i) {
-    const float* q = map.texels + index[i];
-    t[0][i] = q[0], t[1][i] = q[1], t[2][i] = q[map.size], t[3][i] = q[map.size + 1];
-  }
+  const ireal index = to_int(y0) * map.size + to_int(x0);
+  const auto texel = [&](int32_t offset)
+                         __attribute__((always_inline)) { return GatherFloats(map.texels + offset, index); };
   const real fx = x - x0, fy = y - y0;
-  const real low = load(t[0]) + (load(t[1]) - load(t[0])) * fx,
-             high = load(t[2]) + (load(t[3]) - load(t[2])) * fx;
+  const real low = lerp1(texel(0), texel(1), fx), high = lerp1(texel(map.size), texel(map.size + 1), fx);
   return low + (high - low) * fy;
 }
 
@@ -109,10 +105,7 @@ KERNEL ProbePlace FindProbes(const ProbeView& grid, real3 p, real3 g) {
   const real x = rmin(real(grid.max_x + 0.9999f), rmax(zero, (q.x - grid.origin_x) * grid.cells_per_metre));
   const real y = rmin(real(grid.max_y + 0.9999f), rmax(zero, (q.y - grid.origin_y) * grid.cells_per_metre));
   const real h = rmin(real(grid.height_last), rmax(zero, (q.z - grid.height_origin) * grid.height_scale));
-  alignas(64) float layer[kLanes];
-  store(layer, rfloor(h + 0.5f));
-  for (int i = 0; i < kLanes; ++i) layer[i] = grid.layer_of_height[static_cast<int>(layer[i])];
-  const real z = load(layer);
+  const real z = GatherFloats(grid.layer_of_height, to_int(rfloor(h + 0.5f)));
   const real x0 = rmin(rfloor(x), real(grid.max_x)), y0 = rmin(rfloor(y), real(grid.max_y)),
              z0 = rmin(rfloor(z), real(grid.max_z));
   ProbePlace place{x - x0, y - y0, z - z0, {}};
@@ -147,15 +140,28 @@ KERNEL ProbeTerms MixProbes(const ProbeView& grid, const ProbePlace& place) {
                          (k & 4 ? place.fz : 1.0f - place.fz));
   }
   const int along_x = 16, along_y = grid.stride_y * 16, along_z = grid.stride_z * 16;
+  const auto corner = [&](int k) __attribute__((always_inline)) {
+    return (k & 1 ? along_x : 0) + (k & 2 ? along_y : 0) + (k & 4 ? along_z : 0);
+  };
+  // All lanes in one cell, the usual case near by: the same sums term by term, with nothing to turn round.
+  if (stdx::all_of(ireal(place.index, stdx::vector_aligned) == place.index[0])) {
+    const float* base = grid.probes + place.index[0];
+    ProbeTerms terms;
+    for (int j = 0; j < 4; ++j) {
+      const auto term = [&](int part) __attribute__((always_inline)) {
+        const float* at = base + 4 * j + part;
+        real sum = at[0] * load(weight[0]);
+        for (int k = 1; k < 8; ++k) sum = sum + at[corner(k)] * load(weight[k]);
+        return sum;
+      };
+      terms.t[j] = {term(0), term(1), term(2), term(3)};
+    }
+    return terms;
+  }
   for (int i = 0; i < kLanes; ++i) {
     const float* base = grid.probes + place.index[i];
-    const auto add = [&](int k, Probe& sum) __attribute__((always_inline)) {
-      sum += *reinterpret_cast<const Probe*>(base + (k & 1 ? along_x : 0) + (k & 2 ? along_y : 0) +
-                                             (k & 4 ? along_z : 0)) *
-             weight[k][i];
-    };
     Probe sum = *reinterpret_cast<const Probe*>(base) * weight[0][i];
-    for (int k = 1; k < 8; ++k) add(k, sum);
+    for (int k = 1; k < 8; ++k) sum += *reinterpret_cast<const Probe*>(base + corner(k)) * weight[k][i];
     *reinterpret_cast<Probe*>(mixed[i]) = sum;
   }
   return GatherTerms([&](int i) __attribute__((always_inline)) { return mixed[i]; });

@@ -52,6 +52,21 @@ SHARED real pow_approx(real x, real y) {
   return exp2_approx(rmax(y * log2_approx(rmax(x, real(1e-30f))), real(-125.0f)));
 }
 
+// x^y for x >= 0 and |y| below 2, for what is shown with 8 bits: relative error below 1.5e-5 |y| + 3e-6
+// (least-error polynomials of log2 over [1, 2] and exp2 over [-0.5, 0.5]; no division).
+SHARED real pow_display(real x, real y) {
+  real positive = rmax(x, real(1e-30f));
+  real f = mantissa_of(positive) - 1.0f;
+  real stops = exponent_of(positive) +
+               f * (1.44196561f +
+                    f * (-0.709662799f + f * (0.417595704f + f * (-0.196269528f + f * 0.04638531f))));
+  real e = rmax(y * stops, real(-125.0f));
+  real whole = rfloor(e + 0.5f);
+  real g = e - whole;
+  real p = 0.99999926f + g * (0.69312181f + g * (0.24024745f + g * (0.05591786f + g * 0.0095701f)));
+  return p * pow2_int(whole);
+}
+
 // sin(x) for |x| up to a few thousand; absolute error below 3e-6 near 0, growing with |x| as float does.
 SHARED real sin_approx(real x) {
   real turns = rfloor(x * SHADE_INV_PI + 0.5f);
@@ -88,10 +103,10 @@ SHARED real asin_approx(real x) { return atan2_approx(x, rroot(rmax(1.0f - x * x
 // ---- colour
 // -----------------------------------------------------------------------------------------------------
 
-// sRGB transfer function (IEC 61966-2-1), [0, 1] to [0, 1].
+// sRGB transfer function (IEC 61966-2-1), [0, 1] to [0, 1]; within 1e-5, a four-hundredth of a code.
 SHARED real srgb_encode(real linear_value) {
   real c = clamp01(linear_value);
-  return sel(c < 0.0031308f, c * 12.92f, 1.055f * pow_approx(c, real(0.416666667f)) - 0.055f);
+  return sel(c < 0.0031308f, c * 12.92f, 1.055f * pow_display(c, real(0.416666667f)) - 0.055f);
 }
 
 // Its inverse with a quartic fit above the toe, within 1.2 per cent of the curve: for texels, before

@@ -171,7 +171,7 @@ TEST(ShadingShared, OwnTranscendentalsAgreeWithTheLibrary) {
   for (int i = 0; i <= 255; ++i) {
     const double s = i / 255.0, linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
     EXPECT_NEAR(scalar::srgb_decode_approx(static_cast<float>(s)), linear, 0.001);
-    EXPECT_NEAR(scalar::srgb_encode(static_cast<float>(linear)), s, 2e-6);
+    EXPECT_NEAR(scalar::srgb_encode(static_cast<float>(linear)), s, 1e-5);
   }
 }
 
@@ -219,7 +219,7 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
       },                                             \
       low, high)
   SAME(-20, 20, exp_approx(a) + sin_approx(b * 50.0f) + atan2_approx(b, c));
-  SAME(0.001, 50, log2_approx(a) + pow_approx(b, c * 0.1f));
+  SAME(0.001, 50, log2_approx(a) + pow_approx(b, c * 0.1f) + pow_display(c, b * 0.03f));
   SAME(0.001, 1, srgb_encode(a) + srgb_decode_approx(b) + asin_approx(c));
   SAME(0, 4, luminance(tone_curve(make3(a, b, c))));
   SAME(0, 20, luminance(agx_curve(make3(a, b, c))) + linear_curve(make3(a, b, c)).x);

@@ -7,7 +7,7 @@
 // Film-like response of one channel: a logistic curve in log exposure, 0 at 0, about 0.3 at 0.18 * 3, 1 at
 // infinity.
 SHARED real film_curve(real x) {
-  real p = pow_approx(x * 1.35f, real(1.17f));
+  real p = pow_display(x * 1.35f, real(1.17f));
   return p / (p + 1.0f) * 1.02f;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "airsim360/base/table_vector.h"
 #include "airsim360/math/vector.h"
 
 namespace airsim360::internal {
@@ -14,7 +15,7 @@ struct SkyTable {
   int width = 0, height = 0;
   bool full_sphere =
       false;  ///< rows from nadir to zenith, linear in elevation; else from the horizon up, finer near it
-  std::vector<float> texels;
+  TableVector<float> texels;
 
   int stride() const { return width + 1; }
   float ElevationOfRow(int row) const;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "airsim360/base/table_vector.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/trace/ray_tracer.h"
 
@@ -28,7 +29,7 @@ class SunMap {
   float texel_;  ///< metres
   Vec3f right_, up_, to_sun_;
   float left_, bottom_, top_;  ///< edges along right_ and up_; height above everything
-  std::vector<float> heights_;
+  TableVector<float> heights_;
 };
 
 }  // namespace airsim360::internal

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -65,6 +66,57 @@ TEST(SunPixels, OtherPlanesDoNotCount) {
   Ground turned;
   turned.surfaces->gz[0] = 0, turned.surfaces->gx[0] = 1;
   EXPECT_EQ(turned.Guess(), -1);
+}
+
+TEST(SunPixels, LeavesTakeTheAnswerOfALeafAboutAsFarAway) {
+  Ground crown;
+  crown.surfaces->kind[0] = 1;
+  crown.rays->width[0] = 0.02f;
+  EXPECT_EQ(crown.Guess(), -1);  // no leaves around
+  // Two of three see the sun, and so do two of three samples.
+  for (int k = 0; k < 3; ++k) {
+    SunPixel& leaf = crown.At(2 + k, 1);
+    leaf.state = k < 2 ? SunPixel::kLitLeaf : SunPixel::kDarkLeaf;
+    leaf.offset = 10.1f;
+  }
+  int lit = 0;
+  for (uint32_t key = 0; key < 3; ++key) {
+    crown.rays->key[0] = key << 8 | 1;
+    lit += crown.Guess() == 1;
+  }
+  EXPECT_EQ(lit, 2);
+  crown.At(2, 1).offset = 10.3f;  // too far behind
+  EXPECT_EQ(crown.Guess(), -1);
+}
+
+TEST(SunPixels, LightIsPackedToOnePartIn512OfItsLargest) {
+  for (const Vec3f light : {Vec3f{0, 0, 0}, Vec3f{1, 0.5f, 0.001f}, Vec3f{1e-4f, 3e-4f, 2e-4f},
+                            Vec3f{511.9f, 3, 7}, Vec3f{60000, 1, 40000}, Vec3f{-1, 1e9f, 0}}) {
+    const uint32_t packed = internal::PackLight(light);
+    EXPECT_NE(packed, 0u);
+    const Vec3f back = internal::UnpackLight(packed);
+    const float most = std::min(65000.0f, std::max({light.x, light.y, light.z, 1e-4f}));
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(back[k], std::clamp(light[k], 0.0f, 65000.0f), most / 500) << k;
+  }
+}
+
+TEST(SunPixels, PanesTakeTheMeanOfWhatIsSeenInTheirPlane) {
+  Ground pane;
+  pane.surfaces->kind[0] = 2, pane.surfaces->mirror[0] = 1;
+  const auto guess = [&] {
+    internal::GuessReflections({pane.pixels.data(), kWidth, kHeight, true, pane.x, pane.y}, *pane.rays,
+                               *pane.surfaces);
+  };
+  pane.At(2, 1).reflected = internal::PackLight({1, 2, 4});
+  pane.At(3, 1).reflected = internal::PackLight({3, 2, 0});
+  guess();
+  EXPECT_EQ(pane.surfaces->traced[0], 0);  // two are too few
+  pane.At(4, 1).reflected = internal::PackLight({2, 2, 2});
+  guess();
+  EXPECT_EQ(pane.surfaces->traced[0], 1);
+  EXPECT_EQ(pane.surfaces->mirror[0], 0);
+  EXPECT_NEAR(pane.surfaces->reflected_r[0], 2, 0.02);
+  EXPECT_NEAR(pane.surfaces->reflected_b[0], 2, 0.02);
 }
 
 TEST(SunPixels, ColumnsWrapOnlyOnTheSphere) {

@@ -33,6 +33,7 @@ struct alignas(64) Fetched {
   /// Set only where any_window.
   Lanes corner_a[3], corner_b[3], half_a, half_b, u_per_a, v_per_b, room, interior;
   int32_t right[kLanes], up[kLanes];
+  bool any_smooth;  ///< some corner's normal is not the triangle's own
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
       any_unit, any_ground, any_window, any_leaf;
 };
@@ -77,6 +78,14 @@ static __attribute__((noinline)) void FetchPanes(const ShadeView& view, Fetched&
   }
 }
 
+template <class Record>
+KERNEL bool AllSame(const Record* const* records) {
+  uintptr_t differs = 0;
+  for (int i = 1; i < kLanes; ++i)
+    differs |= reinterpret_cast<uintptr_t>(records[i]) ^ reinterpret_cast<uintptr_t>(records[0]);
+  return differs == 0;
+}
+
 KERNEL bool AnyBit(const int32_t* lanes) { return stdx::any_of(ireal(lanes, stdx::vector_aligned) != 0); }
 KERNEL bool AnyIs(const float* lanes, float value) { return stdx::any_of(load(lanes) == value); }
 
@@ -89,15 +98,24 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
     triangle[i] = &view.triangles[instance[i]->first_triangle + rays.triangle[begin + i]];
     material[i] = &view.materials[triangle[i]->material & ~kMirroredUv];
   }
-  const auto take = [&](const auto* const* records, int quad, void* rows) __attribute__((always_inline)) {
-    GatherRows(
-        [&](int i)
-            __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * quad; },
-        static_cast<char*>(rows) + 4 * static_cast<size_t>(quad) * kRow);
+  // One record under all lanes, as on walls and grounds, is spread instead of turned round.
+  const auto take = [](const auto* const* records, int quads, void* rows) __attribute__((always_inline)) {
+    const auto* first = reinterpret_cast<const float*>(records[0]);
+    auto* to = static_cast<char*>(rows);
+    if (AllSame(records)) {
+      for (int k = 0; k < 4 * quads; ++k) SpreadWord(first + k, to + static_cast<size_t>(k) * kRow);
+      return;
+    }
+    for (int q = 0; q < quads; ++q) {
+      GatherRows(
+          [&](int i)
+              __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; },
+          to + 4 * static_cast<size_t>(q) * kRow);
+    }
   };
-  for (int q = 0; q < 4; ++q) take(triangle, q, f.normal);
-  for (int q = 0; q < 4; ++q) take(instance, q, f.matrix);
-  for (int q = 0; q < 7; ++q) take(material, q, f.base);
+  take(triangle, 4, f.normal);
+  take(instance, 4, f.matrix);
+  take(material, 7, f.base);
 
   store(f.texels_log2, load(f.texels_log2) + load(f.scale_log2));
   const ureal flags = Bits(f.material);
@@ -106,6 +124,11 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
   store(f.pane, HashLanes(Bits(f.pane_bits) ^ Bits(f.instance_hash)));
   for (int k = 0; k < 3; ++k) store(f.color[k], load(f.base[k]) * load(f.tint[k]));
 
+  const auto differs = [&](int corner) __attribute__((always_inline)) {
+    return stdx::any_of(ireal(f.normal[corner], stdx::vector_aligned) !=
+                        ireal(f.geometric, stdx::vector_aligned));
+  };
+  f.any_smooth = differs(0) || differs(1) || differs(2);
   f.any_base = AnyBit(f.base_id);
   f.any_normal = AnyBit(f.normal_id);
   f.any_roughness = AnyBit(f.roughness_id);

@@ -80,8 +80,10 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real3 p = load3(rays.ox + i, rays.oy + i, rays.oz + i) + d * load(rays.distance + i);
   const real u = load(rays.u + i), v = load(rays.v + i), w = 1.0f - u - v;
   const real3 g = ToWorld(f, UnpackDirection(f.geometric));
-  const real3 smooth = ToWorld(f, UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
-                                      UnpackDirection(f.normal[2]) * v);
+  const real3 smooth = f.any_smooth
+                           ? ToWorld(f, UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
+                                            UnpackDirection(f.normal[2]) * v)
+                           : g;
   const real front = sel(dot3(g, d) > 0.0f, real(-1.0f), real(1.0f));
   const real3 facing = g * front;
   real3 n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * front;
@@ -96,7 +98,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
 
   // Rooms behind panes: what is seen through them, and where their pictures hang.
   const mask_t window = f.any_window ? load(f.interior) > 0.5f : mask_t(false);
-  RoomView room{};
+  RoomView room;
   if (f.any_window) {
     room = LookInside(view, f, ToWorld(f, UnpackDirection(f.right)), ToWorld(f, UnpackDirection(f.up)),
                       facing, d, w, u, v);
@@ -120,7 +122,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   }
   if (f.any_emission)
     emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true);
-  Noises noises{};
+  Noises noises;
   if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
     noises = LookUpNoises(view, f, p, n, width);
   if (f.any_macro) color = color * MacroTint(f, noises, width);
@@ -161,7 +163,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   }
   // A bent normal must not look away from the viewer.
   const real towards = dot3(n, d);
-  n = sel3(towards > -0.02f, normalize3(n - d * (towards + 0.02f)), n);
+  const mask_t away = towards > -0.02f;
+  if (stdx::any_of(away)) n = sel3(away, normalize3(n - d * (towards + 0.02f)), n);
 
   store3(out.px + i, out.py + i, out.pz + i, p);
   store3(out.nx + i, out.ny + i, out.nz + i, n);
@@ -178,7 +181,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   // Reflection: above the surface itself.
   real3 r = reflect3(d, n);
   const real below = dot3(r, facing);
-  r = sel3(below < 0.01f, normalize3(r + facing * (0.02f - below)), r);
+  const mask_t inside = below < 0.01f;
+  if (stdx::any_of(inside)) r = sel3(inside, normalize3(r + facing * (0.02f - below)), r);
   store3(out.rx + i, out.ry + i, out.rz + i, r);
   const mask_t sharp = (kind == kGlass) || (kind == kWater) ||
                        ((roughness < kMirrorRoughness) && (metallic > 0.3f)) ||

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "airsim360/base/table_vector.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/scene/scene.h"
 #include "airsim360/scene/scene_state.h"
@@ -25,7 +26,7 @@ struct SurfaceTables {
   void Apply(const Scene& scene, std::span<const MovedInstance> moved,
              std::span<const DeformedMesh> deformed);
 
-  std::vector<TriangleRecord> triangles;
+  TableVector<TriangleRecord> triangles;
   std::vector<InstanceRecord> instances;
   std::vector<MaterialRecord> materials;
   std::vector<PaneRecord> panes;

@@ -62,8 +62,8 @@ class GpuArena {
   GpuRange Take(size_t size);
   /// Takes a range and fills it.
   GpuRange Put(std::span<const std::byte> bytes);
-  template <class T>
-  GpuRange Put(const std::vector<T>& values) {
+  template <class T, class Allocator>
+  GpuRange Put(const std::vector<T, Allocator>& values) {
     return Put(std::as_bytes(std::span<const T>(values)));
   }
   /// Copies bytes to a range, through a staging buffer where the CPU does not see the memory: there they arrive with Flush.
