@@ -19,7 +19,6 @@ except ImportError:  # clients run on other systems too
     fcntl = None
 
 _BYTES = 128 << 20  # of address space; only what pictures fill is taken of the machine's memory
-_ALIGNMENT = 64  # of regions, as the server wants it
 _FIRST = 1 << 20  # bytes offered before it is known how large the pictures are
 
 
@@ -70,7 +69,7 @@ class Lending:
 
     def take(self):
         """A region for the next call; None if there is none."""
-        size = -(-self.wanted // 4096) * 4096
+        size = -(-self.wanted // 4096) * 4096  # the server wants multiples of 64
         with self._lock:
             while self._returned:
                 self._give_back(*self._returned.popleft())
