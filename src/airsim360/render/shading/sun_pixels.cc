@@ -8,9 +8,11 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kScale = 32767;
-constexpr int kLeastPixels = 3;  // fewer are no surface but a detail
+constexpr int kLeastPixels = 3;            // fewer are no surface but a detail
 constexpr float kFoliage = 1, kGlass = 2;  // SurfaceKind
-constexpr float kLeafReach = 8;  // how far apart leaves may be that share the sun: widths of an edge sample's ray
+constexpr float kAlike = 1.25f;            // brightest to darkest of reflections that stand for one another
+constexpr float kLeafReach =
+    8;  // how far apart leaves may be that share the sun: widths of an edge sample's ray
 
 constexpr int kLeastExponent = -23;  // of packed light
 
@@ -83,8 +85,8 @@ void KeepSun(const RaySet& rays, const SurfaceSet& s, const bool* asked, SunPixe
                          s.gz[i] * (s.pz[i] - rays.oz[i]);
     const SunPixel::State state = StateOf(asked[i], s.sunlit[i], s.kind[i] == kFoliage);
     const bool leaf = state == SunPixel::kDarkLeaf || state == SunPixel::kLitLeaf;
-    out[rays.slot[i]] = {Packed(s.gx[i]), Packed(s.gy[i]), Packed(s.gz[i]), state,
-                         leaf ? rays.distance[i] : offset, 0};
+    out[rays.slot[i]] = {
+        Packed(s.gx[i]), Packed(s.gy[i]), Packed(s.gz[i]), state, leaf ? rays.distance[i] : offset, 0};
   }
 }
 
@@ -115,12 +117,16 @@ void GuessReflections(const SunNeighbours& around, const RaySet& rays, SurfaceSe
     if (s.mirror[i] == 0 || s.kind[i] != kGlass) continue;
     const PlaneOf plane(rays, s, i);
     Vec3f sum;
+    float low = INFINITY, high = 0;
     int count = 0;
     ForPixelsAround(around, rays.slot[i], [&](const SunPixel& pixel) {
-      if (pixel.reflected != 0 && plane.Holds(pixel)) sum += UnpackLight(pixel.reflected), ++count;
-      return true;
+      if (pixel.reflected == 0 || !plane.Holds(pixel)) return true;
+      const Vec3f light = UnpackLight(pixel.reflected);
+      sum += light, ++count;
+      low = std::min(low, light.x + light.y + light.z), high = std::max(high, light.x + light.y + light.z);
+      return high <= kAlike * low;
     });
-    if (count < kLeastPixels) continue;
+    if (count < kLeastPixels || high > kAlike * low) continue;
     sum = sum * (1.0f / static_cast<float>(count));
     s.reflected_r[i] = sum.x, s.reflected_g[i] = sum.y, s.reflected_b[i] = sum.z;
     s.traced[i] = 1, s.mirror[i] = 0;
@@ -132,7 +138,8 @@ uint32_t PackLight(Vec3f light) {
   const Vec3f c{limited(light.x), limited(light.y), limited(light.z)};
   // The largest is in [256, 512) of its unit, or below where the exponent ends.
   const float most = std::max({c.x, c.y, c.z, 1e-6f});
-  const int exponent = std::max(static_cast<int>(std::bit_cast<uint32_t>(most) >> 23) - 127 - 8, kLeastExponent);
+  const int exponent =
+      std::max(static_cast<int>(std::bit_cast<uint32_t>(most) >> 23) - 127 - 8, kLeastExponent);
   const float scale = PowerOf2(-exponent);
   const auto part = [&](float x) { return std::min(511u, static_cast<uint32_t>(x * scale + 0.5f)); };
   return part(c.x) | part(c.y) << 9 | part(c.z) << 18 |

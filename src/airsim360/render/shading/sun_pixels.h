@@ -19,7 +19,8 @@ struct SunPixel {
   };
   int16_t nx, ny, nz;  ///< geometric normal towards the camera, of 32767
   int16_t state;
-  float offset;  ///< of the plane from the camera along the normal, m; of a leaf: its distance from the camera
+  float
+      offset;  ///< of the plane from the camera along the normal, m; of a leaf: its distance from the camera
   uint32_t reflected;  ///< radiance seen in a pane, packed by PackLight; 0 = no pane
 };
 
@@ -43,12 +44,13 @@ float GuessSun(const SunNeighbours& around, const RaySet& rays, const SurfaceSet
 
 /// Adds what was traced to be seen in panes.
 void KeepReflections(const RaySet& rays, const SurfaceSet& s, SunPixel* out);
-/// Panes take the mean of what at least three of the pixels around see in the same plane; they need no ray then
+/// Panes take the mean of what at least three of the pixels around see in the same plane, where
+/// those are about as bright; they need no ray then
 /// (mirror = 0, traced = 1).
 void GuessReflections(const SunNeighbours& around, const RaySet& rays, SurfaceSet& s);
 
-/// Three numbers >= 0 with nine bits each and one exponent (up to 65000, to within 1/512 of the largest); never
-/// 0.
+/// Three numbers >= 0 with nine bits each and one exponent (up to 65000, to within 1/512 of the largest);
+/// never 0.
 uint32_t PackLight(Vec3f light);
 Vec3f UnpackLight(uint32_t packed);
 

@@ -108,15 +108,18 @@ TEST(SunPixels, PanesTakeTheMeanOfWhatIsSeenInTheirPlane) {
                                *pane.surfaces);
   };
   pane.At(2, 1).reflected = internal::PackLight({1, 2, 4});
-  pane.At(3, 1).reflected = internal::PackLight({3, 2, 0});
+  pane.At(3, 1).reflected = internal::PackLight({3, 2, 1});
   guess();
   EXPECT_EQ(pane.surfaces->traced[0], 0);  // two are too few
+  pane.At(4, 1).reflected = internal::PackLight({9, 9, 9});
+  guess();
+  EXPECT_EQ(pane.surfaces->traced[0], 0);  // one is much brighter
   pane.At(4, 1).reflected = internal::PackLight({2, 2, 2});
   guess();
   EXPECT_EQ(pane.surfaces->traced[0], 1);
   EXPECT_EQ(pane.surfaces->mirror[0], 0);
   EXPECT_NEAR(pane.surfaces->reflected_r[0], 2, 0.02);
-  EXPECT_NEAR(pane.surfaces->reflected_b[0], 2, 0.02);
+  EXPECT_NEAR(pane.surfaces->reflected_b[0], 7.0 / 3, 0.02);
 }
 
 TEST(SunPixels, ColumnsWrapOnlyOnTheSphere) {
