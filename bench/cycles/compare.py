@@ -128,7 +128,8 @@ def camera_pose(program, world, pose, size, threads, folder):
     """Our labels at the pose, as a dataset of one frame; its folder and X_WC."""
     out = folder / f"labels_{world}"
     place = [f"--pose={pose}"] if pose else []
-    subprocess.run([program, "render", "--world", world, *place, "--size", "x".join(map(str, size)), "--tier", "labels", "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "render", "--world", world, *place, "--size", "x".join(map(str, size)), "--tier", "labels",
+                    "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
     return out, json.loads((out / "frames.jsonl").read_text().splitlines()[0])["X_WC"]
 
 
