@@ -127,7 +127,8 @@ def parse_size(text):
 def camera_pose(program, world, pose, size, threads, folder):
     """Our labels at the pose, as a dataset of one frame; its folder and X_WC."""
     out = folder / f"labels_{world}"
-    subprocess.run([program, "render", "--world", world, *([f"--pose={pose}"] if pose else []), "--size", "x".join(map(str, size)), "--tier", "labels",
+    place = [f"--pose={pose}"] if pose else []
+    subprocess.run([program, "render", "--world", world, *place, "--size", "x".join(map(str, size)), "--tier", "labels",
                     "--threads", str(threads), "--out", out], check=True, stdout=subprocess.DEVNULL)
     return out, json.loads((out / "frames.jsonl").read_text().splitlines()[0])["X_WC"]
 

@@ -92,7 +92,7 @@ TEST(HighStatistics, WithoutBouncesItIsThePathTracersLightWithinTheNoise) {
   Estimate paths;
   internal::TracePaths(*tracer, shader, rays, VecCast<float>(request.X_WC.p), {.samples = 512, .max_bounces = 1},
                        paths.mean, &paths.variance);
-  // Rays to the sun's disc stop early where the first four agree, which sharpens the ends of a penumbra.
+  // The path tracer's sun is darker towards its limb, and a pixel that no neighbour gives away has one ray.
   const float lit = paths.mean(2, 20).g, dark = paths.mean(46, 20).g;
   for (size_t k = 0; k < paths.mean.size(); ++k) {
     const float light = paths.mean.pixels()[k].g, error = (0.02f * lit) * (0.02f * lit);
