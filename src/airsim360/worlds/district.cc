@@ -82,16 +82,17 @@ void LayMownGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline,
       const std::vector<Vec2f> corners = cell.Outline();
       const bool whole = EdgeDistance(outline, cell.center()) > kLawnTile / 2 &&
                          std::all_of(corners.begin(), corners.end(), [&](Vec2f p) { return InPolygon(outline, p); });
-      const auto turn = static_cast<float>(rng.Uniform(0, 6.283));
       if (whole) {
         const Vec2f p = cell.center();
-        d.placer.shelf().PlaceAs(lawn, "lawn_tile", PlaceUpright({p.x, p.y, z}, turn), rng.Index(4), LawnTone(p, rng));
+        const float quarter = 1.5707963f * static_cast<float>(rng.Index(4));
+        d.placer.shelf().PlaceAs(lawn, "lawn_tile", PlaceUpright({p.x, p.y, z}, quarter), rng.Index(4), LawnTone(p, rng));
         continue;
       }
       for (int k = 0; k < 4; ++k) {
         const Vec2f p{x + kPitch * (static_cast<float>(k % 2) + static_cast<float>(rng.Uniform())),
                       y + kPitch * (static_cast<float>(k / 2) + static_cast<float>(rng.Uniform()))};
         if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.3f) continue;
+        const auto turn = static_cast<float>(rng.Uniform(0, 6.283));
         d.placer.shelf().PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), LawnTone(p, rng));
       }
     }

@@ -1,7 +1,6 @@
 #include "airsim360/worlds/props.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -44,26 +43,6 @@ void Adapt(Model& model, const LibraryModel& row) {
       m.roughness = std::max(m.roughness, 0.45f);
     }
   }
-}
-
-// Plants look alike from all sides, and the box around an instance is tight at quarter turns only: at 45 degrees it covers
-// twice the ground, and rays enter crowns that they do not touch.
-bool LooksAlikeAllAround(std::string_view category) {
-  for (std::string_view group : {"vegetation/tree/", "vegetation/shrub/", "vegetation/plant", "vegetation/flower", "vegetation/grass_tuft"})
-    if (category.starts_with(group)) return true;
-  return false;
-}
-
-// An upright transform turned to the nearest quarter turn; others as they are.
-AffineTransform AtQuarterTurn(const AffineTransform& X) {
-  if (X.A.m[0][2] != 0 || X.A.m[1][2] != 0 || X.A.m[2][0] != 0 || X.A.m[2][1] != 0) return X;
-  const float c = X.A.m[0][0], s = X.A.m[1][0], scale = std::hypot(c, s), across = std::hypot(X.A.m[0][1], X.A.m[1][1]);
-  const bool along_x = std::abs(c) >= std::abs(s);
-  const float u = along_x ? std::copysign(1.0f, c) : 0.0f, v = along_x ? 0.0f : std::copysign(1.0f, s);
-  AffineTransform turned = X;
-  turned.A.m[0][0] = u * scale, turned.A.m[1][0] = v * scale;
-  turned.A.m[0][1] = -v * across, turned.A.m[1][1] = u * across;
-  return turned;
 }
 
 }  // namespace
@@ -114,14 +93,13 @@ EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t 
                           Vec3f tint) {
   const PropKind& found = FindPropKind(kind);
   const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
-  PlaceAs(entity, kind, PlaceUpright(p_W, yaw, scale), variant, tint);
+  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint});
   return entity;
 }
 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant,
                         Vec3f tint) {
-  const PropKind& found = FindPropKind(kind);
-  builder_.AddInstance({Get(found, variant), LooksAlikeAllAround(found.category) ? AtQuarterTurn(X_WM) : X_WM, entity, tint});
+  builder_.AddInstance({Get(FindPropKind(kind), variant), X_WM, entity, tint});
 }
 
 MeshId PropShelf::Get(const PropKind& kind, uint32_t variant) {

@@ -168,7 +168,8 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
   static constexpr Surface kLanes[] = {Surface::kAsphaltPale, Surface::kAsphaltPatch, Surface::kAsphaltOld};
   for (int i = 0; i < 2; ++i) {
     ground.Use(kLanes[rng.Index(3)]);
-    const float x0 = (i == 0 ? -1.0f : 1.0f) * Uniform(rng, 1.2f, 4) - 1.6f, from = Uniform(rng, -reach, -3), lift = 0.0035f + 0.0002f * static_cast<float>(i);
+    const float x0 = (i == 0 ? -1.0f : 1.0f) * Uniform(rng, 1.2f, 4) - 1.6f, from = Uniform(rng, -reach, -3),
+        lift = 0.0035f + 0.0002f * static_cast<float>(i);
     for (int k = 0; k < 4 * 20; ++k) {
       const float x = x0 + 0.8f * static_cast<float>(k % 4), y = from + 0.8f * static_cast<float>(k / 4);
       if (y > reach || std::hypot(x + 0.4f, y + 0.4f) < 1.3f) continue;
@@ -223,12 +224,14 @@ void LayPavementWear(Ground& ground, const PavementPoint& at, float s0, float s1
   }
   for (int i = 0; i < static_cast<int>(area * 0.06f + Uniform(rng, 0, 1)); ++i) {
     ground.Use(rng.Chance(0.6) ? Surface::kAsphaltOld : Surface::kAsphaltPatch);
-    LaySpot(ground, at, Uniform(rng, s0 + 0.3f, s1 - 0.3f), Uniform(rng, d0 + 0.3f, d1 - 0.3f), Uniform(rng, 0.04f, 0.16f), 1.3f, lift(0.0010f), 7, rng);
+    LaySpot(ground, at, Uniform(rng, s0 + 0.3f, s1 - 0.3f), Uniform(rng, d0 + 0.3f, d1 - 0.3f),
+        Uniform(rng, 0.04f, 0.16f), 1.3f, lift(0.0010f), 7, rng);
   }
   // Gum of all ages.
   for (int i = 0; i < static_cast<int>(area * 1.6f); ++i) {
     ground.Use(rng.Chance(0.75) ? Surface::kAsphaltPatch : Surface::kTar);
-    LaySpot(ground, at, Uniform(rng, s0 + 0.05f, s1 - 0.05f), Uniform(rng, d0 + 0.05f, d1 - 0.05f), Uniform(rng, 0.012f, 0.03f), 1, lift(0.0014f), 5, rng);
+    LaySpot(ground, at, Uniform(rng, s0 + 0.05f, s1 - 0.05f), Uniform(rng, d0 + 0.05f, d1 - 0.05f),
+        Uniform(rng, 0.012f, 0.03f), 1, lift(0.0014f), 5, rng);
   }
   ground.Use(slabs);
 }

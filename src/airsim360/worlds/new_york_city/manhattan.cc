@@ -292,7 +292,8 @@ void AddHouses(const Lot& lot, const Design& design, uint64_t seed, Manhattan& c
     const GroundRect whole = house.rect;
     (lot.row == 0 ? house.rect.y1 : house.rect.y0) = lot.row == 0 ? whole.y0 + depth : whole.y1 - depth;
     const double pick = rng.Uniform();
-    const int floors = outer ? 3 + (pick < 0.65) + (pick < 0.25) : row ? row_floors + (pick < 0.15) : pick < 0.16 ? 2 : pick < 0.50 ? 3 : pick < 0.84 ? 4 : 5;
+    const int floors = outer ? 3 + (pick < 0.65) + (pick < 0.25)
+                       : row ? row_floors + (pick < 0.15) : pick < 0.16 ? 2 : pick < 0.50 ? 3 : pick < 0.84 ? 4 : 5;
     const int palette = row ? (design.palette + i / 3) % 3 : static_cast<int>(rng.Index(4));
     AddTiers(house, {design.style, palette, ground + floor * static_cast<float>(floors), 1}, seed + static_cast<uint64_t>(i), city.buildings);
     if (!outer && whole.depth() - depth > 4) {
