@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -41,12 +42,15 @@ int Note(const std::string& name, const std::string& what = "") {
   return error;
 }
 
+// As cuda.h lays them out: a union of a descriptor and two pointers stands after the type.
 struct MemoryHandle {
   int type;
-  int fd;
-  unsigned long long unused, size;
+  alignas(8) int fd;
+  int rest_of_union[3];
+  unsigned long long size;
   unsigned flags, reserved[16];
 };
+static_assert(offsetof(MemoryHandle, fd) == 8 && offsetof(MemoryHandle, size) == 24 && offsetof(MemoryHandle, flags) == 32);
 struct MemoryBuffer {
   unsigned long long offset, size;
   unsigned flags, reserved[16];

@@ -113,7 +113,8 @@ class Captures(unittest.TestCase):
                     video.add(sim.capture(Rig(width=64)))
                 self.assertEqual((len(video), video.encoder), (3, "libx264"))
                 self.assertEqual(os.listdir(folder), [])
-            data = open(path, "rb").read()
+            with open(path, "rb") as file:
+                data = file.read()
             for box in (b"ftyp", b"sv3d", b"st3d", b"GSpherical"):
                 self.assertIn(box, data)
             with airsim360.VideoWriter(path, spherical=False) as video:
@@ -123,7 +124,8 @@ class Captures(unittest.TestCase):
                     video.add(np.zeros((48, 48, 3), np.uint8))
                 with self.assertRaisesRegex(ValueError, "after one at"):
                     video.add(np.zeros((48, 64, 3), np.uint8), t=0.5)
-            self.assertNotIn(b"sv3d", open(path, "rb").read())
+            with open(path, "rb") as file:
+                self.assertNotIn(b"sv3d", file.read())
             with airsim360.VideoWriter(path, fps=10) as video:
                 for x in range(3):
                     video.add(ROOM.capture([x, 0, 3], Rig(width=64)))  # these have no time
