@@ -68,6 +68,7 @@ TEST(GpuHigh, LightKeptFromTheLastFramesIsTheCpus) {
       EXPECT_LE(d.off, 0.04);
     }
     request.temporal = false;
+    pair.cpu->Render(request, cpu);
     pair.gpu->Render(request, alone);
     EXPECT_GT(Difference(gpu, alone).mean, 0.6);
   }
