@@ -41,7 +41,7 @@ void ExpectSameLabels(const LabelDifference& d, const std::string& what) {
   EXPECT_LE(d.different, std::max(1.0, 2e-4 * d.pixels)) << what;
   EXPECT_EQ(d.far, 0) << what;
   EXPECT_LE(d.range, 1e-5) << what;
-  EXPECT_LE(d.normal, 1e-4) << what;
+  EXPECT_LE(d.normal, 2e-4) << what;
   EXPECT_GT(d.off_edges, d.pixels / 10) << what;
 }
 
