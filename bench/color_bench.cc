@@ -8,7 +8,7 @@
 //   fast aa  the same with 4 samples on edges, whose rays are recorded and traced again like all others
 //   high     4 ambient rays, antialiasing off
 //   high aa  the same with 4 samples on edges
-// With --latitude: what fewer rays towards the poles save at equal error (WS-PSNR against 64 rays).
+// With --latitude: what fewer rays towards the poles save at equal error (WS-PSNR against 256 rays).
 // Compare ratios, not milliseconds. --processor takes processor time of all threads instead of time, for a
 // machine that does other work, too. With --profile: frames of one kind (--kind) on one thread and nothing
 // else, for a profiler.
@@ -151,31 +151,41 @@ double WsMse(const Image<Rgb8>& a, const Image<Rgb8>& b) {
   return sum / weights;
 }
 
+// The times of ambient rays alone (what the frame takes with one ray, off) and of whole frames, at equal error.
 void MeasureLatitude(const Options& options, const World& world, Renderer& renderer) {
   RenderRequest request = MakeRequest(options, world, Tier::kHigh, 1);
-  request.denoise = false;
-  const auto render = [&](int samples, bool latitude, uint64_t seed, Frame& frame) {
+  const auto render = [&](int samples, bool latitude, bool denoise, uint64_t seed, Frame& frame) {
     request.samples = samples, request.latitude_sampling = latitude, request.seed = seed;
+    request.denoise = denoise;
     renderer.Render(request, frame);
   };
   Frame truth, frame;
-  render(64, false, 1, truth);
-  // Time and error with all rows alike, for a few numbers of rays: error against time is a power law.
-  const auto measure = [&](int samples, bool latitude, double& ms, double& mse) {
-    std::vector<double> times;
-    for (int i = 0; i < options.rounds; ++i)
-      times.push_back(Milliseconds(options, [&] { render(samples, latitude, 2, frame); }));
-    ms = Median(times), mse = WsMse(frame.rgb, truth.rgb);
-    std::printf("%-14s latitude %-3s %2d rays: %8.1f ms, WS-PSNR %.2f dB\n", world.name.c_str(),
-                latitude ? "on" : "off", samples, ms, 10 * std::log10(255 * 255 / mse));
-  };
-  double ms_on, mse_on, ms_low, mse_low, ms_high, mse_high;
-  measure(8, true, ms_on, mse_on);
-  measure(6, false, ms_low, mse_low);
-  measure(8, false, ms_high, mse_high);
-  const double t = (std::log(mse_on) - std::log(mse_low)) / (std::log(mse_high) - std::log(mse_low));
-  const double ms_equal = ms_low * std::pow(ms_high / ms_low, t);
-  std::printf("%-14s latitude on / off at equal WS-PSNR: %.3f\n", world.name.c_str(), ms_on / ms_equal);
+  render(256, false, false, 1, truth);
+  for (const bool denoise : {false, true}) {
+    struct Point {
+      double ms = 0, mse = 0;
+    };
+    // Error against time is about a power law.
+    const auto measure = [&](int samples, bool latitude) {
+      std::vector<double> times;
+      for (int i = 0; i < options.rounds; ++i)
+        times.push_back(Milliseconds(options, [&] { render(samples, latitude, denoise, 2, frame); }));
+      const Point point{Median(times), WsMse(frame.rgb, truth.rgb)};
+      std::printf("%-14s %-10s latitude %-3s %2d rays: %8.1f ms, WS-PSNR %.2f dB\n", world.name.c_str(),
+                  denoise ? "denoised" : "as traced", latitude ? "on" : "off", samples, point.ms,
+                  10 * std::log10(255 * 255 / point.mse));
+      return point;
+    };
+    const Point least = measure(1, false), on = measure(12, true), low = measure(8, false), high = measure(12, false);
+    const double t = std::log(on.mse / low.mse) / std::log(high.mse / low.mse);
+    const auto at_equal_error = [&](double fixed_ms) {
+      return (on.ms - fixed_ms) / ((low.ms - fixed_ms) * std::pow((high.ms - fixed_ms) / (low.ms - fixed_ms), t));
+    };
+    const double ray_ms = (high.ms - least.ms) / 11;
+    std::printf("%-14s %-10s latitude on / off at equal WS-PSNR: frame %.3f, ambient rays %.3f\n", world.name.c_str(),
+                denoise ? "denoised" : "as traced", at_equal_error(0), at_equal_error(least.ms - ray_ms));
+    std::fflush(stdout);
+  }
 }
 
 Options Parse(int argc, char** argv) {

@@ -1,5 +1,7 @@
 // Renders frames on request and says how long each took: our side of comparisons with other renderers
-// (bench/cycles). Usage: frame_server WORLD THREADS [TIER [SKY_WORLD]]; SKY_WORLD lends its sun and weather.
+// (bench/cycles). Usage: frame_server WORLD THREADS [TIER [SKY_WORLD [plain]]]; SKY_WORLD lends its sun and weather.
+// `plain`: matt opaque surfaces of their base colours (and textures, and holes) under a sky without clouds, which another
+// renderer can have just so.
 // Says {"ready": true, "sun_irradiance": [r, g, b]}, then reads one JSON object a line:
 //   {"size": [W, H], "tier": "fast", "X_WC": {"p": [...], "q_wxyz": [...]}, "labels": true, "samples": N,
 //    "aa_samples": N, "seed": N, "radiance": FILE.exr or absent}
@@ -22,6 +24,24 @@ namespace {
 using namespace airsim360;
 using nlohmann::json;
 
+std::shared_ptr<const Scene> MakePlain(const Scene& scene) {
+  auto plain = std::make_shared<Scene>(scene);
+  plain->cache_key.clear();
+  for (Material& m : plain->materials) {
+    m = {.name = m.name,
+         .alpha_mode = m.alpha_mode,
+         .alpha_cutoff = m.alpha_cutoff,
+         .base_color = m.base_color,
+         .base_alpha = m.base_alpha,
+         .roughness = 1,
+         .base_color_texture = m.base_color_texture,
+         .uv_scale = m.uv_scale,
+         .uv_offset = m.uv_offset,
+         .uv_rotation = m.uv_rotation};
+  }
+  return plain;
+}
+
 RenderRequest ReadRequest(const json& line) {
   RenderRequest request;
   request.camera = Equirectangular{line.at("size")[0], line.at("size")[1]};
@@ -41,13 +61,17 @@ RenderRequest ReadRequest(const json& line) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: frame_server WORLD THREADS [TIER]\n");
+    std::fprintf(stderr, "usage: frame_server WORLD THREADS [TIER [SKY_WORLD [plain]]]\n");
     return 2;
   }
   const ThreadLimit limit(std::stoi(argv[2]));
-  const auto tracer = std::make_shared<const RayTracer>(LoadWorld({.world = argv[1]}));
+  const bool plain = argc > 5 && std::string(argv[5]) == "plain";
+  auto scene = LoadWorld({.world = argv[1]});
+  if (plain) scene = MakePlain(*scene);
+  const auto tracer = std::make_shared<const RayTracer>(std::move(scene));
   Environment environment = tracer->scene().environment;
   if (argc > 4) environment = LoadWorld({.world = argv[4]})->environment;
+  if (plain) environment.cloud_cover = environment.cirrus_cover = 0;
   const auto renderer =
       MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast"), .environment = environment});
   const Vec3f sun = internal::Sky(environment).sun_irradiance();

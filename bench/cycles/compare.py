@@ -2,10 +2,10 @@
 """Side by side with Cycles (Debian's Blender 3.4) on the CPU: the same exported world, camera, threads and machine.
 
     /usr/bin/python3 bench/cycles/compare.py [--world map_town] [--size 2048x1024] [--threads 2] [--rounds 7]
-        [--pose x,y,z,yaw] [--steps box,labels,fast,high,quality] [--quality-size 256x128] [--reference-spp 4096]
+        [--pose x,y,z,yaw] [--steps box,labels,fast,high,plain,quality] [--reference-spp 4096]
         [--own-spp 512] [--keep DIR] [--seconds S]
 
-Needs blender, python3-numpy, python3-pil and build/bin/{airsim360,frame_server}. Both renderers stay in memory and
+Needs blender, python3-numpy, python3-pil and build/bin/{airsim360,frame_server,ray_check}. Both renderers stay in memory and
 take turns; seconds are those of a frame, without starting, loading or building acceleration structures. Two
 figures of Cycles are given: the whole call, in which Blender also walks through all its objects, and the sampling
 alone, as its own log has it. Ratios use the smaller one.
@@ -29,7 +29,7 @@ import time
 
 import numpy
 from exr import read_exr
-from labels import compare
+from labels import compare, near_edges, read_entities
 from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -64,9 +64,9 @@ class Server:
 
 
 class Cycles(Server):
-    def __init__(self, glb, threads):
+    def __init__(self, glb, threads, *mode):
         super().__init__(["blender", "-b", "--factory-startup", "-P", str(HERE / "cycles_server.py"), "--", str(glb),
-                          str(threads)], "CYCLES ", [])
+                          str(threads), *mode], "CYCLES ", [])
 
     def ask(self, **request):
         """Adds `sampling`: from the first sample to the end, as Blender's log says to 0.01 s."""
@@ -106,18 +106,32 @@ def colors(path):
     return numpy.stack([pick("R"), pick("G"), pick("B")], -1)
 
 
+def latitude_weight(height):
+    return numpy.cos((0.5 - (numpy.arange(height) + 0.5) / height) * numpy.pi)[:, None]
+
+
 def shown(image, reference):
     """Display values in [0, 1]: mean luminance of the reference to 0.18, then the sRGB curve."""
-    weight = numpy.cos((0.5 - (numpy.arange(len(reference)) + 0.5) / len(reference)) * numpy.pi)[:, None]
-    mean = (numpy.minimum(reference.mean(-1), 50) * weight).sum() / (weight.sum() * reference.shape[1])
+    weight = numpy.broadcast_to(latitude_weight(len(reference)), reference.shape[:2])
+    mean = (numpy.minimum(reference.mean(-1), 50) * weight).sum() / weight.sum()
     x = numpy.clip(image * (0.18 / mean), 0, 1)
     return numpy.where(x < 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
 
 
-def ws_psnr(a, b):
-    weight = numpy.cos((0.5 - (numpy.arange(len(a)) + 0.5) / len(a)) * numpy.pi)[:, None, None]
-    error = ((a - b) ** 2 * weight).sum() / (weight.sum() * a.shape[1] * 3)
-    return -10 * numpy.log10(max(error, 1e-12))
+def weighted_mean(values, where=True):
+    """Over solid angle; `where` picks pixels."""
+    weight = latitude_weight(len(values)) * numpy.broadcast_to(where, values.shape[:2])
+    return (values * weight).sum() / weight.sum()
+
+
+def ws_psnr(a, b, where=True):
+    return -10 * numpy.log10(max(weighted_mean(((a - b) ** 2).mean(-1), where), 1e-12))
+
+
+def rel_mse(image, truth):
+    """Of linear light: squared error over the squared truth, the largest thousandth of pixels left out."""
+    error = ((image - truth) ** 2 / (truth ** 2 + 1e-4)).mean(-1)
+    return weighted_mean(error, error <= numpy.quantile(error, 0.999))
 
 
 def parse_size(text):
@@ -135,11 +149,9 @@ def camera_pose(program, world, pose, size, threads, folder):
 
 def label_agreement(labels, cycles, size, X_WC, folder):
     """Ids and range of one frame."""
-    names = json.loads((labels / "entities.json").read_text())
-    sky = next((int(key) for key, value in names.items() if value["category_path"] == "sky"), 0)
     exr = folder / "labels.exr"
-    cycles.ask(size=size, samples=1, bounces=0, filter_width=0.01, X_WC=X_WC, out=str(exr))
-    for name, value in compare(labels, exr, sky).items():
+    cycles.ask(size=size, samples=1, bounces=0, centred=True, X_WC=X_WC, out=str(exr))
+    for name, value in compare(labels, exr, BIN / "ray_check", folder).items():
         print(f"  {name:26} {value:.3g}" if isinstance(value, float) else f"  {name:26} {value}")
 
 
@@ -173,48 +185,74 @@ def reference(render, name, spp, folder, deadline, part):
     return numpy.mean(parts, 0)
 
 
-def quality(ours, cycles, pose, size, sky, sun, own_spp, spp, folder, deadline):
-    """Error against each renderer's own reference, and the other's, in display values, weighted by solid angle."""
-    path = folder / "radiance.exr"
+STRIPS, STRIP_WIDTH = 8, 8
 
-    def mine(tier, samples, seed):
-        answer = ours.ask(size=size, tier=tier, samples=samples, seed=seed, labels=False, X_WC=pose, radiance=str(path))
-        return colors(path), answer["seconds"]
+
+def strips_of(width):
+    """Columns of a panorama that stand for all of it: 4,096 samples of every pixel would take hours."""
+    first = [round((i + 0.5) * width / STRIPS) - STRIP_WIDTH // 2 for i in range(STRIPS)]
+    return [(x, x + STRIP_WIDTH) for x in first]
+
+
+def quality(ours, cycles, labels, pose, size, light, own_spp, spp, folder, deadline):
+    """Errors against Cycles at 4,096 samples, in strips of columns. Both renderers have the plain scene, whose surfaces
+    and light are the same for both; how far their limits agree is printed: our reference against theirs."""
+    path, strips = folder / "radiance.exr", strips_of(size[0])
+    in_strips = lambda image: numpy.concatenate([image[:, a:b] for a, b in strips], 1)
+
+    def mine(tier, samples, seed, aa_samples=4):
+        answer = ours.ask(size=size, tier=tier, samples=samples, seed=seed, aa_samples=aa_samples, labels=False, X_WC=pose, radiance=str(path))
+        return in_strips(colors(path)), answer["seconds"]
 
     def theirs(samples, seed):
-        answer = cycles.ask(size=size, samples=samples, bounces=4, X_WC=pose, seed=seed, out=str(path), sky=sky, sun_strength=sun)
-        return colors(path), min(answer["seconds"], answer.get("sampling", answer["seconds"]))
+        parts = []
+        for columns in strips:
+            cycles.ask(size=size, columns=columns, samples=samples, bounces=4, X_WC=pose, seed=seed, out=str(path), **light)
+            parts.append(colors(path)[:, columns[0]:columns[1]])
+        return numpy.concatenate(parts, 1), 0
 
-    own = reference(lambda n, seed: mine("reference", n, seed), "our reference", own_spp, folder, deadline, 64)
-    other = reference(theirs, "Cycles' reference", spp, folder, deadline, 256)
-    if own is None or other is None:
+    truth = reference(theirs, "Cycles' reference", spp, folder, deadline, 256)
+    if truth is None:
         return
+    own = reference(lambda n, seed: mine("reference", n, seed), "our reference", own_spp, folder, deadline, 64)
+    ids = read_entities(labels / "entity/000000.png")
+    names = json.loads((labels / "entities.json").read_text())
+    with_prefix = lambda *prefixes: in_strips(numpy.isin(ids, [int(key) for key, value in names.items() if value["category_path"].startswith(prefixes)]))
+    edges, sky, leaves = in_strips(near_edges(ids)), with_prefix("sky"), with_prefix("vegetation", "nature", "plant")
+    regions = {"all": True, "sky": sky & ~edges, "leaves": leaves, "edges": edges & ~leaves, "rest": ~(sky | edges | leaves)}
+    print("  " + " " * 22 + "".join(f"{name:>8}" for name in regions) + "  relMSE   light (WS-PSNR, dB, by region)")
 
-    def error(picture, truth):
-        return ws_psnr(shown(picture, truth), shown(truth, truth))
-    theirs(1, 0)  # warm
-    for name, render in (("high", lambda seed: mine("high", 0, seed)), *((f"Cycles {n} spp", lambda seed, n=n: theirs(n, seed))
-                                                                          for n in (4, 16, 64))):
+    def row(name, render):
         pictures, seconds = zip(*(render(seed) for seed in (1, 2, 3)))
-        against = [statistics.median(error(p, truth) for p in pictures) for truth in (own, other)]
-        print(f"  {name:13} {against[0]:6.2f} dB against our reference, {against[1]:6.2f} dB against Cycles', "
-              f"{statistics.median(seconds):.3f} s at {size[0]}x{size[1]}")
-    print(f"  our reference against Cycles' reference: {error(own, other):.2f} dB, mean light {own.mean() / other.mean():.3f} of theirs")
-    for name, picture in (("ours", own), ("cycles", other), ("high", mine("high", 0, 1)[0]), ("cycles16", theirs(16, 1)[0])):
-        Image.fromarray((shown(picture, own) * 255 + 0.5).astype(numpy.uint8)).save(folder / f"quality_{name}.png")
+        errors = [statistics.median(ws_psnr(shown(p, truth), shown(truth, truth), where) for p in pictures) for where in regions.values()]
+        ratio = numpy.mean([weighted_mean(p.mean(-1), ~sky) for p in pictures]) / weighted_mean(truth.mean(-1), ~sky)
+        print(f"  {name:22}" + "".join(f"{e:8.2f}" for e in errors) +
+              f"{statistics.median(rel_mse(p, truth) for p in pictures):8.4f} {ratio:7.3f}" +
+              (f" {statistics.median(seconds):8.3f} s" if seconds[0] else ""))
+        Image.fromarray((shown(pictures[0], truth) * 255 + 0.5).astype(numpy.uint8)).save(folder / f"quality_{name.replace(' ', '_')}.png")
+
+    theirs(1, 0)  # warm
+    row("truth", lambda seed: (truth, 0))
+    if own is not None:
+        row("our reference", lambda seed: (own, 0))
+    row("high", lambda seed: mine("high", 0, seed))
+    row("high 16 rays", lambda seed: mine("high", 16, seed))
+    row("high 16 rays 16 aa", lambda seed: mine("high", 16, seed, 16))
+    for n in (4, 16, 64):
+        row(f"Cycles {n} spp", lambda seed, n=n: theirs(n, seed))
 
 
-def open_both(world, threads, folder):
-    """Our renderer in tier `high`, our sky without sun as a picture, and the sun's irradiance."""
-    ours = Server([BIN / "frame_server", world, str(threads), "high"])
+def open_ours(world, threads, folder, *mode):
+    """Our renderer in tier `high`; our sky without sun as a picture, and the sun's irradiance, for Cycles."""
+    ours = Server([BIN / "frame_server", world, str(threads), "high", world, *mode])
     sky = folder / "sky.exr"
     (folder / "dot.obj").write_text("v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nf 1 2 3\n")
-    picture = Server([BIN / "frame_server", str(folder / "dot.obj"), str(threads), "fast", world])
+    picture = Server([BIN / "frame_server", str(folder / "dot.obj"), str(threads), "fast", world, *mode])
     picture.ask(size=[2048, 1024], tier="fast", aa_samples=1, labels=False, radiance=str(sky),
                 X_WC={"p": [0, 0, 30], "q_wxyz": [0.5, -0.5, 0.5, -0.5]})
     picture.close()
     write_exr(sky, numpy.minimum(colors(sky), 30))  # the disc is the sun lamp's
-    return ours, str(sky), picture.ready["sun_irradiance"]
+    return ours, dict(sky=str(sky), sun_strength=picture.ready["sun_irradiance"])
 
 
 def measure_world(world, pose, steps, arguments, folder):
@@ -222,30 +260,42 @@ def measure_world(world, pose, steps, arguments, folder):
     glb = folder / f"{world}.glb"
     if not glb.exists():
         subprocess.run([BIN / "airsim360", "world", "export", world, "--out", glb], check=True)
-    cycles = Cycles(glb, threads)
-    print(f"{world}, {size[0]}x{size[1]}, {threads} threads; Blender took {cycles.ready['import_seconds']:.0f} s to open it")
     labels, X_WC = camera_pose(BIN / "airsim360", world, pose, size, threads, folder)
-    if "labels" in steps:
-        print(" labels and range:")
-        label_agreement(labels, cycles, size, X_WC, folder)
-    if steps & {"fast", "high", "quality"}:
-        ours, sky, sun = open_both(world, threads, folder)
-        light = dict(sky=sky, sun_strength=sun)
-        if "fast" in steps:
-            paired_speed("fast, all labels, no antialiasing / Cycles 1 spp, direct light, Z, index, normal", ours, cycles,
-                         dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
-                         dict(size=size, samples=1, bounces=0, X_WC=X_WC, **light), arguments.rounds)
-        if "high" in steps:
-            paired_speed("high, all labels, antialiased / Cycles 16 spp, 4 bounces", ours, cycles,
-                         dict(size=size, tier="high", X_WC=X_WC),
-                         dict(size=size, samples=16, bounces=4, X_WC=X_WC, **light), arguments.rounds)
+    if steps & {"labels", "fast", "high"}:
+        cycles = Cycles(glb, threads)
+        print(f"{world}, {size[0]}x{size[1]}, {threads} threads; Blender took {cycles.ready['import_seconds']:.0f} s to open it")
+        if "labels" in steps:
+            print(" labels and range:")
+            label_agreement(labels, cycles, size, X_WC, folder)
+        if steps & {"fast", "high"}:
+            ours, light = open_ours(world, threads, folder)
+            pairs(ours, cycles, X_WC, light, steps, arguments)
+            ours.close()
+        cycles.close()
+    if steps & {"plain", "quality"}:
+        print(f"{world}, plain surfaces, {size[0]}x{size[1]}, {threads} threads")
+        deadline = time.monotonic() + arguments.seconds
+        cycles = Cycles(glb, threads, "plain")
+        ours, light = open_ours(world, threads, folder, "plain")
+        if "plain" in steps:
+            pairs(ours, cycles, X_WC, light, {"high"}, arguments)
         if "quality" in steps:
-            print(" quality:")
-            deadline = time.monotonic() + arguments.seconds
-            quality(ours, cycles, X_WC, arguments.quality_size, sky, sun, arguments.own_spp,
-                    arguments.reference_spp, folder, deadline)
+            quality(ours, cycles, labels, X_WC, size, light, arguments.own_spp, arguments.reference_spp,
+                    folder, deadline)
         ours.close()
-    cycles.close()
+        cycles.close()
+
+
+def pairs(ours, cycles, X_WC, light, steps, arguments):
+    size = arguments.size
+    if "fast" in steps:
+        paired_speed("fast, all labels, no antialiasing / Cycles 1 spp, direct light, Z, index, normal", ours, cycles,
+                     dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
+                     dict(size=size, samples=1, bounces=0, X_WC=X_WC, **light), arguments.rounds)
+    if "high" in steps:
+        paired_speed("high, all labels, antialiased / Cycles 16 spp, 4 bounces", ours, cycles,
+                     dict(size=size, tier="high", X_WC=X_WC),
+                     dict(size=size, samples=16, bounces=4, X_WC=X_WC, **light), arguments.rounds)
 
 
 def main():
@@ -253,12 +303,11 @@ def main():
     parser.add_argument("--world", default="map_town")
     parser.add_argument("--pose", help="default: the world's spawn")
     parser.add_argument("--size", type=parse_size, default=[2048, 1024])
-    parser.add_argument("--quality-size", type=parse_size, default=[256, 128])
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--reference-spp", type=int, default=4096)
     parser.add_argument("--own-spp", type=int, default=512, help="of our reference, whose error is that of `high` but for its noise")
-    parser.add_argument("--steps", default="box,labels,fast,high,quality")
+    parser.add_argument("--steps", default="box,labels,fast,high,plain,quality")
     parser.add_argument("--keep")
     parser.add_argument("--seconds", type=float, default=math.inf)
     arguments = parser.parse_args()

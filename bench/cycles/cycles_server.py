@@ -1,10 +1,12 @@
 """Blender side of the comparison with Cycles: opens a world exported by `airsim360 world export` and renders it on request.
 
-    blender -b --factory-startup -P cycles_server.py -- WORLD.glb THREADS
+    blender -b --factory-startup -P cycles_server.py -- WORLD.glb THREADS [plain]
+
+`plain`: matt opaque surfaces of their base colours, as `frame_server ... plain` has them.
 
 Reads one JSON object a line from standard input:
     {"size": [W, H], "samples": N, "bounces": B, "X_WC": {"p": [...], "q_wxyz": [...]}, "out": FILE or null,
-     "sky": linear EXR panorama or null}
+     "columns": [first, end] of the picture to render, else all, "centred": rays through the middle of pixels, "sky": linear EXR panorama or null}
 and answers each with a line `CYCLES {"seconds": ...}`. The scene and its acceleration structure stay in memory
 between requests, so the seconds are those of rendering alone. Colour: sun of the export (0.53 degrees) and the
 sky picture, else an even sky. Passes: combined, Z (along the ray, as Cycles does for panoramas), object index
@@ -27,7 +29,7 @@ if not hasattr(numpy, "bool"):
 SUN_ANGLE = math.radians(0.53)
 
 
-def open_world(path):
+def open_world(path, plain):
     """Imports the file; entity ids become pass indices, tints multiply base colours. What was imported is kept beside
     the file as .blend, which opens in seconds where a city's import takes minutes. Returns the sun."""
     kept = path + ".blend"
@@ -36,6 +38,8 @@ def open_world(path):
     else:
         import_world(path)
         bpy.ops.wm.save_as_mainfile(filepath=kept)
+    for material in bpy.data.materials if plain else []:
+        make_plain(material)
     return next((thing for thing in bpy.context.scene.objects if thing.type == "LIGHT"), None)
 
 
@@ -70,13 +74,45 @@ def tint_base_color(material):
     tree.links.new(product.outputs["Color"], base)
 
 
+# The skin of a rough surface of n = 1.5 gives back 0.019 of even light, GGX alone 0.41 of it.
+PLAIN_SKIN, GGX_ROUGH = 0.019, 0.41
+
+
+def make_plain(material):
+    """Lambert under the skin of roughness 1 that our BSDF has (shading_bsdf.h), holes kept."""
+    tree = material.node_tree
+    shader = next((n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"), None)
+    output = next((n for n in tree.nodes if n.type == "OUTPUT_MATERIAL"), None)
+    if shader is None or output is None:
+        return
+    under = tree.nodes.new("ShaderNodeMixRGB")
+    under.blend_type = "MULTIPLY"
+    under.inputs["Fac"].default_value = 1
+    under.inputs["Color2"].default_value = (*[1 - PLAIN_SKIN] * 3, 1)
+    tree.links.new(shader.inputs["Base Color"].links[0].from_socket, under.inputs["Color1"])
+    body, skin, both, hole, mix = (tree.nodes.new(name) for name in (
+        "ShaderNodeBsdfDiffuse", "ShaderNodeBsdfGlossy", "ShaderNodeAddShader", "ShaderNodeBsdfTransparent", "ShaderNodeMixShader"))
+    tree.links.new(under.outputs["Color"], body.inputs["Color"])
+    skin.distribution = "GGX"
+    skin.inputs["Roughness"].default_value = 1
+    skin.inputs["Color"].default_value = (*[PLAIN_SKIN / GGX_ROUGH] * 3, 1)
+    tree.links.new(body.outputs["BSDF"], both.inputs[0])
+    tree.links.new(skin.outputs["BSDF"], both.inputs[1])
+    surface = both.outputs["Shader"]
+    if shader.inputs["Alpha"].is_linked:
+        tree.links.new(shader.inputs["Alpha"].links[0].from_socket, mix.inputs["Fac"])
+        tree.links.new(hole.outputs["BSDF"], mix.inputs[1])
+        tree.links.new(surface, mix.inputs[2])
+        surface = mix.outputs["Shader"]
+    tree.links.new(surface, output.inputs["Surface"])
+
+
 def set_up(threads, sun):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_auto_tile = False
-    cycles.pixel_filter_type = "BOX"
     cycles.caustics_reflective = cycles.caustics_refractive = False
     scene.render.threads_mode, scene.render.threads = "FIXED", threads
     scene.render.use_persistent_data = True
@@ -119,8 +155,14 @@ def render(request, sun):
     bounces = request["bounces"]
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = bounces
     scene.cycles.transmission_bounces = bounces
-    # 0.01 is the narrowest filter: rays through the middle of pixels, for labels; 1 is a pixel, for colour.
-    scene.cycles.filter_width = request.get("filter_width", 1)
+    # Labels: rays through the middle of pixels. Cycles' table of filter positions is half an entry off its middle, so
+    # even a lone sample is off by 1/1022 of half the width; only the box ignores `filter_width` and is a whole pixel wide.
+    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS" if request.get("centred") else "BOX"
+    scene.cycles.filter_width = 0.01
+    scene.view_layers[0].use_pass_position = bool(request.get("centred"))
+    first, end = request.get("columns", [0, request["size"][0]])
+    scene.render.use_border = "columns" in request
+    scene.render.border_min_x, scene.render.border_max_x = first / request["size"][0], end / request["size"][0]
     if sun is not None and "sun_strength" in request:
         sun.data.energy = 1
         sun.data.color = request["sun_strength"]
@@ -141,11 +183,11 @@ def render(request, sun):
 
 
 def main():
-    path, threads = sys.argv[sys.argv.index("--") + 1:][:2]
+    path, threads, *mode = sys.argv[sys.argv.index("--") + 1:]
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(2, 1)  # Blender's own chatter
     start = time.perf_counter()
-    sun = open_world(path)
+    sun = open_world(path, mode == ["plain"])
     set_up(int(threads), sun)
     print("CYCLES", json.dumps({"ready": True, "import_seconds": time.perf_counter() - start}), file=answers)
     sky = ""

@@ -26,21 +26,6 @@ std::shared_ptr<Recording> StopRecording(Simulation& sim) {
   return std::make_shared<Recording>(std::move(*recording));
 }
 
-py::list Gpus() {
-  py::list list;
-  for (const GpuInfo& gpu : ListGpus()) {
-    py::dict d;
-    d["index"] = gpu.index;
-    d["name"] = gpu.name;
-    d["driver"] = gpu.driver;
-    d["software"] = gpu.software;
-    d["missing"] = gpu.missing;
-    d["uuid"] = py::bytes(reinterpret_cast<const char*>(gpu.uuid.data()), gpu.uuid.size());
-    list.append(std::move(d));
-  }
-  return list;
-}
-
 py::dict ReplayFrom(const Simulation& sim, const Recording& recording, const Snapshot& start) {
   SimState state = *start.state;
   ReplayResult result;
@@ -201,7 +186,6 @@ walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
           "yaw, behaviour, visible.")
       .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
   BindCommands(sim);
-  m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
 }
 
 }  // namespace airsim360::python

@@ -16,9 +16,7 @@ namespace {
 
 // Wrong names are found before the world is built.
 DeviceChoice ToDevice(const std::string& device, int gpu) {
-  static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
-  if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end())
-    throw InputError("device: " + UnknownChoiceMessage("device", device, kDevices));
+  CheckDevice("device", device);
   if (gpu >= 0 && device == "cpu") throw InputError("gpu: device 'cpu' uses no GPU; say device=\"vulkan\"");
   return {device, gpu};
 }
@@ -141,11 +139,27 @@ py::list ListOfWorlds() {
   return list;
 }
 
+py::list Gpus() {
+  py::list list;
+  for (const GpuInfo& gpu : ListGpus()) {
+    py::dict d;
+    d["index"] = gpu.index;
+    d["name"] = gpu.name;
+    d["driver"] = gpu.driver;
+    d["software"] = gpu.software;
+    d["missing"] = gpu.missing;
+    d["uuid"] = py::bytes(reinterpret_cast<const char*>(gpu.uuid.data()), gpu.uuid.size());
+    list.append(std::move(d));
+  }
+  return list;
+}
+
 }  // namespace
 
 void BindWorld(py::module_& m) {
   m.def("worlds", &ListOfWorlds,
         "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
+  m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
   py::class_<World, std::shared_ptr<World>>(
       m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm or world .yaml.
 

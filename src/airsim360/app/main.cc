@@ -15,6 +15,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/version.h"
+#include "airsim360/render/vulkan/choose_renderer.h"
 
 namespace airsim360 {
 namespace {
@@ -25,13 +26,6 @@ constexpr int kBadInput = 2;
 int Fail(const std::string& message, int status) {
   std::fprintf(stderr, "airsim360: error: %s\n", message.c_str());
   return status;
-}
-
-void CheckDevice(const std::string& device) {
-  static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
-  if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end()) {
-    throw InputError("--device: " + UnknownChoiceMessage("device", device, kDevices));
-  }
 }
 
 uint64_t ParseSeed(const std::string& text) {
@@ -73,7 +67,7 @@ void AddGlobalFlags(CLI::App& command, GlobalOptions& globals, std::unique_ptr<T
       .add_option_function<std::string>(
           "--device",
           [&](const std::string& device) {
-            CheckDevice(device);
+            CheckDevice("--device", device);
             globals.device = device;
           },
           "auto, cpu or vulkan (default auto: a GPU where one traces rays)")

@@ -1,6 +1,8 @@
 #include "airsim360/render/vulkan/choose_renderer.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -60,15 +62,18 @@ std::optional<std::string> WhyNot(int wanted) {
 
 }  // namespace
 
+void CheckDevice(const std::string& flag, const std::string& device) {
+  static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
+  if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end())
+    throw InputError(flag + ": " + UnknownChoiceMessage("device", device, kDevices));
+}
+
 std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                                        const DeviceChoice& choice) {
+  CheckDevice("--device", choice.device);
   if (choice.device == "cpu") return MakeCpuRenderer(std::move(tracer), options);
   const GpuOptions gpu_options{.gpu = choice.gpu, .fault = choice.fault};
   if (choice.device == "vulkan") return MakeVulkanRenderer(std::move(tracer), options, gpu_options);
-  if (choice.device != "auto") {
-    static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
-    throw InputError("--device: " + UnknownChoiceMessage("device", choice.device, kDevices));
-  }
   std::optional<std::string> why = WhyNot(choice.gpu);
   if (!why) {
     try {
