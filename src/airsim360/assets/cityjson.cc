@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "airsim360/assets/cityjson_palette.h"
 #include "airsim360/assets/gltf_json_internal.h"
 #include "airsim360/assets/normals.h"
 #include "airsim360/base/error.h"
@@ -15,65 +16,6 @@
 
 namespace airsim360::internal {
 namespace {
-
-// What the types of the standard are here.
-struct TypeRow {
-  std::string_view type, category;
-  Vec3f colour;
-};
-constexpr TypeRow kTypes[] = {
-    {"Building", "construction/building", {0.52f, 0.46f, 0.38f}},
-    {"BuildingPart", "construction/building", {0.52f, 0.46f, 0.38f}},
-    {"BuildingInstallation", "construction/building", {0.42f, 0.41f, 0.40f}},
-    {"BuildingConstructiveElement", "construction/building", {0.42f, 0.41f, 0.40f}},
-    {"BuildingFurniture", "furniture", {0.35f, 0.27f, 0.18f}},
-    {"BuildingStorey", "construction/building", {0.52f, 0.46f, 0.38f}},
-    {"BuildingRoom", "construction/building", {0.6f, 0.58f, 0.55f}},
-    {"BuildingUnit", "construction/building", {0.52f, 0.46f, 0.38f}},
-    {"Bridge", "construction/bridge", {0.40f, 0.39f, 0.37f}},
-    {"BridgePart", "construction/bridge", {0.40f, 0.39f, 0.37f}},
-    {"BridgeInstallation", "construction/bridge", {0.35f, 0.35f, 0.35f}},
-    {"BridgeConstructionElement", "construction/bridge", {0.40f, 0.39f, 0.37f}},
-    {"BridgeConstructiveElement", "construction/bridge", {0.40f, 0.39f, 0.37f}},
-    {"CityFurniture", "furniture/misc", {0.25f, 0.26f, 0.27f}},
-    {"CityObjectGroup", "object", {0.4f, 0.4f, 0.4f}},
-    {"GenericCityObject", "object", {0.4f, 0.4f, 0.4f}},
-    {"LandUse", "ground/terrain/landscape", {0.16f, 0.17f, 0.08f}},
-    {"OtherConstruction", "construction", {0.42f, 0.40f, 0.37f}},
-    {"PlantCover", "vegetation/shrub/bush", {0.08f, 0.13f, 0.04f}},
-    {"Railway", "ground/gravel", {0.16f, 0.14f, 0.12f}},
-    {"Road", "ground/road", {0.11f, 0.11f, 0.115f}},
-    {"SolitaryVegetationObject", "vegetation/tree/broadleaf/generic", {0.07f, 0.12f, 0.035f}},
-    {"TINRelief", "nature/terrain", {0.15f, 0.16f, 0.08f}},
-    {"TransportSquare", "ground/pavement/modular", {0.28f, 0.27f, 0.25f}},
-    {"Tunnel", "construction/tunnel", {0.38f, 0.37f, 0.35f}},
-    {"TunnelPart", "construction/tunnel", {0.38f, 0.37f, 0.35f}},
-    {"TunnelInstallation", "construction/tunnel", {0.35f, 0.35f, 0.35f}},
-    {"TunnelConstructiveElement", "construction/tunnel", {0.35f, 0.35f, 0.35f}},
-    {"WaterBody", "water/lake", {0.02f, 0.035f, 0.035f}},
-    {"Waterway", "water/river", {0.02f, 0.035f, 0.035f}},
-};
-
-// Surfaces that are entities, or at least materials, of their own.
-struct SurfaceRow {
-  std::string_view type, suffix, category;  // category "": that of the object
-  Vec3f colour;
-};
-constexpr SurfaceRow kSurfaces[] = {
-    {"RoofSurface", "roof", "construction/building/roof", {0.26f, 0.12f, 0.08f}},
-    {"Window", "window", "construction/window", {0.035f, 0.045f, 0.05f}},
-    {"Door", "door", "construction/door", {0.12f, 0.07f, 0.04f}},
-    {"TrafficArea", "traffic", "", {0.11f, 0.11f, 0.115f}},
-    {"AuxiliaryTrafficArea", "verge", "", {0.20f, 0.19f, 0.16f}},
-};
-
-const TypeRow& RowOf(std::string_view type) {
-  for (const TypeRow& row : kTypes)
-    if (row.type == type) return row;
-  // Extensions ("+Shed") and types of later versions.
-  static constexpr TypeRow kOther{"", "object", {0.4f, 0.4f, 0.4f}};
-  return kOther;
-}
 
 struct Placement {  // of a geometry template
   std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -88,8 +30,22 @@ struct Placement {  // of a geometry template
 // Triangles of one node before they are a mesh.
 struct Soup {
   std::string name, category;
-  MaterialId material = 0;
-  std::vector<Vec3d> corners;  // three a triangle
+  std::map<MaterialId, std::vector<Vec3d>> corners;  // three a triangle
+  Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+};
+
+// The object that a geometry is of.
+struct Owner {
+  std::string whole, id, type;  // whole: the entity that walls and grounds belong to
+};
+
+// What all surfaces of a geometry share.
+struct Shown {
+  const Owner& owner;
+  const std::vector<Vec3d>& vertices;
+  const Placement& place;
+  std::vector<std::string> surfaces;  // semantic types
+  std::optional<JsonRef> colour;      // of all of them
 };
 
 class CityReader {
@@ -105,10 +61,12 @@ class CityReader {
     if (const auto transform = root.Find("transform")) {
       const std::vector<double> scale = transform->At("scale").Numbers(3), move = transform->At("translate").Numbers(3);
       scale_ = {scale[0], scale[1], scale[2]};
+      if (scale_.x == 0 || scale_.y == 0 || scale_.z == 0) transform->At("scale").Fail("no scale may be 0");
       translate_ = {move[0], move[1], move[2]};
     }
     if (const auto metadata = root.Find("metadata"))
       if (const auto reference = metadata->Find("referenceSystem")) degrees_ = IsInDegrees(reference->Text());
+    if (const auto appearance = root.Find("appearance")) palette_.Read(*appearance);
     if (const auto templates = root.Find("geometry-templates")) {
       templates_ = templates->At("templates");
       template_vertices_ = ReadVertices(templates->At("vertices-templates"), {1, 1, 1}, {});
@@ -121,20 +79,25 @@ class CityReader {
     const JsonRef objects = root.At("CityObjects");
     const std::vector<std::string> ids = objects.Keys();
     if (ids.size() > limits_.max_nodes) objects.Fail("more than " + std::to_string(limits_.max_nodes) + " objects");
-    for (const std::string& id : ids) ReadObject(CleanName(id), objects.At(id));
+    for (const std::string& id : ids) ReadObject(WholeOf(objects, id), CleanName(id), objects.At(id));
   }
 
   ImportedFile Take() {
     ImportedFile out;
-    out.materials = std::move(materials_);
+    out.materials = palette_.Take();
     out.warnings = warnings_.Take();
     // The middle of everything at x = y = 0, its lowest point at z = 0.
     Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-    for (const auto& entry : soups_)
-      for (Vec3d p : entry.second.corners) {
-        low = Min(low, p);
-        high = Max(high, p);
-      }
+    for (auto& entry : soups_) {
+      Soup& soup = entry.second;
+      for (const auto& [material, corners] : soup.corners)
+        for (Vec3d p : corners) {
+          soup.low = Min(soup.low, p);
+          soup.high = Max(soup.high, p);
+        }
+      low = Min(low, soup.low);
+      high = Max(high, soup.high);
+    }
     Vec3d middle{(low.x + high.x) / 2, (low.y + high.y) / 2, low.z};
     Vec3d metres{1, 1, 1};
     if (degrees_) {
@@ -147,12 +110,19 @@ class CityReader {
       Soup& soup = entry.second;
       Mesh mesh;
       mesh.name = soup.name;
-      for (Vec3d p : soup.corners) mesh.positions.push_back(VecCast<float>((p - middle) * metres));
-      for (uint32_t i = 0; i + 2 < mesh.positions.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
-      // Pictures tile in metres: along the wall, or east and north.
-      mesh.parts.push_back({0, static_cast<uint32_t>(mesh.triangles.size()), soup.material, kNoEntity});
+      // Each thing stands in its middle, on its lowest point.
+      const Vec3d foot{(soup.low.x + soup.high.x) / 2, (soup.low.y + soup.high.y) / 2, soup.low.z};
+      for (const auto& [material, corners] : soup.corners) {
+        const auto first = static_cast<uint32_t>(mesh.triangles.size());
+        for (Vec3d p : corners) mesh.positions.push_back(VecCast<float>((p - foot) * metres));
+        for (uint32_t i = 3 * first; i + 2 < mesh.positions.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
+        const auto count = static_cast<uint32_t>(mesh.triangles.size()) - first;
+        if (count > 0) mesh.parts.push_back({first, count, material, kNoEntity});
+      }
+      if (mesh.triangles.empty()) continue;
       FillMissingNormals(mesh, 30);
       ImportedNode node{soup.name, -1, static_cast<int32_t>(out.meshes.size()), {}, soup.category, ++entity};
+      node.X_WM.p = VecCast<float>((foot - middle) * metres);
       out.meshes.push_back(std::move(mesh));
       out.nodes.push_back(std::move(node));
     }
@@ -180,12 +150,27 @@ class CityReader {
     return vertices;
   }
 
-  void ReadObject(const std::string& id, JsonRef object) {
-    const std::string type = object.At("type").Text();
+  // The thing that a BuildingPart (BridgePart, TunnelPart) belongs to: parts are of one entity with it.
+  static std::string WholeOf(const JsonRef& objects, std::string id) {
+    for (int level = 0; level < 8; ++level) {
+      const JsonRef object = objects.At(id);
+      if (!object.At("type").Text().ends_with("Part")) break;
+      const auto parents = object.Find("parents");
+      if (!parents || parents->size() == 0) break;
+      const std::string parent = (*parents)[0].Text();
+      if (!objects.Find(parent)) (*parents)[0].Fail("there is no such object");
+      id = parent;
+    }
+    return CleanName(id);
+  }
+
+  void ReadObject(const std::string& whole, const std::string& id, JsonRef object) {
+    const Owner owner{whole, id, object.At("type").Text()};
     const auto geometry = object.Find("geometry");
     if (!geometry || geometry->size() == 0) return;
     // The highest level of detail; all geometries of that level.
-    const auto lod = [](const JsonRef& g) {
+    const auto lod = [this](const JsonRef& shown) {
+      const JsonRef g = shown.TextOr("type", "") == "GeometryInstance" ? TemplateOf(shown) : shown;
       const auto member = g.Find("lod");
       if (!member) return 1.0;
       // A text in 1.1 and later, a number before.
@@ -200,7 +185,7 @@ class CityReader {
       const JsonRef g = (*geometry)[i];
       const std::string kind = g.At("type").Text();
       if (kind == "MultiPoint" || kind == "MultiLineString") continue;
-      best = std::max(best, kind == "GeometryInstance" ? 1.0 : lod(g));
+      best = std::max(best, lod(g));
     }
     for (size_t i = 0; i < geometry->size(); ++i) {
       const JsonRef g = (*geometry)[i];
@@ -209,18 +194,22 @@ class CityReader {
         warnings_.Add(file_name_ + ": points and lines are not shown");
         continue;
       }
+      if (lod(g) < best - 1e-9) continue;
       if (kind == "GeometryInstance") {
-        ReadInstance(id, type, g);
-      } else if (lod(g) >= best - 1e-9) {
-        ReadGeometry(id, type, g, kind, vertices_, {});
+        ReadInstance(owner, g);
+      } else {
+        ReadGeometry(owner, g, kind, vertices_, {});
       }
     }
   }
 
-  void ReadInstance(const std::string& id, const std::string& type, JsonRef g) {
+  JsonRef TemplateOf(const JsonRef& g) const {
     if (!templates_) g.Fail("the file has no geometry-templates");
-    const size_t index = g.At("template").Uint(templates_->size() - (templates_->size() > 0));
-    const JsonRef source = (*templates_)[index];
+    return (*templates_)[g.At("template").Uint(templates_->size() - (templates_->size() > 0))];
+  }
+
+  void ReadInstance(const Owner& owner, JsonRef g) {
+    const JsonRef source = TemplateOf(g);
     Placement place;
     if (const auto matrix = g.Find("transformationMatrix")) {
       const std::vector<double> m = matrix->Numbers(16);
@@ -232,83 +221,64 @@ class CityReader {
     place.offset = vertices_[anchor[0].Uint(vertices_.size() - 1)];
     const std::string kind = source.At("type").Text();
     if (kind == "GeometryInstance") source.Fail("a template of templates");
-    ReadGeometry(id, type, source, kind, template_vertices_, place);
+    ReadGeometry(owner, source, kind, template_vertices_, place);
   }
 
-  void ReadGeometry(const std::string& id, const std::string& type, JsonRef g, const std::string& kind,
-                    const std::vector<Vec3d>& vertices, const Placement& place) {
+  void ReadGeometry(const Owner& owner, JsonRef g, const std::string& kind, const std::vector<Vec3d>& vertices,
+                    const Placement& place) {
     int depth = 0;  // of lists of surfaces
     if (kind == "MultiSurface" || kind == "CompositeSurface") depth = 1;
     if (kind == "Solid") depth = 2;
     if (kind == "MultiSolid" || kind == "CompositeSolid") depth = 3;
     if (depth == 0) g.At("type").Fail("unknown geometry");
     std::optional<JsonRef> values;
-    std::vector<std::string> surfaces;
+    Shown shown{owner, vertices, place, {}, {}};
     if (const auto semantics = g.Find("semantics")) {
       if (const auto list = semantics->Find("surfaces"))
-        for (size_t i = 0; i < list->size(); ++i) surfaces.push_back((*list)[i].TextOr("type", ""));
+        for (size_t i = 0; i < list->size(); ++i) shown.surfaces.push_back((*list)[i].TextOr("type", ""));
       values = semantics->Find("values");
     }
-    Walk(id, type, g.At("boundaries"), values, depth, surfaces, vertices, place);
+    const CityPalette::Choice colours = palette_.ChoiceOf(g);
+    shown.colour = colours.one;
+    Walk(shown, g.At("boundaries"), values, colours.nested, depth);
   }
 
   // Down the nested lists; at the bottom each element is a surface of rings.
-  void Walk(const std::string& id, const std::string& type, JsonRef boundaries, std::optional<JsonRef> values, int depth,
-            const std::vector<std::string>& surfaces, const std::vector<Vec3d>& vertices, const Placement& place) {
+  void Walk(const Shown& shown, JsonRef boundaries, std::optional<JsonRef> values, std::optional<JsonRef> colours, int depth) {
+    const auto element = [](const std::optional<JsonRef>& list, size_t i) -> std::optional<JsonRef> {
+      if (list && list->IsArray() && i < list->size()) return (*list)[i];
+      return std::nullopt;
+    };
     for (size_t i = 0; i < boundaries.size(); ++i) {
-      std::optional<JsonRef> value;
-      if (values && values->IsArray() && i < values->size()) value = (*values)[i];
+      const std::optional<JsonRef> value = element(values, i), colour = element(colours, i);
       if (depth > 1) {
-        Walk(id, type, boundaries[i], value, depth - 1, surfaces, vertices, place);
+        Walk(shown, boundaries[i], value, colour, depth - 1);
         continue;
       }
       std::string_view semantic;
-      if (value && value->IsNumber()) {
+      if (value && !value->IsNull()) {
         const uint64_t index = value->Uint();
-        if (index >= surfaces.size()) value->Fail("there are " + std::to_string(surfaces.size()) + " semantic surfaces");
-        semantic = surfaces[index];
+        if (index >= shown.surfaces.size()) value->Fail("there are " + std::to_string(shown.surfaces.size()) + " semantic surfaces");
+        semantic = shown.surfaces[index];
       }
-      AddSurface(SoupFor(id, type, semantic), boundaries[i], vertices, place);
+      const CitySurface* surface = CitySurfaceOf(semantic);
+      Soup& soup = SoupFor(shown.owner, surface);
+      AddSurface(soup.corners[palette_.Get(shown.owner.type, surface, colour ? colour : shown.colour)], boundaries[i], shown);
     }
   }
 
-  Soup& SoupFor(const std::string& id, const std::string& type, std::string_view semantic) {
-    const TypeRow& row = RowOf(type);
-    const SurfaceRow* surface = nullptr;
-    for (const SurfaceRow& candidate : kSurfaces)
-      if (candidate.type == semantic) surface = &candidate;
-    const std::string name = id + (surface ? "/" + std::string(surface->suffix) : "");
+  Soup& SoupFor(const Owner& owner, const CitySurface* surface) {
+    const std::string name = surface ? owner.id + "/" + std::string(surface->suffix) : owner.whole;
     const auto [it, fresh] = soups_.try_emplace(name);
     if (!fresh) return it->second;
     it->second.name = name;
-    it->second.category = surface && !surface->category.empty() ? surface->category : row.category;
-    it->second.material = MaterialFor(row, surface);
-    return it->second;
-  }
-
-  MaterialId MaterialFor(const TypeRow& row, const SurfaceRow* surface) {
-    const std::string name = surface ? std::string(surface->type) : row.type.empty() ? "other" : std::string(row.type);
-    const auto [it, fresh] = material_ids_.try_emplace(name, static_cast<MaterialId>(materials_.size()));
-    if (!fresh) return it->second;
-    Material material;
-    material.name = name;
-    material.base_color = surface ? surface->colour : row.colour;
-    material.roughness = 0.85f;
-    material.macro_variation = 0.08f;
-    if (name == "WaterBody" || name == "Waterway") {
-      material.kind = SurfaceKind::kWater;
-      material.roughness = 0.08f;
-    }
-    if (name == "Window") {
-      material.kind = SurfaceKind::kGlass;
-      material.roughness = 0.05f;
-    }
-    materials_.push_back(std::move(material));
+    it->second.category = surface && !surface->category.empty() ? surface->category : CityTypeOf(owner.type).category;
     return it->second;
   }
 
   // A polygon with holes in space: flattened along its Newell normal, cut into triangles.
-  void AddSurface(Soup& soup, JsonRef rings, const std::vector<Vec3d>& vertices, const Placement& place) {
+  void AddSurface(std::vector<Vec3d>& corners, JsonRef rings, const Shown& shown) {
+    const std::vector<Vec3d>& vertices = shown.vertices;
     std::vector<Vec3d> points;
     std::vector<uint32_t> sizes;
     Vec3d normal;
@@ -318,7 +288,7 @@ class CityReader {
       if (count > 100000) ring.Fail("a ring of more than 100000 corners");
       for (size_t i = 0; i < count; ++i) {
         if (vertices.empty()) ring.Fail("the file has no vertices");
-        const Vec3d p = place * vertices[ring[i].Uint(vertices.size() - 1)];
+        const Vec3d p = shown.place * vertices[ring[i].Uint(vertices.size() - 1)];
         if (points.size() > first && points.back() == p) continue;
         points.push_back(p);
       }
@@ -341,7 +311,7 @@ class CityReader {
     const Vec3d u = Normalized(Cross(std::abs(n.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}, n)), v = Cross(n, u);
     std::vector<Vec2d> flat;
     for (Vec3d p : points) flat.push_back({Dot(p - points[0], u), Dot(p - points[0], v)});
-    for (uint32_t index : TriangulateRings(flat, sizes)) soup.corners.push_back(points[index]);
+    for (uint32_t index : TriangulateRings(flat, sizes)) corners.push_back(points[index]);
     if ((triangle_total_ += points.size()) > limits_.max_triangles) rings.Fail("more than " + std::to_string(limits_.max_triangles) + " triangles");
   }
 
@@ -352,8 +322,7 @@ class CityReader {
   std::vector<Vec3d> vertices_, template_vertices_;
   std::optional<JsonRef> templates_;
   std::map<std::string, Soup> soups_;  // by name: a fixed order
-  std::vector<Material> materials_;
-  std::map<std::string, MaterialId> material_ids_;
+  CityPalette palette_;
   uint64_t vertex_total_ = 0, triangle_total_ = 0;
   Warnings warnings_;
 };

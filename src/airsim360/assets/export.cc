@@ -229,7 +229,12 @@ void Exporter::AddInstances() {
   }
   std::stable_sort(nodes.begin(), nodes.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (auto& [id, node] : nodes) writer_.Append("nodes", std::move(node));
+  size_t number = 0;
+  for (auto& [id, node] : nodes) {
+    node["extras"][kExtraNode] = ++number;
+    if (const std::string& name = scene_.entity(id).name; name.size() > kBlenderName) node["extras"][kExtraName] = name;
+    writer_.Append("nodes", std::move(node));
+  }
 }
 
 // A directional light shines along -Z of its node: that axis is turned away from the sun.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "airsim360/assets/gltf_parts.h"
 #include "airsim360/assets/gltf_test_internal.h"
@@ -163,6 +164,44 @@ TEST(EncodeGlb, TheSunShinesFromWhereItStands) {
   EXPECT_NEAR(node["matrix"][8].get<double>(), std::cos(M_PI / 6), 1e-12);
   EXPECT_NEAR(node["matrix"][9].get<double>(), 0.5, 1e-12);
   EXPECT_NEAR(node["matrix"][10].get<double>(), 0, 1e-12);
+}
+
+// What Blender does to a file: objects copied and moved, long names cut at 63 bytes.
+TEST(EncodeGlb, CopiesMadeInAnEditorAreThingsOfTheirOwnAndLongNamesComeBack) {
+  const std::string long_name = "way/123456789/2 Bürgermeister-Reuter-Straße am ehemaligen Güterbahnhof Nord";
+  SceneBuilder builder("street");
+  const MaterialId grey = builder.AddMaterial({.name = "grey"});
+  const MeshId square = builder.AddMesh(Square(grey, grey));
+  const EntityId lamp = builder.AddEntity("lamp", builder.tree().At("furniture/lighting/street_light")),
+                 road = builder.AddEntity(long_name, builder.tree().At("ground/road"));
+  for (float x : {0.0f, 1.0f}) builder.AddInstance({square, PlaceUpright({x, 0, 0}, 0, 1), lamp});
+  builder.AddInstance({square, PlaceUpright({0, 5, 0}, 0, 1), road});
+  const Bytes bytes = EncodeGlb(*builder.Build());
+  internal::GltfContainer container = internal::OpenGltfContainer("street.glb", bytes);
+  nlohmann::json json = nlohmann::json::parse(container.json);
+  auto& nodes = json["nodes"];
+  for (size_t i = 0; i < 2; ++i) {  // the lamp's two nodes once more, 10 m aside
+    nlohmann::json copy = nodes[i];
+    copy["name"] = "lamp.00" + std::to_string(i + 2);
+    copy.erase("matrix");
+    copy["translation"] = {10 + static_cast<int>(i), 0, 0};
+    json["scenes"][0]["nodes"].push_back(nodes.size());
+    nodes.push_back(copy);
+  }
+  nodes[1]["name"] = "lamp.001";
+  nodes[2]["name"] = long_name.substr(0, 63);
+  json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + internal::EncodeBase64(Bytes(container.binary.begin(), container.binary.end()));
+  const auto file = std::filesystem::path(testing::TempDir()) / "copies_made_in_an_editor.gltf";
+  WriteFileAtomically(file, std::string_view(json.dump()));
+  const auto scene = ImportScene(file);
+  std::filesystem::remove(file);
+  std::map<std::string, Box3f> boxes;
+  for (const Entity& entity : scene->entities) boxes[entity.name] = entity.bounds;
+  ASSERT_EQ(boxes.size(), 4u);  // and the sky
+  ASSERT_TRUE(boxes.contains(long_name) && boxes.contains("lamp") && boxes.contains("lamp.002"));
+  EXPECT_FLOAT_EQ(boxes["lamp"].max.x, 2);
+  EXPECT_FLOAT_EQ(boxes["lamp.002"].min.x, 10);
+  EXPECT_FLOAT_EQ(boxes["lamp.002"].max.x, 12);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <map>
 #include <utility>
 
 #include "airsim360/assets/gltf_extras.h"
@@ -65,6 +66,7 @@ class GltfReader {
   std::vector<GltfNode> nodes_;
   GltfMeshes meshes_;
 
+  std::map<uint64_t, uint64_t> copies_;  // nodes read, by the number that world export gave
   ImportedFile out_;
   std::set<uint32_t> shown_;
 };
@@ -112,12 +114,16 @@ std::vector<uint32_t> GltfReader::SceneRoots() {
   return roots;
 }
 
-// What `world export` wrote of a node beyond glTF.
-void ReadNodeExtras(const JsonRef& json, ImportedNode& node) {
+// What `world export` wrote of a node beyond glTF. `seen` counts the nodes of the same number.
+void ReadNodeExtras(const JsonRef& json, ImportedNode& node, std::map<uint64_t, uint64_t>& seen) {
   const auto extras = json.Find("extras");
   if (!extras || !extras->IsObject()) return;
   node.category = extras->TextOr(kExtraCategory, "");
   node.entity = extras->UintOr(kExtraEntity, 0);
+  if (const uint64_t number = extras->UintOr(kExtraNode, 0)) node.copy = seen[number]++;
+  // The whole of a name that was cut short (and perhaps numbered, "….001"), unless it was changed or is a copy's.
+  const std::string whole = CleanName(extras->TextOr(kExtraName, "")), kept = node.name.substr(0, node.name.rfind('.'));
+  if (node.copy == 0 && whole.size() > kBlenderName && kept.size() + 8 > kBlenderName && whole.starts_with(kept)) node.name = whole;
   const std::vector<double> tint = extras->NumbersOr(kExtraTint, {1, 1, 1});
   for (int k = 0; k < 3; ++k) node.tint[k] = static_cast<float>(std::clamp(tint[k], 0.0, 1e3));
 }
@@ -139,7 +145,7 @@ void GltfReader::AddNode(uint32_t i, int32_t parent) {
     // A skinned mesh is where its joints are, wherever its node is.
     const bool skinned = mesh >= 0 && json.Has("skin");
     out_.nodes.push_back({name, parent, mesh, skinned ? AffineTransform{} : FromG(X)});
-    ReadNodeExtras(json, out_.nodes.back());
+    ReadNodeExtras(json, out_.nodes.back(), copies_);
   }
   if (out_.nodes.size() > limits_.max_nodes)
     json.Fail("at most " + std::to_string(limits_.max_nodes) + " nodes and instances allowed");

@@ -28,6 +28,7 @@ void JsonRef::Fail(const std::string& what) const {
 bool JsonRef::IsObject() const { return value_->is_object(); }
 bool JsonRef::IsArray() const { return value_->is_array(); }
 bool JsonRef::IsNumber() const { return value_->is_number(); }
+bool JsonRef::IsNull() const { return value_->is_null(); }
 
 std::optional<JsonRef> JsonRef::Find(std::string_view key) const {
   if (!value_->is_object()) Fail("an object expected");

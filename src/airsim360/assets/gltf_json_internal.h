@@ -24,6 +24,7 @@ class JsonRef {
   bool IsObject() const;
   bool IsArray() const;
   bool IsNumber() const;
+  bool IsNull() const;
   /// Members of an object.
   bool Has(std::string_view key) const { return Find(key).has_value(); }
   std::optional<JsonRef> Find(std::string_view key) const;

@@ -24,7 +24,8 @@ struct ImportedNode {
 
   // What files written by `world export` say besides (gltf_extras.h).
   std::string category = {};  ///< path; "" = not said
-  uint64_t entity = 0;        ///< nodes with the same number are one entity; 0 = not said
+  uint64_t entity = 0;        ///< nodes with the same number and `copy` are one entity; 0 = not said
+  uint64_t copy = 0;          ///< 0 = the node that was written; else of the copies made of it since
   Vec3f tint{1, 1, 1};
 };
 

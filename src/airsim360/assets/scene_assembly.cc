@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "airsim360/assets/labelling.h"
@@ -125,7 +126,7 @@ class Assembler {
       name += " " + file_.materials[mesh.parts[parts[0]].material].name;
     if (rule && !rule->name.empty()) name = rule->name;
     if (!rule && node.entity != 0) {
-      const auto [it, is_new] = numbered_.try_emplace({node.entity, label}, kNoEntity);
+      const auto [it, is_new] = numbered_.try_emplace({node.entity, node.copy, label}, kNoEntity);
       if (is_new) it->second = builder_.AddEntity(name, CategoryFor(label));
       return it->second;
     }
@@ -175,7 +176,7 @@ class Assembler {
   std::map<std::pair<uint32_t, std::vector<uint32_t>>, MeshId> mesh_ids_;
   std::map<uint32_t, MeshId> moved_;  // meshes of the file that went over whole
   std::map<PartLabel, EntityId> merged_;
-  std::map<std::pair<uint64_t, PartLabel>, EntityId> numbered_;  // by the file's own entity numbers
+  std::map<std::tuple<uint64_t, uint64_t, PartLabel>, EntityId> numbered_;  // by the file's own numbers
   std::map<std::string, CategoryId> categories_;
 };
 

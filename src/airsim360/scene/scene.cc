@@ -73,25 +73,62 @@ std::vector<Vec3f> OuterVertices(const Mesh& mesh) {
   return outer;
 }
 
+// What bounds a large mesh that is instanced often. Upright instances, nearly all, are bounded exactly: by the convex
+// hull of the mesh seen from above and its heights; tilted ones by their outer vertices, with a margin.
+struct Outline {
+  std::vector<Vec2f> hull;
+  float low = 0, high = 0;
+  std::vector<Vec3f> outer;
+};
+
+// Andrew's monotone chain.
+std::vector<Vec2f> HullFromAbove(const Mesh& mesh) {
+  std::vector<Vec2f> points;
+  for (Vec3f p : mesh.positions) points.push_back({p.x, p.y});
+  std::sort(points.begin(), points.end(), [](Vec2f a, Vec2f b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  const auto left = [](Vec2f a, Vec2f b, Vec2f p) {
+    return (static_cast<double>(b.x) - a.x) * (static_cast<double>(p.y) - a.y) - (static_cast<double>(b.y) - a.y) * (static_cast<double>(p.x) - a.x);
+  };
+  std::vector<Vec2f> hull;
+  const auto chain = [&](auto first, auto last) {
+    const size_t start = hull.size();
+    for (; first != last; ++first) {
+      while (hull.size() >= start + 2 && left(hull[hull.size() - 2], hull.back(), *first) <= 0) hull.pop_back();
+      hull.push_back(*first);
+    }
+  };
+  chain(points.begin(), points.end());
+  chain(points.rbegin(), points.rend());
+  return hull;
+}
+
 // Meshes worth that: large ones without entities of their own parts, with many instances.
-std::vector<std::vector<Vec3f>> OutlinesOf(const Scene& scene) {
+std::vector<Outline> OutlinesOf(const Scene& scene) {
   std::vector<int> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances)
     if (instance.mesh < uses.size()) ++uses[instance.mesh];
-  std::vector<std::vector<Vec3f>> outlines(scene.meshes.size());
+  std::vector<Outline> outlines(scene.meshes.size());
   for (size_t i = 0; i < outlines.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
     const bool plain = std::all_of(mesh.parts.begin(), mesh.parts.end(),
                                    [](const MeshPart& part) { return part.entity == kNoEntity; });
-    if (plain && uses[i] >= 16 && mesh.positions.size() > 1500) outlines[i] = OuterVertices(mesh);
+    if (plain && uses[i] >= 16 && mesh.positions.size() > 1500) {
+      const Box3f box = mesh.Bounds();
+      outlines[i] = {HullFromAbove(mesh), box.min.z, box.max.z, OuterVertices(mesh)};
+    }
   }
   return outlines;
 }
 
-// Bounds of an instance from those vertices, a little too large rather than too small.
-Box3f BoundsFrom(const Instance& instance, const std::vector<Vec3f>& outline) {
+Box3f BoundsFrom(const Instance& instance, const Outline& outline) {
   Box3f box;
-  for (Vec3f p : outline) box.Add(instance.X_WM * p);
+  const Mat3f& A = instance.X_WM.A;
+  if (A.row(0).z == 0 && A.row(1).z == 0 && A.row(2).x == 0 && A.row(2).y == 0) {
+    for (Vec2f p : outline.hull)
+      for (float z : {outline.low, outline.high}) box.Add(instance.X_WM * Vec3f{p.x, p.y, z});
+    return box;
+  }
+  for (Vec3f p : outline.outer) box.Add(instance.X_WM * p);
   const Vec3f margin = box.size() * 0.005f;
   box.min = box.min - margin;
   box.max = box.max + margin;
@@ -197,7 +234,7 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   for (const Entity& entity : scene_.entities) static_cast<void>(scene_.tree[entity.category]);
 
   // Instances: indices, entities of every part, bounds.
-  const std::vector<std::vector<Vec3f>> outlines = OutlinesOf(scene_);
+  const std::vector<Outline> outlines = OutlinesOf(scene_);
   for (const Instance& instance : scene_.instances) {
     if (instance.mesh >= scene_.meshes.size())
       Fail("instance", "mesh index " + std::to_string(instance.mesh));
@@ -205,8 +242,8 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
         !IsFinite(instance.X_WM.A.row(1)) || !IsFinite(instance.X_WM.A.row(2))) {
       Fail("instance of mesh '" + scene_.meshes[instance.mesh].name + "'", "transform is not finite");
     }
-    const std::vector<Vec3f>& outline = outlines[instance.mesh];
-    if (!outline.empty() && instance.entity != kNoEntity && instance.entity <= scene_.entities.size()) {
+    const Outline& outline = outlines[instance.mesh];
+    if (!outline.hull.empty() && instance.entity != kNoEntity && instance.entity <= scene_.entities.size()) {
       const Box3f box = BoundsFrom(instance, outline);
       scene_.entities[instance.entity - 1].bounds.Add(box);
       scene_.bounds.Add(box);

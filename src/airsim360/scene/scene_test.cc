@@ -65,6 +65,35 @@ TEST(SceneBuilder, BoundsFollowTheInstanceTransform) {
   EXPECT_EQ(scene->entity(id).bounds.max, (Vec3f{12, 22, 30}));
 }
 
+// A lamp with an arm: a crowd of vertices round the mast, one far out at its end.
+TEST(SceneBuilder, BoxesOfOftenInstancedMeshesHoldEveryVertexAndNoMore) {
+  SceneBuilder builder("test");
+  Mesh lamp;
+  for (int i = 0; i < 3000; ++i) {
+    const float t = static_cast<float>(i) * 0.37f, arm = i % 3 == 0 ? static_cast<float>(i) / 3000 : 0;
+    lamp.positions.push_back({0.1f * std::cos(t), 0.1f * std::sin(t) - 6 * arm, 0.002f * static_cast<float>(i) + 0.3f * arm});
+  }
+  for (uint32_t i = 0; i + 2 < 3000; i += 3) lamp.triangles.push_back({i, i + 1, i + 2});
+  lamp.normals.assign(lamp.positions.size(), {0, 0, 1});
+  lamp.parts = {{0, static_cast<uint32_t>(lamp.triangles.size()), 0, kNoEntity}};
+  const MeshId mesh = builder.AddMesh(lamp);
+  builder.AddMaterial({});
+  std::vector<std::pair<EntityId, AffineTransform>> placed;
+  for (int i = 0; i < 20; ++i) {
+    const EntityId id = builder.AddEntity("lamp", builder.tree().At("furniture/lighting/street_light"));
+    placed.emplace_back(id, PlaceUpright({10.0f * static_cast<float>(i), 3, 1}, 0.7f * static_cast<float>(i), 1.1f));
+    builder.AddInstance({mesh, placed.back().second, id, {1, 1, 1}});
+  }
+  const auto scene = builder.Build();
+  for (const auto& [id, X] : placed) {
+    Box3f exact;
+    for (Vec3f p : lamp.positions) exact.Add(X * p);
+    const Box3f& box = scene->entity(id).bounds;
+    EXPECT_LT(Norm(box.min - exact.min), 1e-4f);
+    EXPECT_LT(Norm(box.max - exact.max), 1e-4f);
+  }
+}
+
 TEST(SceneBuilder, RefusesWhatWouldBreakARenderer) {
   const auto build = [](auto damage) {
     SceneBuilder builder("test");
