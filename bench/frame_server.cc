@@ -31,7 +31,7 @@ std::shared_ptr<const Scene> MakePlain(const Scene& scene) {
     m = {.name = m.name,
          .alpha_mode = m.alpha_mode,
          .alpha_cutoff = m.alpha_cutoff,
-         .base_color = m.base_color,
+         .base_color = Min(m.base_color, {1, 1, 1}),  // more cannot be exported
          .base_alpha = m.base_alpha,
          .roughness = 1,
          .base_color_texture = m.base_color_texture,

@@ -214,7 +214,7 @@ def quality(ours, cycles, labels, pose, size, light, own_spp, spp, folder, deadl
     truth = reference(theirs, "Cycles' reference", spp, folder, deadline, 256)
     if truth is None:
         return
-    own = reference(lambda n, seed: mine("reference", n, seed), "our reference", own_spp, folder, deadline, 64)
+    own = reference(lambda n, seed: mine("reference", n, seed), "our reference", own_spp, folder, deadline, 16)
     ids = read_entities(labels / "entity/000000.png")
     names = json.loads((labels / "entities.json").read_text())
     with_prefix = lambda *prefixes: in_strips(numpy.isin(ids, [int(key) for key, value in names.items() if value["category_path"].startswith(prefixes)]))

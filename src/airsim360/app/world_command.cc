@@ -136,7 +136,7 @@ void RunImport(const ImportArguments& arguments, const GlobalOptions& globals) {
             {"triangles", counts.unique_triangles},
             {"instanced_triangles", counts.instanced_triangles}};
   if (map) {
-    json["origin"] = {{"latitude_deg", report.origin.latitude_deg}, {"longitude_deg", report.origin.longitude_deg}};
+    json["origin"] = {{"latitude_deg", report.origin.latitude_deg}, {"longitude_deg", report.origin.longitude_deg}, {"altitude_m", report.origin.altitude}};
     json["extent_m"] = {report.width, report.depth};
     json["buildings"] = BuildingsJson(report, arguments.buildings);
   }

@@ -5,11 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "airsim360/base/error.h"
@@ -21,9 +22,10 @@ namespace airsim360 {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 constexpr double kMostCells = 1 << 26;
-constexpr float kUnknown = -99999;
+constexpr int kUnknown = -99999;
 
 // A folder that goes away with its object.
 struct ScratchFolder {
@@ -39,15 +41,15 @@ struct ScratchFolder {
   fs::path path;
 };
 
-// Runs a program without a shell; its words go to `log`.
-int Run(const std::vector<std::string>& words, const fs::path& log) {
+// Runs a program without a shell. What it prints goes to `out`, what it complains of to `log`.
+int Run(const std::vector<std::string>& words, const fs::path& out, const fs::path& log) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   pid_t child = 0;
   const int failed = posix_spawnp(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
@@ -59,67 +61,153 @@ int Run(const std::vector<std::string>& words, const fs::path& log) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-// "key = value" of an ENVI header.
-std::optional<std::string> HeaderValue(const std::string& header, const std::string& key) {
-  std::istringstream lines(header);
-  std::string line;
-  while (std::getline(lines, line)) {
-    const size_t equals = line.find('=');
-    if (equals == std::string::npos || line.compare(0, key.size(), key) != 0) continue;
-    return line.substr(equals + 1);
-  }
-  return std::nullopt;
-}
+// Degrees and cells of a raster with north up.
+struct Cells {
+  double west = 0, north = 0, lon = 0, lat = 0;  // outer corner, degrees a cell
+  int64_t columns = 0, rows = 0;
+};
 
-HeightGrid ParseGrid(const std::string& where, const std::string& header, const Bytes& data) {
-  HeightGrid grid;
-  const auto bad = [&](const char* what) { return InputError(where + ": " + what); };
-  try {
-    grid.columns = std::stoi(HeaderValue(header, "samples").value_or("0"));
-    grid.rows = std::stoi(HeaderValue(header, "lines").value_or("0"));
-  } catch (const std::exception&) {
-    throw bad("gdalwarp gave an unreadable header");
+// Into how many a cell is cut along each side.
+struct Refinement {
+  int lon = 1, lat = 1;
+};
+
+// How stored numbers become metres.
+struct Scale {
+  double factor = 1, offset = 0;
+};
+
+class HeightReader {
+ public:
+  explicit HeightReader(const fs::path& file) : name_(file.string()), file_(fs::absolute(file).string()) {}
+
+  HeightGrid Read(const GeoBox& area) {
+    const Json source = Info(file_, {"-if", "GTiff"});
+    const Scale scale = ScaleOf(source);
+    if (!source.contains("coordinateSystem") || source["coordinateSystem"].value("wkt", "").empty() || !source.contains("geoTransform"))
+      throw Bad("has no place on the Earth (no coordinate system); 'gdal_translate -a_srs EPSG:… -a_ullr WEST NORTH EAST SOUTH' gives it one");
+    // The whole file as GDAL would lay it in degrees, without reading a height.
+    const std::string whole = (scratch_.path / "whole.vrt").string();
+    Warp({"-of", "VRT", "-t_srs", "EPSG:4326"}, file_, whole);
+    const Json turned = Info(whole, {});
+    const bool same = turned["geoTransform"] == source["geoTransform"];
+    // GDAL's cells are as wide as high in degrees: half of the file's metres both ways is more along the meridian.
+    const double wide = std::sqrt(std::cos((area.south + area.north) / 2 * M_PI / 180));
+    const Refinement refine = same ? Refinement{1, 1} : Refinement{static_cast<int>(std::ceil(2 * wide)), static_cast<int>(std::ceil(2 / wide))};
+    return Fetch(Cut(CellsOf(turned), area, refine), same ? "near" : "bilinear", scale);
   }
-  // {Geographic Lat/Lon, 1, 1, west, north, cell, cell, …}
-  std::string map = HeaderValue(header, "map info").value_or("");
-  const size_t open = map.find('{');
-  std::vector<double> numbers;
-  std::istringstream fields(open == std::string::npos ? "" : map.substr(open + 1));
-  std::string field;
-  std::getline(fields, field, ',');
-  while (numbers.size() < 6 && std::getline(fields, field, ',')) numbers.push_back(std::strtod(field.c_str(), nullptr));
-  if (grid.columns < 1 || grid.rows < 1 || numbers.size() < 6 || !(numbers[4] > 0) || !(numbers[5] > 0))
-    throw bad("has no place on the Earth (no coordinate system)");
-  grid.longitude_west = numbers[2];
-  grid.latitude_north = numbers[3];
-  grid.cell_lon = numbers[4];
-  grid.cell_lat = numbers[5];
-  const size_t cells = static_cast<size_t>(grid.columns) * static_cast<size_t>(grid.rows);
-  if (static_cast<double>(cells) > kMostCells) throw bad("has more than 67 million cells; cut it with gdal_translate -projwin");
-  if (data.size() < cells * sizeof(float)) throw bad("gdalwarp gave too few heights");
-  grid.heights.resize(cells);
-  std::memcpy(grid.heights.data(), data.data(), cells * sizeof(float));
-  for (float& h : grid.heights)
-    if (!(std::abs(h) < 12000)) h = std::numeric_limits<float>::quiet_NaN();
-  return grid;
-}
+
+ private:
+  InputError Bad(const std::string& what) const { return InputError(name_ + ": " + what); }
+
+  std::string FirstComplaint() const {
+    std::string words = ReadTextFile(log(), 1 << 20);
+    // GDAL begins with "ERROR 4: ".
+    if (const size_t at = words.find("ERROR "); at != std::string::npos) words.erase(0, std::min(words.find(' ', at + 6), words.size() - 1) + 1);
+    if (const size_t end = words.find('\n'); end != std::string::npos) words.resize(end);
+    return words;
+  }
+
+  Json Info(const std::string& file, const std::vector<std::string>& flags) const {
+    std::vector<std::string> words{"gdalinfo", "-json", "-nomd"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    words.push_back(file);
+    if (Run(words, out(), log()) != 0) throw Bad("not a GeoTIFF of heights: " + FirstComplaint());
+    const Json info = Json::parse(ReadTextFile(out(), 64 << 20), nullptr, false);
+    if (!info.is_object()) throw Bad("gdalinfo gave no JSON");
+    return info;
+  }
+
+  void Warp(const std::vector<std::string>& flags, const std::string& from, const std::string& to) const {
+    std::vector<std::string> words{"gdalwarp", "-q", "-overwrite", "-ot", "Float32", "-dstnodata", std::to_string(kUnknown)};
+    if (from == file_) words.insert(words.end(), {"-if", "GTiff"});
+    words.insert(words.end(), flags.begin(), flags.end());
+    words.insert(words.end(), {from, to});
+    if (Run(words, "/dev/null", log()) != 0) throw Bad("its heights cannot be read: " + FirstComplaint());
+  }
+
+  Scale ScaleOf(const Json& info) const {
+    const Json& bands = info.contains("bands") ? info["bands"] : Json::array();
+    if (bands.empty()) throw Bad("has no band");
+    const Json& band = bands[0];
+    const std::string colour = band.value("colorInterpretation", ""), type = band.value("type", "");
+    if (colour == "Red" || colour == "Palette") throw Bad("its first band is colour ('" + colour + "'), not heights");
+    if (type.starts_with("C")) throw Bad("its first band holds complex numbers ('" + type + "'), not heights");
+    Scale scale{band.value("scale", 1.0), band.value("offset", 0.0)};
+    std::string unit = band.value("unit", "");
+    for (char& c : unit) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (unit.starts_with("ft") || unit.find("foot") != std::string::npos || unit.find("feet") != std::string::npos) {
+      scale.factor *= 0.3048;
+      scale.offset *= 0.3048;
+    }
+    return scale;
+  }
+
+  Cells CellsOf(const Json& info) const {
+    const Json& t = info["geoTransform"];
+    const Cells cells{t[0], t[3], t[1], -t[5].get<double>(), info["size"][0], info["size"][1]};
+    if (!(cells.lon > 0) || !(cells.lat > 0) || cells.columns < 1 || cells.rows < 1) throw Bad("has no cells on the Earth");
+    return cells;
+  }
+
+  // What of `all` an area needs, in smaller cells.
+  Cells Cut(const Cells& all, const GeoBox& area, Refinement refine) const {
+    const auto cell = [](double place, int64_t most) {
+      return static_cast<int64_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(most)));
+    };
+    const int64_t x0 = cell((area.west - all.west) / all.lon - 1, all.columns), x1 = cell((area.east - all.west) / all.lon + 2, all.columns),
+                  y0 = cell((all.north - area.north) / all.lat - 1, all.rows), y1 = cell((all.north - area.south) / all.lat + 2, all.rows);
+    if (x0 >= x1 || y0 >= y1)
+      throw Bad("covers latitude " + std::to_string(all.north - all.lat * static_cast<double>(all.rows)) + " to " + std::to_string(all.north) +
+                ", longitude " + std::to_string(all.west) + " to " + std::to_string(all.west + all.lon * static_cast<double>(all.columns)) +
+                "; the map lies at " + std::to_string((area.south + area.north) / 2) + ", " + std::to_string((area.west + area.east) / 2));
+    const Cells cut{all.west + all.lon * static_cast<double>(x0), all.north - all.lat * static_cast<double>(y0), all.lon / refine.lon,
+                    all.lat / refine.lat, (x1 - x0) * refine.lon, (y1 - y0) * refine.lat};
+    const double count = static_cast<double>(cut.columns) * static_cast<double>(cut.rows);
+    if (count > kMostCells)
+      throw Bad("gives " + std::to_string(std::llround(count / 1e6)) + " million cells for the map; at most " +
+                std::to_string(std::llround(kMostCells / 1e6)) + " million: make them larger with 'gdal_translate -tr'");
+    return cut;
+  }
+
+  HeightGrid Fetch(const Cells& cut, const std::string& filter, Scale scale) const {
+    const auto degrees = [](double x) {
+      std::array<char, 40> text{};
+      std::snprintf(text.data(), text.size(), "%.17g", x);
+      return std::string(text.data());
+    };
+    const fs::path raw = scratch_.path / "heights.bin";
+    Warp({"-of", "ENVI", "-r", filter, "-t_srs", "EPSG:4326", "-te", degrees(cut.west), degrees(cut.north - cut.lat * static_cast<double>(cut.rows)),
+          degrees(cut.west + cut.lon * static_cast<double>(cut.columns)), degrees(cut.north), "-ts", std::to_string(cut.columns), std::to_string(cut.rows)},
+         file_, raw.string());
+    HeightGrid grid{static_cast<int>(cut.columns), static_cast<int>(cut.rows), cut.west, cut.north, cut.lon, cut.lat, {}};
+    grid.heights.resize(static_cast<size_t>(cut.columns) * static_cast<size_t>(cut.rows));
+    const Bytes data = ReadFile(raw, uint64_t{1} << 32);  // all bands, one after the other
+    if (data.size() < grid.heights.size() * sizeof(float)) throw Bad("gdalwarp gave too few heights");
+    std::memcpy(grid.heights.data(), data.data(), grid.heights.size() * sizeof(float));
+    bool known = false;
+    for (float& h : grid.heights) {
+      const double metres = static_cast<double>(h) * scale.factor + scale.offset;
+      const bool sound = h != static_cast<float>(kUnknown) && std::abs(metres) < 12000;
+      h = sound ? static_cast<float>(metres) : std::numeric_limits<float>::quiet_NaN();
+      known |= sound;
+    }
+    if (!known) throw Bad("knows no height where the map lies (latitude " + std::to_string(cut.north) + ", longitude " + std::to_string(cut.west) + ")");
+    return grid;
+  }
+
+  fs::path out() const { return scratch_.path / "out"; }
+  fs::path log() const { return scratch_.path / "log"; }
+
+  std::string name_, file_;
+  ScratchFolder scratch_;
+};
 
 }  // namespace
 
-HeightGrid ReadHeights(const fs::path& file) {
+HeightGrid ReadHeights(const fs::path& file, const GeoBox& area) {
   if (!fs::is_regular_file(file)) throw InputError(file.string() + ": no such file");
-  const ScratchFolder scratch;
-  const fs::path out = scratch.path / "heights.bin", log = scratch.path / "log";
-  const int status = Run({"gdalwarp", "-q", "-if", "GTiff", "-t_srs", "EPSG:4326", "-r", "bilinear", "-ot", "Float32",
-                          "-dstnodata", std::to_string(kUnknown), "-of", "ENVI", fs::absolute(file).string(), out.string()},
-                         log);
-  if (status != 0) {
-    std::string words = ReadTextFile(log, 1 << 20);
-    if (const size_t end = words.find('\n'); end != std::string::npos) words.resize(end);
-    throw InputError(file.string() + ": not a GeoTIFF of heights: " + words);
-  }
-  const fs::path header = scratch.path / "heights.hdr";
-  return ParseGrid(file.string(), ReadTextFile(header, 1 << 20), ReadFile(out, uint64_t{1} << 29));
+  return HeightReader(file).Read(area);
 }
 
 }  // namespace airsim360

@@ -90,12 +90,9 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
                                       .city = request.additions.city,
                                       .props = request.additions.LoadModels()});
   }
-  std::optional<HeightGrid> heights;
-  if (!request.heights.empty()) heights = ReadHeights(request.heights);
-  const OsmOptions options{.seed = request.seed,
-                           .models = models.get(),
-                           .heights = heights ? &*heights : nullptr,
-                           .fill = request.fill};
+  OsmOptions options{.seed = request.seed, .models = models.get(), .fill = request.fill};
+  if (!request.heights.empty())
+    options.heights = [&](const GeoBox& area) { return ReadHeights(request.heights, area); };
   return BuildOsmWorld(fs::path(request.world), options, report);
 }
 

@@ -29,37 +29,10 @@ MaterialId Tints::Get(MaterialId base, Vec3f colour, float mean, float metallic,
   return made_[key] = builder_.AddMaterial(std::move(material));
 }
 
-Relief::Relief(const HeightGrid* grid, const GeoPoint& origin) : grid_(grid), origin_(origin) {
-  if (!grid_) return;
-  const double east = grid_->longitude_west + grid_->cell_lon * grid_->columns,
-               south = grid_->latitude_north - grid_->cell_lat * grid_->rows;
-  if (origin.longitude_deg < grid_->longitude_west || origin.longitude_deg > east ||
-      origin.latitude_deg < south || origin.latitude_deg > grid_->latitude_north)
-    throw InputError("the heights cover latitude " + std::to_string(south) + " to " + std::to_string(grid_->latitude_north) +
-                     ", longitude " + std::to_string(grid_->longitude_west) + " to " + std::to_string(east) +
-                     "; the map lies at " + std::to_string(origin.latitude_deg) + ", " + std::to_string(origin.longitude_deg));
-  const GeoFrame frame(origin);
-  metres_per_lat_ = frame.ToWorld({origin.latitude_deg + 0.01, origin.longitude_deg, 0}).y * 100;
-  metres_per_lon_ = frame.ToWorld({origin.latitude_deg, origin.longitude_deg + 0.01, 0}).x * 100;
-  zero_ = Raw({0, 0});
-}
-
-double Relief::At(Vec2d p) const { return grid_ ? Raw(p) - zero_ : 0; }
-
-double Relief::Raw(Vec2d p) const {
-  // Bilinear between cell middles; the border's heights go on outside, unknown cells count as 0.
-  const double lat = origin_.latitude_deg + p.y / metres_per_lat_, lon = origin_.longitude_deg + p.x / metres_per_lon_;
-  const double x = std::clamp((lon - grid_->longitude_west) / grid_->cell_lon - 0.5, 0.0, grid_->columns - 1.0),
-               y = std::clamp((grid_->latitude_north - lat) / grid_->cell_lat - 0.5, 0.0, grid_->rows - 1.0);
-  const int i = std::min(static_cast<int>(x), std::max(grid_->columns - 2, 0)), k = std::min(static_cast<int>(y), std::max(grid_->rows - 2, 0));
-  const auto at = [&](int column, int row) {
-    column = std::min(column, grid_->columns - 1);
-    row = std::min(row, grid_->rows - 1);
-    const float h = grid_->heights[static_cast<size_t>(row) * static_cast<size_t>(grid_->columns) + static_cast<size_t>(column)];
-    return std::isfinite(h) ? static_cast<double>(h) : 0.0;
-  };
-  const double s = x - i, t = y - k;
-  return (at(i, k) * (1 - s) + at(i + 1, k) * s) * (1 - t) + (at(i, k + 1) * (1 - s) + at(i + 1, k + 1) * s) * t;
+void OsmScene::Drape(MeshBuilder& mesh, Vec2d a, Vec2d b, Vec2d c, double lift, const GroundUv& uv) const {
+  for (const std::vector<Vec2d>& piece : relief.Split(a, b, c))
+    for (size_t i = 1; i + 1 < piece.size(); ++i)
+      mesh.Triangle(On(piece[0], lift), On(piece[i], lift), On(piece[i + 1], lift), uv(piece[0]), uv(piece[i]), uv(piece[i + 1]));
 }
 
 EntityId OsmScene::Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale, uint32_t variant,
@@ -71,6 +44,16 @@ EntityId OsmScene::Put(const std::string& name, std::string_view kind, Vec3f p_W
 }
 
 namespace {
+
+Relief ReliefOf(const OsmData& data, const OsmOptions& options) {
+  if (!options.heights) return {};
+  // The map and a kilometre around it.
+  const GeoFrame frame(data.origin);
+  const OsmBox& e = data.extent;
+  const GeoPoint low = frame.ToGeodetic({e.x0 - 1000, e.y0 - 1000, 0}), high = frame.ToGeodetic({e.x1 + 1000, e.y1 + 1000, 0});
+  return Relief(options.heights({low.longitude_deg, low.latitude_deg, high.longitude_deg, high.latitude_deg}), data.origin,
+                e.width() * e.depth());
+}
 
 // Where to begin: over the street nearest to the middle, looking along it.
 void ChooseSpawn(OsmScene& scene, const Neighbours& near) {
@@ -97,7 +80,7 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
   Tints tints(builder);
   const std::vector<OsmArea> areas = FindAreas(data);
   const Vec2d middle{(data.extent.x0 + data.extent.x1) / 2, (data.extent.y0 + data.extent.y1) / 2};
-  OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, Relief(options.heights, data.origin), options, middle,
+  OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, ReliefOf(data, options), options, middle,
                  data.origin.longitude_deg > -30};
   const std::vector<OsmBuilding> buildings = PlanOsmBuildings(data, areas);
 
@@ -124,7 +107,9 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
   auto built = builder.Build();
   if (report) {
     static constexpr const char* kSources[] = {"tag", "levels", "guess"};
-    *report = {data.origin, data.extent.width(), data.extent.depth(), {}};
+    GeoPoint origin = data.origin;
+    origin.altitude = scene.relief.zero();
+    *report = {origin, data.extent.width(), data.extent.depth(), {}};
     for (size_t i = 0; i < buildings.size(); ++i) {
       const OsmBuilding& building = buildings[i];
       report->buildings.push_back({building.id, entities[i], building.height, kSources[static_cast<int>(building.source)],

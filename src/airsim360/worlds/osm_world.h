@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,11 @@
 #include "airsim360/scene/scene.h"
 
 namespace airsim360 {
+
+/// A piece of the Earth between meridians and parallels, degrees.
+struct GeoBox {
+  double west = 0, south = 0, east = 0, north = 0;
+};
 
 /// Heights of the ground on a regular grid of degrees (north up), metres over any common level.
 struct HeightGrid {
@@ -24,7 +30,9 @@ struct HeightGrid {
 struct OsmOptions {
   uint64_t seed = 0;
   const ModelSource* models = nullptr;    ///< as WorldOptions::models
-  const HeightGrid* heights = nullptr;    ///< ground; null = flat
+  /// Heights of the ground in an area (the map and a kilometre around it); empty = flat. Cells that are unknown
+  /// take the heights around them.
+  std::function<HeightGrid(const GeoBox&)> heights = {};
   bool fill = true;  ///< add what maps seldom hold, by rule: parked cars, and lamps or trees where the map has none
 };
 
@@ -40,7 +48,7 @@ struct OsmBuildingReport {
 
 /// Figures of an import.
 struct OsmReport {
-  GeoPoint origin;  ///< of W
+  GeoPoint origin;  ///< of W; the altitude is that of the ground there in the file of heights, 0 without one
   double width = 0, depth = 0;  ///< metres, of the extract
   std::vector<OsmBuildingReport> buildings;
 };

@@ -3,169 +3,18 @@
 // each block.
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <set>
 
 #include "airsim360/base/random.h"
+#include "airsim360/worlds/osm/osm_ground_builder.h"
 #include "airsim360/worlds/osm/osm_streets.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kRoadDrop = 0.13, kWaterDrop = 0.28, kClip = 30, kUnderlay = 0.6;
-
-using UvOf = std::function<Vec2f(Vec2d)>;
-Vec2f PlainUv(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(-p.y)}; }
-
-struct Piece {
-  Patches patches;
-  EntityId entity = kNoEntity;
-  std::string id;  // of the map, without what people call it
-  bool green = false;
-  bool sunk = false;  // a carriageway or water: lies lower than its neighbours
-};
-
-class GroundBuilder {
- public:
-  explicit GroundBuilder(OsmScene& scene) : scene_(scene) {
-    const OsmBox& e = scene.data.extent;
-    clip_ = {{{{e.x0 - kClip, e.y0 - kClip}, {e.x1 + kClip, e.y0 - kClip}, {e.x1 + kClip, e.y1 + kClip}, {e.x0 - kClip, e.y1 + kClip}}, {}}};
-  }
-
-  // Lays what of an area is still free, as a new entity. Returns kNoEntity where nothing is.
-  EntityId Lay(const std::string& name, std::string_view category, Surface surface, const Patches& area, double z,
-               const UvOf& uv = PlainUv, bool sunk = false) {
-    if (area.empty()) return kNoEntity;
-    Patches free = Intersect(area, clip_);
-    if (free.empty()) return kNoEntity;
-    Bounds2d box;
-    for (const Patch& patch : free)
-      for (Vec2d p : patch.outer) box.Add(p);
-    Patches taken;
-    for (uint32_t i : index_.Find(box))
-      for (const Patch& patch : pieces_[i].patches)
-        if (BoundsOf(patch.outer).Overlaps(box)) taken.push_back(patch);
-    if (!taken.empty()) free = Subtract(free, taken);
-    if (free.empty()) return kNoEntity;
-    const EntityId entity = scene_.builder.AddEntity(name, scene_.builder.tree().Add(category, false));
-    mesh_.SetEntity(entity);
-    mesh_.SetMaterial(scene_.surfaces[surface]);
-    Cover(free, z, uv);
-    index_.Add(box, static_cast<uint32_t>(pieces_.size()));
-    pieces_.push_back({std::move(free), entity, name.substr(0, name.find(' ')), surface == Surface::kLawn, sunk});
-    return entity;
-  }
-  const Piece& last() const { return pieces_.back(); }
-  const std::vector<Piece>& pieces() const { return pieces_; }
-  MeshBuilder& mesh() { return mesh_; }
-  const Patches& clip() const { return clip_; }
-
-  // Green pieces around the focus.
-  std::vector<std::pair<EntityId, Patches>> Lawns() const {
-    std::vector<std::pair<EntityId, Patches>> lawns;
-    for (const Piece& piece : pieces_) {
-      if (!piece.green) continue;
-      Patches near;
-      for (const Patch& patch : piece.patches) {
-        const Bounds2d box = BoundsOf(patch.outer);
-        const Vec2d f = scene_.focus;
-        if (box.Overlaps({{f.x - 45, f.y - 45}, {f.x + 45, f.y + 45}})) near.push_back(patch);
-      }
-      if (!near.empty()) lawns.emplace_back(piece.entity, std::move(near));
-    }
-    return lawns;
-  }
-
-  // Is there another sunken piece at p?
-  bool Sunk(Vec2d p, size_t except) const {
-    for (uint32_t i : index_.Find(p)) {
-      if (i == except || !pieces_[i].sunk) continue;
-      for (const Patch& patch : pieces_[i].patches)
-        if (Inside(patch, p)) return true;
-    }
-    return false;
-  }
-
-  // The step up around piece `i`: its side, and a stone of `width` on top (0 = none).
-  void Rim(size_t i, double low, double width) {
-    const Patches patches = pieces_[i].patches;
-    for (const Patch& patch : patches) {
-      RimOf(patch.outer, i, low, width);
-      for (const Ring& hole : patch.holes) RimOf(hole, i, low, width);
-    }
-  }
-
-  void Finish(const std::string& name) {
-    if (mesh_.empty()) return;
-    scene_.builder.AddInstance({scene_.builder.AddMesh(mesh_.Finish(name)), {}, kNoEntity});
-  }
-
-  // Triangles at `z` over the ground; in squares where the ground is not flat or the outline has many corners.
-  void Cover(const Patches& patches, double z, const UvOf& uv) {
-    for (const Patch& patch : patches) {
-      size_t corners = patch.outer.size();
-      for (const Ring& hole : patch.holes) corners += hole.size();
-      const double cell = scene_.relief.flat() ? 100 : 9;
-      const Bounds2d box = BoundsOf(patch.outer);
-      const bool small = box.max.x - box.min.x < cell * 1.6 && box.max.y - box.min.y < cell * 1.6;
-      if (small || (scene_.relief.flat() && corners < 400)) {
-        CoverOne(patch, z, uv);
-        continue;
-      }
-      // Columns first, then the squares of each.
-      const Patches whole{patch};
-      for (double x = std::floor(box.min.x / cell) * cell; x < box.max.x; x += cell) {
-        const Patches column = Intersect(whole, Patches{{{{x, box.min.y - 1}, {x + cell, box.min.y - 1}, {x + cell, box.max.y + 1}, {x, box.max.y + 1}}, {}}});
-        for (double y = std::floor(box.min.y / cell) * cell; y < box.max.y; y += cell) {
-          const Patches square{{{{x - 1, y}, {x + cell + 1, y}, {x + cell + 1, y + cell}, {x - 1, y + cell}}, {}}};
-          for (const Patch& part : Intersect(column, square)) CoverOne(part, z, uv);
-        }
-      }
-    }
-  }
-
- private:
-  void CoverOne(const Patch& patch, double z, const UvOf& uv) {
-    std::vector<Vec2d> points = patch.outer;
-    for (const Ring& hole : patch.holes) points.insert(points.end(), hole.begin(), hole.end());
-    const std::vector<uint32_t> t = Triangulate(patch);
-    for (size_t i = 0; i + 2 < t.size(); i += 3) {
-      const Vec2d a = points[t[i]], b = points[t[i + 1]], c = points[t[i + 2]];
-      mesh_.Triangle(scene_.On(a, z), scene_.On(b, z), scene_.On(c, z), uv(a), uv(b), uv(c));
-    }
-  }
-
-  void RimOf(const Ring& ring, size_t self, double low, double width) {
-    float u = 0;
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const Vec2d a = ring[i], b = ring[(i + 1) % ring.size()], v = b - a;
-      const double length = std::hypot(v.x, v.y);
-      if (length < 1e-3) continue;
-      const Vec2d out{v.y / length, -v.x / length}, middle = (a + b) * 0.5;
-      const float next = u + static_cast<float>(length);
-      const Patch& area = clip_[0];
-      const bool edge = !Inside(area, middle + out * 0.05);
-      if (!edge && !Sunk(middle + out * 0.03, self)) {
-        mesh_.QuadUv(scene_.On(b, -low - 0.03), scene_.On(a, -low - 0.03), scene_.On(a, 0.004), scene_.On(b, 0.004),
-                     {next, static_cast<float>(low)}, {u, static_cast<float>(low)}, {u, 0}, {next, 0});
-        if (width > 0) {
-          const Vec2d p = a + out * width, q = b + out * width;
-          mesh_.QuadUv(scene_.On(p, 0.004), scene_.On(q, 0.004), scene_.On(b, 0.004), scene_.On(a, 0.004), {u, 0.15f}, {next, 0.15f}, {next, 0}, {u, 0});
-        }
-      }
-      u = next;
-    }
-  }
-
-  OsmScene& scene_;
-  Patches clip_;
-  MeshBuilder mesh_;
-  std::vector<Piece> pieces_;
-  BoxIndex index_;
-};
+constexpr double kRoadDrop = 0.13, kWaterDrop = 0.28;
 
 // u across (0 in the middle), v along the line: for wheel tracks.
-UvOf StreetUv(std::vector<Vec2d> line) {
+GroundUv StreetUv(std::vector<Vec2d> line) {
   return [line = std::move(line)](Vec2d p) {
     double best = 1e18, s = 0;
     Vec2f uv{};
@@ -321,7 +170,7 @@ void LayAreas(OsmScene& scene, GroundBuilder& ground) {
 // What is left: one entity a block, paved where it is built up, else green.
 void LayRest(GroundBuilder& ground, const std::vector<OsmBuilding>& buildings) {
   Patches taken;
-  for (const Piece& piece : ground.pieces()) taken.insert(taken.end(), piece.patches.begin(), piece.patches.end());
+  for (const GroundPiece& piece : ground.pieces()) taken.insert(taken.end(), piece.patches.begin(), piece.patches.end());
   const Patches blocks = Subtract(ground.clip(), taken);
   std::vector<std::pair<Vec2d, double>> houses;
   for (const OsmBuilding& building : buildings)
@@ -340,75 +189,6 @@ void LayRest(GroundBuilder& ground, const std::vector<OsmBuilding>& buildings) {
     const bool paved = built > 0.28 * Area(block);
     ground.Lay((paved ? "yard " : "green ") + std::to_string(++number), paved ? "ground/pavement/modular" : "ground/terrain/landscape",
                paved ? Surface::kAsphaltOld : Surface::kLawn, {block}, 0);
-  }
-}
-
-// The country around, to the horizon, and a sheet below everything that closes what rounding leaves open.
-void LayCountry(OsmScene& scene, GroundBuilder& ground, bool paved) {
-  const OsmBox& e = scene.data.extent;
-  SemanticTree& tree = scene.builder.tree();
-  MeshBuilder& mesh = ground.mesh();
-  mesh.SetEntity(scene.builder.AddEntity("country", tree.At("ground/terrain/landscape")));
-  mesh.SetMaterial(scene.surfaces[paved ? Surface::kFarRoof : Surface::kPlain]);
-  const auto frame = [&](double d) {
-    return Ring{{e.x0 - d, e.y0 - d}, {e.x1 + d, e.y0 - d}, {e.x1 + d, e.y1 + d}, {e.x0 - d, e.y1 + d}};
-  };
-  double inner = kClip;
-  for (double outer : {90.0, 300.0, 900.0, 2500.0, 7000.0, 16000.0}) {
-    const Ring a = frame(inner), b = frame(outer);
-    if (outer > 1000) mesh.SetMaterial(scene.surfaces[Surface::kPlain]);
-    for (size_t i = 0; i < 4; ++i) {
-      const size_t k = (i + 1) % 4;
-      const auto at = [&](Vec2d p, double d) { return d > 400 ? scene.On(p, -0.02 - scene.relief.At(p) * std::min(1.0, d / 3000)) : scene.On(p, -0.02); };
-      mesh.QuadUv(at(b[i], outer), at(b[k], outer), at(a[k], inner), at(a[i], inner), PlainUv(b[i]), PlainUv(b[k]), PlainUv(a[k]), PlainUv(a[i]));
-    }
-    inner = outer;
-  }
-  mesh.SetEntity(scene.builder.AddEntity("subsoil", tree.At("ground/dirt")));
-  mesh.SetMaterial(scene.surfaces[Surface::kSoil]);
-  ground.Cover(ground.clip(), -kUnderlay, PlainUv);
-}
-
-// Around a built-up extract the town goes on: blocks of plain houses as high as those inside, thinning out.
-void RaiseBackdrop(OsmScene& scene, MeshBuilder& mesh, const std::vector<OsmBuilding>& buildings) {
-  std::vector<double> heights;
-  for (const OsmBuilding& building : buildings)
-    if (!building.orphan && building.height > 3) heights.push_back(building.height);
-  if (heights.size() < 20) return;
-  std::sort(heights.begin(), heights.end());
-  const OsmBox& e = scene.data.extent;
-  SemanticTree& tree = scene.builder.tree();
-  const CategoryId category = tree.Add("construction/building/backdrop");
-  // Mapped houses that stand outside the extract keep their ground.
-  LineIndex mapped;
-  for (const OsmBuilding& building : buildings)
-    for (const Patch& patch : building.outline) mapped.AddRing(patch.outer, 0);
-  constexpr double kReach = 1300, kPitchX = 78, kPitchY = 52, kStreet = 14;
-  static constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls1, Surface::kFarWalls0, Surface::kFarWalls2};
-  RngStream rng(scene.options.seed, "backdrop");
-  for (double y = e.y0 - kReach; y < e.y1 + kReach; y += kPitchY) {
-    for (double x = e.x0 - kReach; x < e.x1 + kReach; x += kPitchX) {
-      const double out = std::max({e.x0 - kClip - x - kPitchX, x - e.x1 - kClip, e.y0 - kClip - y - kPitchY, y - e.y1 - kClip});
-      const bool keep = rng.Chance(1.05 - out / kReach);
-      if (out < 4 || out > kReach || !keep) continue;
-      EntityId entity = kNoEntity;
-      for (int i = 0; i < 4; ++i) {
-        // Houses wall to wall along the block, each with its height.
-        const double w = (kPitchX - kStreet) / 4, x0 = x + w * i, depth = kPitchY - kStreet - rng.Uniform(0, 12);
-        const double h = heights[rng.Index(static_cast<uint32_t>(heights.size() * 97 / 100) + 1)];
-        const Surface wall = kWalls[rng.Index(4)];
-        if (mapped.Find({x0 + w / 2, y + depth / 2}, 30).owner != UINT32_MAX) continue;
-        if (entity == kNoEntity) entity = scene.builder.AddEntity("backdrop block", category);
-        const double z = scene.relief.At({x0, y}) * std::max(0.0, 1 - out / 3000);
-        const std::vector<Vec2f> outline{ToFloat({x0, y}), ToFloat({x0 + w, y}), ToFloat({x0 + w, y + depth}), ToFloat({x0, y + depth})};
-        mesh.SetTransform({});
-        mesh.SetEntity(entity);
-        mesh.SetMaterial(scene.surfaces[wall]);
-        mesh.Walls(outline, static_cast<float>(z - 4), static_cast<float>(z + h));
-        mesh.SetMaterial(scene.surfaces[Surface::kFarRoof]);
-        mesh.Polygon(outline, static_cast<float>(z + h));
-      }
-    }
   }
 }
 

@@ -32,8 +32,9 @@ void Dresser::Barrier(const OsmWay& way) {
     for (const Patch& patch : Band(way.line, half, half)) {
       const auto side = [&](const Ring& ring) {
         for (size_t i = 0; i < ring.size(); ++i) {
-          const Vec2d a = ring[i], b = ring[(i + 1) % ring.size()];
-          mesh_.Quad(scene_.On(a, -0.3), scene_.On(b, -0.3), scene_.On(b, height), scene_.On(a, height));
+          const std::vector<Vec2d> steps = scene_.relief.Split(ring[i], ring[(i + 1) % ring.size()]);
+          for (size_t k = 0; k + 1 < steps.size(); ++k)
+            mesh_.Quad(scene_.On(steps[k], -0.3), scene_.On(steps[k + 1], -0.3), scene_.On(steps[k + 1], height), scene_.On(steps[k], height));
         }
       };
       side(patch.outer);
@@ -42,8 +43,7 @@ void Dresser::Barrier(const OsmWay& way) {
       for (const Ring& hole : patch.holes) points.insert(points.end(), hole.begin(), hole.end());
       const std::vector<uint32_t> t = Triangulate(patch);
       for (size_t i = 0; i + 2 < t.size(); i += 3)
-        mesh_.Triangle(scene_.On(points[t[i]], height), scene_.On(points[t[i + 1]], height), scene_.On(points[t[i + 2]], height),
-                       ToFloat(points[t[i]]), ToFloat(points[t[i + 1]]), ToFloat(points[t[i + 2]]));
+        scene_.Drape(mesh_, points[t[i]], points[t[i + 1]], points[t[i + 2]], height, ToFloat);
     }
     return;
   }
@@ -85,7 +85,7 @@ void Dresser::Rails(const OsmWay& way) {
     for (const Patch& patch : Band(way.line, d + 0.035, -d + 0.035)) {
       const std::vector<uint32_t> t = Triangulate(patch);
       for (size_t i = 0; i + 2 < t.size() && patch.holes.empty(); i += 3)
-        mesh_.Triangle(scene_.On(patch.outer[t[i]], z), scene_.On(patch.outer[t[i + 1]], z), scene_.On(patch.outer[t[i + 2]], z));
+        scene_.Drape(mesh_, patch.outer[t[i]], patch.outer[t[i + 1]], patch.outer[t[i + 2]], z, ToFloat);
     }
 }
 

@@ -26,15 +26,6 @@ class Brush {
       if (s > s0 + 0.05 && s < s1 - 0.05) stops.push_back(s);
     }
     stops.push_back(s1);
-    if (!scene_.relief.flat()) {
-      std::vector<double> fine;
-      for (size_t i = 0; i + 1 < stops.size(); ++i) {
-        const int parts = std::max(1, static_cast<int>((stops[i + 1] - stops[i]) / 4));
-        for (int k = 0; k < parts; ++k) fine.push_back(stops[i] + (stops[i + 1] - stops[i]) * k / parts);
-      }
-      fine.push_back(s1);
-      stops = std::move(fine);
-    }
     Vec2d l0{}, r0{};
     for (size_t i = 0; i < stops.size(); ++i) {
       // At a bend the side is that of the bisector.
@@ -52,9 +43,13 @@ class Brush {
   }
   void Quad(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
     if (!scene_.data.extent.Contains(a, 29) || !scene_.data.extent.Contains(c, 29)) return;
+    if (!scene_.relief.flat()) {
+      scene_.Drape(mesh_, a, b, c, z_ + kLift, PlainUv);
+      scene_.Drape(mesh_, a, c, d, z_ + kLift, PlainUv);
+      return;
+    }
     const auto at = [&](Vec2d p) { return scene_.On(p, z_ + kLift); };
-    const auto uv = [](Vec2d p) { return Vec2f{static_cast<float>(p.x), static_cast<float>(-p.y)}; };
-    mesh_.QuadUv(at(a), at(b), at(c), at(d), uv(a), uv(b), uv(c), uv(d));
+    mesh_.QuadUv(at(a), at(b), at(c), at(d), PlainUv(a), PlainUv(b), PlainUv(c), PlainUv(d));
   }
 
  private:

@@ -1,6 +1,7 @@
 // What the builders of an OpenStreetMap world share.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "airsim360/worlds/osm/line_index.h"
 #include "airsim360/worlds/osm/osm_buildings.h"
+#include "airsim360/worlds/osm/osm_relief.h"
 #include "airsim360/worlds/osm_world.h"
 #include "airsim360/worlds/mesh_builder.h"
 #include "airsim360/worlds/placer.h"
@@ -16,22 +18,6 @@
 #include "airsim360/worlds/surfaces.h"
 
 namespace airsim360::internal {
-
-/// Height of the ground over z = 0 of W. Flat where there is no grid.
-class Relief {
- public:
-  Relief() = default;
-  /// `grid` (may be null) in degrees; `origin` of W gets height 0.
-  Relief(const HeightGrid* grid, const GeoPoint& origin);
-  double At(Vec2d p) const;
-  bool flat() const { return grid_ == nullptr; }
-
- private:
-  double Raw(Vec2d p) const;
-  const HeightGrid* grid_ = nullptr;
-  GeoPoint origin_;
-  double metres_per_lat_ = 1, metres_per_lon_ = 1, zero_ = 0;
-};
 
 /// Copies of surfaces in other colours, each made once.
 class Tints {
@@ -44,6 +30,10 @@ class Tints {
   SceneBuilder& builder_;
   std::map<std::tuple<MaterialId, int, int, int, int>, MaterialId> made_;
 };
+
+/// Texture coordinates of a place on the ground.
+using GroundUv = std::function<Vec2f(Vec2d)>;
+inline Vec2f PlainUv(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(-p.y)}; }
 
 struct OsmScene {
   SceneBuilder& builder;
@@ -62,6 +52,8 @@ struct OsmScene {
   Vec3f On(Vec2d p, double lift = 0) const {
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(relief.At(p) + lift)};
   }
+  /// A triangle of the plane (counter-clockwise) `lift` over the ground, bent with it.
+  void Drape(MeshBuilder& mesh, Vec2d a, Vec2d b, Vec2d c, double lift, const GroundUv& uv) const;
   /// A prop of its own entity `name`, category of its kind.
   EntityId Put(const std::string& name, std::string_view kind, Vec3f p_W, double yaw, float scale = 1,
                uint32_t variant = 0, Vec3f tint = {1, 1, 1});

@@ -287,7 +287,7 @@ TEST(OsmWorld, HeightsLiftEverythingTogether) {
   for (int row = 0; row < 21; ++row)
     for (int column = 0; column < 21; ++column)
       grid.heights.push_back(static_cast<float>(100 + 0.05 * 68677 * ((column + 0.5) * 0.001 - 0.01)));
-  const auto scene = BuildOsmWorld(kFixture, {.heights = &grid});
+  const auto scene = BuildOsmWorld(kFixture, {.heights = [&](const GeoBox&) { return grid; }});
   std::map<std::string, const Entity*> named;
   for (const Entity& entity : scene->entities) named[entity.name] = &entity;
   // The lamp 10 m to the east stands 0.5 m higher, the bench 52 m to the west 2.6 m lower.
