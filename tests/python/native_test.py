@@ -74,6 +74,22 @@ class Worlds(unittest.TestCase):
             with self.assertRaises(ValueError):
                 world.relabel(bad)
 
+    def test_another_build_of_the_module_does_not_take_the_cached_worlds_of_this_one(self):
+        package = os.path.dirname(airsim360.__file__)
+        with tempfile.TemporaryDirectory() as folder:
+            copy, cache = os.path.join(folder, "airsim360"), os.path.join(folder, "cache")
+            shutil.copytree(package, copy, symlinks=False)
+            module = next(os.path.join(copy, name) for name in os.listdir(copy) if name.endswith(".so"))
+
+            def cached():
+                subprocess.run([sys.executable, "-c", "import airsim360; airsim360.World('box_room')"], check=True,
+                               env=dict(os.environ, PYTHONPATH=folder, AIRSIM360_CACHE=cache), cwd=folder)
+                return len([name for _, _, names in os.walk(cache) for name in names if name.startswith("scene")])
+
+            self.assertEqual([cached(), cached()], [1, 1])
+            os.utime(module, (1, 1))
+            self.assertEqual(cached(), 2)
+
     def test_a_misspelt_world_is_a_value_error_that_names_the_nearest(self):
         with self.assertRaisesRegex(ValueError, "box_room"):
             World("box_rom")
