@@ -13,7 +13,7 @@ docs/python.md has every name.
 import importlib as _importlib
 
 __version__ = "0.1.0"
-__all__ = ["Capture", "CudaCapture", "Drone", "DroneState", "Lidar", "LidarScan", "Plan", "Recording", "Rig",
+__all__ = ["Capture", "CudaCapture", "Drone", "DroneState", "Lidar", "LidarScan", "PARTS", "Plan", "Recording", "Rig",
            "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
            "VideoWriter", "World", "airsim", "drone_catalog", "gpus", "gym", "metrics", "plan_minimum_snap",
            "thread_count", "worlds"]

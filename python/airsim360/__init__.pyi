@@ -1,5 +1,5 @@
 from . import airsim as airsim, gym as gym
-from ._native import (Capture as Capture, CudaCapture as CudaCapture, Drone as Drone, DroneState as DroneState, Lidar as Lidar,
+from ._native import (PARTS as PARTS, Capture as Capture, CudaCapture as CudaCapture, Drone as Drone, DroneState as DroneState, Lidar as Lidar,
                       LidarScan as LidarScan, Plan as Plan, Recording as Recording,
                       Rig as Rig, Simulation as Simulation, Snapshot as Snapshot, Tensor as Tensor, Threads as Threads,
                       VectorEnvironment as VectorEnvironment, VideoWriter as VideoWriter, World as World, drone_catalog as drone_catalog, gpus as gpus,

@@ -42,6 +42,8 @@ class Tensor:
                    dl_device: Optional[tuple[int, int]] = None, copy: Optional[bool] = None) -> Any: ...
     def __dlpack_device__(self) -> tuple[int, int]: ...
 
+PARTS: tuple[str, ...]
+
 class Capture:
     rgb: Optional[npt.NDArray[np.uint8]]  # (H, W, 3)
     range: Optional[F32]  # (H, W) metres
@@ -51,6 +53,7 @@ class Capture:
     position: Optional[F32]  # (H, W, 3)
     albedo: Optional[F32]  # (H, W, 3)
     material: Optional[npt.NDArray[np.uint16]]  # (H, W)
+    part: Optional[npt.NDArray[np.uint8]]  # (H, W)
     radiance: Optional[F32]  # (H, W, 3)
     flow: Optional[F32]  # (H, W, 2)
     pose: F64  # (4, 4) X_WC
@@ -105,7 +108,9 @@ class World:
     spawn: F64  # (3,)
     triangles: int
     device: str
-    def __init__(self, name: str, seed: int = 0, models: bool = True, *, device: str = "auto", gpu: int = -1) -> None: ...
+    def __init__(self, name: str, seed: int = 0, models: bool = True, *, labels: str = "", device: str = "auto",
+                 gpu: int = -1) -> None: ...
+    def relabel(self, labels: dict[str, str]) -> int: ...
     def raycast(self, origins: Points, directions: Points) -> tuple[F32, npt.NDArray[np.uint32]]: ...
     def clearance(self, points: Points, most: float = 100.0) -> F32: ...
     def export(self, path: str) -> None: ...

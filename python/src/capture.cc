@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/filter/tone_map.h"
+#include "airsim360/scene/parts.h"
 #include "handles.h"
 #include "tensor.h"
 
@@ -21,13 +22,17 @@ constexpr ProductName kProducts[] = {
     {"radiance", &Products::radiance},
 };
 
+constexpr const char* kPart = "part";
+
 Products ToProducts(const std::vector<std::string>& names) {
   Products products{.rgb = false, .range = false, .semantic = false, .entity = false};
   for (const std::string& name : names) {
+    if (name == kPart) continue;
     const auto found = std::ranges::find(kProducts, name, &ProductName::name);
     if (found == std::end(kProducts)) {
       std::vector<std::string> choices;
       for (const ProductName& p : kProducts) choices.emplace_back(p.name);
+      choices.emplace_back(kPart);
       throw InputError(UnknownChoiceMessage("product", name, choices));
     }
     products.*(found->wanted) = true;
@@ -47,7 +52,7 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
   spec.fov_deg = fov * 180 / M_PI;
   spec.tier = tier;
   spec.pano_frame = level ? "level" : "body";
-  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt")};
+  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt"), std::ranges::count(products, kPart) > 0, {}};
   if (!(flow_dt > 0 && flow_dt <= 10))
     throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
   CheckCamera(rig.rig.camera);
@@ -56,6 +61,8 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
                  CameraInBody();
   rig.rig.products = ToProducts(products);
   if (rig.rig.tier == Tier::kLabels) rig.rig.products.rgb = false;
+  rig.shown = rig.rig.products;
+  if (rig.part) rig.rig.products.semantic = rig.rig.products.material = true;
   rig.rig.lens = ParseLensModel(lens);
   rig.rig.tone = ParseToneCurve(tone);
   rig.rig.exposure_ev = Finite(exposure_ev, "exposure_ev");
@@ -98,11 +105,36 @@ Tensor PictureOf(const CudaCapture& capture, const std::string& product) {
 
 }  // namespace
 
+PanoramicRig Rendered(const Rig& rig, const EntityLabels* labels) {
+  PanoramicRig rendered = rig.rig;
+  if (labels && rendered.products.semantic) rendered.products.entity = true;
+  return rendered;
+}
+
+void FinishCapture(const Rig& rig, const Scene& scene, const EntityLabels* labels, Capture& capture) {
+  Frame& frame = capture.frame;
+  if (rig.part) capture.part = PartPicture(frame.semantic, frame.material, scene.tree, scene.materials);
+  if (labels && rig.rig.products.semantic) {
+    for (size_t i = 0; i < frame.semantic.size(); ++i) frame.semantic.pixels()[i] = labels->Of(frame.entity.pixels()[i], frame.semantic.pixels()[i]);
+    if (!rig.shown.entity) frame.entity = {};
+  }
+  if (rig.part && !rig.shown.semantic) frame.semantic = {};
+  if (rig.part && !rig.shown.material) frame.material = {};
+}
+
+void FinishScan(const EntityLabels* labels, LidarScan& scan) {
+  if (!labels) return;
+  for (LidarPoint& point : scan.points) point.category = labels->Of(point.entity, point.category);
+}
+
 void BindCapture(py::module_& m) {
+  py::list parts;
+  for (const char* name : kPartNames) parts.append(name);
+  m.attr("PARTS") = py::tuple(parts);
   py::class_<Rig>(m, "Rig", R"(A camera on a drone, panoramic unless told otherwise, and what it captures.
 
 width, height: pixels (height 0: half the width for panoramas, else the width). tier: labels, fast, high or reference.
-products: any of rgb, range, semantic, entity, normal, position, albedo, material, flow, radiance. projection: erp,
+products: any of rgb, range, semantic, entity, normal, position, albedo, material, part, flow, radiance. projection: erp,
 pinhole or fisheye (fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B.
 level: the horizon stays level. flow_dt: seconds that optical flow leads on by.)")
       .def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::arg("tier") = "fast",
@@ -134,6 +166,10 @@ Pictures are views of this object's memory (no copies); those that the rig was n
                              "(H, W, 3) float32, linear base colour.")
       .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0),
                              "(H, W) uint16, material index plus 1.")
+      .def_property_readonly(
+          "part",
+          [](const py::object& self) { return ImageView<uint8_t>(self.cast<const Capture&>().part, 0, self); },
+          "(H, W) uint8, which part of the pixel's entity (airsim360.PARTS): 1 window, 2 door, 3 balcony …; 0 = its body, or nothing hit.")
       .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3),
                              "(H, W, 3) float32, linear light.")
       .def_property_readonly("flow", &Flow,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/assets/import.h"
 #include "airsim360/planning/certificate.h"
 #include "airsim360/planning/polynomial_trajectory.h"
 #include "airsim360/planning/trajectory_limits.h"
@@ -18,6 +19,11 @@
 #include "convert.h"
 
 namespace airsim360::python {
+
+/// What one trigger gave, as Python holds it.
+struct Capture : airsim360::Capture {
+  Image<uint8_t> part;  ///< PartPicture of the frame; empty where it was not asked for
+};
 
 /// A lidar and where it sits.
 struct Lidar {
@@ -43,23 +49,31 @@ class Renderers {
   std::map<Tier, std::unique_ptr<Renderer>> made_;
 };
 
+struct Rig;
+
 /// A world with its tracer and renderers, made when first asked for.
 class World {
  public:
   /// InputError for another `device` than auto, cpu or vulkan.
-  World(const std::string& name, uint64_t seed, bool models, const std::string& device, int gpu);
+  World(const std::string& name, uint64_t seed, bool models, const std::string& labels, const std::string& device, int gpu);
   const Scene& scene() const { return *scene_; }
   const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   const std::string& name() const { return name_; }
+  /// Categories given since the world was loaded; null = none.
+  std::shared_ptr<const EntityLabels> labels();
+  /// From the next capture on; returns how many entities match. InputError for a malformed category path.
+  size_t Relabel(const std::vector<LabelPattern>& patterns);
   const DeviceChoice& device() const { return renderers_.device(); }
   /// Both without the GIL.
   std::shared_ptr<const RayTracer> tracer();
-  std::shared_ptr<Capture> Render(const PanoramicRig& rig, const Kinematics& body);
+  std::shared_ptr<Capture> Render(const Rig& rig, const Kinematics& body);
   std::shared_ptr<LidarScan> Scan(const Lidar& lidar, const Kinematics& body);
 
  private:
   std::string name_;
   std::shared_ptr<const Scene> scene_;
+  std::mutex labels_mutex_;  // of labels_; held for a moment only
+  std::shared_ptr<const EntityLabels> labels_;
   std::mutex mutex_;  // of what follows; never waited for with the GIL held
   std::shared_ptr<const RayTracer> tracer_;
   Renderers renderers_;
@@ -67,7 +81,7 @@ class World {
 };
 
 /// Entities of a scene by id, as dictionaries.
-py::list EntitiesOf(const Scene& scene);
+py::list EntitiesOf(const Scene& scene, const EntityLabels* labels);
 
 /// A capture that never left the GPU: the images of its frame are empty.
 struct CudaCapture : Capture {
@@ -78,7 +92,17 @@ struct CudaCapture : Capture {
 struct Rig {
   PanoramicRig rig;
   double flow_dt = 0.1;  ///< seconds that optical flow leads on by
+  bool part = false;     ///< the product "part", made of semantic and material
+  Products shown;        ///< what was asked for; rig.products may be more
 };
+
+/// Makes the product "part" where the rig asks for it, and drops what served it alone.
+/// `labels` (null: none) take the place of the scene's categories.
+void FinishCapture(const Rig& rig, const Scene& scene, const EntityLabels* labels, Capture& capture);
+/// What is rendered for a rig under labels: the entity tells the category.
+PanoramicRig Rendered(const Rig& rig, const EntityLabels* labels);
+/// The same of a scan.
+void FinishScan(const EntityLabels* labels, LidarScan& scan);
 
 /// Rig() of Python: a panorama of 1024 x 512.
 inline Rig DefaultRig() {

@@ -132,9 +132,9 @@ void Simulation::Post(const py::object& drone, Command command, double timeout) 
   loop_->Post({i, FlightCommand{std::move(command), std::llround(timeout * 1e9)}});
 }
 
-void Simulation::CaptureLocked(const Rig& given, size_t i, Renderer& renderer, Capture& capture) {
+void Simulation::CaptureLocked(const Rig& given, size_t i, const EntityLabels* labels, Renderer& renderer, Capture& capture) {
   const std::shared_ptr<const SimState> state = loop_->Snapshot();
-  PanoramicRig rig = given.rig;
+  PanoramicRig rig = Rendered(given, labels);
   rig.state = SceneStateOf(*model_, *state, i);
   NextTrigger next;
   if (rig.products.flow) next = InstantAfter(*model_, *state, i, given.flow_dt);
@@ -144,7 +144,9 @@ void Simulation::CaptureLocked(const Rig& given, size_t i, Renderer& renderer, C
 std::shared_ptr<Capture> Simulation::Take(const Rig& rig, size_t i) {
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
-  CaptureLocked(rig, i, renderers_.For(rig.rig.tier, base_), *capture);
+  const auto labels = world_->labels();
+  CaptureLocked(rig, i, labels.get(), renderers_.For(rig.rig.tier, base_), *capture);
+  FinishCapture(rig, base_->scene(), labels.get(), *capture);
   return capture;
 }
 
@@ -152,10 +154,13 @@ std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
   const DeviceChoice& device = renderers_.device();
   if (device.device == "cpu") throw InputError("memory: 'cuda' needs a GPU that renders: World(…, device=\"vulkan\")");
   if (rig.rig.lens != LensModel::kIdeal) throw InputError("memory: the lens real360 is made on the CPU; use memory=\"cpu\"");
+  if (world_->labels() && rig.rig.products.semantic)
+    throw InputError("memory: the labels of World.relabel are put in on the CPU; use memory=\"cpu\"");
+  if (rig.part) throw InputError("memory: the product 'part' is made on the CPU; use memory=\"cpu\"");
   auto capture = std::make_shared<CudaCapture>();
   const std::lock_guard lock(render_mutex_);
   if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(base_, RendererOptions{.tier = rig.rig.tier}, GpuOptions{.gpu = device.gpu});
-  CaptureLocked(rig, i, *cuda_, *capture);
+  CaptureLocked(rig, i, nullptr, *cuda_, *capture);
   capture->pictures = cuda_->Take();
   return capture;
 }
@@ -172,6 +177,7 @@ std::shared_ptr<LidarScan> Simulation::Scan(const Lidar& lidar, size_t i) {
   const std::lock_guard lock(render_mutex_);
   ScanLidar(lidar.spec, key, *SensorsLocked().TracerOf(*state, i), state->vehicles[i].motion, lidar.X_BS, state->t_ns,
             *scan);
+  FinishScan(world_->labels().get(), *scan);
   return scan;
 }
 
@@ -181,6 +187,7 @@ std::shared_ptr<LidarScan> Simulation::Scan(const std::string& lidar, size_t i) 
   auto scan = std::make_shared<LidarScan>();
   const std::lock_guard lock(render_mutex_);
   SensorsLocked().Lidar(*state, i, number, *scan);
+  FinishScan(world_->labels().get(), *scan);
   return scan;
 }
 

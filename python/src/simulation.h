@@ -47,7 +47,7 @@ class Simulation {
   std::unique_ptr<CudaRenderer> cuda_;  // made when first asked for
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
-  void CaptureLocked(const Rig& rig, size_t i, Renderer& renderer, Capture& capture);
+  void CaptureLocked(const Rig& rig, size_t i, const EntityLabels* labels, Renderer& renderer, Capture& capture);
 };
 
 /// The commands of Simulation (simulation_commands.cc).

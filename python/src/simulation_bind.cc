@@ -178,7 +178,7 @@ walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
       .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; })
       .def_property_readonly("world", &Simulation::world)
       .def_property_readonly(
-          "entities", [](const Simulation& s) { return EntitiesOf(s.scene()); },
+          "entities", [](const Simulation& s) { return EntitiesOf(s.scene(), s.world()->labels().get()); },
           "As World.entities, with the bodies of drones (if there are several) and people.")
       .def_property_readonly(
           "people", &Simulation::People,

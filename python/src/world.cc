@@ -23,9 +23,9 @@ DeviceChoice ToDevice(const std::string& device, int gpu) {
 
 }  // namespace
 
-World::World(const std::string& name, uint64_t seed, bool models, const std::string& device, int gpu)
+World::World(const std::string& name, uint64_t seed, bool models, const std::string& labels, const std::string& device, int gpu)
     : name_(name), renderers_(ToDevice(device, gpu)) {
-  scene_ = LoadWorld({.world = name, .seed = seed, .use_models = models});
+  scene_ = LoadWorld({.world = name, .seed = seed, .labels = labels, .use_models = models});
 }
 
 std::shared_ptr<const RayTracer> World::TracerLocked() {
@@ -38,16 +38,31 @@ std::shared_ptr<const RayTracer> World::tracer() {
   return TracerLocked();
 }
 
-std::shared_ptr<Capture> World::Render(const PanoramicRig& rig, const Kinematics& body) {
+std::shared_ptr<const EntityLabels> World::labels() {
+  const std::lock_guard lock(labels_mutex_);
+  return labels_;
+}
+
+size_t World::Relabel(const std::vector<LabelPattern>& patterns) {
+  size_t changed = 0;
+  const std::lock_guard lock(labels_mutex_);
+  labels_ = std::make_shared<const EntityLabels>(LabelEntities(*scene_, labels_.get(), patterns, changed));
+  return changed;
+}
+
+std::shared_ptr<Capture> World::Render(const Rig& rig, const Kinematics& body) {
   const std::lock_guard lock(mutex_);
   auto capture = std::make_shared<Capture>();
-  CaptureRig(rig, body, 0, renderers_.For(rig.tier, TracerLocked()), *capture);
+  const auto named = labels();
+  CaptureRig(Rendered(rig, named.get()), body, 0, renderers_.For(rig.rig.tier, TracerLocked()), *capture);
+  FinishCapture(rig, *scene_, named.get(), *capture);
   return capture;
 }
 
 std::shared_ptr<LidarScan> World::Scan(const Lidar& lidar, const Kinematics& body) {
   auto scan = std::make_shared<LidarScan>();
   ScanLidar(lidar.spec, {}, *tracer(), body, lidar.X_BS, 0, *scan);
+  FinishScan(labels().get(), *scan);
   return scan;
 }
 
@@ -64,14 +79,15 @@ py::array_t<double> BoundsOf(const Box3f& box) {
 
 }  // namespace
 
-py::list EntitiesOf(const Scene& scene) {
+py::list EntitiesOf(const Scene& scene, const EntityLabels* labels) {
   py::list list;
   for (const Entity& entity : scene.entities) {
-    const Category& category = scene.tree[entity.category];
+    const CategoryId id = labels ? labels->Of(entity.id, entity.category) : entity.category;
+    const Category& category = (id == entity.category ? scene.tree : labels->tree)[id];
     py::dict d;
     d["id"] = entity.id;
     d["name"] = entity.name;
-    d["category"] = entity.category;
+    d["category"] = id;
     d["category_path"] = category.path;
     d["kind"] = category.thing ? "thing" : "stuff";
     d["bounds"] = entity.bounds.empty() ? py::object(py::none()) : BoundsOf(entity.bounds);
@@ -161,29 +177,47 @@ void BindWorld(py::module_& m) {
         "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
   m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
   py::class_<World, std::shared_ptr<World>>(
-      m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm or world .yaml.
+      m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml.
+
+`labels` is a label file: categories by patterns of names (docs/importing.md).
 
 `device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
 says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
 
 ValueError names the nearest world where there is none of that name.)")
-      .def(py::init<const std::string&, uint64_t, bool, const std::string&, int>(), py::arg("name"), py::arg("seed") = 0,
-           py::arg("models") = true, py::kw_only(), py::arg("device") = "auto", py::arg("gpu") = -1,
+      .def(py::init<const std::string&, uint64_t, bool, const std::string&, const std::string&, int>(), py::arg("name"),
+           py::arg("seed") = 0, py::arg("models") = true, py::kw_only(), py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1,
            py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("device", [](const World& w) { return w.device().device; })
       .def_property_readonly("name", &World::name)
       .def_property_readonly(
-          "entities", [](const World& w) { return EntitiesOf(w.scene()); },
+          "entities", [](World& w) { return EntitiesOf(w.scene(), w.labels().get()); },
           "Entities by id (ids begin at 1): dictionaries with id, name, category, category_path, kind, "
           "bounds ((2, 3) metres in W, or None for the sky).")
       .def_property_readonly(
           "categories",
-          [](const World& w) {
+          [](World& w) {
             py::dict d;
-            for (const auto& [id, category] : w.scene().tree.categories()) d[py::int_(id)] = category.path;
+            const auto labels = w.labels();
+            for (const auto& [id, category] : (labels ? labels->tree : w.scene().tree).categories()) d[py::int_(id)] = category.path;
             return d;
           },
           "Category id -> path.")
+      .def(
+          "relabel",
+          [](World& w, const py::dict& labels) {
+            std::vector<LabelPattern> patterns;
+            for (const auto& [pattern, category] : labels) {
+              if (!py::isinstance<py::str>(pattern) || !py::isinstance<py::str>(category))
+                throw InputError("relabel: give a dictionary of name pattern -> category path");
+              patterns.push_back({pattern.cast<std::string>(), category.cast<std::string>()});
+            }
+            return w.Relabel(patterns);
+          },
+          py::arg("labels"),
+          "Categories by patterns of entity names ({'node/22*': 'furniture/misc'}; * any characters, ? one; the first that matches "
+          "counts; paths that the tree lacks are added), from the next capture or scan on, in this world and its simulations. "
+          "Returns how many entities match.")
       .def_property_readonly(
           "bounds", [](const World& w) { return BoundsOf(w.scene().bounds); },
           "(2, 3) least and greatest corner in W, metres.")
@@ -211,7 +245,7 @@ ValueError names the nearest world where there is none of that name.)")
           [](World& w, const py::object& position, const Rig& rig, double yaw, double pitch, double roll) {
             const Kinematics body = Standing(position, yaw, pitch, roll);
             const py::gil_scoped_release release;
-            return w.Render(rig.rig, body);
+            return w.Render(rig, body);
           },
           py::arg("position"), py::arg_v("rig", DefaultRig(), "Rig()"), py::arg("yaw") = 0.0,
           py::arg("pitch") = 0.0, py::arg("roll") = 0.0,

@@ -46,6 +46,50 @@ class Worlds(unittest.TestCase):
             names = {e["name"] for e in World(path).entities}
             self.assertLessEqual({e["name"] for e in ROOM.entities}, names)
 
+    def test_labels_of_a_file_and_at_run_time_are_in_the_next_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mine.yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("rules:\n  - match: box\n    category: furniture/seating/bench\n")
+            world = World("box_room", labels=path)
+            with self.assertRaisesRegex(ValueError, "none.yaml"):
+                World("box_room", labels=os.path.join(folder, "none.yaml"))
+        box = next(e for e in world.entities if e["name"] == "box")
+        self.assertEqual(box["category_path"], "furniture/seating/bench")
+        rig = Rig(width=128, tier="labels", products=["semantic"])
+        sim = Simulation(world, drones=2)
+        before = world.capture([0, 0, 3], rig)
+        self.assertEqual(world.relabel({"b?x": "made_up/thing", "wall*": "construction/wall", "*": "object"}), 7)
+        after, flown = world.capture([0, 0, 3], rig), sim.capture(rig)
+        ids = {path: id for id, path in world.categories.items()}
+        changed = before.semantic == box["category"]
+        self.assertGreater(changed.sum(), 10)
+        np.testing.assert_array_equal(after.semantic == ids["made_up/thing"], changed)
+        self.assertIn(ids["made_up/thing"], flown.semantic)
+        self.assertIsNone(after.entity)
+        self.assertEqual({e["category_path"] for e in world.entities}, {"made_up/thing", "construction/wall", "object"})
+        scan = world.scan([0, 0, 3])
+        np.testing.assert_array_equal(scan.semantic == ids["made_up/thing"], scan.entity == box["id"])
+        for bad in ({"box": "Not A Path"}, {"box": 3}):
+            with self.assertRaises(ValueError):
+                world.relabel(bad)
+
+    def test_another_build_of_the_module_does_not_take_the_cached_worlds_of_this_one(self):
+        package = os.path.dirname(airsim360.__file__)
+        with tempfile.TemporaryDirectory() as folder:
+            copy, cache = os.path.join(folder, "airsim360"), os.path.join(folder, "cache")
+            shutil.copytree(package, copy, symlinks=False)
+            module = next(os.path.join(copy, name) for name in os.listdir(copy) if name.endswith(".so"))
+
+            def cached():
+                subprocess.run([sys.executable, "-c", "import airsim360; airsim360.World('box_room')"], check=True,
+                               env=dict(os.environ, PYTHONPATH=folder, AIRSIM360_CACHE=cache), cwd=folder)
+                return len([name for _, _, names in os.walk(cache) for name in names if name.startswith("scene")])
+
+            self.assertEqual([cached(), cached()], [1, 1])
+            os.utime(module, (1, 1))
+            self.assertEqual(cached(), 2)
+
     def test_a_misspelt_world_is_a_value_error_that_names_the_nearest(self):
         with self.assertRaisesRegex(ValueError, "box_room"):
             World("box_rom")
@@ -69,6 +113,32 @@ class Worlds(unittest.TestCase):
 
 
 class Captures(unittest.TestCase):
+    def test_parts_are_told_beside_the_entity(self):
+        # A house with a pane in its wall and a lamp of glass, as a model file.
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "house.obj")
+            with open(os.path.join(folder, "house.mtl"), "w", encoding="utf-8") as file:
+                file.write("newmtl brick\nKd 0.5 0.2 0.1\nnewmtl glass\nKd 0.1 0.1 0.1\n")
+            quad = "v {0} 0 -5\nv {1} 0 -5\nv {1} 2 -5\nv {0} 2 -5\nusemtl {2}\nf -4 -3 -2 -1\n"
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("mtllib house.mtl\no house\n" + quad.format(-2, 0, "brick") + quad.format(0, 1, "glass")
+                           + "o lamp\n" + quad.format(1, 2, "glass"))
+            world = World(path)
+        house = next(e for e in world.entities if e["category_path"].startswith("construction"))
+        pose = dict(position=[0, 0, 1], yaw=math.pi / 2)
+        c = world.capture(rig=Rig(width=256, products=["part", "entity"], tier="labels"), **pose)
+        window = airsim360.PARTS.index("window")
+        self.assertEqual(c.part.dtype, np.uint8)
+        self.assertEqual(set(np.unique(c.part)), {0, window})
+        self.assertEqual(set(np.unique(c.entity[c.part == window])), {house["id"]})
+        self.assertLess((c.part == window).sum(), 0.6 * (c.entity == house["id"]).sum())
+        self.assertIsNone(c.semantic)
+        self.assertIsNone(c.material)
+        np.testing.assert_array_equal(np.from_dlpack(c.tensor("part")), c.part)
+        again = world.capture(rig=Rig(width=256, products=["part", "semantic", "material"], tier="labels"), **pose)
+        np.testing.assert_array_equal(again.part, c.part)
+        self.assertIsNotNone(again.semantic)
+
     def test_dlpack_shares_the_memory_and_keeps_it(self):
         c = ROOM.capture([0, 0, 3], Rig(width=64, products=["rgb", "range", "entity", "normal"]))
         for name in ("rgb", "range", "entity", "normal"):
@@ -550,7 +620,7 @@ class Package(unittest.TestCase):
             if name.startswith("_"):
                 continue
             self.assertTrue(hasattr(airsim360, name), name)
-            self.assertRegex(hints, rf"(class|def) {name}\b|^{name}:")
+            self.assertRegex(hints, rf"(?m)(class|def) {name}\b|^{name}:")
             if isinstance(getattr(airsim360._native, name), type):
                 for member in vars(getattr(airsim360._native, name)):
                     if not member.startswith("_"):

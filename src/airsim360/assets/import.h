@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,22 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
 /// are not imported models. Patterns are held against the whole name ('/' is a character like any other);
 /// `keywords`, `default` and `merge` do not count. An empty path changes nothing. InputError as ParseLabelRules.
 std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels);
+
+/// Categories of entities that differ from those of their scene.
+struct EntityLabels {
+  SemanticTree tree;                      ///< with paths of its own
+  std::vector<CategoryId> of_entity;      ///< by id; kVoid = as in the scene
+  CategoryId Of(EntityId entity, CategoryId otherwise) const {
+    return entity < of_entity.size() && of_entity[entity] != kVoid ? of_entity[entity] : otherwise;
+  }
+};
+/// A pattern as in a label file, held against the whole name, and the category path of what matches it.
+struct LabelPattern {
+  std::string pattern, category;
+};
+/// `over` (null: none) changed by patterns, the first that matches an entity counts. Adds to `changed` how many
+/// entities match any. InputError for a malformed path.
+EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed);
 
 /// One model file as a single prop (all nodes merged), in metres, +Z up, standing on z = 0 and centred on the
 /// z axis.

@@ -40,4 +40,19 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
   return changed;
 }
 
+EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed) {
+  EntityLabels labels = over ? *over : EntityLabels{scene.tree, std::vector<CategoryId>(scene.entities.size() + 1, kVoid)};
+  std::vector<CategoryId> categories;
+  for (const LabelPattern& rule : patterns) categories.push_back(labels.tree.Add(rule.category));
+  for (const Entity& entity : scene.entities) {
+    for (size_t i = 0; i < patterns.size(); ++i) {
+      if (!internal::MatchesGlob(patterns[i].pattern, entity.name)) continue;
+      labels.of_entity[entity.id] = categories[i];
+      ++changed;
+      break;
+    }
+  }
+  return labels;
+}
+
 }  // namespace airsim360

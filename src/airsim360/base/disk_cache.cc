@@ -1,5 +1,6 @@
 #include "airsim360/base/disk_cache.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -44,7 +45,13 @@ CacheKey& CacheKey::Add(std::span<const std::byte> bytes) {
 
 CacheKey& CacheKey::AddProgram() {
   std::error_code error;
-  return AddFile(fs::read_symlink("/proc/self/exe", error));
+  AddFile(fs::read_symlink("/proc/self/exe", error));
+  // In Python the program is the interpreter, and this code a shared library of its own.
+  static const int kHere = 0;
+  Dl_info library{};
+  if (dladdr(&kHere, &library) == 0 || library.dli_fname == nullptr) return *this;
+  const fs::path path = library.dli_fname;
+  return path.extension() == ".so" ? AddFile(path) : *this;
 }
 
 CacheKey& CacheKey::AddFile(const fs::path& path) {

@@ -1,8 +1,6 @@
 #include "airsim360/dataset/encode_extra.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "airsim360/base/error.h"
@@ -37,26 +35,6 @@ Bytes EncodeAlbedo(const Image<Rgb32f>& albedo) {
     return Rgb8{LinearToSrgb8(c.r), LinearToSrgb8(c.g), LinearToSrgb8(c.b)};
   });
   return EncodePng(coded);
-}
-
-// Part of every pair of category and material, looked up once a run of equal pixels.
-Bytes EncodePart(const Image<CategoryId>& semantic, const Image<uint16_t>& material, const Scene& scene) {
-  Image<uint8_t> parts(semantic.width(), semantic.height());
-  std::map<std::pair<CategoryId, uint16_t>, uint8_t> known;
-  std::pair<CategoryId, uint16_t> last{kVoid, 0};
-  uint8_t part = 0;
-  for (size_t i = 0; i < parts.pixels().size(); ++i) {
-    const std::pair<CategoryId, uint16_t> key{semantic.pixels()[i], material.pixels()[i]};
-    if (key != last) {
-      const auto [found, fresh] = known.try_emplace(key, uint8_t{0});
-      if (fresh && key.first != kVoid && key.second != 0)
-        found->second = static_cast<uint8_t>(PartOf(scene.tree[key.first].path, scene.materials[key.second - 1u].name));
-      part = found->second;
-      last = key;
-    }
-    parts.pixels()[i] = part;
-  }
-  return EncodePng(parts);
 }
 
 Bytes EncodeSky(const Image<EntityId>& entity, EntityId sky) {
@@ -95,7 +73,7 @@ Bytes EncodeExtra(const std::string& product, const Frame& frame, const Scene& s
   if (product == "position") return EncodePosition(frame.position);
   if (product == "albedo") return EncodeAlbedo(frame.albedo);
   if (product == "material") return EncodePng(frame.material);
-  if (product == "part") return EncodePart(frame.semantic, frame.material, scene);
+  if (product == "part") return EncodePng(PartPicture(frame.semantic, frame.material, scene.tree, scene.materials));
   if (product == "sky") return EncodeSky(frame.entity, scene.sky_entity);
   if (product == "flow") return EncodeFlow(frame.flow);
   if (product == "coverage") return EncodeCoverage(frame.coverage);

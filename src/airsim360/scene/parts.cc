@@ -1,7 +1,9 @@
 #include "airsim360/scene/parts.h"
 
 #include <cctype>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace airsim360 {
 namespace {
@@ -40,6 +42,27 @@ Part PartOf(std::string_view category, std::string_view material) {
   for (const Word& row : kWords)
     if (category.starts_with(row.root) && Has(name, row.word)) return row.part;
   return Part::kNone;
+}
+
+Image<uint8_t> PartPicture(const Image<CategoryId>& semantic, const Image<uint16_t>& material, const SemanticTree& tree,
+                           std::span<const Material> materials) {
+  Image<uint8_t> parts(semantic.width(), semantic.height());
+  // Every pair of category and material is looked up once a run of equal pixels.
+  std::map<std::pair<CategoryId, uint16_t>, uint8_t> known;
+  std::pair<CategoryId, uint16_t> last{kVoid, 0};
+  uint8_t part = 0;
+  for (size_t i = 0; i < parts.pixels().size(); ++i) {
+    const std::pair<CategoryId, uint16_t> key{semantic.pixels()[i], material.pixels()[i]};
+    if (key != last) {
+      const auto [found, fresh] = known.try_emplace(key, uint8_t{0});
+      if (fresh && key.first != kVoid && key.second != 0)
+        found->second = static_cast<uint8_t>(PartOf(tree[key.first].path, materials[key.second - 1u].name));
+      part = found->second;
+      last = key;
+    }
+    parts.pixels()[i] = part;
+  }
+  return parts;
 }
 
 }  // namespace airsim360

@@ -2,7 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
+
+#include "airsim360/image/image.h"
+#include "airsim360/scene/material.h"
+#include "airsim360/scene/semantics.h"
 
 namespace airsim360 {
 
@@ -13,5 +18,9 @@ inline constexpr const char* kPartNames[] = {"", "window", "door", "balcony", "s
 /// The part that a material named `material` is of an entity in `category` (a path of the semantic tree): words of the name
 /// ("glass dark", "Door_02") for buildings, vehicles and plants; balconies by their category. kNone = the body of the thing.
 Part PartOf(std::string_view category, std::string_view material);
+
+/// The parts (values of Part) of a picture from its categories and material indices plus 1 (0 = nothing hit).
+Image<uint8_t> PartPicture(const Image<CategoryId>& semantic, const Image<uint16_t>& material, const SemanticTree& tree,
+                           std::span<const Material> materials);
 
 }  // namespace airsim360

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr double kMostCells = 1 << 26;
+constexpr int64_t kManyCells = 1 << 22;
 constexpr int kUnknown = -99999;
 
 // A folder that goes away with its object.
@@ -91,10 +92,16 @@ class HeightReader {
     Warp({"-of", "VRT", "-t_srs", "EPSG:4326"}, file_, whole);
     const Json turned = Info(whole, {});
     const bool same = turned["geoTransform"] == source["geoTransform"];
-    // GDAL's cells are as wide as high in degrees: half of the file's metres both ways is more along the meridian.
+    const Cells all = CellsOf(turned);
+    if (same) return Fetch(Cut(all, area, {1, 1}), "near", scale);
+    // GDAL's cells are as wide as high in degrees: a quarter (a half, where those are many) of the file's metres both
+    // ways is more along the meridian.
     const double wide = std::sqrt(std::cos((area.south + area.north) / 2 * M_PI / 180));
-    const Refinement refine = same ? Refinement{1, 1} : Refinement{static_cast<int>(std::ceil(2 * wide)), static_cast<int>(std::ceil(2 / wide))};
-    return Fetch(Cut(CellsOf(turned), area, refine), same ? "near" : "bilinear", scale);
+    const auto cut = [&](double parts) {
+      return Cut(all, area, {static_cast<int>(std::ceil(parts * wide)), static_cast<int>(std::ceil(parts / wide))});
+    };
+    const Cells half = cut(2);
+    return Fetch(half.columns * half.rows < kManyCells ? cut(4) : half, "bilinear", scale);
   }
 
  private:

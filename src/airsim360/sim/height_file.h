@@ -9,7 +9,7 @@
 namespace airsim360 {
 
 /// The first band within `area`, metres (its scale, offset and feet are heeded), on a grid of degrees of WGS 84:
-/// the file's own cells where it has degrees, else cells of half the size, so that little is smoothed. Cells that
+/// the file's own cells where it has degrees, else smaller cells (a quarter or half of the size), so that little is smoothed. Cells that
 /// the file leaves unknown stay NaN. InputError for a file that is no GeoTIFF of heights (pictures, several bands),
 /// has no place on the Earth, does not reach the area, knows no height in it, or gives more than 2^26 cells there;
 /// RuntimeError where gdal-bin is not installed.
