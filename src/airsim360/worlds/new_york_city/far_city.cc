@@ -14,9 +14,10 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kPitchX = 132, kPitchY = 84, kCityEdge = 660, kGroundZ = -0.14f;
 
 Surface FarWall(RngStream& rng) {
-  static constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls0, Surface::kFarWalls1,
-                                       Surface::kFarWalls1, Surface::kFarWalls2, Surface::kGlassBlue};
-  return kWalls[rng.Index(6)];
+  using S = Surface;
+  static constexpr S kWalls[] = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3,  S::kFarWalls2,   S::kFarPiers0,
+                                 S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue};
+  return kWalls[rng.Index(12)];
 }
 
 float FarHeight(RngStream& rng) {
