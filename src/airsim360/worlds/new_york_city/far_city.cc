@@ -140,11 +140,11 @@ void BuildFarManhattan(District& d) {
     const float x0 = side > 0 ? ex : -2700.0f, x1 = side > 0 ? 2700.0f : -ex;
     d.ground.Rect({x0, -9000, x1, 9000}, -2.5f);
   }
-  // Low land beyond, a disc to the horizon.
+  // Low land beyond, a disc to the horizon; under the streets so close below them that nobody can walk there.
   d.ground.Begin("far land", "ground/terrain/landscape", Surface::kPlain);
   float r0 = 0;
   for (float r1 : {600.0f, 1500.0f, 3500.0f, 7000.0f, 15000.0f}) {
-    d.ground.RingSector({0, 0}, r0, r1, 0, kTau, -3.2f, 72);
+    d.ground.RingSector({0, 0}, r0, r1, 0, kTau, r1 > 600 ? -3.2f : -1.2f, 72);
     r0 = r1;
   }
 }
