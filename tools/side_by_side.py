@@ -14,9 +14,9 @@ import sys
 
 # Their picture, the part of it in pixels (None = all) of its size, our world and how it is rendered.
 VIEWS = [
-    ("airsim360_new_york_city", None, "new_york_city", ["--pose=-2,-4,36,62"]),
+    ("airsim360_new_york_city", None, "new_york_city", ["--pose=-2,-4,36,62", "--people", "examples/people_crossing.yaml"]),
     ("airsim360_city_park", None, "city_park", []),
-    ("airsim360_four_scenes", (500, 0, 498, 248, 2000, 504), "downtown_west", ["--pose=9,9.5,1.7,-32", "--weather", "sunset"]),
+    ("airsim360_four_scenes", (500, 0, 498, 248, 2000, 504), "downtown_west", ["--pose=31.3,2.6,1.7,90", "--weather", "sunset", "--sun", "250,16"]),
 ]
 
 

@@ -14,8 +14,9 @@ constexpr float kPitch = 112, kRoad = 13, kCityEdge = 640, kPlainZ = -0.5f;
 
 // A far building: walls with pictured windows, a deck, a box on top.
 void BuildFarTower(District& d, const GroundRect& r, float height, RngStream& rng) {
-  static constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls1, Surface::kFarWalls2};
-  const Surface wall = kWalls[rng.Index(3)];
+  using S = Surface;
+  static constexpr S kWalls[] = {S::kFarWalls0, S::kFarWalls1, S::kFarWalls2, S::kFarWalls3, S::kFarPiers0, S::kFarPiers1, S::kFarRibbons0};
+  const S wall = kWalls[rng.Index(7)];
   d.ground.Begin("far building", "construction/building", wall);
   d.ground.mesh().Walls(r.Outline(), -0.02f, height);
   const GroundRect hut = r.Inset(std::min(r.width(), r.depth()) * 0.36f);

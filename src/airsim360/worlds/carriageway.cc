@@ -79,10 +79,24 @@ void LayCrosswalk(Ground& ground, const StreetStretch& street, bool at_start, co
   }
 }
 
-// A crossing of two lines: a fan from its middle over the four mouths and the four kerb returns.
-Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, const std::string& name,
-                Surface asphalt) {
+// A crossing of two lines. The wheel tracks of the wider street run through.
+Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, const std::string& name, Surface asphalt) {
   ground.Begin("junction " + name, "ground/road", asphalt);
+  Fan fan = internal::FanOf(ns, ew);
+  const bool north = ns.half_width >= ew.half_width;
+  const auto uv = [&](Vec3f p) { return north ? Vec2f{p.x - ns.center, p.y} : Vec2f{p.y - ew.center, p.x}; };
+  for (size_t i = 0; i < fan.rim.size(); ++i) {
+    const Vec3f a = fan.rim[i], b = fan.rim[(i + 1) % fan.rim.size()];
+    ground.mesh().Triangle(fan.middle, a, b, uv(fan.middle), uv(a), uv(b));
+  }
+  return fan;
+}
+
+}  // namespace
+
+namespace internal {
+
+Fan FanOf(const StreetLine& ns, const StreetLine& ew) {
   std::vector<Vec3f> rim;
   const float hx = ns.half_width, hy = ew.half_width, r = kCornerRadius;
   for (int arm = 0; arm < 4; ++arm) {
@@ -106,17 +120,10 @@ Fan LayJunction(Ground& ground, const StreetLine& ns, const StreetLine& ew, cons
     }
   }
   const Vec3f middle{ns.center, ew.center, std::max(CarriagewayHeight(ns, 0), CarriagewayHeight(ew, 0))};
-  // The wheel tracks of the wider street run through.
-  const bool north = ns.half_width >= ew.half_width;
-  const auto uv = [&](Vec3f p) { return north ? Vec2f{p.x - ns.center, p.y} : Vec2f{p.y - ew.center, p.x}; };
-  for (size_t i = 0; i < rim.size(); ++i) {
-    const Vec3f a = rim[i], b = rim[(i + 1) % rim.size()];
-    ground.mesh().Triangle(middle, a, b, uv(middle), uv(a), uv(b));
-  }
   return {middle, rim};
 }
 
-}  // namespace
+}  // namespace internal
 
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed) {
   std::vector<StreetStretch> core;

@@ -59,6 +59,9 @@ void FurnishCorner(District& district, const Block& block, const BlockSide& side
 std::vector<float> LampsAlong(const StreetPlan& plan, const Block& block, int side, float s0, float s1, RngStream& rng);
 /// A cover on the crown of every core crossing.
 void LayCrossingCovers(District& district);
+/// Those who have green, driving over every core crossing from east to west and back, one of them turning off to the left.
+/// `cab`: what every third of them is.
+void DriveAcross(District& district, std::string_view cab, double traffic);
 /// The street along a side of a block is one of the core's, perhaps on its way out.
 bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side);
 /// Lamps, trees, meters, bins … along the pavements, by rule.

@@ -142,7 +142,8 @@ void MeshBuilder::Polygon(std::span<const Vec2f> outline, float z, bool up) {
 }
 
 void MeshBuilder::Walls(std::span<const Vec2f> outline, float z0, float z1) {
-  float u = 0;
+  // Every outline begins somewhere else in the pattern, whole tiles of 24 m apart.
+  float u = outline.empty() ? 0.0f : 24 * std::floor(std::fmod(std::abs(13 * outline[0].x + 7.7f * outline[0].y), 64.0f));
   for (size_t i = 0; i < outline.size(); ++i) {
     const Vec2f a = outline[i], b = outline[(i + 1) % outline.size()];
     const float next = u + std::hypot(b.x - a.x, b.y - a.y);

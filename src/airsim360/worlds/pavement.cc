@@ -10,7 +10,7 @@
 namespace airsim360 {
 namespace {
 
-constexpr float kKerbWidth = 0.15f, kRampDepth = 1.5f, kRampDrop = 0.11f, kFlare = 0.9f, kFieldLength = 10;
+constexpr float kKerbWidth = 0.15f, kTactileDepth = 0.61f, kRampDepth = 1.5f, kRampDrop = 0.11f, kFlare = 0.9f, kFieldLength = 10;
 
 // Height of the pavement at (s, d) of a side of length `length`: flat but for the dropped kerbs at both ends.
 class SideProfile {
@@ -93,7 +93,7 @@ void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std:
   const int fields = std::max(1, static_cast<int>((s1 - s0) / kFieldLength));
   const float field_length = (s1 - s0) / static_cast<float>(fields);
   const std::vector<float> stops = Breakpoints(profile, s0, s1, fields);
-  const float depths[] = {kKerbWidth, kKerbWidth + kRampDepth, block.pavement};
+  const float depths[] = {kKerbWidth, kKerbWidth + kTactileDepth, kKerbWidth + kRampDepth, block.pavement};
   const auto at = [&](float s, float d) {
     const Vec2f p = line.At(s, d);
     return Vec3f{p.x, p.y, profile.Height(s, d)};
@@ -104,18 +104,18 @@ void LayFields(Ground& ground, const Block& block, int side, Surface slabs, std:
     const int now = std::clamp(static_cast<int>((middle - s0) / field_length), 0, fields - 1);
     if (now != field) ground.Begin("pavement " + PlaceName(block, side), category, slabs);
     field = now;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 3; ++k) {
       ground.Use(k == 0 && profile.OnRamp(middle) ? Surface::kTactile : slabs);
       ground.Quad(at(stops[i], depths[k]), at(stops[i + 1], depths[k]), at(stops[i + 1], depths[k + 1]),
                   at(stops[i], depths[k + 1]));
     }
     if (!worn || stops[i + 1] - stops[i] < 1.5f) continue;
     const auto lifted = [&](float s, float d, float lift) { return at(s, d) + Vec3f{0, 0, lift}; };
-    internal::LayPavementWear(ground, lifted, stops[i], stops[i + 1], depths[1] + 0.03f, block.pavement, slabs, rng);
+    internal::LayPavementWear(ground, lifted, stops[i], stops[i + 1], depths[2] + 0.03f, block.pavement, slabs, rng);
   }
 }
 
-void LayCorner(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category) {
+void LayCorner(Ground& ground, const Block& block, int side, Surface slabs, std::string_view category, bool worn) {
   const BlockSide line = SideOf(block, side);
   const float r = block.corner_radius, back = r - kKerbWidth, length = line.length;
   std::vector<Vec2f> outline;
@@ -128,6 +128,13 @@ void LayCorner(Ground& ground, const Block& block, int side, Surface slabs, std:
   outline.push_back(line.At(length - r, block.pavement));
   ground.Begin("pavement corner " + PlaceName(block, side), category, slabs);
   ground.Polygon(outline, 0);
+  if (!worn) return;
+  RngStream rng(static_cast<uint64_t>(block.row * 8 + block.column), "corner wear", static_cast<uint64_t>(side));
+  const auto lifted = [&](float s, float d, float lift) {
+    const Vec2f p = line.At(s, d);
+    return Vec3f{p.x, p.y, lift};
+  };
+  internal::LayPavementWear(ground, lifted, length - r, length - 0.36f * r, 0.36f * r, block.pavement, slabs, rng);
 }
 
 }  // namespace
@@ -136,7 +143,7 @@ void LayPavement(Ground& ground, const Block& block, Surface slabs, std::string_
   for (int side = 0; side < 4; ++side) {
     LayKerb(ground, block, side);
     LayFields(ground, block, side, slabs, category, worn);
-    LayCorner(ground, block, side, slabs, category);
+    LayCorner(ground, block, side, slabs, category, worn);
   }
 }
 

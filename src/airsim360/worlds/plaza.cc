@@ -14,17 +14,19 @@ constexpr float kTerraceZ = 0.6f;
 
 Vec2f Polar(Vec2f c, float r, float a) { return {c.x + r * std::cos(a), c.y + r * std::sin(a)}; }
 
-// Brick fields in stone bands; rings of setts around the fountain, a few millimetres proud.
-void LayPaving(Ground& ground, const GroundRect& area) {
-  constexpr int kCells = 9;
+constexpr int kCells = 9;  // brick fields along each side
+
+// Brick fields in stone bands; rings of setts around the fountain, a few millimetres proud. Entities of the fields, row by row.
+std::vector<EntityId> LayPaving(Ground& ground, const GroundRect& area) {
+  std::vector<EntityId> fields;
   const float w = area.width() / kCells, h = area.depth() / kCells, band = 0.3f;
   for (int j = 0; j < kCells; ++j) {
     for (int i = 0; i < kCells; ++i) {
       const GroundRect cell{area.x0 + w * static_cast<float>(i), area.y0 + h * static_cast<float>(j),
                             area.x0 + w * static_cast<float>(i + 1), area.y0 + h * static_cast<float>(j + 1)};
       const GroundRect field = cell.Inset(band);
-      ground.Begin("plaza field", "ground/pavement/modular",
-                   (i + j) % 2 ? Surface::kPlazaBrickDark : Surface::kPlazaBrick);
+      fields.push_back(ground.Begin("plaza field", "ground/pavement/modular",
+                                    (i + j) % 2 ? Surface::kPlazaBrickDark : Surface::kPlazaBrick));
       ground.Rect(field, 0);
       ground.Use(Surface::kPlazaStone);
       ground.Rect({cell.x0, cell.y0, cell.x1, field.y0}, 0);
@@ -46,6 +48,7 @@ void LayPaving(Ground& ground, const GroundRect& area) {
     ground.Begin("plaza ring", "ground/pavement/modular", ring.surface);
     ground.RingSector(area.center(), ring.r0, ring.r1, 0, kTau, 0.005f, 72);
   }
+  return fields;
 }
 
 // A raised terrace with stone walls and a flight of four steps to the south.
@@ -219,6 +222,23 @@ void FurnishEdges(District& d, const GroundRect& area) {
   }
 }
 
+// Leaves lie under every tree of the plaza, most of them near the trunk, and belong to the field that they lie on.
+void LitterPlaza(District& d, const GroundRect& area, const std::vector<EntityId>& fields) {
+  RngStream rng(d.seed, "plaza litter");
+  for (const Placement& tree : d.placer.placements()) {
+    if (!tree.kind.starts_with("tree_") || !area.Contains({tree.p_W.x, tree.p_W.y}) || tree.p_W.z > 0.1f) continue;
+    for (int i = 0; i < 9; ++i) {
+      const float u = static_cast<float>(rng.Uniform());
+      const Vec2f p = Polar({tree.p_W.x, tree.p_W.y}, 0.4f + 4.2f * u * std::sqrt(u), static_cast<float>(rng.Uniform(0, kTau)));
+      if (!area.Inset(0.2f).Contains(p)) continue;
+      const auto cell = [&](float at, float from, float size) { return static_cast<size_t>((at - from) / size * kCells); };
+      const size_t field = cell(p.y, area.y0, area.depth()) * kCells + cell(p.x, area.x0, area.width());
+      d.placer.shelf().PlaceAs(fields[field], "leaf_litter", PlaceUpright({p.x, p.y, 0.006f}, static_cast<float>(rng.Uniform(0, kTau))),
+                               rng.Index(16));
+    }
+  }
+}
+
 }  // namespace
 
 void BuildPlaza(District& d, const Block& block) {
@@ -226,7 +246,7 @@ void BuildPlaza(District& d, const Block& block) {
   const Vec2f c = area.center();
   const GroundRect terrace{c.x - 25.2f, c.y + 27, c.x + 25.2f, c.y + 38};
   constexpr float kStepsHalf = 5;
-  LayPaving(d.ground, area);
+  const std::vector<EntityId> fields = LayPaving(d.ground, area);
   LayTerrace(d.ground, terrace, kStepsHalf);
   d.placer.Reserve({{c.x, terrace.y0 - 0.6f}, {kStepsHalf, 0.7f}, 0});
 
@@ -264,6 +284,7 @@ void BuildPlaza(District& d, const Block& block) {
   }
   PlantAllees(d, c);
   FurnishEdges(d, area);
+  LitterPlaza(d, area, fields);
 }
 
 }  // namespace airsim360::internal

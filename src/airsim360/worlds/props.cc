@@ -25,6 +25,8 @@ std::string TextureKey(const Texture& t) {
   return key;
 }
 
+constexpr float kWhitest = 0.9f;  // albedo
+
 // Turns, scales and paints a library model as its row asks.
 void Adapt(Model& model, const LibraryModel& row) {
   const float height = model.mesh.Bounds().max.z;
@@ -122,6 +124,9 @@ MeshId PropShelf::Add(Model model) {
   if (model.materials.empty()) model.materials.emplace_back();
   std::vector<MaterialId> material_ids;
   for (Material& material : model.materials) {
+    // No paint is whiter than snow, and a filtered white texture must not round to more than 1.
+    const Vec3f c = material.base_color;
+    if (material.kind == SurfaceKind::kStandard) material.base_color = c * std::min(1.0f, kWhitest / std::max({c.x, c.y, c.z, kWhitest}));
     for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture,
                           &material.normal_texture, &material.emission_texture}) {
       if (*id != kNoTexture) *id = texture_ids.at(static_cast<size_t>(*id));

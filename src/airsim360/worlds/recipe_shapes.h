@@ -49,6 +49,8 @@ Texel Rock(float u, float v);
 Texel Fields(float u, float v);
 Texel Stripes(float u, float v);
 Texel FarWalls(float u, float v);
+Texel FarPiers(float u, float v);
+Texel FarRibbons(float u, float v);
 Texel Shop(float u, float v, uint32_t kind);
 Texel Sign(float u, float v);
 

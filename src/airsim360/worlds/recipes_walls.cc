@@ -150,20 +150,49 @@ Texel Stripes(float u, float v) {
   return {Vec3f{1, 1, 1} * ((white ? 0.80f : 0.30f) * (1 + 0.05f * weave)), 0.0005f * weave, 0.85f};
 }
 
-// Four bays by four floors (12 x 12 m) of a distant facade.
+namespace {
+
+// A distant pane: the dark of a room, or a blind drawn down some way.
+Texel FarPane(const Unit& bay, float from_top) {
+  const bool blind = HashUnit(bay.id, 3) < 0.45f && from_top < HashUnit(bay.id, 4) * 1.1f;
+  const float dark = 0.05f + 0.06f * HashUnit(bay.id, 5);
+  return {blind ? Vec3f{0.42f, 0.40f, 0.36f} * (0.75f + 0.4f * HashUnit(bay.id, 6)) : Vec3f{0.9f, 1.0f, 1.1f} * dark, -0.2f, 0.2f};
+}
+
+Texel FarStone(float y) { return {Vec3f{1.0f, 0.98f, 0.95f} * y, 0, 0.8f}; }
+
+}  // namespace
+
+// Eight bays by eight floors (24 x 24 m) of a distant facade with windows of two widths in a wall.
 Texel FarWalls(float u, float v) {
-  const Unit bay = Bond(u, v, 12.0f, 4, 4, 0);
-  const bool window = bay.x > 0.26f && bay.x < 0.74f && bay.y > 0.20f && bay.y < 0.74f;
-  const bool frame =
-      window && (bay.x < 0.30f || bay.x > 0.70f || bay.y < 0.24f || std::abs(bay.x - 0.5f) < 0.02f);
-  const bool sill = bay.y > 0.74f && bay.y < 0.78f && bay.x > 0.22f && bay.x < 0.78f;
-  const float soft = TilingFbm(161, u, v, 4, 5);
-  if (window && !frame) {
-    const float blind =
-        HashUnit(bay.id, 3) < 0.4f && bay.y < 0.2f + 0.5f * HashUnit(bay.id, 4) ? 0.30f : 0.0f;
-    return {Vec3f{0.9f, 1.0f, 1.1f} * (0.06f + blind + 0.04f * HashUnit(bay.id, 5)), -0.2f, 0.2f};
-  }
-  return {Vec3f{1.0f, 0.98f, 0.95f} * ((frame ? 0.35f : sill ? 0.62f : 0.5f) * (1 + 0.08f * soft)), 0, 0.8f};
+  const Unit bay = Bond(u, v, 24.0f, 8, 8, 0), column = Bond(u, 0, 24.0f, 8, 1, 0);
+  const float half = HashUnit(column.id, 7) < 0.35f ? 0.17f : 0.24f, x = std::abs(bay.x - 0.5f);
+  const bool window = x < half && bay.y > 0.20f && bay.y < 0.74f;
+  const bool frame = window && (x > half - 0.035f || bay.y < 0.24f || x < 0.02f || std::abs(bay.y - 0.48f) < 0.02f);
+  const bool sill = bay.y > 0.74f && bay.y < 0.78f && x < half + 0.04f, lintel = bay.y > 0.14f && bay.y < 0.20f && x < half + 0.03f;
+  // A box of an air conditioner in some.
+  const bool cooler = HashUnit(bay.id, 8) < 0.12f && x < 0.11f && bay.y > 0.60f && bay.y < 0.74f;
+  if (cooler) return FarStone(0.45f);
+  if (window && !frame) return FarPane(bay, (bay.y - 0.24f) / 0.5f);
+  const float soft = TilingFbm(161, u, v, 6, 5);
+  return FarStone((frame ? 0.35f : sill ? 0.62f : lintel ? 0.58f : 0.5f) * (1 + 0.10f * soft));
+}
+
+// Piers that run up between strips of window and dark spandrel, two strips a bay.
+Texel FarPiers(float u, float v) {
+  const Unit bay = Bond(u, v, 24.0f, 12, 7, 0);
+  const float x = std::abs(bay.x - 0.5f), soft = TilingFbm(162, u, v, 6, 5);
+  if (x > 0.30f) return FarStone((x > 0.36f ? 0.55f : 0.36f) * (1 + 0.09f * soft));
+  if (bay.y < 0.55f) return x < 0.025f || bay.y < 0.03f ? FarStone(0.30f) : FarPane(bay, bay.y / 0.55f);
+  return FarStone((bay.y < 0.60f ? 0.40f : 0.26f) * (1 + 0.09f * soft));
+}
+
+// Bands of glass and wall by turns, a post every metre and a half.
+Texel FarRibbons(float u, float v) {
+  const Unit bay = Bond(u, v, 24.0f, 16, 7, 0);
+  const float soft = TilingFbm(163, u, v, 6, 5);
+  if (bay.y > 0.52f) return FarStone((bay.y < 0.56f ? 0.36f : 0.5f) * (1 + 0.09f * soft));
+  return std::abs(bay.x - 0.5f) > 0.455f || bay.y < 0.03f ? FarStone(0.30f) : FarPane(bay, bay.y / 0.52f);
 }
 
 }  // namespace airsim360::internal

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/district.h"
+#include "airsim360/worlds/street_markings.h"
 
 namespace airsim360::internal {
 namespace {
@@ -133,6 +134,35 @@ void LayCrossingCovers(District& d) {
   }
 }
 
+void DriveAcross(District& d, std::string_view cab, double traffic) {
+  for (int i = d.plan.first_core; i <= d.plan.last_core; ++i) {
+    for (int k = d.plan.first_core; k <= d.plan.last_core; ++k) {
+      const StreetLine &ns = d.plan.north_south[static_cast<size_t>(i)],
+                       &ew = d.plan.east_west[static_cast<size_t>(k)];
+      RngStream rng(d.seed, "crossing traffic", static_cast<uint64_t>(i * 64 + k));
+      const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
+      const Fan fan = FanOf(ns, ew);
+      const float lane = (ew.half_width - 2.35f) * 0.5f;
+      const auto drive = [&](float x, float y, Vec2f heading) {
+        const double pick = rng.Uniform();
+        const std::string_view kind = pick < 0.33 ? cab : pick < 0.9 ? "car" : "van";
+        if (!rng.Chance(std::min(1.0, traffic))) return;
+        const Vec2f p{ns.center + x, ew.center + y};
+        d.placer.Try(kind, {p.x, p.y, fan.Height(p) - 0.004f}, FacingYaw(heading) + uniform(-0.02, 0.02));
+      };
+      // Traffic keeps right: eastbound south of the middle.
+      for (float side : {-1.0f, 1.0f}) {
+        for (float x = -ns.half_width + uniform(0, 5); x < ns.half_width; x += uniform(8, 14))
+          if (rng.Chance(0.75)) drive(x, side * lane, {-side, 0});
+      }
+      if (ns.half_width < 8) continue;
+      // Turning left from the east into the lane beyond the middle.
+      const float a = uniform(0.5, 1.0);
+      drive(-2.5f + uniform(0, 2), -1.0f - uniform(0, 2), {-std::cos(a), -std::sin(a)});
+    }
+  }
+}
+
 bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side) {
   const int line = side == 0   ? block.row
                    : side == 1 ? block.column + 1
@@ -181,6 +211,7 @@ void FurnishPavements(District& d) {
 
 void FurnishStreets(District& d, const std::vector<StreetStretch>& streets) {
   LayCrossingCovers(d);
+  DriveAcross(d, "car", 0.7);
   for (size_t i = 0; i < streets.size(); ++i) {
     const StreetStretch& street = streets[i];
     RngStream rng(d.seed, "traffic", i);

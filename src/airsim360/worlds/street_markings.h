@@ -25,6 +25,9 @@ struct Fan {
   }
 };
 
+/// The fan of the crossing of a north-south with an east-west street: over its four mouths and kerb returns.
+Fan FanOf(const StreetLine& ns, const StreetLine& ew);
+
 /// A rectangle on a stretch, following the crown.
 void StreetRect(Ground& ground, const StreetStretch& street, float s0, float s1, float d0, float d1,
                 float lift);

@@ -53,7 +53,6 @@ int SizeOf(Recipe recipe) {
     case R::kShop1:
     case R::kShop2:
     case R::kStripes:
-    case R::kFarWalls:
     case R::kGalvanised:
       return 256;
     default:
@@ -108,7 +107,11 @@ TextureRecipe MakeRecipe(Recipe recipe) {
     case R::kStripes:
       return {"stripes", 1.6f, 0.5f, Stripes};
     case R::kFarWalls:
-      return {"far walls", 12, 0.42f, FarWalls};
+      return {"far walls", 24, 0.42f, FarWalls};
+    case R::kFarPiers:
+      return {"far piers", 24, 0.40f, FarPiers};
+    case R::kFarRibbons:
+      return {"far ribbons", 24, 0.36f, FarRibbons};
     case R::kRock:
       return {"rock", 900, 0.12f, Rock};
     case R::kFields:

@@ -32,6 +32,8 @@ enum class Recipe {
   kPaintWorn,
   kStripes,
   kFarWalls,
+  kFarPiers,
+  kFarRibbons,
   kRock,
   kFields,
   kShop0,

@@ -35,13 +35,13 @@ using R = Recipe;
 using G = GroundWear;
 constexpr SurfaceKind kSolid = SurfaceKind::kStandard;
 constexpr Row kRows[] = {
-    {S::kAsphalt, "asphalt", R::kAsphalt, Gray(0.95f), 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kAsphalt, "asphalt", R::kAsphalt, Gray(0.88f), 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kAsphaltPatch, "asphalt patch", R::kAsphaltFresh, Gray(1.15f), 0.8f, 0.05f},
-    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {1.14f, 1.12f, 1.08f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {1.06f, 1.04f, 1.00f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kTar, "tar", R::kNone, Gray(0.035f), 0.5f},
     {S::kGutter, "gutter", R::kConcrete, Gray(0.62f), 0.7f, 0.1f},
     {S::kKerb, "kerb stone", R::kConcrete, {0.86f, 0.85f, 0.83f}, 0.7f, 0.06f},
-    {S::kSlabs, "slabs", R::kSlabs, Gray(0.9f), 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kSlabs, "slabs", R::kSlabs, {0.80f, 0.79f, 0.76f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
     {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
     {S::kTactile, "tactile slabs", R::kSlabs, {1.35f, 1.0f, 0.35f}, 0.7f},
     {S::kPlazaBrick,
@@ -132,19 +132,24 @@ constexpr Row kRows[] = {
     {S::kGlassBlack, "glass black", R::kNone, {0.012f, 0.014f, 0.017f}, 0.04f, 0, 0, kPane},
     {S::kGlassRedCurtain, "glass with red curtain", R::kNone, {0.42f, 0.012f, 0.015f}, 0.05f, 0, 0, kPane},
     {S::kIronBlack, "iron black", R::kNone, {0.022f, 0.022f, 0.024f}, 0.55f},
-    {S::kCarriageway, "carriageway", R::kAsphalt, Gray(0.95f), 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kCarriageway, "carriageway", R::kAsphalt, Gray(0.86f), 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
     {S::kCarriagewayOld,
      "carriageway old",
      R::kAsphalt,
-     {1.14f, 1.12f, 1.08f},
+     {1.04f, 1.02f, 0.98f},
      0.8f,
      0.14f,
      0,
      kSolid,
      G::kCarriageway},
     {S::kCarriagewayFresh, "carriageway fresh", R::kAsphaltFresh, Gray(1.45f), 0.8f, 0.10f, 0, kSolid, G::kCarriageway},
-    {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.62f, 1.58f, 1.50f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
-    {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.75f, 1.70f, 1.60f}, 0.8f, 0.10f},
+    {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.36f, 1.33f, 1.27f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.40f, 1.37f, 1.30f}, 0.8f, 0.10f},
+    {S::kFarWalls3, "far walls brown", R::kFarWalls, {0.54f, 0.39f, 0.31f}, 0.8f, 0.06f},
+    {S::kFarPiers0, "far piers stone", R::kFarPiers, {1.06f, 0.94f, 0.78f}, 0.8f, 0.06f},
+    {S::kFarPiers1, "far piers brick", R::kFarPiers, {0.78f, 0.52f, 0.40f}, 0.8f, 0.06f},
+    {S::kFarRibbons0, "far ribbons white", R::kFarRibbons, {1.12f, 1.11f, 1.07f}, 0.8f, 0.06f},
+    {S::kFarRibbons1, "far ribbons grey", R::kFarRibbons, {0.52f, 0.57f, 0.62f}, 0.6f, 0.06f},
 };
 static_assert(std::size(kRows) == static_cast<size_t>(S::kCount));
 
@@ -179,6 +184,10 @@ Vec2f UnitsOf(Recipe recipe) {
       return units(internal::kSettUnits);
     case R::kSlate:
       return units(internal::kSlateUnits);
+    case R::kFarWalls:
+    case R::kFarPiers:
+    case R::kFarRibbons:
+      return {1, 0.1f};  // each far building a tone of its own
     default:
       return {};
   }

@@ -96,6 +96,11 @@ enum class Surface {
   kCarriagewayFresh,
   kCarriagewayPale,
   kAsphaltPale,
+  kFarWalls3,
+  kFarPiers0,
+  kFarPiers1,
+  kFarRibbons0,
+  kFarRibbons1,
   kCount
 };
 

@@ -193,7 +193,7 @@ void ScatterReflections(const RaySet& rays, const float* u, const float* v, Surf
     const real coat = load(s.coat + i);
     const mask_t untraced = !(load(s.mirror + i) > 0.5f) && (kind < 0.5f);
     const mask_t coated = untraced && (coat > 0.05f);
-    const mask_t rough = untraced && !coated && ((roughness < 0.5f) || (metallic > 0.2f));
+    const mask_t rough = untraced && !coated && (roughness < 0.25f);
     if (!stdx::any_of(coated || rough)) continue;
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);

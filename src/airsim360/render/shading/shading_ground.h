@@ -1,5 +1,5 @@
-// What tells one square metre of ground from the next: stains, cracks, repairs, wheel tracks, mowing, dry and
-// damp places, in the subset of shading_shared.h, after which it is included in the same way. `wide`, `mid`
+// What tells one square metre of ground or wall from the next: stains, cracks, repairs, wheel tracks, mowing, dry
+// and damp places, in the subset of shading_shared.h, after which it is included in the same way. `wide`, `mid`
 // and `fine` are three independent noises each (mean 0.5, sd about 0.13) with features of about 5 to 40,
 // 0.8 to 6 and 0.2 to 1.4 m; `detail` is 1 close by and 0 where a pixel is wider than the fine noise.
 
@@ -117,4 +117,22 @@ SHARED real roof_wear(real px, real3 wide, real3 mid, real3 fine, real detail, r
   real line = soft_line(roll - rfloor(roll) - 0.5f, real(0.03f), width) * seams;
   return (1.0f + 0.3f * f + 0.2f * (mid.x - 0.5f)) * (1.0f - 0.26f * pond + 0.14f * ring) *
          (1.0f - 0.22f * line);
+}
+
+// Share of a surface's macro variation that is a wall's: upright, and no ground.
+SHARED real wall_share(real macro, real ground, real up) {
+  return sel(ground > 0.5f, real(0.0f), clamp01(macro * 17.0f) * clamp01(3.0f - 6.0f * rabs(up)));
+}
+
+// Walls: soot in patches, dark streaks that rain drew down where the wall is dirty, lime where it is not. `fine` was
+// looked up along the wall and slowly down it, so that it is drawn out in height.
+SHARED real3 wall_wear(real3 wide, real3 mid, real3 fine, real width, real share) {
+  real near = clamp01(0.30f / rmax(width, real(1e-3f)));
+  real soot = smooth01(clamp01((mid.y + 0.8f * (wide.z - 0.5f) - 0.42f) * 4.0f));
+  real streak = smooth01(clamp01((fine.x - 0.47f) * 4.5f)) * near * (0.35f + 0.65f * soot);
+  real lime = smooth01(clamp01((fine.y - 0.60f) * 6.0f)) * near * (1.0f - soot);
+  real light = (1.0f + 0.30f * (mid.z - 0.5f)) * (1.0f + 0.10f * lime) * (1.0f - 0.16f * soot) * (1.0f - 0.30f * streak);
+  real brown = 0.05f * soot + 0.06f * streak;
+  real one = real(1.0f);
+  return lerp3(make3(one, one, one), make3(light * (1.0f + 0.3f * brown), light, light * (1.0f - brown)), share);
 }

@@ -82,6 +82,7 @@ KERNEL real3 SampleTiles(const ShadeView& view, const Fetched& f, const int32_t*
 struct Noises {
   real3 wide, mid, fine;
   real detail;
+  real wall;  ///< see wall_share
 };
 
 SEPARATE Noises LookUpNoises(const ShadeView& view, const Fetched& f, real3 p, real3 n, real width) {
@@ -95,11 +96,15 @@ SEPARATE Noises LookUpNoises(const ShadeView& view, const Fetched& f, real3 p, r
   out.detail = rmin(real(1.0f), 0.5f / rmax(width, real(1e-3f)));
   out.fine = make3(real(0.5f), real(0.5f), real(0.5f));
   const mask_t near = width < 5.0f;
-  if ((f.any_ground || view.wetness > 0 || view.snow > 0) && stdx::any_of(near)) {
+  out.wall = wall_share(load(f.macro), load(f.ground), n.z);
+  const mask_t upright = out.wall > 0.0f;
+  if ((f.any_ground || view.wetness > 0 || view.snow > 0 || stdx::any_of(upright)) && stdx::any_of(near)) {
     const real qx = (px * 0.83f + py * 0.56f) * (1.0f / 11.3f),
                qy = (py * 0.83f - px * 0.56f) * (1.0f / 11.3f);
-    const real3 fine =
-        SampleNoise(view, qx + (out.mid.y - 0.5f) * 0.6f + bend_x, qy + (out.mid.z - 0.5f) * 0.6f);
+    // On walls it runs along and, much slower, down.
+    const real along = (p.y * n.x - p.x * n.y) * (1.0f / 4.7f), down = p.z * (1.0f / 67.0f);
+    const real3 fine = SampleNoise(view, sel(upright, along, qx + (out.mid.y - 0.5f) * 0.6f + bend_x),
+                                   sel(upright, down, qy + (out.mid.z - 0.5f) * 0.6f));
     out.fine = sel3(near, fine, out.fine);
   }
   return out;

@@ -125,7 +125,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   Noises noises;
   if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
     noises = LookUpNoises(view, f, p, n, width);
-  if (f.any_macro) color = color * MacroTint(f, noises, width);
+  if (f.any_macro)
+    color = color * MacroTint(f, noises, width) * wall_wear(noises.wide, noises.mid, noises.fine, width, noises.wall);
   if (f.any_unit) color = color * UnitTint(f, tu, tv, footprint);
   if (f.any_ground) WearGround(f, noises, p, tu, width, color, roughness);
   if (f.any_leaf) color = LeafTint(f, color);

@@ -14,9 +14,10 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 constexpr float kPitchX = 132, kPitchY = 84, kCityEdge = 660, kGroundZ = -0.14f;
 
 Surface FarWall(RngStream& rng) {
-  static constexpr Surface kWalls[] = {Surface::kFarWalls0, Surface::kFarWalls0, Surface::kFarWalls1,
-                                       Surface::kFarWalls1, Surface::kFarWalls2, Surface::kGlassBlue};
-  return kWalls[rng.Index(6)];
+  using S = Surface;
+  static constexpr S kWalls[] = {S::kFarWalls0, S::kFarWalls0, S::kFarWalls1, S::kFarWalls3,  S::kFarWalls2,   S::kFarPiers0,
+                                 S::kFarPiers0, S::kFarPiers1, S::kFarPiers1, S::kFarRibbons0, S::kFarRibbons1, S::kGlassBlue};
+  return kWalls[rng.Index(12)];
 }
 
 float FarHeight(RngStream& rng) {
@@ -139,11 +140,11 @@ void BuildFarManhattan(District& d) {
     const float x0 = side > 0 ? ex : -2700.0f, x1 = side > 0 ? 2700.0f : -ex;
     d.ground.Rect({x0, -9000, x1, 9000}, -2.5f);
   }
-  // Low land beyond, a disc to the horizon.
+  // Low land beyond, a disc to the horizon; under the streets so close below them that nobody can walk there.
   d.ground.Begin("far land", "ground/terrain/landscape", Surface::kPlain);
   float r0 = 0;
   for (float r1 : {600.0f, 1500.0f, 3500.0f, 7000.0f, 15000.0f}) {
-    d.ground.RingSector({0, 0}, r0, r1, 0, kTau, -3.2f, 72);
+    d.ground.RingSector({0, 0}, r0, r1, 0, kTau, r1 > 600 ? -3.2f : -1.2f, 72);
     r0 = r1;
   }
 }

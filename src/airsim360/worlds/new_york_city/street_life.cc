@@ -41,7 +41,7 @@ constexpr Rule kRules[] = {
     {"traffic_sign", 22, 0.5f, true, 1},    {"bench_wood", 40, 1.1f, false, 1},
     {"electric_box", 75, 0.85f, false, 1},  {"bicycle", 45, 1.1f, true, 3},
     {"poster_stand", 80, 0.95f, false, 1},  {"concrete_block", 90, 0.9f, true, 2},
-    {"parking_meter", 14, 0.5f, false, 1},
+    {"parking_meter", 14, 0.5f, false, 1},  {"trash_bags", 17, 1.0f, true, 1},
 };
 
 void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, const std::vector<float>& lamps,
@@ -230,6 +230,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
 
 void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& streets, const Density& density) {
   LayCrossingCovers(d);
+  DriveAcross(d, "taxi", density.traffic);
   for (size_t i = 0; i < streets.size(); ++i) {
     const StreetStretch& street = streets[i];
     RngStream rng(d.seed, "new york traffic", i);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/base/random.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -213,11 +214,40 @@ Model MakeBlueBarrier(uint32_t, uint64_t) {
   return b.Finish();
 }
 
+// Full bags put out for the night, heaped, with a flattened box or two leaning on them.
+Model MakeTrashBags(uint32_t variant, uint64_t seed) {
+  PropBuilder b("trash_bags");
+  RngStream rng(seed, "trash bags", variant);
+  const auto uniform = [&](double from, double to) { return static_cast<float>(rng.Uniform(from, to)); };
+  const int bags = 2 + static_cast<int>(variant % 3);
+  for (int i = 0; i < bags; ++i) {
+    b.Use(Plastic(i % 4 == 3 ? Vec3f{0.34f, 0.36f, 0.37f} : Vec3f{0.017f, 0.017f, 0.019f}, 0.34f));
+    const float r = uniform(0.24, 0.34), h = uniform(0.42, 0.60), p1 = uniform(0, kTau), p2 = uniform(0, kTau);
+    const Vec3f foot{0.42f * static_cast<float>(i) - 0.21f * static_cast<float>(bags - 1) + uniform(-0.06, 0.06), uniform(-0.16, 0.16), -0.01f};
+    // A sack: wide and creased below, drawn together under the knot, the ends of which stand up.
+    b.Sheet(14, 10, [&](float u, float v) {
+      const float a = kTau * u, neck = std::max(0.0f, v - 0.72f) / 0.28f;
+      const float belly = std::sqrt(std::max(0.0f, 1 - std::pow(std::abs(2 * std::min(v, 0.72f) / 0.9f - 0.72f), 2.6f)));
+      const float crease = 1 + 0.09f * std::sin(3 * a + p1 + 4 * v) + 0.05f * std::sin(7 * a + p2 - 9 * v);
+      const float radius = v <= 0 ? 0.0f : neck > 0 ? r * (0.62f * (1 - neck) * (1 - neck) + 0.06f + 0.10f * neck) : r * belly * crease;
+      return foot + Vec3f{radius * std::cos(a), radius * std::sin(a), h * std::max(0.0f, v - 0.04f)};
+    }, {1, 1});
+  }
+  for (int i = 0; i < 1 + static_cast<int>(variant % 2); ++i) {
+    b.Use(Stone({0.30f, 0.205f, 0.125f}, 0.85f));
+    b.Place(Turn(72 + uniform(-6, 6), 0, uniform(-12, 12), {uniform(-0.5, 0.5), -0.42f, 0.0f}));
+    b.mesh().Box({-0.4f, 0, 0}, {0.4f, uniform(0.45, 0.7), 0.03f});
+    b.Place({});
+  }
+  return b.Finish();
+}
+
 }  // namespace
 
 std::vector<PropKind> NewYorkKinds() {
   return {
       {"newspaper_box", "furniture/misc", 4, MakeNewspaperBox, 0.35f, 1.1f, 1.3f, 500},
+      {"trash_bags", "furniture/misc", 6, MakeTrashBags, 1.0f, 0.4f, 0.75f, 2200},
       {"concrete_block", "traffic/barrier/concrete_block", 3, MakeConcreteBlock, 1.25f, 0.75f, 0.9f, 200},
       {"traffic_cone", "traffic/temporary/cone", 2, MakeCone, 0.25f, 0.7f, 0.95f, 400},
       {"metal_fence", "barrier/fence/metal_fence", 2, MakeMetalFence, 1.0f, 1.1f, 1.9f, 1600},

@@ -31,7 +31,7 @@ vec3 LightAround(Hit h, vec3 direction, out float sun_known);
 /// Tier `high` sends a ray where any shiny skin is seen to mirror something.
 void Scatter(Ray ray, inout Shaded s, vec2 u) {
   if (s.mirror || s.kind >= 0.5) return;
-  const bool coated = s.coat > 0.05, rough = !coated && (s.roughness < 0.5 || s.metallic > 0.2);
+  const bool coated = s.coat > 0.05, rough = !coated && s.roughness < 0.25;
   if (!coated && !rough) return;
   const Bsdf bsdf = bsdf_make(s.kind, s.color, s.metallic, s.roughness, 0.0, s.coat, s.coat_roughness);
   const float n_dot_v = max(-dot(s.n, ray.direction), 0.02);

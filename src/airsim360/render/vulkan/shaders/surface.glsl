@@ -92,13 +92,14 @@ Sampled SampleAll(GpuMaterial m, TileCorners corners, float tu, float tv, float 
 
 struct Noises {
   vec3 wide, mid, fine;
-  float detail;
+  float detail, wall;
 };
-Noises LookUpNoises(bool wants_fine, vec3 p, vec3 n, float width) {
+Noises LookUpNoises(bool wants_fine, float wall, vec3 p, vec3 n, float width) {
   const float px = p.x + 0.41 * p.z * n.x, py = p.y + 0.37 * p.z;
   Noises o;
   o.detail = min(1.0, 0.5 / max(width, 1e-3));
   o.fine = vec3(0.5);
+  o.wall = wall;
   float bend_x = 0.0, bend_y = 0.0, x = px * (1.0 / 311.0), y = py * (1.0 / 311.0);
   [[dont_unroll]] for (int k = 0; k < 3; ++k) {
     const vec3 noise = SampleNoise(x, y);
@@ -109,9 +110,10 @@ Noises LookUpNoises(bool wants_fine, vec3 p, vec3 n, float width) {
       x = px * (1.0 / 47.0) + 0.37 + bend_x, y = py * (1.0 / 47.0) + bend_y;
     } else if (k == 1) {
       o.mid = noise;
-      if (!wants_fine || !(width < 5.0)) break;
+      if (!(wants_fine || wall > 0.0) || !(width < 5.0)) break;
       x = (px * 0.83 + py * 0.56) * (1.0 / 11.3) + (o.mid.y - 0.5) * 0.6 + bend_x;
       y = (py * 0.83 - px * 0.56) * (1.0 / 11.3) + (o.mid.z - 0.5) * 0.6;
+      if (wall > 0.0) x = (p.y * n.x - p.x * n.y) * (1.0 / 4.7), y = p.z * (1.0 / 67.0);
     } else {
       o.fine = noise;
     }
@@ -332,8 +334,9 @@ Shaded Prepare(Ray ray) {
   const bool wear = m.ground > 0.5;
   Noises noises;
   const bool weather = view.wetness > 0.0 || view.lying_snow > 0.0;
-  if (m.macro_variation != 0.0 || wear || weather) noises = LookUpNoises(wear || weather, p, n, ray.width);
-  if (m.macro_variation != 0.0) color *= MacroTint(m, noises, ray.width);
+  if (m.macro_variation != 0.0 || wear || weather) noises = LookUpNoises(wear || weather, wall_share(m.macro_variation, m.ground, n.z), p, n, ray.width);
+  if (m.macro_variation != 0.0)
+    color *= MacroTint(m, noises, ray.width) * wall_wear(noises.wide, noises.mid, noises.fine, ray.width, noises.wall);
   color *= UnitTint(m, tu, tv, footprint);
   if (wear) WearGround(m, noises, p, tu, ray.width, color, roughness);
   if (m.kind == kFoliage) {
