@@ -31,31 +31,83 @@ void HighBuffers::Resize(int width, int height) {
   smooth.resize(terms.size());
 }
 
-bool SameSurface(const HighBuffers& buffers, const RayField& field, int x, int y, int u, int v) {
-  if (buffers.entity(u, v) != buffers.entity(x, y)) return false;
-  const Vec3f n = buffers.normal(x, y);
-  if (Dot(n, buffers.normal(u, v)) < 0.9f) return false;
-  // The other point's distance from this one's plane.
-  const float range = buffers.range(x, y);
-  const float apart =
-      Dot(n, PixelDirection(field, u, v)) * buffers.range(u, v) - Dot(n, PixelDirection(field, x, y)) * range;
-  return std::fabs(apart) < 0.02f + 0.01f * range;
-}
+namespace {
 
-float SmoothSun(const HighBuffers& buffers, const RayField& field, int x, int y) {
-  const int radius = buffers.penumbra(x, y), width = field.width, height = field.height;
-  float sum = 0, weight = 0;
-  for (int v = std::max(0, y - radius); v <= std::min(height - 1, y + radius); ++v) {
-    for (int dx = -radius; dx <= radius; ++dx) {
-      int u = x + dx;
-      if (!field.separable && (u < 0 || u >= width)) continue;
-      u = Wrapped(u, width);
-      if (!SameSurface(buffers, field, x, y, u, v)) continue;
-      sum += buffers.sun_seen(u, v);
-      weight += 1;
+// How far light is mixed (a normal distribution's deviation, in pixels), by a penumbra's width: where the sum of what is
+// left of the noise of eight rays and of the blur is least, in shadows of leaves 3 to 8 pixels wide.
+constexpr float kOfPenumbra = 0.13f, kLeastSpread = 0.45f, kMostSpread = 2.5f;
+constexpr int kMostColumns = 40;
+
+// What the pixels around a pixel are compared with.
+class SunNeighbourhood {
+ public:
+  SunNeighbourhood(const HighBuffers& buffers, const RayField& field, int x, int y)
+      : buffers_(buffers),
+        field_(field),
+        x_(x),
+        y_(y),
+        entity_(buffers.entity(x, y)),
+        normal_(buffers.normal(x, y)),
+        range_(buffers.range(x, y)),
+        place_(PixelDirection(field, x, y) * range_) {}
+
+  /// Calls visit(u, v, squared distance) for pixels of about the same plane, at most so many rows and columns away.
+  template <class Visit>
+  void ForPixels(int rows, int columns, int step, const Visit& visit) const {
+    for (int v = std::max(0, y_ - rows); v <= std::min(field_.height - 1, y_ + rows); ++v) {
+      for (int dx = -columns; dx <= columns; dx += step) {
+        int u = x_ + dx;
+        if (!field_.separable && (u < 0 || u >= field_.width)) continue;
+        u = Wrapped(u, field_.width);
+        if (buffers_.entity(u, v) != entity_ || Dot(normal_, buffers_.normal(u, v)) < 0.9f) continue;
+        const Vec3f away = PixelDirection(field_, u, v) * buffers_.range(u, v) - place_;
+        if (std::fabs(Dot(normal_, away)) < 0.02f + 0.01f * range_) visit(u, v, Dot(away, away));
+      }
     }
   }
-  return weight > 0 ? sum / weight : buffers.sun_seen(x, y);
+  float range() const { return range_; }
+
+ private:
+  const HighBuffers& buffers_;
+  const RayField& field_;
+  int x_, y_;
+  EntityId entity_;
+  Vec3f normal_;
+  float range_;
+  Vec3f place_;
+};
+
+}  // namespace
+
+float SmoothSun(const HighBuffers& buffers, const RayField& field, float cone_angle, int x, int y) {
+  const SunNeighbourhood around(buffers, field, x, y);
+  // Columns as wide as a row is high.
+  const float across =
+      field.separable ? static_cast<float>(std::min(1 / field.row_scale[y], field.width / 8.0)) : 1.0f;
+
+  // Width of the penumbra here, for rays that all saw the sun do not know it.
+  int sum = 0, count = 0;
+  const int square = std::max(1, static_cast<int>(across + 0.5f));
+  around.ForPixels(2, 2 * square, square, [&](int u, int v, float) {
+    const int code = buffers.penumbra(u, v);
+    if (code > 1) sum += code - 2, ++count;
+  });
+  if (count == 0) return buffers.sun_seen(x, y);
+  const float width = static_cast<float>(sum) / (kPenumbraSteps * static_cast<float>(count));
+
+  // A mean by distance along the surface, whatever that is in pixels.
+  const float spread = std::min(kLeastSpread + kOfPenumbra * width, kMostSpread);
+  const float metres = spread * cone_angle * around.range(), sharpness = 1 / (8 * metres * metres);
+  const int rows = static_cast<int>(std::ceil(2 * spread));
+  const int columns = std::min(kMostColumns, static_cast<int>(std::ceil(2 * spread * across)));
+  float light = 0, weight = 0;
+  around.ForPixels(rows, columns, 1, [&](int u, int v, float distance2) {
+    float w = std::max(0.0f, 1 - distance2 * sharpness);
+    w *= w, w *= w;
+    light += buffers.sun_seen(u, v) * w;
+    weight += w;
+  });
+  return weight > 0 ? light / weight : buffers.sun_seen(x, y);
 }
 
 }  // namespace airsim360::internal

@@ -47,10 +47,8 @@ inline Vec3f PixelDirection(const RayField& f, int x, int y) {
   return out;
 }
 
-/// Whether light of pixel (u, v) may stand for that of (x, y): the same entity, about the same plane.
-bool SameSurface(const HighBuffers& buffers, const RayField& field, int x, int y, int u, int v);
-
-/// Share of the sun's disc seen from a pixel, smoothed in penumbrae along its surface.
-float SmoothSun(const HighBuffers& buffers, const RayField& field, int x, int y);
+/// Share of the sun's disc seen from a pixel near the edge of a shadow: the mean of the pixels around that show the
+/// same surface, weighted by their distance along it; so far as the penumbra is wide. `cone_angle` is a pixel's.
+float SmoothSun(const HighBuffers& buffers, const RayField& field, float cone_angle, int x, int y);
 
 }  // namespace airsim360::internal

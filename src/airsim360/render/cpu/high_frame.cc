@@ -185,7 +185,10 @@ void HighFrame::Impl::TraceTile(int tile) {
   const uint64_t key = MixBits(MixBits(request->seed + frames * 0x9e3779b97f4a7c15ull) +
                                static_cast<uint64_t>(down / 4 * buffers.across() + across / 4));
   const TileSampling sampling{&layouts[shape == PacketShape::kRow], static_cast<uint32_t>(key),
-                              Morton(across, down), AmbientRays(*request, field, row), hits.cone_angle};
+                              Morton(across, down), AmbientRays(*request, field, row), hits.cone_angle,
+                              field.separable,
+                              {static_cast<float>(field.R[1]), static_cast<float>(field.R[4]),
+                               static_cast<float>(field.R[7])}};
   HighTile shaded;
   ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, shaded);
   StoreTile(shaded, tile_labels, target, tile);
@@ -255,7 +258,8 @@ void HighFrame::Impl::CombineTile(int tile) {
     float* sun = &buffers.sun_smooth(column, y);
     std::copy_n(&buffers.sun_seen(column, y), columns, sun);
     for (int x = 0; smooth && x < columns; ++x) {
-      if (buffers.penumbra(column + x, y) != 0) sun[x] = SmoothSun(buffers, field, column + x, y);
+      if (buffers.penumbra(column + x, y) != 0)
+        sun[x] = SmoothSun(buffers, field, static_cast<float>(rays->cone_angle()), column + x, y);
     }
     const CombinedRow combined{Shape(row),
                                y - row,

@@ -6,10 +6,9 @@
 
 namespace airsim360::internal {
 
-/// Turns `sunlit` from "may matter" to the share of the sun's disc that is seen: one ray each, four where
+/// Turns `sunlit` from "may matter" to the share of the sun's disc that is seen: one ray each, eight where
 /// neighbours on the same plane disagree: these start all over the pixel, so that edges of shadows are smooth.
-/// `penumbra` gets, at the surfaces' slots, the radius in pixels over which that share may be smoothed: a fifth
-/// of the penumbra's width.
+/// `penumbra` gets, at the surfaces' slots, what HighTile says.
 void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays,
                   SurfaceSet& surfaces, uint8_t* penumbra);
 

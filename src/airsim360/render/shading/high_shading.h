@@ -25,7 +25,12 @@ struct TileSampling {
   uint32_t tile;       ///< which of these, 0 … 15 in Morton order: together they are stratified, too
   float ambient_rays;  ///< wanted for a pixel, on average; at least one is sent
   float cone_angle;    ///< of a pixel, radians
+  bool panorama = false;
+  Vec3f pole;  ///< of a panorama: the axis, in W, about which its columns turn
 };
+
+/// HighTile::penumbra counts a pixel in so many steps.
+inline constexpr float kPenumbraSteps = 8;
 
 /// In the order of a HitBatch. What met nothing has its radiance in `rest` and zeros elsewhere.
 struct alignas(64) HighTile {
@@ -35,7 +40,9 @@ struct alignas(64) HighTile {
   /// Irradiance found, times 1 / albedo where the albedo differs between front and back of leaves.
   float light_r[kBatch], light_g[kBatch], light_b[kBatch];
   uint8_t light_samples[kBatch];
-  uint8_t penumbra[kBatch];  ///< radius in pixels over which `sun_seen` may be smoothed; 0 = exact
+  /// 0: no shadow ends near by; 1: one does, and every ray saw the sun; else 2 + the penumbra's width in pixels times
+  /// kPenumbraSteps, as far as what hides the sun tells.
+  uint8_t penumbra[kBatch];
 };
 
 /// Shades a tile. Without `sampling` the hits are scattered rays: no ambient rays are sent, and the sun is

@@ -12,8 +12,7 @@ namespace {
 constexpr int kSide = 16;
 constexpr float kSunAngle = 0.0093f;          // width of the disc, radians (0.53 degrees)
 // Rays of a pixel where a shadow ends: always as many. Stopping where the first ones agree would make penumbrae narrower.
-constexpr int kSunSamples = 4;
-constexpr int kMaxSmoothing = 3;  // pixels
+constexpr int kSunSamples = 8;
 
 // Index of the surface of each pixel of a tile, -1 = none.
 struct SurfaceGrid {
@@ -35,12 +34,13 @@ bool SamePlane(const RaySet& rays, const SurfaceSet& s, int i, int k) {
   return facing > 0.9f && std::fabs(apart) < 0.01f + 0.002f * rays.distance[i];
 }
 
-// Whether a pixel within two of this one, on the same plane, sees the sun otherwise.
+// Whether a pixel within two pixels' heights of this one, on the same plane, sees the sun otherwise; `columns` are
+// as wide.
 bool AtShadowEdge(const RaySet& rays, const SurfaceSet& s, const SurfaceGrid& grid, const uint8_t* asked,
-                  int pixel) {
+                  int pixel, int columns) {
   const int x = pixel % kSide, y = pixel / kSide, i = grid.at[pixel];
   for (int v = std::max(0, y - 2); v <= std::min(kSide - 1, y + 2); ++v) {
-    for (int u = std::max(0, x - 2); u <= std::min(kSide - 1, x + 2); ++u) {
+    for (int u = std::max(0, x - columns); u <= std::min(kSide - 1, x + columns); ++u) {
       const int k = grid.at[v * kSide + u];
       if (k >= 0 && asked[k] && s.sunlit[k] != s.sunlit[i] && SamePlane(rays, s, i, k)) return true;
     }
@@ -83,12 +83,23 @@ struct SunDirections {
   uint32_t seed_;
 };
 
+// Axis about which columns turn: the panorama's, or any across the ray.
+Vec3f ColumnAxis(const TileSampling& sampling, Vec3f d) {
+  if (sampling.panorama) return sampling.pole;
+  return std::fabs(d.z) < 0.9f ? Vec3f{0, 0, 1} : Vec3f{1, 0, 0};
+}
+
+// Width of a pixel by its height: less than one towards a panorama's poles.
+float PixelAspect(const TileSampling& sampling, Vec3f d) {
+  return sampling.panorama ? std::max(Norm(Cross(sampling.pole, d)), 1e-4f) : 1.0f;
+}
+
 // Moves the start of a ray over the part of the surface's plane that the pixel shows.
-Vec3f WithinPixel(const RaySet& rays, const SurfaceSet& s, int i, Vec2f offset, float cone_angle) {
+Vec3f WithinPixel(const RaySet& rays, const SurfaceSet& s, int i, Vec2f offset, const TileSampling& sampling) {
   const Vec3f d{rays.dx[i], rays.dy[i], rays.dz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-  const Vec3f across = Normalized(std::fabs(d.z) < 0.9f ? Vec3f{-d.y, d.x, 0} : Vec3f{0, -d.z, d.y});
-  const Vec3f up = Cross(across, d);
-  const Vec3f beside = d + across * (offset.x * cone_angle) + up * (offset.y * cone_angle);
+  const Vec3f across = Normalized(Cross(ColumnAxis(sampling, d), d)), up = Cross(across, d);
+  const Vec3f beside = d + across * (offset.x * sampling.cone_angle * PixelAspect(sampling, d)) +
+                       up * (offset.y * sampling.cone_angle);
   const float slant = Dot(g, d), there = Dot(g, beside);
   const float stretch = there < 0.3f * slant ? std::clamp(slant / there, 0.5f, 2.0f) : 1.0f;
   return (beside * stretch - d) * rays.distance[i];
@@ -140,7 +151,10 @@ class SunTile {
     int edge[kBatch], count = 0;
     for (int pixel = 0; pixel < 256; ++pixel) {
       const int i = grid.at[pixel];
-      if (i >= 0 && asked_[i] && AtShadowEdge(rays_, s_, grid, asked_, pixel)) edge[count++] = i;
+      if (i < 0 || !asked_[i]) continue;
+      const float aspect = PixelAspect(sampling_, {rays_.dx[i], rays_.dy[i], rays_.dz[i]});
+      const int columns = static_cast<int>(std::min(kSide - 1.0f, 2 / aspect + 0.5f));
+      if (AtShadowEdge(rays_, s_, grid, asked_, pixel, columns)) edge[count++] = i;
     }
     directions_.MakeAll();
     for (int n = 0; n < count; ++n) AddRays(edge[n]);
@@ -148,7 +162,7 @@ class SunTile {
     for (int n = 0; n < count; ++n) {
       const int i = edge[n];
       s_.sunlit[i] = static_cast<float>(kSunSamples - blocked_[i]) / kSunSamples;
-      if (blocked_[i] != 0 && blocked_[i] != kSunSamples) penumbra[rays_.slot[i]] = Smoothing(i);
+      penumbra[rays_.slot[i]] = PenumbraCode(i);
     }
   }
 
@@ -167,7 +181,7 @@ class SunTile {
     const int phase = Phase(i);
     const Vec3f start = SunStart(rays_, s_, i, to_sun_);
     for (int k = 0; k < kSunSamples; ++k) {
-      queue_.Add(start + WithinPixel(rays_, s_, i, directions_.offset[k][phase], sampling_.cone_angle),
+      queue_.Add(start + WithinPixel(rays_, s_, i, directions_.offset[k][phase], sampling_),
                  directions_.at[k][phase], i);
       if (queue_.count == 16) Count();
     }
@@ -185,11 +199,12 @@ class SunTile {
     queue_.count = 0;
   }
 
-  // A fifth of the penumbra's width, in pixels: how far the blockers are tells how wide it is.
-  uint8_t Smoothing(int i) const {
+  // As HighTile::penumbra: how far the blockers are tells how wide it is.
+  uint8_t PenumbraCode(int i) const {
+    if (blocked_[i] == 0) return 1;
     const float width = kSunAngle * away_[i] / static_cast<float>(blocked_[i]);
     const float pixels = width / std::max(1e-6f, rays_.distance[i] * sampling_.cone_angle);
-    return static_cast<uint8_t>(std::min(static_cast<float>(kMaxSmoothing), pixels * 0.2f));
+    return static_cast<uint8_t>(std::min(255.0f, 2 + pixels * kPenumbraSteps));
   }
 
   const Shader::Impl& shader_;
