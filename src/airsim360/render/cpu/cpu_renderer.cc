@@ -120,7 +120,7 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(frame.flow, width, height, products.flow);
   Resize(frame.coverage, width, height, products.coverage);
   Resize(entity_, width, height, (edges || products.coverage) && !products.entity);
-  Resize(luma_, width, height, color);
+  Resize(luma_, width, height, edges);
   Resize(edges_, width, height, edges);
   Resize(sun_, width, height, edges);
   Resize(frame.radiance, width, height, color && products.radiance);
@@ -291,7 +291,7 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
       }
     }
   }
-  kernels_.store_colors(colors, target, frame.rgb.pixels().data(), luma_.pixels().data());
+  kernels_.store_colors(colors, target, frame.rgb.pixels().data(), DataOrNull(luma_));
 }
 
 void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& target,
@@ -311,6 +311,7 @@ void CpuRenderer::KeepRadiance(const RadianceBatch& radiance, const TileTarget& 
 // Display colours of all pixels from their radiance.
 void CpuRenderer::Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& frame) {
   ToneMapImage(radiance, frame.exposure, tone, frame.rgb);
+  if (luma_.empty()) return;
   std::transform(frame.rgb.pixels().begin(), frame.rgb.pixels().end(), luma_.pixels().begin(),
                  [](Rgb8 c) { return Luma(c.r, c.g, c.b); });
 }

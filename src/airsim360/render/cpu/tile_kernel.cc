@@ -348,8 +348,9 @@ void StoreColors(const Rgb8* colors, const TileTarget& t, Rgb8* image, uint8_t* 
     Packed row[16];
     uint8_t gray[16];
     GatherRow(reinterpret_cast<const Packed*>(colors), t.shape, r, row);
-    for (int i = 0; i < 16; ++i) gray[i] = Luma(row[i].v[0], row[i].v[1], row[i].v[2]);
     StoreRow(row, runs, reinterpret_cast<Packed*>(image));
+    if (luma == nullptr) continue;
+    for (int i = 0; i < 16; ++i) gray[i] = Luma(row[i].v[0], row[i].v[1], row[i].v[2]);
     StoreRow(gray, runs, luma);
   }
 }

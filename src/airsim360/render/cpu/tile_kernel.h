@@ -81,7 +81,7 @@ AIRSIM360_DECLARE_KERNEL(void AppendHits(const LabelView& view, const RayHit16& 
 AIRSIM360_DECLARE_KERNEL(void PrefetchTile(const TileTarget& target))
 /// Writes a tile into the images.
 AIRSIM360_DECLARE_KERNEL(void StoreLabels(const LabelTile& tile, const TileTarget& target))
-/// … and its colours; `luma` gets their Luma.
+/// … and its colours; `luma` gets their Luma if it is not null.
 AIRSIM360_DECLARE_KERNEL(void StoreColors(const Rgb8* colors, const TileTarget& target, Rgb8* image,
                                           uint8_t* luma))
 /// Radiance of the centres of up to sixteen pixels in one row of a tile (tier `high`), and how light they

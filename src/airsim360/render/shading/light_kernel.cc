@@ -40,16 +40,44 @@ struct Response {
   real3 sun;       ///< radiance by the sun if it is seen
 };
 
-/// `sun` false: nobody asks what the sun does.
-KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d, bool sun) {
-  const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
-  const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
+/// The BSDF of the last vector and what it was made of: neighbours are often of one plain material.
+struct LastBsdf {
+  real made_of[9];
+  Bsdf bsdf;
+  bool any = false;
+};
+
+KERNEL void MakeBsdf(const SurfaceSet& s, int i, LastBsdf& last) {
   const real kind = load(s.kind + i);
   // A pane behind which nothing was traced shows its body alone.
   const real transmission =
       sel((kind == kFoliage) || (load(s.clear + i) > 0.5f), load(s.transmission + i), real(0.0f));
-  const Bsdf bsdf = bsdf_make(kind, base, load(s.metallic + i), load(s.roughness + i), transmission,
-                              load(s.coat + i), load(s.coat_roughness + i));
+  const real made_of[9] = {kind,
+                           load(s.ar + i),
+                           load(s.ag + i),
+                           load(s.ab + i),
+                           load(s.metallic + i),
+                           load(s.roughness + i),
+                           transmission,
+                           load(s.coat + i),
+                           load(s.coat_roughness + i)};
+  if (last.any) {
+    mask_t same = made_of[0] == last.made_of[0];
+    for (int k = 1; k < 9; ++k) same = same && made_of[k] == last.made_of[k];
+    if (stdx::all_of(same)) return;
+  }
+  for (int k = 0; k < 9; ++k) last.made_of[k] = made_of[k];
+  last.bsdf = bsdf_make(kind, make3(made_of[1], made_of[2], made_of[3]), made_of[4], made_of[5], transmission,
+                        made_of[7], made_of[8]);
+  last.any = true;
+}
+
+/// `sun` false: nobody asks what the sun does.
+KERNEL Response RespondTo(const ShadeView& view, const SurfaceSet& s, int i, real3 d, bool sun,
+                          LastBsdf& last) {
+  const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), l = load3(s.lx + i, s.ly + i, s.lz + i);
+  MakeBsdf(s, i, last);
+  const Bsdf& bsdf = last.bsdf;
   const BsdfSide seen = bsdf_side(bsdf, rmax(real(0.0f) - dot3(n, d), real(0.02f)));
   const real3 through = bsdf_entering(seen);
 
@@ -96,14 +124,14 @@ KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3
   added = air.added;
 }
 
-KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
+KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last,
                         LightSet& out) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const real3 p = load3(s.px + i, s.py + i, s.pz + i);
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
   const real3 r = load3(s.rx + i, s.ry + i, s.rz + i);
   const real sunlit = load(s.sunlit + i);
-  const Response surface = RespondTo(view, s, i, d, stdx::any_of(sunlit > 0.0f));
+  const Response surface = RespondTo(view, s, i, d, stdx::any_of(sunlit > 0.0f), last);
 
   const Ambient ambient = SampleProbes(view, p, g, n, r);
   // Leaves hide each other from the sky, which probes metres apart do not know.
@@ -121,10 +149,10 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   store3(out.r + i, out.g + i, out.b + i, light);
 }
 
-KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i,
+KERNEL void TermsVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last,
                         LightTerms& out) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
-  const Response surface = RespondTo(view, s, i, d, view.has_sky > 0.5f);
+  const Response surface = RespondTo(view, s, i, d, view.has_sky > 0.5f, last);
   // The traced ray is what the coat mirrors where there is one, else what the skin does. What no ray was sent
   // for mirrors the same light that the body gets.
   const mask_t traced = load(s.traced + i) > 0.5f, coated = load(s.coat + i) > 0.05f;
@@ -177,11 +205,13 @@ KERNEL void StorePacked(ureal lanes, uint8_t* to) {
 }  // namespace
 
 void LightSurfaces(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightSet& light) {
-  for (int i = 0; i < rays.count; i += kLanes) LightVector(view, rays, surfaces, i, light);
+  LastBsdf last;
+  for (int i = 0; i < rays.count; i += kLanes) LightVector(view, rays, surfaces, i, last, light);
 }
 
 void SplitLight(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightTerms& terms) {
-  for (int i = 0; i < rays.count; i += kLanes) TermsVector(view, rays, surfaces, i, terms);
+  LastBsdf last;
+  for (int i = 0; i < rays.count; i += kLanes) TermsVector(view, rays, surfaces, i, last, terms);
 }
 
 void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSet& light) {

@@ -47,12 +47,24 @@ bool AllSet(const float* flags) {
   return unset == 0;
 }
 
-// The sun rays of sixteen surfaces from `first` on; the same numbers as one by one.
-void AddSun(const RaySet& rays, const SurfaceSet& s, int first, RayQueue& queue) {
+// Whether the sixteen (or the rest, of `count`) from `first` on are all 0.
+bool NoneSet(const float* flags, int first, int count) {
+  int set = 0;
+  if (first + 16 <= count) {
+    for (int k = first; k < first + 16; ++k) set |= flags[k] != 0 ? 1 : 0;
+  } else {
+    for (int k = first; k < count; ++k) set |= flags[k] != 0 ? 1 : 0;
+  }
+  return set == 0;
+}
+
+// Rays of directions (x, y, z)[16] from sixteen surfaces from `first` on; the same numbers as one by one.
+void AddSixteen(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
+                const float* z, float reach, RayQueue& queue) {
   RayHit16& r = queue.rays;
   for (int k = 0; k < 16; ++k) {
     const int i = first + k;
-    const float facing = s.gx[i] * s.lx[i] + s.gy[i] * s.ly[i] + s.gz[i] * s.lz[i];
+    const float facing = s.gx[i] * x[k] + s.gy[i] * y[k] + s.gz[i] * z[k];
     const float lift =
         1e-3f + 4e-6f * (std::fabs(s.px[i]) + std::fabs(s.py[i]) + std::fabs(s.pz[i]) + rays.distance[i]);
     const float offset = facing < 0 ? -lift : lift;
@@ -60,11 +72,11 @@ void AddSun(const RaySet& rays, const SurfaceSet& s, int first, RayQueue& queue)
     r.origin_y[k] = s.py[i] + s.gy[i] * offset;
     r.origin_z[k] = s.pz[i] + s.gz[i] * offset;
   }
-  std::copy_n(s.lx + first, 16, r.direction_x);
-  std::copy_n(s.ly + first, 16, r.direction_y);
-  std::copy_n(s.lz + first, 16, r.direction_z);
+  std::copy_n(x, 16, r.direction_x);
+  std::copy_n(y, 16, r.direction_y);
+  std::copy_n(z, 16, r.direction_z);
   std::fill_n(r.t_near, 16, 0.0f);
-  std::fill_n(r.t_far, 16, INFINITY);
+  std::fill_n(r.t_far, 16, reach);
   std::fill_n(r.mask, 16, queue.mask);
   for (int k = 0; k < 16; ++k) queue.lane[k] = first + k;
   queue.count = 16;
@@ -83,7 +95,7 @@ void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet
   for (int i = 0; i < rays.count; ++i) {
     // Whole vectors of surfaces that all ask make a packet at once.
     if (queue.count == 0 && i + 16 <= rays.count && AllSet(s.sunlit + i)) {
-      AddSun(rays, s, i, queue);
+      AddSixteen(rays, s, i, s.lx + i, s.ly + i, s.lz + i, INFINITY, queue);
       flush();
       i += 15;
       continue;
@@ -110,10 +122,28 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
     }
     queue.count = 0;
   };
+  constexpr Vec3f kUp{0.0123f, 0.0071f, 1};
+  float up[3][16];
+  for (int k = 0; k < 16; ++k) up[0][k] = kUp.x, up[1][k] = kUp.y, up[2][k] = kUp.z;
   for (int i = 0; i < rays.count; ++i) {
-    if (s.gz[i] < 0.7f || rays.distance[i] > kFarthest || s.kind[i] != 0) continue;
+    if (i % 16 == 0 && i + 16 <= rays.count) {
+      // Whole vectors of ground, or of walls, at once.
+      int asked = 0;
+      for (int k = i; k < i + 16; ++k)
+        asked += (s.gz[k] >= 0.7f) & (rays.distance[k] <= kFarthest) & (s.kind[k] == 0) ? 1 : 0;
+      const bool packet = asked == 16 && queue.count == 0;
+      if (packet) {
+        AddSixteen(rays, s, i, up[0], up[1], up[2], kReach, queue);
+        flush();
+      }
+      if (packet || asked == 0) {
+        i += 15;
+        continue;
+      }
+    }
+    if (!(s.gz[i] >= 0.7f && rays.distance[i] <= kFarthest && s.kind[i] == 0)) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-    queue.Add(p + g * RayOffset(p, rays.distance[i]), {0.0123f, 0.0071f, 1}, i, kReach);
+    queue.Add(p + g * RayOffset(p, rays.distance[i]), kUp, i, kReach);
     if (queue.count == 16) flush();
   }
   if (queue.count > 0) flush();
@@ -189,6 +219,10 @@ void TraceReflections(const RayTracer& tracer, const RaySet& rays, const Surface
   hits.count = misses.count = 0;
   RayQueue queue;
   for (int i = 0; i < rays.count; ++i) {
+    if (i % 16 == 0 && NoneSet(s.mirror, i, rays.count)) {
+      i += 15;
+      continue;
+    }
     if (s.mirror[i] == 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
     queue.Add(p + g * RayOffset(p, rays.distance[i]), {s.rx[i], s.ry[i], s.rz[i]}, i);
@@ -203,6 +237,10 @@ void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s
   hits.count = misses.count = 0;
   RayQueue queue;
   for (int i = 0; i < rays.count; ++i) {
+    if (i % 16 == 0 && NoneSet(s.transmission, i, rays.count)) {
+      i += 15;
+      continue;
+    }
     if (s.kind[i] != kGlass || s.transmission[i] <= 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
     queue.Add(p - g * RayOffset(p, rays.distance[i]), {rays.dx[i], rays.dy[i], rays.dz[i]}, i);

@@ -10,10 +10,13 @@
 SHARED real layer_path(real height, real slope, real distance, ufloat scale) {
   real x = rmax(slope * distance * (1.0f / scale), real(-AIR_STEEPEST));
   // (1 - exp(-x)) / x, by its series where that would cancel.
-  real small_x = rmax(rabs(x), real(1e-2f));
-  real divided = sel(x < 0.0f, 0.0f - small_x, small_x);
-  real mean = sel(rabs(x) < 1e-2f, 1.0f - x * (0.5f - x * 0.16666667f),
-                  (1.0f - exp_approx(0.0f - divided)) / divided);
+  real mean = 1.0f - x * (0.5f - x * 0.16666667f);
+  mask_t large = rabs(x) >= 1e-2f;
+  if (any_lane(large)) {
+    real large_x = rmax(rabs(x), real(1e-2f));
+    real divided = sel(x < 0.0f, 0.0f - large_x, large_x);
+    mean = sel(large, (1.0f - exp_approx(0.0f - divided)) / divided, mean);
+  }
   return exp_approx(0.0f - rmax(height * (1.0f / scale), real(-AIR_DEEPEST))) * distance * mean;
 }
 

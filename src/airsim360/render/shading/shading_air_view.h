@@ -8,7 +8,15 @@ struct AirEffect {
 };
 
 SHARED AirEffect air_effect(real3 depth, real3 source) {
-  real3 kept = make3(exp_approx(0.0f - depth.x), exp_approx(0.0f - depth.y), exp_approx(0.0f - depth.z));
+  // Little air, as near by, by the series of the exponential.
+  const real3 one = make3(real(1.0f), real(1.0f), real(1.0f));
+  real3 kept = one - depth * (one - depth * (one * real(0.5f) - depth * real(0.16666667f)));
+  const mask_t thick = rmax(depth.x, rmax(depth.y, depth.z)) >= 0.01f;
+  if (any_lane(thick)) {
+    kept =
+        sel3(thick,
+             make3(exp_approx(0.0f - depth.x), exp_approx(0.0f - depth.y), exp_approx(0.0f - depth.z)), kept);
+  }
   return {kept, source * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z)};
 }
 

@@ -48,8 +48,12 @@ KERNEL real CloudShadow(const CloudShadowView& map, real3 p) {
   const real y = shadow_column(p.y, above, map.slant_y, map.origin_y, map.cells_per_metre, size);
   const real x0 = rfloor(x), y0 = rfloor(y);
   const ireal index = to_int(y0) * map.size + to_int(x0);
-  const auto texel = [&](int32_t offset)
-                         __attribute__((always_inline)) { return GatherFloats(map.texels + offset, index); };
+  // Near by, all lanes lie in one cell.
+  const int32_t first = index[0];
+  const bool one_cell = stdx::all_of(index == first);
+  const auto texel = [&](int32_t offset) __attribute__((always_inline)) {
+    return one_cell ? real(map.texels[first + offset]) : GatherFloats(map.texels + offset, index);
+  };
   const real fx = x - x0, fy = y - y0;
   const real low = lerp1(texel(0), texel(1), fx), high = lerp1(texel(map.size), texel(map.size + 1), fx);
   return low + (high - low) * fy;

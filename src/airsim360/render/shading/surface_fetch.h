@@ -30,12 +30,17 @@ struct alignas(64) Fetched {
   Lanes room_material, unused_material;
 
   Lanes mirrored, pane, color[3];
+  Lanes facet[3];  ///< the triangle's own normal in W
   /// Set only where any_window.
   Lanes corner_a[3], corner_b[3], half_a, half_b, u_per_a, v_per_b, room, interior;
   int32_t right[kLanes], up[kLanes];
   bool any_smooth;  ///< some corner's normal is not the triangle's own
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
       any_unit, any_ground, any_window, any_leaf;
+  bool any_picture;  ///< something that needs texture coordinates
+  /// All lanes lie on one triangle, this one.
+  bool one = false;
+  uint32_t one_instance, one_triangle;
 };
 constexpr size_t kWord = sizeof(float), kRow = kWord * kLanes;
 static_assert(sizeof(TriangleRecord) == 16 * kWord && offsetof(TriangleRecord, window) == 15 * kWord &&
@@ -86,10 +91,48 @@ KERNEL bool AllSame(const Record* const* records) {
   return differs == 0;
 }
 
+KERNEL real3 UnpackDirection(const int32_t* packed) {
+  const ireal p(packed, stdx::vector_aligned);
+  constexpr float scale = 2.0f / 65534.0f;
+  return octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
+}
+
+KERNEL real3 ToWorld(const Fetched& f, real3 a) {
+  const auto row = [&](int k) __attribute__((always_inline)) {
+    return load(f.matrix[k]) * a.x + load(f.matrix[k + 1]) * a.y + load(f.matrix[k + 2]) * a.z;
+  };
+  return normalize3(make3(row(0), row(3), row(6)));
+}
+
 KERNEL bool AnyBit(const int32_t* lanes) { return stdx::any_of(ireal(lanes, stdx::vector_aligned) != 0); }
 KERNEL bool AnyIs(const float* lanes, float value) { return stdx::any_of(load(lanes) == value); }
 
+/// Four rows of lanes for every sixteen bytes of the records. One record under all lanes, as on walls and
+/// grounds, is spread instead of turned round.
+template <class Record>
+KERNEL void TakeRecords(const Record* const* records, int quads, void* rows) {
+  const auto* first = reinterpret_cast<const float*>(records[0]);
+  auto* to = static_cast<char*>(rows);
+  if (AllSame(records)) {
+    for (int k = 0; k < 4 * quads; ++k) SpreadWord(first + k, to + static_cast<size_t>(k) * kRow);
+    return;
+  }
+  for (int q = 0; q < quads; ++q) {
+    GatherRows(
+        [&](int i)
+            __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; },
+        to + 4 * static_cast<size_t>(q) * kRow);
+  }
+}
+
+/// `f` is that of the vector before, or new.
 KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched& f) {
+  const uint32_t one_instance = rays.instance[begin], one_triangle = rays.triangle[begin];
+  const bool one = stdx::all_of(Bits(rays.instance + begin) == one_instance &&
+                                Bits(rays.triangle + begin) == one_triangle);
+  if (one && f.one && f.one_instance == one_instance && f.one_triangle == one_triangle) return;
+  f.one = one, f.one_instance = one_instance, f.one_triangle = one_triangle;
+
   const TriangleRecord* triangle[kLanes];
   const InstanceRecord* instance[kLanes];
   const MaterialRecord* material[kLanes];
@@ -98,24 +141,9 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
     triangle[i] = &view.triangles[instance[i]->first_triangle + rays.triangle[begin + i]];
     material[i] = &view.materials[triangle[i]->material & ~kMirroredUv];
   }
-  // One record under all lanes, as on walls and grounds, is spread instead of turned round.
-  const auto take = [](const auto* const* records, int quads, void* rows) __attribute__((always_inline)) {
-    const auto* first = reinterpret_cast<const float*>(records[0]);
-    auto* to = static_cast<char*>(rows);
-    if (AllSame(records)) {
-      for (int k = 0; k < 4 * quads; ++k) SpreadWord(first + k, to + static_cast<size_t>(k) * kRow);
-      return;
-    }
-    for (int q = 0; q < quads; ++q) {
-      GatherRows(
-          [&](int i)
-              __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; },
-          to + 4 * static_cast<size_t>(q) * kRow);
-    }
-  };
-  take(triangle, 4, f.normal);
-  take(instance, 4, f.matrix);
-  take(material, 7, f.base);
+  TakeRecords(triangle, 4, f.normal);
+  TakeRecords(instance, 4, f.matrix);
+  TakeRecords(material, 7, f.base);
 
   store(f.texels_log2, load(f.texels_log2) + load(f.scale_log2));
   const ureal flags = Bits(f.material);
@@ -123,6 +151,7 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
   store(f.mirrored, sel(mirrored, real(-1.0f), real(1.0f)));
   store(f.pane, HashLanes(Bits(f.pane_bits) ^ Bits(f.instance_hash)));
   for (int k = 0; k < 3; ++k) store(f.color[k], load(f.base[k]) * load(f.tint[k]));
+  store3(f.facet[0], f.facet[1], f.facet[2], ToWorld(f, UnpackDirection(f.geometric)));
 
   const auto differs = [&](int corner) __attribute__((always_inline)) {
     return stdx::any_of(ireal(f.normal[corner], stdx::vector_aligned) !=
@@ -141,20 +170,9 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
   f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
   f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
   f.any_window = stdx::any_of(Bits(f.window) != 0u);
+  f.any_picture =
+      f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
   if (f.any_window) FetchPanes(view, f);
-}
-
-KERNEL real3 UnpackDirection(const int32_t* packed) {
-  const ireal p(packed, stdx::vector_aligned);
-  constexpr float scale = 2.0f / 65534.0f;
-  return octahedral_decode(to_real(p & 0xffff) * scale - 1.0f, to_real((p >> 16) & 0xffff) * scale - 1.0f);
-}
-
-KERNEL real3 ToWorld(const Fetched& f, real3 a) {
-  const auto row = [&](int k) __attribute__((always_inline)) {
-    return load(f.matrix[k]) * a.x + load(f.matrix[k + 1]) * a.y + load(f.matrix[k + 2]) * a.z;
-  };
-  return normalize3(make3(row(0), row(3), row(6)));
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

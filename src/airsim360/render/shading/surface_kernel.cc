@@ -48,11 +48,10 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
 }
 
 /// The sun's centre, or a point of its disc for samples beside the centre one.
-KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i) {
+KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i, real3 center) {
   const ufloat3 s{view.to_sun[0], view.to_sun[1], view.to_sun[2]};
-  const real3 center = make3(real(s.x), real(s.y), real(s.z));
   const ureal key = Bits(rays.key + i);
-  if (stdx::all_of(key == 0u)) return normalize3(center);
+  if (stdx::all_of(key == 0u)) return center;
   ureal h = (key ^ (key >> 16)) * 0x7feb352du;
   h = (h ^ (h >> 15)) * 0x846ca68bu;
   h = h ^ (h >> 16);
@@ -70,8 +69,9 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i) {
   return normalize3(e1 * x + e2 * y + s);
 }
 
-KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, SurfaceSet& out) {
-  Fetched f;
+/// `f` is that of the vector before, or new; `sun` the direction of the sun's centre.
+KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real3 sun, Fetched& f,
+                          SurfaceSet& out) {
   Fetch(view, rays, i, f);
   Prefetch(view, rays, i + kLanes);
 
@@ -79,7 +79,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const real3 p = load3(rays.ox + i, rays.oy + i, rays.oz + i) + d * load(rays.distance + i);
   const real u = load(rays.u + i), v = load(rays.v + i), w = 1.0f - u - v;
-  const real3 g = ToWorld(f, UnpackDirection(f.geometric));
+  const real3 g = load3(f.facet[0], f.facet[1], f.facet[2]);
   const real3 smooth = f.any_smooth
                            ? ToWorld(f, UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
                                             UnpackDirection(f.normal[2]) * v)
@@ -88,13 +88,15 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   const real3 facing = g * front;
   real3 n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * front;
 
-  // Texture coordinates and footprint: between the cone's width and its stretch on the slanted surface.
+  // Texture coordinates and footprint (log2, for pictures alone): between the cone's width and its stretch on
+  // the slanted surface.
   real tu = load(f.uv[0]) * w + load(f.uv[2]) * u + load(f.uv[4]) * v;
   real tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
   const real width = load(rays.width + i);
   const real slant = rmax(rabs(dot3(facing, d)), real(0.03f));
-  const real footprint =
-      log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + load(f.texels_log2);
+  real footprint = real(0.0f);
+  if (f.any_picture)
+    footprint = log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + load(f.texels_log2);
 
   // Rooms behind panes: what is seen through them, and where their pictures hang.
   const mask_t window = f.any_window ? load(f.interior) > 0.5f : mask_t(false);
@@ -191,7 +193,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
   store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
 
   // Sun.
-  const real3 l = TowardsSun(view, rays, i);
+  const real3 l = TowardsSun(view, rays, i, sun);
   store3(out.lx + i, out.ly + i, out.lz + i, l);
   const mask_t lit = ((dot3(n, l) > 0.0f) && (dot3(facing, l) > 0.0f)) || (kind == kFoliage);
   const mask_t up = real(view.to_sun[2]) > -0.02f;
@@ -204,7 +206,10 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, Surf
 }  // namespace
 
 void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surfaces) {
-  for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, surfaces);
+  const real3 sun =
+      normalize3(make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2])));
+  Fetched f;
+  for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, sun, f, surfaces);
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA
