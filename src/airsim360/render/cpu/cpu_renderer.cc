@@ -272,9 +272,18 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   SunPixel sun[kTilePixels]{};
   shader_->Shade(hits, radiance, nullptr, sun_.empty() ? nullptr : sun);
   if (!sun_.empty()) {
-    for (int i = 0; i < kTilePixels; ++i) {
-      const int64_t pixel = ImageIndex(target, PixelOfPacketIndex(target.shape, i));
-      if (pixel >= 0) sun_.pixels()[static_cast<size_t>(pixel)] = sun[i];
+    // Runs of four pixels, which lie side by side except at a border or the seam.
+    for (int i = 0; i < kTilePixels; i += 4) {
+      const TilePixel first = PixelOfPacketIndex(target.shape, i);
+      const int64_t index = ImageIndex(target, first);
+      if (index >= 0 && ImageIndex(target, {first.x + 3, first.y}) == index + 3) {
+        std::copy_n(sun + i, 4, sun_.pixels().data() + index);
+        continue;
+      }
+      for (int k = 0; k < 4; ++k) {
+        const int64_t pixel = ImageIndex(target, {first.x + k, first.y});
+        if (pixel >= 0) sun_.pixels()[static_cast<size_t>(pixel)] = sun[i + k];
+      }
     }
   }
   shader_->ToneMap(radiance.r, radiance.g, radiance.b, kTilePixels, request.exposure_ev, colors,

@@ -18,7 +18,10 @@ constexpr int kLeastExponent = -23;  // of packed light
 
 float PowerOf2(int n) { return std::bit_cast<float>(static_cast<uint32_t>(n + 127) << 23); }
 
-int16_t Packed(float x) { return static_cast<int16_t>(std::lrint(x * kScale)); }
+// Rounded; std::lrint is a call.
+int16_t Packed(float x) {
+  return static_cast<int16_t>(static_cast<int>(x * kScale + (x < 0 ? -0.5f : 0.5f)));
+}
 
 SunPixel::State StateOf(bool asked, float sunlit, bool leaf) {
   if (!asked || (sunlit != 0 && sunlit != 1)) return SunPixel::kUnknown;
