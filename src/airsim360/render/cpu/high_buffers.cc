@@ -33,8 +33,8 @@ void HighBuffers::Resize(int width, int height) {
 
 namespace {
 
-// How far light is mixed (a normal distribution's deviation, in pixels), by a penumbra's width: where the sum of what is
-// left of the noise of eight rays and of the blur is least, in shadows of leaves 3 to 8 pixels wide.
+// How far light is mixed (a normal distribution's deviation, in pixels), by a penumbra's width: where the sum of
+// blur and of the noise left of eight rays is least, in shadows of leaves 3 to 8 pixels wide.
 constexpr float kOfPenumbra = 0.13f, kLeastSpread = 0.45f, kMostSpread = 2.5f;
 constexpr int kMostColumns = 40;
 

@@ -84,7 +84,7 @@ TEST(HighShadow, SpotsOfSunUnderATreeAreSmoothAndWithoutCombs) {
         low, up, [&](int x, int y) { return square(high((x + 1) % kWidth, y).g - high(x, y).g); });
     const double down = MeanOver(low, up, [&](int x, int y) { return square(high(x, y + 1).g - high(x, y).g); });
     const double narrow = MeanOver(
-        low, up, [](int, int y) { return square(std::sin(std::numbers::pi * (y + 0.5) / kHeight)); });
+        low, up, [&](int, int y) { return square(std::sin(std::numbers::pi * (y + 0.5) / kHeight)); });
     EXPECT_LT(across / down, 2 * narrow) << low;
     RecordProperty("noise" + std::to_string(static_cast<int>(-low)), std::to_string(std::sqrt(0.5 * noise) / bright));
     RecordProperty("comb" + std::to_string(static_cast<int>(-low)), std::to_string(across / down / narrow));
