@@ -237,6 +237,7 @@ def quality(ours, cycles, labels, pose, size, light, own_spp, spp, folder, deadl
         row("our reference", lambda seed: (own, 0))
     row("high", lambda seed: mine("high", 0, seed))
     row("high 16 rays", lambda seed: mine("high", 16, seed))
+    row("high 16 aa", lambda seed: mine("high", 0, seed, 16))
     row("high 16 rays 16 aa", lambda seed: mine("high", 16, seed, 16))
     for n in (4, 16, 64):
         row(f"Cycles {n} spp", lambda seed, n=n: theirs(n, seed))

@@ -95,12 +95,12 @@ Overview Survey(const Picture& picture) {
   return view;
 }
 
-// Mean of the ring of 6 to 9 degrees.
-Vec3f Surroundings(const Picture& picture, Vec3f center) {
+// Mean of a ring about a direction.
+Vec3f MeanOfRing(const Picture& picture, Vec3f center, float inner, float outer) {
   Vec3f sum{};
   float weight = 0;
-  Around(picture, center, 9 * kDegrees, [&](int x, int y, Vec3f d, float solid_angle) {
-    if (Dot(d, center) > std::cos(6 * kDegrees)) return;
+  Around(picture, center, outer, [&](int x, int y, Vec3f d, float solid_angle) {
+    if (Dot(d, center) > std::cos(inner)) return;
     sum += picture.At(x, y) * solid_angle;
     weight += solid_angle;
   });
@@ -108,26 +108,33 @@ Vec3f Surroundings(const Picture& picture, Vec3f center) {
 }
 
 PictureSun TakeSun(Picture& picture) {
-  constexpr float kReach = 3 * kDegrees;
+  constexpr float kReach = 3 * kDegrees, kGlare = 1.5f * kDegrees;
   const Overview view = Survey(picture);
   if (view.brightest < 40 * view.mean || view.peak.z < 0.02f) return {};
   // Light beyond the surroundings, near and in all.
-  const Vec3f around = Surroundings(picture, view.peak);
-  Vec3f near{}, middle{};
-  float wide = 0;
+  const Vec3f around = MeanOfRing(picture, view.peak, 6 * kDegrees, 9 * kDegrees);
+  Vec3f middle{};
+  float near = 0, wide = 0;
   Around(picture, view.peak, 2 * kReach, [&](int x, int y, Vec3f d, float solid_angle) {
     const Vec3f more = Max(picture.At(x, y) - around, Vec3f{}) * solid_angle;
     wide += Luminance(more);
     if (Dot(d, view.peak) < std::cos(kReach)) return;
-    near += more;
+    near += Luminance(more);
     middle += d * Luminance(more);
   });
-  if (Luminance(near) < 0.8f * wide || Luminance(near) < 0.1f * view.all) return {};
-  Around(picture, view.peak, kReach, [&](int x, int y, Vec3f, float) {
+  if (near < 0.8f * wide || near < 0.1f * view.all) return {};
+  // What is taken out goes on as bright as the sky just outside, so that no disc shows. Within the glare of the
+  // camera's lens that also covers the dark pixels with which sharpening rims the sun.
+  const Vec3f center = Normalized(middle), rim = MeanOfRing(picture, center, kReach, 1.2f * kReach);
+  Vec3f taken{};
+  Around(picture, center, kReach, [&](int x, int y, Vec3f d, float solid_angle) {
     const Vec3f c = picture.At(x, y);
-    picture.Set(x, y, {std::min(c.x, around.x), std::min(c.y, around.y), std::min(c.z, around.z)});
+    const bool glare = Dot(d, center) > std::cos(kGlare);
+    const Vec3f left = glare ? rim : Vec3f{std::min(c.x, rim.x), std::min(c.y, rim.y), std::min(c.z, rim.z)};
+    taken += (c - left) * solid_angle;
+    picture.Set(x, y, left);
   });
-  return {Normalized(middle), near};
+  return {center, Max(taken, Vec3f{})};
 }
 
 SkyTable Resample(const Picture& picture, float side) {

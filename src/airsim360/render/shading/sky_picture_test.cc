@@ -57,6 +57,39 @@ TEST(SkyPicture, TheSunIsTakenOutAndNoLightIsLost) {
   EXPECT_NEAR(LightOf(split.above), 0.5 * 2 * kPi, 0.02);
 }
 
+TEST(SkyPicture, NoDiscShowsWhereTheSunWas) {
+  // A sun in its aureole, rimmed with the dark pixels of a sharpened photograph.
+  Environment environment = PictureWith(60, 40, 0.8, 20000);
+  auto picture = std::make_shared<SkyPicture>(*environment.hdri);
+  environment.hdri = picture;
+  const Vec3f sun = DirectionOf(static_cast<float>(30 * kPi / 180), static_cast<float>(40 * kPi / 180));
+  const auto degrees_off = [&](float azimuth, float elevation) {
+    return std::acos(std::min(1.0f, Dot(DirectionOf(azimuth, elevation), sun))) * static_cast<float>(180 / kPi);
+  };
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 1024; ++x) {
+      const double theta = 2 * kPi * ((x + 0.5) / 1024 - 0.5), phi = kPi * (0.5 - (y + 0.5) / 512);
+      const float off = degrees_off(static_cast<float>(kPi / 2 - theta), static_cast<float>(phi));
+      Rgb32f& p = picture->pixels(x, y);
+      if (off > 0.8f) p.r = p.g = p.b = off < 1 ? 0.01f : 0.5f + 3 * std::exp(-off / 4);
+    }
+  }
+  const SplitPicture split = SplitSkyPicture(environment);
+  ASSERT_GT(Luminance(split.sun.irradiance), 0);
+  double outside = 0, count = 0, darkest = 1e9, brightest = 0;
+  for (int y = 0; y < split.above.height; ++y) {
+    for (int x = 0; x < split.above.width; ++x) {
+      const float off = degrees_off((static_cast<float>(x) + 0.5f) * static_cast<float>(2 * kPi) / static_cast<float>(split.above.width),
+                                    split.above.ElevationOfRow(y));
+      const double light = Luminance(split.above.Texel(x, y));
+      if (off > 3 && off < 3.6f) outside += light, ++count;
+      if (off < 2.8f) darkest = std::min(darkest, light), brightest = std::max(brightest, light);
+    }
+  }
+  EXPECT_NEAR(darkest / (outside / count), 1, 0.03);
+  EXPECT_NEAR(brightest / (outside / count), 1, 0.03);
+}
+
 TEST(SkyPicture, ALampOrAWideGlowIsNoSun) {
   EXPECT_EQ(Luminance(SplitSkyPicture(PictureWith(0, 40, 0.8, 5)).sun.irradiance), 0);       // too weak
   EXPECT_EQ(Luminance(SplitSkyPicture(PictureWith(0, 40, 25, 100)).sun.irradiance), 0);      // a window
