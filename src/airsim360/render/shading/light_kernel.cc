@@ -52,15 +52,9 @@ KERNEL void MakeBsdf(const SurfaceSet& s, int i, LastBsdf& last) {
   // A pane behind which nothing was traced shows its body alone.
   const real transmission =
       sel((kind == kFoliage) || (load(s.clear + i) > 0.5f), load(s.transmission + i), real(0.0f));
-  const real made_of[9] = {kind,
-                           load(s.ar + i),
-                           load(s.ag + i),
-                           load(s.ab + i),
-                           load(s.metallic + i),
-                           load(s.roughness + i),
-                           transmission,
-                           load(s.coat + i),
-                           load(s.coat_roughness + i)};
+  const real made_of[9] = {kind,           load(s.ar + i),       load(s.ag + i),
+                           load(s.ab + i), load(s.metallic + i), load(s.roughness + i),
+                           transmission,   load(s.coat + i),     load(s.coat_roughness + i)};
   if (last.any) {
     mask_t same = made_of[0] == last.made_of[0];
     for (int k = 1; k < 9; ++k) same = same && made_of[k] == last.made_of[k];

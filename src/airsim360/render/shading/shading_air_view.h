@@ -14,8 +14,8 @@ SHARED AirEffect air_effect(real3 depth, real3 source) {
   const mask_t thick = rmax(depth.x, rmax(depth.y, depth.z)) >= 0.01f;
   if (any_lane(thick)) {
     kept =
-        sel3(thick,
-             make3(exp_approx(0.0f - depth.x), exp_approx(0.0f - depth.y), exp_approx(0.0f - depth.z)), kept);
+        sel3(thick, make3(exp_approx(0.0f - depth.x), exp_approx(0.0f - depth.y), exp_approx(0.0f - depth.z)),
+             kept);
   }
   return {kept, source * make3(1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z)};
 }

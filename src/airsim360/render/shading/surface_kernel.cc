@@ -128,10 +128,13 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
     noises = LookUpNoises(view, f, p, n, width);
   if (f.any_macro)
-    color = color * MacroTint(f, noises, width) * wall_wear(noises.wide, noises.mid, noises.fine, width, noises.wall);
+    color = color * MacroTint(f, noises, width) *
+            wall_wear(noises.wide, noises.mid, noises.fine, width, noises.wall);
   if (f.any_unit) color = color * UnitTint(f, tu, tv, footprint);
   if (f.any_ground) WearGround(f, noises, p, tu, width, color, roughness);
   if (f.any_leaf) color = LeafTint(f, color);
+  // However bright the tints, nothing gives back more light than it gets.
+  color = make3(rmin(color.x, real(1.0f)), rmin(color.y, real(1.0f)), rmin(color.z, real(1.0f)));
   roughness = rmin(rmax(roughness, real(0.03f)), real(1.0f));
 
   // Normal: map, panes, waves.
@@ -206,8 +209,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
 }  // namespace
 
 void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surfaces) {
-  const real3 sun =
-      normalize3(make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2])));
+  const real3 sun = normalize3(make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2])));
   Fetched f;
   for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, sun, f, surfaces);
 }

@@ -97,6 +97,23 @@ Material Window() {
 
 constexpr Vec3f kCorner{3, 7, 2}, kAcross{1.4f, 0, 0}, kUp{0, 0, 1.8f};
 
+// Tints that vary over a pale surface would take it above 1 in places.
+TEST(Tints, NeverMakeASurfaceGiveBackMoreThanItGets) {
+  Material pale = Plain(0.97f);
+  pale.macro_variation = 0.6f;
+  const Sample field(Rectangle({}, {900, 0, 0}, {0, 900, 0}), pale);
+  std::vector<Sample::Point> points;
+  RngStream random(3, "tints", 0);
+  for (int i = 0; i < internal::kBatch; ++i) {
+    const auto u = static_cast<float>(random.Uniform(0, 1)), v = static_cast<float>(random.Uniform(0, 1));
+    points.push_back(u + v < 1 ? Sample::Point{0, u, v} : Sample::Point{1, 1 - u, 1 - v});
+  }
+  const auto seen = field.See(points, {0, 0, -1});
+  const auto [low, high] = std::minmax_element(seen->ag, seen->ag + internal::kBatch);
+  EXPECT_LT(*low, 0.9f);
+  EXPECT_EQ(*high, 1.0f);
+}
+
 // Points of the diagonal belong to both triangles.
 TEST(Interior, BothTrianglesOfAPaneShowTheSameRoom) {
   const Sample pane(Rectangle(kCorner, kAcross, kUp), Window());

@@ -344,6 +344,7 @@ Shaded Prepare(Ray ray) {
     const float light = 1.0 + (pane - 0.5) * 0.44 * amount, yellow = (h2 - 0.42) * 0.34 * amount;
     color = vec3(color.x * light * (1.0 + yellow), color.y * light, color.z * light * (1.0 - yellow * 0.6));
   }
+  color = min(color, vec3(1.0));
   roughness = min(max(roughness, 0.03), 1.0);
 
   // Normal: map, panes, waves.
