@@ -34,7 +34,8 @@ class Rig:
                  projection: Literal["erp", "pinhole", "fisheye"] = "erp", fov: float = ..., position: Vector = (0, 0, 0),
                  yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0, level: bool = False,
                  lens: Literal["ideal", "real360"] = "ideal", tone: Literal["filmic", "agx", "linear"] = "filmic",
-                 exposure_ev: float = 0.0, samples: int = 0, seed: int = 0, flow_dt: float = 0.1) -> None: ...
+                 exposure_ev: float = 0.0, samples: int = 0, seed: int = 0, flow_dt: float = 0.1,
+                 edge_samples: int = 4) -> None: ...
 
 class Tensor:
     shape: tuple[int, ...]

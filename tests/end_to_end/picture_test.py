@@ -23,12 +23,24 @@ class Pictures(ProgramTest):
         self.assertEqual(read_json(plain / "meta.json")["parameters"]["tone"], "filmic")
         for name, flags, key, value in [("agx", ["--tone", "agx"], "tone", "agx"), ("linear", ["--tone", "linear"], "tone", "linear"),
                                         ("bright", ["--exposure", "+1"], "exposure", 1.0), ("auto", ["--exposure", "auto"], "exposure", "auto"),
-                                        ("real", ["--lens", "real360"], "lens", "real360")]:
+                                        ("real", ["--lens", "real360"], "lens", "real360"),
+                                        ("edges", ["--edge-samples", "1"], "edge_samples", 1)]:
             out = self.shoot(name, *flags)
             self.assertEqual(read_json(out / "meta.json")["parameters"][key], value)
             self.assertNotEqual(self.rows(out), self.rows(plain), name)
             for product in ["range/000000.exr", "entity/000000.png", "semantic/000000.png"]:
                 self.assertEqual((out / product).read_bytes(), (plain / product).read_bytes(), name)
+
+    def test_edge_samples_change_pixels_at_edges_alone(self):
+        one, sixteen = [self.rows(self.shoot(f"edge{n}", "--edge-samples", n)) for n in ("1", "16")]
+        entities = read_png(self.folder / "edge1/entity/000000.png")[4]
+        bytes_per_pixel = [len(rows[0]) // 128 for rows in (one, entities)]
+        pixel = lambda rows, size, x, y: bytes(rows[y][size * (x % 128):size * (x % 128 + 1)])
+        changed = [(x, y) for y in range(1, 63) for x in range(128) if pixel(one, bytes_per_pixel[0], x, y) != pixel(sixteen, bytes_per_pixel[0], x, y)]
+        self.assertGreater(len(changed), 20)
+        for x, y in changed:  # no shadow falls in this room
+            around = {pixel(entities, bytes_per_pixel[1], x + i, y + k) for i in (-1, 0, 1) for k in (-1, 0, 1)}
+            self.assertGreater(len(around), 1, (x, y))
 
     def test_a_stop_more_is_brighter(self):
         dark, bright = [sum(map(sum, self.rows(self.shoot(f"ev{ev}", "--exposure", ev)))) for ev in ("-1", "1")]
@@ -47,7 +59,7 @@ class Pictures(ProgramTest):
     def test_bad_choices_are_named(self):
         out = self.folder / "out"
         for flags, says in [(["--tone", "filmik"], ["--tone", "did you mean 'filmic'"]), (["--lens", "real36"], ["--lens", "did you mean 'real360'"]),
-                            (["--exposure", "bright"], ["--exposure", "bright"]), (["--exposure", "nan"], ["--exposure", "nan"]),
+                            (["--exposure", "bright"], ["--exposure", "bright"]), (["--exposure", "nan"], ["--exposure", "nan"]), (["--edge-samples", "0"], ["--edge-samples", "1 … 64", "did you mean 1"]),
                             (["--tier", "labels", "--radiance"], ["--radiance"])]:
             self.run_bad(2, *ROOM, *flags, "--out", out, says=says)
         self.run_bad(2, "render", "--world", "box_room", "--projection", "cube", "--exposure", "auto", "--out", out, says=["--exposure"])

@@ -11,6 +11,7 @@ namespace airsim360 {
 namespace {
 
 constexpr double kMostStops = 20;
+constexpr int kMostEdgeSamples = 64;
 
 // A number of stops.
 double ParseStops(const std::string& text) {
@@ -33,6 +34,9 @@ void PictureArguments::AddTo(CLI::App& command) {
   command.add_option("--lens", lens,
                      "ideal, or real360: colour as of two stitched fisheyes with parallax, noise, rolling "
                      "shutter and JPEG; labels stay ideal (default ideal)");
+  command.add_option("--edge-samples", edge_samples,
+                     "fast, high: colour samples of a pixel on an edge, 1 … 64; 1: the middle of every pixel "
+                     "alone, the fastest (4)");
   command.add_flag("--radiance", radiance, "write linear light too: radiance/STEM.exr, half float");
 }
 
@@ -49,6 +53,12 @@ void PictureArguments::Apply(DatasetSpec& spec) const {
   spec.auto_exposure = exposure == "auto";
   spec.exposure_ev = spec.auto_exposure ? 0 : ParseStops(exposure);
   spec.radiance = radiance;
+  if (edge_samples < 1 || edge_samples > kMostEdgeSamples) {
+    throw InputError("--edge-samples: " + std::to_string(edge_samples) + " is not in 1 … " +
+                     std::to_string(kMostEdgeSamples) + "; did you mean " +
+                     std::to_string(edge_samples < 1 ? 1 : kMostEdgeSamples) + "?");
+  }
+  spec.edge_samples = edge_samples;
   if (spec.lens == LensModel::kReal360 && spec.projection != Projection::kErp)
     throw InputError("--lens: 'real360' makes equirectangular pictures; use --projection erp");
   if (spec.auto_exposure && spec.projection == Projection::kCube)

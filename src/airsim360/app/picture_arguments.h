@@ -11,6 +11,7 @@ namespace airsim360 {
 struct PictureArguments {
   std::string tone = "filmic", exposure = "0", lens = "ideal";
   bool radiance = false;
+  int edge_samples = 4;
 
   /// Adds the flags; this object must outlive the parsing.
   void AddTo(CLI::App& command);

@@ -13,6 +13,7 @@ PanoramicRig MakeRig(const DatasetSpec& spec, const View& view, const Products& 
   rig.products = products;
   rig.samples = spec.samples;
   rig.denoise = spec.denoise;
+  rig.edge_samples = spec.edge_samples;
   rig.exposure_ev = spec.exposure_ev;
   rig.tone = spec.tone;
   rig.auto_exposure = spec.auto_exposure;

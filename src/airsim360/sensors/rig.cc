@@ -63,6 +63,7 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
                         .tier = rig.tier,
                         .products = rig.products,
                         .exposure_ev = rig.exposure_ev,
+                        .aa_samples = rig.edge_samples,
                         .samples = rig.samples,
                         .denoise = rig.denoise,
                         .seed = rig.seed,

@@ -29,9 +29,10 @@ struct PanoramicRig {
   double exposure_ev = 0;
   ToneCurve tone = ToneCurve::kFilmic;
   bool auto_exposure = false;
-  int samples = 0;      ///< as RenderRequest::samples
-  bool denoise = true;  ///< as RenderRequest::denoise
-  uint64_t seed = 0;    ///< of samples and noise
+  int samples = 0;       ///< as RenderRequest::samples
+  bool denoise = true;   ///< as RenderRequest::denoise
+  int edge_samples = 4;  ///< as RenderRequest::aa_samples
+  uint64_t seed = 0;     ///< of samples and noise
   /// kReal360: the colour picture of a panorama is that of two stitched fisheyes; everything else stays
   /// ideal.
   LensModel lens = LensModel::kIdeal;
