@@ -35,7 +35,7 @@ class Rig:
                  yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0, level: bool = False,
                  lens: Literal["ideal", "real360"] = "ideal", tone: Literal["filmic", "agx", "linear"] = "filmic",
                  exposure_ev: float = 0.0, samples: int = 0, seed: int = 0, flow_dt: float = 0.1,
-                 edge_samples: int = 4) -> None: ...
+                 edge_samples: int | None = None) -> None: ...
 
 class Tensor:
     shape: tuple[int, ...]

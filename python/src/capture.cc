@@ -1,6 +1,7 @@
 // The panoramic rig and what it captures: arrays are views of the capture's own memory.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/filter/tone_map.h"
@@ -44,7 +45,7 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
             const std::vector<std::string>& products, const std::string& projection, double fov,
             const py::object& position, double yaw, double pitch, double roll, bool level,
             const std::string& lens, const std::string& tone, double exposure_ev, int samples, uint64_t seed,
-            double flow_dt, int edge_samples) {
+            double flow_dt, std::optional<int> edge_samples) {
   CameraSpec spec;
   spec.projection = projection;
   spec.width = width;
@@ -67,9 +68,9 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
   rig.rig.tone = ParseToneCurve(tone);
   rig.rig.exposure_ev = Finite(exposure_ev, "exposure_ev");
   rig.rig.samples = samples;
-  if (edge_samples < 1 || edge_samples > 64)
-    throw InputError("edge_samples: " + std::to_string(edge_samples) + " is not in 1 … 64");
-  rig.rig.edge_samples = edge_samples;
+  if (edge_samples && (*edge_samples < 1 || *edge_samples > kMostEdgeSamples))
+    throw InputError("edge_samples: " + std::to_string(*edge_samples) + " is not in 1 … 64");
+  rig.rig.edge_samples = edge_samples.value_or(0);
   rig.rig.seed = seed;
   return rig;
 }
@@ -140,14 +141,14 @@ width, height: pixels (height 0: half the width for panoramas, else the width). 
 products: any of rgb, range, semantic, entity, normal, position, albedo, material, part, flow, radiance. projection: erp,
 pinhole or fisheye (fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B.
 level: the horizon stays level. flow_dt: seconds that optical flow leads on by. edge_samples: colour samples of a pixel
-on an edge, 1 to 64; 1 is the fastest.)")
+on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, else 4).)")
       .def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::arg("tier") = "fast",
            py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"},
            py::arg("projection") = "erp", py::arg("fov") = M_PI / 2,
            py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
            py::arg("roll") = 0.0, py::arg("level") = false, py::arg("lens") = "ideal",
            py::arg("tone") = "filmic", py::arg("exposure_ev") = 0.0, py::arg("samples") = 0,
-           py::arg("seed") = 0, py::arg("flow_dt") = 0.1, py::arg("edge_samples") = 4)
+           py::arg("seed") = 0, py::arg("flow_dt") = 0.1, py::arg("edge_samples") = py::none())
       .def_property_readonly("width", [](const Rig& r) { return Width(r.rig.camera); })
       .def_property_readonly("height", [](const Rig& r) { return Height(r.rig.camera); });
 

@@ -6,12 +6,12 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/filter/tone_map.h"
+#include "airsim360/render/renderer.h"
 
 namespace airsim360 {
 namespace {
 
 constexpr double kMostStops = 20;
-constexpr int kMostEdgeSamples = 64;
 
 // A number of stops.
 double ParseStops(const std::string& text) {
@@ -36,7 +36,7 @@ void PictureArguments::AddTo(CLI::App& command) {
                      "shutter and JPEG; labels stay ideal (default ideal)");
   command.add_option("--edge-samples", edge_samples,
                      "fast, high: colour samples of a pixel on an edge, 1 … 64; 1: the middle of every pixel "
-                     "alone, the fastest (4)");
+                     "alone, the fastest (fast: 2, high: 4)");
   command.add_flag("--radiance", radiance, "write linear light too: radiance/STEM.exr, half float");
 }
 
@@ -53,12 +53,12 @@ void PictureArguments::Apply(DatasetSpec& spec) const {
   spec.auto_exposure = exposure == "auto";
   spec.exposure_ev = spec.auto_exposure ? 0 : ParseStops(exposure);
   spec.radiance = radiance;
-  if (edge_samples < 1 || edge_samples > kMostEdgeSamples) {
-    throw InputError("--edge-samples: " + std::to_string(edge_samples) + " is not in 1 … " +
+  if (edge_samples && (*edge_samples < 1 || *edge_samples > kMostEdgeSamples)) {
+    throw InputError("--edge-samples: " + std::to_string(*edge_samples) + " is not in 1 … " +
                      std::to_string(kMostEdgeSamples) + "; did you mean " +
-                     std::to_string(edge_samples < 1 ? 1 : kMostEdgeSamples) + "?");
+                     std::to_string(*edge_samples < 1 ? 1 : kMostEdgeSamples) + "?");
   }
-  spec.edge_samples = edge_samples;
+  spec.edge_samples = edge_samples.value_or(0);
   if (spec.lens == LensModel::kReal360 && spec.projection != Projection::kErp)
     throw InputError("--lens: 'real360' makes equirectangular pictures; use --projection erp");
   if (spec.auto_exposure && spec.projection == Projection::kCube)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "airsim360/dataset/spec.h"
@@ -11,7 +12,7 @@ namespace airsim360 {
 struct PictureArguments {
   std::string tone = "filmic", exposure = "0", lens = "ideal";
   bool radiance = false;
-  int edge_samples = 4;
+  std::optional<int> edge_samples;
 
   /// Adds the flags; this object must outlive the parsing.
   void AddTo(CLI::App& command);

@@ -32,7 +32,7 @@ Json ParametersJson(const DatasetSpec& spec) {
     json["fov_deg"] = spec.fov_deg;
   if (spec.samples != 0) json["samples"] = spec.samples;
   if (!spec.denoise) json["denoise"] = false;
-  if (spec.edge_samples != DatasetSpec{}.edge_samples) json["edge_samples"] = spec.edge_samples;
+  if (spec.edge_samples > 0) json["edge_samples"] = spec.edge_samples;
   json["tone"] = kToneCurveNames[static_cast<int>(spec.tone)];
   json["exposure"] = spec.auto_exposure ? Json("auto") : Json(spec.exposure_ev);
   json["radiance"] = spec.radiance;

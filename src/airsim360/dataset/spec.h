@@ -32,7 +32,7 @@ struct DatasetSpec {
   int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
   int samples = 0;                ///< of the tiers high and reference, 0 = their default
   bool denoise = true;            ///< tier high
-  int edge_samples = 4;           ///< as RenderRequest::aa_samples
+  int edge_samples = 0;           ///< as RenderRequest::aa_samples
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
   std::string environment;        ///< DescribeEnvironment of what was rendered
   ToneCurve tone = ToneCurve::kFilmic;

@@ -1,6 +1,7 @@
 // One capture: all products of a frame from the same rays through one camera at one instant.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,7 +42,9 @@ struct RenderRequest {
   Products products = {};
   double exposure_ev =
       0;  ///< stops added to the scene's fixed daylight exposure; one exposure for the whole sphere
-  int aa_samples = 4;  ///< colour samples of a pixel on an edge, the centre ray included; 1 = none
+  /// Colour samples of a pixel on an edge, the centre ray included, up to kMostEdgeSamples; 1 = none; 0 =
+  /// EdgeSamples' choice.
+  int aa_samples = 0;
 
   /// What has moved; nullptr = nothing. Shared with the flow's second instant below.
   std::shared_ptr<const SceneState> state = nullptr;
@@ -62,6 +65,15 @@ struct RenderRequest {
   bool auto_exposure = false;  ///< from the picture's own solid-angle-weighted histogram
 };
 
+inline constexpr int kMostEdgeSamples = 64;
+
+/// Colour samples of a pixel on an edge. Tier `fast` takes two if nothing else is asked for, the others four,
+/// and so does `fast` where their shares are a product (coverage).
+inline int EdgeSamples(const RenderRequest& request) {
+  const int usual = request.tier == Tier::kFast && !request.products.coverage ? 2 : 4;
+  return std::clamp(request.aa_samples > 0 ? request.aa_samples : usual, 1, kMostEdgeSamples);
+}
+
 /// Where the surface point of a pixel is at the next instant. The sky is infinitely far away: it only turns.
 struct FlowPixel {
   float dx = 0, dy = 0;  ///< pixels; across the seam of a panorama the short way, so |dx| <= W / 2; 0 where
@@ -74,7 +86,7 @@ struct FlowPixel {
 };
 
 /// The entities in a pixel by the share of its area, largest first, of equal ones the lower id; entity
-/// kNoEntity = no more. Shares are multiples of 1 / aa_samples on silhouettes (fewer where the pixel has
+/// kNoEntity = no more. Shares are multiples of 1 / EdgeSamples on silhouettes (fewer where the pixel has
 /// points without a ray), 1 elsewhere.
 struct CoveragePixel {
   static constexpr int kEntities = 4;

@@ -31,7 +31,7 @@ struct PanoramicRig {
   bool auto_exposure = false;
   int samples = 0;       ///< as RenderRequest::samples
   bool denoise = true;   ///< as RenderRequest::denoise
-  int edge_samples = 4;  ///< as RenderRequest::aa_samples
+  int edge_samples = 0;  ///< as RenderRequest::aa_samples
   uint64_t seed = 0;     ///< of samples and noise
   /// kReal360: the colour picture of a panorama is that of two stitched fisheyes; everything else stays
   /// ideal.

@@ -16,6 +16,8 @@ constexpr int kContrast = 15;  // of 255: about what the eye sees as a step
 constexpr int kSymmetries = 8;
 constexpr int kRowsPerTask = 16;
 constexpr int kTableSize = 8192;
+constexpr int kRunTiles = 4;  // side by side, so that batches fill
+constexpr int kRunWidth = kRunTiles * kTileSize, kRunPixels = kRunTiles * kTilePixels;
 
 // 8-bit sRGB of linear light in [0, 1], to within one code.
 uint8_t EncodeSrgb(float linear) {
@@ -27,17 +29,17 @@ uint8_t EncodeSrgb(float linear) {
   return table[static_cast<int>(linear * (kTableSize - 1) + 0.5f)];
 }
 
-// One tile's edge pixels and their rays on their way through tracing (16 at a time) and shading (256 at a
-// time).
-class EdgeTile {
+// The edge pixels of a run of tiles and their rays on their way through tracing (16 at a time) and shading
+// (256 at a time).
+class EdgeRun {
  public:
-  EdgeTile(const AntialiasTask& task, const TileKernels& kernels) : task_(task), kernels_(kernels) {
+  EdgeRun(const AntialiasTask& task, const TileKernels& kernels) : task_(task), kernels_(kernels) {
     hits_.origin = task.origin;
     hits_.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
     kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
   }
 
-  // Adds a pixel of the tile with its place in the image, its kind of edge and the colour of its centre ray.
+  // Adds a pixel of the run with its place in the image, its kind of edge and the colour of its centre ray.
   void AddPixel(int x, int y, int image_x, int image_y, uint8_t edge, Rgb8 center) {
     image_x_[pixel_count_] = image_x, image_y_[pixel_count_] = image_y;
     x_[pixel_count_] = static_cast<uint8_t>(x);
@@ -115,11 +117,11 @@ class EdgeTile {
   const AntialiasTask& task_;
   const TileKernels& kernels_;
   int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
-  uint8_t x_[kTilePixels], y_[kTilePixels];  // of the pixels in the tile
-  int image_x_[kTilePixels], image_y_[kTilePixels];
-  uint8_t edge_[kTilePixels], low_[kTilePixels], high_[kTilePixels] = {};
-  float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
-  int weight_[kTilePixels] = {};
+  uint8_t x_[kRunPixels], y_[kRunPixels];  // of the pixels in the run
+  int image_x_[kRunPixels], image_y_[kRunPixels];
+  uint8_t edge_[kRunPixels], low_[kRunPixels], high_[kRunPixels] = {};
+  float r_[kRunPixels] = {}, g_[kRunPixels] = {}, b_[kRunPixels] = {};
+  int weight_[kRunPixels] = {};
   RayHit16 packet_;
   HitBatch hits_;
   int owner_[HitBatch::kCapacity];  // pixel of each ray
@@ -166,17 +168,17 @@ void MakeSampleOffsets(const CameraRays& rays, int samples, std::vector<PixelOff
 int64_t Antialiaser::Run(const AntialiasTask& task) {
   MakeSampleOffsets(*task.rays, task.samples, offsets_);
   const RayField& field = task.rays->field();
-  const int across = (field.width + kTileSize - 1) / kTileSize,
+  const int across = (field.width + kRunWidth - 1) / kRunWidth,
             down = (field.height + kTileSize - 1) / kTileSize;
   std::atomic<int64_t> ray_count = 0;
-  ParallelFor(int64_t{across} * down, [&](int64_t tile) {
-    ray_count += RunTile(task, static_cast<int>(tile % across) * kTileSize,
-                         static_cast<int>(tile / across) * kTileSize);
+  ParallelFor(int64_t{across} * down, [&](int64_t run) {
+    ray_count += RunTiles(task, static_cast<int>(run % across) * kRunWidth,
+                          static_cast<int>(run / across) * kTileSize);
   });
   return ray_count;
 }
 
-int Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
+int Antialiaser::RunTiles(const AntialiasTask& task, int column, int row) const {
   const RayField& field = task.rays->field();
   const auto image_column = [&](int x) {
     const int c = column + x - task.rays->column_shift();
@@ -184,42 +186,42 @@ int Antialiaser::RunTile(const AntialiasTask& task, int column, int row) const {
   };
 
   // Edge pixels, block by block so that neighbours stay together.
-  EdgeTile tile(task, kernels_);
-  for (int i = 0; i < kTilePixels; ++i) {
-    const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
+  EdgeRun run(task, kernels_);
+  for (int i = 0; i < kRunPixels; ++i) {
+    const int x = (i >> 8) * kTileSize + ((i >> 4) & 3) * 4 + (i & 3),
+              y = ((i >> 6) & 3) * 4 + ((i >> 2) & 3);
     if (column + x >= field.width || row + y >= field.height) continue;
     const uint8_t edge = (*task.edges)(image_column(x), row + y);
     if (edge == 0) continue;
     const int image_x = image_column(x);
-    tile.AddPixel(x, y, image_x, row + y, edge, (*task.colors)(image_x, row + y));
+    run.AddPixel(x, y, image_x, row + y, edge, (*task.colors)(image_x, row + y));
   }
-  if (tile.pixel_count() == 0) return 0;
+  if (run.pixel_count() == 0) return 0;
 
   // Rays first … last - 1 of a pixel; everything random depends on the canonical pixel alone.
   const FlushDenormals flush_denormals;
   const auto add_rays = [&](int i, int first, int last) {
-    const int x = column + tile.x(i), y = row + tile.y(i);
+    const int x = column + run.x(i), y = row + run.y(i);
     const uint64_t key = PixelKey(x, y, field.width);
     const PixelOffset* offsets = SampleOffsets(offsets_, key, task.samples);
     for (int s = first; s < last; ++s) {
       Vec3d direction;
       if (!task.rays->Direction(x, y, offsets[s - 1], direction)) continue;
-      tile.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
+      run.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
     }
   };
 
   // Silhouettes that show get all their rays at once; others the rest when the first differs from the centre.
-  for (int i = 0; i < tile.pixel_count(); ++i)
-    add_rays(i, 1, tile.on_visible_silhouette(i) ? task.samples : 2);
-  tile.Finish();
-  for (int i = 0; i < tile.pixel_count(); ++i) {
-    if (!tile.on_visible_silhouette(i) && tile.contrast(i) > kContrast / 2) add_rays(i, 2, task.samples);
+  for (int i = 0; i < run.pixel_count(); ++i) add_rays(i, 1, run.on_visible_silhouette(i) ? task.samples : 2);
+  run.Finish();
+  for (int i = 0; i < run.pixel_count(); ++i) {
+    if (!run.on_visible_silhouette(i) && run.contrast(i) > kContrast / 2) add_rays(i, 2, task.samples);
   }
-  tile.Finish();
-  for (int i = 0; i < tile.pixel_count(); ++i) {
-    (*task.colors)(image_column(tile.x(i)), row + tile.y(i)) = tile.Mean(i);
+  run.Finish();
+  for (int i = 0; i < run.pixel_count(); ++i) {
+    (*task.colors)(image_column(run.x(i)), row + run.y(i)) = run.Mean(i);
   }
-  return tile.ray_count();
+  return run.ray_count();
 }
 
 }  // namespace airsim360::internal

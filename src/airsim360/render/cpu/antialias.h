@@ -11,8 +11,6 @@
 
 namespace airsim360::internal {
 
-inline constexpr int kMaxSamples = 64;  ///< of a pixel
-
 /// Number that everything random of a canonical pixel depends on.
 inline uint64_t PixelKey(int column, int row, int width) {
   return MixBits(static_cast<uint64_t>(row) * static_cast<uint64_t>(width) + static_cast<uint64_t>(column));
@@ -49,7 +47,7 @@ class Antialiaser {
   int64_t Run(const AntialiasTask& task);
 
  private:
-  int RunTile(const AntialiasTask& task, int column, int row) const;
+  int RunTiles(const AntialiasTask& task, int column, int row) const;
 
   TileKernels kernels_;
   std::vector<PixelOffset> offsets_;  // [symmetry][sample - 1]

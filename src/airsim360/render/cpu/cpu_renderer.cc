@@ -154,7 +154,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
                      moves_on ? dynamic_.At(request.next_state) : applied_);
   }
   const bool paths = color && request.tier == Tier::kReference, high = color && request.tier == Tier::kHigh;
-  const int edge_samples = std::clamp(request.aa_samples, 1, kMaxSamples);
+  const int edge_samples = EdgeSamples(request);
   const bool antialias = color && request.products.rgb && !paths && !high && edge_samples > 1;
   ResizeFrame(request, color, antialias, frame);
   frame.exposure = color ? ExposureOf(request) : 1;

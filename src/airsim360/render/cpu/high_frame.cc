@@ -22,7 +22,6 @@ namespace {
 
 constexpr int kTilesPerTask = 4;
 constexpr int kDefaultRays = 4, kMaxRays = 256;  // ambient rays of a pixel
-constexpr int kMaxEdgeSamples = 64;
 
 template <class Pixel>
 Pixel* DataOrNull(Image<Pixel>& image) {
@@ -110,7 +109,7 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   impl.Combine();
 
   uint64_t count = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
-  const int samples = std::clamp(request.aa_samples, 1, kMaxEdgeSamples);
+  const int samples = EdgeSamples(request);
   if (samples > 1) {
     HighBuffers& buffers = impl.buffers;
     Antialiaser().FindEdges(buffers.entity, buffers.luma, field.separable, buffers.edges);

@@ -153,7 +153,38 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, cons
   kernels.light(view, rays, surfaces, light);
 }
 
-void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
+namespace {
+
+// Puts the slots of hits on one material side by side, materials in the order of their first hit, so that
+// vectors of lanes do the same work.
+void SortByMaterial(const internal::ShadeView& view, const HitBatch& hits, uint32_t* slots, int count) {
+  constexpr uint32_t kHash = 512, kFree = ~0u;
+  uint32_t material_at[kHash];
+  uint16_t group_at[kHash];
+  uint16_t group[kBatch], begin[kBatch + 1] = {};
+  uint32_t sorted[kBatch];
+  std::fill_n(material_at, kHash, kFree);
+  int groups = 0;
+  for (int i = 0; i < count; ++i) {
+    const uint32_t k = slots[i];
+    const uint32_t material =
+        view.triangles[view.instances[hits.instance[k]].first_triangle + hits.triangle[k]].material &
+        ~internal::kMirroredUv;
+    uint32_t at = material * 0x9e3779b1u >> 23;
+    while (material_at[at] != material && material_at[at] != kFree) at = (at + 1) % kHash;
+    if (material_at[at] == kFree) material_at[at] = material, group_at[at] = static_cast<uint16_t>(groups++);
+    group[i] = group_at[at];
+    ++begin[group[i] + 1];
+  }
+  if (groups <= 1) return;
+  for (int g = 0; g < groups; ++g) begin[g + 1] = static_cast<uint16_t>(begin[g + 1] + begin[g]);
+  for (int i = 0; i < count; ++i) sorted[begin[group[i]]++] = slots[i];
+  std::copy_n(sorted, count, slots);
+}
+
+}  // namespace
+
+void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky, const ShadeView* sort) {
   int found = 0, missed = 0;
   for (int k = 0; k < hits.count; ++k) {
     const bool miss = hits.instance[k] == kMiss;
@@ -161,12 +192,13 @@ void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
     found += miss ? 0 : 1, missed += miss ? 1 : 0;
   }
   surfaces.count = found, sky.count = missed;
+  if (sort != nullptr) SortByMaterial(*sort, hits, surfaces.slot, found);
   // Array by array, which compilers make vectors of; the sky needs directions alone.
   for (RaySet* set : {&surfaces, &sky}) {
     const int count = set->count;
     const uint32_t* slot = set->slot;
     if (count == 0) continue;
-    const bool all = count == hits.count;
+    const bool all = count == hits.count && sort == nullptr;
     const auto take = [&](const auto* from, auto* to) {
       if (all) {
         std::copy_n(from, count, to);
@@ -196,9 +228,10 @@ void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky) {
 void Shader::Shade(const HitBatch& hits, RadianceBatch& radiance, const SunNeighbours* around,
                    SunPixel* sun) const {
   RaySet surfaces, sky;
-  internal::SplitHits(hits, surfaces, sky);
+  const bool sort = around != nullptr;  // edge samples: neighbours lie on many materials
+  internal::SplitHits(hits, surfaces, sky, sort ? &impl_->view : nullptr);
   const auto put = [&](const RaySet& set, const LightSet& light) {
-    if (set.count == hits.count) {  // none was left out, so the order is the same
+    if (set.count == hits.count && !sort) {  // none was left out, so the order is the same
       std::copy_n(light.r, set.count, radiance.r);
       std::copy_n(light.g, set.count, radiance.g);
       std::copy_n(light.b, set.count, radiance.b);

@@ -67,8 +67,9 @@ namespace internal {
 inline constexpr int kLampRays = 2;
 
 /// Splits a batch into rays that met a surface and rays that met nothing, packed and padded; `slot` is the
-/// index in the batch.
-void SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky);
+/// index in the batch. `sort`, if not null: surfaces in runs of one material instead of in the order of the
+/// batch.
+void SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky, const ShadeView* sort = nullptr);
 }  // namespace internal
 
 }  // namespace airsim360

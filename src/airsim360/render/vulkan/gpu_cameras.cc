@@ -90,14 +90,14 @@ int PathSamples(const RenderRequest& request) {
   return request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
 }
 
-int EdgeSamples(const RenderRequest& request) {
+int ColorSamples(const RenderRequest& request) {
   if (!request.products.rgb && !(request.tier == Tier::kHigh && request.products.radiance)) return 1;
   if (request.tier != Tier::kFast && request.tier != Tier::kHigh) return 1;
-  return std::clamp(request.aa_samples, 1, kMaxSamples);
+  return EdgeSamples(request);
 }
 
 int PointsOfPixel(const RenderRequest& request) {
-  return request.products.coverage ? std::clamp(request.aa_samples, 1, kMaxSamples) : EdgeSamples(request);
+  return request.products.coverage ? EdgeSamples(request) : ColorSamples(request);
 }
 
 std::byte* UploadCursor::Take(size_t bytes, uint64_t& where) {
@@ -172,7 +172,7 @@ void GpuCameras::Fill(const RenderRequest& request, uint64_t frames, UploadCurso
     out.rays = Table(request.camera, field);
   }
   if (const int points = PointsOfPixel(request); points > 1) FillOffsets(points, upload, out);
-  out.samples = static_cast<uint32_t>(EdgeSamples(request));
+  out.samples = static_cast<uint32_t>(ColorSamples(request));
   if (request.products.flow) FillNext(request, out);
   if (request.tier == Tier::kHigh) FillHigh(request, frames, upload, out);
   if (request.tier == Tier::kReference) {

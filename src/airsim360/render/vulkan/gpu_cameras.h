@@ -20,7 +20,7 @@ struct UploadCursor {
 };
 
 /// Colour samples of a pixel on an edge; 1 = no antialiasing.
-int EdgeSamples(const RenderRequest& request);
+int ColorSamples(const RenderRequest& request);
 /// Points of a pixel on an edge that any pass uses, its centre included.
 int PointsOfPixel(const RenderRequest& request);
 /// Paths of a pixel in tier `reference`.

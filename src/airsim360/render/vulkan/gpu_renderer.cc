@@ -180,7 +180,7 @@ class VulkanRenderer : public GpuRenderer {
   // The passes of a colour tier, in their order.
   GpuSlot::Work ColorWork(std::span<const RenderRequest> requests) {
     GpuSlot::Work work{.shade = shade_->address(requests.front().tone), .exposure = shader_->Exposure()};
-    const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return EdgeSamples(r) > 1; });
+    const bool antialias = std::ranges::any_of(requests, [](const RenderRequest& r) { return ColorSamples(r) > 1; });
     if (std::ranges::any_of(requests, [](const RenderRequest& r) { return r.products.flow; }))
       work.passes.push_back({&labels_});
     if (requests.front().tier == Tier::kHigh) {

@@ -137,7 +137,7 @@ size_t GpuSlot::ArrangePasses(std::span<const RenderRequest> requests, const Wor
     const size_t words = 4 * static_cast<size_t>(place.width) * static_cast<size_t>(place.height);
     place.entity = place.offset[kEntity], place.centers = kNowhere;
     place.planes = work.numbers > 0 ? take(work.numbers * words) : kNowhere;
-    const bool antialias = work.numbers == 0 && EdgeSamples(requests[i]) > 1;
+    const bool antialias = work.numbers == 0 && ColorSamples(requests[i]) > 1;
     if (antialias) place.centers = take(words);
     if ((antialias || requests[i].products.coverage) && place.entity == kNowhere) place.entity = take(words);
   }
