@@ -34,7 +34,7 @@ void FurnishNewYorkPavements(District& district, const Manhattan& city, const De
 /// Cabs, cars, vans and buses in lanes and bays; covers.
 void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets,
                            const Density& density);
-/// Far blocks to 640 m, a skyline to the horizon, the rivers.
-void BuildFarManhattan(District& district);
+/// Far blocks and streets to 660 m, a skyline to the horizon, the rivers.
+void BuildFarManhattan(District& district, const Density& density);
 
 }  // namespace airsim360::internal

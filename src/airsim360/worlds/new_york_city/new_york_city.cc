@@ -43,7 +43,7 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
   FurnishNewYorkPavements(district, city, density);
   FurnishNewYorkStreets(district, streets, density);
   ground.Finish("ground");
-  BuildFarManhattan(district);
+  BuildFarManhattan(district, density);
   ground.Finish("backdrop");
 
   AddPlacedModels(builder, shelf, options.props);
