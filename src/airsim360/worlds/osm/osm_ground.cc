@@ -204,10 +204,11 @@ std::vector<Neighbours::Yard> LayRest(GroundBuilder& ground, const std::vector<O
       if (box.Contains(house.first) && Inside(block, house.first)) built += house.second;
     const bool paved = built > 0.28 * Area(block);
     const std::string name = (paved ? "yard " : "green ") + std::to_string(++number);
+    using Kind = Neighbours::Yard::Kind;
     if (paved && fill && ground.Lay(name + "/gardens", "ground/grass", Surface::kLawn, GardensOf(block), 0) != kNoEntity)
-      yards.push_back({name + "/gardens", ground.last().patches, false});
+      yards.push_back({name + "/gardens", ground.last().patches, Kind::kGarden});
     if (ground.Lay(name, paved ? "ground/pavement/modular" : "ground/terrain/landscape", paved ? Surface::kAsphaltOld : Surface::kLawn, {block}, 0) != kNoEntity)
-      yards.push_back({name, ground.last().patches, paved});
+      yards.push_back({name, ground.last().patches, paved ? Kind::kCourt : Kind::kMeadow});
   }
   return yards;
 }

@@ -79,7 +79,7 @@ struct Neighbours {
   struct Yard {
     std::string name;
     Patches patches;  ///< what is free of the block, houses included
-    bool paved;
+    enum class Kind { kCourt, kGarden, kMeadow } kind;
   };
   std::vector<Yard> yards;  ///< the rest of each block, set by BuildOsmGround
 };

@@ -1,6 +1,7 @@
 // Behind the houses of a map, by rule: gardens and courts, as much of them as there is room for between the walls.
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "airsim360/worlds/osm/osm_dresser.h"
 
@@ -21,6 +22,22 @@ constexpr std::array<YardThing, 6> kGarden{{{"tree_narrowleaf", 0.10, 3.0, 0.6f}
                                             {"bench_wood", 0.03, 1.4, 1},
                                             {"plant", 0.12, 1.0, 1}}};
 constexpr std::array<YardThing, 4> kCourtyard{{{"car", 0.10, 2.6, 1}, {"trash_can", 0.06, 1.0, 1}, {"green_pot", 0.05, 1.0, 1}, {"tree_narrowleaf", 0.02, 3.0, 0.6f}}};
+constexpr std::array<YardThing, 4> kMeadow{{{"tree_generic", 0.012, 3.5, 0.7f}, {"tree_narrowleaf", 0.008, 3.5, 0.8f}, {"shrub", 0.04, 1.2, 1}, {"plant", 0.03, 1.0, 1}}};
+
+// What `pick` of [0, 1) draws.
+const YardThing* Draw(std::span<const YardThing> things, double pick) {
+  for (const YardThing& thing : things) {
+    if (pick < thing.chance) return &thing;
+    pick -= thing.chance;
+  }
+  return nullptr;
+}
+
+std::span<const YardThing> ThingsOf(Neighbours::Yard::Kind kind) {
+  using Kind = Neighbours::Yard::Kind;
+  if (kind == Kind::kCourt) return kCourtyard;
+  return kind == Kind::kGarden ? std::span<const YardThing>(kGarden) : kMeadow;
+}
 
 }  // namespace
 
@@ -35,19 +52,13 @@ void Dresser::Yards() {
       for (double y = low.y; y < high.y; y += kCell)
         for (double x = low.x; x < high.x; x += kCell) {
           const Vec2d p{x + kCell * rng.Uniform(0.1, 0.9), y + kCell * rng.Uniform(0.1, 0.9)};
-          const double pick = rng.Uniform(), yaw = kCell * rng.Uniform();
+          const double pick = rng.Uniform(), yaw = 2 * M_PI * rng.Uniform();
           const uint32_t variant = rng.Index(36);
-          double sum = 0;
-          const YardThing* thing = nullptr;
-          const auto choose = [&](const auto& things) {
-            for (const YardThing& one : things)
-              if (!thing && pick < (sum += one.chance)) thing = &one;
-          };
-          yard.paved ? choose(kCourtyard) : choose(kGarden);
+          const YardThing* thing = Draw(ThingsOf(yard.kind), pick);
           if (!thing || !Here(p) || OnRoad(p, 3) || !Inside(patch, p) || InBuilding(p, thing->room) || paths_.Find(p, 2.2).owner != UINT32_MAX) continue;
           const bool tree = std::string_view(thing->kind).starts_with("tree");
           if (tree && planted_ >= kMostPlanted) continue;
-          // Cars stand in rows; everything else as it likes.
+          // Cars stand square to each other; everything else as it likes.
           const double turn = std::string_view(thing->kind) == "car" ? std::round(yaw) * (M_PI / 2) : yaw;
           const Footprint place = FootprintOf(thing->kind, ToFloat(p), static_cast<float>(turn), thing->scale);
           if (!scene_.occupancy.IsFree(place)) continue;
