@@ -25,6 +25,8 @@ void BuildOpenLots(District& district, const Manhattan& city);
 void BuildLakePark(District& district, const Block& block);
 /// Chooses high bare walls for painted pictures, before the buildings are built.
 void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed);
+/// Corner walk-ups have either boards or fire escapes, before the buildings are built.
+void PartBoardsFromFireEscapes(Manhattan& city, uint64_t seed);
 /// Billboards, banners, murals, light boxes and flags on walls and roofs.
 void HangSigns(District& district, const Manhattan& city, bool more);
 /// What flight instructions name, each once; before the rest of the furniture.
