@@ -54,6 +54,26 @@ class WorldTest(ProgramTest):
         self.assertEqual(rows["way/10 Gable House"], "construction/house/gabled")
         self.assertEqual(rows["node/220"], "furniture/misc")
 
+    def test_every_command_that_opens_a_world_takes_a_label_file(self):
+        labels = self.folder / "mine.labels.yaml"
+        labels.write_text("rules:\n  - match: wall*\n    category: construction/wall/padded\n")
+        shot = self.folder / "shot"
+        small = ("--world", "box_room", "--size", "64x32", "--tier", "labels", "--labels", labels)
+        runs = {
+            shot: self.run_ok("render", *small, "--pose", "0,0,2", "--out", shot),
+            self.folder / "set": self.run_ok("collect", *small, "--frames", "1", "--out", self.folder / "set"),
+            self.folder / "flight/frames": self.run_ok("fly", *small, "--frames", "1", "--out", self.folder / "flight"),
+        }
+        for folder in runs:
+            paths = [e["category_path"] for e in json.loads((folder / "entities.json").read_text()).values()]
+            self.assertIn("construction/wall/padded", paths, folder)
+        # Another label file makes another dataset.
+        labels.write_text("rules:\n  - match: wall*\n    category: construction/wall/bare\n")
+        self.run_bad(2, "collect", *small, "--frames", "1", "--out", self.folder / "set", says=["--out", "labels"])
+        self.run_bad(2, "render", *small[:-1], self.folder / "none.yaml", "--out", self.folder / "x", says=["--labels", "none.yaml"])
+        rows = json.loads(self.run_ok("world", "entities", "box_room", "--labels", labels, "--json").stdout)
+        self.assertIn("construction/wall/bare", [e["category_path"] for e in rows])
+
     def test_damaged_maps_are_told_with_their_place(self):
         bad = self.folder / "bad.osm"
         bad.write_text("<osm version='0.6'>\n<node id='1' lat='1' lon='1'></way></osm>")

@@ -29,9 +29,9 @@ double SteadySeconds() {
 AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
   AgentApiOptions options{.world = arguments.world, .world_seed = globals.seed};
   for (const WorldInfo& world : ListWorlds()) options.worlds.push_back(world.name);
-  options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment](
+  options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment, labels = globals.labels](
                      const std::string& name, uint64_t seed) {
-    std::shared_ptr<const Scene> scene = LoadWorld({.world = name, .seed = seed});
+    std::shared_ptr<const Scene> scene = LoadWorld({.world = name, .seed = seed, .labels = labels});
     const Environment environment = ApplyFlags(flags, scene->environment);
     return std::make_shared<AgentWorld>(name, std::move(scene), tier, environment);
   };
@@ -77,6 +77,7 @@ void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--realtime", arguments->realtime,
                     "what an agent takes to think passes in its episode too; else time passes in actions alone");
   AddEnvironmentFlags(*command, arguments->environment);
+  AddLabelsFlag(*command, globals);
   command->callback([arguments, &globals] { Serve(*arguments, globals); });
 }
 

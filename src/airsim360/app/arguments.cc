@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/hash.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
 
@@ -162,6 +163,15 @@ DroneModel FindDrone(const std::string& text) {
   // One word that is no name is a misspelt one.
   if (text.find(' ') == std::string::npos) return CatalogModel(text);
   return DroneFromPrompt(text).model;
+}
+
+void AddLabelsFlag(CLI::App& command, GlobalOptions& globals) {
+  command.add_option("--labels", globals.labels, "label file: categories by name patterns (docs/importing.md)")
+      ->check(CLI::ExistingFile);
+}
+
+std::string DescribeLabels(const GlobalOptions& globals) {
+  return globals.labels.empty() ? "" : "sha256:" + Sha256HexOfFile(globals.labels);
 }
 
 void PrintJson(const nlohmann::ordered_json& value) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "airsim360/app/commands.h"
 #include "airsim360/dataset/spec.h"
 #include "airsim360/flight/drone_model.h"
 #include "airsim360/math/vector.h"
@@ -58,6 +59,12 @@ std::vector<double> ParseNumbers(const char* flag, const std::string& text, size
 
 /// A name of the catalogue, a drone .yaml, or words. InputError naming what is wrong with it.
 DroneModel FindDrone(const std::string& text);
+
+/// Adds --labels to a command that opens a world.
+void AddLabelsFlag(CLI::App& command, GlobalOptions& globals);
+
+/// What meta.json says of --labels: "sha256:…" of the file, "" without one. InputError if it cannot be read.
+std::string DescribeLabels(const GlobalOptions& globals);
 
 /// Prints one JSON object on stdout.
 void PrintJson(const nlohmann::ordered_json& value);

@@ -72,11 +72,12 @@ void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
     throw InputError("--format: crops and overlay need colours; use --tier fast instead of labels");
 }
 
-DatasetSpec MakeSpec(const CollectArguments& arguments, uint64_t seed) {
+DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& globals) {
   DatasetSpec spec;
   spec.command = "collect";
   spec.world = arguments.world;
-  spec.seed = seed;
+  spec.seed = globals.seed;
+  spec.labels = DescribeLabels(globals);
   const ImageSize size = ParseSize(arguments.size);
   CheckPanoramaSize(size);
   spec.width = size.width;
@@ -182,7 +183,7 @@ void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) 
                     .out = arguments.out,
                     .subset = arguments.subset,
                     .frames = arguments.frames,
-                    .spec = MakeSpec(with_people, globals.seed),
+                    .spec = MakeSpec(with_people, globals),
                     .environment = arguments.environment,
                     .people = arguments.people},
                    globals);
@@ -195,7 +196,7 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
   if (arguments.world.empty()) throw InputError("--world is required");
   if (!arguments.subset.empty()) throw InputError("--subset: it is about --recipe; add --recipe omni360-human");
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
-  DatasetSpec spec = MakeSpec(arguments, globals.seed);
+  DatasetSpec spec = MakeSpec(arguments, globals);
   if (arguments.route != "auto") ReadRouteFile(arguments.route);
   if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
   if (!arguments.plan.empty() && arguments.route != "auto")
@@ -258,6 +259,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "body or level: turn with the body or only with its heading");
   arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
+  AddLabelsFlag(*command, globals);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,
                       "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");

@@ -34,9 +34,9 @@ struct HumanWorld {
   std::shared_ptr<const RayTracer> tracer;
 };
 
-HumanWorld OpenHumanWorld(const std::string& name, uint64_t seed) {
+HumanWorld OpenHumanWorld(const std::string& name, const GlobalOptions& globals) {
   HumanWorld world;
-  world.scene = LoadWorld({.world = name, .seed = seed});
+  world.scene = LoadWorld({.world = name, .seed = globals.seed, .labels = globals.labels});
   world.mesh = NavMesh::Build(*world.scene);
   world.tracer = std::make_shared<const RayTracer>(world.scene);
   return world;
@@ -104,7 +104,7 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
     }
     if (!worlds.contains(subset.world)) {
       worlds.clear();  // one world at a time
-      worlds[subset.world] = OpenHumanWorld(subset.world, globals.seed);
+      worlds[subset.world] = OpenHumanWorld(subset.world, globals);
     }
     LogInfo(subset.name + ": " + std::to_string(subset.frames) + " frames, " + std::to_string(subset.people) + " people");
     HumanRun one = run;

@@ -16,6 +16,7 @@ struct GlobalOptions {
   std::string device = "auto";  ///< auto, cpu or vulkan
   int gpu = -1;                 ///< index of a GPU; -1 = the best
   std::vector<int> gpus;        ///< of `collect --gpu 0,1` or all: several, then `gpu` is the first
+  std::string labels;           ///< label file of commands that open a world; empty = the world's own labels
 };
 
 /// Each adds one subcommand to `app`. The command runs in its callback, after all flags are parsed; `globals`

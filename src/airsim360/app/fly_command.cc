@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/environment_flags.h"
 #include "airsim360/app/fly_run.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
@@ -31,6 +32,7 @@ struct FlyArguments {
   double vmax = 4, amax = 4, speed = 0, fps = VideoOptions{}.frame_rate;
   int64_t frames = 0;
   bool record = false;
+  EnvironmentFlags environment;
   PeopleArguments people;
   VideoArguments encoding;
 };
@@ -126,11 +128,12 @@ void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
 }
 
 // What frames and videos of the flight look like. A video is level unless told otherwise: nobody likes a sphere that rolls.
-DatasetSpec SpecOf(const FlyArguments& arguments, uint64_t seed, bool video) {
+DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, bool video) {
   DatasetSpec spec;
   spec.command = "fly";
   spec.world = arguments.world;
-  spec.seed = seed;
+  spec.seed = globals.seed;
+  spec.labels = DescribeLabels(globals);
   const ImageSize size = ParseSize(arguments.size);
   CheckPanoramaSize(size);
   spec.width = size.width;
@@ -146,18 +149,19 @@ DatasetSpec SpecOf(const FlyArguments& arguments, uint64_t seed, bool video) {
   return spec;
 }
 
-void WriteFrames(const FlyArguments& arguments, uint64_t seed, const OpenedWorld& world, const FlyResult& result) {
+void WriteFrames(const FlyArguments& arguments, const GlobalOptions& globals, const OpenedWorld& world, const FlyResult& result) {
   if (arguments.frames == 0) return;
-  const DatasetSpec spec = SpecOf(arguments, seed, false);
+  DatasetSpec spec = SpecOf(arguments, globals, false);
+  spec.environment = DescribeEnvironment(world.environment);
   CollectInput input{spec, *world.scene, result.flight, fs::path(arguments.out) / "frames"};
   input.people = world.people;
   input.tracer = world.tracer;
   Collect(input, *world.renderer);
 }
 
-std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, uint64_t seed, const OpenedWorld& world, FlyResult& result) {
+std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, const GlobalOptions& globals, const OpenedWorld& world, FlyResult& result) {
   if (arguments.video.empty()) return {};
-  const DatasetSpec spec = SpecOf(arguments, seed, true);
+  const DatasetSpec spec = SpecOf(arguments, globals, true);
   Flight flight;
   flight.shots = std::move(result.video);
   CollectInput input{spec, *world.scene, flight, {}};
@@ -167,8 +171,8 @@ std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, uint64_t se
 }
 
 // Everything that can be wrong with a video, before anything is loaded.
-void CheckVideoFlags(const FlyArguments& arguments) {
-  const DatasetSpec spec = SpecOf(arguments, 0, true);
+void CheckVideoFlags(const FlyArguments& arguments, const GlobalOptions& globals) {
+  const DatasetSpec spec = SpecOf(arguments, globals, true);
   if (arguments.video.empty()) return;
   if (spec.tier == Tier::kLabels) throw InputError("--video: it needs colours; use --tier fast instead of labels");
   CheckVideoPath(arguments.video);
@@ -185,14 +189,14 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   const auto trajectory = arguments.waypoints.empty() ? nullptr : PlanWaypoints(arguments);
   FlyJob job;
   job.tasks = TasksOf(arguments, trajectory);
-  CheckVideoFlags(arguments);
+  CheckVideoFlags(arguments, globals);
   const Tier tier = ParseTierArgument(arguments.tier);
   const bool pictures = arguments.frames > 0 || !arguments.video.empty();
   const WorldWind wind = ReadWind(arguments.wind);
   if (!arguments.pose.empty()) ParsePose(arguments.pose);
 
   const OpenedWorld world =
-      OpenWorld(arguments.world, globals, pictures ? tier : Tier::kLabels, {}, arguments.people.Request(globals.seed));
+      OpenWorld(arguments.world, globals, pictures ? tier : Tier::kLabels, arguments.environment, arguments.people.Request(globals.seed));
   SetStart(arguments, *world.scene, trajectory.get(), setup);
   SimModel model = world.Model(SimModel{}.dt_ns);
   model.wind = wind;
@@ -207,8 +211,8 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   CreateWritableFolder(arguments.out);
   FlyResult result = RunFlight(job);
   WriteFiles(arguments, result);
-  WriteFrames(arguments, globals.seed, world, result);
-  const std::optional<VideoResult> video = WriteVideo(arguments, globals.seed, world, result);
+  WriteFrames(arguments, globals, world, result);
+  const std::optional<VideoResult> video = WriteVideo(arguments, globals, world, result);
   if (globals.json) {
     nlohmann::ordered_json json = ResultJson(arguments, setup.model, result, *world.scene);
     if (video)
@@ -270,6 +274,8 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--fps", arguments->fps, "pictures a second of the video (default 30)")->check(CLI::Range(0.1, 240.0));
   arguments->encoding.AddTo(*command);
   arguments->people.AddTo(*command);
+  AddEnvironmentFlags(*command, arguments->environment);
+  AddLabelsFlag(*command, globals);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
   command->callback([arguments, &globals] { RunFly(*arguments, globals); });
 }

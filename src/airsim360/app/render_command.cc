@@ -89,6 +89,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.command = "render";
   spec.world = arguments.world;
   spec.seed = globals.seed;
+  spec.labels = DescribeLabels(globals);
   SetCamera(arguments, spec);
   spec.tier = ParseTierArgument(arguments.tier);
   spec.samples = CheckSamples(spec.tier, arguments.samples);
@@ -159,6 +160,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   arguments->people.AddTo(*command);
   command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");
   AddEnvironmentFlags(*command, arguments->environment);
+  AddLabelsFlag(*command, globals);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,
                       "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");

@@ -65,7 +65,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   ServerOptions options = OptionsOf(arguments, globals);
   ApplyFlags(arguments.environment, {});
   const PeopleRequest people = arguments.people.Request(globals.seed);
-  std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed});
+  std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
   options.environment = ApplyFlags(arguments.environment, scene->environment);
   if (people.any()) {
     PopulatedScene populated = Populate(std::move(scene), people);
@@ -104,6 +104,7 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--lockstep", arguments->lockstep,
                     "time passes only in simContinueForTime and simContinueForFrames, as fast as it can");
   AddEnvironmentFlags(*command, arguments->environment);
+  AddLabelsFlag(*command, globals);
   command->callback([arguments, &globals] { Serve(*arguments, globals); });
 }
 

@@ -24,7 +24,7 @@ OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Ti
   if (globals.gpu >= 0 && globals.device == "cpu") throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
   const auto start = std::chrono::steady_clock::now();
   OpenedWorld opened;
-  opened.scene = LoadWorld({.world = world, .seed = globals.seed});
+  opened.scene = LoadWorld({.world = world, .seed = globals.seed, .labels = globals.labels});
   if (people.any()) {
     PopulatedScene populated = Populate(std::move(opened.scene), people);
     opened.scene = std::move(populated.scene);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct ExportArguments {
-  std::string world, out, labels;
+  std::string world, out;
 };
 
 void WriteGlb(const Scene& scene, const fs::path& out) {
@@ -35,7 +35,7 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
   if (out.extension() != ".glb")
     throw InputError("--out: '" + arguments.out + "': worlds are exported as .glb; did you mean '" +
                      fs::path(out).replace_extension(".glb").string() + "'?");
-  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = arguments.labels});
+  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
   WriteGlb(*scene, out);
   const SceneCounts counts = scene->Count();
   const uint64_t bytes = fs::file_size(out);
@@ -54,7 +54,7 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
 }
 
 struct ImportArguments {
-  std::string file, out, labels, heights;
+  std::string file, out, heights;
   bool no_fill = false, buildings = false;
 };
 
@@ -95,7 +95,7 @@ Json CategoriesJson(const Scene& scene) {
 }
 
 // A world file that names the imported one, so that its settings need not be repeated.
-std::string WorldFileOf(const ImportArguments& arguments, const fs::path& out) {
+std::string WorldFileOf(const ImportArguments& arguments, const std::string& labels, const fs::path& out) {
   const auto path = [&](const std::string& file) {
     std::error_code error;
     const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
@@ -104,7 +104,7 @@ std::string WorldFileOf(const ImportArguments& arguments, const fs::path& out) {
   };
   std::string text = "world: " + path(arguments.file) + "\n";
   if (!arguments.heights.empty()) text += "heights: " + path(arguments.heights) + "\n";
-  if (!arguments.labels.empty()) text += "labels: " + path(arguments.labels) + "\n";
+  if (!labels.empty()) text += "labels: " + path(labels) + "\n";
   if (arguments.no_fill) text += "fill: false\n";
   return text;
 }
@@ -120,14 +120,14 @@ void RunImport(const ImportArguments& arguments, const GlobalOptions& globals) {
   const bool map = IsOsmFile(arguments.file);
   const WorldRequest request{.world = arguments.file,
                              .seed = globals.seed,
-                             .labels = arguments.labels,
+                             .labels = globals.labels,
                              .heights = arguments.heights,
                              .fill = !arguments.no_fill};
   scene = map ? LoadMap(request, &report) : LoadWorld(request);
   if (out.extension() == ".glb") WriteGlb(*scene, out);
   if (out.extension() == ".yaml") {
     if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
-    WriteFileAtomically(out, std::string_view(WorldFileOf(arguments, out)));
+    WriteFileAtomically(out, std::string_view(WorldFileOf(arguments, globals.labels, out)));
   }
   const SceneCounts counts = scene->Count();
   Json json{{"file", arguments.file},
@@ -156,7 +156,7 @@ void RunImport(const ImportArguments& arguments, const GlobalOptions& globals) {
 }
 
 struct EntitiesArguments {
-  std::string world, labels;
+  std::string world;
   bool csv = false;
 };
 
@@ -168,7 +168,7 @@ std::string CsvText(const std::string& text) {
 }
 
 void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& globals) {
-  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = arguments.labels});
+  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
   const std::vector<EntityRow> rows = EntityTable(*scene);
   if (globals.json) {
     Json list = Json::array();
@@ -219,7 +219,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<ExportArguments>();
   to_file->add_option("world", arguments->world, kWorldHelp)->required();
   to_file->add_option("--out", arguments->out, "the .glb file to write")->required();
-  to_file->add_option("--labels", arguments->labels, "label file: categories by name patterns (docs/importing.md)");
+  AddLabelsFlag(*to_file, globals);
   to_file->callback([arguments, &globals] { RunExport(*arguments, globals); });
 
   CLI::App* from_file = command->add_subcommand(
@@ -227,7 +227,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   auto importing = std::make_shared<ImportArguments>();
   from_file->add_option("file", importing->file, "the file")->required();
   from_file->add_option("--out", importing->out, "FILE.glb: write it as glTF; NAME or FILE.yaml: write a world file that names it");
-  from_file->add_option("--labels", importing->labels, "label file: categories by name patterns (docs/importing.md)");
+  AddLabelsFlag(*from_file, globals);
   from_file->add_option("--heights", importing->heights, "maps: GeoTIFF with the heights of the ground (needs gdal-bin)");
   from_file->add_flag("--no-fill", importing->no_fill, "maps: add no parked cars, lamps and trees by rule");
   from_file->add_flag("--buildings", importing->buildings, "maps: with --json, list every building with its height");
@@ -236,7 +236,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* entities = command->add_subcommand("entities", "the table of entities: id, name, category, pose, 3D box");
   auto table = std::make_shared<EntitiesArguments>();
   entities->add_option("world", table->world, kWorldHelp)->required();
-  entities->add_option("--labels", table->labels, "label file: categories by name patterns (docs/importing.md)");
+  AddLabelsFlag(*entities, globals);
   entities->add_flag("--csv", table->csv, "comma-separated values");
   entities->callback([table, &globals] { RunEntities(*table, globals); });
   CLI::App* sheet = command->add_subcommand(
@@ -249,6 +249,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');
   sheet->add_option("--width", view->width, "of one panorama in pixels (512)");
   sheet->add_option("--tier", view->tier, "labels, fast, high or reference (fast)");
+  AddLabelsFlag(*sheet, globals);
   sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -174,11 +175,11 @@ class CityReader {
       const auto member = g.Find("lod");
       if (!member) return 1.0;
       // A text in 1.1 and later, a number before.
-      try {
-        return std::strtod(member->Text().c_str(), nullptr);
-      } catch (const InputError&) {
-        return member->Number();
-      }
+      const std::string text = member->IsNumber() ? "" : member->Text();
+      double level = member->IsNumber() ? member->Number() : -1;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), level);
+      if (end != text.data() + text.size() || !(level >= 0 && level < 10)) member->Fail("not a level of detail such as \"2.2\"");
+      return level;
     };
     double best = -1;
     for (size_t i = 0; i < geometry->size(); ++i) {

@@ -138,6 +138,8 @@ TEST(CityJson, TheHighestLevelOfDetailCountsTemplatesIncluded) {
   const std::string object = R"("t":{"type":"CityFurniture","geometry":[)" + Squares(1, R"("lod":"1")") + "," + Squares(3, R"("lod":"2.2")") + "," + Squares(2, R"("lod":2)") + "," + instance + "]}";
   EXPECT_NEAR(AreasByName(ReadCityJson("l.city.json", City(object, templates("1")))).at("t"), 3, 1e-6);
   EXPECT_NEAR(AreasByName(ReadCityJson("l.city.json", City(object, templates("\"3\"")))).at("t"), 0.5, 1e-6);
+  for (const char* lod : {"\"high\"", "\"2,2\"", "\"2.2 \"", "\"\"", "\"1e999\"", "-1", "\"10\"", "null", "[2]"})
+    EXPECT_NE(ErrorOf(City(R"("t":{"type":"Road","geometry":[)" + Squares(1, R"("lod":)" + std::string(lod)) + "]}")).find("/CityObjects/t/geometry/0/lod: "), std::string::npos) << lod;
 }
 
 TEST(CityJson, MaterialsOfTheFileColourItsSurfaces) {

@@ -30,6 +30,7 @@ Json ParametersJson(const DatasetSpec& spec) {
   json["products"] = products;
   if (spec.projection == Projection::kPinhole || spec.projection == Projection::kFisheye)
     json["fov_deg"] = spec.fov_deg;
+  if (!spec.labels.empty()) json["labels"] = spec.labels;
   if (spec.samples != 0) json["samples"] = spec.samples;
   if (!spec.denoise) json["denoise"] = false;
   if (spec.edge_samples > 0) json["edge_samples"] = spec.edge_samples;

@@ -34,6 +34,7 @@ struct DatasetSpec {
   bool denoise = true;            ///< tier high
   int edge_samples = 0;           ///< as RenderRequest::aa_samples
   std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+  std::string labels;             ///< "sha256:…" of the label file given beside the world, or ""
   std::string environment;        ///< DescribeEnvironment of what was rendered
   ToneCurve tone = ToneCurve::kFilmic;
   double exposure_ev = 0;      ///< stops added to the fixed daylight exposure

@@ -58,7 +58,7 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
   request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
   request.additions.Resolve(file);
-  if (!labels.empty()) request.labels = file.parent_path() / labels;
+  if (!labels.empty() && request.labels.empty()) request.labels = file.parent_path() / labels;
   if (!heights.empty()) request.heights = file.parent_path() / heights;
   return request;
 }

@@ -73,40 +73,40 @@ Vec3f LawnTone(Vec2f p, RngStream& rng) {
   return {tone * dry, tone, tone * 0.9f};
 }
 
+}  // namespace
+
 // Tiles where they fit, patches along the edges.
-void LayMownGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, const GroundRect& box, float z, RngStream& rng) {
+void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float z, RngStream& rng, const std::function<float(Vec2f)>& inset) {
   constexpr float kPitch = kLawnTile / 2;
   for (float y = box.y0; y < box.y1; y += kLawnTile) {
     for (float x = box.x0; x < box.x1; x += kLawnTile) {
       const GroundRect cell{x, y, x + kLawnTile, y + kLawnTile};
       const std::vector<Vec2f> corners = cell.Outline();
-      const bool whole = EdgeDistance(outline, cell.center()) > kLawnTile / 2 &&
-                         std::all_of(corners.begin(), corners.end(), [&](Vec2f p) { return InPolygon(outline, p); });
+      const bool whole = inset(cell.center()) > kLawnTile / 2 && std::all_of(corners.begin(), corners.end(), [&](Vec2f p) { return inset(p) > 0; });
       if (whole) {
         const Vec2f p = cell.center();
         const float quarter = 1.5707963f * static_cast<float>(rng.Index(4));
-        d.placer.shelf().PlaceAs(lawn, "lawn_tile", PlaceUpright({p.x, p.y, z}, quarter), rng.Index(4), LawnTone(p, rng));
+        shelf.PlaceAs(lawn, "lawn_tile", PlaceUpright({p.x, p.y, z}, quarter), rng.Index(4), LawnTone(p, rng));
         continue;
       }
       for (int k = 0; k < 4; ++k) {
         const Vec2f p{x + kPitch * (static_cast<float>(k % 2) + static_cast<float>(rng.Uniform())),
                       y + kPitch * (static_cast<float>(k / 2) + static_cast<float>(rng.Uniform()))};
-        if (!InPolygon(outline, p) || EdgeDistance(outline, p) < 0.3f) continue;
+        if (inset(p) < 0.3f) continue;
         const auto turn = static_cast<float>(rng.Uniform(0, 6.283));
-        d.placer.shelf().PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), LawnTone(p, rng));
+        shelf.PlaceAs(lawn, "lawn_patch", PlaceUpright({p.x, p.y, z}, turn), rng.Index(3), LawnTone(p, rng));
       }
     }
   }
 }
-
-}  // namespace
 
 void GrowGrass(District& d, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2) {
   GroundRect box{1e9f, 1e9f, -1e9f, -1e9f};
   for (Vec2f p : outline)
     box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x), std::max(box.y1, p.y)};
   RngStream rng(d.seed, "grass", lawn);
-  if (per_m2 >= 2) LayMownGrass(d, lawn, outline, box, z, rng);
+  if (per_m2 >= 2)
+    LayMownGrass(d.placer.shelf(), lawn, box, z, rng, [&](Vec2f p) { return (InPolygon(outline, p) ? 1.0f : -1.0f) * EdgeDistance(outline, p); });
   const auto tufts = static_cast<int>(box.area() * (per_m2 >= 2 ? 0.7f : per_m2));
   for (int i = 0; i < tufts; ++i) {
     const Vec2f p{static_cast<float>(rng.Uniform(box.x0, box.x1)),

@@ -1,6 +1,7 @@
 // What the builders of one downtown share, and the builders of its parts.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ void LayTreePit(Ground& ground, Vec2f at, float z = 0);
 /// Grass tufts over a lawn at height z as part of its entity, about `per_m2`, from 2 on with mown grass between them; none
 /// within 0.25 m of its edge.
 void GrowGrass(District& district, EntityId lawn, const std::vector<Vec2f>& outline, float z, float per_m2);
+/// Mown grass as part of the lawn's entity at height z where `inset` (metres from the lawn's edge, negative outside) allows it.
+void LayMownGrass(PropShelf& shelf, EntityId lawn, const GroundRect& box, float z, RngStream& rng, const std::function<float(Vec2f)>& inset);
 /// Twigs and leaves on the ground around a tree.
 void DropLeaves(District& district, EntityId ground, Vec2f at, float radius, int count, float z);
 bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);

@@ -53,6 +53,7 @@ struct BuildingPlan {
   std::vector<Vec2f> upper;     ///< outline of the tier that stands on this roof; empty = none
   GroundRect kept_free{};       ///< part of the deck where no machines stand; empty = none
   int mural_edge = -1;          ///< party wall that is kept bare for a picture; -1 = none
+  bool fire_escapes = true;  ///< where its style has them
   int curtain_floor = -1;       ///< storey whose windows all have red curtains; -1 = none
   bool awnings = true;          ///< its shops may have some
   std::string name;             ///< of the entity; empty = "building"

@@ -12,7 +12,9 @@ namespace {
 // Letters on the asphalt, read by who drives towards growing s (`way` +1) or against it.
 void LayWord(Ground& ground, const StreetStretch& street, std::string_view word, float s, float d, float way,
              float height) {
-  const float row = height / 7, column = 0.17f, width = column * (6 * static_cast<float>(word.size()) - 1);
+  constexpr float kMostWidth = 2.7f;  // of a word in a lane
+  const float columns = 6 * static_cast<float>(word.size()) - 1, row = height / 7, column = std::min(0.17f, kMostWidth / columns),
+              width = column * columns;
   for (size_t i = 0; i < word.size(); ++i) {
     for (int y = 0; y < 7; ++y) {
       for (int x = 0; x < 5; ++x) {

@@ -125,7 +125,7 @@ constexpr Row kRows[] = {
     {S::kMountainFar, "mountain far", R::kRock, {0.9f, 0.95f, 1.1f}, 0.9f},
     {S::kPlain, "plain", R::kFields, Gray(1), 0.9f},
     {S::kBusLane, "bus lane", R::kAsphalt, {1.75f, 0.52f, 0.50f}, 0.75f, 0.10f},
-    {S::kDirt, "dirt", R::kSoil, {1.35f, 1.25f, 1.10f}, 0.9f, 0.12f, 0, kSolid, G::kSoil},
+    {S::kDirt, "dirt", R::kSoil, {0.94f, 0.92f, 0.90f}, 0.9f, 0.12f, 0, kSolid, G::kSoil},
     {S::kBrownstone, "brownstone", R::kAshlar, {0.44f, 0.29f, 0.21f}, 0.75f, 0.06f},
     {S::kBrownstoneTrim, "brownstone trim", R::kConcrete, {0.42f, 0.27f, 0.19f}, 0.75f, 0.05f},
     {S::kBronze, "bronze spandrel", R::kNone, {0.13f, 0.105f, 0.075f}, 0.5f, 0.03f},

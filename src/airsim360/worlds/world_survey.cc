@@ -8,11 +8,11 @@
 namespace airsim360 {
 namespace {
 
-// The part of the ground that can be reached.
+// The part of the ground that can be reached; names of what lies beyond it begin with "far".
 Box3f InsideBox(const Scene& scene) {
   Box3f box;
   for (const Entity& entity : scene.entities) {
-    if (scene.tree[entity.category].path != "ground/crosswalk" || entity.bounds.empty()) continue;
+    if (scene.tree[entity.category].path != "ground/crosswalk" || entity.name.starts_with("far ") || entity.bounds.empty()) continue;
     box.Add(entity.bounds.min - Vec3f{20, 20, 20});
     box.Add(entity.bounds.max + Vec3f{20, 20, 400});
   }

@@ -39,7 +39,6 @@ void PlantYardTree(District& d, Vec2f p, EntityId ground, RngStream& rng) {
 void LayBackYards(District& d, const Manhattan& city) {
   for (size_t i = 0; i < city.yards.size(); ++i) {
     const BackYard& yard = city.yards[i];
-    if (d.plan.blocks[yard.block].kind != BlockKind::kBuilt) continue;
     RngStream rng(d.seed, "back yard", i);
     const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
     const GroundRect plot{yard.rect.x0 + 0.08f, yard.rect.y0, yard.rect.x1 - 0.08f, yard.rect.y1};
@@ -47,15 +46,19 @@ void LayBackYards(District& d, const Manhattan& city) {
     const YardKind kind = pick < 0.45 ? YardKind::kLawn : pick < 0.8 ? YardKind::kTerrace : YardKind::kSoil;
     const EntityId ground = LayYardGround(d, plot, kind, rng);
 
+    // Nobody stands between the blocks of the ring: a tree and the ground are all that is seen from above.
+    const Vec2f middle = plot.center();
+    const float lane = yard.out > 0 ? plot.y1 : plot.y0;
+    if (kind != YardKind::kTerrace || rng.Chance(0.4))
+      PlantYardTree(d, {middle.x + uniform(-0.8f, 0.8f), lane - yard.out * uniform(1.8f, 3.0f)}, ground, rng);
+    if (d.plan.blocks[yard.block].kind != BlockKind::kBuilt) continue;
+
     // Boards towards one neighbour and the lane; a gate's width stays open.
-    const float house = yard.out > 0 ? plot.y0 : plot.y1, lane = yard.out > 0 ? plot.y1 : plot.y0;
+    const float house = yard.out > 0 ? plot.y0 : plot.y1;
     PlaceRun(d, "wood_fence", {plot.x0 + 0.1f, house + 0.3f * yard.out}, {plot.x0 + 0.1f, lane - 0.2f * yard.out}, kTop);
     PlaceRun(d, "wood_fence", {plot.x0 + 0.3f, lane - 0.15f * yard.out}, {plot.x1 - 1.4f, lane - 0.15f * yard.out}, kTop);
 
-    // A tree away from the house, a seat near it, green along the boards.
-    const Vec2f middle = plot.center();
-    if (kind != YardKind::kTerrace || rng.Chance(0.4))
-      PlantYardTree(d, {middle.x + uniform(-0.8f, 0.8f), lane - yard.out * uniform(1.8f, 3.0f)}, ground, rng);
+    // A seat near the house, green along the boards.
     if (rng.Chance(0.4)) d.placer.Try("bench_wood", {middle.x, house + 1.0f * yard.out, kTop}, FacingYaw({0, yard.out}));
     if (rng.Chance(0.5)) d.placer.Try("trash_can", {plot.x1 - 0.7f, house + 0.8f * yard.out, kTop});
     for (float t = 2; t < plot.depth() - 1.5f; t += uniform(1.2f, 2.4f)) {

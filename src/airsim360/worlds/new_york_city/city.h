@@ -25,6 +25,8 @@ void BuildOpenLots(District& district, const Manhattan& city);
 void BuildLakePark(District& district, const Block& block);
 /// Chooses high bare walls for painted pictures, before the buildings are built.
 void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed);
+/// Corner walk-ups have either boards or fire escapes, before the buildings are built.
+void PartBoardsFromFireEscapes(Manhattan& city, uint64_t seed);
 /// Billboards, banners, murals, light boxes and flags on walls and roofs.
 void HangSigns(District& district, const Manhattan& city, bool more);
 /// What flight instructions name, each once; before the rest of the furniture.
@@ -34,7 +36,7 @@ void FurnishNewYorkPavements(District& district, const Manhattan& city, const De
 /// Cabs, cars, vans and buses in lanes and bays; covers.
 void FurnishNewYorkStreets(District& district, const std::vector<StreetStretch>& streets,
                            const Density& density);
-/// Far blocks to 640 m, a skyline to the horizon, the rivers.
-void BuildFarManhattan(District& district);
+/// Far blocks and streets to 660 m, a skyline to the horizon, the rivers.
+void BuildFarManhattan(District& district, const Density& density);
 
 }  // namespace airsim360::internal

@@ -5,13 +5,12 @@
 #include <numbers>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/new_york_city/city.h"
+#include "airsim360/worlds/new_york_city/far_city.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-constexpr float kPitchX = 132, kPitchY = 84, kCityEdge = 660, kGroundZ = -0.14f;
 
 Surface FarWall(RngStream& rng) {
   using S = Surface;
@@ -29,7 +28,7 @@ void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
   const Surface wall = FarWall(rng);
   const EntityId building = d.ground.Begin("far building", "construction/building", wall);
   const EntityId roof = d.builder.AddEntity("far roof", d.builder.tree().At("construction/building/roof"));
-  float z = kGroundZ;
+  float z = kFarGroundZ;
   const int tiers = height > 40 ? 1 + static_cast<int>(rng.Index(3)) : 1;
   for (int i = 0; i < tiers; ++i) {
     const float top = i + 1 == tiers ? height : height * (0.45f + 0.3f * static_cast<float>(i));
@@ -56,17 +55,17 @@ void BuildFarTower(District& d, GroundRect r, float height, RngStream& rng) {
 }
 
 void BuildFarBlocks(District& d, const GroundRect& ring) {
-  const int nx = static_cast<int>(kCityEdge / kPitchX) + 1, ny = static_cast<int>(kCityEdge / kPitchY) + 1;
+  const int nx = static_cast<int>(kFarCityEdge / kFarPitchX) + 1, ny = static_cast<int>(kFarCityEdge / kFarPitchY) + 1;
   for (int j = -ny; j <= ny; ++j) {
     for (int i = -nx; i <= nx; ++i) {
-      const GroundRect block{kPitchX * static_cast<float>(i) + 13, kPitchY * static_cast<float>(j) + 6.5f,
-                             kPitchX * static_cast<float>(i + 1) - 13,
-                             kPitchY * static_cast<float>(j + 1) - 6.5f};
+      const GroundRect block{kFarPitchX * static_cast<float>(i) + 13, kFarPitchY * static_cast<float>(j) + 6.5f,
+                             kFarPitchX * static_cast<float>(i + 1) - 13,
+                             kFarPitchY * static_cast<float>(j + 1) - 6.5f};
       const Vec2f c = block.center();
-      if (ring.Contains(c) || std::abs(c.x) > kCityEdge || std::abs(c.y) > kCityEdge) continue;
+      if (ring.Contains(c) || std::abs(c.x) > kFarCityEdge || std::abs(c.y) > kFarCityEdge) continue;
       RngStream rng(d.seed, "far manhattan", static_cast<uint64_t>((j + 64) * 256 + i + 64));
       d.ground.Begin("far block", "ground/sidewalk", Surface::kSlabs);
-      d.ground.Rect(block, -0.02f);
+      d.ground.Rect(block, kFarPavementZ);
       const GroundRect inner = block.Inset(4.5f);
       for (int row = 0; row < 2; ++row) {
         float x = inner.x0;
@@ -88,9 +87,9 @@ void BuildSkyline(District& d) {
   std::map<std::pair<int, int>, EntityId> squares;
   for (int j = -34; j <= 34; ++j) {
     for (int i = -18; i <= 18; ++i) {
-      const float x0 = kPitchX * static_cast<float>(i) + 15, y0 = kPitchY * static_cast<float>(j) + 8;
+      const float x0 = kFarPitchX * static_cast<float>(i) + 15, y0 = kFarPitchY * static_cast<float>(j) + 8;
       const float cx = x0 + 52, cy = y0 + 34, r = std::hypot(cx, cy);
-      if (std::max(std::abs(cx), std::abs(cy)) < kCityEdge || std::abs(cx) > 1500 || r > 2900) continue;
+      if (std::max(std::abs(cx), std::abs(cy)) < kFarCityEdge || std::abs(cx) > 1500 || r > 2900) continue;
       const auto bump = [&](float bx, float by, float s) {
         return std::exp(-((cx - bx) * (cx - bx) + (cy - by) * (cy - by)) / (2 * s * s));
       };
@@ -110,7 +109,7 @@ void BuildSkyline(District& d) {
         const float px = x0 + (k % 2 ? 56.0f : 0.0f), py = y0 + (k / 2 ? 36.0f : 0.0f);
         const GroundRect box{px, py, px + w, py + depth};
         d.ground.Use(FarWall(rng));
-        d.ground.mesh().Walls(box.Outline(), kGroundZ, h);
+        d.ground.mesh().Walls(box.Outline(), kFarGroundZ, h);
         d.ground.Use(Surface::kFarRoof);
         d.ground.Rect(box, h);
       }
@@ -120,10 +119,11 @@ void BuildSkyline(District& d) {
 
 }  // namespace
 
-void BuildFarManhattan(District& d) {
+void BuildFarManhattan(District& d, const Density& density) {
   const Block &first = d.plan.blocks.front(), &last = d.plan.blocks.back();
   const GroundRect ring{first.kerb.x0 - 26, first.kerb.y0 - 13, last.kerb.x1 + 26, last.kerb.y1 + 13};
   BuildFarBlocks(d, ring);
+  LayFarStreets(d, ring, density);
   BuildSkyline(d);
   // Asphalt under the far blocks: four sheets around the ring, then the island's ground to both rivers.
   const float ex = 1560, ey = 3000;
@@ -133,7 +133,7 @@ void BuildFarManhattan(District& d) {
                                {ring.x1, ring.y0, ex, ring.y1}};
   for (const GroundRect& sheet : sheets) {
     d.ground.Begin("outer streets", "ground/road", Surface::kAsphalt);
-    d.ground.Rect(sheet, kGroundZ);
+    d.ground.Rect(sheet, kFarGroundZ);
   }
   d.ground.Begin("river", "water/river", Surface::kWater);
   for (float side : {-1.0f, 1.0f}) {

@@ -27,6 +27,7 @@ struct Lot {
   float podium = 0;  ///< of the roof at the street
   bool houses = false;  ///< cut into narrow houses, each with a back yard
   FacadeStyle style = FacadeStyle::kBrickWalkUp;
+  bool boards = true;   ///< signs may hang on its walls above the shops
   bool corner() const { return index == 0 || index + 1 == count; }
 };
 

@@ -27,7 +27,10 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
   Manhattan city = PlanManhattan(
       plan, {options.seed, static_cast<float>(options.city.height), StylesOf(options.city.styles)});
 
-  if (options.city.billboards) MarkMurals(city, plan.reach(), options.seed);
+  if (options.city.billboards) {
+    MarkMurals(city, plan.reach(), options.seed);
+    PartBoardsFromFireEscapes(city, options.seed);
+  }
 
   // Ground, buildings, then what hangs on them and stands between them; the unique things first.
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
@@ -43,7 +46,7 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
   FurnishNewYorkPavements(district, city, density);
   FurnishNewYorkStreets(district, streets, density);
   ground.Finish("ground");
-  BuildFarManhattan(district);
+  BuildFarManhattan(district, density);
   ground.Finish("backdrop");
 
   AddPlacedModels(builder, shelf, options.props);

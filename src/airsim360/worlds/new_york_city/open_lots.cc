@@ -11,7 +11,12 @@ namespace {
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 void LayYards(District& d, const Block& block, size_t index) {
-  const GroundRect inner = block.inner();
+  // Slabs under the fronts: rounded corners and recessed doors leave some of them open.
+  const GroundRect whole = block.inner(), inner = whole.Inset(6);
+  d.ground.Begin("forecourts", "ground/sidewalk", Surface::kSlabs);
+  for (const GroundRect& strip : {GroundRect{whole.x0, whole.y0, whole.x1, inner.y0}, GroundRect{whole.x0, inner.y1, whole.x1, whole.y1},
+                                  GroundRect{whole.x0, inner.y0, inner.x0, inner.y1}, GroundRect{inner.x1, inner.y0, whole.x1, inner.y1}})
+    d.ground.Rect(strip, 0);
   RngStream rng(d.seed, "yards", index);
   // Under the houses and behind them: squares of dirt or old asphalt by turns, entities of their own.
   constexpr int kPieces = 4;
@@ -24,7 +29,7 @@ void LayYards(District& d, const Block& block, size_t index) {
   }
   if (block.kind == BlockKind::kBackdrop) return;
   const float y = inner.center().y;
-  for (float x = inner.x0 + 30; x < inner.x1 - 30; x += 5.5f) {
+  for (float x = whole.x0 + 30; x < whole.x1 - 30; x += 5.5f) {
     const double pick = rng.Uniform();
     if (pick < 0.28) {
       const float at = y + static_cast<float>(rng.Uniform(-0.6, 0.6));

@@ -79,6 +79,17 @@ void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed) {
   }
 }
 
+void PartBoardsFromFireEscapes(Manhattan& city, uint64_t seed) {
+  for (size_t i = 0; i < city.lots.size(); ++i) {
+    Lot& lot = city.lots[i];
+    if (lot.style != FacadeStyle::kBrickWalkUp || !lot.corner()) continue;
+    lot.boards = !lot.role.empty() || RngStream(seed, "boards", i).Chance(0.5);
+    if (!lot.boards) continue;
+    for (BuildingPlan& plan : city.buildings)
+      if (plan.block == lot.block && lot.rect.Contains(plan.bounds().center())) plan.fire_escapes = false;
+  }
+}
+
 void HangSigns(District& d, const Manhattan& city, bool more) {
   Boards boards{d};
   const auto lot = [&](const char* role) -> const Lot& { return LotOf(city, role); };
@@ -135,21 +146,21 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
     const bool free = at.role.empty();
     if (at.corner() && free) {
       const WallLine wall = AvenueWall(at);
-      if (rng.Chance(0.75))
+      if (rng.Chance(0.75) && at.boards)
         boards.Hang(wall, at.style, "billboard", "billboard", 5 + rng.Index(7),
                     std::min(10.0f, wall.length / 2), static_cast<float>(rng.Uniform(7.5, 9)),
                     static_cast<float>(rng.Uniform(0.75, 1.05)));
-      if (rng.Chance(0.5))
+      if (rng.Chance(0.5) && at.boards)
         boards.Hang(wall, at.style, "banner", "banner", rng.Index(4), wall.length - 4, 7.5f,
                     at.podium > 20 && !at.houses ? 0.9f : 0.6f);
       if (rng.Chance(0.35) && at.height < 45 && !at.houses)
         RaiseRoofBoard(d, at, StreetWall(at), "roof billboard", 5 + rng.Index(7), 0.9f);
-    } else if (!at.corner() && free && rng.Chance(0.3)) {
+    } else if (!at.corner() && free && at.style != FacadeStyle::kBrickWalkUp && rng.Chance(0.3)) {
       const WallLine wall = StreetWall(at);
       boards.Hang(wall, at.style, "light box", "light_box", rng.Index(6), wall.length / 2, 5.8f,
                   std::min(1.0f, wall.length / 11));
     }
-    if (at.corner() && rng.Chance(0.6)) {
+    if (at.corner() && at.boards && rng.Chance(0.6)) {
       const WallLine wall = StreetWall(at);
       boards.Hang(wall, at.style, "american flag", "us_flag", 1, wall.length - 3, 5.2f, 1.25f);
     }

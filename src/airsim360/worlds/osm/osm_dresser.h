@@ -29,6 +29,8 @@ class Dresser {
   void Areas();
   /// Along the streets: lamps and trees where the map has none at all, cars at the kerb, manholes.
   void Fill();
+  /// What stands behind houses: gardens of trees, shrubs and pots, cars at walls, bins.
+  void Yards();
   /// Blades of grass on the lawns around the first viewpoint.
   void Grass(const std::vector<std::pair<EntityId, Patches>>& lawns);
   /// Adds what was modelled in place as one mesh.
@@ -46,7 +48,7 @@ class Dresser {
   bool Here(Vec2d p) const;
   bool HasAny(std::string_view key, std::string_view value) const;
   bool OnRoad(Vec2d p, double margin) const;
-  bool InBuilding(Vec2d p) const;
+  bool InBuilding(Vec2d p, double margin = 0.6) const;
   /// Off the carriageway, beside its kerb; the second value looks to the street.
   std::pair<Vec2d, Vec2d> Beside(Vec2d p, double gap) const;
   void Barrier(const OsmWay& way);
@@ -55,6 +57,7 @@ class Dresser {
   void Plant(const OsmArea& area, double each, double edge);
   void Shrubs(const OsmArea& area);
   void Playground(const OsmArea& area);
+  void Mow(EntityId lawn, const Patch& patch);
   /// Cars in rows over a car park.
   void Parked(const OsmArea& area);
   void Car(const std::string& name, Vec2d p, Vec2d heading, double lift, RngStream& rng);

@@ -167,8 +167,23 @@ void LayAreas(OsmScene& scene, GroundBuilder& ground) {
   }
 }
 
+// Plots of a block where a garden is rather than a court.
+Patches GardensOf(const Patch& block) {
+  constexpr double kPlot = 17;
+  const Bounds2d box = BoundsOf(block.outer);
+  Patches plots;
+  if ((box.max.x - box.min.x) * (box.max.y - box.min.y) > 4e6) return {};
+  for (double y = std::floor(box.min.y / kPlot); y * kPlot < box.max.y; ++y)
+    for (double x = std::floor(box.min.x / kPlot); x * kPlot < box.max.x; ++x) {
+      if (MixBits(static_cast<uint64_t>(static_cast<int64_t>(x) * 100'003 + static_cast<int64_t>(y))) % 8 >= 5) continue;
+      const Vec2d a{x * kPlot, y * kPlot};
+      plots.push_back({{a, {a.x + kPlot, a.y}, {a.x + kPlot, a.y + kPlot}, {a.x, a.y + kPlot}}, {}});
+    }
+  return plots.empty() ? Patches{} : Intersect(Patches{block}, Unite(plots));
+}
+
 // What is left: one entity a block, paved where it is built up, else green.
-void LayRest(GroundBuilder& ground, const std::vector<OsmBuilding>& buildings) {
+std::vector<Neighbours::Yard> LayRest(GroundBuilder& ground, const std::vector<OsmBuilding>& buildings, bool fill) {
   Patches taken;
   for (const GroundPiece& piece : ground.pieces()) taken.insert(taken.end(), piece.patches.begin(), piece.patches.end());
   const Patches blocks = Subtract(ground.clip(), taken);
@@ -181,15 +196,21 @@ void LayRest(GroundBuilder& ground, const std::vector<OsmBuilding>& buildings) {
           houses.emplace_back((box.min + box.max) * 0.5, Area(patch));
         }
   int number = 0;
+  std::vector<Neighbours::Yard> yards;
   for (const Patch& block : blocks) {
     const Bounds2d box = BoundsOf(block.outer);
     double built = 0;
     for (const auto& house : houses)
       if (box.Contains(house.first) && Inside(block, house.first)) built += house.second;
     const bool paved = built > 0.28 * Area(block);
-    ground.Lay((paved ? "yard " : "green ") + std::to_string(++number), paved ? "ground/pavement/modular" : "ground/terrain/landscape",
-               paved ? Surface::kAsphaltOld : Surface::kLawn, {block}, 0);
+    const std::string name = (paved ? "yard " : "green ") + std::to_string(++number);
+    using Kind = Neighbours::Yard::Kind;
+    if (paved && fill && ground.Lay(name + "/gardens", "ground/grass", Surface::kLawn, GardensOf(block), 0) != kNoEntity)
+      yards.push_back({name + "/gardens", ground.last().patches, Kind::kGarden});
+    if (ground.Lay(name, paved ? "ground/pavement/modular" : "ground/terrain/landscape", paved ? Surface::kAsphaltOld : Surface::kLawn, {block}, 0) != kNoEntity)
+      yards.push_back({name, ground.last().patches, paved ? Kind::kCourt : Kind::kMeadow});
   }
+  return yards;
 }
 
 }  // namespace
@@ -251,7 +272,7 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   }
   LayPaths(scene, ground);
   LayAreas(scene, ground);
-  LayRest(ground, buildings);
+  near.yards = LayRest(ground, buildings, scene.options.fill);
   for (const RoadSegment& segment : graph.segments) PaintSegment(scene, ground.mesh(), graph, segment, -kRoadDrop);
   PaintCrossings(scene, ground.mesh(), graph, -kRoadDrop);
   BuildBridges(scene, ground.mesh());

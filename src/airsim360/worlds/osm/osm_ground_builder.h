@@ -66,7 +66,7 @@ class GroundBuilder {
       for (const Patch& patch : piece.patches) {
         const Bounds2d box = BoundsOf(patch.outer);
         const Vec2d f = scene_.focus;
-        if (box.Overlaps({{f.x - 45, f.y - 45}, {f.x + 45, f.y + 45}})) near.push_back(patch);
+        if (box.Overlaps({{f.x - kLawnReach, f.y - kLawnReach}, {f.x + kLawnReach, f.y + kLawnReach}})) near.push_back(patch);
       }
       if (!near.empty()) lawns.emplace_back(piece.entity, std::move(near));
     }

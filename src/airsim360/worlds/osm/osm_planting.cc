@@ -105,8 +105,26 @@ void Dresser::Parked(const OsmArea& area) {
     }
 }
 
+// On flat ground also mown grass, as on the lawns of the procedural towns.
+void Dresser::Mow(EntityId lawn, const Patch& patch) {
+  RngStream rng(scene_.options.seed, "mown grass", lawn);
+  const Bounds2d box = BoundsOf(patch.outer);
+  const GroundRect near{static_cast<float>(std::max(box.min.x, scene_.focus.x - kLawnReach)), static_cast<float>(std::max(box.min.y, scene_.focus.y - kLawnReach)),
+                        static_cast<float>(std::min(box.max.x, scene_.focus.x + kLawnReach)), static_cast<float>(std::min(box.max.y, scene_.focus.y + kLawnReach))};
+  LayMownGrass(scene_.shelf, lawn, near, 0, rng, [&](Vec2f at) {
+    const Vec2d p{at.x, at.y};
+    if (!Inside(patch, p) || InBuilding(p, 0.3)) return -1.0f;
+    double edge = DistanceToRing(patch.outer, p);
+    for (const Ring& hole : patch.holes) edge = std::min(edge, DistanceToRing(hole, p));
+    return static_cast<float>(edge);
+  });
+}
+
 // Blades of grass on the lawns around the first viewpoint.
 void Dresser::Grass(const std::vector<std::pair<EntityId, Patches>>& lawns) {
+  if (scene_.relief.flat())
+    for (const auto& lawn : lawns)
+      for (const Patch& patch : lawn.second) Mow(lawn.first, patch);
   RngStream rng(scene_.options.seed, "grass");
   const double reach = 42;
   for (int i = 0; i < 9000; ++i) {

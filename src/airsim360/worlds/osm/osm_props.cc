@@ -194,11 +194,11 @@ bool Dresser::OnRoad(Vec2d p, double margin) const {
   return road.owner != UINT32_MAX && road.distance < near_.graph->segments[road.owner].half + margin;
 }
 
-bool Dresser::InBuilding(Vec2d p) const {
-  for (uint32_t i : near_.boxes.Find(p)) {
+bool Dresser::InBuilding(Vec2d p, double margin) const {
+  for (uint32_t i : near_.boxes.Find({p - Vec2d{margin, margin}, p + Vec2d{margin, margin}})) {
     if (near_.volumes[i].volume->bottom > 3) continue;
     for (const Patch& patch : near_.volumes[i].volume->footprint)
-      if (Inside(patch, p) || DistanceToRing(patch.outer, p) < 0.6) return true;
+      if (Inside(patch, p) || DistanceToRing(patch.outer, p) < margin) return true;
   }
   return false;
 }
@@ -229,7 +229,10 @@ void BuildOsmProps(OsmScene& scene, const Neighbours& near) {
   dresser.Nodes();
   dresser.Ways();
   dresser.Areas();
-  if (scene.options.fill) dresser.Fill();
+  if (scene.options.fill) {
+    dresser.Fill();
+    dresser.Yards();
+  }
   dresser.Grass(near.lawns);
   dresser.Finish();
 }

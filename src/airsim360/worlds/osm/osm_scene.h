@@ -61,6 +61,8 @@ struct OsmScene {
 
 inline Vec2f ToFloat(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
+inline constexpr double kLawnReach = 75;  ///< metres around the focus in which lawns have blades
+
 struct RoadGraph;
 /// What a building's volumes lie among: for party walls and street fronts.
 struct Neighbours {
@@ -74,6 +76,12 @@ struct Neighbours {
   LineIndex shops;                 ///< places of shops and cafés
   std::shared_ptr<const RoadGraph> graph;  ///< set by BuildOsmGround
   std::vector<std::pair<EntityId, Patches>> lawns;  ///< near the focus, set by BuildOsmGround
+  struct Yard {
+    std::string name;
+    Patches patches;  ///< what is free of the block, houses included
+    enum class Kind { kCourt, kGarden, kMeadow } kind;
+  };
+  std::vector<Yard> yards;  ///< the rest of each block, set by BuildOsmGround
 };
 
 /// Walls, roofs and roof clutter of all buildings, as merged meshes by place. Returns their entities, in order.

@@ -276,6 +276,27 @@ TEST(OsmProps, EveryTreeLampAndBenchIsAnEntityInItsPlace) {
   for (const char* name : {"way/54", "way/55", "way/56", "node/226", "node/227 Church"}) EXPECT_NE(world.Find(name), nullptr) << name;
 }
 
+// What is added by rule behind houses: not in them, not on roads, and nothing of it where the user wants the map alone.
+TEST(OsmProps, GardensAreFilledAroundHousesAndOnlyOnDemand) {
+  const OsmData data = Fixture();
+  const std::vector<OsmArea> areas = FindAreas(data);
+  const std::vector<OsmBuilding> plans = PlanOsmBuildings(data, areas);
+  const auto by_rule = [](const Entity& entity) { return (entity.name.starts_with("green ") || entity.name.starts_with("yard ")) && entity.name.find('/') != std::string::npos; };
+  int things = 0;
+  for (const Entity& entity : World().scene->entities) {
+    if (!by_rule(entity) || entity.name.ends_with("/gardens")) continue;
+    ++things;
+    const Vec3f c = entity.bounds.center();
+    for (const OsmBuilding& building : plans)
+      for (const OsmVolume& volume : building.volumes)
+        for (const Patch& patch : volume.footprint)
+          EXPECT_FALSE(volume.bottom <= 3 && Inside(patch, {static_cast<double>(c.x), static_cast<double>(c.y)})) << entity.name << " in " << building.id;
+  }
+  EXPECT_GT(things, 50);
+  const auto bare = BuildOsmWorld(kFixture, {.fill = false});
+  for (const Entity& entity : bare->entities) EXPECT_FALSE(by_rule(entity)) << entity.name;
+}
+
 TEST(OsmWorld, TheSameFileGivesTheSameBytes) {
   const auto again = BuildOsmWorld(kFixture, {});
   EXPECT_EQ(ArchiveScene(*again), ArchiveScene(*World().scene));

@@ -140,11 +140,11 @@ Texture Board(uint32_t variant) {
     }
     case 4:  // blue
       Gradient(c, {0.02f, 0.16f, 0.62f}, {0.05f, 0.30f, 0.80f});
-      c.Disc({0.80f, 0.30f}, 0.16f, {0.85f, 0.85f, 0.83f});
+      c.Disc({0.87f, 0.30f}, 0.12f, {0.85f, 0.85f, 0.83f});
       for (int i = 0; i < 3; ++i)
         c.Line({-0.05f, 0.66f + 0.1f * static_cast<float>(i)}, {1.05f, 0.60f + 0.1f * static_cast<float>(i)},
                0.035f, {0.35f, 0.62f, 0.85f});
-      c.Letters("BLUE AIR", {0.40f, 0.32f}, 0.24f, kWhite, 0.75f);
+      c.Letters("BLUE AIR", {0.38f, 0.32f}, 0.21f, kWhite, 0.75f);
       break;
     case 5:
       c.Letters("WHERE", {0.27f, 0.13f}, 0.13f, kWhite, 0.9f);
@@ -180,7 +180,7 @@ Texture Board(uint32_t variant) {
     case 8:
       c.Rectangle({0, 0}, {1, 1}, kYellow);
       c.Rectangle({0.04f, 0.62f}, {0.96f, 0.93f}, kBlack);
-      c.Letters("NYC TAXI", {0.5f, 0.30f}, 0.30f, kBlack, 0.82f);
+      c.Letters("NYC TAXI", {0.5f, 0.30f}, 0.26f, kBlack, 0.82f);
       c.Letters("24 HOURS", {0.5f, 0.78f}, 0.17f, kYellow);
       break;
     case 9:

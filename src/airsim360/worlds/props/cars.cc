@@ -135,7 +135,7 @@ std::vector<PropKind> CarKinds() {
       {"peugeot-308", 0, 0, "color-exterior", {0.018f, 0.045f, 0.14f}},
       {"VW-new-beetle", 0, 0, "PAINT_yellow", {0.40f, 0.42f, 0.40f}},
       {"renault-scenic", 0, 0, "color-beige-green", {0.09f, 0.095f, 0.10f}},
-      {"chevrolet", 0, 0, "firstcolor", {0.33f, 0.02f, 0.015f}},
+      {"chevrolet", 0, 0, "firstcolor", {0.13f, 0.135f, 0.14f}},
   };
   constexpr Vec3f kCab{0.80f, 0.43f, 0.012f};
   const std::vector<LibraryModel> taxis = {
