@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kSymmetries = 8;
 constexpr float kContrast = 7;  // of 255, between a pixel's centre and its first other sample
+// Exposed luminance that a sample may have, nearly white: more would make pixels of a few samples sparkle.
+constexpr float kNearWhite = 3;
 
 float Luminance(Rgb32f c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
@@ -54,16 +56,16 @@ class EdgeTile {
 
   void StoreMeans() {
     for (int i = 0; i < pixel_count_; ++i) {
-      const float scale = 1 / weight_[i];
+      const float scale = 1 / static_cast<float>(count_[i]);
       buffers_.radiance(x(i), y(i)) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
     }
   }
 
  private:
   void AddColor(int pixel, Rgb32f c) {
-    const float exposed = Luminance(c) * task_.exposure, w = 1 / (1 + exposed);
+    const float exposed = Luminance(c) * task_.exposure, w = kNearWhite / std::max(exposed, kNearWhite);
     r_[pixel] += c.r * w, g_[pixel] += c.g * w, b_[pixel] += c.b * w;
-    weight_[pixel] += w;
+    ++count_[pixel];
     const float shown = 255 * std::sqrt(exposed / (1 + exposed));
     low_[pixel] = std::min(low_[pixel], shown);
     high_[pixel] = std::max(high_[pixel], shown);
@@ -138,7 +140,8 @@ class EdgeTile {
   int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
   uint8_t x_[kTilePixels], y_[kTilePixels], edge_[kTilePixels];
   float low_[kTilePixels], high_[kTilePixels] = {};
-  float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {}, weight_[kTilePixels] = {};
+  float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
+  int count_[kTilePixels] = {};
   RayHit16 packet_;
   HitBatch hits_;
   LabelTile labels_;

@@ -23,9 +23,9 @@ struct HighEdgeTask {
 
 /// Replaces the radiance of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the
 /// pixel; a pixel that only contrasts with a neighbour of the same entity gets one ray more at first, and the
-/// rest if that one looks different. The mean weights each ray by 1 / (1 + its exposed luminance), close to a
-/// mean after the tone curve, so that edges of highlights stay smooth. A ray takes its ambient light from the
-/// most alike of the nine pixels around. `offsets` are MakeEdgeOffsets. Returns the number of rays.
+/// rest if that one looks different. The mean is one of linear light, as in tier `reference`, but no ray counts for
+/// more than what shows as nearly white, so that highlights do not sparkle. A ray takes its ambient light from
+/// the most alike of the nine pixels around. `offsets` are MakeEdgeOffsets. Returns the number of rays.
 int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers);
 
 /// Points of a pixel besides its centre, in eight mirrored versions: [version][sample - 1].

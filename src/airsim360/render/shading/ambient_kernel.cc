@@ -5,12 +5,18 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
+// Of the probes' light on leaves that rays meet: probes metres apart do not know that leaves hide each other from the
+// sky (as kCrownShade of tier `fast`).
+constexpr float kMetCrownShade = 0.6f;
+// Bias of the sun map on leaves, metres: in a crown the map's texels are lines through it as good as any, and the
+// share of them that pass a place is the light that gets there; more bias would light the crown's top alone.
+constexpr float kLeafBias = 0.05f;
 constexpr float kVisibleSkin = 0.08f;  // reflectance from which a blurred reflection deserves a ray
 
 /// What sixteen rays met.
 struct alignas(64) Met {
   alignas(64) int32_t normal[16];
-  alignas(64) float m[9][16], albedo[3][16], emission[3][16], leaf[16], hit[16];
+  alignas(64) float m[9][16], albedo[3][16], emission[3][16], foliage[16], leaf[16], hit[16];
 };
 
 KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
@@ -44,6 +50,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
     const real4 a = quad(material, 1), b = quad(material, 2);
     const real shine = load(shines), emission[3] = {a.y, a.z, a.w};
     for (int k = 0; k < 3; ++k) store(met.emission[k] + first, emission[k] * shine);
+    store(met.foliage + first, sel(b.w == BSDF_FOLIAGE, real(1.0f), real(0.0f)));
     store(met.leaf + first, sel(b.w == BSDF_FOLIAGE, b.x, real(0.0f)));
   }
 }
@@ -60,7 +67,7 @@ KERNEL real3 MetNormal(const Met& met, int i) {
 }
 
 /// 1 where the sun map says that the sun is seen, or knows nothing.
-KERNEL real SunSeen(const SunMapView& map, real3 p) {
+KERNEL real SunSeen(const SunMapView& map, real3 p, real bias) {
   const auto affine = [&](const float* m) __attribute__((always_inline)) {
     return p.x * m[0] + p.y * m[1] + p.z * m[2] + m[3];
   };
@@ -69,7 +76,7 @@ KERNEL real SunSeen(const SunMapView& map, real3 p) {
   const mask_t inside = (column > 0.0f) && (column < last) && (row > 0.0f) && (row < last);
   const real height = GatherFloats(
       map.heights, to_int(rmin(last, rmax(zero, row))) * map.size + to_int(rmin(last, rmax(zero, column))));
-  return sel(inside && (affine(map.height) + map.bias < height), zero, real(1.0f));
+  return sel(inside && (affine(map.height) + bias < height), zero, real(1.0f));
 }
 
 /// Irradiance by probes: one of the eight around, chosen with the probability of its weight (which is right
@@ -124,13 +131,15 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Ambient
   }
   const real3 outward = MetNormal(met, i);
   const real3 n = outward * sel(dot3(outward, d) > 0.0f, real(-1.0f), real(1.0f));
-  real3 light = NearProbe(view, p, n) + load3(hits.lamp_r + i, hits.lamp_g + i, hits.lamp_b + i);
+  const mask_t foliage = load(met.foliage + i) > 0.5f;
+  real3 light = NearProbe(view, p, n) * sel(foliage, real(kMetCrownShade), real(1.0f)) +
+                load3(hits.lamp_r + i, hits.lamp_g + i, hits.lamp_b + i);
   if (map.heights != nullptr) {
     const real cosine = dot3(n, ufloat3{view.to_sun[0], view.to_sun[1], view.to_sun[2]});
     const real zero = real(0.0f);
     const real share = rmax(cosine, zero) + rmax(zero - cosine, zero) * load(met.leaf + i);
-    light =
-        light + Uniform(view.sun_irradiance) * (share * SunSeen(map, p) * CloudShadow(view.cloud_shadow, p));
+    const real seen = SunSeen(map, p, sel(foliage, real(kLeafBias), real(map.bias)));
+    light = light + Uniform(view.sun_irradiance) * (share * seen * CloudShadow(view.cloud_shadow, p));
   }
   const real3 albedo = load3(met.albedo[0] + i, met.albedo[1] + i, met.albedo[2] + i);
   return diffuse(albedo, light) + emission;

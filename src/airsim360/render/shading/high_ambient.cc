@@ -72,11 +72,14 @@ class AmbientTile {
   void Trace(Vec3f sphere, bool behind) {
     for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
     shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet_);
-    for (int i = 0; i < 16; ++i) packet_.t_far[i] = INFINITY;
-    shader_.tracer->Intersect16(valid_, packet_, false);
+    for (int i = 0; i < 16; ++i) {
+      packet_.t_far[i] = INFINITY;
+      sent_[i] = valid_[i] != 0 && !(leaf_[i] && OnOtherSide(i, sphere)) ? -1 : 0;
+    }
+    shader_.tracer->Intersect16(sent_, packet_, false);
     for (int i = 0; i < 16; ++i) {
       hits_.instance[i] = kMiss;
-      if (valid_[i] == 0 || packet_.geometry[i] == kMiss) continue;
+      if (sent_[i] == 0 || packet_.geometry[i] == kMiss) continue;
       const SurfaceRef ref = Resolve(i);
       hits_.instance[i] = ref.instance, hits_.triangle[i] = ref.triangle;
       __builtin_prefetch(
@@ -84,6 +87,13 @@ class AmbientTile {
       if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref);
     }
     shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, hits_, r_, g_, b_);
+  }
+
+  // Whether the two normals disagree about the side of a ray: leaves scatter nothing there, as in `reference`.
+  bool OnOtherSide(int i, Vec3f sphere) const {
+    const Vec3f n{origins_.nx[i], origins_.ny[i], origins_.nz[i]},
+        g{origins_.gx[i], origins_.gy[i], origins_.gz[i]};
+    return Dot(n * side_[i] + sphere, g) * side_[i] < 0;
   }
 
   // RayTracer::Resolve without a call.
@@ -111,7 +121,7 @@ class AmbientTile {
     constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
     for (int i = 0; i < 16 && any_leaf_; ++i) {
       if (!leaf_[i]) continue;
-      Vec3f weight = Vec3f{1, 1, 1} * leaf_share;
+      Vec3f weight = Vec3f{1, 1, 1} * (sent_[i] != 0 ? leaf_share : 0.0f);
       if (behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
       r_[i] *= weight.x, g_[i] *= weight.y, b_[i] *= weight.z;
     }
@@ -127,7 +137,7 @@ class AmbientTile {
   const SurfaceSet& s_;
   HighTile& tile_;
   RayHit16 packet_{};
-  alignas(64) int valid_[16];
+  alignas(64) int valid_[16], sent_[16];
   alignas(64) float side_[16], r_[16], g_[16], b_[16], sum_r_[16], sum_g_[16], sum_b_[16];
   AmbientOrigins origins_;
   AmbientHits hits_{};

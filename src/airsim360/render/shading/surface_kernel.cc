@@ -198,7 +198,9 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   // Sun.
   const real3 l = TowardsSun(view, rays, i, sun);
   store3(out.lx + i, out.ly + i, out.lz + i, l);
-  const mask_t lit = ((dot3(n, l) > 0.0f) && (dot3(facing, l) > 0.0f)) || (kind == kFoliage);
+  // Leaves from behind, too, but nothing where the two normals disagree about the side.
+  const real above = dot3(n, l);
+  const mask_t lit = (above * dot3(facing, l) > 0.0f) && ((above > 0.0f) || (kind == kFoliage));
   const mask_t up = real(view.to_sun[2]) > -0.02f;
   store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
   store(out.traced + i, real(0.0f));

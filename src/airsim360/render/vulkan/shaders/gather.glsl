@@ -3,8 +3,10 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer High { GpuHigh v; };
 #define bounce push.frame.v.high.v
 
+const float kMetCrownShade = 0.6, kLeafBias = 0.05;
+
 /// 1 where the sun map says that the sun is seen, or knows nothing.
-float MapSun(vec3 p) {
+float MapSun(vec3 p, float bias) {
   if (bounce.sun_size == 0) return 0.0;
   float at[3];
   for (int k = 0; k < 3; ++k)
@@ -12,7 +14,7 @@ float MapSun(vec3 p) {
             bounce.sun_axes[4 * k + 3];
   const float last = float(bounce.sun_size - 1u);
   if (!(at[0] > 0.0 && at[0] < last && at[1] > 0.0 && at[1] < last)) return 1.0;
-  return at[2] + bounce.sun_bias < bounce.sun_heights.v[uint(at[1]) * bounce.sun_size + uint(at[0])] ? 0.0 : 1.0;
+  return at[2] + bias < bounce.sun_heights.v[uint(at[1]) * bounce.sun_size + uint(at[0])] ? 0.0 : 1.0;
 }
 
 /// Irradiance by one of the eight probes around, chosen by its weight; by all where that one is inside a solid.
@@ -81,11 +83,12 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
     return glow * (0.35 + 0.65 * t2 / (t2 + 0.5)) + emission;
   }
   const vec3 p = origin + d * h.t, n = met.normal;
-  vec3 light = NearProbe(p, n) + NearLamps(p, -d);
+  const bool foliage = m.kind == kFoliage;
+  vec3 light = NearProbe(p, n) * (foliage ? kMetCrownShade : 1.0) + NearLamps(p, -d);
   if (bounce.sun_size != 0) {
-    const float cosine = dot(n, Vec(view.to_sun)), leaf = m.kind == kFoliage ? m.transmission : 0.0;
+    const float cosine = dot(n, Vec(view.to_sun)), leaf = foliage ? m.transmission : 0.0;
     const float share = max(cosine, 0.0) + max(-cosine, 0.0) * leaf;
-    light += Vec(view.sun_irradiance) * (share * MapSun(p) * CloudShadow(p));
+    light += Vec(view.sun_irradiance) * (share * MapSun(p, foliage ? kLeafBias : bounce.sun_bias) * CloudShadow(p));
   }
   const vec3 albedo = min(Load3(view.mean_colors, id) * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(0.9));
   return diffuse(albedo, light) + emission;

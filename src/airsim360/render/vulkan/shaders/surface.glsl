@@ -402,7 +402,9 @@ Shaded Prepare(Ray ray) {
   s.mirror = s.kind == kGlass || s.kind == kWater || (s.roughness < 0.12 && s.metallic > 0.3) ||
              (s.coat > 0.25 && s.coat_roughness < 0.12);
   s.l = TowardsSun(ray.key);
-  const bool lit = (dot(n, s.l) > 0.0 && dot(facing, s.l) > 0.0) || s.kind == kFoliage;
+  // Leaves from behind, too, but nothing where the two normals disagree about the side.
+  const float above = dot(n, s.l);
+  const bool lit = above * dot(facing, s.l) > 0.0 && (above > 0.0 || s.kind == kFoliage);
   s.sunlit = lit && view.to_sun[2] > -0.02 && view.has_sky != 0 ? 1.0 : 0.0;
   s.contact = 1.0;
   s.traced = s.clear = false;
