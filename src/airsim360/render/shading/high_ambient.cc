@@ -72,9 +72,10 @@ class AmbientTile {
   void Trace(Vec3f sphere, bool behind) {
     for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
     shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet_);
-    for (int i = 0; i < 16; ++i) {
-      packet_.t_far[i] = INFINITY;
-      sent_[i] = valid_[i] != 0 && !(leaf_[i] && OnOtherSide(i, sphere)) ? -1 : 0;
+    for (int i = 0; i < 16; ++i) packet_.t_far[i] = INFINITY;
+    for (int i = 0; i < 16; ++i) sent_[i] = valid_[i];
+    for (int i = 0; i < 16 && any_leaf_; ++i) {
+      if (leaf_[i] && OnOtherSide(i, sphere)) sent_[i] = 0;
     }
     shader_.tracer->Intersect16(sent_, packet_, false);
     for (int i = 0; i < 16; ++i) {
