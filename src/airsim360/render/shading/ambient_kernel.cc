@@ -5,11 +5,12 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-// Of the probes' light on leaves that rays meet: probes metres apart do not know that leaves hide each other from the
-// sky (as kCrownShade of tier `fast`).
+// Of the probes' light on leaves that rays meet: probes metres apart do not know that leaves hide each other
+// from the sky (as kCrownShade of tier `fast`).
 constexpr float kMetCrownShade = 0.6f;
-// Bias of the sun map on leaves, metres: in a crown the map's texels are lines through it as good as any, and the
-// share of them that pass a place is the light that gets there; more bias would light the crown's top alone.
+// Bias of the sun map on leaves, metres: in a crown the map's texels are lines through it as good as any, and
+// the share of them that pass a place is the light that gets there; more bias would light the crown's top
+// alone.
 constexpr float kLeafBias = 0.05f;
 constexpr float kVisibleSkin = 0.08f;  // reflectance from which a blurred reflection deserves a ray
 
@@ -24,17 +25,20 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
     const InstanceRecord* instance[kLanes];
     const TriangleRecord* triangle[kLanes];
     const MaterialRecord* material[kLanes];
-    alignas(64) float mean[3][kLanes], shines[kLanes];
+    alignas(64) float mean[3][kLanes];
     for (int i = 0; i < kLanes; ++i) {
       const bool hit = hits.instance[first + i] != kMiss;
       met.hit[first + i] = hit ? 1.0f : 0.0f;
-      shines[i] = hit ? hits.shines[first + i] : 0.0f;
       instance[i] = &view.instances[hit ? hits.instance[first + i] : 0];
       triangle[i] = &view.triangles[instance[i]->first_triangle + (hit ? hits.triangle[first + i] : 0)];
       const uint32_t id = triangle[i]->material & ~kMirroredUv;
       material[i] = &view.materials[id];
       met.normal[first + i] = static_cast<int32_t>(triangle[i]->geometric_normal);
-      for (uint32_t k = 0; k < 3; ++k) mean[k][i] = view.mean_colors[3 * id + k];
+      const float shines = hit ? hits.shines[first + i] : 0.0f;
+      for (uint32_t k = 0; k < 3; ++k) {
+        mean[k][i] = view.mean_colors[3 * id + k];
+        met.emission[k][first + i] = shines * view.mean_emissions[3 * id + k];
+      }
     }
     const auto quad = [](const auto* const* records, int q) __attribute__((always_inline)) {
       return GatherQuads([&](int i) __attribute__((always_inline)) {
@@ -46,10 +50,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
     for (int k = 0; k < 9; ++k) store(met.m[k] + first, rows[k]);
     const real tint[3] = {m2.y, m2.z, m2.w};
     for (int k = 0; k < 3; ++k) store(met.albedo[k] + first, rmin(load(mean[k]) * tint[k], real(0.9f)));
-    // metallic, roughness, emission, transmission, …, kind
-    const real4 a = quad(material, 1), b = quad(material, 2);
-    const real shine = load(shines), emission[3] = {a.y, a.z, a.w};
-    for (int k = 0; k < 3; ++k) store(met.emission[k] + first, emission[k] * shine);
+    const real4 b = quad(material, 2);  // transmission, …, kind
     store(met.foliage + first, sel(b.w == BSDF_FOLIAGE, real(1.0f), real(0.0f)));
     store(met.leaf + first, sel(b.w == BSDF_FOLIAGE, b.x, real(0.0f)));
   }
@@ -122,15 +123,17 @@ KERNEL real3 NearProbe(const ShadeView& view, real3 p, real3 n) {
 /// Light of the surface met, towards the ray's origin.
 KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const AmbientHits& hits, const Met& met,
                      int i, real3 p, real3 d, real distance) {
-  const real3 emission = load3(met.emission[0] + i, met.emission[1] + i, met.emission[2] + i);
+  const real3 outward = MetNormal(met, i);
+  const mask_t back = dot3(outward, d) > 0.0f;  // lamps shine to their front
+  const real3 emission = load3(met.emission[0] + i, met.emission[1] + i, met.emission[2] + i) *
+                         sel(back, real(0.0f), real(1.0f));
   const real3 glow{real(view.mean_ambient[0]), real(view.mean_ambient[1]), real(view.mean_ambient[2])};
   if (view.mean_ambient[0] + view.mean_ambient[1] + view.mean_ambient[2] > 0.0f) {
     // Closed rooms that glow do so less where something is near: the model that their probes use.
     const real t2 = distance * distance;
     return glow * (0.35f + 0.65f * t2 / (t2 + 0.5f)) + emission;
   }
-  const real3 outward = MetNormal(met, i);
-  const real3 n = outward * sel(dot3(outward, d) > 0.0f, real(-1.0f), real(1.0f));
+  const real3 n = outward * sel(back, real(-1.0f), real(1.0f));
   const mask_t foliage = load(met.foliage + i) > 0.5f;
   real3 light = NearProbe(view, p, n) * sel(foliage, real(kMetCrownShade), real(1.0f)) +
                 load3(hits.lamp_r + i, hits.lamp_g + i, hits.lamp_b + i);

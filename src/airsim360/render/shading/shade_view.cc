@@ -36,6 +36,7 @@ ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const S
   view.materials = tables.materials.data();
   view.textures = tables.textures.data();
   view.mean_colors = tables.mean_colors.empty() ? nullptr : &tables.mean_colors[0].x;
+  view.mean_emissions = tables.mean_emissions.empty() ? nullptr : &tables.mean_emissions[0].x;
   view.panes = tables.panes.data();
   view.macro_texture = 1;
   PutWeather(environment ? *environment : scene.environment, sky, view);

@@ -162,8 +162,9 @@ struct ShadeView {
   float ground[3];  ///< radiance of the far ground below the horizon
   float ground_z;   ///< where it lies
   float sky_irradiance[27];
-  float mean_ambient[3];     ///< radiance where there are no probes
-  const float* mean_colors;  ///< of a material: base colour with the mean of its texture, r g b
+  float mean_ambient[3];        ///< radiance where there are no probes
+  const float* mean_colors;     ///< of a material: base colour with the mean of its texture, r g b
+  const float* mean_emissions;  ///< likewise
   LampView lamps;
   AirView air;
   CloudShadowView cloud_shadow;

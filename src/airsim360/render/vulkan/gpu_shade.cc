@@ -113,6 +113,7 @@ GpuShadeTables::GpuShadeTables(GpuDevice& device, const Shader& shader, const Sc
   s.materials = arena_.Put(impl.tables.materials).address;
   s.panes = arena_.Put(impl.tables.panes).address;
   s.mean_colors = arena_.Put(impl.tables.mean_colors).address;
+  s.mean_emissions = arena_.Put(impl.tables.mean_emissions).address;
   s.textures = PutTextures(arena_, impl.tables.textures);
   s.has_sky = v.has_sky > 0.5f ? 1 : 0;
   s.sky = PutSky(arena_, v.sky);

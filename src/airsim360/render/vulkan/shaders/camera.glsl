@@ -62,6 +62,7 @@ void Trace(uvec2 tlas, vec3 origin, vec3 direction, float t_min, float t_max) {
 struct Surface {
   uint mesh, primitive, triangle, entity;
   vec3 normal;  // unit, in W, towards the origin of the ray
+  bool back;    // the corners stand clockwise as seen from there
 };
 
 Surface Resolve(Hit h, vec3 direction) {
@@ -81,6 +82,7 @@ Surface Resolve(Hit h, vec3 direction) {
   const vec3 n = cross(Turn(instance.A, e1), Turn(instance.A, e2));
   const float length2 = dot(n, n);
   s.normal = length2 > 0.0 ? n * inversesqrt(length2) : vec3(0.0);
-  if (dot(s.normal, direction) > 0.0) s.normal = -s.normal;
+  s.back = dot(s.normal, direction) > 0.0;
+  if (s.back) s.normal = -s.normal;
   return s;
 }

@@ -75,7 +75,11 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
   const GpuTriangle t = view.triangles.v[own.first_triangle + met.triangle];
   const uint id = t.material & ~kMirroredUv;
   const GpuMaterial m = view.materials.v[id];
-  const vec3 emission = IsGridLamp(h.instance, met.triangle) ? vec3(0.0) : Vec(m.emission);
+  // Lamps shine to their front; in an instance that mirrors that has its corners clockwise.
+  GpuInstance placed = push.frame.v.instances.v[h.instance];
+  const bool mirrored = dot(Turn(placed.A, vec3(1, 0, 0)), cross(Turn(placed.A, vec3(0, 1, 0)), Turn(placed.A, vec3(0, 0, 1)))) < 0.0;
+  const bool back = met.back != mirrored;
+  const vec3 emission = back || IsGridLamp(h.instance, met.triangle) ? vec3(0.0) : Load3(view.mean_emissions, id);
   const vec3 glow = Vec(view.mean_ambient);
   if (glow.x + glow.y + glow.z > 0.0) {
     // Closed rooms that glow do so less where something is near.

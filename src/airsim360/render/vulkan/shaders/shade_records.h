@@ -64,7 +64,7 @@ struct GpuShade {
   ADDRESS(Materials) materials;
   ADDRESS(Textures) textures;
   ADDRESS(Panes) panes;
-  ADDRESS(Floats) mean_colors;
+  ADDRESS(Floats) mean_colors, mean_emissions;
   ADDRESS(Floats) probes;           // 16 floats each
   ADDRESS(Floats) layer_of_height;
   ADDRESS(Floats) cloud_texels;
