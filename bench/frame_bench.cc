@@ -91,6 +91,7 @@ int main(int argc, char** argv) {
   for (int threads : {1, 0}) {
     rows.push_back({"labels", Tier::kLabels, 1, threads});
     rows.push_back({"fast, 1 sample", Tier::kFast, 1, threads});
+    rows.push_back({"fast, 2 samples", Tier::kFast, 2, threads});
     rows.push_back({"fast, 4 samples", Tier::kFast, 4, threads});
     rows.push_back({"high, 4 samples", Tier::kHigh, 4, threads});
   }
