@@ -1,9 +1,10 @@
 #!/bin/sh
-# Brief fuzzing of every parser, then all tests. FUZZ_SECONDS=0 skips the fuzzing.
+# Brief fuzzing of every parser, with one seed so that what it finds can be found again (`make fuzz` takes new
+# ones), then all tests. FUZZ_SECONDS=0 skips the fuzzing.
 set -eu
 build="$1"; jobs="$2"
 cd "$(dirname "$0")/.."
-[ "${FUZZ_SECONDS:-6}" -eq 0 ] || tools/fuzz.sh "$build" "$jobs" "${FUZZ_SECONDS:-6}"
+[ "${FUZZ_SECONDS:-6}" -eq 0 ] || tools/fuzz.sh "$build" "$jobs" "${FUZZ_SECONDS:-6}" 1
 tools/install_gpu_driver.sh
 tools/install_backport.sh python3-scikit-build-core || echo "the test of the wheel will be skipped" >&2
 cd "$build"

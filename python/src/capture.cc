@@ -68,9 +68,7 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
   rig.rig.tone = ParseToneCurve(tone);
   rig.rig.exposure_ev = Finite(exposure_ev, "exposure_ev");
   rig.rig.samples = samples;
-  if (edge_samples && (*edge_samples < 1 || *edge_samples > kMostEdgeSamples))
-    throw InputError("edge_samples: " + std::to_string(*edge_samples) + " is not in 1 … 64");
-  rig.rig.edge_samples = edge_samples.value_or(0);
+  rig.rig.edge_samples = CheckEdgeSamples("edge_samples", edge_samples);
   rig.rig.seed = seed;
   return rig;
 }

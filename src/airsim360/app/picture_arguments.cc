@@ -53,12 +53,7 @@ void PictureArguments::Apply(DatasetSpec& spec) const {
   spec.auto_exposure = exposure == "auto";
   spec.exposure_ev = spec.auto_exposure ? 0 : ParseStops(exposure);
   spec.radiance = radiance;
-  if (edge_samples && (*edge_samples < 1 || *edge_samples > kMostEdgeSamples)) {
-    throw InputError("--edge-samples: " + std::to_string(*edge_samples) + " is not in 1 … " +
-                     std::to_string(kMostEdgeSamples) + "; did you mean " +
-                     std::to_string(*edge_samples < 1 ? 1 : kMostEdgeSamples) + "?");
-  }
-  spec.edge_samples = edge_samples.value_or(0);
+  spec.edge_samples = CheckEdgeSamples("--edge-samples", edge_samples);
   if (spec.lens == LensModel::kReal360 && spec.projection != Projection::kErp)
     throw InputError("--lens: 'real360' makes equirectangular pictures; use --projection erp");
   if (spec.auto_exposure && spec.projection == Projection::kCube)

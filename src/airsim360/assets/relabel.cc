@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "airsim360/assets/import.h"
 #include "airsim360/assets/label_rules.h"
@@ -6,35 +9,47 @@
 #include "airsim360/base/file.h"
 
 namespace airsim360 {
+namespace {
+
+// Index of the first pattern that matches a whole name; their number if none does.
+size_t FirstMatch(std::span<const std::string> patterns, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(patterns, [&](const std::string& p) { return internal::MatchesGlob(p, name); });
+  return static_cast<size_t>(found - patterns.begin());
+}
+
+}  // namespace
 
 std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels) {
   if (labels.empty()) return scene;
   const internal::LabelRules rules =
       internal::ParseLabelRules(labels.string(), ReadTextFile(labels, uint64_t{4} << 20));
+  // Names of map objects hold '/' themselves: a pattern counts as a whole.
+  std::vector<std::string> patterns;
+  for (const internal::LabelRule& rule : rules.rules) {
+    std::string& pattern = patterns.emplace_back();
+    for (const std::string& part : rule.match) pattern += (pattern.empty() ? "" : "/") + part;
+  }
   auto changed = std::make_shared<Scene>(*scene);
   std::set<std::string> names;
   for (const Entity& entity : changed->entities) names.insert(entity.name);
   for (Entity& entity : changed->entities) {
-    for (const internal::LabelRule& rule : rules.rules) {
-      // Names of map objects hold '/' themselves: the pattern counts as a whole.
-      std::string pattern;
-      for (const std::string& part : rule.match) pattern += (pattern.empty() ? "" : "/") + part;
-      if (!internal::MatchesGlob(pattern, entity.name)) continue;
-      if (!rule.category.empty()) {
-        try {
-          entity.category = changed->tree.Add(rule.category);
-        } catch (const InputError& error) {
-          throw InputError(rules.file + ":" + std::to_string(rule.line) + ": " + error.what());
-        }
+    const size_t first = FirstMatch(patterns, entity.name);
+    if (first == patterns.size()) continue;
+    const internal::LabelRule& rule = rules.rules[first];
+    if (!rule.category.empty()) {
+      try {
+        entity.category = changed->tree.Add(rule.category);
+      } catch (const InputError& error) {
+        throw InputError(rules.file + ":" + std::to_string(rule.line) + ": " + error.what());
       }
-      if (!rule.name.empty()) {
-        // Names stay unique, as SceneBuilder makes them.
-        std::string name = rule.name;
-        for (int number = 2; names.contains(name); ++number) name = rule.name + " " + std::to_string(number);
-        names.insert(name);
-        entity.name = name;
-      }
-      break;
+    }
+    if (!rule.name.empty()) {
+      // Names stay unique, as SceneBuilder makes them.
+      std::string name = rule.name;
+      for (int number = 2; names.contains(name); ++number) name = rule.name + " " + std::to_string(number);
+      names.insert(name);
+      entity.name = name;
     }
   }
   return changed;
@@ -42,15 +57,17 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
 
 EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed) {
   EntityLabels labels = over ? *over : EntityLabels{scene.tree, std::vector<CategoryId>(scene.entities.size() + 1, kVoid)};
+  std::vector<std::string> names;
   std::vector<CategoryId> categories;
-  for (const LabelPattern& rule : patterns) categories.push_back(labels.tree.Add(rule.category));
+  for (const LabelPattern& rule : patterns) {
+    names.push_back(rule.pattern);
+    categories.push_back(labels.tree.Add(rule.category));
+  }
   for (const Entity& entity : scene.entities) {
-    for (size_t i = 0; i < patterns.size(); ++i) {
-      if (!internal::MatchesGlob(patterns[i].pattern, entity.name)) continue;
-      labels.of_entity[entity.id] = categories[i];
-      ++changed;
-      break;
-    }
+    const size_t first = FirstMatch(names, entity.name);
+    if (first == names.size()) continue;
+    labels.of_entity[entity.id] = categories[first];
+    ++changed;
   }
   return labels;
 }

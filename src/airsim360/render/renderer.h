@@ -73,6 +73,9 @@ inline int EdgeSamples(const RenderRequest& request) {
   const int usual = request.tier == Tier::kFast && !request.products.coverage ? 2 : 4;
   return std::clamp(request.aa_samples > 0 ? request.aa_samples : usual, 1, kMostEdgeSamples);
 }
+/// A number of edge samples that somebody gave, for RenderRequest::aa_samples; 0 if none was. InputError, naming
+/// it `name`, outside 1 to kMostEdgeSamples.
+int CheckEdgeSamples(std::string_view name, std::optional<int> given);
 
 /// Where the surface point of a pixel is at the next instant. The sky is infinitely far away: it only turns.
 struct FlowPixel {

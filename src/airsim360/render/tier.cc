@@ -14,4 +14,12 @@ Tier ParseTier(std::string_view name) {
   throw InputError(UnknownChoiceMessage("tier", name, choices));
 }
 
+int CheckEdgeSamples(std::string_view name, std::optional<int> given) {
+  if (!given) return 0;
+  const int nearest = std::clamp(*given, 1, kMostEdgeSamples);
+  if (nearest == *given) return nearest;
+  throw InputError(std::string(name) + ": " + std::to_string(*given) + " is not in 1 … " +
+                   std::to_string(kMostEdgeSamples) + "; did you mean " + std::to_string(nearest) + "?");
+}
+
 }  // namespace airsim360

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
@@ -169,6 +170,23 @@ TEST(Recording, DamagedCutOrForeignFilesAreRefused) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()), "some.file: not a recording");
   }
+}
+
+TEST(Recording, ImpossibleStepsAreRefused) {
+  constexpr int64_t kLeast = std::numeric_limits<int64_t>::min(), kMost = std::numeric_limits<int64_t>::max();
+  const auto good = [] { return Recording{.dt_ns = 1'000'000, .first_step = 5, .steps = 10}; };
+  EXPECT_NO_THROW(DecodeRecording(EncodeRecording(good()), "run"));
+  for (const int64_t wrong : {kLeast, int64_t{-1}, kMost}) {
+    Recording first = good(), length = good();
+    first.first_step = wrong, length.steps = wrong;
+    EXPECT_THROW(DecodeRecording(EncodeRecording(first), "run"), InputError) << wrong;
+    EXPECT_THROW(DecodeRecording(EncodeRecording(length), "run"), InputError) << wrong;
+  }
+  Recording before = good(), hash = good();
+  before.commands = {{4, {}}};
+  hash.hashes = {{kLeast, 0}};
+  EXPECT_THROW(DecodeRecording(EncodeRecording(before), "run"), InputError);
+  EXPECT_THROW(DecodeRecording(EncodeRecording(hash), "run"), InputError);
 }
 
 TEST(Recording, TrajectoriesThatAFileCannotHoldAreRefused) {

@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "recordings are writte
 
 constexpr std::string_view kMagic = "A360RUN\n";
 constexpr size_t kDigest = 64;  // hex digits
-constexpr uint64_t kMostSteps = uint64_t{1} << 40;
+constexpr int64_t kMostSteps = int64_t{1} << 40;
 
 template <class T>
 concept Number = std::is_arithmetic_v<T>;
@@ -324,7 +324,8 @@ void Walk(A& a, Recording& r) {
 }
 
 void CheckOrder(const Recording& r, const Reader& reader) {
-  if (r.dt_ns <= 0 || r.steps < 0 || static_cast<uint64_t>(r.steps) > kMostSteps)
+  const auto outside = [](int64_t steps) { return steps < 0 || steps > kMostSteps; };
+  if (r.dt_ns <= 0 || outside(r.first_step) || outside(r.steps))
     reader.Fail("the number or length of its steps makes no sense");
   int64_t last = r.first_step - 1;
   for (const RecordedStep& step : r.commands) {

@@ -5,13 +5,6 @@
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-// Of the probes' light on leaves that rays meet: probes metres apart do not know that leaves hide each other
-// from the sky (as kCrownShade of tier `fast`).
-constexpr float kMetCrownShade = 0.6f;
-// Bias of the sun map on leaves, metres: in a crown the map's texels are lines through it as good as any, and
-// the share of them that pass a place is the light that gets there; more bias would light the crown's top
-// alone.
-constexpr float kLeafBias = 0.05f;
 constexpr float kVisibleSkin = 0.08f;  // reflectance from which a blurred reflection deserves a ray
 
 /// What sixteen rays met.
@@ -135,13 +128,13 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Ambient
   }
   const real3 n = outward * sel(back, real(-1.0f), real(1.0f));
   const mask_t foliage = load(met.foliage + i) > 0.5f;
-  real3 light = NearProbe(view, p, n) * sel(foliage, real(kMetCrownShade), real(1.0f)) +
+  real3 light = NearProbe(view, p, n) * sel(foliage, real(SHADE_CROWN), real(1.0f)) +
                 load3(hits.lamp_r + i, hits.lamp_g + i, hits.lamp_b + i);
   if (map.heights != nullptr) {
     const real cosine = dot3(n, ufloat3{view.to_sun[0], view.to_sun[1], view.to_sun[2]});
     const real zero = real(0.0f);
     const real share = rmax(cosine, zero) + rmax(zero - cosine, zero) * load(met.leaf + i);
-    const real seen = SunSeen(map, p, sel(foliage, real(kLeafBias), real(map.bias)));
+    const real seen = SunSeen(map, p, sel(foliage, real(SHADE_LEAF_BIAS), real(map.bias)));
     light = light + Uniform(view.sun_irradiance) * (share * seen * CloudShadow(view.cloud_shadow, p));
   }
   const real3 albedo = load3(met.albedo[0] + i, met.albedo[1] + i, met.albedo[2] + i);

@@ -8,8 +8,6 @@ namespace {
 constexpr float kFoliage = BSDF_FOLIAGE;
 constexpr int kAgx = 1, kLinear = 2;  // ToneCurve
 constexpr float kBrightest = 400;     // radiance of a sun glint that still averages well over few samples
-// Of ambient light on leaves: without it crowns came out 1.3 times as bright as in the path tracer.
-constexpr float kCrownShade = 0.6f;
 constexpr float kSunAlpha = 0.006f;  // about the sine of the sun's diameter of 0.53 degrees, less its limb
 
 KERNEL real3 Grey(float v) { return make3(real(v), real(v), real(v)); }
@@ -128,8 +126,7 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const Response surface = RespondTo(view, s, i, d, stdx::any_of(sunlit > 0.0f), last);
 
   const Ambient ambient = SampleProbes(view, p, g, n, r);
-  // Leaves hide each other from the sky, which probes metres apart do not know.
-  const real crown = sel(load(s.kind + i) == kFoliage, real(kCrownShade), real(1.0f));
+  const real crown = sel(load(s.kind + i) == kFoliage, real(SHADE_CROWN), real(1.0f));
   const real3 body = (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) *
                      (crown * SHADE_INV_PI);
   const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;

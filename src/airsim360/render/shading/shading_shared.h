@@ -10,6 +10,12 @@
 
 #define SHADE_PI 3.14159265f
 #define SHADE_INV_PI 0.318309886f
+// Of the ambient light of probes on leaves, which hide each other from the sky: probes metres apart do not know.
+// Without it crowns came out 1.3 times as bright as in the path tracer.
+#define SHADE_CROWN 0.6f
+// Bias of the sun map on leaves, metres: in a crown the map's texels are lines through it as good as any, and
+// the share of them that pass a place is the light that gets there; more bias would light the crown's top alone.
+#define SHADE_LEAF_BIAS 0.05f
 
 // ---- numbers
 // ----------------------------------------------------------------------------------------------------

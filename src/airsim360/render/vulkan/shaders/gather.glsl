@@ -3,8 +3,6 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer High { GpuHigh v; };
 #define bounce push.frame.v.high.v
 
-const float kMetCrownShade = 0.6, kLeafBias = 0.05;
-
 /// 1 where the sun map says that the sun is seen, or knows nothing.
 float MapSun(vec3 p, float bias) {
   if (bounce.sun_size == 0) return 0.0;
@@ -67,6 +65,13 @@ bool IsGridLamp(uint instance, uint triangle) {
   return (bounce.lamp_bits.v[bit >> 5] >> (bit & 31u) & 1u) != 0;
 }
 
+/// Whether a ray met a surface from behind, where no lamp shines. In an instance that mirrors, the front has its corners clockwise.
+bool ShowsBack(uint instance, Surface met) {
+  GpuInstance placed = push.frame.v.instances.v[instance];
+  const bool mirrored = dot(Turn(placed.A, vec3(1, 0, 0)), cross(Turn(placed.A, vec3(0, 1, 0)), Turn(placed.A, vec3(0, 0, 1)))) < 0.0;
+  return met.back != mirrored;
+}
+
 /// Light along a ray that looks for ambient light and met `h` (t, instance, primitive).
 vec3 Gathered(Hit h, vec3 origin, vec3 d) {
   if (h.instance == kMiss) return view.has_sky != 0 ? SampleSky(view.blurred[0], d, true) : Vec(view.mean_ambient);
@@ -75,11 +80,8 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
   const GpuTriangle t = view.triangles.v[own.first_triangle + met.triangle];
   const uint id = t.material & ~kMirroredUv;
   const GpuMaterial m = view.materials.v[id];
-  // Lamps shine to their front; in an instance that mirrors that has its corners clockwise.
-  GpuInstance placed = push.frame.v.instances.v[h.instance];
-  const bool mirrored = dot(Turn(placed.A, vec3(1, 0, 0)), cross(Turn(placed.A, vec3(0, 1, 0)), Turn(placed.A, vec3(0, 0, 1)))) < 0.0;
-  const bool back = met.back != mirrored;
-  const vec3 emission = back || IsGridLamp(h.instance, met.triangle) ? vec3(0.0) : Load3(view.mean_emissions, id);
+  vec3 emission = Load3(view.mean_emissions, id);
+  if (emission != vec3(0.0) && (ShowsBack(h.instance, met) || IsGridLamp(h.instance, met.triangle))) emission = vec3(0.0);
   const vec3 glow = Vec(view.mean_ambient);
   if (glow.x + glow.y + glow.z > 0.0) {
     // Closed rooms that glow do so less where something is near.
@@ -88,11 +90,11 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
   }
   const vec3 p = origin + d * h.t, n = met.normal;
   const bool foliage = m.kind == kFoliage;
-  vec3 light = NearProbe(p, n) * (foliage ? kMetCrownShade : 1.0) + NearLamps(p, -d);
+  vec3 light = NearProbe(p, n) * (foliage ? SHADE_CROWN : 1.0) + NearLamps(p, -d);
   if (bounce.sun_size != 0) {
     const float cosine = dot(n, Vec(view.to_sun)), leaf = foliage ? m.transmission : 0.0;
     const float share = max(cosine, 0.0) + max(-cosine, 0.0) * leaf;
-    light += Vec(view.sun_irradiance) * (share * MapSun(p, foliage ? kLeafBias : bounce.sun_bias) * CloudShadow(p));
+    light += Vec(view.sun_irradiance) * (share * MapSun(p, foliage ? SHADE_LEAF_BIAS : bounce.sun_bias) * CloudShadow(p));
   }
   const vec3 albedo = min(Load3(view.mean_colors, id) * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(0.9));
   return diffuse(albedo, light) + emission;

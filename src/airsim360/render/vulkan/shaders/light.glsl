@@ -1,6 +1,6 @@
 // From a surface to radiance: render/shading/light_kernel.cc for one lane.
 
-const float kBrightest = 400.0, kSunAlpha = 0.006, kCrownShade = 0.6;
+const float kBrightest = 400.0, kSunAlpha = 0.006;
 
 /// What a surface does with light, before it is known how much ambient light there is.
 struct Response {
@@ -39,7 +39,7 @@ vec3 OwnAndLamps(Shaded s, Response o) {
 vec3 LightOf(Ray ray, Shaded s) {
   const Response o = RespondTo(ray, s, s.sunlit > 0.0);
   const Ambient ambient = SampleProbes(s.p, s.g, s.n, s.r);
-  const float crown = s.kind == kFoliage ? kCrownShade : 1.0;
+  const float crown = s.kind == kFoliage ? SHADE_CROWN : 1.0;
   const vec3 body = (o.body * ambient.front * s.contact + o.leaf * ambient.back) * (crown * SHADE_INV_PI);
   vec3 mirrored = ambient.reflected * SHADE_INV_PI;
   if (s.traced) {
