@@ -1,7 +1,7 @@
 // Renders frames on request and says how long each took: our side of comparisons with other renderers
 // (bench/cycles). Usage: frame_server WORLD THREADS [TIER [SKY_WORLD [plain]]]; SKY_WORLD lends its sun and weather.
-// `plain`: matt opaque surfaces of their base colours (and textures, and holes) under a sky without clouds, which another
-// renderer can have just so.
+// `plain`: matt opaque surfaces of their base colours (and textures, and holes) under a sky without clouds and without air
+// before surfaces, which another renderer can have just so.
 // Says {"ready": true, "sun_irradiance": [r, g, b]}, then reads one JSON object a line:
 //   {"size": [W, H], "tier": "fast", "X_WC": {"p": [...], "q_wxyz": [...]}, "labels": true, "samples": N,
 //    "aa_samples": N, "seed": N, "radiance": FILE.exr or absent}
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   const auto tracer = std::make_shared<const RayTracer>(std::move(scene));
   Environment environment = tracer->scene().environment;
   if (argc > 4) environment = LoadWorld({.world = argv[4]})->environment;
-  if (plain) environment.cloud_cover = environment.cirrus_cover = 0;
+  if (plain) environment.cloud_cover = environment.cirrus_cover = environment.haze = 0;
   const auto renderer =
       MakeCpuRenderer(tracer, {.tier = ParseTier(argc > 3 ? argv[3] : "fast"), .environment = environment});
   const Vec3f sun = internal::Sky(environment).sun_irradiance();

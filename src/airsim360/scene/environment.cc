@@ -37,6 +37,7 @@ const std::vector<EnvironmentField>& EnvironmentFields() {
       {"sun_azimuth_deg", "of the sun, compass, clockwise from north", &E::sun_azimuth_deg, -360, 360},
       {"sun_elevation_deg", "of the sun over the horizon", &E::sun_elevation_deg, -90, 90},
       {"turbidity", "Linke's: 2 very clear, 10 hazy", &E::turbidity, 1.8, 10},
+      {"haze", "clear air before surfaces: 1 as dense as it is, 0 none", &E::haze, 0, 10},
       {"cloud_cover", "cumulus and stratus: 0 none, 1 overcast", &E::cloud_cover, 0, 1},
       {"cirrus_cover", "thin high cloud, 0 to 1", &E::cirrus_cover, 0, 1},
       {"visibility_m", "range at which fog leaves a contrast of 0.05; 0 = clear", &E::visibility_m, 0, 1e6},

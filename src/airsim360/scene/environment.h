@@ -28,6 +28,7 @@ struct Environment {
   double sun_azimuth_deg = 215;   ///< compass, clockwise from north
   double sun_elevation_deg = 48;  ///< -90 … 90; below the horizon it is dusk, then night
   double turbidity = 2.5;         ///< Linke's: 2 very clear … 10 hazy
+  double haze = 1;                ///< clear air between viewer and surfaces: 1 as dense as it is, 0 none
   double cloud_cover = 0.35;      ///< cumulus: 0 none … 1 overcast
   double cirrus_cover = 0.3;      ///< thin high cloud, 0 … 1
   double visibility_m = 0;        ///< meteorological range (contrast 0.05) of fog; 0 = clear air alone
@@ -59,7 +60,7 @@ struct EnvironmentField {
 const std::vector<EnvironmentField>& EnvironmentFields();
 
 /// A named state of sun, sky and weather ("day", "sunset", "fog", "rain", …), laid over `base`: sets all of
-/// light and weather but keeps the base's turbidity, moon and picture. InputError naming the nearest.
+/// light and weather but keeps the base's turbidity, haze, moon and picture. InputError naming the nearest.
 Environment ParseEnvironmentPreset(std::string_view name, const Environment& base = {});
 std::vector<std::string> EnvironmentPresetNames();
 

@@ -15,7 +15,7 @@ namespace {
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8 && sizeof(Vec3u) == 12 && sizeof(Rgba8) == 4);
 static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 68 && sizeof(Box3f) == 24);
 // A field added to these belongs into the lists below.
-static_assert(sizeof(Material) == 152 && sizeof(Environment) == 144 && sizeof(Scene) == 520);
+static_assert(sizeof(Material) == 152 && sizeof(Environment) == 152 && sizeof(Scene) == 528);
 
 template <class Pixel>
 void VisitImage(ArchiveWriter& archive, const Image<Pixel>& image) {

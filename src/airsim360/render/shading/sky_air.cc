@@ -92,9 +92,10 @@ Vec3f Sky::ThroughAir(Vec3f origin, Vec3f d, float distance, Vec3f light) const 
 
 void Sky::BakeAir(const Environment& environment) {
   const ClearAir clear(environment.turbidity);
+  const auto haze = static_cast<float>(environment.haze);
   extinction_ = clear.rayleigh + clear.aerosol;
-  Put(air_.rayleigh, clear.rayleigh);
-  Put(air_.aerosol, clear.aerosol);
+  Put(air_.rayleigh, clear.rayleigh * haze);
+  Put(air_.aerosol, clear.aerosol * haze);
   Put(air_.to_sun, to_sun_);
   air_.rayleigh_height = kRayleighHeight, air_.aerosol_height = kAerosolHeight;
   air_.base_z = place_.z;
@@ -111,7 +112,7 @@ void Sky::BakeAir(const Environment& environment) {
   for (int k = 0; k < kAround; ++k)
     phase[k] = scalar::forward_phase(kAirAsymmetry, Dot(DirectionOf(AzimuthOf(k), 0), to_sun_));
   for (int c = 0; c < 3; ++c) {
-    const float scattered = air_.aerosol[c] / extinction_[c] * sun_irradiance_[c] / (4 * kPi);
+    const float scattered = clear.aerosol[c] / extinction_[c] * sun_irradiance_[c] / (4 * kPi);
     const HorizonFit fit = FitHorizon(ring, phase, c, environment.hdri ? 0.0f : scattered, to_sun_.z < 0.2f);
     air_.glow[c] = fit.glow;
     for (int i = 0; i < kHarmonics; ++i) air_.horizon[i][c] = fit.harmonics[i];
@@ -125,7 +126,8 @@ void Sky::BakeWeather(const Environment& environment) {
   float fog = 0;
   if (environment.visibility_m > 0) {
     fog =
-        std::max(0.0f, kKoschmieder / static_cast<float>(environment.visibility_m) - extinction_.y - falling);
+        std::max(0.0f, kKoschmieder / static_cast<float>(environment.visibility_m) -
+                           extinction_.y * static_cast<float>(environment.haze) - falling);
   }
   air_.weather = fog + falling;
   air_.weather_height = (fog * kFogHeight + falling * kPrecipitationHeight) / std::max(air_.weather, 1e-9f);

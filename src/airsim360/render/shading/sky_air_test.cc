@@ -45,6 +45,24 @@ TEST(Air, FogLeavesAContrastOfATwentiethAtTheVisibility) {
   EXPECT_NEAR(Luminance(sky.Radiance(Vec3f{0.6f, 0.8f, 0.0f})) / Luminance(far), 1, 0.03);
 }
 
+TEST(Air, HazeScalesTheClearAirBeforeSurfacesAlone) {
+  Environment environment;
+  environment.cloud_cover = 0;
+  const Sky one(environment);
+  environment.haze = 3;
+  const Sky three(environment);
+  environment.haze = 0;
+  const Sky none(environment);
+  const Vec3f d{0.6f, 0.8f, 0}, light{0.5f, 0.2f, 0.1f}, white{1, 1, 1}, up{0, 0.6f, 0.8f};
+  EXPECT_EQ(none.ThroughAir({0, 0, 2}, d, 5000, light), light);
+  const auto kept = [&](const Sky& sky) { return (sky.ThroughAir({0, 0, 2}, d, 5000, white) - sky.ThroughAir({0, 0, 2}, d, 5000, {})).y; };
+  EXPECT_NEAR(kept(three), std::pow(kept(one), 3.0f), 1e-5);
+  EXPECT_EQ(three.Radiance(up), one.Radiance(up));
+  EXPECT_EQ(three.Irradiance({0, 0, 1}), one.Irradiance({0, 0, 1}));
+  // Far things still take the colour of the horizon, only sooner.
+  EXPECT_NEAR(Luminance(three.ThroughAir({0, 0, 2}, d, 1e6f, {})) / Luminance(one.ThroughAir({0, 0, 2}, d, 2e6f, {})), 1, 0.02);
+}
+
 TEST(Air, FarThingsMeltIntoTheHorizonAllAround) {
   for (const double elevation : {48.0, 10.0, 2.0, -4.0}) {
     Environment environment;
