@@ -11,7 +11,6 @@ namespace airsim360::internal {
 namespace {
 
 constexpr int kSymmetries = 8;
-constexpr float kContrast = 7;  // of 255, between a pixel's centre and its first other sample
 // Exposed luminance that a sample may have, nearly white: more would make pixels of a few samples sparkle.
 constexpr float kNearWhite = 3;
 
@@ -27,18 +26,14 @@ class EdgeTile {
     kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
   }
 
-  void AddPixel(int x, int y, uint8_t edge) {
+  void AddPixel(int x, int y) {
     x_[pixel_count_] = static_cast<uint8_t>(x), y_[pixel_count_] = static_cast<uint8_t>(y);
-    edge_[pixel_count_] = edge;
-    low_[pixel_count_] = 256;
     AddColor(pixel_count_++, buffers_.radiance(column_ + x, row_ + y));
   }
   int pixel_count() const { return pixel_count_; }
   int ray_count() const { return ray_count_; }
   int x(int pixel) const { return column_ + x_[pixel]; }
   int y(int pixel) const { return row_ + y_[pixel]; }
-  bool on_silhouette(int pixel) const { return (edge_[pixel] & kSilhouette) != 0; }
-  float contrast(int pixel) const { return high_[pixel] - low_[pixel]; }
 
   void AddRay(int pixel, Vec3d direction, uint32_t key) {
     packet_.direction_x[lanes_] = static_cast<float>(direction.x);
@@ -66,9 +61,6 @@ class EdgeTile {
     const float exposed = Luminance(c) * task_.exposure, w = kNearWhite / std::max(exposed, kNearWhite);
     r_[pixel] += c.r * w, g_[pixel] += c.g * w, b_[pixel] += c.b * w;
     ++count_[pixel];
-    const float shown = 255 * std::sqrt(exposed / (1 + exposed));
-    low_[pixel] = std::min(low_[pixel], shown);
-    high_[pixel] = std::max(high_[pixel], shown);
   }
 
   void Trace() {
@@ -138,8 +130,7 @@ class EdgeTile {
   HighBuffers& buffers_;
   int column_, row_;
   int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
-  uint8_t x_[kTilePixels], y_[kTilePixels], edge_[kTilePixels];
-  float low_[kTilePixels], high_[kTilePixels] = {};
+  uint8_t x_[kTilePixels], y_[kTilePixels];
   float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
   int count_[kTilePixels] = {};
   RayHit16 packet_;
@@ -167,25 +158,19 @@ int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::
   for (int i = 0; i < kTilePixels; ++i) {
     const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
     if (x >= columns || y >= rows) continue;
-    const uint8_t edge = buffers.edges(column + x, row + y);
-    if (edge != 0) tile.AddPixel(x, y, edge);
+    if (buffers.edges(column + x, row + y) != 0) tile.AddPixel(x, y);
   }
 
-  // Rays first … last - 1 of a pixel; everything random depends on the canonical pixel alone.
-  const auto add_rays = [&](int i, int first, int last) {
+  // Everything random depends on the canonical pixel alone.
+  for (int i = 0; i < tile.pixel_count(); ++i) {
     const uint64_t key = MixBits(static_cast<uint64_t>(tile.y(i)) * static_cast<uint64_t>(field.width) +
                                  static_cast<uint64_t>(tile.x(i)) + (task.seed << 40));
     const PixelOffset* of_pixel = &offsets[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
-    for (int s = first; s < last; ++s) {
+    for (int s = 1; s < task.samples; ++s) {
       Vec3d direction;
       if (!task.rays->Direction(tile.x(i), tile.y(i), of_pixel[s - 1], direction)) continue;
       tile.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
     }
-  };
-  for (int i = 0; i < tile.pixel_count(); ++i) add_rays(i, 1, tile.on_silhouette(i) ? task.samples : 2);
-  tile.Finish();
-  for (int i = 0; i < tile.pixel_count(); ++i) {
-    if (!tile.on_silhouette(i) && tile.contrast(i) > kContrast) add_rays(i, 2, task.samples);
   }
   tile.Finish();
   tile.StoreMeans();

@@ -17,15 +17,15 @@ struct HighEdgeTask {
   SunMapView sun_map;
   Vec3f origin;
   float exposure;  ///< factor from radiance to the input of the tone curve
-  int samples;     ///< of a pixel on a silhouette, the centre ray included
+  int samples;     ///< of an edge pixel, the centre ray included
   uint64_t seed;
 };
 
 /// Replaces the radiance of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the
-/// pixel; a pixel that only contrasts with a neighbour of the same entity gets one ray more at first, and the
-/// rest if that one looks different. The mean is one of linear light, as in tier `reference`, but no ray counts for
-/// more than what shows as nearly white, so that highlights do not sparkle. A ray takes its ambient light from
-/// the most alike of the nine pixels around. `offsets` are MakeEdgeOffsets. Returns the number of rays.
+/// pixel: as many where a pixel only contrasts with a neighbour of the same entity, for a choice by the first ones
+/// loses what is rare, as sunlit leaves in dark crowns. The mean is one of linear light, as in tier `reference`, but
+/// no ray counts for more than what shows as nearly white, so that highlights do not sparkle. A ray takes its
+/// ambient light from the most alike of the nine pixels around. `offsets` are MakeEdgeOffsets. Returns the number of rays.
 int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers);
 
 /// Points of a pixel besides its centre, in eight mirrored versions: [version][sample - 1].
