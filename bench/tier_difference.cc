@@ -1,7 +1,7 @@
 // How tiers `fast` and `high` differ from `reference` in one world: renders all at given poses and prints, by
 // region, the ratio of mean luminance of the displayed pictures in linear light, WS-PSNR and mean FLIP, all
 // weighted by solid angle, and the same for a reference of half the paths and another seed (its noise).
-// Usage: tier_difference [--world NAME] [--width W] [--samples N] [--pose x,y,z,yaw_deg]... [--out DIR]
+// Usage: tier_difference [--world NAME] [--width W] [--samples N] [--pose x,y,z[,yaw_deg]]... [--out DIR]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,11 +37,17 @@ const char* Argument(int argc, char** argv, const char* name, const char* value)
 
 std::vector<Pose> Poses(int argc, char** argv, const Scene& scene) {
   std::vector<Pose> poses;
-  for (int i = 1; i + 1 < argc; ++i) {
+  for (int i = 1; i < argc; ++i) {
     Pose p;
-    if (std::strcmp(argv[i], "--pose") == 0 &&
-        std::sscanf(argv[i + 1], "%lf,%lf,%lf,%lf", &p.x, &p.y, &p.z, &p.yaw_deg) >= 3)
-      poses.push_back(p);
+    const char* value = nullptr;
+    if (std::strncmp(argv[i], "--pose=", 7) == 0) value = argv[i] + 7;
+    if (std::strcmp(argv[i], "--pose") == 0) value = i + 1 < argc ? argv[i + 1] : "";
+    if (value == nullptr) continue;
+    if (std::sscanf(value, "%lf,%lf,%lf,%lf", &p.x, &p.y, &p.z, &p.yaw_deg) < 3) {
+      std::fprintf(stderr, "not x,y,z[,yaw_deg]: --pose %s\n", value);
+      std::exit(2);
+    }
+    poses.push_back(p);
   }
   const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
   if (poses.empty()) poses = {{spawn.x, spawn.y, spawn.z, 0}, {spawn.x, spawn.y, spawn.z + 12.0, 90}};

@@ -134,7 +134,7 @@ float AmbientRays(const RenderRequest& request, const RayField& field, int row) 
   const int wanted = std::clamp(request.samples > 0 ? request.samples : kDefaultRays, 1, kMaxRays);
   if (!request.latitude_sampling || !field.separable) return static_cast<float>(wanted);
   const double middle = std::min(row + 0.5 * kTileSize, field.height - 0.5);
-  return static_cast<float>(wanted * std::sin(std::numbers::pi * middle / field.height));
+  return static_cast<float>(std::max(1.0, wanted * std::sin(std::numbers::pi * middle / field.height)));
 }
 
 void HighFrame::Impl::TraceTiles() {

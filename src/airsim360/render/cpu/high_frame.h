@@ -10,7 +10,7 @@
 
 namespace airsim360::internal {
 
-/// Ambient rays that a pixel of the tile row from `row` on gets, on average: rows of a panorama are shorter towards the
+/// Ambient rays that a pixel of the tile row from `row` on gets, on average, at least one: rows of a panorama are shorter towards the
 /// poles, and so are the pixels' shares of the sphere.
 float AmbientRays(const RenderRequest& request, const RayField& field, int row);
 

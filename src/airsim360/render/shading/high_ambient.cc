@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -40,19 +41,18 @@ class AmbientTile {
       any_leaf_ |= leaf_[i];
     }
     shader_.kernels.gather_origins(rays_, s_, index_, origins_);
-    // A whole number of rays, right on average over the sixteen phases.
-    const float turn = static_cast<float>(ReverseBits(static_cast<uint32_t>(phase)) >> 28) / 16 +
-                       static_cast<float>((sampling_.seed + sampling_.tile * 0x9e3779b9u) >> 8) * 0x1p-24f;
-    const int samples = std::max(1, static_cast<int>(sampling_.ambient_rays + turn - std::floor(turn)));
-    const auto most = static_cast<uint32_t>(std::ceil(sampling_.ambient_rays));
-    const uint32_t first = (sampling_.tile * 16 + static_cast<uint32_t>(phase)) * most;
+    // A whole number of rays, right on average over the phases.
+    const uint32_t place = sampling_.tile * 16 + static_cast<uint32_t>(phase);
+    const uint32_t first = first_ray(place, sampling_.ambient_rays, sampling_.seed);
+    const int samples = static_cast<int>(first_ray(place + 1, sampling_.ambient_rays, sampling_.seed) - first);
+    const int first_side = std::popcount(place);
     std::fill(std::begin(sum_r_), std::end(sum_r_), 0.0f);
     std::fill(std::begin(sum_g_), std::end(sum_g_), 0.0f);
     std::fill(std::begin(sum_b_), std::end(sum_b_), 0.0f);
     for (int k = 0; k < samples; ++k) {
       const Vec3f sphere = SpherePoint(SobolPoint(first + static_cast<uint32_t>(k), sampling_.seed));
-      // Leaves look to both sides in turn.
-      const bool behind = ((k + phase + static_cast<int>(sampling_.tile)) & 1) != 0;
+      // Leaves look to both sides in turn; whose turn it is first must not go with the ray's number.
+      const bool behind = ((k + first_side) & 1) != 0;
       Trace(sphere, behind);
       // Each side stands for the rays that were not sent to the other, too.
       const int alike = (samples + 1 - (k & 1)) / 2;

@@ -57,7 +57,8 @@ struct World {
     sun_map = std::make_unique<const SunMap>(*tracer, shader->impl().sky->to_sun(), 256);
   }
   // The tile of 16 x 16 rays from `eye` to points `step` apart on the ground around `target`.
-  void Shade(Vec3f eye, Vec3f target, float step, float ambient_rays, uint32_t seed, HighTile& tile) const {
+  void Shade(Vec3f eye, Vec3f target, float step, float ambient_rays, uint32_t seed, HighTile& tile,
+             uint32_t place = 0) const {
     static const TileLayout layout = Layout();
     HitBatch hits{};
     hits.origin = eye;
@@ -74,7 +75,7 @@ struct World {
       hits.distance[k] = hit ? hit->distance : 0;
       hits.u[k] = hit ? hit->u : 0, hits.v[k] = hit ? hit->v : 0;
     }
-    const TileSampling sampling{&layout, seed, 0, ambient_rays, hits.cone_angle};
+    const TileSampling sampling{&layout, seed, place, ambient_rays, hits.cone_angle};
     ShadeHigh(*shader, sun_map->view(), hits, &sampling, nullptr, tile);
   }
   // Irradiance on the ground, green, of the directions that are open: midpoint rule.
@@ -154,6 +155,32 @@ TEST(HighShading, GroundAtABlackWallGetsTheSkyThatTheWallLeaves) {
     }
     const float truth = world.SkyIrradiance([x](Vec3f d) { return d.x >= 0 || d.z / -d.x > 2 / x; });
     EXPECT_NEAR(mean / truth, 1, 0.01) << x << " m from the wall";
+  }
+}
+
+TEST(HighShading, FractionsOfARayLookAllAroundInEveryTile) {
+  World world(40);
+  world.builder.environment().cloud_cover = 1;
+  world.AddGround(0);
+  world.AddQuad({-1, -5000, 0}, {-1, 5000, 0}, {-1, 5000, 2}, {-1, -5000, 2}, 0);
+  world.Build();
+  const float truth = world.SkyIrradiance([](Vec3f d) { return d.x >= 0 || d.z / -d.x > 2; });
+  for (const float rays : {1.0f, 1.06f, 1.25f, 1.6f, 2.1f, 3.3f, 4.0f}) {
+    constexpr uint32_t kSeeds = 16;
+    float square = 0;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+      HighTile tile;
+      world.Shade({0, 0, 1.5f}, {0, 0, 0}, 1e-4f, rays, seed, tile, seed % 16);
+      float sum = 0, count = 0;
+      for (int k = 0; k < 256; ++k) {
+        sum += tile.light_g[k] * tile.light_samples[k];
+        count += tile.light_samples[k];
+      }
+      EXPECT_NEAR(count / 256, rays, 1.0f / 16);
+      const float error = sum / count / truth - 1;
+      square += error * error / kSeeds;
+    }
+    EXPECT_LT(std::sqrt(square), 0.14f) << rays << " rays";
   }
 }
 
