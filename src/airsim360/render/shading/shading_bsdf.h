@@ -94,7 +94,9 @@ SHARED BsdfSide bsdf_side(Bsdf b, real mu) {
            g * (b.k10 + mu * (b.k11 + mu * -0.098317633f) + g * (b.k20 + mu * -3.9144001f + g * 3.5359498f));
   s.single = bsdf_fresnel(b, clamp01(c)) * s.white;
   s.skin = s.single + b.multiple * ((1.0f - s.white) * b.lost);
-  s.coat = b.coat * fresnel_schlick(real(BSDF_COAT_F0), rmin(rroot(mu * mu + b.coat_blur), real(1.0f)));
+  s.coat = real(0.0f);
+  if (any_lane(b.coat > 0.0f))
+    s.coat = b.coat * fresnel_schlick(real(BSDF_COAT_F0), rmin(rroot(mu * mu + b.coat_blur), real(1.0f)));
   return s;
 }
 

@@ -32,6 +32,11 @@ SHARED real exponent_of(real a) { return static_cast<float>((std::bit_cast<int32
 SHARED real mantissa_of(real a) {
   return std::bit_cast<float>((std::bit_cast<int32_t>(a) & 0x007fffff) | 0x3f800000);
 }
+// Tables by the low four or five bits of the exponent.
+#define SHADE_TABLE16(name, ...) static constexpr float name[16] = {__VA_ARGS__};
+#define SHADE_TABLE32(name, ...) static constexpr float name[32] = {__VA_ARGS__};
+SHARED real octave16(const float* table, real a) { return table[(std::bit_cast<uint32_t>(a) >> 23) & 15]; }
+SHARED real octave32(const float* table, real a) { return table[(std::bit_cast<uint32_t>(a) >> 23) & 31]; }
 SHARED bool any_lane(mask_t m) { return m; }
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 // Each uses what the one before defines.
@@ -48,5 +53,7 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 // clang-format on
 #undef SHARED
 #undef INOUT
+#undef SHADE_TABLE16
+#undef SHADE_TABLE32
 
 }  // namespace airsim360::internal::scalar

@@ -110,13 +110,7 @@ SHARED real asin_approx(real x) { return atan2_approx(x, rroot(rmax(1.0f - x * x
 // ---- colour
 // -----------------------------------------------------------------------------------------------------
 
-// sRGB transfer function (IEC 61966-2-1), [0, 1] to [0, 1]; within 1e-5, a four-hundredth of a code.
-SHARED real srgb_encode(real linear_value) {
-  real c = clamp01(linear_value);
-  return sel(c < 0.0031308f, c * 12.92f, 1.055f * pow_display(c, real(0.416666667f)) - 0.055f);
-}
-
-// Its inverse with a quartic fit above the toe, within 1.2 per cent of the curve: for texels, before
+// The inverse of the sRGB transfer function (IEC 61966-2-1) with a quartic fit above the toe, within 1.2 per cent of the curve: for texels, before
 // filtering.
 SHARED real srgb_decode_approx(real s) {
   real p = 0.00109740f + s * (0.02750550f + s * (0.56390260f + s * (0.52268787f - s * 0.11601764f)));

@@ -8,6 +8,8 @@
 #ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
+#include <immintrin.h>
+
 #include <experimental/simd>
 #pragma GCC diagnostic pop
 
@@ -54,8 +56,30 @@ SHARED real3 sel3(mask_t m, real3 a, real3 b) {
 }
 SHARED bool any_lane(mask_t m) { return stdx::any_of(m); }
 SHARED real3 make3(real x, real y, real z) { return {x, y, z}; }
-SHARED real rmin(real a, real b) { return sel(b < a, b, a); }
-SHARED real rmax(real a, real b) { return sel(a < b, b, a); }
+// As b < a ? b : a and a < b ? b : a, one instruction each: x86 gives the second operand where neither is
+// less, and where one is not a number.
+#if defined(__AVX512F__)
+SHARED real rmin(real a, real b) {
+  return real(_mm512_min_ps(static_cast<__m512>(b), static_cast<__m512>(a)));
+}
+SHARED real rmax(real a, real b) {
+  return real(_mm512_max_ps(static_cast<__m512>(b), static_cast<__m512>(a)));
+}
+#elif defined(__AVX__)
+SHARED real rmin(real a, real b) {
+  return real(_mm256_min_ps(static_cast<__m256>(b), static_cast<__m256>(a)));
+}
+SHARED real rmax(real a, real b) {
+  return real(_mm256_max_ps(static_cast<__m256>(b), static_cast<__m256>(a)));
+}
+#else
+SHARED real rmin(real a, real b) {
+  return real(_mm_min_ps(static_cast<__m128>(b), static_cast<__m128>(a)));
+}
+SHARED real rmax(real a, real b) {
+  return real(_mm_max_ps(static_cast<__m128>(b), static_cast<__m128>(a)));
+}
+#endif
 SHARED real rroot(real a) { return stdx::sqrt(a); }
 SHARED real rsqrt_exact(real a) { return 1.0f / stdx::sqrt(a); }
 SHARED real rfloor(real a) { return stdx::floor(a); }
@@ -67,6 +91,30 @@ SHARED real to_real(ireal a) { return stdx::static_simd_cast<real>(a); }
 SHARED real pow2_int(real i) { return from_bits((to_int(i) + 127) << 23); }
 SHARED real exponent_of(real a) { return to_real((bits_of(a) >> 23) - 127); }
 SHARED real mantissa_of(real a) { return from_bits((bits_of(a) & 0x007fffff) | 0x3f800000); }
+// Tables by the low four or five bits of the exponent.
+#define SHADE_TABLE16(name, ...) alignas(64) static constexpr float name[16] = {__VA_ARGS__};
+#define SHADE_TABLE32(name, ...) alignas(64) static constexpr float name[32] = {__VA_ARGS__};
+#if defined(__AVX512F__)
+SHARED __m512i exponent_bits(real a) {
+  return _mm512_srli_epi32(_mm512_castps_si512(static_cast<__m512>(a)), 23);
+}
+SHARED real octave16(const float* table, real a) {
+  return real(_mm512_permutexvar_ps(exponent_bits(a), _mm512_load_ps(table)));
+}
+SHARED real octave32(const float* table, real a) {
+  return real(_mm512_permutex2var_ps(_mm512_load_ps(table), exponent_bits(a), _mm512_load_ps(table + 16)));
+}
+#else
+SHARED real table_lanes(const float* table, ireal index) {
+  alignas(64) int32_t at[kLanes];
+  alignas(64) float out[kLanes];
+  index.copy_to(at, stdx::vector_aligned);
+  for (int i = 0; i < kLanes; ++i) out[i] = table[at[i]];
+  return real(out, stdx::vector_aligned);
+}
+SHARED real octave16(const float* table, real a) { return table_lanes(table, (bits_of(a) >> 23) & 15); }
+SHARED real octave32(const float* table, real a) { return table_lanes(table, (bits_of(a) >> 23) & 31); }
+#endif
 SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SHARED real dot3(real3 a, ufloat3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -92,5 +140,7 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
 // clang-format on
 #undef SHARED
 #undef INOUT
+#undef SHADE_TABLE16
+#undef SHADE_TABLE32
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

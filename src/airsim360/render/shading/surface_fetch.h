@@ -41,6 +41,9 @@ struct alignas(64) Fetched {
   /// All lanes lie on one triangle, this one.
   bool one = false;
   uint32_t one_instance, one_triangle;
+  /// What all lanes share of the rows above; nullptr: they differ.
+  const InstanceRecord* instance = nullptr;
+  const MaterialRecord* of_material = nullptr;
 };
 constexpr size_t kWord = sizeof(float), kRow = kWord * kLanes;
 static_assert(sizeof(TriangleRecord) == 16 * kWord && offsetof(TriangleRecord, window) == 15 * kWord &&
@@ -83,12 +86,13 @@ static __attribute__((noinline)) void FetchPanes(const ShadeView& view, Fetched&
   }
 }
 
+/// The record that all lanes have, or nullptr.
 template <class Record>
-KERNEL bool AllSame(const Record* const* records) {
+KERNEL const Record* Shared(const Record* const* records) {
   uintptr_t differs = 0;
   for (int i = 1; i < kLanes; ++i)
     differs |= reinterpret_cast<uintptr_t>(records[i]) ^ reinterpret_cast<uintptr_t>(records[0]);
-  return differs == 0;
+  return differs == 0 ? records[0] : nullptr;
 }
 
 KERNEL real3 UnpackDirection(const int32_t* packed) {
@@ -107,13 +111,13 @@ KERNEL real3 ToWorld(const Fetched& f, real3 a) {
 KERNEL bool AnyBit(const int32_t* lanes) { return stdx::any_of(ireal(lanes, stdx::vector_aligned) != 0); }
 KERNEL bool AnyIs(const float* lanes, float value) { return stdx::any_of(load(lanes) == value); }
 
-/// Four rows of lanes for every sixteen bytes of the records. One record under all lanes, as on walls and
-/// grounds, is spread instead of turned round.
+/// Four rows of lanes for every sixteen bytes of the records. One record under all lanes (`shared`), as on
+/// walls and grounds, is spread instead of turned round.
 template <class Record>
-KERNEL void TakeRecords(const Record* const* records, int quads, void* rows) {
-  const auto* first = reinterpret_cast<const float*>(records[0]);
+KERNEL void TakeRecords(const Record* const* records, const Record* shared, int quads, void* rows) {
   auto* to = static_cast<char*>(rows);
-  if (AllSame(records)) {
+  if (shared != nullptr) {
+    const auto* first = reinterpret_cast<const float*>(shared);
     for (int k = 0; k < 4 * quads; ++k) SpreadWord(first + k, to + static_cast<size_t>(k) * kRow);
     return;
   }
@@ -123,6 +127,24 @@ KERNEL void TakeRecords(const Record* const* records, int quads, void* rows) {
             __attribute__((always_inline)) { return reinterpret_cast<const float*>(records[i]) + 4 * q; },
         to + 4 * static_cast<size_t>(q) * kRow);
   }
+}
+
+/// The rows of a material and what follows from them alone.
+KERNEL void TakeMaterials(const MaterialRecord* const* material, const MaterialRecord* shared, Fetched& f) {
+  TakeRecords(material, shared, 7, f.base);
+  f.any_base = AnyBit(f.base_id);
+  f.any_normal = AnyBit(f.normal_id);
+  f.any_roughness = AnyBit(f.roughness_id);
+  f.any_emission = AnyBit(f.emission_id);
+  f.any_macro = stdx::any_of(load(f.macro) != 0.0f);
+  f.any_glass = AnyIs(f.kind, kGlass);
+  f.any_water = AnyIs(f.kind, kWater);
+  f.any_leaf = AnyIs(f.kind, kFoliage);
+  f.any_blend = stdx::any_of(load(f.blend) != 0.0f);
+  f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
+  f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
+  f.any_picture =
+      f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
 }
 
 /// `f` is that of the vector before, or new.
@@ -141,9 +163,15 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
     triangle[i] = &view.triangles[instance[i]->first_triangle + rays.triangle[begin + i]];
     material[i] = &view.materials[triangle[i]->material & ~kMirroredUv];
   }
-  TakeRecords(triangle, 4, f.normal);
-  TakeRecords(instance, 4, f.matrix);
-  TakeRecords(material, 7, f.base);
+  TakeRecords(triangle, one ? triangle[0] : nullptr, 4, f.normal);
+  // Instance and material are mostly those of the vector before.
+  const InstanceRecord* same_instance = Shared(instance);
+  if (same_instance == nullptr || same_instance != f.instance)
+    TakeRecords(instance, same_instance, 4, f.matrix);
+  f.instance = same_instance;
+  const MaterialRecord* same_material = Shared(material);
+  if (same_material == nullptr || same_material != f.of_material) TakeMaterials(material, same_material, f);
+  f.of_material = same_material;
 
   store(f.texels_log2, load(f.texels_log2) + load(f.scale_log2));
   const ureal flags = Bits(f.material);
@@ -158,20 +186,7 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
                         ireal(f.geometric, stdx::vector_aligned));
   };
   f.any_smooth = differs(0) || differs(1) || differs(2);
-  f.any_base = AnyBit(f.base_id);
-  f.any_normal = AnyBit(f.normal_id);
-  f.any_roughness = AnyBit(f.roughness_id);
-  f.any_emission = AnyBit(f.emission_id);
-  f.any_macro = stdx::any_of(load(f.macro) != 0.0f);
-  f.any_glass = AnyIs(f.kind, kGlass);
-  f.any_water = AnyIs(f.kind, kWater);
-  f.any_leaf = AnyIs(f.kind, kFoliage);
-  f.any_blend = stdx::any_of(load(f.blend) != 0.0f);
-  f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
-  f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
   f.any_window = stdx::any_of(Bits(f.window) != 0u);
-  f.any_picture =
-      f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
   if (f.any_window) FetchPanes(view, f);
 }
 
