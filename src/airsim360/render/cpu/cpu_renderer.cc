@@ -269,7 +269,8 @@ void CpuRenderer::ShadeTile(const RenderRequest& request, HitBatch& hits, const 
   RadianceBatch radiance;
   Rgb8 colors[kTilePixels];
   std::fill(std::begin(hits.sample_key), std::end(hits.sample_key), 0u);
-  SunPixel sun[kTilePixels]{};
+  SunPixel sun[kTilePixels];
+  if (!sun_.empty()) std::fill(std::begin(sun), std::end(sun), SunPixel{});
   shader_->Shade(hits, radiance, nullptr, sun_.empty() ? nullptr : sun);
   if (!sun_.empty()) {
     // Runs of four pixels, which lie side by side except at a border or the seam.

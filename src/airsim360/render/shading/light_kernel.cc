@@ -38,9 +38,9 @@ struct Response {
   real3 sun;       ///< radiance by the sun if it is seen
 };
 
-/// The BSDF of the last vector and what it was made of: neighbours are often of one plain material.
+/// The BSDF of the last vector and what its layers were made of: neighbours are often of one plain material.
 struct LastBsdf {
-  real made_of[9];
+  real made_of[5];
   Bsdf bsdf;
   bool any = false;
 };
@@ -50,17 +50,20 @@ KERNEL void MakeBsdf(const SurfaceSet& s, int i, LastBsdf& last) {
   // A pane behind which nothing was traced shows its body alone.
   const real transmission =
       sel((kind == kFoliage) || (load(s.clear + i) > 0.5f), load(s.transmission + i), real(0.0f));
-  const real made_of[9] = {kind,           load(s.ar + i),       load(s.ag + i),
-                           load(s.ab + i), load(s.metallic + i), load(s.roughness + i),
-                           transmission,   load(s.coat + i),     load(s.coat_roughness + i)};
+  const real made_of[5] = {kind, load(s.metallic + i), load(s.roughness + i), load(s.coat + i),
+                           load(s.coat_roughness + i)};
+  const real3 base = load3(s.ar + i, s.ag + i, s.ab + i);
   if (last.any) {
-    mask_t same = made_of[0] == last.made_of[0];
-    for (int k = 1; k < 9; ++k) same = same && made_of[k] == last.made_of[k];
-    if (stdx::all_of(same)) return;
+    // Without metal the layers know nothing of the base colour.
+    mask_t same = made_of[0] == last.made_of[0] && made_of[1] == 0.0f;
+    for (int k = 1; k < 5; ++k) same = same && made_of[k] == last.made_of[k];
+    if (stdx::all_of(same)) {
+      last.bsdf = bsdf_bodies(last.bsdf, base, made_of[1], transmission);
+      return;
+    }
   }
-  for (int k = 0; k < 9; ++k) last.made_of[k] = made_of[k];
-  last.bsdf = bsdf_make(kind, make3(made_of[1], made_of[2], made_of[3]), made_of[4], made_of[5], transmission,
-                        made_of[7], made_of[8]);
+  for (int k = 0; k < 5; ++k) last.made_of[k] = made_of[k];
+  last.bsdf = bsdf_make(kind, base, made_of[1], made_of[2], transmission, made_of[3], made_of[4]);
   last.any = true;
 }
 
@@ -206,6 +209,17 @@ void SplitLight(const ShadeView& view, const RaySet& rays, const SurfaceSet& sur
 }
 
 void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSet& light) {
+  // First where to look, so that the texels are on their way.
+  SkyPlace places[kBatch / kLanes];
+  for (int i = 0; i < rays.count && view.has_sky > 0.5f; i += kLanes) {
+    SkyPlace& place = places[i / kLanes];
+    place = FindSky(view.sky, load3(rays.dx + i, rays.dy + i, rays.dz + i), false);
+    KeepInMemory(place.index);
+    for (int k = 0; k < kLanes; k += 2) {
+      __builtin_prefetch(view.sky.texels + place.index[k]);
+      __builtin_prefetch(view.sky.texels + place.index[k] + view.sky.stride * 4);
+    }
+  }
   for (int i = 0; i < rays.count; i += kLanes) {
     const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
     real3 c = Grey(0);
@@ -213,7 +227,7 @@ void LookUpSky(const ShadeView& view, const RaySet& rays, bool sun_disc, LightSe
       const real z = load(rays.oz + i);
       const mask_t down = d.z < 0.0f;
       const real3 up = make3(d.x, d.y, rabs(d.z));
-      c = SampleSky(view.sky, d, false);
+      c = TakeSky(view.sky, places[i / kLanes]);
       if (stdx::any_of(down)) {
         // Far ground in haze, or the lower half of a picture.
         const real distance = rmax(z - view.ground_z, real(2.0f)) / rmax(0.0f - d.z, real(1e-4f));

@@ -30,6 +30,10 @@ struct RayQueue {
   }
   /// Marks the lanes in use; the others repeat the last ray.
   void Close() {
+    if (count == 16) {
+      for (int& lane_valid : valid) lane_valid = -1;
+      return;
+    }
     for (int i = 0; i < 16; ++i) {
       valid[i] = i < count ? -1 : 0;
       if (i < count) continue;

@@ -5,6 +5,7 @@
 
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shading/ray_queue.h"
+#include "airsim360/render/shading/shading_kernels.h"
 
 namespace airsim360::internal {
 
@@ -58,23 +59,19 @@ bool NoneSet(const float* flags, int first, int count) {
   return set == 0;
 }
 
+// The first vector with a flag; `count` or more if there is none.
+int FirstSet(const float* flags, int count) {
+  int i = 0;
+  while (i < count && NoneSet(flags, i, count)) i += 16;
+  return i;
+}
+
 // Rays of directions (x, y, z)[16] from sixteen surfaces from `first` on; the same numbers as one by one.
 void AddSixteen(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
                 const float* z, float reach, RayQueue& queue) {
+  static const auto lift = AIRSIM360_SELECT_KERNEL(LiftRays);
   RayHit16& r = queue.rays;
-  for (int k = 0; k < 16; ++k) {
-    const int i = first + k;
-    const float facing = s.gx[i] * x[k] + s.gy[i] * y[k] + s.gz[i] * z[k];
-    const float lift =
-        1e-3f + 4e-6f * (std::fabs(s.px[i]) + std::fabs(s.py[i]) + std::fabs(s.pz[i]) + rays.distance[i]);
-    const float offset = facing < 0 ? -lift : lift;
-    r.origin_x[k] = s.px[i] + s.gx[i] * offset;
-    r.origin_y[k] = s.py[i] + s.gy[i] * offset;
-    r.origin_z[k] = s.pz[i] + s.gz[i] * offset;
-  }
-  std::copy_n(x, 16, r.direction_x);
-  std::copy_n(y, 16, r.direction_y);
-  std::copy_n(z, 16, r.direction_z);
+  lift(rays, s, first, x, y, z, r);
   std::fill_n(r.t_near, 16, 0.0f);
   std::fill_n(r.t_far, 16, reach);
   std::fill_n(r.mask, 16, queue.mask);
@@ -96,7 +93,8 @@ void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet
     // Whole vectors of surfaces that all ask make a packet at once.
     if (queue.count == 0 && i + 16 <= rays.count && AllSet(s.sunlit + i)) {
       AddSixteen(rays, s, i, s.lx + i, s.ly + i, s.lz + i, INFINITY, queue);
-      flush();
+      SeenShare(tracer, tables, queue, s.sunlit + i);
+      queue.count = 0;
       i += 15;
       continue;
     }
@@ -217,8 +215,10 @@ void TakeHits(const RayTracer& tracer, const RaySet& from, RayQueue& queue, RayS
 void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
                       RaySet& misses) {
   hits.count = misses.count = 0;
+  const int first = FirstSet(s.mirror, rays.count);
+  if (first >= rays.count) return;
   RayQueue queue;
-  for (int i = 0; i < rays.count; ++i) {
+  for (int i = first; i < rays.count; ++i) {
     if (i % 16 == 0 && NoneSet(s.mirror, i, rays.count)) {
       i += 15;
       continue;
@@ -235,8 +235,10 @@ void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s
                 RaySet& misses) {
   constexpr float kGlass = 2;  // SurfaceKind
   hits.count = misses.count = 0;
+  const int first = FirstSet(s.transmission, rays.count);
+  if (first >= rays.count) return;
   RayQueue queue;
-  for (int i = 0; i < rays.count; ++i) {
+  for (int i = first; i < rays.count; ++i) {
     if (i % 16 == 0 && NoneSet(s.transmission, i, rays.count)) {
       i += 15;
       continue;

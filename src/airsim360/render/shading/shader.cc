@@ -186,10 +186,18 @@ void SortByMaterial(const internal::ShadeView& view, const HitBatch& hits, uint3
 
 void internal::SplitHits(const HitBatch& hits, RaySet& surfaces, RaySet& sky, const ShadeView* sort) {
   int found = 0, missed = 0;
-  for (int k = 0; k < hits.count; ++k) {
-    const bool miss = hits.instance[k] == kMiss;
-    surfaces.slot[found] = sky.slot[missed] = static_cast<uint32_t>(k);
-    found += miss ? 0 : 1, missed += miss ? 1 : 0;
+  for (int k = 0; k < hits.count; ++k) missed += hits.instance[k] == kMiss ? 1 : 0;
+  if (missed == 0 || missed == hits.count) {
+    uint32_t* slot = missed == 0 ? surfaces.slot : sky.slot;
+    for (int k = 0; k < hits.count; ++k) slot[k] = static_cast<uint32_t>(k);
+    found = hits.count - missed;
+  } else {
+    missed = 0;
+    for (int k = 0; k < hits.count; ++k) {
+      const bool miss = hits.instance[k] == kMiss;
+      surfaces.slot[found] = sky.slot[missed] = static_cast<uint32_t>(k);
+      found += miss ? 0 : 1, missed += miss ? 1 : 0;
+    }
   }
   surfaces.count = found, sky.count = missed;
   if (sort != nullptr) SortByMaterial(*sort, hits, surfaces.slot, found);

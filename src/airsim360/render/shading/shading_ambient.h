@@ -10,12 +10,26 @@ namespace airsim360::internal::AIRSIM360_ISA {
 
 KERNEL ufloat3 Uniform(const float* p) { return {p[0], p[1], p[2]}; }
 
-/// Bilinear look-up of a sky table; `full_sphere` as in SkyTable.
-static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& table, real3 d,
-                                                         bool full_sphere) {
+/// asin(z) for |z| <= 1 within 7e-7 (least-error quintic of what is left of it over the square root of 1 - |z|).
+KERNEL real Elevation(real z) {
+  const real a = rabs(z), a2 = a * a;
+  const real p = (1.57079569f - a * 0.214542817f) + a2 * (0.0881710532f - a * 0.0459272275f) +
+                 (a2 * a2) * (0.0206200601f - a * 0.00491117374f);
+  const real e = 1.57079633f - rroot(1.0f - a) * p;
+  return sel(z < 0.0f, 0.0f - e, e);
+}
+
+/// Where directions lie in a sky table.
+struct SkyPlace {
+  real fx, fy;                        ///< between the texels
+  alignas(64) int32_t index[kLanes];  ///< first float of the lower left one
+};
+
+/// `full_sphere` as in SkyTable.
+KERNEL SkyPlace FindSky(const SkyTableView& table, real3 d, bool full_sphere) {
   real column = atan2_approx(d.y, d.x) * (table.width / (2.0f * SHADE_PI)) - 0.5f;
   column = sel(column < 0.0f, column + table.width, column);
-  real e = asin_approx(rmin(rmax(d.z, real(-1.0f)), real(1.0f))) * (2.0f / SHADE_PI);
+  real e = Elevation(rmin(rmax(d.z, real(-1.0f)), real(1.0f))) * (2.0f / SHADE_PI);
   real t = 0.5f + 0.5f * e;
   if (!full_sphere) {
     // The inverse of SkyTable::ElevationOfRow with kSkyRowSlope = 0.6.
@@ -26,17 +40,29 @@ static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& tab
   // Written so that a direction that is not a number still finds a texel.
   const real x = rmin(real(table.width - 1.0f), rmax(real(0.0f), rfloor(column)));
   const real y = rmin(real(table.height - 2.0f), rmax(real(0.0f), rfloor(row)));
-  alignas(64) int32_t index[kLanes];
-  ((to_int(y) * table.stride + to_int(x)) * 4).copy_to(index, stdx::vector_aligned);
-  KeepInMemory(index);
-  const real fx = column - x, fy = row - y;
+  SkyPlace place{column - x, row - y, {}};
+  ((to_int(y) * table.stride + to_int(x)) * 4).copy_to(place.index, stdx::vector_aligned);
+  return place;
+}
+
+/// Bilinear.
+KERNEL real3 TakeSky(const SkyTableView& table, const SkyPlace& place) {
   const auto texel = [&](int32_t offset) __attribute__((always_inline)) {
-    return Rgb(
-        GatherQuads([&](int i) __attribute__((always_inline)) { return table.texels + index[i] + offset; }));
+    return Rgb(GatherQuads(
+        [&](int i) __attribute__((always_inline)) { return table.texels + place.index[i] + offset; }));
   };
   const int32_t below = table.stride * 4;
-  const real3 lower = lerp3(texel(0), texel(4), fx), upper = lerp3(texel(below), texel(below + 4), fx);
-  return lerp3(lower, upper, fy);
+  const real3 lower = lerp3(texel(0), texel(4), place.fx),
+              upper = lerp3(texel(below), texel(below + 4), place.fx);
+  return lerp3(lower, upper, place.fy);
+}
+
+/// Both at once.
+static __attribute__((noinline, unused)) real3 SampleSky(const SkyTableView& table, real3 d,
+                                                         bool full_sphere) {
+  SkyPlace place = FindSky(table, d, full_sphere);
+  KeepInMemory(place.index);
+  return TakeSky(table, place);
 }
 
 /// Share of the sun's light that clouds leave at p; CloudShadowMap::At for lanes.

@@ -100,6 +100,22 @@ SHARED BsdfSide bsdf_side(Bsdf b, real mu) {
   return s;
 }
 
+// What lies under the layers: the part of a BSDF that the base colour decides where nothing is metallic.
+SHARED Bsdf bsdf_bodies(Bsdf b, real3 base, real metallic, real transmission) {
+  real zero = real(0.0f);
+  mask_t leaf = (b.kind > 0.5f) && (b.kind < 1.5f);
+  mask_t glass = (b.kind > 1.5f) && (b.kind < 2.5f);
+  // Longer ways through a leaf leave less blue: chlorophyll absorbs least of the green and yellow.
+  real3 inside = base * (1.0f - metallic);
+  real t = sel(leaf, transmission, zero);
+  b.through = make3(rmin(inside.x * 1.10f * t, 1.0f - inside.x), rmin(inside.y * 1.15f * t, 1.0f - inside.y),
+                    rmin(inside.z * 0.55f * t, 1.0f - inside.z));
+  real clear = sel(glass, transmission, zero);
+  b.straight = inside * clear;
+  b.body = inside * (1.0f - clear);
+  return b;
+}
+
 // The BSDF of a surface; all colours linear in [0, 1]. Where foliage would give back more than it gets, less
 // goes through. `transmission`: foliage, share of the base colour that passes; glass, share of the body that
 // is clear.
@@ -150,15 +166,7 @@ SHARED Bsdf bsdf_make(real kind, real3 base, real metallic, real roughness, real
                        1.0f / ((1.0f - skin.y) * film + both * (1.0f - b.f0.y) + 1e-6f),
                        1.0f / ((1.0f - skin.z) * film + both * (1.0f - b.f0.z) + 1e-6f));
 
-  // Longer ways through a leaf leave less blue: chlorophyll absorbs least of the green and yellow.
-  real3 inside = base * (1.0f - metallic);
-  real t = sel(leaf, transmission, zero);
-  b.through = make3(rmin(inside.x * 1.10f * t, 1.0f - inside.x), rmin(inside.y * 1.15f * t, 1.0f - inside.y),
-                    rmin(inside.z * 0.55f * t, 1.0f - inside.z));
-  real clear = sel(glass, transmission, zero);
-  b.straight = inside * clear;
-  b.body = inside * (1.0f - clear);
-  return b;
+  return bsdf_bodies(b, base, metallic, transmission);
 }
 
 // Lobes no narrower than this alpha, for a source of light taken as a point that is none.

@@ -10,6 +10,10 @@
 /// reflections.
 AIRSIM360_DECLARE_KERNEL(void PrepareSurfaces(const ShadeView& view, const RaySet& rays,
                                               SurfaceSet& surfaces))
+/// Rays of directions (x, y, z)[16] from the surfaces `first` to `first` + 15, lifted off them as by RayOffset:
+/// fills origin and direction.
+AIRSIM360_DECLARE_KERNEL(void LiftRays(const RaySet& rays, const SurfaceSet& surfaces, int first,
+                                       const float* x, const float* y, const float* z, RayHit16& out))
 /// Radiance towards the viewer: sun where seen, ambient light of the probes, reflections, haze of the way.
 AIRSIM360_DECLARE_KERNEL(void LightSurfaces(const ShadeView& view, const RaySet& rays,
                                             const SurfaceSet& surfaces, LightSet& light))

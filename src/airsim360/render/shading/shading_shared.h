@@ -110,8 +110,8 @@ SHARED real asin_approx(real x) { return atan2_approx(x, rroot(rmax(1.0f - x * x
 // ---- colour
 // -----------------------------------------------------------------------------------------------------
 
-// The inverse of the sRGB transfer function (IEC 61966-2-1) with a quartic fit above the toe, within 1.2 per cent of the curve: for texels, before
-// filtering.
+// The inverse of the sRGB transfer function (IEC 61966-2-1) with a quartic fit above the toe, within 1.2
+// per cent of the curve: for texels, before filtering.
 SHARED real srgb_decode_approx(real s) {
   real p = 0.00109740f + s * (0.02750550f + s * (0.56390260f + s * (0.52268787f - s * 0.11601764f)));
   return sel(s < 0.04045f, s * 0.0773993808f, p);

@@ -216,4 +216,23 @@ void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surf
   for (int i = 0; i < rays.count; i += kLanes) PrepareVector(view, rays, i, sun, f, surfaces);
 }
 
+void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
+              const float* z, RayHit16& out) {
+  // The first surface may be any.
+  const auto three = [](const float* a, const float* b, const float* c) __attribute__((always_inline)) {
+    return real3{real(a, stdx::element_aligned), real(b, stdx::element_aligned),
+                 real(c, stdx::element_aligned)};
+  };
+  for (int k = 0; k < 16; k += kLanes) {
+    const int i = first + k;
+    const real3 d = three(x + k, y + k, z + k), p = three(s.px + i, s.py + i, s.pz + i),
+                g = three(s.gx + i, s.gy + i, s.gz + i);
+    const real distance(rays.distance + i, stdx::element_aligned);
+    const real lift = 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + distance);
+    const real offset = sel(dot3(g, d) < 0.0f, 0.0f - lift, lift);
+    store3(out.origin_x + k, out.origin_y + k, out.origin_z + k, p + g * offset);
+    store3(out.direction_x + k, out.direction_y + k, out.direction_z + k, d);
+  }
+}
+
 }  // namespace airsim360::internal::AIRSIM360_ISA
