@@ -72,11 +72,13 @@ AIRSIM360_INLINE void FindSlots(const LabelView& view, const RayHit16& rays, con
   int lane = 0;
   while (out.hit[lane] == 0) ++lane;
   const uint32_t geometry = rays.geometry[lane], instance = rays.instance[lane];
+  Words16 geometries, instances, hits;
+  std::memcpy(&geometries, rays.geometry, sizeof geometries);
+  std::memcpy(&instances, rays.instance, sizeof instances);
+  std::memcpy(&hits, out.hit, sizeof hits);
+  const Words16 other = ((geometries ^ geometry) | (instances ^ instance)) & hits;
   uint32_t differs = 0;
-  for (int i = 0; i < 16; ++i) {
-    differs |=
-        ((rays.geometry[i] ^ geometry) | (rays.instance[i] ^ instance)) & static_cast<uint32_t>(out.hit[i]);
-  }
+  for (int i = 0; i < 16; ++i) differs |= other[i];
   out.first = instance == kMiss ? view.first_slot[geometry] : view.first_slot[instance] + geometry;
   if (differs == 0) return;
   out.uniform = false;
@@ -101,7 +103,11 @@ AIRSIM360_INLINE void ResolveEntities(const LabelView& view, const RayHit16& ray
     alignas(64) uint32_t id[16], primitive[16];
     for (int i = 0; i < 16; ++i)
       primitive[i] = rays.primitive[i] & mask & static_cast<uint32_t>(slots.hit[i]);
-    for (int i = 0; i < 16; ++i) id[i] = own[primitive[i]];
+    if (mask == 0) {
+      for (int i = 0; i < 16; ++i) id[i] = own[0];
+    } else {
+      for (int i = 0; i < 16; ++i) id[i] = own[primitive[i]];
+    }
     for (int i = 0; i < 16; ++i) {
       const uint32_t mine = id[i] != 0 ? id[i] : shared, none = valid[i] != 0 ? sky : 0;
       entity[i] = slots.hit[i] != 0 ? mine : none;
@@ -292,6 +298,14 @@ void AppendHits(const LabelView& view, const RayHit16& rays, const int* valid, i
   std::memcpy(batch.v + first, rays.v, 64);
   PacketSlots slots;
   FindSlots(view, rays, valid, slots);
+  if (slots.uniform && view.slots[slots.first].triangle_base == kMiss) {
+    const uint32_t instance = view.slots[slots.first].instance;
+    for (int i = 0; i < 16; ++i) {
+      batch.instance[first + i] = slots.hit[i] != 0 ? instance : kMiss;
+      batch.triangle[first + i] = rays.primitive[i] & static_cast<uint32_t>(slots.hit[i]);
+    }
+    return;
+  }
   for (int i = 0; i < 16; ++i) {
     const bool hit = slots.hit[i] != 0;
     const SlotLabels& labels = view.slots[slots.uniform ? slots.first : slots.slot[i]];
