@@ -12,6 +12,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/trace/dynamic_scene.h"
 #include "airsim360/trace/embree_scene.h"
+#include "airsim360/trace/packet_kernel.h"
 
 namespace airsim360 {
 namespace {
@@ -55,25 +56,13 @@ Vec3f NormalToWorld(const Mat3f& A, Vec3f n) {
 // Embree aborts the process on an active ray that is not finite: such lanes are taken out. Returns `valid`,
 // or `fixed`.
 const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
-  // One sum over everything tells of all lanes at once: it is rarely not a number or too large.
-  float sums[16];
-  for (int i = 0; i < 16; ++i) {
-    sums[i] = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
-              rays.direction_y[i] + rays.direction_z[i];
-  }
-  for (int i = 0; i < 8; ++i) sums[i] += sums[i + 8];
-  for (int i = 0; i < 4; ++i) sums[i] += sums[i + 4];
-  const float all = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  if (all - all == 0) return valid;
-  int bad[16], any = 0;
+  static const auto all_finite = AIRSIM360_SELECT_KERNEL(AllFinite);
+  if (all_finite(valid, rays)) return valid;
   for (int i = 0; i < 16; ++i) {
     const float sum = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
                       rays.direction_y[i] + rays.direction_z[i];
-    bad[i] = sum - sum == 0 ? 0 : -1;
-    any |= bad[i] & valid[i];
+    fixed[i] = sum - sum == 0 ? valid[i] : 0;
   }
-  if (any == 0) return valid;
-  for (int i = 0; i < 16; ++i) fixed[i] = valid[i] & ~bad[i];
   return fixed;
 }
 
@@ -173,9 +162,8 @@ void RayTracer::IntersectClearPanes16(const int* valid, RayHit16& rays) const {
 }
 
 void RayTracer::IntersectIn(bool panes, const int* valid, RayHit16& rays, bool coherent) const {
-  // valid is -1 in active lanes, so that "or" marks them as missed and leaves the others alone.
-  for (int i = 0; i < 16; ++i) rays.geometry[i] |= static_cast<uint32_t>(valid[i]);
-  for (int i = 0; i < 16; ++i) rays.instance[i] |= static_cast<uint32_t>(valid[i]);
+  static const auto mark_missed = AIRSIM360_SELECT_KERNEL(MarkMissed);
+  mark_missed(valid, rays);
   alignas(64) int fixed[16];
   RTCIntersectContext context = Context(coherent);
   const int* lanes = FiniteLanes(valid, rays, fixed);
@@ -205,8 +193,8 @@ void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, boo
   const EmptyInactiveLanes others(lanes, rays);
   auto* packet = reinterpret_cast<RTCRay16*>(&rays);
   uint32_t kinds[16];
-  std::memcpy(kinds, rays.mask, sizeof kinds);
   if (impl_->dynamic != nullptr) {
+    std::memcpy(kinds, rays.mask, sizeof kinds);
     for (uint32_t& mask : rays.mask) mask = impl_->StaticMask(mask);
   }
   if (impl_->traces_static) rtcOccluded16(lanes, impl_->embree->top(), &context, packet);

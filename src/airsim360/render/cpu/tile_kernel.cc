@@ -8,6 +8,11 @@ namespace {
 
 #define AIRSIM360_INLINE inline __attribute__((always_inline))
 
+typedef uint32_t Words4 __attribute__((vector_size(16)));
+typedef uint32_t Words16 __attribute__((vector_size(64)));
+typedef float Floats16 __attribute__((vector_size(64)));
+typedef uint16_t Shorts16 __attribute__((vector_size(32)));
+
 // 4x4 or 16x1 directions, column by column in the inner loop.
 template <int kColumns>
 AIRSIM360_INLINE void FillSeparable(const RayField& f, int column, int row, RayHit16& rays) {
@@ -67,11 +72,13 @@ AIRSIM360_INLINE void FindSlots(const LabelView& view, const RayHit16& rays, con
   int lane = 0;
   while (out.hit[lane] == 0) ++lane;
   const uint32_t geometry = rays.geometry[lane], instance = rays.instance[lane];
+  Words16 geometries, instances, hits;
+  std::memcpy(&geometries, rays.geometry, sizeof geometries);
+  std::memcpy(&instances, rays.instance, sizeof instances);
+  std::memcpy(&hits, out.hit, sizeof hits);
+  const Words16 other = ((geometries ^ geometry) | (instances ^ instance)) & hits;
   uint32_t differs = 0;
-  for (int i = 0; i < 16; ++i) {
-    differs |=
-        ((rays.geometry[i] ^ geometry) | (rays.instance[i] ^ instance)) & static_cast<uint32_t>(out.hit[i]);
-  }
+  for (int i = 0; i < 16; ++i) differs |= other[i];
   out.first = instance == kMiss ? view.first_slot[geometry] : view.first_slot[instance] + geometry;
   if (differs == 0) return;
   out.uniform = false;
@@ -96,7 +103,11 @@ AIRSIM360_INLINE void ResolveEntities(const LabelView& view, const RayHit16& ray
     alignas(64) uint32_t id[16], primitive[16];
     for (int i = 0; i < 16; ++i)
       primitive[i] = rays.primitive[i] & mask & static_cast<uint32_t>(slots.hit[i]);
-    for (int i = 0; i < 16; ++i) id[i] = own[primitive[i]];
+    if (mask == 0) {
+      for (int i = 0; i < 16; ++i) id[i] = own[0];
+    } else {
+      for (int i = 0; i < 16; ++i) id[i] = own[primitive[i]];
+    }
     for (int i = 0; i < 16; ++i) {
       const uint32_t mine = id[i] != 0 ? id[i] : shared, none = valid[i] != 0 ? sky : 0;
       entity[i] = slots.hit[i] != 0 ? mine : none;
@@ -146,16 +157,21 @@ AIRSIM360_INLINE void ResolveNormals(const LabelView& view, const RayHit16& rays
   }
 }
 
-// Copies 16 pixels of tile row r, first tile column to last, to `out`.
-template <class Pixel>
-AIRSIM360_INLINE void GatherRow(const Pixel* tile, PacketShape shape, int r, Pixel* out) {
+// The 16 numbers of tile row r, first tile column to last. They are put together in registers: a load right
+// behind smaller stores to the same place would wait for these.
+template <class Number, class Sixteen>
+AIRSIM360_INLINE void GatherRow(const Number* tile, PacketShape shape, int r, Sixteen& row) {
   if (shape == PacketShape::kRow) {
-    std::memcpy(out, tile + r * 16, 16 * sizeof(Pixel));
+    std::memcpy(&row, tile + r * 16, sizeof row);
     return;
   }
-  for (int b = 0; b < 4; ++b) {
-    std::memcpy(out + 4 * b, tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, 4 * sizeof(Pixel));
-  }
+  Words4 part[4];
+  for (int b = 0; b < 4; ++b)
+    std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
+  const auto low = __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  const auto high = __builtin_shufflevector(part[2], part[3], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Words16 all = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  std::memcpy(&row, &all, sizeof row);
 }
 
 // Four points of three coordinates each.
@@ -186,10 +202,12 @@ AIRSIM360_INLINE Runs RowRuns(const TileTarget& t, int r) {
   return {row + x, before, row, columns - before};
 }
 
-template <class Pixel>
-AIRSIM360_INLINE void StoreRow(const Pixel* pixels, const Runs& runs, Pixel* image) {
+// `pixels`: an array or vector of 16.
+template <class Row, class Pixel>
+AIRSIM360_INLINE void StoreRow(const Row& pixels, const Runs& runs, Pixel* image) {
+  static_assert(sizeof pixels == kTileSize * sizeof(Pixel));
   if (runs.count == kTileSize) {
-    std::memcpy(image + runs.first, pixels, kTileSize * sizeof(Pixel));
+    std::memcpy(image + runs.first, &pixels, sizeof pixels);
     return;
   }
   for (int i = 0; i < runs.count; ++i) image[runs.first + i] = pixels[i];
@@ -280,6 +298,14 @@ void AppendHits(const LabelView& view, const RayHit16& rays, const int* valid, i
   std::memcpy(batch.v + first, rays.v, 64);
   PacketSlots slots;
   FindSlots(view, rays, valid, slots);
+  if (slots.uniform && view.slots[slots.first].triangle_base == kMiss) {
+    const uint32_t instance = view.slots[slots.first].instance;
+    for (int i = 0; i < 16; ++i) {
+      batch.instance[first + i] = slots.hit[i] != 0 ? instance : kMiss;
+      batch.triangle[first + i] = rays.primitive[i] & static_cast<uint32_t>(slots.hit[i]);
+    }
+    return;
+  }
   for (int i = 0; i < 16; ++i) {
     const bool hit = slots.hit[i] != 0;
     const SlotLabels& labels = view.slots[slots.uniform ? slots.first : slots.slot[i]];
@@ -308,50 +334,56 @@ void PrefetchTile(const TileTarget& t) {
 void StoreLabels(const LabelTile& tile, const TileTarget& t) {
   for (int r = 0; r < Rows(t); ++r) {
     const Runs runs = RowRuns(t, r);
-    alignas(64) float values[16];
-    alignas(64) uint32_t ids[16];
     if (t.range != nullptr) {
+      Floats16 values;
       GatherRow(tile.range, t.shape, r, values);
       StoreRow(values, runs, t.range);
     }
+    Words16 ids;
     if (t.entity != nullptr) {
       GatherRow(tile.entity, t.shape, r, ids);
       StoreRow(ids, runs, t.entity);
     }
     if (t.category != nullptr) {
-      alignas(64) uint16_t narrow[16];
       GatherRow(tile.category, t.shape, r, ids);
-      for (int i = 0; i < 16; ++i) narrow[i] = static_cast<uint16_t>(ids[i]);
+      const Shorts16 narrow = __builtin_convertvector(ids, Shorts16);
       StoreRow(narrow, runs, t.category);
     }
     if (t.normal != nullptr) {
-      alignas(64) float xyz[48];
-      for (int b = 0; b < 4; ++b) {
-        const int first =
-            t.shape == PacketShape::kRow ? r * 16 + b * 4 : ((r >> 2) * 4 + b) * 16 + (r & 3) * 4;
-        Interleave(tile.normal_x + first, tile.normal_y + first, tile.normal_z + first, xyz + 12 * b);
-      }
       struct Packed {
         float v[3];
       };
-      StoreRow(reinterpret_cast<const Packed*>(xyz), runs, reinterpret_cast<Packed*>(t.normal));
+      alignas(64) Packed points[kTileSize];
+      for (int b = 0; b < 4; ++b) {
+        const int first =
+            t.shape == PacketShape::kRow ? r * 16 + b * 4 : ((r >> 2) * 4 + b) * 16 + (r & 3) * 4;
+        Interleave(tile.normal_x + first, tile.normal_y + first, tile.normal_z + first, points[4 * b].v);
+      }
+      StoreRow(points, runs, reinterpret_cast<Packed*>(t.normal));
     }
   }
 }
 
 void StoreColors(const Rgb8* colors, const TileTarget& t, Rgb8* image, uint8_t* luma) {
-  struct Packed {
-    uint8_t v[3];
-  };
+  const auto* from = reinterpret_cast<const uint8_t*>(colors);
+  auto* to = reinterpret_cast<uint8_t*>(image);
   for (int r = 0; r < Rows(t); ++r) {
     const Runs runs = RowRuns(t, r);
-    Packed row[16];
-    uint8_t gray[16];
-    GatherRow(reinterpret_cast<const Packed*>(colors), t.shape, r, row);
-    StoreRow(row, runs, reinterpret_cast<Packed*>(image));
-    if (luma == nullptr) continue;
-    for (int i = 0; i < 16; ++i) gray[i] = Luma(row[i].v[0], row[i].v[1], row[i].v[2]);
-    StoreRow(gray, runs, luma);
+    const bool whole = runs.count == kTileSize;
+    alignas(64) uint8_t gray[16];
+    // Four pixels lie side by side in either shape of packet.
+    for (int b = 0; b < 4; ++b) {
+      const uint8_t* four = from + 3 * PacketIndex(t.shape, 4 * b, r);
+      if (whole) std::memcpy(to + 3 * (runs.first + 4 * b), four, 12);
+      for (int i = 0; i < 4; ++i) {
+        const int x = 4 * b + i;
+        const uint8_t* c = four + 3 * i;
+        if (!whole && x < runs.count + runs.rest)
+          std::memcpy(to + 3 * (x < runs.count ? runs.first + x : runs.second + x - runs.count), c, 3);
+        if (luma != nullptr) gray[x] = Luma(c[0], c[1], c[2]);
+      }
+    }
+    if (luma != nullptr) StoreRow(gray, runs, luma);
   }
 }
 
@@ -359,7 +391,11 @@ void CombineRow(const LightTerms& terms, const CombinedRow& row) {
   alignas(64) float k[9][16], shown[16], rgb[3][16];
   const float* planes[9] = {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g,
                             terms.sun_b,     terms.rest_r,    terms.rest_g,    terms.rest_b};
-  for (int i = 0; i < 9; ++i) GatherRow(planes[i], row.shape, row.tile_row, k[i]);
+  for (int i = 0; i < 9; ++i) {
+    Floats16 plane;
+    GatherRow(planes[i], row.shape, row.tile_row, plane);
+    std::memcpy(k[i], &plane, sizeof plane);
+  }
   alignas(64) float light[3][16] = {}, sun[16] = {};
   for (int i = 0; i < row.count; ++i) {
     light[0][i] = row.light[i].r, light[1][i] = row.light[i].g, light[2][i] = row.light[i].b;

@@ -1,6 +1,7 @@
 #include "airsim360/render/shading/secondary_rays.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "airsim360/render/lights/clear_panes.h"
@@ -42,11 +43,14 @@ void Pad(RaySet& set) {
 
 namespace {
 
-bool AllSet(const float* flags) {
-  int unset = 0;
-  for (int k = 0; k < 16; ++k) unset |= flags[k] == 0 ? 1 : 0;
-  return unset == 0;
+// Calls `each` for the lanes of `bits`.
+template <class Each>
+void ForLanes(uint32_t bits, Each each) {
+  for (; bits != 0; bits &= bits - 1) each(std::countr_zero(bits));
 }
+
+// The bits of those of the sixteen surfaces from `first` on that exist.
+uint32_t Existing(int first, int count) { return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1; }
 
 // Whether the sixteen (or the rest, of `count`) from `first` on are all 0.
 bool NoneSet(const float* flags, int first, int count) {
@@ -82,69 +86,65 @@ void AddSixteen(const RaySet& rays, const SurfaceSet& s, int first, const float*
 }  // namespace
 
 void TraceSun(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays, SurfaceSet& s) {
-  RayQueue queue(kMaskSolid);
+  static const auto ask = AIRSIM360_SELECT_KERNEL(AskSun);
+  RayQueue queue(kMaskSolid), whole(kMaskSolid);
   const auto flush = [&] {
     float share[16];
     SeenShare(tracer, tables, queue, share);
     for (int i = 0; i < queue.count; ++i) s.sunlit[queue.lane[i]] = share[i];
     queue.count = 0;
   };
-  for (int i = 0; i < rays.count; ++i) {
-    // Whole vectors of surfaces that all ask make a packet at once.
-    if (queue.count == 0 && i + 16 <= rays.count && AllSet(s.sunlit + i)) {
-      AddSixteen(rays, s, i, s.lx + i, s.ly + i, s.lz + i, INFINITY, queue);
-      SeenShare(tracer, tables, queue, s.sunlit + i);
-      queue.count = 0;
-      i += 15;
+  for (int first = 0; first < rays.count; first += 16) {
+    const uint32_t asked = ask(s, first) & Existing(first, rays.count);
+    if (asked == 0xffffu) {
+      // Sixteen surfaces that all ask make a packet at once.
+      AddSixteen(rays, s, first, s.lx + first, s.ly + first, s.lz + first, INFINITY, whole);
+      SeenShare(tracer, tables, whole, s.sunlit + first);
       continue;
     }
-    if (s.sunlit[i] == 0) continue;
-    const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, l{s.lx[i], s.ly[i], s.lz[i]};
-    const float side = Dot(g, l) < 0 ? -1.0f : 1.0f;
-    queue.Add(p + g * (side * RayOffset(p, rays.distance[i])), l, i);
-    if (queue.count == 16) flush();
+    ForLanes(asked, [&](int lane) {
+      const int i = first + lane;
+      const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]}, l{s.lx[i], s.ly[i], s.lz[i]};
+      const float side = Dot(g, l) < 0 ? -1.0f : 1.0f;
+      queue.Add(p + g * (side * RayOffset(p, rays.distance[i])), l, i);
+      if (queue.count == 16) flush();
+    });
   }
   if (queue.count > 0) flush();
 }
 
 void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s) {
   constexpr float kReach = 1.2f, kLeast = 0.25f, kFarthest = 40.0f;
-  RayQueue queue;
-  const auto flush = [&] {
-    queue.Close();
-    tracer.Intersect16(queue.valid, queue.rays, true);
-    for (int i = 0; i < queue.count; ++i) {
-      if (queue.rays.geometry[i] == kMiss) continue;
-      const float t = std::min(1.0f, queue.rays.t_far[i] / kReach);
-      s.contact[queue.lane[i]] = kLeast + (1 - kLeast) * t * t * (3 - 2 * t);
+  static const auto ask = AIRSIM360_SELECT_KERNEL(AskContact);
+  RayQueue queue, whole;
+  const auto flush = [&](RayQueue& full) {
+    full.Close();
+    tracer.Intersect16(full.valid, full.rays, true);
+    for (int i = 0; i < full.count; ++i) {
+      if (full.rays.geometry[i] == kMiss) continue;
+      const float t = std::min(1.0f, full.rays.t_far[i] / kReach);
+      s.contact[full.lane[i]] = kLeast + (1 - kLeast) * t * t * (3 - 2 * t);
     }
-    queue.count = 0;
+    full.count = 0;
   };
   constexpr Vec3f kUp{0.0123f, 0.0071f, 1};
   float up[3][16];
   for (int k = 0; k < 16; ++k) up[0][k] = kUp.x, up[1][k] = kUp.y, up[2][k] = kUp.z;
-  for (int i = 0; i < rays.count; ++i) {
-    if (i % 16 == 0 && i + 16 <= rays.count) {
-      // Whole vectors of ground, or of walls, at once.
-      int asked = 0;
-      for (int k = i; k < i + 16; ++k)
-        asked += (s.gz[k] >= 0.7f) & (rays.distance[k] <= kFarthest) & (s.kind[k] == 0) ? 1 : 0;
-      const bool packet = asked == 16 && queue.count == 0;
-      if (packet) {
-        AddSixteen(rays, s, i, up[0], up[1], up[2], kReach, queue);
-        flush();
-      }
-      if (packet || asked == 0) {
-        i += 15;
-        continue;
-      }
+  for (int first = 0; first < rays.count; first += 16) {
+    const uint32_t asked = ask(rays, s, first, kFarthest) & Existing(first, rays.count);
+    if (asked == 0xffffu) {
+      AddSixteen(rays, s, first, up[0], up[1], up[2], kReach, whole);
+      flush(whole);
+      continue;
     }
-    if (!(s.gz[i] >= 0.7f && rays.distance[i] <= kFarthest && s.kind[i] == 0)) continue;
-    const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
-    queue.Add(p + g * RayOffset(p, rays.distance[i]), kUp, i, kReach);
-    if (queue.count == 16) flush();
+    ForLanes(asked, [&](int lane) {
+      const int i = first + lane;
+      const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
+      queue.Add(p + g * RayOffset(p, rays.distance[i]), kUp, i, kReach);
+      if (queue.count == 16) flush(queue);
+    });
   }
-  if (queue.count > 0) flush();
+  if (queue.count > 0) flush(queue);
 }
 
 void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,

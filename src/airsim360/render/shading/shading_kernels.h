@@ -14,6 +14,11 @@ AIRSIM360_DECLARE_KERNEL(void PrepareSurfaces(const ShadeView& view, const RaySe
 /// fills origin and direction.
 AIRSIM360_DECLARE_KERNEL(void LiftRays(const RaySet& rays, const SurfaceSet& surfaces, int first,
                                        const float* x, const float* y, const float* z, RayHit16& out))
+/// Which of the surfaces `first` to `first` + 15 ask for a ray to the sun, and which for one straight up (level
+/// ones, at most `farthest` away), as bits.
+AIRSIM360_DECLARE_KERNEL(uint32_t AskSun(const SurfaceSet& surfaces, int first))
+AIRSIM360_DECLARE_KERNEL(uint32_t AskContact(const RaySet& rays, const SurfaceSet& surfaces, int first,
+                                             float farthest))
 /// Radiance towards the viewer: sun where seen, ambient light of the probes, reflections, haze of the way.
 AIRSIM360_DECLARE_KERNEL(void LightSurfaces(const ShadeView& view, const RaySet& rays,
                                             const SurfaceSet& surfaces, LightSet& light))

@@ -218,7 +218,6 @@ void PrepareSurfaces(const ShadeView& view, const RaySet& rays, SurfaceSet& surf
 
 void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
               const float* z, RayHit16& out) {
-  // The first surface may be any.
   const auto three = [](const float* a, const float* b, const float* c) __attribute__((always_inline)) {
     return real3{real(a, stdx::element_aligned), real(b, stdx::element_aligned),
                  real(c, stdx::element_aligned)};
@@ -233,6 +232,21 @@ void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x
     store3(out.origin_x + k, out.origin_y + k, out.origin_z + k, p + g * offset);
     store3(out.direction_x + k, out.direction_y + k, out.direction_z + k, d);
   }
+}
+
+uint32_t AskSun(const SurfaceSet& s, int first) {
+  uint32_t bits = 0;
+  for (int k = 0; k < 16; ++k) bits |= s.sunlit[first + k] != 0 ? 1u << k : 0;
+  return bits;
+}
+
+uint32_t AskContact(const RaySet& rays, const SurfaceSet& s, int first, float farthest) {
+  uint32_t bits = 0;
+  for (int k = 0; k < 16; ++k) {
+    const int i = first + k;
+    bits |= (s.gz[i] >= 0.7f) & (rays.distance[i] <= farthest) & (s.kind[i] == 0) ? 1u << k : 0;
+  }
+  return bits;
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA
