@@ -108,6 +108,14 @@ KERNEL real3 ToWorld(const Fetched& f, real3 a) {
   return normalize3(make3(row(0), row(3), row(6)));
 }
 
+/// Whether the normals of the corners are others than the facet's. Flat triangles have the facet's normal to the bit,
+/// whatever lies in the lanes beside them.
+KERNEL mask_t IsSmooth(const Fetched& f) {
+  const auto differs = [&](int corner) __attribute__((always_inline)) {
+    return ireal(f.normal[corner], stdx::vector_aligned) != ireal(f.geometric, stdx::vector_aligned);
+  };
+  return stdx::__proposed::static_simd_cast<mask_t>(differs(0) || differs(1) || differs(2));
+}
 KERNEL bool AnyBit(const int32_t* lanes) { return stdx::any_of(ireal(lanes, stdx::vector_aligned) != 0); }
 KERNEL bool AnyIs(const float* lanes, float value) { return stdx::any_of(load(lanes) == value); }
 
@@ -181,11 +189,7 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
   for (int k = 0; k < 3; ++k) store(f.color[k], load(f.base[k]) * load(f.tint[k]));
   store3(f.facet[0], f.facet[1], f.facet[2], ToWorld(f, UnpackDirection(f.geometric)));
 
-  const auto differs = [&](int corner) __attribute__((always_inline)) {
-    return stdx::any_of(ireal(f.normal[corner], stdx::vector_aligned) !=
-                        ireal(f.geometric, stdx::vector_aligned));
-  };
-  f.any_smooth = differs(0) || differs(1) || differs(2);
+  f.any_smooth = stdx::any_of(IsSmooth(f));
   f.any_window = stdx::any_of(Bits(f.window) != 0u);
   if (f.any_window) FetchPanes(view, f);
 }

@@ -80,10 +80,12 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   const real3 p = load3(rays.ox + i, rays.oy + i, rays.oz + i) + d * load(rays.distance + i);
   const real u = load(rays.u + i), v = load(rays.v + i), w = 1.0f - u - v;
   const real3 g = load3(f.facet[0], f.facet[1], f.facet[2]);
-  const real3 smooth = f.any_smooth
-                           ? ToWorld(f, UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
-                                            UnpackDirection(f.normal[2]) * v)
-                           : g;
+  real3 smooth = g;
+  if (f.any_smooth) {
+    const real3 bent = UnpackDirection(f.normal[0]) * w + UnpackDirection(f.normal[1]) * u +
+                       UnpackDirection(f.normal[2]) * v;
+    smooth = sel3(IsSmooth(f), ToWorld(f, bent), g);
+  }
   const real front = sel(dot3(g, d) > 0.0f, real(-1.0f), real(1.0f));
   const real3 facing = g * front;
   real3 n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * front;

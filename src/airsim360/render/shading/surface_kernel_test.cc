@@ -304,6 +304,34 @@ TEST(Tiles, MixedPatchesKeepMeanAndContrastAndDoNotRepeat) {
   EXPECT_LT(std::fabs(correlation(mixed, mean_mixed, sd_mixed)), 0.25);
 }
 
+// What lies in a vector beside a flat triangle differs between instruction sets: it must not move its normal.
+TEST(SurfaceKernel, FlatTrianglesHaveTheirFacetsNormalBesideCurvedOnes) {
+  Mesh mesh = Rectangle({-20, -20, -3}, {40, 1, 7}, {3, 40, -5});
+  const Vec3f facet = Normalized(Cross(Vec3f{40, 1, 7}, Vec3f{3, 40, -5}));
+  const Mesh beside = mesh;
+  for (const Vec3u& t : beside.triangles) mesh.triangles.push_back({t.x + 4, t.y + 4, t.z + 4});
+  mesh.positions.insert(mesh.positions.end(), beside.positions.begin(), beside.positions.end());
+  mesh.uvs.insert(mesh.uvs.end(), beside.uvs.begin(), beside.uvs.end());
+  mesh.normals = {facet, facet, facet, facet, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0.6f, 0.8f}};
+  const Sample sample(mesh, Plain(0.4f));
+  std::vector<Sample::Point> points;
+  RngStream random(5, "flat");
+  for (int i = 0; i < internal::kBatch; ++i) {
+    points.push_back({static_cast<uint32_t>(i) % 4, static_cast<float>(random.Uniform(0, 0.5)),
+                      static_cast<float>(random.Uniform(0, 0.5))});
+  }
+  const auto seen = sample.See(points, {0, 0, -1});
+  int curved = 0;
+  for (int i = 0; i < internal::kBatch; ++i) {
+    const Vec3f n{seen->nx[i], seen->ny[i], seen->nz[i]}, g{seen->gx[i], seen->gy[i], seen->gz[i]};
+    if (i % 4 < 2)
+      EXPECT_EQ(n, g) << i;
+    else
+      curved += n != g ? 1 : 0;
+  }
+  EXPECT_EQ(curved, internal::kBatch / 2);
+}
+
 // Everything at once on all instruction sets of this machine.
 TEST(SurfaceKernel, AllInstructionSetsAgreeOnRoomsWeatherAndMixedTiles) {
   using namespace internal;
