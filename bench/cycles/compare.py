@@ -235,10 +235,8 @@ def quality(ours, cycles, labels, pose, size, light, own_spp, spp, folder, deadl
     row("truth", lambda seed: (truth, 0))
     if own is not None:
         row("our reference", lambda seed: (own, 0))
-    row("high", lambda seed: mine("high", 0, seed))
-    row("high 16 rays", lambda seed: mine("high", 16, seed))
-    row("high 16 aa", lambda seed: mine("high", 0, seed, 16))
-    row("high 16 rays 16 aa", lambda seed: mine("high", 16, seed, 16))
+    for rays, edge in ((0, 4), (0, 8), (0, 16), (0, 64), (16, 16), (16, 64)):
+        row(f"high {rays or 4} rays {edge} aa", lambda seed, rays=rays, edge=edge: mine("high", rays, seed, edge))
     for n in (4, 16, 64):
         row(f"Cycles {n} spp", lambda seed, n=n: theirs(n, seed))
 
@@ -294,7 +292,7 @@ def pairs(ours, cycles, X_WC, light, steps, arguments):
                      dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
                      dict(size=size, samples=1, bounces=0, X_WC=X_WC, **light), arguments.rounds)
     if "high" in steps:
-        for n in (4, 16):
+        for n in (4, 8, 16, 64):
             paired_speed(f"high, all labels, {n} samples at edges / Cycles 16 spp, 4 bounces", ours, cycles,
                          dict(size=size, tier="high", aa_samples=n, X_WC=X_WC),
                          dict(size=size, samples=16, bounces=4, X_WC=X_WC, **light), arguments.rounds)

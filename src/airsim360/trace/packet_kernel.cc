@@ -2,12 +2,13 @@
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
-bool AllFinite(const int* valid, const RayHit16& rays) {
+bool KeepFinite(const int* valid, const RayHit16& rays, int* finite) {
   int bad = 0;
   for (int i = 0; i < 16; ++i) {
     const float sum = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
                       rays.direction_y[i] + rays.direction_z[i];
-    bad |= sum - sum == 0 ? 0 : valid[i];
+    finite[i] = sum - sum == 0 ? valid[i] : 0;
+    bad |= finite[i] ^ valid[i];
   }
   return bad == 0;
 }

@@ -4,7 +4,8 @@
 #include "airsim360/base/kernel_isa.h"
 #include "airsim360/trace/ray_tracer.h"
 
-/// Whether origins and directions of all active lanes are finite (and not so large that their sum is not).
-AIRSIM360_DECLARE_KERNEL(bool AllFinite(const int* valid, const RayHit16& rays))
+/// Takes out active lanes whose origin or direction is not finite (or so large that their sum is not): `finite` is
+/// `valid` without them. Returns whether there were none.
+AIRSIM360_DECLARE_KERNEL(bool KeepFinite(const int* valid, const RayHit16& rays, int* finite))
 /// Marks the active lanes (-1 in `valid`) as having met nothing.
 AIRSIM360_DECLARE_KERNEL(void MarkMissed(const int* valid, RayHit16& rays))

@@ -56,14 +56,8 @@ Vec3f NormalToWorld(const Mat3f& A, Vec3f n) {
 // Embree aborts the process on an active ray that is not finite: such lanes are taken out. Returns `valid`,
 // or `fixed`.
 const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
-  static const auto all_finite = AIRSIM360_SELECT_KERNEL(AllFinite);
-  if (all_finite(valid, rays)) return valid;
-  for (int i = 0; i < 16; ++i) {
-    const float sum = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
-                      rays.direction_y[i] + rays.direction_z[i];
-    fixed[i] = sum - sum == 0 ? valid[i] : 0;
-  }
-  return fixed;
+  static const auto keep_finite = AIRSIM360_SELECT_KERNEL(KeepFinite);
+  return keep_finite(valid, rays, fixed) ? valid : fixed;
 }
 
 // Below AVX-512 Embree's calls for 16 rays ignore `valid` (3.13.5 hands them to a stream filter that looks at

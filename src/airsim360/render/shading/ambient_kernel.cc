@@ -166,7 +166,7 @@ void AmbientRays(const AmbientOrigins& at, const float* side, const float* spher
     // A direction under the surface itself, where the normal is bent, is mirrored up.
     const real below = dot3(d, g);
     d = sel3(below < 0.01f, normalize3(d + g * (0.02f - 2.0f * below)), d);
-    const real lift = 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + load(at.distance + i));
+    const real lift = ray_offset(p, load(at.distance + i));
     store3(out.origin_x + i, out.origin_y + i, out.origin_z + i, p + g * lift);
     store3(out.direction_x + i, out.direction_y + i, out.direction_z + i, d);
   }

@@ -1,16 +1,12 @@
 // Collecting single rays into packets.
 #pragma once
 
-#include <cmath>
-
+#include "airsim360/render/shading/shading_scalar.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {
 
-/// How far secondary rays start from a surface: above the rounding errors of hit points.
-inline float RayOffset(Vec3f p, float distance) {
-  return 1e-3f + 4e-6f * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) + distance);
-}
+inline float RayOffset(Vec3f p, float distance) { return scalar::ray_offset(p, distance); }
 
 /// Sixteen rays collected one by one, with the place where each answer goes.
 struct RayQueue {

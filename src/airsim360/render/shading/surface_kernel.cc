@@ -229,7 +229,7 @@ void LiftRays(const RaySet& rays, const SurfaceSet& s, int first, const float* x
     const real3 d = three(x + k, y + k, z + k), p = three(s.px + i, s.py + i, s.pz + i),
                 g = three(s.gx + i, s.gy + i, s.gz + i);
     const real distance(rays.distance + i, stdx::element_aligned);
-    const real lift = 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + distance);
+    const real lift = ray_offset(p, distance);
     const real offset = sel(dot3(g, d) < 0.0f, 0.0f - lift, lift);
     store3(out.origin_x + k, out.origin_y + k, out.origin_z + k, p + g * offset);
     store3(out.direction_x + k, out.direction_y + k, out.direction_z + k, d);

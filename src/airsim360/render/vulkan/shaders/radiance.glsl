@@ -128,7 +128,7 @@ Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
     if (step != kCamera) {
       const bool of_first = step == kMirror || step == kBehind;
       const vec3 p = of_first ? s0.p : s.p, g = of_first ? s0.g : s.g;
-      const float lift = RayOffset(p, of_first ? first.distance_ : ray.distance_);
+      const float lift = ray_offset(p, of_first ? first.distance_ : ray.distance_);
       const bool back = step == kBehind || (!looks && dot(g, to) < 0.0);
       origin = p + g * (back ? -lift : lift);
       // Inside the lamp.
