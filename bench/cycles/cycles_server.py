@@ -107,13 +107,14 @@ def make_plain(material):
     tree.links.new(surface, output.inputs["Surface"])
 
 
-def set_up(threads, sun):
+def set_up(threads, sun, plain):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_auto_tile = False
-    cycles.caustics_reflective = cycles.caustics_refractive = False
+    cycles.caustics_refractive = False
+    cycles.caustics_reflective = plain  # else a surface met by a diffuse ray loses its skin
     scene.render.threads_mode, scene.render.threads = "FIXED", threads
     scene.render.use_persistent_data = True
     scene.render.resolution_percentage = 100
@@ -187,8 +188,9 @@ def main():
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(2, 1)  # Blender's own chatter
     start = time.perf_counter()
-    sun = open_world(path, mode == ["plain"])
-    set_up(int(threads), sun)
+    plain = mode == ["plain"]
+    sun = open_world(path, plain)
+    set_up(int(threads), sun, plain)
     print("CYCLES", json.dumps({"ready": True, "import_seconds": time.perf_counter() - start}), file=answers)
     sky = ""
     for line in sys.stdin:

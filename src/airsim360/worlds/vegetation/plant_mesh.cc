@@ -174,18 +174,19 @@ void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f le
   const float bend = Norm(lean);
   const Vec3f middle = base + Vec3f{0, 0, height * 0.5f} + lean * (height * 0.15f);
   const Vec3f tip = base + Vec3f{0, 0, height * (1 - 0.3f * bend)} + lean * (height * 0.6f);
-  // The shading normal looks up more than the blade does: lawns are lit from above.
-  Vec3f n = Normalized(Cross(side, tip - base));
-  if (n.z < 0) n = -n;
-  n = Normalized(n + Vec3f{0, 0, 0.6f});
+  // The shading normal looks up more than the blade does: lawns are lit from above. Corners turn around that side, which
+  // other renderers take for the front.
+  const Vec3f facing = Normalized(Cross(side, tip - base));
+  const bool upwards = facing.z >= 0;
+  const Vec3f n = Normalized((upwards ? facing : -facing) + Vec3f{0, 0, 0.6f});
   const auto [u0, u1] = CellRange(cell);
   const uint32_t a = layer.Add(base - side, n, {u0, 1});
   layer.Add(base + side, n, {u1, 1});
   layer.Add(middle + side * 0.85f, n, {u1, 0.5f});
   layer.Add(middle - side * 0.85f, n, {u0, 0.5f});
   layer.Add(tip, n, {(u0 + u1) / 2, 0});
-  layer.triangles.insert(layer.triangles.end(),
-                         {{a, a + 1, a + 2}, {a, a + 2, a + 3}, {a + 3, a + 2, a + 4}});
+  for (const Vec3u t : {Vec3u{a, a + 1, a + 2}, Vec3u{a, a + 2, a + 3}, Vec3u{a + 3, a + 2, a + 4}})
+    layer.triangles.push_back(upwards ? t : Vec3u{t.x, t.z, t.y});
 }
 
 void AddNeedle(PlantLayer& layer, Vec3f base, Vec3f tip, Vec3f side, float width, Vec3f normal, int cell) {

@@ -97,6 +97,22 @@ TEST(Noise, IsBetweenZeroAndOneAndContinuous) {
   }
 }
 
+// Renderers of exported worlds take the side that corners turn around for the one that shading normals belong to.
+TEST(AddBlade, CornersTurnAroundTheSideOfItsNormals) {
+  RngStream random(5, "blades");
+  PlantLayer layer;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3f lean{static_cast<float>(random.Uniform(-0.8, 0.8)), static_cast<float>(random.Uniform(-0.8, 0.8)), 0};
+    AddBlade(layer, {0, 0, 0}, 0.3f, 0.02f, lean, static_cast<float>(random.Uniform(0, 6.28)), i % 4);
+  }
+  ASSERT_EQ(layer.triangles.size(), 600u);
+  for (const Vec3u t : layer.triangles) {
+    const Vec3f a = layer.positions[t.x], facet = Cross(layer.positions[t.y] - a, layer.positions[t.z] - a);
+    EXPECT_GT(layer.shading_normals[t.x].z, 0);
+    EXPECT_GT(Dot(facet, layer.shading_normals[t.x]), 0);
+  }
+}
+
 TEST(AddLeaf, LiesAlongItsDirectionWithItsFaceUp) {
   PlantLayer layer;
   AddLeaf(layer, {1, 2, 3}, {1, 0, 0}, {0, 0, 1}, {0.2f, 0.1f, 0, 0}, 0);
