@@ -24,7 +24,6 @@ void HighBuffers::Resize(int width, int height) {
   Fit(sun_seen, width, height);
   Fit(sun_smooth, width, height);
   Fit(penumbra, width, height);
-  Fit(radiance, width, height);
   Fit(luma, width, height);
   Fit(edges, width, height);
   terms.resize(static_cast<size_t>(across()) * down());

@@ -19,14 +19,18 @@ struct HighBuffers {
   Image<Vec3f> normal;  ///< shading normal
   Image<Rgb32f> light;  ///< irradiance, of the samples and then filtered
   Image<uint8_t> light_samples;
-  Image<float> sun_seen, sun_smooth;  ///< share of the disc: of the rays; smoothed in penumbrae
+  Image<float> sun_seen, sun_smooth;  ///< share of the disc: of the rays; of tiles with penumbrae, smoothed in these
   Image<uint8_t> penumbra;            ///< as HighTile::penumbra
-  Image<Rgb32f> radiance;
   Image<uint8_t> luma, edges;
   TableVector<LightTerms> terms;  ///< of each tile
-  std::vector<uint8_t> smooth;    ///< of each tile: 1 if it has penumbrae
+  std::vector<uint8_t> smooth;    ///< of each tile: not 0 if it has penumbrae
 
   void Resize(int width, int height);
+  /// Share of the disc, smoothed where there are penumbrae.
+  float Sun(int x, int y) const {
+    const bool smoothed = smooth[static_cast<size_t>(y / kTileSize * across() + x / kTileSize)] != 0;
+    return smoothed ? sun_smooth(x, y) : sun_seen(x, y);
+  }
   int across() const { return (range.width() + kTileSize - 1) / kTileSize; }
   int down() const { return (range.height() + kTileSize - 1) / kTileSize; }
 };

@@ -76,7 +76,8 @@ struct World {
       hits.u[k] = hit ? hit->u : 0, hits.v[k] = hit ? hit->v : 0;
     }
     const TileSampling sampling{&layout, seed, place, ambient_rays, hits.cone_angle};
-    ShadeHigh(*shader, sun_map->view(), hits, &sampling, nullptr, tile);
+    LightTerms terms;
+    ShadeHigh(*shader, sun_map->view(), hits, &sampling, nullptr, terms, tile);
   }
   // Irradiance on the ground, green, of the directions that are open: midpoint rule.
   float SkyIrradiance(const std::function<bool(Vec3f)>& open) const {
