@@ -44,6 +44,7 @@ TileLayout MakeLayout(PacketShape shape) {
       // pixels do not meet the same phase again and again, four rows further it is another.
       const int phase = (x + 4 * y + (y >> 2)) & 15;
       layout.slot_of[y * kTileSize + x] = static_cast<uint8_t>(slot);
+      layout.pixel_of[slot] = static_cast<uint8_t>(y * kTileSize + x);
       layout.phase[slot] = static_cast<uint8_t>(phase);
       layout.members[phase][y] = static_cast<uint8_t>(slot);
     }

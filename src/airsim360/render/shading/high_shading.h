@@ -14,6 +14,7 @@ namespace airsim360::internal {
 /// over 4 x 4 pixels is as good as one pixel with 16 times the samples.
 struct TileLayout {
   uint8_t slot_of[256];     ///< index in the batch of pixel 16 y + x
+  uint8_t pixel_of[256];    ///< and the other way round
   uint8_t members[16][16];  ///< slots of the pixels of a phase
   uint8_t phase[256];       ///< of a slot
 };

@@ -21,7 +21,7 @@ TileLayout Layout() {
   for (int k = 0; k < 256; ++k) {
     const int x = k % 16, y = k / 16;
     const int phase = (x + 4 * y + (y >> 2)) & 15;
-    layout.slot_of[k] = static_cast<uint8_t>(k);
+    layout.slot_of[k] = layout.pixel_of[k] = static_cast<uint8_t>(k);
     layout.phase[k] = static_cast<uint8_t>(phase);
     layout.members[phase][y] = static_cast<uint8_t>(k);
   }
