@@ -14,6 +14,7 @@
 #include "airsim360/render/cpu/high_edges.h"
 #include "airsim360/render/cpu/high_kernel.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/cpu/smooth_sun_kernel.h"
 #include "airsim360/render/filter/denoiser.h"
 #include "airsim360/render/shading/shader_impl.h"
 #include "airsim360/render/shading/sun_map.h"
@@ -66,6 +67,7 @@ struct HighFrame::Impl {
 
   TileKernels kernels;
   decltype(&isa_sse42::StoreHigh) store = AIRSIM360_SELECT_KERNEL(StoreHigh);
+  decltype(&isa_sse42::SmoothSunTile) smooth_sun = AIRSIM360_SELECT_KERNEL(SmoothSunTile);
   decltype(&isa_sse42::CombineTile) combine = AIRSIM360_SELECT_KERNEL(CombineTile);
   TileLayout layouts[2] = {MakeLayout(PacketShape::kBlock), MakeLayout(PacketShape::kRow)};
   HighBuffers buffers;
@@ -88,7 +90,6 @@ struct HighFrame::Impl {
   void Denoise();
   void Combine(CombinedPlanes planes);
   void CombineTile(int tile, CombinedPlanes planes);
-  void SmoothTile(int column, int row);
 };
 
 HighFrame::HighFrame() : impl_(std::make_unique<Impl>()) {}
@@ -227,8 +228,11 @@ void HighFrame::Impl::CombineTile(int tile, CombinedPlanes planes) {
   const RayField& field = rays->field();
   const int column = tile % buffers.across() * kTileSize, row = tile / buffers.across() * kTileSize;
   if (buffers.smooth[static_cast<size_t>(tile)] != 0) {
-    SmoothTile(column, row);
-    planes.sun = buffers.sun_smooth.pixels().data();
+    float* smooth = buffers.sun_smooth.pixels().data();
+    smooth_sun({buffers.range.pixels().data(), buffers.entity.pixels().data(), buffers.normal.pixels().data(),
+                buffers.sun_seen.pixels().data(), buffers.penumbra.pixels().data(), smooth},
+               field, static_cast<float>(rays->cone_angle()), column, row);
+    planes.sun = smooth;
   }
   const TileTarget target{column,      row,     rays->column_shift(), field.width, field.height, Shape(row),
                           nullptr,     nullptr, nullptr,              nullptr};
@@ -240,18 +244,6 @@ void HighFrame::Impl::CombineTile(int tile, CombinedPlanes planes) {
       if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] != 0) continue;
       planes.radiance[static_cast<int64_t>(y) * field.width + x] = {};
       if (planes.luma != nullptr) buffers.luma(x, y) = 0;
-    }
-  }
-}
-
-// Fills a tile of `sun_smooth`.
-void HighFrame::Impl::SmoothTile(int column, int row) {
-  const RayField& field = rays->field();
-  for (int y = row; y < std::min(row + kTileSize, field.height); ++y) {
-    for (int x = column; x < std::min(column + kTileSize, field.width); ++x) {
-      buffers.sun_smooth(x, y) = buffers.penumbra(x, y) != 0
-                                     ? SmoothSun(buffers, field, static_cast<float>(rays->cone_angle()), x, y)
-                                     : buffers.sun_seen(x, y);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "airsim360/render/shading/high_rays.h"
 #include "airsim360/render/shading/sampling.h"
+#include "airsim360/render/shading/shared_rays_kernel.h"
 
 namespace airsim360::internal {
 namespace {
@@ -50,7 +51,7 @@ class AmbientTile {
     std::fill(std::begin(sum_g_), std::end(sum_g_), 0.0f);
     std::fill(std::begin(sum_b_), std::end(sum_b_), 0.0f);
     for (int k = 0; k < samples; ++k) {
-      const Vec3f sphere = SpherePoint(SobolPoint(first + static_cast<uint32_t>(k), sampling_.seed));
+      const Vec3f sphere = SharedPoint(first + static_cast<uint32_t>(k));
       // Leaves look to both sides in turn; whose turn it is first must not go with the ray's number.
       const bool behind = ((k + first_side) & 1) != 0;
       Trace(sphere, behind);
@@ -69,6 +70,14 @@ class AmbientTile {
   }
 
  private:
+  // A point of the sphere; the phases ask for one after the other.
+  Vec3f SharedPoint(uint32_t index) {
+    static const auto share = AIRSIM360_SELECT_KERNEL(SharedSphere);
+    if (index - first_point_ >= 16u) share(first_point_ = index, sampling_.seed, x_, y_, z_);
+    const uint32_t i = index - first_point_;
+    return {x_[i], y_[i], z_[i]};
+  }
+
   void Trace(Vec3f sphere, bool behind) {
     for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
     shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet_);
@@ -140,6 +149,8 @@ class AmbientTile {
   RayHit16 packet_{};
   alignas(64) int valid_[16], sent_[16];
   alignas(64) float side_[16], r_[16], g_[16], b_[16], sum_r_[16], sum_g_[16], sum_b_[16];
+  alignas(64) float x_[16], y_[16], z_[16];  // of the points from first_point_ on
+  uint32_t first_point_ = ~0u - 16;          // none
   AmbientOrigins origins_;
   AmbientHits hits_{};
   int index_[16];
