@@ -26,18 +26,18 @@ AIRSIM360_INLINE Bytes16 GatherBytes(const uint8_t* tile, PacketShape shape, int
 
 // Sixteen pixels of three numbers as three rows.
 AIRSIM360_INLINE void Deinterleave(const float* from, float (*to)[16]) {
-  typedef float Quad __attribute__((vector_size(16), aligned(4), may_alias));
-  typedef float Aligned __attribute__((vector_size(16), may_alias));
+  typedef float Quad __attribute__((vector_size(16)));
+  Quad x[4], y[4], z[4];
   for (int b = 0; b < 4; ++b) {
-    const auto* quads = reinterpret_cast<const Quad*>(from + 12 * b);
-    const Aligned A = quads[0], B = quads[1], C = quads[2];
-    *reinterpret_cast<Aligned*>(to[0] + 4 * b) =
-        __builtin_shufflevector(__builtin_shufflevector(A, B, 0, 3, 6, 6), C, 0, 1, 2, 5);
-    *reinterpret_cast<Aligned*>(to[1] + 4 * b) =
-        __builtin_shufflevector(__builtin_shufflevector(A, B, 1, 4, 7, 7), C, 0, 1, 2, 6);
-    *reinterpret_cast<Aligned*>(to[2] + 4 * b) =
-        __builtin_shufflevector(__builtin_shufflevector(A, B, 2, 5, 5, 5), C, 0, 1, 4, 7);
+    Quad A, B, C;
+    std::memcpy(&A, from + 12 * b, sizeof A);
+    std::memcpy(&B, from + 12 * b + 4, sizeof B);
+    std::memcpy(&C, from + 12 * b + 8, sizeof C);
+    x[b] = __builtin_shufflevector(__builtin_shufflevector(A, B, 0, 3, 6, 6), C, 0, 1, 2, 5);
+    y[b] = __builtin_shufflevector(__builtin_shufflevector(A, B, 1, 4, 7, 7), C, 0, 1, 2, 6);
+    z[b] = __builtin_shufflevector(__builtin_shufflevector(A, B, 2, 5, 5, 5), C, 0, 1, 4, 7);
   }
+  Join(x, to[0]), Join(y, to[1]), Join(z, to[2]);
 }
 
 AIRSIM360_INLINE int64_t FirstPixel(const TileTarget& t, int r) {

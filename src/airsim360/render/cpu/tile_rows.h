@@ -13,6 +13,15 @@ typedef uint32_t Words4 __attribute__((vector_size(16)));
 typedef uint32_t Words16 __attribute__((vector_size(64)));
 typedef float Floats16 __attribute__((vector_size(64)));
 
+// Four times four numbers in one row.
+template <class Quad, class Sixteen>
+AIRSIM360_INLINE void Join(const Quad (&part)[4], Sixteen& row) {
+  const auto low = __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  const auto high = __builtin_shufflevector(part[2], part[3], 0, 1, 2, 3, 4, 5, 6, 7);
+  const auto all = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  std::memcpy(&row, &all, sizeof row);
+}
+
 // The 16 numbers of tile row r, first tile column to last. They are put together in registers: a load right
 // behind smaller stores to the same place would wait for these.
 template <class Number, class Sixteen>
@@ -24,21 +33,20 @@ AIRSIM360_INLINE void GatherRow(const Number* tile, PacketShape shape, int r, Si
   Words4 part[4];
   for (int b = 0; b < 4; ++b)
     std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
-  const auto low = __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
-  const auto high = __builtin_shufflevector(part[2], part[3], 0, 1, 2, 3, 4, 5, 6, 7);
-  const Words16 all = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  std::memcpy(&row, &all, sizeof row);
+  Join(part, row);
 }
 
-// Four points of three coordinates each.
+// Four points of three coordinates each, side by side at `out`.
 AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z, float* out) {
   typedef float Quad __attribute__((vector_size(16), may_alias));
   const Quad X = *reinterpret_cast<const Quad*>(x), Y = *reinterpret_cast<const Quad*>(y),
              Z = *reinterpret_cast<const Quad*>(z);
-  auto* to = reinterpret_cast<Quad*>(out);
-  to[0] = __builtin_shufflevector(__builtin_shufflevector(X, Y, 0, 4, 1, 1), Z, 0, 1, 4, 2);
-  to[1] = __builtin_shufflevector(__builtin_shufflevector(Y, Z, 1, 5, 2, 2), X, 0, 1, 6, 2);
-  to[2] = __builtin_shufflevector(__builtin_shufflevector(Z, X, 2, 7, 3, 3), Y, 0, 1, 7, 2);
+  const Quad first = __builtin_shufflevector(__builtin_shufflevector(X, Y, 0, 4, 1, 1), Z, 0, 1, 4, 2);
+  const Quad second = __builtin_shufflevector(__builtin_shufflevector(Y, Z, 1, 5, 2, 2), X, 0, 1, 6, 2);
+  const Quad third = __builtin_shufflevector(__builtin_shufflevector(Z, X, 2, 7, 3, 3), Y, 0, 1, 7, 2);
+  std::memcpy(out, &first, sizeof first);
+  std::memcpy(out + 4, &second, sizeof second);
+  std::memcpy(out + 8, &third, sizeof third);
 }
 
 // Image pixels of a tile row: one run, or two where it crosses the seam.
@@ -84,12 +92,16 @@ template <class Pixel>
 AIRSIM360_INLINE void StorePoints(const float* x, const float* y, const float* z, PacketShape shape, int r,
                                   const Runs& runs, Pixel* image) {
   static_assert(sizeof(Pixel) == sizeof(Packed));
+  auto* to = reinterpret_cast<Packed*>(image);
   alignas(64) Packed points[kTileSize];
+  // Whole rows go straight to the image: wide loads right behind narrow stores would wait for these.
+  const bool whole = runs.count == kTileSize;
+  Packed* row = whole ? to + runs.first : points;
   for (int b = 0; b < 4; ++b) {
     const int first = shape == PacketShape::kRow ? r * 16 + b * 4 : ((r >> 2) * 4 + b) * 16 + (r & 3) * 4;
-    Interleave(x + first, y + first, z + first, points[4 * b].v);
+    Interleave(x + first, y + first, z + first, row[4 * b].v);
   }
-  StoreRow(points, runs, reinterpret_cast<Packed*>(image));
+  if (!whole) StoreRow(points, runs, to);
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA
