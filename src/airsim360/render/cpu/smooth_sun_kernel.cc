@@ -28,13 +28,12 @@ AIRSIM360_INLINE const Floats16& At(const float* from) { return reinterpret_cast
 AIRSIM360_INLINE const Ints16& At(const int32_t* from) { return reinterpret_cast<const Ints16&>(*from); }
 
 // The sum of sixteen numbers, the same for every instruction set.
-AIRSIM360_INLINE float Sum(Floats16 v) {
-  alignas(64) float lane[16];
-  std::memcpy(lane, &v, sizeof lane);
-  for (int half = 8; half > 0; half /= 2) {
-    for (int i = 0; i < half; ++i) lane[i] += lane[i + half];
-  }
-  return lane[0];
+AIRSIM360_INLINE float Sum(const Floats16& v) {
+  const auto eight = __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7) +
+                     __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
+  const auto four =
+      __builtin_shufflevector(eight, eight, 0, 1, 2, 3) + __builtin_shufflevector(eight, eight, 4, 5, 6, 7);
+  return (four[0] + four[2]) + (four[1] + four[3]);
 }
 
 // Columns of a row that are as wide as it is high.
