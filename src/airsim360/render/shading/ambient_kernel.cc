@@ -99,18 +99,12 @@ KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
       GatherTerms([&](int i) __attribute__((always_inline)) { return grid.probes + chosen[i]; });
   const mask_t solid = wanted && (terms.t[0].w < 0.5f);
   if (stdx::any_of(solid)) {
-    ProbeWeights weight;
-    WeighProbes(place, weight);
-    alignas(64) float in_solid[kLanes], mixed[kLanes][16];
-    store(in_solid, sel(solid, real(1.0f), real(0.0f)));
-    const float* at[kLanes];
-    for (int i = 0; i < kLanes; ++i) {
-      at[i] = grid.probes + chosen[i];
-      if (in_solid[i] == 0) continue;
-      MixLane(grid, place, weight, i, mixed[i]);
-      at[i] = mixed[i];
+    const ProbeTerms all = MixProbes(grid, place);
+    for (int j = 0; j < 4; ++j) {
+      real4& t = terms.t[j];
+      t = {sel(solid, all.t[j].x, t.x), sel(solid, all.t[j].y, t.y), sel(solid, all.t[j].z, t.z),
+           sel(solid, all.t[j].w, t.w)};
     }
-    terms = GatherTerms([&](int i) __attribute__((always_inline)) { return at[i]; });
   }
   const real3 e = (Rgb(terms.t[0]) + Rgb(terms.t[1]) * n.x + Rgb(terms.t[2]) * n.y + Rgb(terms.t[3]) * n.z +
                    terms.Square() * (n.z * n.z)) *

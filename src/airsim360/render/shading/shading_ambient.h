@@ -160,35 +160,19 @@ KERNEL ProbeTerms GatherTerms(At at) {
   return terms;
 }
 
-/// Shares of the eight probes around, [probe][lane].
-struct alignas(64) ProbeWeights {
-  float of[8][kLanes];
-};
-KERNEL void WeighProbes(const ProbePlace& place, ProbeWeights& weight) {
-  for (int k = 0; k < 8; ++k) {
-    store(weight.of[k], (k & 1 ? place.fx : 1.0f - place.fx) * (k & 2 ? place.fy : 1.0f - place.fy) *
-                            (k & 4 ? place.fz : 1.0f - place.fz));
-  }
-}
-/// Floats from the lowest of the eight to number k.
-KERNEL int ProbeCorner(const ProbeView& grid, int k) {
-  return ((k & 1) + (k & 2 ? grid.stride_y : 0) + (k & 4 ? grid.stride_z : 0)) * 16;
-}
-/// MixProbes of one lane.
-KERNEL void MixLane(const ProbeView& grid, const ProbePlace& place, const ProbeWeights& weight, int lane, float* mixed) {
-  typedef float Probe __attribute__((vector_size(64), aligned(4), may_alias));
-  const float* base = grid.probes + place.index[lane];
-  Probe sum = *reinterpret_cast<const Probe*>(base) * weight.of[0][lane];
-  for (int k = 1; k < 8; ++k)
-    sum += *reinterpret_cast<const Probe*>(base + ProbeCorner(grid, k)) * weight.of[k][lane];
-  __builtin_memcpy(mixed, &sum, sizeof sum);
-}
-
 /// Sum of the eight probes around, by weight; their terms carry one of their own already, which is to be
 /// divided by.
 KERNEL ProbeTerms MixProbes(const ProbeView& grid, const ProbePlace& place) {
-  ProbeWeights weight;
-  WeighProbes(place, weight);
+  typedef float Probe __attribute__((vector_size(64), aligned(4), may_alias));
+  alignas(64) float weight[8][kLanes], mixed[kLanes][16];
+  for (int k = 0; k < 8; ++k) {
+    store(weight[k], (k & 1 ? place.fx : 1.0f - place.fx) * (k & 2 ? place.fy : 1.0f - place.fy) *
+                         (k & 4 ? place.fz : 1.0f - place.fz));
+  }
+  const int along_x = 16, along_y = grid.stride_y * 16, along_z = grid.stride_z * 16;
+  const auto corner = [&](int k) __attribute__((always_inline)) {
+    return (k & 1 ? along_x : 0) + (k & 2 ? along_y : 0) + (k & 4 ? along_z : 0);
+  };
   // All lanes in one cell, the usual case near by: the same sums term by term, with nothing to turn round.
   if (stdx::all_of(ireal(place.index, stdx::vector_aligned) == place.index[0])) {
     const float* base = grid.probes + place.index[0];
@@ -196,16 +180,20 @@ KERNEL ProbeTerms MixProbes(const ProbeView& grid, const ProbePlace& place) {
     for (int j = 0; j < 4; ++j) {
       const auto term = [&](int part) __attribute__((always_inline)) {
         const float* at = base + 4 * j + part;
-        real sum = at[0] * load(weight.of[0]);
-        for (int k = 1; k < 8; ++k) sum = sum + at[ProbeCorner(grid, k)] * load(weight.of[k]);
+        real sum = at[0] * load(weight[0]);
+        for (int k = 1; k < 8; ++k) sum = sum + at[corner(k)] * load(weight[k]);
         return sum;
       };
       terms.t[j] = {term(0), term(1), term(2), term(3)};
     }
     return terms;
   }
-  alignas(64) float mixed[kLanes][16];
-  for (int i = 0; i < kLanes; ++i) MixLane(grid, place, weight, i, mixed[i]);
+  for (int i = 0; i < kLanes; ++i) {
+    const float* base = grid.probes + place.index[i];
+    Probe sum = *reinterpret_cast<const Probe*>(base) * weight[0][i];
+    for (int k = 1; k < 8; ++k) sum += *reinterpret_cast<const Probe*>(base + corner(k)) * weight[k][i];
+    *reinterpret_cast<Probe*>(mixed[i]) = sum;
+  }
   return GatherTerms([&](int i) __attribute__((always_inline)) { return mixed[i]; });
 }
 
