@@ -28,7 +28,8 @@ class EdgeTile {
 
   void AddPixel(int x, int y) {
     x_[pixel_count_] = static_cast<uint8_t>(x), y_[pixel_count_] = static_cast<uint8_t>(y);
-    AddColor(pixel_count_++, buffers_.radiance(column_ + x, row_ + y));
+    AddColor(pixel_count_, Radiance(pixel_count_));
+    ++pixel_count_;
   }
   int pixel_count() const { return pixel_count_; }
   int ray_count() const { return ray_count_; }
@@ -52,11 +53,16 @@ class EdgeTile {
   void StoreMeans() {
     for (int i = 0; i < pixel_count_; ++i) {
       const float scale = 1 / static_cast<float>(count_[i]);
-      buffers_.radiance(x(i), y(i)) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
+      Radiance(i) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
     }
   }
 
  private:
+  Rgb32f& Radiance(int pixel) const {
+    const int column = x(pixel) - task_.rays->column_shift();
+    return (*task_.radiance)(column < 0 ? column + buffers_.range.width() : column, y(pixel));
+  }
+
   void AddColor(int pixel, Rgb32f c) {
     const float exposed = Luminance(c) * task_.exposure, w = kNearWhite / std::max(exposed, kNearWhite);
     r_[pixel] += c.r * w, g_[pixel] += c.g * w, b_[pixel] += c.b * w;
@@ -112,10 +118,10 @@ class EdgeTile {
       const int64_t pixel = MostAlike(i, cost);
       if (pixel < 0) continue;
       around[i] = buffers_.light.pixels()[static_cast<size_t>(pixel)];
-      if (cost < kSameSurface) sun_known[i] = buffers_.sun_smooth.pixels()[static_cast<size_t>(pixel)];
+      if (cost < kSameSurface) sun_known[i] = buffers_.Sun(static_cast<int>(pixel % buffers_.range.width()), static_cast<int>(pixel / buffers_.range.width()));
     }
-    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, shaded_);
-    const LightTerms& t = shaded_.terms;
+    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, terms_, shaded_);
+    const LightTerms& t = terms_;
     for (int i = 0; i < hits_.count; ++i) {
       const float sun = shaded_.sun_seen[i];
       AddColor(owner_[i], {t.ambient_r[i] * around[i].r + t.sun_r[i] * sun + t.rest_r[i],
@@ -136,6 +142,7 @@ class EdgeTile {
   RayHit16 packet_;
   HitBatch hits_;
   LabelTile labels_;
+  LightTerms terms_;
   HighTile shaded_;
   int owner_[HitBatch::kCapacity];  // pixel of each ray
 };

@@ -19,9 +19,10 @@ struct HighEdgeTask {
   float exposure;  ///< factor from radiance to the input of the tone curve
   int samples;     ///< of an edge pixel, the centre ray included
   uint64_t seed;
+  Image<Rgb32f>* radiance;  ///< in the image's columns
 };
 
-/// Replaces the radiance of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the
+/// Replaces `task.radiance` of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the
 /// pixel: as many where a pixel only contrasts with a neighbour of the same entity, for a choice by the first ones
 /// loses what is rare, as sunlit leaves in dark crowns. The mean is one of linear light, as in tier `reference`, but
 /// no ray counts for more than what shows as nearly white, so that highlights do not sparkle. A ray takes its

@@ -12,7 +12,9 @@
 #include "airsim360/render/cpu/antialias.h"
 #include "airsim360/render/cpu/high_buffers.h"
 #include "airsim360/render/cpu/high_edges.h"
+#include "airsim360/render/cpu/high_kernel.h"
 #include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/cpu/smooth_sun_kernel.h"
 #include "airsim360/render/filter/denoiser.h"
 #include "airsim360/render/shading/shader_impl.h"
 #include "airsim360/render/shading/sun_map.h"
@@ -43,6 +45,7 @@ TileLayout MakeLayout(PacketShape shape) {
       // pixels do not meet the same phase again and again, four rows further it is another.
       const int phase = (x + 4 * y + (y >> 2)) & 15;
       layout.slot_of[y * kTileSize + x] = static_cast<uint8_t>(slot);
+      layout.pixel_of[slot] = static_cast<uint8_t>(y * kTileSize + x);
       layout.phase[slot] = static_cast<uint8_t>(phase);
       layout.members[phase][y] = static_cast<uint8_t>(slot);
     }
@@ -63,6 +66,9 @@ struct HighFrame::Impl {
   float exposure;
 
   TileKernels kernels;
+  decltype(&isa_sse42::StoreHigh) store = AIRSIM360_SELECT_KERNEL(StoreHigh);
+  decltype(&isa_sse42::SmoothSunTile) smooth_sun = AIRSIM360_SELECT_KERNEL(SmoothSunTile);
+  decltype(&isa_sse42::CombineTile) combine = AIRSIM360_SELECT_KERNEL(CombineTile);
   TileLayout layouts[2] = {MakeLayout(PacketShape::kBlock), MakeLayout(PacketShape::kRow)};
   HighBuffers buffers;
   Denoiser denoiser;
@@ -80,11 +86,10 @@ struct HighFrame::Impl {
   }
   void TraceTiles();
   void TraceTile(int tile);
-  void StoreTile(const HighTile& shaded, LabelTile& labels, TileTarget target, int tile);
+  HighPlanes Planes();
   void Denoise();
-  void Combine();
-  void CombineTile(int tile);
-  void Output(Image<Rgb32f>& radiance) const;
+  void Combine(CombinedPlanes planes);
+  void CombineTile(int tile, CombinedPlanes planes);
 };
 
 HighFrame::HighFrame() : impl_(std::make_unique<Impl>()) {}
@@ -106,18 +111,20 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
 
   impl.TraceTiles();
   if (request.denoise) impl.Denoise();
-  impl.Combine();
+  HighBuffers& buffers = impl.buffers;
+  if (radiance.width() != field.width || radiance.height() != field.height)
+    radiance = Image<Rgb32f>(field.width, field.height);
+  const int samples = EdgeSamples(request);
+  impl.Combine({buffers.light.pixels().data(), buffers.sun_seen.pixels().data(), impl.exposure,
+                radiance.pixels().data(), samples > 1 ? buffers.luma.pixels().data() : nullptr});
 
   uint64_t count = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
-  const int samples = EdgeSamples(request);
   if (samples > 1) {
-    HighBuffers& buffers = impl.buffers;
     Antialiaser().FindEdges(buffers.entity, buffers.luma, field.separable, buffers.edges);
-    const HighEdgeTask task{&tracer,     &shader,       &rays,   labels,      impl.SunView(),
-                            impl.origin, impl.exposure, samples, request.seed};
+    const HighEdgeTask task{&tracer,     &shader,       &rays,   labels,       impl.SunView(),
+                            impl.origin, impl.exposure, samples, request.seed, &radiance};
     count += static_cast<uint64_t>(RefineEdges(task, MakeEdgeOffsets(rays, samples), buffers));
   }
-  impl.Output(radiance);
   return count;
 }
 
@@ -189,44 +196,15 @@ void HighFrame::Impl::TraceTile(int tile) {
                               {static_cast<float>(field.R[1]), static_cast<float>(field.R[4]),
                                static_cast<float>(field.R[7])}};
   HighTile shaded;
-  ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, shaded);
-  StoreTile(shaded, tile_labels, target, tile);
+  ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, buffers.terms[static_cast<size_t>(tile)], shaded);
+  buffers.smooth[static_cast<size_t>(tile)] = store(tile_labels, shaded, target, Planes());
 }
 
-// Into the images that other pixels will read, in canonical columns.
-void HighFrame::Impl::StoreTile(const HighTile& shaded, LabelTile& tile_labels, TileTarget target, int tile) {
-  std::memcpy(tile_labels.normal_x, shaded.normal_x, sizeof shaded.normal_x);
-  std::memcpy(tile_labels.normal_y, shaded.normal_y, sizeof shaded.normal_y);
-  std::memcpy(tile_labels.normal_z, shaded.normal_z, sizeof shaded.normal_z);
-  target.column_shift = 0;
-  target.range = buffers.range.pixels().data();
-  target.category = nullptr;
-  target.entity = buffers.entity.pixels().data();
-  target.normal = buffers.normal.pixels().data();
-  kernels.store_labels(tile_labels, target);
-
-  buffers.terms[static_cast<size_t>(tile)] = shaded.terms;
-  const TileLayout& layout = layouts[target.shape == PacketShape::kRow];
-  const int columns = std::min(kTileSize, target.width - target.column);
-  const int rows = std::min(kTileSize, target.height - target.row);
-  uint8_t smooth = 0;
-  for (int y = 0; y < rows; ++y) {
-    const auto first =
-        static_cast<size_t>(static_cast<int64_t>(target.row + y) * target.width + target.column);
-    // Four neighbours are four in a row in either order of packets.
-    for (int x = 0; x < columns; x += 4) {
-      const int slot = layout.slot_of[y * kTileSize + x], count = std::min(4, columns - x);
-      const size_t at = first + static_cast<size_t>(x);
-      Rgb32f* light = &buffers.light.pixels()[at];
-      for (int i = 0; i < count; ++i)
-        light[i] = {shaded.light_r[slot + i], shaded.light_g[slot + i], shaded.light_b[slot + i]};
-      std::copy_n(shaded.light_samples + slot, count, &buffers.light_samples.pixels()[at]);
-      std::copy_n(shaded.sun_seen + slot, count, &buffers.sun_seen.pixels()[at]);
-      std::copy_n(shaded.penumbra + slot, count, &buffers.penumbra.pixels()[at]);
-      for (int i = 0; i < count; ++i) smooth |= shaded.penumbra[slot + i];
-    }
-  }
-  buffers.smooth[static_cast<size_t>(tile)] = smooth;
+HighPlanes HighFrame::Impl::Planes() {
+  return {buffers.range.pixels().data(),         buffers.entity.pixels().data(),
+          buffers.normal.pixels().data(),        buffers.light.pixels().data(),
+          buffers.light_samples.pixels().data(), buffers.sun_seen.pixels().data(),
+          buffers.penumbra.pixels().data()};
 }
 
 void HighFrame::Impl::Denoise() {
@@ -238,57 +216,36 @@ void HighFrame::Impl::Denoise() {
   denoiser.Run(guides, {&buffers.light, &buffers.light_samples}, request->temporal);
 }
 
-void HighFrame::Impl::Combine() {
+void HighFrame::Impl::Combine(CombinedPlanes planes) {
   const int tiles = buffers.across() * buffers.down();
   ParallelFor((tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int64_t task) {
     const int first = static_cast<int>(task) * kTilesPerTask;
-    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile) CombineTile(tile);
+    for (int tile = first; tile < std::min(first + kTilesPerTask, tiles); ++tile) CombineTile(tile, planes);
   });
 }
 
-// Radiance of the pixels' centres, and how light they will look.
-void HighFrame::Impl::CombineTile(int tile) {
+void HighFrame::Impl::CombineTile(int tile, CombinedPlanes planes) {
   const RayField& field = rays->field();
   const int column = tile % buffers.across() * kTileSize, row = tile / buffers.across() * kTileSize;
-  const LightTerms& terms = buffers.terms[static_cast<size_t>(tile)];
-  const bool smooth = buffers.smooth[static_cast<size_t>(tile)] != 0;
-  const int columns = std::min(kTileSize, field.width - column);
+  if (buffers.smooth[static_cast<size_t>(tile)] != 0) {
+    float* smooth = buffers.sun_smooth.pixels().data();
+    smooth_sun({buffers.range.pixels().data(), buffers.entity.pixels().data(), buffers.normal.pixels().data(),
+                buffers.sun_seen.pixels().data(), buffers.penumbra.pixels().data(), smooth},
+               field, static_cast<float>(rays->cone_angle()), column, row);
+    planes.sun = smooth;
+  }
+  const TileTarget target{column,      row,     rays->column_shift(), field.width, field.height, Shape(row),
+                          nullptr,     nullptr, nullptr,              nullptr};
+  combine(buffers.terms[static_cast<size_t>(tile)], target, planes);
+  if (field.separable) return;
+  // Pixels without a ray are black; such pictures have the columns of the image.
   for (int y = row; y < std::min(row + kTileSize, field.height); ++y) {
-    float* sun = &buffers.sun_smooth(column, y);
-    std::copy_n(&buffers.sun_seen(column, y), columns, sun);
-    for (int x = 0; smooth && x < columns; ++x) {
-      if (buffers.penumbra(column + x, y) != 0)
-        sun[x] = SmoothSun(buffers, field, static_cast<float>(rays->cone_angle()), column + x, y);
-    }
-    const CombinedRow combined{Shape(row),
-                               y - row,
-                               columns,
-                               exposure,
-                               &buffers.light(column, y),
-                               sun,
-                               &buffers.radiance(column, y),
-                               &buffers.luma(column, y)};
-    kernels.combine_row(terms, combined);
-    // Pixels without a ray are black.
-    for (int x = 0; !field.separable && x < columns; ++x) {
-      if (field.has_ray[static_cast<int64_t>(y) * field.stride + column + x] != 0) continue;
-      buffers.radiance(column + x, y) = {};
-      buffers.luma(column + x, y) = 0;
+    for (int x = column; x < std::min(column + kTileSize, field.width); ++x) {
+      if (field.has_ray[static_cast<int64_t>(y) * field.stride + x] != 0) continue;
+      planes.radiance[static_cast<int64_t>(y) * field.width + x] = {};
+      if (planes.luma != nullptr) buffers.luma(x, y) = 0;
     }
   }
-}
-
-// From canonical columns to those of the image.
-void HighFrame::Impl::Output(Image<Rgb32f>& radiance) const {
-  const int width = buffers.radiance.width(), height = buffers.radiance.height();
-  if (radiance.width() != width || radiance.height() != height) radiance = Image<Rgb32f>(width, height);
-  const int shift = rays->column_shift();
-  ParallelFor(height, [&](int64_t y) {
-    const auto from = buffers.radiance.row(static_cast<int>(y));
-    const auto to = radiance.row(static_cast<int>(y));
-    std::copy(from.begin() + shift, from.end(), to.begin());
-    std::copy(from.begin(), from.begin() + shift, to.end() - shift);
-  });
 }
 
 }  // namespace airsim360::internal

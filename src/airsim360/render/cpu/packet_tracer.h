@@ -16,7 +16,6 @@ struct TileKernels {
   decltype(&isa_sse42::PrefetchTile) prefetch = AIRSIM360_SELECT_KERNEL(PrefetchTile);
   decltype(&isa_sse42::StoreLabels) store_labels = AIRSIM360_SELECT_KERNEL(StoreLabels);
   decltype(&isa_sse42::StoreColors) store_colors = AIRSIM360_SELECT_KERNEL(StoreColors);
-  decltype(&isa_sse42::CombineRow) combine_row = AIRSIM360_SELECT_KERNEL(CombineRow);
   decltype(&isa_sse42::MarkEdges) mark_edges = AIRSIM360_SELECT_KERNEL(MarkEdges);
 };
 

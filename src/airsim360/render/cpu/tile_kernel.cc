@@ -3,14 +3,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "airsim360/render/cpu/tile_rows.h"
+
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
-#define AIRSIM360_INLINE inline __attribute__((always_inline))
-
-typedef uint32_t Words4 __attribute__((vector_size(16)));
-typedef uint32_t Words16 __attribute__((vector_size(64)));
-typedef float Floats16 __attribute__((vector_size(64)));
 typedef uint16_t Shorts16 __attribute__((vector_size(32)));
 
 // 4x4 or 16x1 directions, column by column in the inner loop.
@@ -157,67 +154,6 @@ AIRSIM360_INLINE void ResolveNormals(const LabelView& view, const RayHit16& rays
   }
 }
 
-// The 16 numbers of tile row r, first tile column to last. They are put together in registers: a load right
-// behind smaller stores to the same place would wait for these.
-template <class Number, class Sixteen>
-AIRSIM360_INLINE void GatherRow(const Number* tile, PacketShape shape, int r, Sixteen& row) {
-  if (shape == PacketShape::kRow) {
-    std::memcpy(&row, tile + r * 16, sizeof row);
-    return;
-  }
-  Words4 part[4];
-  for (int b = 0; b < 4; ++b)
-    std::memcpy(&part[b], tile + ((r >> 2) * 4 + b) * 16 + (r & 3) * 4, sizeof part[b]);
-  const auto low = __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
-  const auto high = __builtin_shufflevector(part[2], part[3], 0, 1, 2, 3, 4, 5, 6, 7);
-  const Words16 all = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  std::memcpy(&row, &all, sizeof row);
-}
-
-// Four points of three coordinates each.
-AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z, float* out) {
-  typedef float Quad __attribute__((vector_size(16), may_alias));
-  const Quad X = *reinterpret_cast<const Quad*>(x), Y = *reinterpret_cast<const Quad*>(y),
-             Z = *reinterpret_cast<const Quad*>(z);
-  auto* to = reinterpret_cast<Quad*>(out);
-  to[0] = __builtin_shufflevector(__builtin_shufflevector(X, Y, 0, 4, 1, 1), Z, 0, 1, 4, 2);
-  to[1] = __builtin_shufflevector(__builtin_shufflevector(Y, Z, 1, 5, 2, 2), X, 0, 1, 6, 2);
-  to[2] = __builtin_shufflevector(__builtin_shufflevector(Z, X, 2, 7, 3, 3), Y, 0, 1, 7, 2);
-}
-
-// Image pixels of a tile row: one run, or two where it crosses the seam.
-struct Runs {
-  int64_t first;   // index of the image pixel of tile column 0
-  int count;       // pixels before the seam
-  int64_t second;  // index of the first pixel after it
-  int rest;
-};
-
-AIRSIM360_INLINE Runs RowRuns(const TileTarget& t, int r) {
-  const int columns = t.width - t.column < kTileSize ? t.width - t.column : kTileSize;
-  int x = t.column - t.column_shift;
-  if (x < 0) x += t.width;
-  const int64_t row = static_cast<int64_t>(t.row + r) * t.width;
-  const int before = t.width - x < columns ? t.width - x : columns;
-  return {row + x, before, row, columns - before};
-}
-
-// `pixels`: an array or vector of 16.
-template <class Row, class Pixel>
-AIRSIM360_INLINE void StoreRow(const Row& pixels, const Runs& runs, Pixel* image) {
-  static_assert(sizeof pixels == kTileSize * sizeof(Pixel));
-  if (runs.count == kTileSize) {
-    std::memcpy(image + runs.first, &pixels, sizeof pixels);
-    return;
-  }
-  for (int i = 0; i < runs.count; ++i) image[runs.first + i] = pixels[i];
-  for (int i = 0; i < runs.rest; ++i) image[runs.second + i] = pixels[runs.count + i];
-}
-
-AIRSIM360_INLINE int Rows(const TileTarget& t) {
-  return t.height - t.row < kTileSize ? t.height - t.row : kTileSize;
-}
-
 }  // namespace
 
 void InitPacket(float x, float y, float z, RayHit16& rays) {
@@ -349,18 +285,7 @@ void StoreLabels(const LabelTile& tile, const TileTarget& t) {
       const Shorts16 narrow = __builtin_convertvector(ids, Shorts16);
       StoreRow(narrow, runs, t.category);
     }
-    if (t.normal != nullptr) {
-      struct Packed {
-        float v[3];
-      };
-      alignas(64) Packed points[kTileSize];
-      for (int b = 0; b < 4; ++b) {
-        const int first =
-            t.shape == PacketShape::kRow ? r * 16 + b * 4 : ((r >> 2) * 4 + b) * 16 + (r & 3) * 4;
-        Interleave(tile.normal_x + first, tile.normal_y + first, tile.normal_z + first, points[4 * b].v);
-      }
-      StoreRow(points, runs, reinterpret_cast<Packed*>(t.normal));
-    }
+    if (t.normal != nullptr) StorePoints(tile.normal_x, tile.normal_y, tile.normal_z, t.shape, r, runs, t.normal);
   }
 }
 
@@ -385,30 +310,6 @@ void StoreColors(const Rgb8* colors, const TileTarget& t, Rgb8* image, uint8_t* 
     }
     if (luma != nullptr) StoreRow(gray, runs, luma);
   }
-}
-
-void CombineRow(const LightTerms& terms, const CombinedRow& row) {
-  alignas(64) float k[9][16], shown[16], rgb[3][16];
-  const float* planes[9] = {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g,
-                            terms.sun_b,     terms.rest_r,    terms.rest_g,    terms.rest_b};
-  for (int i = 0; i < 9; ++i) {
-    Floats16 plane;
-    GatherRow(planes[i], row.shape, row.tile_row, plane);
-    std::memcpy(k[i], &plane, sizeof plane);
-  }
-  alignas(64) float light[3][16] = {}, sun[16] = {};
-  for (int i = 0; i < row.count; ++i) {
-    light[0][i] = row.light[i].r, light[1][i] = row.light[i].g, light[2][i] = row.light[i].b;
-    sun[i] = row.sun[i];
-  }
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 16; ++i) rgb[c][i] = k[c][i] * light[c][i] + k[3 + c][i] * sun[i] + k[6 + c][i];
-  for (int i = 0; i < 16; ++i) {
-    const float exposed = row.exposure * (0.2126f * rgb[0][i] + 0.7152f * rgb[1][i] + 0.0722f * rgb[2][i]);
-    shown[i] = 255 * __builtin_sqrtf(exposed / (1 + exposed));
-  }
-  for (int i = 0; i < row.count; ++i)
-    row.radiance[i] = {rgb[0][i], rgb[1][i], rgb[2][i]}, row.luma[i] = static_cast<uint8_t>(shown[i]);
 }
 
 void MarkEdges(const uint32_t* const* entity_rows, const uint8_t* const* luma_rows, int width, bool wraps,

@@ -46,17 +46,6 @@ struct TileTarget {
   Vec3f* normal;
 };
 
-/// One row of a tile whose light is known: what CombineRow reads and writes.
-struct CombinedRow {
-  PacketShape shape;
-  int tile_row, count;
-  float exposure;
-  const Rgb32f* light;  ///< irradiance
-  const float* sun;     ///< share of the disc seen
-  Rgb32f* radiance;
-  uint8_t* luma;
-};
-
 /// Index in packet order of the pixel in column x, row y of a tile.
 inline constexpr int PacketIndex(PacketShape shape, int x, int y) {
   return shape == PacketShape::kRow ? y * 16 + x : ((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3);
@@ -84,9 +73,6 @@ AIRSIM360_DECLARE_KERNEL(void StoreLabels(const LabelTile& tile, const TileTarge
 /// … and its colours; `luma` gets their Luma if it is not null.
 AIRSIM360_DECLARE_KERNEL(void StoreColors(const Rgb8* colors, const TileTarget& target, Rgb8* image,
                                           uint8_t* luma))
-/// Radiance of the centres of up to sixteen pixels in one row of a tile (tier `high`), and how light they
-/// will look (`luma`).
-AIRSIM360_DECLARE_KERNEL(void CombineRow(const LightTerms& terms, const CombinedRow& row))
 /// Marks pixels of one row that differ from the one above, below, left or right: kSilhouette in entity, plus
 /// kContrastEdge by more than `contrast` in luma, else 0. Rows are those of the image; a missing neighbour
 /// row is the row itself. Columns wrap if `wraps`.

@@ -74,9 +74,9 @@ KERNEL real SunSeen(const SunMapView& map, real3 p, real bias) {
 }
 
 /// Irradiance by probes: one of the eight around, chosen with the probability of its weight (which is right
-/// on average and reads one cache line); all eight where the chosen one is inside a solid. The choice hangs
+/// on average and reads one cache line); all eight where the chosen one is inside a solid, of lanes that are `wanted`. The choice hangs
 /// on the point alone, to a millimetre, so that other back ends choose the same.
-KERNEL real3 NearProbe(const ShadeView& view, real3 p, real3 n) {
+KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;
   const ProbePlace place = FindProbes(grid, p, n);
@@ -97,7 +97,7 @@ KERNEL real3 NearProbe(const ShadeView& view, real3 p, real3 n) {
       .copy_to(chosen, stdx::vector_aligned);
   ProbeTerms terms =
       GatherTerms([&](int i) __attribute__((always_inline)) { return grid.probes + chosen[i]; });
-  const mask_t solid = terms.t[0].w < 0.5f;
+  const mask_t solid = wanted && (terms.t[0].w < 0.5f);
   if (stdx::any_of(solid)) {
     const ProbeTerms all = MixProbes(grid, place);
     for (int j = 0; j < 4; ++j) {
@@ -128,7 +128,7 @@ KERNEL real3 Bounced(const ShadeView& view, const SunMapView& map, const Ambient
   }
   const real3 n = outward * sel(back, real(-1.0f), real(1.0f));
   const mask_t foliage = load(met.foliage + i) > 0.5f;
-  real3 light = NearProbe(view, p, n) * sel(foliage, real(SHADE_CROWN), real(1.0f)) +
+  real3 light = NearProbe(view, load(met.hit + i) > 0.5f, p, n) * sel(foliage, real(SHADE_CROWN), real(1.0f)) +
                 load3(hits.lamp_r + i, hits.lamp_g + i, hits.lamp_b + i);
   if (map.heights != nullptr) {
     const real cosine = dot3(n, ufloat3{view.to_sun[0], view.to_sun[1], view.to_sun[2]});

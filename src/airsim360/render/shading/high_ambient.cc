@@ -5,11 +5,13 @@
 
 #include "airsim360/render/shading/high_rays.h"
 #include "airsim360/render/shading/sampling.h"
+#include "airsim360/render/shading/shared_rays_kernel.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kFoliage = 1;  // SurfaceKind
+constexpr int kAtOnce = 4;     // rays of a pixel that are traced before their light is looked up
 
 // The ambient rays of one tile.
 class AmbientTile {
@@ -24,10 +26,11 @@ class AmbientTile {
         tile_(tile),
         slots_(shader.tracer->slots()),
         first_slots_(shader.tracer->first_slots()) {
-    for (int i = 0; i < 16; ++i) {
-      packet_.mask[i] = kMaskSolid;  // clear panes let light pass
-      hits_.shines[i] = 1;
-      hits_.lamp_r[i] = hits_.lamp_g[i] = hits_.lamp_b[i] = 0;
+    for (Way& way : way_) {
+      for (int i = 0; i < 16; ++i) {
+        way.packet.mask[i] = kMaskSolid;  // clear panes let light pass
+        way.hits.shines[i] = 1;
+      }
     }
   }
 
@@ -49,14 +52,18 @@ class AmbientTile {
     std::fill(std::begin(sum_r_), std::end(sum_r_), 0.0f);
     std::fill(std::begin(sum_g_), std::end(sum_g_), 0.0f);
     std::fill(std::begin(sum_b_), std::end(sum_b_), 0.0f);
-    for (int k = 0; k < samples; ++k) {
-      const Vec3f sphere = SpherePoint(SobolPoint(first + static_cast<uint32_t>(k), sampling_.seed));
-      // Leaves look to both sides in turn; whose turn it is first must not go with the ray's number.
-      const bool behind = ((k + first_side) & 1) != 0;
-      Trace(sphere, behind);
-      // Each side stands for the rays that were not sent to the other, too.
-      const int alike = (samples + 1 - (k & 1)) / 2;
-      AddLight(behind, samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
+    for (int begin = 0; begin < samples; begin += kAtOnce) {
+      const int end = std::min(samples, begin + kAtOnce);
+      for (int k = begin; k < end; ++k) {
+        // Leaves look to both sides in turn; whose turn it is first must not go with the ray's number.
+        const bool behind = ((k + first_side) & 1) != 0;
+        Trace(SharedPoint(first + static_cast<uint32_t>(k)), behind, way_[k - begin]);
+      }
+      for (int k = begin; k < end; ++k) {
+        // Each side stands for the rays that were not sent to the other, too.
+        const int alike = (samples + 1 - (k & 1)) / 2;
+        AddLight(way_[k - begin], samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
+      }
     }
     constexpr float kPi = 3.14159265f;
     const float scale = kPi / static_cast<float>(samples);
@@ -69,25 +76,43 @@ class AmbientTile {
   }
 
  private:
-  void Trace(Vec3f sphere, bool behind) {
+  // A point of the sphere; the phases ask for one after the other.
+  Vec3f SharedPoint(uint32_t index) {
+    static const auto share = AIRSIM360_SELECT_KERNEL(SharedSphere);
+    if (index - first_point_ >= 16u) share(first_point_ = index, sampling_.seed, x_, y_, z_);
+    const uint32_t i = index - first_point_;
+    return {x_[i], y_[i], z_[i]};
+  }
+
+  // Sixteen rays and what they met.
+  struct Way {
+    RayHit16 packet{};
+    AmbientHits hits{};
+    alignas(64) int sent[16];
+    bool behind;
+  };
+
+  // Light comes later: what it needs of the surfaces met is on its way to the cache meanwhile.
+  void Trace(Vec3f sphere, bool behind, Way& way) {
+    RayHit16& packet = way.packet;
+    way.behind = behind;
     for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
-    shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet_);
-    for (int i = 0; i < 16; ++i) packet_.t_far[i] = INFINITY;
-    for (int i = 0; i < 16; ++i) sent_[i] = valid_[i];
+    shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet);
+    for (int i = 0; i < 16; ++i) packet.t_far[i] = INFINITY;
+    for (int i = 0; i < 16; ++i) way.sent[i] = valid_[i];
     for (int i = 0; i < 16 && any_leaf_; ++i) {
-      if (leaf_[i] && OnOtherSide(i, sphere)) sent_[i] = 0;
+      if (leaf_[i] && OnOtherSide(i, sphere)) way.sent[i] = 0;
     }
-    shader_.tracer->Intersect16(sent_, packet_, false);
+    shader_.tracer->Intersect16(way.sent, packet, false);
     for (int i = 0; i < 16; ++i) {
-      hits_.instance[i] = kMiss;
-      if (sent_[i] == 0 || packet_.geometry[i] == kMiss) continue;
-      const SurfaceRef ref = Resolve(i);
-      hits_.instance[i] = ref.instance, hits_.triangle[i] = ref.triangle;
-      __builtin_prefetch(
-          &shader_.view.triangles[shader_.view.instances[ref.instance].first_triangle + ref.triangle]);
-      if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref);
+      way.hits.instance[i] = kMiss;
+      if (way.sent[i] == 0 || packet.geometry[i] == kMiss) continue;
+      const SurfaceRef ref = Resolve(packet, i);
+      way.hits.instance[i] = ref.instance, way.hits.triangle[i] = ref.triangle;
+      const InstanceRecord& instance = shader_.view.instances[ref.instance];
+      __builtin_prefetch(&shader_.view.triangles[instance.first_triangle + ref.triangle]);
+      if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref, way);
     }
-    shader_.kernels.shade_ambient(shader_.view, sun_map_, packet_, hits_, r_, g_, b_);
   }
 
   // Whether the two normals disagree about the side of a ray: leaves scatter nothing there, as in `reference`.
@@ -98,32 +123,33 @@ class AmbientTile {
   }
 
   // RayTracer::Resolve without a call.
-  SurfaceRef Resolve(int i) const {
-    const uint32_t geometry = packet_.geometry[i], instance = packet_.instance[i],
-                   primitive = packet_.primitive[i];
+  SurfaceRef Resolve(const RayHit16& packet, int i) const {
+    const uint32_t geometry = packet.geometry[i], instance = packet.instance[i], primitive = packet.primitive[i];
     const HitSlot& slot =
         slots_[instance == kMiss ? first_slots_[geometry] : first_slots_[instance] + geometry];
     return {slot.instance, slot.triangles == nullptr ? primitive : slot.triangles[primitive]};
   }
 
   // Light of lamps on what was met.
-  void AddLamps(int i, const SurfaceRef& ref) {
+  void AddLamps(int i, const SurfaceRef& ref, Way& way) {
+    const RayHit16& packet = way.packet;
     const uint32_t lamp = shader_.lights.LampOf(ref.instance, ref.triangle);
-    hits_.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
-    const Vec3f d{packet_.direction_x[i], packet_.direction_y[i], packet_.direction_z[i]};
+    way.hits.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
+    const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
     const Vec3f p =
-        Vec3f{packet_.origin_x[i], packet_.origin_y[i], packet_.origin_z[i]} + d * packet_.t_far[i];
+        Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
     // By the side that the ray came from: the grid's means are too coarse for normals to matter more.
     const Vec3f light = shader_.lamps->NearIrradiance(p, -d);
-    hits_.lamp_r[i] = light.x, hits_.lamp_g[i] = light.y, hits_.lamp_b[i] = light.z;
+    way.hits.lamp_r[i] = light.x, way.hits.lamp_g[i] = light.y, way.hits.lamp_b[i] = light.z;
   }
 
-  void AddLight(bool behind, float leaf_share) {
+  void AddLight(const Way& way, float leaf_share) {
+    shader_.kernels.shade_ambient(shader_.view, sun_map_, way.packet, way.hits, r_, g_, b_);
     constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
     for (int i = 0; i < 16 && any_leaf_; ++i) {
       if (!leaf_[i]) continue;
-      Vec3f weight = Vec3f{1, 1, 1} * (sent_[i] != 0 ? leaf_share : 0.0f);
-      if (behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
+      Vec3f weight = Vec3f{1, 1, 1} * (way.sent[i] != 0 ? leaf_share : 0.0f);
+      if (way.behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
       r_[i] *= weight.x, g_[i] *= weight.y, b_[i] *= weight.z;
     }
     for (int i = 0; i < 16; ++i) sum_r_[i] += r_[i];
@@ -137,11 +163,12 @@ class AmbientTile {
   const RaySet& rays_;
   const SurfaceSet& s_;
   HighTile& tile_;
-  RayHit16 packet_{};
-  alignas(64) int valid_[16], sent_[16];
+  Way way_[kAtOnce];
+  alignas(64) int valid_[16];
   alignas(64) float side_[16], r_[16], g_[16], b_[16], sum_r_[16], sum_g_[16], sum_b_[16];
+  alignas(64) float x_[16], y_[16], z_[16];  // of the points from first_point_ on
+  uint32_t first_point_ = ~0u - 16;          // none
   AmbientOrigins origins_;
-  AmbientHits hits_{};
   int index_[16];
   bool leaf_[16], any_leaf_;
   std::span<const HitSlot> slots_;

@@ -30,30 +30,36 @@ void ReflectionPoints(const RaySet& rays, const SurfaceSet& s, const TileSamplin
   for (int i = rays.count; i % 16 != 0; ++i) u[i] = v[i] = 0;
 }
 
-void PutSky(const RaySet& sky, const LightSet& light, HighTile& tile) {
-  for (int i = 0; i < sky.count; ++i) {
-    const uint32_t k = sky.slot[i];
-    float* terms = &tile.terms.ambient_r[k];
-    for (int t = 0; t < kTermCount; ++t) terms[t * kBatch] = 0;
-    tile.terms.rest_r[k] = light.r[i], tile.terms.rest_g[k] = light.g[i], tile.terms.rest_b[k] = light.b[i];
-    tile.sun_seen[k] = 0;
-    tile.normal_x[k] = tile.normal_y[k] = tile.normal_z[k] = 0;
-    tile.light_r[k] = tile.light_g[k] = tile.light_b[k] = 0;
-    tile.light_samples[k] = tile.penumbra[k] = 0;
+// One number for every hit of a set; all of them are often one after the other.
+template <class Number>
+void Put(const RaySet& set, bool all, const Number* from, Number* to) {
+  if (all) {
+    std::copy_n(from, set.count, to);
+  } else {
+    for (int i = 0; i < set.count; ++i) to[set.slot[i]] = from[i];
   }
 }
 
-void PutSurfaces(const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, HighTile& tile) {
-  for (int t = 0; t < kTermCount; ++t) {
-    const float* from = &terms.ambient_r[0] + t * kBatch;
-    float* to = &tile.terms.ambient_r[0] + t * kBatch;
-    for (int i = 0; i < rays.count; ++i) to[rays.slot[i]] = from[i];
-  }
-  for (int i = 0; i < rays.count; ++i) {
-    const uint32_t k = rays.slot[i];
-    tile.normal_x[k] = s.nx[i], tile.normal_y[k] = s.ny[i], tile.normal_z[k] = s.nz[i];
-    tile.sun_seen[k] = s.sunlit[i];
-  }
+void PutSky(const RaySet& sky, bool all, const LightSet& light, LightTerms& terms, HighTile& tile) {
+  constexpr float kNone[kBatch] = {};
+  constexpr uint8_t kNoBytes[kBatch] = {};
+  for (float* plane : {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g, terms.sun_b,
+                       tile.sun_seen, tile.normal_x, tile.normal_y, tile.normal_z, tile.light_r, tile.light_g,
+                       tile.light_b})
+    Put(sky, all, kNone, plane);
+  Put(sky, all, light.r, terms.rest_r), Put(sky, all, light.g, terms.rest_g);
+  Put(sky, all, light.b, terms.rest_b);
+  Put(sky, all, kNoBytes, tile.light_samples), Put(sky, all, kNoBytes, tile.penumbra);
+}
+
+void PutSurfaces(const RaySet& rays, bool all, const SurfaceSet& s, HighTile& tile) {
+  Put(rays, all, s.nx, tile.normal_x), Put(rays, all, s.ny, tile.normal_y), Put(rays, all, s.nz, tile.normal_z);
+  Put(rays, all, s.sunlit, tile.sun_seen);
+}
+
+void PutTerms(const RaySet& rays, const LightTerms& from, LightTerms& to) {
+  for (int t = 0; t < kTermCount; ++t)
+    Put(rays, false, &from.ambient_r[0] + t * kBatch, &to.ambient_r[0] + t * kBatch);
 }
 
 // Sun on scattered surfaces: where it can matter and is not known.
@@ -89,7 +95,7 @@ void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_
 }  // namespace
 
 void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, const float* sun_known, HighTile& tile) {
+               const TileSampling* sampling, const float* sun_known, LightTerms& terms, HighTile& tile) {
   const Shader::Impl& impl = shader.impl();
   const bool falling = impl.view.air.rain + impl.view.air.snow > 0;
   RaySet rays, sky;
@@ -98,13 +104,15 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
     LightSet light;
     impl.kernels.sky(impl.view, sky, true, light);
     if (falling) impl.kernels.precipitation(impl.view, sky, true, hits.cone_angle, light);
-    PutSky(sky, light, tile);
+    PutSky(sky, rays.count == 0, light, terms, tile);
   }
   if (rays.count == 0) return;
 
   SurfaceSet surfaces;
+  const bool all = sky.count == 0;
   impl.kernels.prepare(impl.view, rays, surfaces);
-  for (int i = 0; i < rays.count; ++i) tile.penumbra[rays.slot[i]] = 0;
+  constexpr uint8_t kNoPenumbra[kBatch] = {};
+  Put(rays, all, kNoPenumbra, tile.penumbra);
   if (impl.sky) {
     if (sampling != nullptr)
       TraceSunDisc(impl, *sampling, rays, surfaces, tile.penumbra);
@@ -117,11 +125,12 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   impl.kernels.scatter(rays, u, v, surfaces);
   impl.FollowRays(rays, surfaces);
 
-  LightTerms terms;
-  impl.kernels.split(impl.view, rays, surfaces, terms);
-  if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, terms);
-  PutSurfaces(rays, surfaces, terms, tile);
-  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, terms, tile);
+  LightTerms scattered, &own = all ? terms : scattered;  // in the order of `rays`
+  impl.kernels.split(impl.view, rays, surfaces, own);
+  if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, own);
+  if (!all) PutTerms(rays, own, terms);
+  PutSurfaces(rays, all, surfaces, tile);
+  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, tile);
 }
 
 }  // namespace airsim360::internal

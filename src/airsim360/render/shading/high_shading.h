@@ -14,6 +14,7 @@ namespace airsim360::internal {
 /// over 4 x 4 pixels is as good as one pixel with 16 times the samples.
 struct TileLayout {
   uint8_t slot_of[256];     ///< index in the batch of pixel 16 y + x
+  uint8_t pixel_of[256];    ///< and the other way round
   uint8_t members[16][16];  ///< slots of the pixels of a phase
   uint8_t phase[256];       ///< of a slot
 };
@@ -32,9 +33,8 @@ struct TileSampling {
 /// HighTile::penumbra counts a pixel in so many steps.
 inline constexpr float kPenumbraSteps = 8;
 
-/// In the order of a HitBatch. What met nothing has its radiance in `rest` and zeros elsewhere.
+/// In the order of a HitBatch; zeros where nothing was met.
 struct alignas(64) HighTile {
-  LightTerms terms;
   float sun_seen[kBatch];                                      ///< share of the disc
   float normal_x[kBatch], normal_y[kBatch], normal_z[kBatch];  ///< shading normal
   /// Irradiance found, times 1 / albedo where the albedo differs between front and back of leaves.
@@ -46,8 +46,9 @@ struct alignas(64) HighTile {
 };
 
 /// Shades a tile. Without `sampling` the hits are scattered rays: no ambient rays are sent, and the sun is
-/// looked for by one ray, or is as `sun_known` says for each hit where that is not negative.
+/// looked for by one ray, or is as `sun_known` says for each hit where that is not negative. `terms`, in the order of
+/// the hits: what met nothing has its radiance in `rest` and zeros elsewhere.
 void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, const float* sun_known, HighTile& tile);
+               const TileSampling* sampling, const float* sun_known, LightTerms& terms, HighTile& tile);
 
 }  // namespace airsim360::internal

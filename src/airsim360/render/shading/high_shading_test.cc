@@ -21,7 +21,7 @@ TileLayout Layout() {
   for (int k = 0; k < 256; ++k) {
     const int x = k % 16, y = k / 16;
     const int phase = (x + 4 * y + (y >> 2)) & 15;
-    layout.slot_of[k] = static_cast<uint8_t>(k);
+    layout.slot_of[k] = layout.pixel_of[k] = static_cast<uint8_t>(k);
     layout.phase[k] = static_cast<uint8_t>(phase);
     layout.members[phase][y] = static_cast<uint8_t>(k);
   }
@@ -76,7 +76,8 @@ struct World {
       hits.u[k] = hit ? hit->u : 0, hits.v[k] = hit ? hit->v : 0;
     }
     const TileSampling sampling{&layout, seed, place, ambient_rays, hits.cone_angle};
-    ShadeHigh(*shader, sun_map->view(), hits, &sampling, nullptr, tile);
+    LightTerms terms;
+    ShadeHigh(*shader, sun_map->view(), hits, &sampling, nullptr, terms, tile);
   }
   // Irradiance on the ground, green, of the directions that are open: midpoint rule.
   float SkyIrradiance(const std::function<bool(Vec3f)>& open) const {

@@ -24,6 +24,14 @@ struct RayQueue {
     rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = mask;
     lane[i] = index;
   }
+  /// As sixteen times Add for places from `index` on, of rays whose origins and directions are set already.
+  void Fill(int index, float reach = INFINITY) {
+    for (int i = 0; i < 16; ++i) {
+      rays.t_near[i] = 0, rays.t_far[i] = reach, rays.mask[i] = mask;
+      lane[i] = index + i;
+    }
+    count = 16;
+  }
   /// Marks the lanes in use; the others repeat the last ray.
   void Close() {
     if (count == 16) {

@@ -45,6 +45,9 @@ class SunDisc {
     right_ = Normalized(Cross(reference, to_sun)) * kRadius;
     up_ = Cross(to_sun, right_);
   }
+  /// Radii, as vectors.
+  Vec3f right() const { return right_; }
+  Vec3f up() const { return up_; }
   /// Even over the disc for u even over the unit square.
   Vec3f At(Vec2f u) const {
     const float radius = std::sqrt(u.x), angle = 6.28318531f * u.y;

@@ -49,9 +49,6 @@ void ForLanes(uint32_t bits, Each each) {
   for (; bits != 0; bits &= bits - 1) each(std::countr_zero(bits));
 }
 
-// The bits of those of the sixteen surfaces from `first` on that exist.
-uint32_t Existing(int first, int count) { return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1; }
-
 // Whether the sixteen (or the rest, of `count`) from `first` on are all 0.
 bool NoneSet(const float* flags, int first, int count) {
   int set = 0;
@@ -74,13 +71,8 @@ int FirstSet(const float* flags, int count) {
 void AddSixteen(const RaySet& rays, const SurfaceSet& s, int first, const float* x, const float* y,
                 const float* z, float reach, RayQueue& queue) {
   static const auto lift = AIRSIM360_SELECT_KERNEL(LiftRays);
-  RayHit16& r = queue.rays;
-  lift(rays, s, first, x, y, z, r);
-  std::fill_n(r.t_near, 16, 0.0f);
-  std::fill_n(r.t_far, 16, reach);
-  std::fill_n(r.mask, 16, queue.mask);
-  for (int k = 0; k < 16; ++k) queue.lane[k] = first + k;
-  queue.count = 16;
+  lift(rays, s, first, x, y, z, queue.rays);
+  queue.Fill(first, reach);
 }
 
 }  // namespace

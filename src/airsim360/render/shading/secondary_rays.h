@@ -11,6 +11,8 @@ namespace airsim360::internal {
 /// Share of light that gets to each ray's origin: 0 behind something solid, less than 1 behind clear panes
 /// (their colour is averaged).
 void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share);
+/// The bits of those of the sixteen surfaces from `first` on that exist.
+inline uint32_t Existing(int first, int count) { return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1; }
 /// Repeats the last ray of a set up to a full vector, so that kernels read sane values.
 void Pad(RaySet& set);
 /// Turns `sunlit` from "may matter" to "is seen": 1, less behind clear panes.
