@@ -1,7 +1,6 @@
 #include "airsim360/render/filter/denoiser.h"
 
-#include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -54,10 +53,18 @@ void Check(const FilterGuides& guides, const LightSignal& signal) {
   if (signal.samples != nullptr) CheckSize("samples", signal.samples, *guides.camera);
 }
 
-/// Levels 1, 2, 4, … pixels apart that together reach at least a radius.
+/// One level of the wavelet. Steps grow by 1 + sqrt(2): taps one step apart meet what the level before has mixed.
+struct Level {
+  int step;
+  bool corners;  // eight neighbours, else the four nearest
+};
+constexpr Level kLevels[] = {{1, true}, {2, false}, {5, false}, {12, true}};
+
+/// Levels up to one whose step is the radius or more, or all.
 int LevelCount(float radius_px) {
-  const float radius = std::clamp(radius_px, 1.0f, 63.0f);
-  return static_cast<int>(std::lround(std::log2(radius))) + 1;
+  int count = 1;
+  while (count < std::ssize(kLevels) && static_cast<float>(kLevels[count - 1].step) < radius_px) ++count;
+  return count;
 }
 
 }  // namespace
@@ -98,15 +105,16 @@ void Denoiser::Run(const FilterGuides& guides, const LightSignal& signal, bool t
   Impl& impl = *impl_;
   FilterBuffers& buffers = impl.buffers;
   const int levels = LevelCount(signal.radius_px);
-  buffers.Load(guides, signal, 1 << (levels - 1));
+  buffers.Load(guides, signal, kLevels[levels - 1].step);
   if (temporal) impl.histories[slot].Accumulate(guides, buffers);
   impl.EstimateNoise();
 
   const FilterPlanes& f = buffers.planes();
   for (int level = 0; level < levels; ++level) {
-    const int step = 1 << level, in = level & 1;
-    ForRows(f.height, step, [&](int y) {
-      impl.kernels.atrous(f, y, step, buffers.StepX(y, step), in);
+    const auto [step, corners] = kLevels[level];
+    const int in = level & 1;
+    ForRows(f.height, step, [&, step = step, corners = corners](int y) {
+      impl.kernels.atrous(f, y, step, buffers.StepX(y, step), corners, in);
       buffers.RepeatLight(y, 1 - in);
     });
   }

@@ -6,10 +6,21 @@ namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
 // x_light = difference^2 / (2 (kSigmas sigma)^2).
-constexpr float kSigmas = 3;
+constexpr float kSigmas = 3.5f;
+
+/// Asks for what the lowest row's taps will meet: too many planes for the processor to follow by itself.
+KERNEL void FetchAhead(const FilterPlanes& f, int64_t i, int in) {
+  constexpr int kAhead = 128;
+  for (int k = 0; k < 3; ++k) {
+    for (const float* plane : {f.p[k], f.n[k], f.light[in][k]}) __builtin_prefetch(plane + i + kAhead);
+  }
+  __builtin_prefetch(f.data_id[in] + i + kAhead);
+}
 
 KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step,
-                         int step_x, int in) {
+                         int step_x, bool corners, int in) {
+  if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
+  if (rows[2].first >= 0) FetchAhead(f, rows[2].first + x, in);
   const uids own_id = Ids(f.data_id[in], i);
   const Center c = MakeCenter(f, i, At(f.loose, i), static_cast<float>(step));
   const mask_t known = SameId(own_id, c.id);
@@ -18,11 +29,12 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
   const real sharpness = If(known, 1.0f / (variance * (16 * kSigmas * kSigmas) + 1e-20f));
   // Means of more samples count for more; after the first level all are mixed.
   const bool by_samples = step == 1;
-  real weight = If(known, real(0.25f) * (by_samples ? At(f.samples, i) : real(1.0f)));
+  real weight = If(known, real(corners ? 0.25f : 0.125f) * (by_samples ? At(f.samples, i) : real(1.0f)));
   real squares = weight * weight;
   real3 sum = make3(real(0.0f), real(0.0f), real(0.0f));
   ForNeighbours(
       f, rows, x, step_x, [&](int64_t j, bool corner) __attribute__((always_inline)) {
+        if (corner && !corners) return;
         const mask_t same = SameId(Ids(f.data_id[in], j), c.id);
         if (stdx::none_of(same)) return;
         const real3 light = At3(f.light[in], j);
@@ -44,10 +56,11 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
 
 }  // namespace
 
-void AtrousRow(const FilterPlanes& f, int y, int step, int step_x, int in) {
+void AtrousRow(const FilterPlanes& f, int y, int step, int step_x, bool corners, int in) {
   RowPlace rows[3];
   FindRows(f, y, step, rows);
-  for (int x = 0; x < f.width; x += kLanes) AtrousVector(f, rows, rows[1].first + x, x, step, step_x, in);
+  for (int x = 0; x < f.width; x += kLanes)
+    AtrousVector(f, rows, rows[1].first + x, x, step, step_x, corners, in);
 }
 
 void ReprojectRow(const FilterPlanes& f, int y, const ReprojectedRow& then) {

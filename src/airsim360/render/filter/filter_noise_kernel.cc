@@ -15,6 +15,7 @@ constexpr float kLeastShare = 1.0f / 64;
 
 KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns) {
   const int64_t i = row + x;
+  if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1] + i, stdx::element_aligned);
   const Center c = MakeCenter(f, i, real(0.0f), static_cast<float>(columns) * 0.5f);
   const mask_t known = SameId(Ids(f.data_id[0], i), c.id);
   const real3 base = At3(f.light[0], i);
@@ -53,6 +54,7 @@ struct Moments {
 };
 
 KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
+  if (NoSurface(f, i)) return;
   const Center c = MakeCenter(f, i, real(0.0f), 1);
   const mask_t known = SameId(Ids(f.data_id[0], i), c.id);
   const real l = luminance(At3(f.light[0], i));
@@ -82,6 +84,7 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
 }
 
 KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
+  if (NoSurface(f, i)) return;
   const Center c = MakeCenter(f, i, At(f.loose, i), 3);
   const real l = luminance(At3(f.light[0], i)), n = rmax(At(f.samples, i), real(1.0f));
   const real least = l * l * (kAgreement / (n * n)) + 1e-20f;

@@ -33,6 +33,11 @@ KERNEL uids DataIds(mask_t found, uids surface, uids before) {
 }
 KERNEL uids Ids(const uint32_t* plane, int64_t i) { return uids(plane + i, stdx::element_aligned); }
 
+/// Whether a vector of pixels shows nothing but sky: no pass has anything to do there.
+KERNEL bool NoSurface(const FilterPlanes& f, int64_t i) {
+  return stdx::all_of(Ids(f.id, i) == kNoSurface);
+}
+
 /// Column `x` counted beyond the borders of a row.
 KERNEL int Wrapped(int x, int wrap) { return x < 0 ? x + wrap : x >= wrap ? x - wrap : x; }
 
@@ -64,9 +69,9 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   const real sharpness = lerp1(real(kLooseNormal / 8), real(kNormal / 8), (1.0f - loose) * (1.0f - loose));
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
-  const real thickness = rroot(dot3(p, p)) * (f.cone_angle * (1.0f + f.plane_slope * step)) *
-                         (1.0f + (kLooseThickness - 1.0f) * loose);
-  c.inverse_thickness = (1.0f / 16) / rmax(thickness * thickness, real(1e-12f));
+  // Of the plane, over the distance.
+  const real thickness = (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
+  c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(1e-12f));
   return c;
 }
 
