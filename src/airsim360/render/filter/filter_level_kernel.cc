@@ -8,19 +8,10 @@ namespace {
 // x_light = difference^2 / (2 (kSigmas sigma)^2).
 constexpr float kSigmas = 3.5f;
 
-/// Asks for what the lowest row's taps will meet: too many planes for the processor to follow by itself.
-KERNEL void FetchAhead(const FilterPlanes& f, int64_t i, int in) {
-  constexpr int kAhead = 128;
-  for (int k = 0; k < 3; ++k) {
-    for (const float* plane : {f.p[k], f.n[k], f.light[in][k]}) __builtin_prefetch(plane + i + kAhead);
-  }
-  __builtin_prefetch(f.data_id[in] + i + kAhead);
-}
-
 KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step,
                          int step_x, bool corners, int in) {
   if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
-  if (rows[2].first >= 0) FetchAhead(f, rows[2].first + x, in);
+  FetchAhead(f, rows[2], x, {f.data_id[in], f.light[in][0], f.light[in][1], f.light[in][2]});
   const uids own_id = Ids(f.data_id[in], i);
   const Center c = MakeCenter(f, i, At(f.loose, i), static_cast<float>(step));
   const mask_t known = SameId(own_id, c.id);

@@ -55,6 +55,7 @@ struct Moments {
 
 KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
   if (NoSurface(f, i)) return;
+  FetchAhead(f, rows[2], x, {f.id, f.data_id[0], f.light[0][0], f.light[0][1], f.light[0][2]});
   const Center c = MakeCenter(f, i, real(0.0f), 1);
   const mask_t known = SameId(Ids(f.data_id[0], i), c.id);
   const real l = luminance(At3(f.light[0], i));
@@ -85,6 +86,7 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
 
 KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
   if (NoSurface(f, i)) return;
+  FetchAhead(f, rows[2], x, {f.id, f.window});
   const Center c = MakeCenter(f, i, At(f.loose, i), 3);
   const real l = luminance(At3(f.light[0], i)), n = rmax(At(f.samples, i), real(1.0f));
   const real least = l * l * (kAgreement / (n * n)) + 1e-20f;

@@ -5,6 +5,8 @@
 // the wavelet. Differences to the centre are summed, not values, so that constant light stays as it is.
 #pragma once
 
+#include <initializer_list>
+
 #include "airsim360/render/filter/filter_planes.h"
 #include "airsim360/render/shading/shading_simd.h"
 
@@ -51,6 +53,20 @@ KERNEL RowPlace FindRow(const FilterPlanes& f, int y) {
   const int over = y < 0 ? -1 - y : 2 * f.height - 1 - y;
   if (!f.sphere || over < 0 || over >= f.height) return {-1, 0};
   return {int64_t{over} * f.stride, f.width / 2};
+}
+
+/// Asks for what the taps of the lowest row will meet, of positions, normals and the planes given: they are too
+/// many for the processor to foresee by itself.
+KERNEL void FetchAhead(const FilterPlanes& f, const RowPlace& row, int x,
+                       std::initializer_list<const void*> planes) {
+  constexpr int kAhead = 128;
+  if (row.first < 0) return;
+  const int64_t i = row.first + x + kAhead;
+  for (int k = 0; k < 3; ++k) {
+    __builtin_prefetch(f.p[k] + i);
+    __builtin_prefetch(f.n[k] + i);
+  }
+  for (const void* plane : planes) __builtin_prefetch(static_cast<const float*>(plane) + i);
 }
 
 /// What a pixel compares its neighbours with.
