@@ -53,17 +53,13 @@ void Check(const FilterGuides& guides, const LightSignal& signal) {
   if (signal.samples != nullptr) CheckSize("samples", signal.samples, *guides.camera);
 }
 
-/// One level of the wavelet. Steps grow by 1 + sqrt(2): taps one step apart meet what the level before has mixed.
-struct Level {
-  int step;
-  bool corners;  // eight neighbours, else the four nearest
-};
-constexpr Level kLevels[] = {{1, true}, {2, false}, {5, false}, {12, true}};
+/// Of the levels of the wavelet. Taps one step apart meet what the two levels before have mixed.
+constexpr int kSteps[] = {1, 2, 5, 12};
 
 /// Levels up to one whose step is the radius or more, or all.
 int LevelCount(float radius_px) {
   int count = 1;
-  while (count < std::ssize(kLevels) && static_cast<float>(kLevels[count - 1].step) < radius_px) ++count;
+  while (count < std::ssize(kSteps) && static_cast<float>(kSteps[count - 1]) < radius_px) ++count;
   return count;
 }
 
@@ -105,16 +101,15 @@ void Denoiser::Run(const FilterGuides& guides, const LightSignal& signal, bool t
   Impl& impl = *impl_;
   FilterBuffers& buffers = impl.buffers;
   const int levels = LevelCount(signal.radius_px);
-  buffers.Load(guides, signal, kLevels[levels - 1].step);
+  buffers.Load(guides, signal, kSteps[levels - 1]);
   if (temporal) impl.histories[slot].Accumulate(guides, buffers);
   impl.EstimateNoise();
 
   const FilterPlanes& f = buffers.planes();
   for (int level = 0; level < levels; ++level) {
-    const auto [step, corners] = kLevels[level];
-    const int in = level & 1;
-    ForRows(f.height, step, [&, step = step, corners = corners](int y) {
-      impl.kernels.atrous(f, y, step, buffers.StepX(y, step), corners, in);
+    const int step = kSteps[level], in = level & 1;
+    ForRows(f.height, step, [&](int y) {
+      impl.kernels.atrous(f, y, step, buffers.StepX(y, step), in);
       buffers.RepeatLight(y, 1 - in);
     });
   }

@@ -13,9 +13,8 @@ AIRSIM360_DECLARE_KERNEL(void GatherRow(const FilterPlanes& planes, int y, int c
 AIRSIM360_DECLARE_KERNEL(void WindowRow(const FilterPlanes& planes, int y, int step_x))
 /// Variance of noise from the windows three pixels around.
 AIRSIM360_DECLARE_KERNEL(void VarianceRow(const FilterPlanes& planes, int y, int step_x))
-/// One level: light and data_id of set `in` to the other set, with nine taps `step` pixels apart or, without
-/// `corners`, five. Does not write the padding.
-AIRSIM360_DECLARE_KERNEL(void AtrousRow(const FilterPlanes& planes, int y, int step, int step_x, bool corners,
-                                        int in))
+/// One level: light and data_id of set `in` to the other set, with nine taps `step` pixels apart. Does not
+/// write the padding.
+AIRSIM360_DECLARE_KERNEL(void AtrousRow(const FilterPlanes& planes, int y, int step, int step_x, int in))
 /// Where the points of row y were seen before.
 AIRSIM360_DECLARE_KERNEL(void ReprojectRow(const FilterPlanes& planes, int y, const ReprojectedRow& then))

@@ -6,10 +6,10 @@ namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
 
 // x_light = difference^2 / (2 (kSigmas sigma)^2).
-constexpr float kSigmas = 3.5f;
+constexpr float kSigmas = 3.2f;
 
 KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step,
-                         int step_x, bool corners, int in) {
+                         int step_x, int in) {
   if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1 - in] + i, stdx::element_aligned);
   FetchAhead(f, rows[2], x, {f.data_id[in], f.light[in][0], f.light[in][1], f.light[in][2]});
   const uids own_id = Ids(f.data_id[in], i);
@@ -20,12 +20,11 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
   const real sharpness = If(known, 1.0f / (variance * (16 * kSigmas * kSigmas) + 1e-20f));
   // Means of more samples count for more; after the first level all are mixed.
   const bool by_samples = step == 1;
-  real weight = If(known, real(corners ? 0.25f : 0.125f) * (by_samples ? At(f.samples, i) : real(1.0f)));
+  real weight = If(known, real(0.25f) * (by_samples ? At(f.samples, i) : real(1.0f)));
   real squares = weight * weight;
   real3 sum = make3(real(0.0f), real(0.0f), real(0.0f));
   ForNeighbours(
       f, rows, x, step_x, [&](int64_t j, bool corner) __attribute__((always_inline)) {
-        if (corner && !corners) return;
         const mask_t same = SameId(Ids(f.data_id[in], j), c.id);
         if (stdx::none_of(same)) return;
         const real3 light = At3(f.light[in], j);
@@ -47,11 +46,10 @@ KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
 
 }  // namespace
 
-void AtrousRow(const FilterPlanes& f, int y, int step, int step_x, bool corners, int in) {
+void AtrousRow(const FilterPlanes& f, int y, int step, int step_x, int in) {
   RowPlace rows[3];
   FindRows(f, y, step, rows);
-  for (int x = 0; x < f.width; x += kLanes)
-    AtrousVector(f, rows, rows[1].first + x, x, step, step_x, corners, in);
+  for (int x = 0; x < f.width; x += kLanes) AtrousVector(f, rows, rows[1].first + x, x, step, step_x, in);
 }
 
 void ReprojectRow(const FilterPlanes& f, int y, const ReprojectedRow& then) {
