@@ -85,7 +85,7 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   const real sharpness = lerp1(real(kLooseNormal / 8), real(kNormal / 8), (1.0f - loose) * (1.0f - loose));
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
-  // Of the plane, over the distance.
+  // Over the distance.
   const real thickness = (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
   c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(1e-12f));
   return c;
