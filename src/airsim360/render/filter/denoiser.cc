@@ -87,7 +87,8 @@ void Denoiser::Impl::EstimateNoise() {
     const int columns = buffers.PixelsAcross(y);
     if (columns == 1) return;
     kernels.gather(f, y, columns);
-    buffers.TakeGathered(y);
+    buffers.RepeatLight(y, 0);
+    buffers.RepeatSamples(y);
   });
   ForRows(f.height, 1, [&](int y) {
     kernels.window(f, y, buffers.StepX(y, 1));

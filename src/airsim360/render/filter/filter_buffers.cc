@@ -147,16 +147,6 @@ void FilterBuffers::RepeatSamples(int y) {
   Repeat(planes_.samples + static_cast<size_t>(y) * planes_.stride, planes_.wrap);
 }
 
-void FilterBuffers::TakeGathered(int y) {
-  const FilterPlanes& f = planes_;
-  const size_t row = static_cast<size_t>(y) * f.stride;
-  for (int k = 0; k < 3; ++k) std::copy_n(f.light[1][k] + row, f.width, f.light[0][k] + row);
-  std::copy_n(f.data_id[1] + row, f.width, f.data_id[0] + row);
-  std::copy_n(f.window + row, f.width, f.samples + row);
-  RepeatLight(y, 0);
-  RepeatSamples(y);
-}
-
 void FilterBuffers::RepeatStatistics(int y) {
   const FilterPlanes& f = planes_;
   const size_t row = static_cast<size_t>(y) * f.stride;

@@ -15,7 +15,7 @@ constexpr float kLeastShare = 1.0f / 64;
 
 KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns) {
   const int64_t i = row + x;
-  if (NoSurface(f, i)) return uids(0u).copy_to(f.data_id[1] + i, stdx::element_aligned);
+  if (NoSurface(f, i)) return;
   const Center c = MakeCenter(f, i, real(0.0f), static_cast<float>(columns) * 0.5f);
   const mask_t known = SameId(Ids(f.data_id[0], i), c.id);
   const real3 base = At3(f.light[0], i);
@@ -38,6 +38,14 @@ KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns)
   // The other passes' planes serve as scratch: samples.
   Put(f.window, i, weight);
   DataIds(found, c.id, uids(0u)).copy_to(f.data_id[1] + i, stdx::element_aligned);
+}
+
+/// Moves what GatherVector made to set 0.
+KERNEL void TakeVector(const FilterPlanes& f, int64_t i) {
+  if (NoSurface(f, i)) return;
+  for (int k = 0; k < 3; ++k) Put(f.light[0][k], i, At(f.light[1][k], i));
+  Ids(f.data_id[1], i).copy_to(f.data_id[0] + i, stdx::element_aligned);
+  Put(f.samples, i, At(f.window, i));
 }
 
 /// Sums of differences of luminance to a centre.
@@ -114,6 +122,7 @@ KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int
 void GatherRow(const FilterPlanes& f, int y, int columns) {
   const int64_t row = int64_t{y} * f.stride;
   for (int x = 0; x < f.width; x += kLanes) GatherVector(f, row, x, columns);
+  for (int x = 0; x < f.width; x += kLanes) TakeVector(f, row + x);
 }
 
 void WindowRow(const FilterPlanes& f, int y, int step_x) {
