@@ -1,7 +1,6 @@
 #include "airsim360/render/filter/denoiser.h"
 
-#include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -54,10 +53,14 @@ void Check(const FilterGuides& guides, const LightSignal& signal) {
   if (signal.samples != nullptr) CheckSize("samples", signal.samples, *guides.camera);
 }
 
-/// Levels 1, 2, 4, … pixels apart that together reach at least a radius.
+/// Of the levels of the wavelet. Taps one step apart meet what the two levels before have mixed.
+constexpr int kSteps[] = {1, 2, 5, 12};
+
+/// Levels up to one whose step is the radius or more, or all.
 int LevelCount(float radius_px) {
-  const float radius = std::clamp(radius_px, 1.0f, 63.0f);
-  return static_cast<int>(std::lround(std::log2(radius))) + 1;
+  int count = 1;
+  while (count < std::ssize(kSteps) && static_cast<float>(kSteps[count - 1]) < radius_px) ++count;
+  return count;
 }
 
 }  // namespace
@@ -84,7 +87,8 @@ void Denoiser::Impl::EstimateNoise() {
     const int columns = buffers.PixelsAcross(y);
     if (columns == 1) return;
     kernels.gather(f, y, columns);
-    buffers.TakeGathered(y);
+    buffers.RepeatLight(y, 0);
+    buffers.RepeatSamples(y);
   });
   ForRows(f.height, 1, [&](int y) {
     kernels.window(f, y, buffers.StepX(y, 1));
@@ -98,13 +102,13 @@ void Denoiser::Run(const FilterGuides& guides, const LightSignal& signal, bool t
   Impl& impl = *impl_;
   FilterBuffers& buffers = impl.buffers;
   const int levels = LevelCount(signal.radius_px);
-  buffers.Load(guides, signal, 1 << (levels - 1));
+  buffers.Load(guides, signal, kSteps[levels - 1]);
   if (temporal) impl.histories[slot].Accumulate(guides, buffers);
   impl.EstimateNoise();
 
   const FilterPlanes& f = buffers.planes();
   for (int level = 0; level < levels; ++level) {
-    const int step = 1 << level, in = level & 1;
+    const int step = kSteps[level], in = level & 1;
     ForRows(f.height, step, [&](int y) {
       impl.kernels.atrous(f, y, step, buffers.StepX(y, step), in);
       buffers.RepeatLight(y, 1 - in);

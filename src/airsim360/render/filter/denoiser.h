@@ -28,7 +28,7 @@ struct LightSignal {
   Image<Rgb32f>* light = nullptr;  ///< in: mean of the samples; out: filtered. Unchanged where no surface is
   const Image<uint8_t>* samples = nullptr;  ///< how many; 0 = none yet, to be filled from neighbours;
                                             ///< nullptr = one each
-  float radius_px = 16;  ///< about how far samples may travel at the equator: 2^levels - 1 at most, 1 ... 63
+  float radius_px = 12;  ///< about how far samples may travel at the equator, up to 12: the step of the last level
 };
 
 /// Edge-avoiding a-trous wavelet (Dammertz et al. 2010) with variance guidance (after SVGF, Schied et al.

@@ -240,7 +240,8 @@ TEST(DenoiserTest, InstructionSetsAgreeBitForBit) {
     std::vector<float> x(f.stride), y_px(f.stride), places;
     for (int y = 0; y < f.height; ++y) {
       gather(f, y, buffers.PixelsAcross(y));
-      buffers.TakeGathered(y);
+      buffers.RepeatLight(y, 0);
+      buffers.RepeatSamples(y);
     }
     for (int y = 0; y < f.height; ++y) window(f, y, buffers.StepX(y, 1)), buffers.RepeatStatistics(y);
     for (int y = 0; y < f.height; ++y) variance(f, y, buffers.StepX(y, 3));

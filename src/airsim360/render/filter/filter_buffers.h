@@ -21,8 +21,6 @@ class FilterBuffers {
   void RepeatLight(int y, int set);
   void RepeatSamples(int y);
   void RepeatStatistics(int y);
-  /// Moves the result of GatherRow to set 0.
-  void TakeGathered(int y);
 
   const FilterPlanes& planes() const { return planes_; }
   const CameraRays& rays() const { return rays_; }

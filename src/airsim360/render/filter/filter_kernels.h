@@ -7,7 +7,7 @@
 /// Fills row y of the planes, all but the columns after `width`; light and data_id of set 0.
 AIRSIM360_DECLARE_KERNEL(void LoadFilterRow(const FilterPlanes& planes, int y, const FilterSource& source))
 /// Averages light of set 0 along the row over `columns` columns about each pixel, weighted by samples, where
-/// pixels are narrower than they are high.
+/// pixels are narrower than they are high. Set 1 and window serve as scratch; does not write the padding.
 AIRSIM360_DECLARE_KERNEL(void GatherRow(const FilterPlanes& planes, int y, int columns))
 /// Statistics of the 3 x 3 neighbourhood: window, own, loose.
 AIRSIM360_DECLARE_KERNEL(void WindowRow(const FilterPlanes& planes, int y, int step_x))

@@ -30,7 +30,7 @@ KERNEL void Ids(const float* __restrict range, const uint32_t* __restrict entity
   }
 }
 
-/// `n` columns from canonical column c and image column x on.
+/// `n` columns from canonical column c and image column x on. Where all are sky, ids say so and nothing else.
 KERNEL void LoadPart(const FilterPlanes& f, int64_t row, const FilterSource& s, int c, int x, int n) {
   const int64_t i = row + c;
   if (s.samples != nullptr) {
@@ -39,6 +39,9 @@ KERNEL void LoadPart(const FilterPlanes& f, int64_t row, const FilterSource& s, 
     for (int k = 0; k < n; ++k) f.samples[i + k] = 1;
   }
   Ids(s.range + x, s.entity + x, f.samples + i, n, f.id + i, f.data_id[0] + i);
+  bool surface = false;
+  for (int k = 0; k < n; ++k) surface |= s.range[x + k] > 0;
+  if (!surface) return;
   Split(s.normal + 3 * x, n, f.n[0] + i, f.n[1] + i, f.n[2] + i);
   if (s.geometric_normal != nullptr) Split(s.geometric_normal + 3 * x, n, f.g[0] + i, f.g[1] + i, f.g[2] + i);
   Split(s.light + 3 * x, n, f.light[0][0] + i, f.light[0][1] + i, f.light[0][2] + i);
@@ -48,12 +51,17 @@ KERNEL void LoadPart(const FilterPlanes& f, int64_t row, const FilterSource& s, 
   Position(s.range + x, s.column_z + c, s.row_scale, s.row_z, n, f.p[2] + i);
 }
 
+KERNEL void LoadParts(const FilterPlanes& f, int64_t row, const FilterSource& s, int c, int x, int n) {
+  constexpr int kPart = 128;
+  for (int k = 0; k < n; k += kPart) LoadPart(f, row, s, c + k, x + k, n - k < kPart ? n - k : kPart);
+}
+
 }  // namespace
 
 void LoadFilterRow(const FilterPlanes& f, int y, const FilterSource& s) {
   const int64_t row = int64_t{y} * f.stride;
-  LoadPart(f, row, s, 0, f.width - s.column_shift, s.column_shift);
-  LoadPart(f, row, s, s.column_shift, 0, f.width - s.column_shift);
+  LoadParts(f, row, s, 0, f.width - s.column_shift, s.column_shift);
+  LoadParts(f, row, s, s.column_shift, 0, f.width - s.column_shift);
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -15,6 +15,7 @@ constexpr float kLeastShare = 1.0f / 64;
 
 KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns) {
   const int64_t i = row + x;
+  if (NoSurface(f, i)) return;
   const Center c = MakeCenter(f, i, real(0.0f), static_cast<float>(columns) * 0.5f);
   const mask_t known = SameId(Ids(f.data_id[0], i), c.id);
   const real3 base = At3(f.light[0], i);
@@ -39,6 +40,14 @@ KERNEL void GatherVector(const FilterPlanes& f, int64_t row, int x, int columns)
   DataIds(found, c.id, uids(0u)).copy_to(f.data_id[1] + i, stdx::element_aligned);
 }
 
+/// Moves what GatherVector made to set 0.
+KERNEL void TakeVector(const FilterPlanes& f, int64_t i) {
+  if (NoSurface(f, i)) return;
+  for (int k = 0; k < 3; ++k) Put(f.light[0][k], i, At(f.light[1][k], i));
+  Ids(f.data_id[1], i).copy_to(f.data_id[0] + i, stdx::element_aligned);
+  Put(f.samples, i, At(f.window, i));
+}
+
 /// Sums of differences of luminance to a centre.
 struct Moments {
   real n = real(0.0f), first = real(0.0f), second = real(0.0f);
@@ -53,6 +62,8 @@ struct Moments {
 };
 
 KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
+  if (NoSurface(f, i)) return;
+  FetchAhead(f, rows[2], x, {f.id, f.data_id[0], f.light[0][0], f.light[0][1], f.light[0][2]});
   const Center c = MakeCenter(f, i, real(0.0f), 1);
   const mask_t known = SameId(Ids(f.data_id[0], i), c.id);
   const real l = luminance(At3(f.light[0], i));
@@ -82,6 +93,8 @@ KERNEL void WindowVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64
 }
 
 KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step_x) {
+  if (NoSurface(f, i)) return;
+  FetchAhead(f, rows[2], x, {f.id, f.window});
   const Center c = MakeCenter(f, i, At(f.loose, i), 3);
   const real l = luminance(At3(f.light[0], i)), n = rmax(At(f.samples, i), real(1.0f));
   const real least = l * l * (kAgreement / (n * n)) + 1e-20f;
@@ -109,6 +122,7 @@ KERNEL void VarianceVector(const FilterPlanes& f, const RowPlace (&rows)[3], int
 void GatherRow(const FilterPlanes& f, int y, int columns) {
   const int64_t row = int64_t{y} * f.stride;
   for (int x = 0; x < f.width; x += kLanes) GatherVector(f, row, x, columns);
+  for (int x = 0; x < f.width; x += kLanes) TakeVector(f, row + x);
 }
 
 void WindowRow(const FilterPlanes& f, int y, int step_x) {

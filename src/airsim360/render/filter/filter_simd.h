@@ -5,6 +5,8 @@
 // the wavelet. Differences to the centre are summed, not values, so that constant light stays as it is.
 #pragma once
 
+#include <initializer_list>
+
 #include "airsim360/render/filter/filter_planes.h"
 #include "airsim360/render/shading/shading_simd.h"
 
@@ -33,6 +35,11 @@ KERNEL uids DataIds(mask_t found, uids surface, uids before) {
 }
 KERNEL uids Ids(const uint32_t* plane, int64_t i) { return uids(plane + i, stdx::element_aligned); }
 
+/// Whether a vector of pixels shows nothing but sky: no pass has anything to do there.
+KERNEL bool NoSurface(const FilterPlanes& f, int64_t i) {
+  return stdx::all_of(Ids(f.id, i) == kNoSurface);
+}
+
 /// Column `x` counted beyond the borders of a row.
 KERNEL int Wrapped(int x, int wrap) { return x < 0 ? x + wrap : x >= wrap ? x - wrap : x; }
 
@@ -46,6 +53,20 @@ KERNEL RowPlace FindRow(const FilterPlanes& f, int y) {
   const int over = y < 0 ? -1 - y : 2 * f.height - 1 - y;
   if (!f.sphere || over < 0 || over >= f.height) return {-1, 0};
   return {int64_t{over} * f.stride, f.width / 2};
+}
+
+/// Asks for what the taps of the lowest row will meet, of positions, normals and the planes given: they are too
+/// many for the processor to foresee by itself.
+KERNEL void FetchAhead(const FilterPlanes& f, const RowPlace& row, int x,
+                       std::initializer_list<const void*> planes) {
+  constexpr int kAhead = 128;
+  if (row.first < 0) return;
+  const int64_t i = row.first + x + kAhead;
+  for (int k = 0; k < 3; ++k) {
+    __builtin_prefetch(f.p[k] + i);
+    __builtin_prefetch(f.n[k] + i);
+  }
+  for (const void* plane : planes) __builtin_prefetch(static_cast<const float*>(plane) + i);
 }
 
 /// What a pixel compares its neighbours with.
@@ -64,9 +85,9 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   const real sharpness = lerp1(real(kLooseNormal / 8), real(kNormal / 8), (1.0f - loose) * (1.0f - loose));
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
-  const real thickness = rroot(dot3(p, p)) * (f.cone_angle * (1.0f + f.plane_slope * step)) *
-                         (1.0f + (kLooseThickness - 1.0f) * loose);
-  c.inverse_thickness = (1.0f / 16) / rmax(thickness * thickness, real(1e-12f));
+  // Over the distance.
+  const real thickness = (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
+  c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(1e-12f));
   return c;
 }
 

@@ -207,7 +207,7 @@ class VulkanRenderer : public GpuRenderer {
   }
   void AddHighPasses(bool denoise, bool antialias, GpuSlot::Work& work) {
     // Numbers as in filter.rgen.
-    constexpr int kLoad = 0, kLevel = 5, kLevels = 5, kRemember = 10, kKeep = 11;
+    constexpr int kLoad = 0, kLevel = 5, kLevels = 4, kRemember = 10, kKeep = 11;
     const GpuPipeline* filter = Made(filter_, FilterRaygen());
     work.passes.push_back({Made(high_, HighRaygen())});
     work.passes.push_back({Made(high_light_, HighLightRaygen())});

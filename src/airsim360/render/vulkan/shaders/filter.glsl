@@ -45,9 +45,9 @@ Center MakeCenter(uint i, float loose, float step) {
   const float sharpness = lerp1(kLooseNormal / 8.0, kNormalShare / 8.0, (1.0 - loose) * (1.0 - loose));
   c.normal = c.g * sharpness;
   c.base = 1.0 - sharpness;
-  const float thickness = sqrt(dot(p, p)) * (camera.cone_angle * (1.0 + kPlaneSlope * step)) *
-                          (1.0 + (kLooseThickness - 1.0) * loose);
-  c.inverse_thickness = (1.0 / 16.0) / max(thickness * thickness, 1e-12);
+  // Over the distance.
+  const float thickness = (1.0 + (kLooseThickness - 1.0) * loose) * (camera.cone_angle * (1.0 + kPlaneSlope * step));
+  c.inverse_thickness = (1.0 / 16.0) / max(dot(p, p) * (thickness * thickness), 1e-12);
   return c;
 }
 
