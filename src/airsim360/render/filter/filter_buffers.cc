@@ -16,8 +16,8 @@ namespace {
 constexpr float kGeometricSlope = 0.05f, kShadingSlope = 0.15f;
 constexpr int kFillRadius = 24;
 
-// Planes a whole number of pages apart would fight for the same few lines of the cache: each starts three lines
-// further into its page than the one before.
+// Planes a whole number of pages apart would fight for the same few lines of the cache: each starts three
+// lines further into its page than the one before.
 size_t PlaneSize(const FilterPlanes& f) {
   constexpr size_t kPage = 1024, kSkew = 3 * 16;
   return (static_cast<size_t>(f.stride) * f.height + kPage - 1) / kPage * kPage + kSkew;

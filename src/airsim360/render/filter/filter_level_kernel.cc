@@ -7,7 +7,8 @@ namespace {
 
 // x_light = difference^2 / (2 (kSigmas sigma)^2).
 constexpr float kSigmas = 3.1f;
-// A pixel's own weight beside taps of 0.125 and 0.0625: below 0.25, so that four levels leave nothing of a firefly.
+// A pixel's own weight beside taps of 0.125 and 0.0625: below 0.25, so that four levels leave nothing of a
+// firefly.
 constexpr float kOwnWeight = 0.22f;
 
 KERNEL void AtrousVector(const FilterPlanes& f, const RowPlace (&rows)[3], int64_t i, int x, int step,

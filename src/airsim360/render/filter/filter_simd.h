@@ -86,7 +86,8 @@ KERNEL Center MakeCenter(const FilterPlanes& f, int64_t i, real loose, float ste
   c.normal = At3(f.n, i) * sharpness;
   c.base = 1.0f - sharpness;
   // Over the distance.
-  const real thickness = (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
+  const real thickness =
+      (1.0f + (kLooseThickness - 1.0f) * loose) * (f.cone_angle * (1.0f + f.plane_slope * step));
   c.inverse_thickness = (1.0f / 16) / rmax(dot3(p, p) * (thickness * thickness), real(1e-12f));
   return c;
 }
