@@ -139,7 +139,7 @@ width, height: pixels (height 0: half the width for panoramas, else the width). 
 products: any of rgb, range, semantic, entity, normal, position, albedo, material, part, flow, radiance. projection: erp,
 pinhole or fisheye (fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B.
 level: the horizon stays level. flow_dt: seconds that optical flow leads on by. edge_samples: colour samples of a pixel
-on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, else 4).)")
+on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high).)")
       .def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::arg("tier") = "fast",
            py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"},
            py::arg("projection") = "erp", py::arg("fov") = M_PI / 2,

@@ -36,7 +36,7 @@ void PictureArguments::AddTo(CLI::App& command) {
                      "shutter and JPEG; labels stay ideal (default ideal)");
   command.add_option("--edge-samples", edge_samples,
                      "fast, high: colour samples of a pixel on an edge, 1 … 64; 1: the middle of every pixel "
-                     "alone, the fastest (fast: 2, high: 4)");
+                     "alone, the fastest (fast: 2, high: 8)");
   command.add_flag("--radiance", radiance, "write linear light too: radiance/STEM.exr, half float");
 }
 
