@@ -233,11 +233,11 @@ TEST(DenoiserTest, InstructionSetsAgreeBitForBit) {
   Image<uint8_t> samples(view.width(), view.height(), 2);
   RngStream rng(5, "holes");
   for (uint8_t& n : samples.pixels()) n = rng.Chance(0.7) ? 2 : 0;
-  const auto run = [&](auto gather, auto window, auto variance, auto atrous, auto reproject) {
+  const auto run = [&](auto gather, auto window, auto variance, auto atrous) {
     FilterBuffers buffers;
     buffers.Load(view.guides(), {&noise, &samples, 4}, 4);
     const FilterPlanes& f = buffers.planes();
-    std::vector<float> x(f.stride), y_px(f.stride), places;
+    std::vector<float> values;
     for (int y = 0; y < f.height; ++y) {
       gather(f, y, buffers.PixelsAcross(y));
       buffers.RepeatLight(y, 0);
@@ -246,28 +246,22 @@ TEST(DenoiserTest, InstructionSetsAgreeBitForBit) {
     for (int y = 0; y < f.height; ++y) window(f, y, buffers.StepX(y, 1)), buffers.RepeatStatistics(y);
     for (int y = 0; y < f.height; ++y) variance(f, y, buffers.StepX(y, 3));
     for (int y = 0; y < f.height; ++y) atrous(f, y, 2, buffers.StepX(y, 2), 0);
-    for (int y = 0; y < f.height; ++y) {
-      reproject(f, y,
-                ReprojectedRow{{0, 1, 0, 1, 0, 0, 0, 0, -1}, {0.1f, 0.2f, 0.3f}, x.data(), y_px.data()});
-      places.insert(places.end(), x.begin(), x.begin() + f.width);
-      places.insert(places.end(), y_px.begin(), y_px.begin() + f.width);
-    }
     Image<Rgb32f> out(view.width(), view.height());
     buffers.Store(1, out);
-    for (const Rgb32f& c : out.pixels()) places.insert(places.end(), {c.r, c.g, c.b});
+    for (const Rgb32f& c : out.pixels()) values.insert(values.end(), {c.r, c.g, c.b});
     for (int y = 0; y < f.height; ++y)
-      places.insert(places.end(), f.variance + y * f.stride, f.variance + y * f.stride + f.width);
-    return places;
+      values.insert(values.end(), f.variance + y * f.stride, f.variance + y * f.stride + f.width);
+    return values;
   };
-  const auto sse = run(isa_sse42::GatherRow, isa_sse42::WindowRow, isa_sse42::VarianceRow,
-                       isa_sse42::AtrousRow, isa_sse42::ReprojectRow);
+  const auto sse =
+      run(isa_sse42::GatherRow, isa_sse42::WindowRow, isa_sse42::VarianceRow, isa_sse42::AtrousRow);
   if (CurrentKernelIsa() >= KernelIsa::kAvx2) {
-    EXPECT_TRUE(run(isa_avx2::GatherRow, isa_avx2::WindowRow, isa_avx2::VarianceRow, isa_avx2::AtrousRow,
-                    isa_avx2::ReprojectRow) == sse);
+    EXPECT_TRUE(run(isa_avx2::GatherRow, isa_avx2::WindowRow, isa_avx2::VarianceRow, isa_avx2::AtrousRow) ==
+                sse);
   }
   if (CurrentKernelIsa() >= KernelIsa::kAvx512) {
     EXPECT_TRUE(run(isa_avx512::GatherRow, isa_avx512::WindowRow, isa_avx512::VarianceRow,
-                    isa_avx512::AtrousRow, isa_avx512::ReprojectRow) == sse);
+                    isa_avx512::AtrousRow) == sse);
   }
 }
 

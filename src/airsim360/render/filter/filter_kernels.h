@@ -1,8 +1,8 @@
 // The passes of the denoiser, row by row: one copy per instruction set, bit for bit the same results.
 #pragma once
 
-#include "airsim360/render/filter/filter_planes.h"
 #include "airsim360/base/kernel_isa.h"
+#include "airsim360/render/filter/filter_planes.h"
 
 /// Fills row y of the planes, all but the columns after `width`; light and data_id of set 0.
 AIRSIM360_DECLARE_KERNEL(void LoadFilterRow(const FilterPlanes& planes, int y, const FilterSource& source))
@@ -16,5 +16,7 @@ AIRSIM360_DECLARE_KERNEL(void VarianceRow(const FilterPlanes& planes, int y, int
 /// One level: light and data_id of set `in` to the other set, with nine taps `step` pixels apart. Does not
 /// write the padding.
 AIRSIM360_DECLARE_KERNEL(void AtrousRow(const FilterPlanes& planes, int y, int step, int step_x, int in))
-/// Where the points of row y were seen before.
-AIRSIM360_DECLARE_KERNEL(void ReprojectRow(const FilterPlanes& planes, int y, const ReprojectedRow& then))
+/// Mixes the last frame into light, samples and data_id of set 0. Does not write the padding.
+AIRSIM360_DECLARE_KERNEL(void RecallRow(const FilterPlanes& planes, int y, const FilterPast& past))
+/// Copies row y of set 0 to the pixels of the past.
+AIRSIM360_DECLARE_KERNEL(void KeepRow(const FilterPlanes& planes, int y, const FilterPast& past))

@@ -1,4 +1,4 @@
-// Kernel: the levels of the wavelet, and where points were in the last frame.
+// Kernel: the levels of the wavelet.
 #include "airsim360/render/filter/filter_kernels.h"
 #include "airsim360/render/filter/filter_simd.h"
 
@@ -53,22 +53,6 @@ void AtrousRow(const FilterPlanes& f, int y, int step, int step_x, int in) {
   RowPlace rows[3];
   FindRows(f, y, step, rows);
   for (int x = 0; x < f.width; x += kLanes) AtrousVector(f, rows, rows[1].first + x, x, step, step_x, in);
-}
-
-void ReprojectRow(const FilterPlanes& f, int y, const ReprojectedRow& then) {
-  const int64_t row = int64_t{y} * f.stride;
-  const float* R = then.R;
-  for (int x = 0; x < f.width; x += kLanes) {
-    real3 v = At3(f.p, row + x);
-    v = make3(v.x + then.offset[0], v.y + then.offset[1], v.z + then.offset[2]);
-    const real3 c = make3(v.x * R[0] + v.y * R[1] + v.z * R[2], v.x * R[3] + v.y * R[4] + v.z * R[5],
-                          v.x * R[6] + v.y * R[7] + v.z * R[8]);
-    const real theta = atan2_approx(c.x, c.z);
-    const real phi = atan2_approx(real(0.0f) - c.y, rroot(c.x * c.x + c.z * c.z));
-    const float per_radian = 0.5f * SHADE_INV_PI * static_cast<float>(f.width);
-    Put(then.x, x, theta * per_radian + 0.5f * static_cast<float>(f.width));
-    Put(then.y, x, 0.5f * static_cast<float>(f.height) - phi * per_radian);
-  }
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

@@ -43,11 +43,15 @@ struct FilterSource {
   double row_scale, row_x, row_y, row_z;
 };
 
-/// Where the points of one row were in the last frame's picture (a panorama).
-struct ReprojectedRow {
+/// What the last frame of the same size saw.
+struct FilterPast {
+  static constexpr int kFloats = 12;
+  float* pixels;    ///< kFloats each: position, bits of the surface (0 = no light), normal, samples, light, 0
+  int stride;       ///< pixels from row to row
   float R[9];       ///< row-major, W to the last frame's canonical axes
   float offset[3];  ///< camera now minus camera then, in W
-  float *x, *y;     ///< out: pixel position then, in canonical columns
+  /// Pixel positions then of this row's points; null = a panorama, where the kernel finds them itself.
+  const float *x, *y;
 };
 
 }  // namespace airsim360::internal

@@ -66,12 +66,16 @@ KERNEL LaneVector QuadHigh(LaneVector a, LaneVector b) {
 }
 #endif
 
+/// Rows j of quads of the lanes j, j + 4, … to columns, and back: its own inverse.
+KERNEL real4 TurnQuads(LaneVector a, LaneVector b, LaneVector c, LaneVector d) {
+  const LaneVector xy = PairLow(a, b), zw = PairHigh(a, b), xy2 = PairLow(c, d), zw2 = PairHigh(c, d);
+  return {real(QuadLow(xy, xy2)), real(QuadHigh(xy, xy2)), real(QuadLow(zw, zw2)), real(QuadHigh(zw, zw2))};
+}
+
 /// The four floats at `at(lane)`, which is a const float* that needs no alignment.
 template <class At>
 KERNEL real4 GatherQuads(At at) {
-  const LaneVector a = LaneRow(at, 0), b = LaneRow(at, 1), c = LaneRow(at, 2), d = LaneRow(at, 3);
-  const LaneVector xy = PairLow(a, b), zw = PairHigh(a, b), xy2 = PairLow(c, d), zw2 = PairHigh(c, d);
-  return {real(QuadLow(xy, xy2)), real(QuadHigh(xy, xy2)), real(QuadLow(zw, zw2)), real(QuadHigh(zw, zw2))};
+  return TurnQuads(LaneRow(at, 0), LaneRow(at, 1), LaneRow(at, 2), LaneRow(at, 3));
 }
 
 /// The same into four rows of lanes one after another.
