@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     rows.push_back({"fast, 1 sample", Tier::kFast, 1, threads});
     rows.push_back({"fast, 2 samples", Tier::kFast, 2, threads});
     rows.push_back({"fast, 4 samples", Tier::kFast, 4, threads});
-    rows.push_back({"high, 4 samples", Tier::kHigh, 4, threads});
+    rows.push_back({"high, 8 samples", Tier::kHigh, 8, threads});
   }
   const int only = Argument(argc, argv, "--row", 0);
   if (only > 0 && only <= static_cast<int>(rows.size())) rows = {rows[static_cast<size_t>(only - 1)]};
