@@ -26,10 +26,11 @@ struct HighBuffers {
   std::vector<uint8_t> smooth;    ///< of each tile: not 0 if it has penumbrae
 
   void Resize(int width, int height);
-  /// Share of the disc, smoothed where there are penumbrae.
-  float Sun(int x, int y) const {
-    const bool smoothed = smooth[static_cast<size_t>(y / kTileSize * across() + x / kTileSize)] != 0;
-    return smoothed ? sun_smooth(x, y) : sun_seen(x, y);
+  /// Share of the disc at the `pixel`-th pixel of the images, smoothed where there are penumbrae.
+  float Sun(int64_t pixel) const {
+    const int64_t tile_column = pixel % range.width() / kTileSize, tile_row = pixel / range.width() / kTileSize;
+    const bool smoothed = smooth[static_cast<size_t>(tile_row * across() + tile_column)] != 0;
+    return (smoothed ? sun_smooth : sun_seen).pixels()[static_cast<size_t>(pixel)];
   }
   int across() const { return (range.width() + kTileSize - 1) / kTileSize; }
   int down() const { return (range.height() + kTileSize - 1) / kTileSize; }

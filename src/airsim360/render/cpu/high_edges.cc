@@ -118,7 +118,7 @@ class EdgeTile {
       const int64_t pixel = MostAlike(i, cost);
       if (pixel < 0) continue;
       around[i] = buffers_.light.pixels()[static_cast<size_t>(pixel)];
-      if (cost < kSameSurface) sun_known[i] = buffers_.Sun(static_cast<int>(pixel % buffers_.range.width()), static_cast<int>(pixel / buffers_.range.width()));
+      if (cost < kSameSurface) sun_known[i] = buffers_.Sun(pixel);
     }
     ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, terms_, shaded_);
     const LightTerms& t = terms_;

@@ -44,10 +44,6 @@ AIRSIM360_INLINE int64_t FirstPixel(const TileTarget& t, int r) {
   return static_cast<int64_t>(t.row + r) * t.width + t.column;
 }
 
-AIRSIM360_INLINE int Columns(const TileTarget& t) {
-  return t.width - t.column < kTileSize ? t.width - t.column : kTileSize;
-}
-
 }  // namespace
 
 uint8_t StoreHigh(const LabelTile& labels, const HighTile& shaded, const TileTarget& t,

@@ -49,6 +49,13 @@ AIRSIM360_INLINE void Interleave(const float* x, const float* y, const float* z,
   std::memcpy(out + 8, &third, sizeof third);
 }
 
+AIRSIM360_INLINE int Rows(const TileTarget& t) {
+  return t.height - t.row < kTileSize ? t.height - t.row : kTileSize;
+}
+AIRSIM360_INLINE int Columns(const TileTarget& t) {
+  return t.width - t.column < kTileSize ? t.width - t.column : kTileSize;
+}
+
 // Image pixels of a tile row: one run, or two where it crosses the seam.
 struct Runs {
   int64_t first;   // index of the image pixel of tile column 0
@@ -58,7 +65,7 @@ struct Runs {
 };
 
 AIRSIM360_INLINE Runs RowRuns(const TileTarget& t, int r) {
-  const int columns = t.width - t.column < kTileSize ? t.width - t.column : kTileSize;
+  const int columns = Columns(t);
   int x = t.column - t.column_shift;
   if (x < 0) x += t.width;
   const int64_t row = static_cast<int64_t>(t.row + r) * t.width;
@@ -76,10 +83,6 @@ AIRSIM360_INLINE void StoreRow(const Row& pixels, const Runs& runs, Pixel* image
   }
   for (int i = 0; i < runs.count; ++i) image[runs.first + i] = pixels[i];
   for (int i = 0; i < runs.rest; ++i) image[runs.second + i] = pixels[runs.count + i];
-}
-
-AIRSIM360_INLINE int Rows(const TileTarget& t) {
-  return t.height - t.row < kTileSize ? t.height - t.row : kTileSize;
 }
 
 // Three numbers side by side, whatever type of pixel they are.

@@ -154,9 +154,9 @@ void RecallRow(const FilterPlanes& f, int y, const FilterPast& past) {
   for (int x = 0; x < f.width; x += kLanes) RecallVector(f, past, row + x, x);
 }
 
-void KeepRow(const FilterPlanes& f, int y, const FilterPast& past) {
+void KeepRow(const FilterPlanes& f, int y, float* pixels) {
   const int64_t row = int64_t{y} * f.stride;
-  float* to = past.pixels + FilterPast::kFloats * (int64_t{y} * past.stride);
+  float* to = pixels + FilterPast::kFloats * row;
   for (int x = 0; x < f.width; x += kLanes) KeepVector(f, row + x, to + FilterPast::kFloats * x);
   // Stores past the cache are seen by other threads only after this.
   _mm_sfence();

@@ -18,5 +18,5 @@ AIRSIM360_DECLARE_KERNEL(void VarianceRow(const FilterPlanes& planes, int y, int
 AIRSIM360_DECLARE_KERNEL(void AtrousRow(const FilterPlanes& planes, int y, int step, int step_x, int in))
 /// Mixes the last frame into light, samples and data_id of set 0. Does not write the padding.
 AIRSIM360_DECLARE_KERNEL(void RecallRow(const FilterPlanes& planes, int y, const FilterPast& past))
-/// Copies row y of set 0 to the pixels of the past.
-AIRSIM360_DECLARE_KERNEL(void KeepRow(const FilterPlanes& planes, int y, const FilterPast& past))
+/// Copies row y of set 0 to `pixels`, FilterPast::kFloats each, with the planes' stride.
+AIRSIM360_DECLARE_KERNEL(void KeepRow(const FilterPlanes& planes, int y, float* pixels))

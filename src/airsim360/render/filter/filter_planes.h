@@ -46,7 +46,7 @@ struct FilterSource {
 /// What the last frame of the same size saw.
 struct FilterPast {
   static constexpr int kFloats = 12;
-  float* pixels;    ///< kFloats each: position, bits of the surface (0 = no light), normal, samples, light, 0
+  const float* pixels;  ///< kFloats each: position, bits of the surface (0 = no light), normal, samples, light, 0
   int stride;       ///< pixels from row to row
   float R[9];       ///< row-major, W to the last frame's canonical axes
   float offset[3];  ///< camera now minus camera then, in W

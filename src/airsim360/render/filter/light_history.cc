@@ -14,9 +14,7 @@ void LightHistory::Accumulate(const FilterGuides& guides, FilterBuffers& buffers
 void LightHistory::Mix(const FilterGuides& guides, FilterBuffers& buffers) const {
   const FilterPlanes& f = buffers.planes();
   const Vec3f offset = VecCast<float>(guides.X_WC.p - p_);
-  // The kernel reads no more than this.
-  FilterPast past{const_cast<float*>(pixels_.data()), stride_, {},
-                  {offset.x, offset.y, offset.z},     nullptr, nullptr};
+  FilterPast past{pixels_.data(), stride_, {}, {offset.x, offset.y, offset.z}, nullptr, nullptr};
   for (int i = 0; i < 9; ++i) past.R[i] = static_cast<float>(R0_.m[i % 3][i / 3]);
   const auto recall = AIRSIM360_SELECT_KERNEL(RecallRow);
   ParallelFor(f.height, [&](int64_t row) {
@@ -41,9 +39,8 @@ void LightHistory::Keep(const FilterGuides& guides, const FilterBuffers& buffers
   for (int i = 0; i < 9; ++i) R0_.m[i / 3][i % 3] = R[i];
   p_ = guides.X_WC.p;
   pixels_.resize(size_t{FilterPast::kFloats} * static_cast<size_t>(stride_) * static_cast<size_t>(height_));
-  const FilterPast past{pixels_.data(), stride_, {}, {}, nullptr, nullptr};
   const auto keep = AIRSIM360_SELECT_KERNEL(KeepRow);
-  ParallelFor(f.height, [&](int64_t y) { keep(f, static_cast<int>(y), past); });
+  ParallelFor(f.height, [&](int64_t y) { keep(f, static_cast<int>(y), pixels_.data()); });
 }
 
 // Of a camera that is no panorama.

@@ -126,7 +126,7 @@ std::vector<float> Recalled(Keep keep, Recall recall) {
     past.stride = f.stride;
     pixels.resize(size_t{FilterPast::kFloats} * f.stride * f.height);
     past.pixels = pixels.data();
-    for (int y = 0; y < f.height; ++y) frame == 0 ? keep(f, y, past) : recall(f, y, past);
+    for (int y = 0; y < f.height; ++y) frame == 0 ? keep(f, y, pixels.data()) : recall(f, y, past);
     const double* R = buffers.rays().field().R;
     for (int i = 0; i < 9; ++i) past.R[i] = static_cast<float>(R[i % 3 * 3 + i / 3]);
     if (frame == 0) continue;

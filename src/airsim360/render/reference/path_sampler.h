@@ -20,7 +20,7 @@ class PathSampler {
     const uint64_t h = MixBits(key_ + pair), g = MixBits(h);
     // A shuffle that keeps every aligned power of two of samples together keeps their stratification.
     const uint32_t i = owen_scramble(index, static_cast<uint32_t>(h));
-    return {unit_of(ReverseBits(owen_hash(i, static_cast<uint32_t>(g)))),
+    return {unit_of(reverse_bits(owen_hash(i, static_cast<uint32_t>(g)))),
             unit_of(owen_scramble(sobol_second(i), static_cast<uint32_t>(g >> 32)))};
   }
 

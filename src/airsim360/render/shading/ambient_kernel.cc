@@ -74,8 +74,8 @@ KERNEL real SunSeen(const SunMapView& map, real3 p, real bias) {
 }
 
 /// Irradiance by probes: one of the eight around, chosen with the probability of its weight (which is right
-/// on average and reads one cache line); all eight where the chosen one is inside a solid, of lanes that are `wanted`. The choice hangs
-/// on the point alone, to a millimetre, so that other back ends choose the same.
+/// on average and reads one cache line); all eight in `wanted` lanes where the chosen one is inside a solid. The
+/// choice hangs on the point alone, to a millimetre, so that other back ends choose the same.
 KERNEL real3 NearProbe(const ShadeView& view, mask_t wanted, real3 p, real3 n) {
   const ProbeView& grid = view.probes;
   if (grid.probes == nullptr) return UniformAmbient(view, n, n).front;

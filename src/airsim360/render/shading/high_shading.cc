@@ -40,16 +40,17 @@ void Put(const RaySet& set, bool all, const Number* from, Number* to) {
   }
 }
 
+constexpr float kZeros[kBatch] = {};
+constexpr uint8_t kZeroBytes[kBatch] = {};
+
 void PutSky(const RaySet& sky, bool all, const LightSet& light, LightTerms& terms, HighTile& tile) {
-  constexpr float kNone[kBatch] = {};
-  constexpr uint8_t kNoBytes[kBatch] = {};
   for (float* plane : {terms.ambient_r, terms.ambient_g, terms.ambient_b, terms.sun_r, terms.sun_g, terms.sun_b,
                        tile.sun_seen, tile.normal_x, tile.normal_y, tile.normal_z, tile.light_r, tile.light_g,
                        tile.light_b})
-    Put(sky, all, kNone, plane);
+    Put(sky, all, kZeros, plane);
   Put(sky, all, light.r, terms.rest_r), Put(sky, all, light.g, terms.rest_g);
   Put(sky, all, light.b, terms.rest_b);
-  Put(sky, all, kNoBytes, tile.light_samples), Put(sky, all, kNoBytes, tile.penumbra);
+  Put(sky, all, kZeroBytes, tile.light_samples), Put(sky, all, kZeroBytes, tile.penumbra);
 }
 
 void PutSurfaces(const RaySet& rays, bool all, const SurfaceSet& s, HighTile& tile) {
@@ -111,8 +112,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   SurfaceSet surfaces;
   const bool all = sky.count == 0;
   impl.kernels.prepare(impl.view, rays, surfaces);
-  constexpr uint8_t kNoPenumbra[kBatch] = {};
-  Put(rays, all, kNoPenumbra, tile.penumbra);
+  Put(rays, all, kZeroBytes, tile.penumbra);
   if (impl.sky) {
     if (sampling != nullptr)
       TraceSunDisc(impl, *sampling, rays, surfaces, tile.penumbra);

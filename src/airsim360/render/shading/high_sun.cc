@@ -82,10 +82,9 @@ class SunTile {
         Ask(sixteen);
         continue;
       }
-      AnyBit(asked, [&](int k) {
+      ForLanes(asked, [&](int k) {
         queue.Add({r.origin_x[k], r.origin_y[k], r.origin_z[k]}, {x[k], y[k], z[k]}, first + k);
         if (queue.count == 16) Ask(queue);
-        return false;
       });
     }
     if (queue.count > 0) Ask(queue);
@@ -104,9 +103,8 @@ class SunTile {
           any |= others[k] = v >= 0 && v < kSide ? grid_.seen[1 - sees][v] : 0;
         }
         if (any == 0) continue;
-        AnyBit(grid_.seen[sees][y], [&](int x) {
+        ForLanes(grid_.seen[sees][y], [&](int x) {
           if (AtShadowEdge(x, y, others)) edge[count++] = grid_.at[y * kSide + x];
-          return false;
         });
       }
     }
@@ -126,13 +124,10 @@ class SunTile {
  private:
   template <class Each>
   void ForAsked(Each each) const {
-    for (int first = 0; first < rays_.count; first += 16) {
-      AnyBit(asked_[first / 16], [&](int k) {
-        each(first + k);
-        return false;
-      });
-    }
+    for (int first = 0; first < rays_.count; first += 16)
+      ForLanes(asked_[first / 16], [&](int k) { each(first + k); });
   }
+
   // The first points of the disc.
   void SharedPoints(int count, bool of_pixel) {
     static const auto share = AIRSIM360_SELECT_KERNEL(SharedSun);

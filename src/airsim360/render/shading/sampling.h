@@ -8,27 +8,17 @@
 
 namespace airsim360::internal {
 
-inline uint32_t ReverseBits(uint32_t x) {
-  x = (x >> 16) | (x << 16);
-  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
-  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
-  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
-  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
-}
-
 #define SHARED inline
 #define word uint32_t
-#define reverse_bits ReverseBits
 #include "airsim360/render/shading/shading_points.h"
 #undef SHARED
 #undef word
-#undef reverse_bits
 
 /// Point `index` of the (0, 2)-sequence scrambled by `seed`: any 2^k points from a multiple of 2^k on are
 /// stratified in [0, 1)^2 in every way.
 inline Vec2f SobolPoint(uint32_t index, uint32_t seed) {
   const uint32_t hash = hash_bits(seed);
-  return {unit_of(owen_scramble(ReverseBits(index), hash)), unit_of(owen_scramble(sobol_second(index), hash_bits(hash)))};
+  return {unit_of(owen_scramble(reverse_bits(index), hash)), unit_of(owen_scramble(sobol_second(index), hash_bits(hash)))};
 }
 
 /// Unit vector of a point of the unit square, areas kept.

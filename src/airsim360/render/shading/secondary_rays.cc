@@ -1,7 +1,6 @@
 #include "airsim360/render/shading/secondary_rays.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "airsim360/render/lights/clear_panes.h"
@@ -42,12 +41,6 @@ void Pad(RaySet& set) {
 }
 
 namespace {
-
-// Calls `each` for the lanes of `bits`.
-template <class Each>
-void ForLanes(uint32_t bits, Each each) {
-  for (; bits != 0; bits &= bits - 1) each(std::countr_zero(bits));
-}
 
 // Whether the sixteen (or the rest, of `count`) from `first` on are all 0.
 bool NoneSet(const float* flags, int first, int count) {

@@ -1,6 +1,8 @@
 // The rays that surfaces send: to the sun, upwards, along reflections. All trace sixteen at a time.
 #pragma once
 
+#include <bit>
+
 #include "airsim360/render/shading/ray_queue.h"
 #include "airsim360/render/shading/shading_data.h"
 #include "airsim360/render/shading/surface_tables.h"
@@ -12,7 +14,14 @@ namespace airsim360::internal {
 /// (their colour is averaged).
 void SeenShare(const RayTracer& tracer, const SurfaceTables& tables, RayQueue& queue, float* share);
 /// The bits of those of the sixteen surfaces from `first` on that exist.
-inline uint32_t Existing(int first, int count) { return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1; }
+inline uint32_t Existing(int first, int count) {
+  return count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1;
+}
+/// Calls `each` for the lanes of `bits`.
+template <class Each>
+void ForLanes(uint32_t bits, Each each) {
+  for (; bits != 0; bits &= bits - 1) each(std::countr_zero(bits));
+}
 /// Repeats the last ray of a set up to a full vector, so that kernels read sane values.
 void Pad(RaySet& set);
 /// Turns `sunlit` from "may matter" to "is seen": 1, less behind clear panes.

@@ -1,5 +1,16 @@
-// Even random points, once for C++ and GLSL: words of 32 bits are `word`, reverse_bits turns their order round. Include after
-// defining SHARED and both.
+// Even random points, once for C++ and GLSL: words of 32 bits are `word`. Include after defining SHARED and that, and
+// reverse_bits where the language has it.
+
+#ifndef reverse_bits
+// The bits in the other order.
+SHARED word reverse_bits(word x) {
+  x = (x >> 16) | (x << 16);
+  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+#endif
 
 // Nested uniform scramble of a number whose bits are reversed: every bit flipped by a hash of the lower ones (Laine & Karras
 // 2011; constants of Burley, JCGT 9(4), 2020).

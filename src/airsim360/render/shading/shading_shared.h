@@ -27,7 +27,9 @@ SHARED real3 lerp3(real3 a, real3 b, real t) { return a + (b - a) * t; }
 SHARED real smooth01(real t) { return t * t * (3.0f - 2.0f * t); }
 SHARED real3 normalize3(real3 a) { return a * rsqrt_exact(rmax(dot3(a, a), real(1e-30f))); }
 // How far secondary rays start from a surface: above the rounding errors of hit points.
-SHARED real ray_offset(real3 p, real distance_) { return 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + distance_); }
+SHARED real ray_offset(real3 p, real distance_) {
+  return 1e-3f + 4e-6f * (rabs(p.x) + rabs(p.y) + rabs(p.z) + distance_);
+}
 SHARED real luminance(real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // Polynomials are summed in pairs (Estrin), not from one end: their chains of dependent operations are what

@@ -7,14 +7,6 @@ namespace {
 
 #define KERNEL static inline __attribute__((always_inline, unused))
 
-KERNEL uint32_t reverse_bits(uint32_t x) {
-  x = (x >> 16) | (x << 16);
-  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
-  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
-  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
-  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
-}
-
 #define SHARED KERNEL
 #define word uint32_t
 #include "airsim360/render/shading/shading_points.h"
