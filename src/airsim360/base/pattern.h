@@ -1,0 +1,76 @@
+// Patterns from strangers, regular expressions and wildcards, matched in linear time whatever they say.
+//
+// A pattern becomes an automaton whose states are its places for a character (Glushkov's construction), so that the
+// places a text can have reached are the bits of a few words. The sets that texts lead to are kept as states of a
+// deterministic automaton, which grows while it is used and is begun anew when it has grown too large.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace airsim360 {
+
+/// Characters of a pattern at most, and its places for a character once repetitions are written out.
+inline constexpr size_t kLongestPattern = 1000, kMostPatternPlaces = 1024;
+
+/// Immutable. Characters are bytes, letters those of ASCII.
+class Pattern {
+ public:
+  /// The regular language part of ECMAScript's expressions, as std::regex reads them: literals, '.' (all but ends of
+  /// lines), [classes] with ranges and [:names:], \d \w \s \D \W \S, groups, '|', * + ? {m,n} and their lazy forms,
+  /// ^ $ \b \B, \t \n \r \f \v \0 \cX \xHH. InputError naming the place and the reason for anything else
+  /// (back-references, lookaheads) and beyond the limits above.
+  static Pattern Regex(std::string_view text, bool ignore_case);
+  /// '*' is any text, '?' any character. InputError beyond the limits.
+  static Pattern Wildcard(std::string_view text);
+
+ private:
+  friend class PatternMatcher;
+  using Places = std::vector<uint64_t>;  // a set of places, as bits; or several, one after another
+  explicit Pattern(const struct PatternProgram& program);
+  void MakeClasses(const PatternProgram& program);
+  void MakeFollow(const PatternProgram& program);
+  void AddFollow(bool after_word, bool before_word, const Places& from, Places& to) const;
+
+  size_t words_ = 0;                   // of a set of places
+  bool asserts_ = false;               // what follows depends on which characters are of words; else none counts as one
+  std::array<uint8_t, 256> class_{};   // of a byte: bytes of a class are alike to all places
+  std::vector<uint8_t> class_is_word_;
+  Places class_places_;                // by class: the places that its bytes fit
+  std::array<std::array<Places, 2>, 2> follow_;  // by whether the last and the next character are of words: for every
+                                                 // half byte of a set, by its value, the places after those in it
+  std::array<Places, 2> first_;                  // by whether the first character is of a word
+  std::array<Places, 2> last_;                   // by whether the last one is: places where a text may end
+  bool matches_empty_ = false;
+};
+
+/// Asks a pattern, which must outlive it, about texts. Quickest where neighbouring texts begin alike, as in a sorted list.
+class PatternMatcher {
+ public:
+  explicit PatternMatcher(const Pattern& pattern);
+  /// Whether the pattern matches the whole text.
+  bool Matches(std::string_view text);
+
+ private:
+  struct State {
+    bool after_word, is_end;
+    std::vector<uint64_t> places;
+  };
+  void Restart();
+  int32_t Next(int32_t state, size_t byte_class);
+  int32_t FindOrAdd(const std::vector<uint64_t>& places, bool after_word);
+
+  const Pattern& pattern_;
+  std::vector<State> states_;
+  std::vector<int32_t> next_;  // by state and class
+  std::unordered_multimap<uint64_t, int32_t> by_hash_;
+  std::vector<uint64_t> scratch_;
+  std::string text_;             // the last one
+  std::vector<int32_t> passed_;  // the states that it led to, from the first on, until it could not match any more
+};
+
+}  // namespace airsim360
