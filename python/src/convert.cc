@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360::python {
 namespace {
@@ -16,7 +17,10 @@ Doubles ToDoubles(const py::handle& value, const char* what) {
     PyErr_Clear();
     throw InputError(std::string(what) + ": not an array of numbers");
   }
-  for (py::ssize_t i = 0; i < array.size(); ++i) Finite(array.data()[i], what);
+  for (py::ssize_t i = 0; i < array.size(); ++i) {
+    const double value = Finite(array.data()[i], what);
+    if (std::abs(value) > kCoordinateLimit) throw InputError(std::string(what) + ": " + BeyondLimitText(value));
+  }
   return array;
 }
 

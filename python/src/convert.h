@@ -16,9 +16,9 @@ namespace airsim360::python {
 
 namespace py = pybind11;
 
-/// Three finite numbers; ValueError naming `what` otherwise.
+/// Three numbers within kCoordinateLimit (math/coordinate_limit.h); ValueError naming `what` otherwise.
 Vec3d ToVec3(const py::handle& value, const char* what);
-/// (N, 3) finite numbers; ValueError naming `what` otherwise.
+/// (N, 3) such numbers; ValueError naming `what` otherwise.
 std::vector<Vec3d> ToPoints(const py::handle& value, const char* what);
 /// A finite number; ValueError naming `what` otherwise.
 double Finite(double value, const char* what);

@@ -11,6 +11,7 @@
 #include "airsim360/base/hash.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
+#include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
 namespace {
@@ -72,12 +73,14 @@ PoseArgument ParsePose(const std::string& text) {
   double values[6] = {};
   bool good = parts.size() >= 3 && parts.size() <= 6;
   for (size_t i = 0; good && i < parts.size(); ++i) {
-    good =
-        ParseNumber(Trimmed(parts[i]), values[i]) && std::isfinite(values[i]) && std::fabs(values[i]) <= 1e7;
+    good = ParseNumber(Trimmed(parts[i]), values[i]) && std::isfinite(values[i]);
   }
   if (!good) {
     throw InputError("--pose: '" + text +
                      "' is not x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees");
+  }
+  for (const double value : values) {
+    if (std::fabs(value) > kCoordinateLimit) throw InputError("--pose: '" + text + "': " + BeyondLimitText(value));
   }
   return {{values[0], values[1], values[2]}, values[3], values[4], values[5]};
 }
@@ -145,6 +148,8 @@ std::vector<double> ParseNumbers(const char* flag, const std::string& text, size
     double value;
     const auto [stop, error] = std::from_chars(p, end, value);
     if (error != std::errc() || !std::isfinite(value) || (stop != end && *stop != ',')) break;
+    if (std::fabs(value) > kCoordinateLimit)
+      throw InputError(std::string(flag) + ": '" + text + "': " + BeyondLimitText(value));
     values.push_back(value);
     p = stop == end ? end : stop + 1;
     if (stop != end && p == end) p = nullptr;  // a comma at the end

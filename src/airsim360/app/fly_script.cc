@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
 namespace {
@@ -30,6 +31,7 @@ std::vector<double> Numbers(const std::string& task, const std::string& text, si
     const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     if (error != std::errc() || stop != part.data() + part.size() || !std::isfinite(value))
       Fail(task, "'" + part + "' is not a number");
+    if (std::abs(value) > kCoordinateLimit) Fail(task, BeyondLimitText(value));
     numbers.push_back(value);
     begin = end + 1;
   }

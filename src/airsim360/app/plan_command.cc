@@ -14,6 +14,7 @@
 #include "airsim360/app/plan_output.h"
 #include "airsim360/app/plan_waypoints.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/base/log.h"
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/point_to_point.h"
@@ -57,7 +58,7 @@ YawRule ParseYaw(const std::string& text) {
   Vec3d p;
   char rest;
   if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &rest) == 3 && std::isfinite(Norm(p)))
-    return YawTowards{p};
+    return YawTowards{CheckedPlace("--yaw", p)};
   if (std::sscanf(text.c_str(), "%lf%c", &p.x, &rest) == 1 && std::isfinite(p.x))
     return ConstantYaw{p.x * std::numbers::pi / 180};
   throw InputError("--yaw: '" + text + "' is neither degrees nor 'velocity' nor a point x,y,z");

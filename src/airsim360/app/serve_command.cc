@@ -77,7 +77,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   const StopSignals stop;
   const AirSimServer server(std::move(scene), options);
   if (globals.json) {
-    PrintJson({{"address", options.address}, {"port", server.port()}});
+    PrintJson({{"address", options.address}, {"port", server.port()}, {"functions", server.Methods()}});
   } else {
     std::printf("listening on %s:%d\n", options.address.empty() ? "0.0.0.0" : options.address.c_str(),
                 server.port());

@@ -4,6 +4,7 @@
 #include <bit>
 #include <map>
 
+#include "airsim360/base/error.h"
 #include "airsim360/base/pattern_program.h"
 
 namespace airsim360 {
@@ -13,7 +14,7 @@ using Kind = PatternProgram::Kind;
 
 constexpr size_t kHalfBytes = 16;            // in a word, and values of one
 constexpr int32_t kDead = 0, kStart = 1, kUnknown = -1;
-constexpr size_t kMostStates = 8192;         // of a matcher, before it begins anew
+constexpr int32_t kMostStates = 4096;
 constexpr uint64_t kMixer = 0x9e3779b97f4a7c15;
 
 enum class Side : uint8_t { kNothing, kWord, kOther };  // of a character beside a place between characters
@@ -75,6 +76,8 @@ class Explorer {
   uint32_t round_ = 0;
 };
 
+void SetBit(std::vector<uint64_t>& bits, size_t i) { bits[i / 64] |= uint64_t{1} << i % 64; }
+
 constexpr Side SideOf(bool is_word) { return is_word ? Side::kWord : Side::kOther; }
 
 }  // namespace
@@ -131,104 +134,160 @@ void Pattern::MakeFollow(const PatternProgram& program) {
     first_[next] = explorer.From(program.start, Side::kNothing, SideOf(next)).places;
   for (size_t last = 0; last < sides; ++last) {
     last_[last].assign(words_, 0);
-    for (size_t next = 0; next < sides; ++next) follow_[last][next].assign(words_ * kHalfBytes * 16 * words_, 0);
+    for (size_t next = 0; next < sides; ++next)
+      follow_[last][next] = {Places(words_), Places(words_), Places(words_ * kHalfBytes * 16 * words_)};
     for (const PatternProgram::Node& node : program.nodes) {
       if (node.kind != Kind::kPlace) continue;
-      const uint64_t bit = uint64_t{1} << node.place % 64;
-      if (explorer.From(node.next, SideOf(last), Side::kNothing).end) last_[last][node.place / 64] |= bit;
+      const size_t place = node.place;
+      if (explorer.From(node.next, SideOf(last), Side::kNothing).end) SetBit(last_[last], place);
       for (size_t next = 0; next < sides; ++next) {
-        const Reached reached = explorer.From(node.next, SideOf(last), SideOf(next));
+        const Places after = explorer.From(node.next, SideOf(last), SideOf(next)).places;
+        Follow& follow = follow_[last][next];
+        // Programs are written from their end: the next place is the one below.
+        Places below(words_);
+        if (place > 0) SetBit(below, place - 1);
+        if (after == below) {
+          SetBit(follow.simple, place);
+          continue;
+        }
+        if (after == Places(words_)) continue;
+        SetBit(follow.others, place);
         // In the row of every value of its half byte that has this place.
         for (size_t value = 0; value < 16; ++value) {
-          if ((value >> node.place % 4 & 1) == 0) continue;
-          uint64_t* row = &follow_[last][next][(node.place / 4 * 16 + value) * words_];
-          for (size_t w = 0; w < words_; ++w) row[w] |= reached.places[w];
+          uint64_t* row = &follow.of_half[(place / 4 * 16 + value) * words_];
+          for (size_t w = 0; w < words_ && (value >> place % 4 & 1) != 0; ++w) row[w] |= after[w];
         }
       }
     }
   }
+  CheckWork();
 }
 
-void Pattern::AddFollow(bool after_word, bool before_word, const Places& from, Places& to) const {
-  const Places& follow = follow_[after_word][before_word];
-  for (size_t w = 0; w < words_; ++w) {
-    for (uint64_t left = from[w]; left != 0;) {
-      const auto half_byte = static_cast<size_t>(std::countr_zero(left)) / 4;
-      const uint64_t value = left >> 4 * half_byte & 15;
-      left &= ~(uint64_t{15} << 4 * half_byte);
-      const uint64_t* row = &follow[((w * kHalfBytes + half_byte) * 16 + value) * words_];
-      for (size_t i = 0; i < words_; ++i) to[i] |= row[i];
+// What the text of one character can cost at the most, held against the limit.
+void Pattern::CheckWork() const {
+  size_t most = 0;
+  for (size_t c = 0; c < class_is_word_.size(); ++c) {
+    for (const auto& [last, next] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+      const Places& others = follow_[last][next].others;
+      size_t rows = 0;
+      for (size_t half = 0; half < others.size() * kHalfBytes; ++half) {
+        const size_t w = half / kHalfBytes;
+        rows += (class_places_[c * words_ + w] & others[w] & uint64_t{15} << 4 * (half % kHalfBytes)) != 0;
+      }
+      most = std::max(most, rows * words_);
     }
+  }
+  if (most > kMostPatternWork) {
+    throw InputError("pattern: too many ways to go on: work of " + std::to_string(most) +
+                     " for one character is more than " + std::to_string(kMostPatternWork) +
+                     "; leave repetitions of repetitions out");
   }
 }
 
-PatternMatcher::PatternMatcher(const Pattern& pattern) : pattern_(pattern), scratch_(pattern.words_) { Restart(); }
+void Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const {
+  const bool before_word = class_is_word_[byte_class];
+  const uint64_t* fits = &class_places_[byte_class * words_];
+  if (is_start) {
+    for (size_t w = 0; w < words_; ++w) to[w] = first_[before_word][w] & fits[w];
+    return;
+  }
+  const Follow& follow = follow_[after_word][before_word];
+  for (size_t w = 0; w < words_; ++w) {
+    to[w] = (from[w] & follow.simple[w]) >> 1;
+    if (w + 1 < words_) to[w] |= (from[w + 1] & follow.simple[w + 1]) << 63;
+  }
+  for (size_t w = 0; w < words_; ++w) {
+    for (uint64_t left = from[w] & follow.others[w]; left != 0;) {
+      const auto half = static_cast<size_t>(std::countr_zero(left)) / 4;
+      const uint64_t value = left >> 4 * half & 15;
+      left &= ~(uint64_t{15} << 4 * half);
+      const uint64_t* row = &follow.of_half[((w * kHalfBytes + half) * 16 + value) * words_];
+      for (size_t i = 0; i < words_; ++i) to[i] |= row[i];
+    }
+  }
+  for (size_t w = 0; w < words_; ++w) to[w] &= fits[w];
+}
 
-void PatternMatcher::Restart() {
-  by_hash_.clear();
-  const std::vector<uint64_t> none(pattern_.words_);
-  states_.assign({State{false, false, none}, State{false, pattern_.matches_empty_, none}});
-  next_.assign(2 * pattern_.class_is_word_.size(), kUnknown);
-  std::fill_n(next_.begin(), pattern_.class_is_word_.size(), kDead);
-  passed_.assign(1, kStart);
-  text_.clear();
+bool Pattern::IsEnd(const uint64_t* places, bool after_word) const {
+  uint64_t ends = 0;
+  for (size_t w = 0; w < words_; ++w) ends |= places[w] & last_[after_word][w];
+  return ends != 0;
+}
+
+PatternMatcher::PatternMatcher(const Pattern& pattern)
+    : pattern_(pattern), scratch_(pattern.words_), passed_{kStart}, passed_sets_(pattern.words_) {
+  const std::vector<uint64_t> none(pattern.words_);
+  states_ = {State{false, false, none}, State{false, pattern.matches_empty_, none}};
+  next_.assign(2 * pattern.class_is_word_.size(), kUnknown);
 }
 
 int32_t PatternMatcher::FindOrAdd(const std::vector<uint64_t>& places, bool after_word) {
+  if (std::ranges::all_of(places, [](uint64_t word) { return word == 0; })) return kDead;
   uint64_t hash = after_word ? kMixer : 0;
   for (const uint64_t word : places) hash = (std::rotl(hash, 29) ^ word) * kMixer;
-  if (std::ranges::all_of(places, [](uint64_t word) { return word == 0; })) return kDead;
   const auto [begin, end] = by_hash_.equal_range(hash);
   for (auto it = begin; it != end; ++it) {
     const State& state = states_[static_cast<size_t>(it->second)];
     if (state.after_word == after_word && state.places == places) return it->second;
   }
-  bool is_end = false;
-  for (size_t w = 0; w < places.size(); ++w) is_end |= (places[w] & pattern_.last_[after_word][w]) != 0;
   const auto added = static_cast<int32_t>(states_.size());
-  states_.push_back({after_word, is_end, places});
+  states_.push_back({after_word, pattern_.IsEnd(places.data(), after_word), places});
   next_.resize(next_.size() + pattern_.class_is_word_.size(), kUnknown);
   by_hash_.emplace(hash, added);
   return added;
 }
 
 int32_t PatternMatcher::Next(int32_t state, size_t byte_class) {
-  const bool before_word = pattern_.class_is_word_[byte_class];
-  const uint64_t* fits = &pattern_.class_places_[byte_class * pattern_.words_];
-  if (state == kStart) {
-    scratch_ = pattern_.first_[before_word];
-  } else {
-    std::ranges::fill(scratch_, 0);
-    const State& from = states_[static_cast<size_t>(state)];
-    pattern_.AddFollow(from.after_word, before_word, from.places, scratch_);
-  }
-  for (size_t w = 0; w < scratch_.size(); ++w) scratch_[w] &= fits[w];
-  return FindOrAdd(scratch_, before_word);
+  const State& from = states_[static_cast<size_t>(state)];
+  pattern_.Advance(from.places.data(), state == kStart, from.after_word, byte_class, scratch_.data());
+  return FindOrAdd(scratch_, pattern_.class_is_word_[byte_class]);
 }
 
 bool PatternMatcher::Matches(std::string_view text) {
-  // What the last text began with alike led to the same states.
-  const auto differs = std::ranges::mismatch(text, text_).in1;
-  passed_.resize(std::min(static_cast<size_t>(differs - text.begin()) + 1, passed_.size()));
+  // What the last text began with alike led to the same.
+  const auto alike = static_cast<size_t>(std::ranges::mismatch(text, text_).in1 - text.begin());
   text_ = text;
+  return is_full_ ? MatchesBySets(text, alike) : MatchesByStates(text, alike);
+}
+
+bool PatternMatcher::MatchesByStates(std::string_view text, size_t alike) {
+  const size_t classes = pattern_.class_is_word_.size();
+  passed_.resize(std::min(alike + 1, passed_.size()));
   int32_t state = passed_.back();
   for (size_t i = passed_.size() - 1; i < text.size() && state != kDead; ++i) {
     const size_t byte_class = pattern_.class_[static_cast<uint8_t>(text[i])];
-    const size_t at = static_cast<size_t>(state) * pattern_.class_is_word_.size() + byte_class;
-    if (next_[at] == kUnknown && states_.size() >= kMostStates) {
-      // Full: begun anew in the middle of the text, of which nothing is known to the next one then.
-      const State here = states_[static_cast<size_t>(state)];
-      Restart();
-      state = FindOrAdd(here.places, here.after_word);
-      i -= 1;
-      continue;
-    }
+    const size_t at = static_cast<size_t>(state) * classes + byte_class;
     int32_t next = next_[at];
     if (next == kUnknown) next = next_[at] = Next(state, byte_class);
-    state = next;
-    if (passed_.size() == i + 1) passed_.push_back(state);
+    if (next > kMostStates) {
+      is_full_ = true;
+      return MatchesBySets(text, 0);
+    }
+    passed_.push_back(state = next);
   }
   return states_[static_cast<size_t>(state)].is_end;
+}
+
+bool PatternMatcher::MatchesBySets(std::string_view text, size_t alike) {
+  const size_t words = pattern_.words_;
+  size_t i = std::min(alike, passed_sets_.size() / words - 1);
+  passed_sets_.resize((i + 1) * words);
+  const auto after_word = [&](size_t n) {
+    return n > 0 && pattern_.class_is_word_[pattern_.class_[static_cast<uint8_t>(text[n - 1])]] != 0;
+  };
+  const auto is_dead = [&] {
+    return i > 0 && std::all_of(passed_sets_.end() - static_cast<ptrdiff_t>(words), passed_sets_.end(),
+                                [](uint64_t word) { return word == 0; });
+  };
+  while (i < text.size() && !is_dead()) {
+    passed_sets_.resize((i + 2) * words);
+    const uint64_t* from = &passed_sets_[i * words];
+    const size_t byte_class = pattern_.class_[static_cast<uint8_t>(text[i])];
+    pattern_.Advance(from, i == 0, after_word(i), byte_class, &passed_sets_[(i + 1) * words]);
+    ++i;
+  }
+  if (i < text.size()) return false;
+  return i == 0 ? pattern_.matches_empty_ : pattern_.IsEnd(&passed_sets_[i * words], after_word(i));
 }
 
 }  // namespace airsim360

@@ -2,7 +2,7 @@
 //
 // A pattern becomes an automaton whose states are its places for a character (Glushkov's construction), so that the
 // places a text can have reached are the bits of a few words. The sets that texts lead to are kept as states of a
-// deterministic automaton, which grows while it is used and is begun anew when it has grown too large.
+// deterministic automaton, which grows while it is used; a pattern that makes it grow too large is followed set by set.
 #pragma once
 
 #include <array>
@@ -14,8 +14,9 @@
 
 namespace airsim360 {
 
-/// Characters of a pattern at most, and its places for a character once repetitions are written out.
-inline constexpr size_t kLongestPattern = 1000, kMostPatternPlaces = 1024;
+/// Characters of a pattern at most, its places for a character once repetitions are written out, and the words that
+/// have to be looked at for one character of a text.
+inline constexpr size_t kLongestPattern = 1000, kMostPatternPlaces = 1024, kMostPatternWork = 128;
 
 /// Immutable. Characters are bytes, letters those of ASCII.
 class Pattern {
@@ -34,17 +35,25 @@ class Pattern {
   explicit Pattern(const struct PatternProgram& program);
   void MakeClasses(const PatternProgram& program);
   void MakeFollow(const PatternProgram& program);
-  void AddFollow(bool after_word, bool before_word, const Places& from, Places& to) const;
+  void CheckWork() const;
+  void Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const;
+  bool IsEnd(const uint64_t* places, bool after_word) const;
+
+  // The places after each, by whether the last and the next character are of words.
+  struct Follow {
+    Places simple;   // those that only the place below them follows
+    Places others;   // those that something else follows
+    Places of_half;  // for every half byte of a set, by its value: what follows the others in it
+  };
 
   size_t words_ = 0;                   // of a set of places
   bool asserts_ = false;               // what follows depends on which characters are of words; else none counts as one
   std::array<uint8_t, 256> class_{};   // of a byte: bytes of a class are alike to all places
   std::vector<uint8_t> class_is_word_;
   Places class_places_;                // by class: the places that its bytes fit
-  std::array<std::array<Places, 2>, 2> follow_;  // by whether the last and the next character are of words: for every
-                                                 // half byte of a set, by its value, the places after those in it
-  std::array<Places, 2> first_;                  // by whether the first character is of a word
-  std::array<Places, 2> last_;                   // by whether the last one is: places where a text may end
+  std::array<std::array<Follow, 2>, 2> follow_;
+  std::array<Places, 2> first_;  // by whether the first character is of a word
+  std::array<Places, 2> last_;   // by whether the last one is: places where a text may end
   bool matches_empty_ = false;
 };
 
@@ -60,7 +69,8 @@ class PatternMatcher {
     bool after_word, is_end;
     std::vector<uint64_t> places;
   };
-  void Restart();
+  bool MatchesByStates(std::string_view text, size_t alike);
+  bool MatchesBySets(std::string_view text, size_t alike);
   int32_t Next(int32_t state, size_t byte_class);
   int32_t FindOrAdd(const std::vector<uint64_t>& places, bool after_word);
 
@@ -69,8 +79,12 @@ class PatternMatcher {
   std::vector<int32_t> next_;  // by state and class
   std::unordered_multimap<uint64_t, int32_t> by_hash_;
   std::vector<uint64_t> scratch_;
-  std::string text_;             // the last one
-  std::vector<int32_t> passed_;  // the states that it led to, from the first on, until it could not match any more
+  bool is_full_ = false;  // too many states: sets from now on
+
+  // What the last text led to, before each of its characters and at its end, until nothing could match any more.
+  std::string text_;
+  std::vector<int32_t> passed_;
+  std::vector<uint64_t> passed_sets_;
 };
 
 }  // namespace airsim360

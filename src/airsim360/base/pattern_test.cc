@@ -184,6 +184,10 @@ TEST(Pattern, WildcardsAgreeWithTheirDefinition) {
     matched += SlowWildcard(wildcard, name);
   }
   EXPECT_GT(matched, 1000);
+  EXPECT_TRUE(MatchesWildcard("Cylinder*", "Cylinder_12"));
+  EXPECT_FALSE(MatchesWildcard("cylinder*", "Cylinder_12"));
+  EXPECT_TRUE(MatchesWildcard("*a*b*", "xxayybzz"));
+  EXPECT_FALSE(MatchesWildcard(std::string(30, '*') + "b", std::string(5000, 'a')));
 }
 
 }  // namespace

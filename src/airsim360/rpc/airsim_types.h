@@ -11,6 +11,15 @@
 
 namespace airsim360::airsim {
 
+/// A duration or time-out. AirSim's clients send the largest float, about 3.4e38, for "for ever".
+struct Seconds {
+  float value = 0;
+  operator float() const { return value; }
+};
+inline void FromWire(const WireValue& value, Seconds& out) {
+  out.value = static_cast<float>(RealFromWire(value, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
 struct Vector2r {
   float x_val = 0, y_val = 0;
   template <class V>

@@ -25,7 +25,7 @@ void AddDetectionCalls(Api& api) {
          const External&) {
         auto& patterns = FilterOf(s, camera, vehicle).patterns;
         if (patterns.size() >= kMostPatterns) throw std::invalid_argument("more than 1000 filters");
-        patterns.push_back(pattern);
+        patterns.push_back(std::make_shared<const Pattern>(Pattern::Wildcard(pattern)));
       },
       1);
   api.Change(

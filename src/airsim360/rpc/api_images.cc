@@ -14,7 +14,7 @@ bool SetPanoramaResolution(Session& s, const std::string& name, int width, int h
   if (FindCamera(s.world().cameras[index], name).panorama == PanoramaKind::kNone) {
     throw std::invalid_argument("Camera '" + name + "' is no panorama");
   }
-  if (width < kSmallestPanorama || width > kLargestPanorama || width != 2 * height) {
+  if (width < kSmallestPanorama || width > kLargestPanorama || width != int64_t{2} * height) {
     throw std::invalid_argument("a panorama is twice as wide as high and 16 to 8192 pixels wide, not " +
                                 std::to_string(width) + "x" + std::to_string(height));
   }

@@ -9,6 +9,7 @@ namespace airsim360 {
 namespace {
 
 using airsim::DrivetrainType;
+using airsim::Seconds;
 using airsim::YawMode;
 using Text = const std::string&;
 
@@ -16,13 +17,6 @@ using Text = const std::string&;
 constexpr double kTakeoffHeight = 2, kTakeoffSpeed = 0.5, kHomeSpeed = 0.5, kHoverSpeed = 0.5,
                  kStillSpeed = 0.05;
 constexpr double kForever = 3e38;
-constexpr double kBound = 1e6;  // metres, m/s: what is beyond is no wish
-
-void CheckFinite(std::initializer_list<double> values) {
-  for (const double value : values) {
-    if (!(std::abs(value) <= kBound)) throw std::invalid_argument(std::to_string(value) + " is absurd");
-  }
-}
 
 PathOptions Options(const Session& s, double velocity, DrivetrainType drivetrain, const YawMode& yaw,
                     double lookahead, double adaptive_lookahead) {
@@ -37,7 +31,7 @@ void Begin(Session& s, const Reply& reply, Text name, const Make& make) {
   control.Start(make(view), s.state().t_ns, reply);
 }
 
-void Takeoff(Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+void Takeoff(Session& s, const Reply& reply, Seconds timeout_sec, Text vehicle) {
   Begin(s, reply, vehicle, [&](const FlightView& view) {
     const double speed = Norm(view.v_N);
     if (speed > kStillSpeed) {
@@ -52,15 +46,13 @@ void Takeoff(Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
 
 void MoveTo(Session& s, const Reply& reply, const std::vector<Vec3d>& path, double timeout,
             const PathOptions& options, Text vehicle) {
-  for (const Vec3d& point : path) CheckFinite({point.x, point.y, point.z});
-  CheckFinite({options.velocity});
   Begin(s, reply, vehicle,
         [&](const FlightView& view) { return MakePathTask(view, path, timeout, options); });
 }
 
 void AddPathCalls(Api& api) {
   api.Start("moveOnPath", [](Session& s, const Reply& reply, const std::vector<airsim::Vector3r>& path,
-                             float velocity, float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                             float velocity, Seconds timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
                              float lookahead, float adaptive_lookahead, Text vehicle) {
     std::vector<Vec3d> points;
     for (const airsim::Vector3r& point : path) points.push_back(airsim::FromVector(point));
@@ -68,13 +60,13 @@ void AddPathCalls(Api& api) {
            Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
   });
   api.Start("moveToPosition", [](Session& s, const Reply& reply, float x, float y, float z, float velocity,
-                                 float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                                 Seconds timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
                                  float lookahead, float adaptive_lookahead, Text vehicle) {
     MoveTo(s, reply, {{x, y, z}}, timeout_sec,
            Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead), vehicle);
   });
   api.Start("moveToGPS", [](Session& s, const Reply& reply, double latitude, double longitude, float altitude,
-                            float velocity, float timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
+                            float velocity, Seconds timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
                             float lookahead, float adaptive_lookahead, Text vehicle) {
     if (!(std::abs(latitude) <= 90 && std::abs(longitude) <= 360))
       throw std::invalid_argument("no such place");
@@ -83,7 +75,7 @@ void AddPathCalls(Api& api) {
     MoveTo(s, reply, {p_N}, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead),
            vehicle);
   });
-  api.Start("moveToZ", [](Session& s, const Reply& reply, float z, float velocity, float timeout_sec,
+  api.Start("moveToZ", [](Session& s, const Reply& reply, float z, float velocity, Seconds timeout_sec,
                           const YawMode& yaw, float lookahead, float adaptive_lookahead, Text vehicle) {
     const VehicleControl& control = s.control(vehicle);
     Vec3d p_N = control.ViewOf(s.vehicle(control), s.state().t_ns).p_N;
@@ -95,13 +87,13 @@ void AddPathCalls(Api& api) {
 }
 
 void AddWholeCalls(Api& api) {
-  api.Start("takeoff", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+  api.Start("takeoff", [](Session& s, const Reply& reply, Seconds timeout_sec, Text vehicle) {
     Takeoff(s, reply, timeout_sec, vehicle);
   });
-  api.Start("land", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+  api.Start("land", [](Session& s, const Reply& reply, Seconds timeout_sec, Text vehicle) {
     Begin(s, reply, vehicle, [&](const FlightView&) { return MakeLandTask(timeout_sec); });
   });
-  api.Start("goHome", [](Session& s, const Reply& reply, float timeout_sec, Text vehicle) {
+  api.Start("goHome", [](Session& s, const Reply& reply, Seconds timeout_sec, Text vehicle) {
     MoveTo(s, reply, {Vec3d{}}, timeout_sec,
            Options(s, kHomeSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, -1, 1), vehicle);
   });
@@ -112,8 +104,7 @@ void AddWholeCalls(Api& api) {
            Options(s, kHoverSpeed, DrivetrainType::kMaxDegreeOfFreedom, {true, 0}, 1, 0), vehicle);
   });
   api.Start("rotateToYaw",
-            [](Session& s, const Reply& reply, float yaw, float timeout_sec, float margin, Text vehicle) {
-              CheckFinite({yaw, margin});
+            [](Session& s, const Reply& reply, float yaw, Seconds timeout_sec, float margin, Text vehicle) {
               Begin(s, reply, vehicle, [&](const FlightView& view) {
                 TaskPointer task = MakeRotateTask(view, yaw, margin, timeout_sec, s.settings().wrap_yaw);
                 task->result_at_timeout = timeout_sec <= 0;
@@ -121,15 +112,13 @@ void AddWholeCalls(Api& api) {
               });
             });
   api.Start("rotateByYawRate",
-            [](Session& s, const Reply& reply, float yaw_rate, float duration, Text vehicle) {
-              CheckFinite({yaw_rate});
+            [](Session& s, const Reply& reply, float yaw_rate, Seconds duration, Text vehicle) {
               Begin(s, reply, vehicle, [&](const FlightView& view) {
                 return MakeTimedTask(NedPosition(view.p_N, {true, yaw_rate}, view.origin_W), duration);
               });
             });
   api.Start("moveByManual", [](Session& s, const Reply& reply, float vx_max, float vy_max, float z_min,
-                               float duration, DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
-    CheckFinite({vx_max, vy_max, z_min});
+                               Seconds duration, DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       return MakeManualTask(view, vx_max, vy_max, z_min, duration, drivetrain, yaw);
     });
@@ -143,16 +132,14 @@ Vec3d FromHeading(const FlightView& view, double vx, double vy) {
 }
 
 void AddVelocityCalls(Api& api) {
-  api.Start("moveByVelocity", [](Session& s, const Reply& reply, float vx, float vy, float vz, float duration,
+  api.Start("moveByVelocity", [](Session& s, const Reply& reply, float vx, float vy, float vz, Seconds duration,
                                  DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
-    CheckFinite({vx, vy, vz});
     Begin(s, reply, vehicle, [&](const FlightView&) {
       return MakeTimedTask(NedVelocity({vx, vy, vz}, AdjustYaw({vx, vy, 0}, drivetrain, yaw)), duration);
     });
   });
-  api.Start("moveByVelocityZ", [](Session& s, const Reply& reply, float vx, float vy, float z, float duration,
+  api.Start("moveByVelocityZ", [](Session& s, const Reply& reply, float vx, float vy, float z, Seconds duration,
                                   DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
-    CheckFinite({vx, vy, z});
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       TaskPointer task = MakeTimedTask(
           NedVelocityZ(vx, vy, z, AdjustYaw({vx, vy, 0}, drivetrain, yaw), view.origin_W), duration);
@@ -162,18 +149,16 @@ void AddVelocityCalls(Api& api) {
     });
   });
   api.Start("moveByVelocityBodyFrame", [](Session& s, const Reply& reply, float vx, float vy, float vz,
-                                          float duration, DrivetrainType drivetrain, const YawMode& yaw,
+                                          Seconds duration, DrivetrainType drivetrain, const YawMode& yaw,
                                           Text vehicle) {
-    CheckFinite({vx, vy, vz});
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const Vec3d v_N = FromHeading(view, vx, vy);
       return MakeTimedTask(NedVelocity({v_N.x, v_N.y, vz}, AdjustYaw(v_N, drivetrain, yaw)), duration);
     });
   });
   api.Start("moveByVelocityZBodyFrame",
-            [](Session& s, const Reply& reply, float vx, float vy, float z, float duration,
+            [](Session& s, const Reply& reply, float vx, float vy, float z, Seconds duration,
                DrivetrainType drivetrain, const YawMode& yaw, Text vehicle) {
-              CheckFinite({vx, vy, z});
               Begin(s, reply, vehicle, [&](const FlightView& view) {
                 const Vec3d v_N = FromHeading(view, vx, vy);
                 return MakeTimedTask(
@@ -185,8 +170,7 @@ void AddVelocityCalls(Api& api) {
 // roll, pitch, yaw or its rate, then a throttle or z: one function for the four of them.
 void AddAttitudeCall(Api& api, const char* name, bool yaw_is_rate, bool is_throttle) {
   api.Start(name, [=](Session& s, const Reply& reply, float roll, float pitch, float yaw, float vertical,
-                      float duration, Text vehicle) {
-    CheckFinite({roll, pitch, yaw, vertical});
+                      Seconds duration, Text vehicle) {
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const double value = is_throttle ? std::clamp(vertical, 0.0f, 1.0f) : vertical;
       return MakeTimedTask(FrdAttitude(roll, pitch, yaw, yaw_is_rate, {is_throttle, value}, view.origin_W),
@@ -197,8 +181,7 @@ void AddAttitudeCall(Api& api, const char* name, bool yaw_is_rate, bool is_throt
 
 void AddRateCall(Api& api, const char* name, bool is_throttle) {
   api.Start(name, [=](Session& s, const Reply& reply, float roll_rate, float pitch_rate, float yaw_rate,
-                      float vertical, float duration, Text vehicle) {
-    CheckFinite({roll_rate, pitch_rate, yaw_rate, vertical});
+                      float vertical, Seconds duration, Text vehicle) {
     Begin(s, reply, vehicle, [&](const FlightView& view) {
       const double value = is_throttle ? std::clamp(vertical, 0.0f, 1.0f) : vertical;
       return MakeTimedTask(FrdRates({roll_rate, pitch_rate, yaw_rate}, {is_throttle, value}, view.origin_W),
@@ -220,7 +203,7 @@ void AddMoveCalls(Api& api) {
   AddRateCall(api, "moveByAngleRatesZ", false);
   AddRateCall(api, "moveByAngleRatesThrottle", true);
   api.Start("moveByMotorPWMs", [](Session& s, const Reply& reply, float front_right, float rear_left,
-                                  float front_left, float rear_right, float duration, Text vehicle) {
+                                  float front_left, float rear_right, Seconds duration, Text vehicle) {
     const auto signal = [](float pwm) { return static_cast<double>(std::clamp(pwm, 0.0f, 1.0f)); };
     Begin(s, reply, vehicle, [&](const FlightView&) {
       return MakeTimedTask(

@@ -54,11 +54,11 @@ bool MoveObject(Session& s, Text name, const ChangePlace& change) {
 }
 
 Vec3d CheckedScale(const airsim::Vector3r& scale) {
-  constexpr double kLargest = 1e4;
+  constexpr double kSmallest = 1e-4, kLargest = 1e4;  // smaller ones cannot be undone in float
   const Vec3d factor = airsim::FromVector(scale);
   for (int i = 0; i < 3; ++i) {
-    if (!(factor[i] > 0 && factor[i] < kLargest))
-      throw std::invalid_argument("scale must be in 0 ... 10000");
+    if (!(factor[i] >= kSmallest && factor[i] <= kLargest))
+      throw std::invalid_argument("scale must be in 0.0001 ... 10000");
   }
   return factor;
 }

@@ -1,9 +1,10 @@
 // Geography, lines of sight, voxels, wind, plots.
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
 #include "airsim360/rpc/api.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/vehicle_state.h"
@@ -57,16 +58,18 @@ bool CreateVoxelGrid(const Session& session, const Snapshot& now, const airsim::
                      Vec3u sizes, float resolution, Text file) {
   constexpr double kMostCells = 2e7;
   if (!(resolution > 0)) throw std::invalid_argument("res must be positive");
-  const auto count = [&](uint32_t metres) { return static_cast<uint32_t>(std::ceil(metres / resolution)); };
-  const Vec3u cells{count(sizes.x), count(sizes.y), count(sizes.z)};
-  if (static_cast<double>(cells.x) * cells.y * cells.z > kMostCells) {
+  const auto count = [&](uint32_t metres) { return std::ceil(metres / static_cast<double>(resolution)); };
+  const Vec3d counts{count(sizes.x), count(sizes.y), count(sizes.z)};
+  // Each of them too: none of one kind may hide any number of another.
+  if (counts.x * counts.y * counts.z > kMostCells || std::max({counts.x, counts.y, counts.z}) > kMostCells) {
     throw std::invalid_argument("more than 20 million cells");
   }
+  const Vec3u cells = VecCast<uint32_t>(counts);
   // Only where the server was started: a client must not write elsewhere.
-  const std::filesystem::path path = std::filesystem::path(file).filename();
-  if (path.empty() || path.string() != file || path.extension() != ".binvox") {
-    throw std::invalid_argument(
-        "the output file is a plain name that ends in .binvox, written where the server runs");
+  CheckFileName("output_file", file);
+  const std::filesystem::path path(file);
+  if (path.extension() != ".binvox") {
+    throw std::invalid_argument("output_file: '" + file + "' does not end in .binvox");
   }
   const Vec3d centre_W = session.origin_W() + NedFromWorld(airsim::FromVector(position));
   WriteFileAtomically(path, Binvox(*now.model->tracer, centre_W, cells, resolution));
@@ -119,21 +122,21 @@ void AddPlotCalls(Api& api) {
   using Points = const std::vector<airsim::Vector3r>&;
   using Color = const std::vector<float>&;
   for (const char* name : {"simPlotPoints", "simPlotLineStrip", "simPlotLineList"}) {
-    api.Change(name, [](Session& s, Points points, Color, float, float, bool is_persistent) {
+    api.Change(name, [](Session& s, Points points, Color, float, airsim::Seconds, bool is_persistent) {
       AddPlot(s.world(), points.size(), is_persistent);
     });
   }
-  api.Change("simPlotArrows", [](Session& s, Points from, Points, Color, float, float, float,
+  api.Change("simPlotArrows", [](Session& s, Points from, Points, Color, float, float, airsim::Seconds,
                                  bool is_persistent) { AddPlot(s.world(), from.size(), is_persistent); });
   api.Change("simPlotStrings", [](Session& s, const std::vector<std::string>& texts, Points, float, Color,
-                                  float) { AddPlot(s.world(), texts.size(), false); });
+                                  airsim::Seconds) { AddPlot(s.world(), texts.size(), false); });
   api.Change("simPlotTransforms",
-             [](Session& s, const std::vector<airsim::Pose>& poses, float, float, float, bool is_persistent) {
+             [](Session& s, const std::vector<airsim::Pose>& poses, float, float, airsim::Seconds, bool is_persistent) {
                AddPlot(s.world(), poses.size(), is_persistent);
              });
   api.Change("simPlotTransformsWithNames",
              [](Session& s, const std::vector<airsim::Pose>& poses, const std::vector<std::string>&, float,
-                float, float, Color, float) { AddPlot(s.world(), poses.size(), false); });
+                float, float, Color, airsim::Seconds) { AddPlot(s.world(), poses.size(), false); });
   api.Change("simFlushPersistentMarkers", [](Session& s) { s.world().plots.persistent = 0; });
   api.Read("simSetTraceLine", [](const Snapshot& now, Color, float, Text vehicle) {
     now.Find(vehicle);

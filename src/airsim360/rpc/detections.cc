@@ -42,26 +42,6 @@ airsim::DetectionInfo Describe(const Entity& entity, const std::string& name, co
 
 }  // namespace
 
-bool MatchesWildcard(std::string_view pattern, std::string_view name) {
-  // The last star and what it has swallowed so far, to come back to.
-  size_t p = 0, n = 0, star = std::string_view::npos, mark = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') {
-      ++p, ++n;
-    } else if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      mark = n;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      n = ++mark;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
-
 std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now,
                                                 const ObjectIndex& objects, const DetectionFilter& filter) {
   std::map<EntityId, Pixels> seen;
@@ -72,13 +52,14 @@ std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, 
     }
   }
   const RigidTransform X_WA = view.X_WC * CameraInBody().inverse();
+  std::vector<PatternMatcher> matchers;
+  for (const auto& pattern : filter.patterns) matchers.emplace_back(*pattern);
   std::vector<airsim::DetectionInfo> detections;
   for (const auto& [id, pixels] : seen) {
     const Entity& entity = objects.scene().entity(id);
     const std::string& name = objects.NameOf(id, now.world->names);
     const bool wanted =
-        std::any_of(filter.patterns.begin(), filter.patterns.end(),
-                    [&](const std::string& pattern) { return MatchesWildcard(pattern, name); });
+        std::ranges::any_of(matchers, [&](PatternMatcher& matcher) { return matcher.Matches(name); });
     if (!wanted || id == objects.scene().sky_entity) continue;
     const ObjectPlace place = PlaceNow(now, objects, id);
     if (Norm(place.X_WO.p - X_WA.p) > filter.radius) continue;

@@ -9,7 +9,4 @@ namespace airsim360 {
 std::vector<airsim::DetectionInfo> DetectionsIn(const ImageService::View& view, const Snapshot& now,
                                                 const ObjectIndex& objects, const DetectionFilter& filter);
 
-/// Wildcards: * any letters, ? one; case counts.
-bool MatchesWildcard(std::string_view pattern, std::string_view name);
-
 }  // namespace airsim360

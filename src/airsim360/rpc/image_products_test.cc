@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "airsim360/rpc/detections.h"
 #include "airsim360/rpc/segmentation_palette.h"
 
 namespace airsim360 {
@@ -140,18 +139,6 @@ TEST(Palette, IdsHaveColoursOfTheirOwn) {
     seen.push_back(SegmentationColor(id));
   }
   EXPECT_EQ(SegmentationColor(0x123456), (Rgb8{0x56, 0x34, 0x12}));
-}
-
-TEST(Wildcards, StarsAndQuestionMarks) {
-  EXPECT_TRUE(MatchesWildcard("Cylinder*", "Cylinder_12"));
-  EXPECT_TRUE(MatchesWildcard("*", ""));
-  EXPECT_TRUE(MatchesWildcard("*a*b*", "xxayybzz"));
-  EXPECT_TRUE(MatchesWildcard("a?c", "abc"));
-  EXPECT_FALSE(MatchesWildcard("a?c", "ac"));
-  EXPECT_FALSE(MatchesWildcard("Cylinder", "Cylinder_12"));
-  EXPECT_FALSE(MatchesWildcard("", "x"));
-  // Many stars do not take for ever.
-  EXPECT_FALSE(MatchesWildcard(std::string(30, '*') + "b", std::string(5000, 'a')));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "airsim360/rpc/method_table.h"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace airsim360 {
@@ -33,13 +32,6 @@ std::vector<std::string> MethodTable::Names() const {
   std::vector<std::string> names;
   for (const auto& [name, method] : methods_) names.push_back(name);
   return names;
-}
-
-void MethodTable::RefuseNan(const WireValue& value) {
-  if (value.kind == WireValue::Kind::kFloat && std::isnan(value.real)) {
-    throw std::invalid_argument("an argument is not a number (nan)");
-  }
-  for (const WireValue& item : value.items) RefuseNan(item);
 }
 
 }  // namespace airsim360

@@ -45,23 +45,25 @@ class MethodTable {
   std::vector<std::string> Names() const;
 
   /// Reads the arguments of a function whose first `Skip` parameters are not the client's. Missing ones keep
-  /// their defaults. Throws BadCast, or std::invalid_argument for a number that is not one.
+  /// their defaults. Throws BadArgument.
   template <class F, size_t Skip>
   static auto Read(const std::vector<WireValue>& values) {
     typename internal::TupleTail<Skip, typename internal::Signature<F>::Arguments>::type arguments{};
-    for (const WireValue& value : values) RefuseNan(value);
-    std::apply(
-        [&](auto&... argument) {
-          size_t i = 0;
-          ((i < values.size() ? FromWire(values[i++], argument) : void()), ...);
-        },
-        arguments);
+    size_t i = 0;
+    const auto read = [&](auto& argument) {
+      if (i < values.size()) FromWire(values[i], argument);
+      ++i;
+    };
+    try {
+      std::apply([&](auto&... argument) { (read(argument), ...); }, arguments);
+    } catch (BadArgument& error) {
+      error.InArgument(i + 1);
+      throw;
+    }
     return arguments;
   }
 
  private:
-  static void RefuseNan(const WireValue& value);
-
   struct Method {
     size_t most = 0, optional = 0;
     Handler handler;

@@ -45,9 +45,7 @@ Pose ToPose(const RigidTransform& X_WB, Vec3d origin_W) {
 }
 
 RigidTransform FromPose(const Pose& pose, Vec3d origin_W) {
-  const Vec3d p_N = FromVector(pose.position);
-  if (!std::isfinite(Norm(p_N))) throw std::invalid_argument("the position is not finite");
-  return {WorldRotation(FromQuaternionr(pose.orientation)), origin_W + NedFromWorld(p_N)};
+  return {WorldRotation(FromQuaternionr(pose.orientation)), origin_W + NedFromWorld(FromVector(pose.position))};
 }
 
 Pose ToMount(const RigidTransform& X_BA) {
@@ -55,9 +53,7 @@ Pose ToMount(const RigidTransform& X_BA) {
 }
 
 RigidTransform FromMount(const Pose& pose) {
-  const Vec3d p_F = FromVector(pose.position);
-  if (!std::isfinite(Norm(p_F))) throw std::invalid_argument("the position is not finite");
-  return {FrdRotation(FromQuaternionr(pose.orientation)), FrdFromBody(p_F)};
+  return {FrdRotation(FromQuaternionr(pose.orientation)), FrdFromBody(FromVector(pose.position))};
 }
 
 }  // namespace airsim

@@ -1,16 +1,19 @@
 #include "airsim360/rpc/objects.h"
 
 #include <algorithm>
-#include <regex>
-#include <stdexcept>
 
+#include "airsim360/base/pattern.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
 
 ObjectIndex::ObjectIndex(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
-  for (const Entity& entity : scene_->entities) by_name_[entity.name] = entity.id;
+  for (const Entity& entity : scene_->entities) {
+    by_name_[entity.name] = entity.id;
+    sorted_names_.emplace_back(entity.name, entity.id);
+  }
+  std::ranges::sort(sorted_names_);
   instances_.resize(scene_->entities.size());
   // Meshes with parts of several entities are fixed.
   for (uint32_t i = 0; i < scene_->instances.size(); ++i) {
@@ -51,14 +54,13 @@ ObjectPlace ObjectIndex::PlaceOf(EntityId entity) const {
 }
 
 std::vector<EntityId> ObjectIndex::Match(const std::string& regex, const ObjectNames& given) const {
+  const Pattern pattern = Pattern::Regex(regex, true);
+  PatternMatcher matcher(pattern);
   std::vector<EntityId> matches;
-  // Patterns of any length are a client's: the library's recursion is kept small.
-  if (regex.size() > 1000) throw std::invalid_argument("regular expression of more than 1000 characters");
-  const std::regex pattern(regex, std::regex::icase);
-  for (const Entity& entity : scene_->entities) {
-    const std::string& name = NameOf(entity.id, given);
-    if (name.size() <= 200 && std::regex_match(name, pattern)) matches.push_back(entity.id);
+  for (const auto& [name, entity] : sorted_names_) {
+    if (matcher.Matches(given.empty() ? std::string_view(name) : NameOf(entity, given))) matches.push_back(entity);
   }
+  std::ranges::sort(matches);
   return matches;
 }
 

@@ -33,7 +33,8 @@ class ObjectIndex {
   /// Instances that are wholly this entity's: what can be moved. Empty for parts of larger meshes.
   const std::vector<uint32_t>& InstancesOf(EntityId entity) const;
   ObjectPlace PlaceOf(EntityId entity) const;
-  /// Names that a regular expression matches as a whole, letters of either case; of existing things only.
+  /// Things whose names a regular expression (base/pattern.h) matches as a whole, letters of either case, in the
+  /// order of their ids. InputError for an expression that is none.
   std::vector<EntityId> Match(const std::string& regex, const ObjectNames& given = {}) const;
   /// Where the instances of an entity are when it is put elsewhere.
   void Move(EntityId entity, const ObjectPlace& place, std::vector<MovedInstance>& moved) const;
@@ -41,7 +42,8 @@ class ObjectIndex {
  private:
   std::shared_ptr<const Scene> scene_;
   std::map<std::string, EntityId, std::less<>> by_name_;
-  std::vector<std::vector<uint32_t>> instances_;  // by entity - 1
+  std::vector<std::pair<std::string_view, EntityId>> sorted_names_;  // as patterns are quickest asked
+  std::vector<std::vector<uint32_t>> instances_;                     // by entity - 1
 };
 
 struct Snapshot;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "airsim360/base/file_name.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/sim/people/people.h"
@@ -58,6 +59,7 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
   if (taken || name.empty() || lower != "simpleflight" || !only_drones || controls_.size() >= kMostVehicles) {
     return false;
   }
+  CheckFileName("vehicle_name", name);  // recordings name pictures after it
   AddToModel(name, VehicleSettings{}, X_WB);
   return true;
 }

@@ -5,6 +5,8 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/file_name.h"
+#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/rpc/settings_reader.h"
 
 namespace airsim360 {
@@ -12,7 +14,7 @@ namespace {
 
 using internal::SettingsObject;
 
-constexpr double kFar = 1e7;  // metres, m/s: nothing reasonable is beyond
+constexpr double kFar = kCoordinateLimit;
 constexpr double kCosysSettingsVersion = 2;
 constexpr int kLargestSide = 8192;
 
@@ -132,7 +134,16 @@ template <class T, class ReadOne>
 std::map<std::string, T> ReadNamed(SettingsObject& parent, const char* key, const ReadOne& read_one) {
   std::map<std::string, T> named;
   if (const JsonNode* node = parent.TakeObject(key)) {
-    for (size_t i = 0; i < node->keys.size(); ++i) named[node->keys[i]] = read_one(node->items[i], parent);
+    for (size_t i = 0; i < node->keys.size(); ++i) {
+      // Recordings name pictures after vehicles and cameras.
+      const bool names_files = !std::is_same_v<T, SensorSettings> && !node->keys[i].empty();
+      try {
+        if (names_files) CheckFileName(key, node->keys[i]);
+      } catch (const InputError& error) {
+        parent.Fail(node->items[i], error.what());
+      }
+      named[node->keys[i]] = read_one(node->items[i], parent);
+    }
   }
   return named;
 }
@@ -183,8 +194,10 @@ void ReadRecordingCameras(SettingsObject& object, RecordingSettings& recording) 
     SettingsObject entry(item, object.file(), object.notices());
     RecordingSettings::Camera camera;
     if (const JsonNode* name = entry.Take("CameraName")) {
-      camera.camera =
-          name->kind == JsonNode::Kind::kNumber ? std::to_string(static_cast<int>(name->number)) : name->text;
+      int number = 0;
+      const bool is_number = name->kind == JsonNode::Kind::kNumber;
+      if (is_number) entry.Read("CameraName", number, 0, 1000);
+      camera.camera = is_number ? std::to_string(number) : name->text;
     }
     camera.type = ReadImageType(entry);
     entry.Read("PixelsAsFloat", camera.pixels_as_float), entry.Read("Compress", camera.compress);
@@ -204,6 +217,7 @@ void ReadRecording(SettingsObject& parent, RecordingSettings& recording) {
   object.Read("RecordInterval", recording.interval, 0.001, 1e6);
   std::string folder;
   object.Read("Folder", folder);
+  if (folder.find('\0') != std::string::npos) object.Fail(*object.Take("Folder"), "Folder: holds a NUL character");
   recording.folder = folder;
   ReadRecordingCameras(object, recording);
   object.Finish();

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/base/pattern.h"
 #include "airsim360/rpc/airsim_drone.h"
 #include "airsim360/rpc/airsim_types.h"
 #include "airsim360/rpc/cameras.h"
@@ -22,7 +23,7 @@ namespace airsim360 {
 /// What SetDetectionFilter… calls have asked of one camera.
 struct DetectionFilter {
   double radius = 20;                 ///< metres
-  std::vector<std::string> patterns;  ///< wildcards: * and ?
+  std::vector<std::shared_ptr<const Pattern>> patterns;  ///< wildcards; case counts
 };
 
 /// Lines, points and texts that simPlot… calls have drawn: kept, not shown.

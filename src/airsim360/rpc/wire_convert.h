@@ -2,20 +2,43 @@
 // be missing, enums are integers, byte vectors are binaries, real numbers 4 bytes.
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <string>
 #include <type_traits>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
+#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/rpc/wire_value.h"
 
 namespace airsim360 {
 
-/// An argument of the wrong type. The text is what AirSim's server says.
-class BadCast : public std::bad_cast {};
+/// An argument that cannot be taken: which part of which argument, its value, what would do. Of one that is of the
+/// wrong kind the text begins as AirSim's server's, std::bad_cast.
+class BadArgument : public std::exception {
+ public:
+  enum class Reason : uint8_t { kKind, kRange };
+  BadArgument(Reason reason, std::string problem) : reason_(reason), problem_(std::move(problem)) { Write(); }
+  /// The problem is in `part` of what it was said to be in: "position", "[2]".
+  void Within(const std::string& part);
+  /// Which argument it is in, from 1 on.
+  void InArgument(size_t number);
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  void Write();
+  Reason reason_;
+  std::string problem_, part_, argument_, text_;
+};
+
+/// BadArgument: `value` is not `wanted` ("a number").
+[[noreturn]] void ThrowWrongKind(const WireValue& value, const char* wanted);
+[[noreturn]] void ThrowOutOfRange(const WireValue& value, int64_t low, uint64_t high);
+
+/// A real number. BadArgument for another kind, for one that is not a number, and beyond ±`limit`.
+double RealFromWire(const WireValue& value, double limit);
 
 /// Raw bytes of a picture, sent as a binary.
 struct WireBytes {
@@ -38,7 +61,7 @@ concept WireStruct = std::is_class_v<T> && requires(T& t, internal::FieldCounter
 };
 
 inline void FromWire(const WireValue& value, bool& out) {
-  if (value.kind != WireValue::Kind::kBool) throw BadCast();
+  if (value.kind != WireValue::Kind::kBool) ThrowWrongKind(value, "true or false");
   out = value.flag;
 }
 template <std::integral T>
@@ -47,21 +70,18 @@ void FromWire(const WireValue& value, T& out) {
     out = static_cast<T>(value.natural);
     return;
   }
-  if (value.kind != WireValue::Kind::kInt || !std::in_range<T>(value.integer)) throw BadCast();
+  if (value.kind != WireValue::Kind::kInt && value.kind != WireValue::Kind::kUint)
+    ThrowWrongKind(value, "a whole number");
+  if (value.kind == WireValue::Kind::kUint || !std::in_range<T>(value.integer)) {
+    using Limits = std::numeric_limits<T>;
+    ThrowOutOfRange(value, static_cast<int64_t>(Limits::min()), static_cast<uint64_t>(Limits::max()));
+  }
   out = static_cast<T>(value.integer);
 }
+/// No real number on the wire has a meaning beyond the limit of coordinates, whatever its unit; times do (Seconds).
 template <std::floating_point T>
 void FromWire(const WireValue& value, T& out) {
-  using Kind = WireValue::Kind;
-  if (value.kind == Kind::kFloat) {
-    out = static_cast<T>(value.real);
-  } else if (value.kind == Kind::kInt) {
-    out = static_cast<T>(value.integer);
-  } else if (value.kind == Kind::kUint) {
-    out = static_cast<T>(value.natural);
-  } else {
-    throw BadCast();
-  }
+  out = static_cast<T>(RealFromWire(value, kCoordinateLimit));
 }
 template <class T>
 requires std::is_enum_v<T>
@@ -71,20 +91,35 @@ void FromWire(const WireValue& value, T& out) {
   out = static_cast<T>(number);
 }
 inline void FromWire(const WireValue& value, std::string& out) {
-  if (value.kind != WireValue::Kind::kString && value.kind != WireValue::Kind::kBinary) throw BadCast();
+  if (value.kind != WireValue::Kind::kString && value.kind != WireValue::Kind::kBinary)
+    ThrowWrongKind(value, "a text");
   out = value.text;
 }
 template <class T>
 void FromWire(const WireValue& value, std::vector<T>& out) {
-  if (value.kind != WireValue::Kind::kArray) throw BadCast();
+  if (value.kind != WireValue::Kind::kArray) ThrowWrongKind(value, "a list");
   out.assign(value.items.size(), T{});
-  for (size_t i = 0; i < out.size(); ++i) FromWire(value.items[i], out[i]);
+  for (size_t i = 0; i < out.size(); ++i) {
+    try {
+      FromWire(value.items[i], out[i]);
+    } catch (BadArgument& error) {
+      error.Within("[" + std::to_string(i) + "]");
+      throw;
+    }
+  }
 }
 template <WireStruct T>
 void FromWire(const WireValue& value, T& out) {
-  if (value.kind != WireValue::Kind::kMap) throw BadCast();
+  if (value.kind != WireValue::Kind::kMap) ThrowWrongKind(value, "a map");
   auto read = [&](const char* key, auto& field) {
-    if (const WireValue* item = value.Find(key)) FromWire(*item, field);
+    const WireValue* item = value.Find(key);
+    if (item == nullptr) return;
+    try {
+      FromWire(*item, field);
+    } catch (BadArgument& error) {
+      error.Within(key);
+      throw;
+    }
   };
   out.Visit(read);
 }

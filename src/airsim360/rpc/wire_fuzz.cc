@@ -30,7 +30,7 @@ void Read(const airsim360::WireValue& value) {
   try {
     using airsim360::FromWire;
     FromWire(value, out);
-  } catch (const airsim360::BadCast&) {
+  } catch (const airsim360::BadArgument&) {
   }
 }
 

@@ -130,13 +130,12 @@ TEST(Wire, StructsTakeWhatIsThereAndRefuseWrongTypes) {
   uint32_t count = 0;
   std::string word;
   float real = 0;
-  EXPECT_THROW(FromWire(DecodeWire(Span(number)), flag), BadCast);
-  EXPECT_THROW(FromWire(DecodeWire(Span(number)), word), BadCast);
-  EXPECT_THROW(FromWire(DecodeWire(Span(number)), v), BadCast);
-  EXPECT_THROW(FromWire(DecodeWire(Span(text)), real), BadCast);
-  EXPECT_THROW(FromWire(DecodeWire(Span(half)), count), BadCast);
-  EXPECT_THROW(FromWire(DecodeWire(Span(negative)), count), BadCast);
-  EXPECT_STREQ(BadCast().what(), "std::bad_cast");
+  EXPECT_THROW(FromWire(DecodeWire(Span(number)), flag), BadArgument);
+  EXPECT_THROW(FromWire(DecodeWire(Span(number)), word), BadArgument);
+  EXPECT_THROW(FromWire(DecodeWire(Span(number)), v), BadArgument);
+  EXPECT_THROW(FromWire(DecodeWire(Span(text)), real), BadArgument);
+  EXPECT_THROW(FromWire(DecodeWire(Span(half)), count), BadArgument);
+  EXPECT_THROW(FromWire(DecodeWire(Span(negative)), count), BadArgument);
 }
 
 TEST(Wire, MessagesAreRequestsOrNotifications) {

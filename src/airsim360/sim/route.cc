@@ -6,6 +6,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
 namespace {
@@ -49,7 +50,7 @@ Route::Route(std::vector<RouteNode> nodes) : nodes_(std::move(nodes)) {
   for (size_t i = 0; i < nodes_.size(); ++i) {
     RouteNode& node = nodes_[i];
     const double previous = i ? nodes_[i - 1].t : 0;
-    if (!std::isfinite(node.t) || (i ? node.t <= previous : node.t != 0) || !IsFinite(node.p) ||
+    if (!std::isfinite(node.t) || (i ? node.t <= previous : node.t != 0) || !IsWithinLimit(node.p) ||
         !IsFinite(node.v)) {
       throw InputError("route: point " + std::to_string(i) + " has no valid time or position");
     }

@@ -11,6 +11,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/math/coordinate_limit.h"
 
 namespace airsim360 {
 namespace {
@@ -89,6 +90,8 @@ Waypoint ParseRow(const std::vector<Field>& fields, const std::vector<size_t>& c
     if (!ParseNumber(fields[i].text, values[columns[i]])) {
       Fail(place, fields[i].column, std::string(fields[i].text.substr(0, 64)) + ": not a finite number");
     }
+    if (columns[i] < 3 && std::abs(values[columns[i]]) > kCoordinateLimit)
+      Fail(place, fields[i].column, BeyondLimitText(values[columns[i]]) + " metres");
     waypoint.has_yaw |= columns[i] == 3;
     waypoint.has_time |= columns[i] == 4;
   }

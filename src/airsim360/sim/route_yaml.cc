@@ -5,13 +5,14 @@
 
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
+#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/sim/route_file.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kFarthest = 1e9;  // metres; also the largest time and angle
-constexpr double kNotGiven = -kFarthest;
+constexpr double kLargest = 1e9;  // of times and angles
+constexpr double kNotGiven = -kLargest;
 
 struct Entry {
   double x = kNotGiven, y = kNotGiven, z = kNotGiven, yaw_deg = kNotGiven, t = kNotGiven;
@@ -27,11 +28,11 @@ std::vector<Waypoint> ParseRouteYaml(std::string_view text, std::string_view nam
     v.Field("frame", "W: x east, y north, z up", frame);
     v.List("waypoints", "places to pass", entries, [](ConfigVisitor& e, Entry& entry) {
       entry.line = e.line();
-      e.Field("x", "metres east", entry.x, -kFarthest, kFarthest);
-      e.Field("y", "metres north", entry.y, -kFarthest, kFarthest);
-      e.Field("z", "metres up", entry.z, -kFarthest, kFarthest);
-      e.Field("yaw_deg", "degrees counter-clockwise from east", entry.yaw_deg, -kFarthest, kFarthest);
-      e.Field("t", "seconds", entry.t, -kFarthest, kFarthest);
+      e.Field("x", "metres east", entry.x, -kCoordinateLimit, kCoordinateLimit);
+      e.Field("y", "metres north", entry.y, -kCoordinateLimit, kCoordinateLimit);
+      e.Field("z", "metres up", entry.z, -kCoordinateLimit, kCoordinateLimit);
+      e.Field("yaw_deg", "degrees counter-clockwise from east", entry.yaw_deg, -kLargest, kLargest);
+      e.Field("t", "seconds", entry.t, -kLargest, kLargest);
     });
   });
   const std::string where(name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/math/standard_atmosphere.h"
 
 namespace airsim360::internal {
@@ -157,6 +158,20 @@ void KeepInWorld(const StepContext& context, size_t i, Vehicle& vehicle, std::ve
   if (outside) events.push_back({.kind = Kind::kWorldEdge, .vehicle = i, .t_ns = context.t_ns});
 }
 
+// Commands and winds without measure can take the equations beyond what numbers hold: then the drone is put back
+// to where it was, at rest.
+void KeepSane(const DroneState& before, DroneState& now) {
+  constexpr double kFastest = 1e4, kFastestTurn = 1e4;  // m/s, rad/s
+  const Quaternion& q = now.q_WB;
+  const bool sane = Norm(now.v_WB) <= kFastest && Norm(now.w_WB_B) <= kFastestTurn && IsWithinLimit(now.p_WB) &&
+                    std::isfinite(q.w + q.x + q.y + q.z) &&
+                    std::ranges::all_of(now.rotor_speeds, [](double speed) { return std::isfinite(speed); });
+  if (sane) return;
+  const double charge = now.charge;
+  now = {.p_WB = before.p_WB, .q_WB = before.q_WB, .v_WB = {}, .w_WB_B = {}};
+  now.charge = std::isfinite(charge) ? charge : before.charge;
+}
+
 }  // namespace
 
 void CopyMotion(Vehicle& vehicle) {
@@ -230,6 +245,7 @@ void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& sur
       ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
                       NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
   NoteCollision(report, context.t_ns + model.dt_ns, i, vehicle, events);
+  KeepSane(before, vehicle.drone);
   KeepInWorld(context, i, vehicle, events);
   vehicle.a_WB = (vehicle.drone.v_WB - before.v_WB) / dt;
   vehicle.alpha_WB_B = (vehicle.drone.w_WB_B - before.w_WB_B) / dt;

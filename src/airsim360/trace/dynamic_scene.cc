@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/trace/trace_limit.h"
 
 namespace airsim360::internal {
 namespace {
@@ -100,7 +101,7 @@ void DynamicScene::Place(EmbreeScene& statics, const Scene& scene, const SceneSt
     const Vec3f columns[4] = {A.column(0), A.column(1), A.column(2), place.X_WM.p};
     if (!same_scene) rtcSetGeometryInstancedScene(g, shown);
     rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    if (place.hidden)
+    if (place.hidden || !IsTraceable(A))
       rtcDisableGeometry(g);
     else
       rtcEnableGeometry(g);

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/trace/trace_limit.h"
 
 namespace airsim360::internal {
 namespace {
@@ -280,6 +281,7 @@ void EmbreeScene::AttachInstance(unsigned id, RTCScene sub_scene, const AffineTr
   rtcSetGeometryInstancedScene(g, sub_scene);
   rtcSetGeometryMask(g, mask);
   rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  if (!IsTraceable(X_WM.A)) rtcDisableGeometry(g);
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(top_.get(), g, id);
   if ((mask & kMaskClearPanes) != 0) AttachPanes(g, id);

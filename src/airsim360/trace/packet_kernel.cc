@@ -1,14 +1,19 @@
 #include "airsim360/trace/packet_kernel.h"
 
+#include <cmath>
+
 namespace airsim360::internal::AIRSIM360_ISA {
 
-bool KeepFinite(const int* valid, const RayHit16& rays, int* finite) {
+bool KeepTraceable(const int* valid, const RayHit16& rays, int* traceable) {
   int bad = 0;
   for (int i = 0; i < 16; ++i) {
-    const float sum = rays.origin_x[i] + rays.origin_y[i] + rays.origin_z[i] + rays.direction_x[i] +
-                      rays.direction_y[i] + rays.direction_z[i];
-    finite[i] = sum - sum == 0 ? valid[i] : 0;
-    bad |= finite[i] ^ valid[i];
+    const float sum = std::fabs(rays.origin_x[i]) + std::fabs(rays.origin_y[i]) + std::fabs(rays.origin_z[i]) +
+                      std::fabs(rays.direction_x[i]) + std::fabs(rays.direction_y[i]) +
+                      std::fabs(rays.direction_z[i]);
+    // False too where a number is none.
+    const bool good = (sum <= kTraceLimit) & (rays.t_near[i] >= 0) & (rays.t_far[i] == rays.t_far[i]);
+    traceable[i] = good ? valid[i] : 0;
+    bad |= traceable[i] ^ valid[i];
   }
   return bad == 0;
 }

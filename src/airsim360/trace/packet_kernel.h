@@ -3,9 +3,10 @@
 
 #include "airsim360/base/kernel_isa.h"
 #include "airsim360/trace/ray_tracer.h"
+#include "airsim360/trace/trace_limit.h"
 
-/// Takes out active lanes whose origin or direction is not finite (or so large that their sum is not): `finite` is
-/// `valid` without them. Returns whether there were none.
-AIRSIM360_DECLARE_KERNEL(bool KeepFinite(const int* valid, const RayHit16& rays, int* finite))
+/// Takes out active lanes that cannot be traced (kTraceLimit): `traceable` is `valid` without them. Returns whether
+/// there were none.
+AIRSIM360_DECLARE_KERNEL(bool KeepTraceable(const int* valid, const RayHit16& rays, int* traceable))
 /// Marks the active lanes (-1 in `valid`) as having met nothing.
 AIRSIM360_DECLARE_KERNEL(void MarkMissed(const int* valid, RayHit16& rays))

@@ -6,26 +6,13 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/trace/closest_point.h"
+#include "airsim360/trace/trace_limit.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kRounding = 4e-6f;  // relative, generous for a dozen single precision operations
-
-// Inverse of a matrix; false if it has none.
-bool Invert(const Mat3f& A, Mat3f& inverse) {
-  const Vec3f a = A.column(0), b = A.column(1), c = A.column(2);
-  const Mat3f cofactors = Mat3f::FromColumns(Cross(b, c), Cross(c, a), Cross(a, b)).transpose();
-  const float determinant = Dot(a, Cross(b, c));
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      inverse.m[i][j] = cofactors.m[i][j] / determinant;
-      if (!std::isfinite(inverse.m[i][j])) return false;
-    }
-  }
-  return true;
-}
 
 // At least the largest singular value: exact for rotations times a factor.
 float LargestStretch(const Mat3f& A) {

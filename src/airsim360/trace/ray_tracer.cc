@@ -13,6 +13,7 @@
 #include "airsim360/trace/dynamic_scene.h"
 #include "airsim360/trace/embree_scene.h"
 #include "airsim360/trace/packet_kernel.h"
+#include "airsim360/trace/trace_limit.h"
 
 namespace airsim360 {
 namespace {
@@ -53,11 +54,17 @@ Vec3f NormalToWorld(const Mat3f& A, Vec3f n) {
   return Mat3f::FromColumns(Cross(b, c), Cross(c, a), Cross(a, b)) * n;
 }
 
-// Embree aborts the process on an active ray that is not finite: such lanes are taken out. Returns `valid`,
-// or `fixed`.
-const int* FiniteLanes(const int* valid, const RayHit16& rays, int* fixed) {
-  static const auto keep_finite = AIRSIM360_SELECT_KERNEL(KeepFinite);
-  return keep_finite(valid, rays, fixed) ? valid : fixed;
+// Lanes that Embree can be given. Returns `valid`, or `fixed`.
+const int* TraceableLanes(const int* valid, const RayHit16& rays, int* fixed) {
+  static const auto keep_traceable = AIRSIM360_SELECT_KERNEL(KeepTraceable);
+  return keep_traceable(valid, rays, fixed) ? valid : fixed;
+}
+
+// Whether a ray with these can be traced; false too where a number is none.
+bool IsTraceable(Vec3f origin, Vec3f direction) {
+  return std::fabs(origin.x) + std::fabs(origin.y) + std::fabs(origin.z) + std::fabs(direction.x) +
+             std::fabs(direction.y) + std::fabs(direction.z) <=
+         kTraceLimit;
 }
 
 // Below AVX-512 Embree's calls for 16 rays ignore `valid` (3.13.5 hands them to a stream filter that looks at
@@ -160,7 +167,7 @@ void RayTracer::IntersectIn(bool panes, const int* valid, RayHit16& rays, bool c
   mark_missed(valid, rays);
   alignas(64) int fixed[16];
   RTCIntersectContext context = Context(coherent);
-  const int* lanes = FiniteLanes(valid, rays, fixed);
+  const int* lanes = TraceableLanes(valid, rays, fixed);
   const EmptyInactiveLanes others(lanes, rays);
   auto* packet = reinterpret_cast<RTCRayHit16*>(&rays);
   const RTCScene statics = panes ? impl_->embree->panes() : impl_->embree->top();
@@ -183,7 +190,7 @@ void RayTracer::Occluded16(const int* valid, RayHit16& rays, bool* occluded, boo
   // the stack held before; seen with and without ROBUST, with any rays). rtcIntersect16 is not affected.
   alignas(64) int fixed[16], open[16];
   RTCIntersectContext context = Context(coherent && !impl_->embree->has_instances());
-  const int* lanes = FiniteLanes(valid, rays, fixed);
+  const int* lanes = TraceableLanes(valid, rays, fixed);
   const EmptyInactiveLanes others(lanes, rays);
   auto* packet = reinterpret_cast<RTCRay16*>(&rays);
   uint32_t kinds[16];
@@ -209,7 +216,7 @@ SurfaceRef RayTracer::Resolve(uint32_t geometry, uint32_t instance, uint32_t pri
 }
 
 std::optional<SurfaceHit> RayTracer::Intersect(Vec3f origin, Vec3f direction, float t_far) const {
-  if (!IsFinite(origin) || !IsFinite(direction)) return std::nullopt;
+  if (!IsTraceable(origin, direction) || std::isnan(t_far)) return std::nullopt;
   const FlushDenormals flush;
   RTCRayHit ray{SingleRay(origin, direction, t_far), {}};
   ray.hit.geomID = ray.hit.instID[0] = kMiss;
@@ -231,7 +238,7 @@ std::optional<SurfaceHit> RayTracer::Intersect(Vec3f origin, Vec3f direction, fl
 }
 
 bool RayTracer::Occluded(Vec3f from, Vec3f to) const {
-  if (!IsFinite(from) || !IsFinite(to)) return false;
+  if (!IsTraceable(from, to - from)) return false;
   const FlushDenormals flush;
   RTCRay ray = SingleRay(from, to - from, 1);
   RTCIntersectContext context = Context(false);
@@ -249,7 +256,7 @@ template <class Impl>
 internal::NearestTriangle FindNearest(const Impl& impl, std::span<const MovedInstance> moved, Vec3f p_W,
                                       float max_distance) {
   internal::NearestTriangle best{std::max(max_distance, 0.0f)};
-  if (!IsFinite(p_W) || !(max_distance > 0)) return best;
+  if (!IsTraceable(p_W, {}) || !(max_distance > 0)) return best;
   if (impl.traces_static) impl.embree->PointQueries(*impl.scene).Find(p_W, moved, best);
   if (impl.dynamic != nullptr) impl.dynamic->Find(p_W, best);
   return best;
