@@ -184,12 +184,14 @@ void Pattern::CheckWork() const {
   }
 }
 
-void Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const {
+// Whether there is any place to go to.
+bool Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const {
   const bool before_word = class_is_word_[byte_class];
   const uint64_t* fits = &class_places_[byte_class * words_];
   if (is_start) {
-    for (size_t w = 0; w < words_; ++w) to[w] = first_[before_word][w] & fits[w];
-    return;
+    uint64_t any = 0;
+    for (size_t w = 0; w < words_; ++w) any |= to[w] = first_[before_word][w] & fits[w];
+    return any != 0;
   }
   const Follow& follow = follow_[after_word][before_word];
   for (size_t w = 0; w < words_; ++w) {
@@ -205,7 +207,9 @@ void Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size
       for (size_t i = 0; i < words_; ++i) to[i] |= row[i];
     }
   }
-  for (size_t w = 0; w < words_; ++w) to[w] &= fits[w];
+  uint64_t any = 0;
+  for (size_t w = 0; w < words_; ++w) any |= to[w] &= fits[w];
+  return any != 0;
 }
 
 bool Pattern::IsEnd(const uint64_t* places, bool after_word) const {
@@ -270,24 +274,21 @@ bool PatternMatcher::MatchesByStates(std::string_view text, size_t alike) {
 
 bool PatternMatcher::MatchesBySets(std::string_view text, size_t alike) {
   const size_t words = pattern_.words_;
-  size_t i = std::min(alike, passed_sets_.size() / words - 1);
-  passed_sets_.resize((i + 1) * words);
-  const auto after_word = [&](size_t n) {
-    return n > 0 && pattern_.class_is_word_[pattern_.class_[static_cast<uint8_t>(text[n - 1])]] != 0;
-  };
-  const auto is_dead = [&] {
-    return i > 0 && std::all_of(passed_sets_.end() - static_cast<ptrdiff_t>(words), passed_sets_.end(),
-                                [](uint64_t word) { return word == 0; });
-  };
-  while (i < text.size() && !is_dead()) {
-    passed_sets_.resize((i + 2) * words);
-    const uint64_t* from = &passed_sets_[i * words];
-    const size_t byte_class = pattern_.class_[static_cast<uint8_t>(text[i])];
-    pattern_.Advance(from, i == 0, after_word(i), byte_class, &passed_sets_[(i + 1) * words]);
-    ++i;
+  passed_sets_.resize(std::max(passed_sets_.size(), (text.size() + 1) * words));
+  // A text that begins as one that came to a dead end does so too.
+  if (is_dead_end_ && alike >= known_sets_) return false;
+  known_sets_ = std::min(alike + 1, known_sets_);
+  size_t i = known_sets_ - 1;
+  const auto class_of = [&](size_t n) -> size_t { return pattern_.class_[static_cast<uint8_t>(text[n])]; };
+  bool after_word = i > 0 && pattern_.class_is_word_[class_of(i - 1)] != 0;
+  for (is_dead_end_ = false; i < text.size(); ++i, ++known_sets_) {
+    const size_t byte_class = class_of(i);
+    uint64_t* from = &passed_sets_[i * words];
+    is_dead_end_ = !pattern_.Advance(from, i == 0, after_word, byte_class, from + words);
+    if (is_dead_end_) return false;
+    after_word = pattern_.class_is_word_[byte_class] != 0;
   }
-  if (i < text.size()) return false;
-  return i == 0 ? pattern_.matches_empty_ : pattern_.IsEnd(&passed_sets_[i * words], after_word(i));
+  return i == 0 ? pattern_.matches_empty_ : pattern_.IsEnd(&passed_sets_[i * words], after_word);
 }
 
 }  // namespace airsim360

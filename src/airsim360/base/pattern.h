@@ -36,7 +36,7 @@ class Pattern {
   void MakeClasses(const PatternProgram& program);
   void MakeFollow(const PatternProgram& program);
   void CheckWork() const;
-  void Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const;
+  bool Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const;
   bool IsEnd(const uint64_t* places, bool after_word) const;
 
   // The places after each, by whether the last and the next character are of words.
@@ -85,6 +85,8 @@ class PatternMatcher {
   std::string text_;
   std::vector<int32_t> passed_;
   std::vector<uint64_t> passed_sets_;
+  size_t known_sets_ = 1;     // how many of those hold
+  bool is_dead_end_ = false;  // after the last of them nothing could match
 };
 
 }  // namespace airsim360

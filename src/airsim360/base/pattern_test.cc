@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <regex>
@@ -139,6 +140,31 @@ TEST(Pattern, CountsOfThePastAreRemembered) {
     std::string text;
     for (int k = 0; k < 30; ++k) text += random() % 2 ? 'a' : 'b';
     ASSERT_EQ(matcher.Matches(text), text[text.size() - 11] == 'a') << text;
+  }
+}
+
+TEST(Pattern, SharedBeginningsOfManyTextsChangeNothing) {
+  // More states than a matcher keeps; dead ends at different depths; words beside other characters.
+  const char* const expressions[] = {"[ab_ ]*a.{12}", "(a|b)+(\\b.{3}|_[ab]{14})", "b[ab]{0,20}.*a[^ ]{13}"};
+  for (const char* expression : expressions) {
+    const Pattern pattern = Pattern::Regex(expression, false);
+    PatternMatcher shared(pattern);
+    std::mt19937 random(4);
+    std::vector<std::string> texts;
+    for (int i = 0; i < 6000; ++i) {
+      std::string text;
+      for (size_t k = random() % 40; k > 0; --k) text += "aaabbb_ "[random() % 8];
+      texts.push_back(text);
+    }
+    std::ranges::sort(texts);
+    int matched = 0;
+    for (const std::string& text : texts) {
+      PatternMatcher alone(pattern);
+      const bool expected = alone.Matches(text);
+      ASSERT_EQ(shared.Matches(text), expected) << expression << " on '" << text << "'";
+      matched += expected;
+    }
+    EXPECT_GT(matched, 10) << expression;
   }
 }
 
