@@ -25,7 +25,7 @@ __all__ = ["Capture", "CudaCapture", "Dataset", "Drone", "DroneState", "Frame", 
 _PURE = {"Dataset": "dataset", "Frame": "dataset", "Samples": "dataset", "read_exr": "pictures", "read_png": "pictures"}
 
 
-def _native():
+def _load_native():
     """The compiled module. ImportError says what is missing: the module, or something that it needs."""
     try:
         return _importlib.import_module(f"{__name__}._native")
@@ -40,12 +40,12 @@ def _native():
 def __getattr__(name):
     # The compiled module is loaded when first needed: datasets and the AirSim client work without it.
     if name == "_native":
-        return _native()
+        return _load_native()
     if name in ("airsim", "dataset", "gym", "pictures"):
         return _importlib.import_module(f"{__name__}.{name}")
     if name not in __all__:
         raise AttributeError(f"module 'airsim360' has no attribute '{name}'")
-    module = _importlib.import_module(f"{__name__}.{_PURE[name]}") if name in _PURE else _native()
+    module = _importlib.import_module(f"{__name__}.{_PURE[name]}") if name in _PURE else _load_native()
     value = getattr(module, name)
     globals()[name] = value
     return value

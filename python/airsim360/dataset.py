@@ -310,8 +310,8 @@ def _read_picture(path: Path, rgb8: bool) -> np.ndarray:
     """PNG, or JPEG by whichever decoder is there. rgb8: 8-bit colour, which the compiled module reads some ten times faster."""
     if rgb8:
         try:
-            from ._native import read_rgb
-            return read_rgb(str(path))
+            from ._native import _read_rgb
+            return _read_rgb(str(path))
         except ImportError:
             pass
     if path.suffix == ".png":

@@ -36,7 +36,7 @@ void BindGeodesy(py::module_& m) {
   py::class_<GeoFrame>(m, "GeoFrame", R"(The world frame W (east, north, up) at a place of the Earth (WGS 84 ellipsoid).
 
 latitude_deg, longitude_deg: degrees, -90 … 90 and -180 … 180; altitude: metres over the ellipsoid. The frame is a tangent plane:
-altitude grows with the square of the distance (8 cm at 1 km). Simulation.geo_frame is the one of its satellite receivers.)")
+altitude grows with the square of the distance (8 cm at 1 km). Simulation.geo_frame is that of satellite receivers.)")
       .def(py::init(&MakeFrame), py::arg("latitude_deg"), py::arg("longitude_deg"), py::arg("altitude") = 0.0)
       .def_property_readonly(
           "origin", [](const GeoFrame& f) { return FromVec3({f.origin().latitude_deg, f.origin().longitude_deg, f.origin().altitude}); }, "Latitude, longitude (degrees) and altitude of W's origin.")

@@ -27,7 +27,7 @@ py::array_t<uint8_t> ReadRgb(const std::string& path) {
 }  // namespace
 
 void BindPictures(py::module_& m) {
-  m.def("read_rgb", &ReadRgb, py::arg("path"),
+  m.def("_read_rgb", &ReadRgb, py::arg("path"),
         "A PNG, JPEG or WebP file as (H, W, 3) uint8 sRGB. ValueError names the file where it is none.");
 }
 

@@ -200,12 +200,8 @@ walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
           "Seconds since the start.")
       .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); })
       .def_property_readonly(
-          "geo_frame",
-          [](const Simulation& s) {
-            const auto& drones = s.model()->drones;
-            return drones.empty() ? SensorSet{}.frame : drones[0]->setup().sensors.frame;
-          },
-          "GeoFrame: where W lies on the Earth, for the satellite receivers of the first drone.")
+          "geo_frame", [](const Simulation& s) { return s.model()->world.frame; },
+          "GeoFrame: where W lies on the Earth, for satellite receivers.")
       .def("__repr__",
            [](Simulation& s) {
              return Text("Simulation(%s, drones: %s, t = %.3f s, dt = %g s)", s.world()->name().c_str(),

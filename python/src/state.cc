@@ -50,6 +50,8 @@ py::dict Sensors(const StateView& s) {
     d["altitude"] = r.place.altitude;
     d["position"] = FromVec3(r.p_WS);
     d["velocity"] = FromVec3(r.v_WS);
+    d["eph"] = r.eph;
+    d["epv"] = r.epv;
     d["has_fix"] = r.has_fix;
     all[py::str(set.gnss[i].name)] = d;
   }
