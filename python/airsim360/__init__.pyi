@@ -1,5 +1,7 @@
-from . import airsim as airsim, gym as gym
-from ._native import (PARTS as PARTS, Capture as Capture, CudaCapture as CudaCapture, Drone as Drone, DroneState as DroneState, Lidar as Lidar,
+from . import airsim as airsim, dataset as dataset, gym as gym, pictures as pictures
+from .dataset import Dataset as Dataset, Frame as Frame, Samples as Samples
+from .pictures import read_exr as read_exr, read_png as read_png
+from ._native import (PARTS as PARTS, Capture as Capture, CudaCapture as CudaCapture, Drone as Drone, DroneState as DroneState, GeoFrame as GeoFrame, Lidar as Lidar,
                       LidarScan as LidarScan, Plan as Plan, Recording as Recording,
                       Rig as Rig, Simulation as Simulation, Snapshot as Snapshot, Tensor as Tensor, Threads as Threads,
                       VectorEnvironment as VectorEnvironment, VideoWriter as VideoWriter, World as World, drone_catalog as drone_catalog, gpus as gpus,

@@ -46,17 +46,19 @@ class Tensor:
 PARTS: tuple[str, ...]
 
 class Capture:
-    rgb: Optional[npt.NDArray[np.uint8]]  # (H, W, 3)
-    range: Optional[F32]  # (H, W) metres
-    semantic: Optional[npt.NDArray[np.uint16]]  # (H, W)
-    entity: Optional[npt.NDArray[np.uint32]]  # (H, W)
-    normal: Optional[F32]  # (H, W, 3)
-    position: Optional[F32]  # (H, W, 3)
-    albedo: Optional[F32]  # (H, W, 3)
-    material: Optional[npt.NDArray[np.uint16]]  # (H, W)
-    part: Optional[npt.NDArray[np.uint8]]  # (H, W)
-    radiance: Optional[F32]  # (H, W, 3)
-    flow: Optional[F32]  # (H, W, 2)
+    # A picture that the rig was not asked for is a ValueError.
+    products: list[str]
+    rgb: npt.NDArray[np.uint8]  # (H, W, 3)
+    range: F32  # (H, W) metres
+    semantic: npt.NDArray[np.uint16]  # (H, W)
+    entity: npt.NDArray[np.uint32]  # (H, W)
+    normal: F32  # (H, W, 3)
+    position: F32  # (H, W, 3)
+    albedo: F32  # (H, W, 3)
+    material: npt.NDArray[np.uint16]  # (H, W)
+    part: npt.NDArray[np.uint8]  # (H, W)
+    radiance: F32  # (H, W, 3)
+    flow: F32  # (H, W, 2)
     pose: F64  # (4, 4) X_WC
     body_pose: F64  # (4, 4) X_WB
     q_wxyz: F64  # (4,)
@@ -166,6 +168,12 @@ class DroneState:
     collision: Optional[dict[str, Any]]
     sensors: dict[str, dict[str, Any]]
 
+class GeoFrame:
+    origin: F64  # (3,) latitude_deg, longitude_deg, altitude
+    def __init__(self, latitude_deg: float, longitude_deg: float, altitude: float = 0.0) -> None: ...
+    def to_world(self, places: Union[Vector, Points]) -> F64: ...  # (3,) or (N, 3)
+    def to_geodetic(self, points: Union[Vector, Points]) -> F64: ...  # (3,) or (N, 3)
+
 class Snapshot:
     t: float
     step: int
@@ -189,7 +197,9 @@ class Simulation:
     people: list[dict[str, Any]]
     def __init__(self, world: World, drones: Union[int, str, Drone, Sequence[Union[str, Drone]]] = 1, people: int = 0,
                  seed: int = 0, dt: float = 0.001, wind: Vector = (0, 0, 0)) -> None: ...
+    geo_frame: GeoFrame
     def step(self, n: int = 1) -> None: ...
+    def wait(self, drone: DroneRef = 0, timeout: float = 60.0) -> bool: ...
     def run(self, seconds: float) -> None: ...
     def state(self, drone: DroneRef = 0) -> DroneState: ...
     def capture(self, rig: Rig = ..., drone: DroneRef = 0, memory: Literal["cpu", "cuda"] = "cpu") -> Capture: ...
@@ -226,6 +236,7 @@ class Simulation:
                     drone: DroneRef = 0) -> None: ...
 
 class VectorEnvironment:
+    TASK_OPTIONS: tuple[str, ...]
     count: int
     action_size: int
     width: int
@@ -248,7 +259,7 @@ class VectorEnvironment:
                  tier: Tier = "fast", observations: Sequence[str] = ("rgb", "range"), period: float = 0.1,
                  max_speed: float = 3.0, max_turn: float = 1.5, max_rate: float = 6.0, level: bool = False,
                  auto_reset: bool = True, seed: int = 0) -> None: ...
-    def reset(self, seed: Optional[int] = None) -> None: ...
+    def reset(self, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None) -> None: ...
     def step(self, actions: Any) -> None: ...
     def pose_of(self, environment: int) -> F64: ...
     def goal_of(self, environment: int) -> F64: ...

@@ -73,16 +73,67 @@ Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
   return rig;
 }
 
-py::object Flow(const py::object& self) {
-  const auto& image = self.cast<const Capture&>().frame.flow;
-  return ImageView<float>(image, 2, self);  // dx, dy are first in the pixel
+std::vector<std::string> ProductsOf(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const ProductName& p : kProducts) {
+    if (rig.shown.*(p.wanted)) names.emplace_back(p.name);
+  }
+  if (rig.part) names.emplace_back(kPart);
+  return names;
+}
+
+[[noreturn]] void RefuseMissing(const std::string& product) {
+  throw InputError("product '" + product + "' was not captured: name it in Rig(products=…)");
+}
+
+/// The picture of a product as (H, W) of T, or (H, W, channels). InputError where the rig did not ask for it.
+template <class T, class Pixel>
+py::object PictureIn(const py::object& self, const Image<Pixel>& image, int channels, const char* product) {
+  if (!image.empty()) return ImageView<T>(image, channels, self);
+  if (py::isinstance<CudaCapture>(self))
+    throw InputError(std::string(product) + " is in memory of the GPU: take tensor(\"" + product + "\")");
+  RefuseMissing(product);
 }
 
 template <class T, class Pixel>
-auto Picture(Image<Pixel> Frame::*image, int channels) {
-  return [image, channels](const py::object& self) {
-    return ImageView<T>(self.cast<const Capture&>().frame.*image, channels, self);
+auto Picture(Image<Pixel> Frame::*image, int channels, const char* product) {
+  return [image, channels, product](const py::object& self) {
+    return PictureIn<T>(self, self.cast<const Capture&>().frame.*image, channels, product);
   };
+}
+
+/// The pictures that are there, in the order of Rig's documentation, and their size.
+struct Pictures {
+  std::vector<std::string> names;
+  int width = 0, height = 0;
+};
+Pictures PicturesOf(const Capture& c) {
+  Pictures there;
+  const auto note = [&](const char* name, const auto& image) {
+    if (image.empty()) return;
+    there.names.emplace_back(name);
+    there.width = static_cast<int>(image.width());
+    there.height = static_cast<int>(image.height());
+  };
+  const Frame& f = c.frame;
+  note("rgb", f.rgb);
+  note("range", f.range);
+  note("semantic", f.semantic);
+  note("entity", f.entity);
+  note("normal", f.normal);
+  note("position", f.position);
+  note("albedo", f.albedo);
+  note("material", f.material);
+  note(kPart, c.part);
+  note("flow", f.flow);
+  note("radiance", f.radiance);
+  return there;
+}
+
+std::string Describe(const Capture& c) {
+  const Pictures there = PicturesOf(c);
+  return Text("Capture(%s, %dx%d, at %s m, t = %.3f s)", Joined(there.names).c_str(), there.width, there.height,
+              Text(c.X_WC.p).c_str(), Seconds(c.t_ns));
 }
 
 // The pictures of a capture in memory of a CUDA device.
@@ -101,7 +152,7 @@ Tensor PictureOf(const CudaCapture& capture, const std::string& product) {
   if (product == "material") tensor = CudaTensor<uint16_t>(f.material, 0, keep);
   if (product == "flow") tensor = CudaTensor<float>(f.flow, 2, keep);
   if (product == "radiance") tensor = CudaTensor<float>(f.radiance, 3, keep);
-  if (tensor.data == nullptr) throw InputError("product '" + product + "' was not captured: name it in Rig(products=…)");
+  if (tensor.data == nullptr) RefuseMissing(product);
   return tensor;
 }
 
@@ -147,43 +198,49 @@ on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high).)")
            py::arg("roll") = 0.0, py::arg("level") = false, py::arg("lens") = "ideal",
            py::arg("tone") = "filmic", py::arg("exposure_ev") = 0.0, py::arg("samples") = 0,
            py::arg("seed") = 0, py::arg("flow_dt") = 0.1, py::arg("edge_samples") = py::none())
+      .def("__repr__",
+           [](const Rig& r) {
+             return Text("Rig(%dx%d, tier %s, %s)", Width(r.rig.camera), Height(r.rig.camera),
+                         kTierNames[static_cast<int>(r.rig.tier)], Joined(ProductsOf(r)).c_str());
+           })
       .def_property_readonly("width", [](const Rig& r) { return Width(r.rig.camera); })
       .def_property_readonly("height", [](const Rig& r) { return Height(r.rig.camera); });
 
   py::class_<Capture, std::shared_ptr<Capture>>(
       m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
 
-Pictures are views of this object's memory (no copies); those that the rig was not asked for are None.)")
-      .def_property_readonly("rgb", Picture<uint8_t>(&Frame::rgb, 3), "(H, W, 3) uint8, sRGB.")
-      .def_property_readonly("range", Picture<float>(&Frame::range, 0),
+Pictures are views of this object's memory (no copies); one that the rig was not asked for is a ValueError.)")
+      .def("__repr__", &Describe)
+      .def_property_readonly(
+          "products", [](const Capture& c) { return PicturesOf(c).names; }, "Names of the pictures that are there.")
+      .def_property_readonly("rgb", Picture<uint8_t>(&Frame::rgb, 3, "rgb"), "(H, W, 3) uint8, sRGB.")
+      .def_property_readonly("range", Picture<float>(&Frame::range, 0, "range"),
                              "(H, W) float32, metres along the ray, 0 = nothing hit (sky).")
-      .def_property_readonly("semantic", Picture<CategoryId>(&Frame::semantic, 0),
+      .def_property_readonly("semantic", Picture<CategoryId>(&Frame::semantic, 0, "semantic"),
                              "(H, W) uint16, category id (World.categories).")
-      .def_property_readonly("entity", Picture<EntityId>(&Frame::entity, 0),
+      .def_property_readonly("entity", Picture<EntityId>(&Frame::entity, 0, "entity"),
                              "(H, W) uint32, entity id (World.entities).")
-      .def_property_readonly("normal", Picture<float>(&Frame::normal, 3),
+      .def_property_readonly("normal", Picture<float>(&Frame::normal, 3, "normal"),
                              "(H, W, 3) float32, unit normal in W towards the camera.")
-      .def_property_readonly("position", Picture<float>(&Frame::position, 3),
+      .def_property_readonly("position", Picture<float>(&Frame::position, 3, "position"),
                              "(H, W, 3) float32, point hit, metres in W.")
-      .def_property_readonly("albedo", Picture<float>(&Frame::albedo, 3),
+      .def_property_readonly("albedo", Picture<float>(&Frame::albedo, 3, "albedo"),
                              "(H, W, 3) float32, linear base colour.")
-      .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0),
+      .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0, "material"),
                              "(H, W) uint16, material index plus 1.")
       .def_property_readonly(
           "part",
-          [](const py::object& self) { return ImageView<uint8_t>(self.cast<const Capture&>().part, 0, self); },
+          [](const py::object& self) { return PictureIn<uint8_t>(self, self.cast<const Capture&>().part, 0, kPart); },
           "(H, W) uint8, which part of the pixel's entity (airsim360.PARTS): 1 window, 2 door, 3 balcony …; 0 = its body, or nothing hit.")
-      .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3),
+      .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3, "radiance"),
                              "(H, W, 3) float32, linear light.")
-      .def_property_readonly("flow", &Flow,
+      .def_property_readonly("flow", Picture<float>(&Frame::flow, 2, "flow"),  // dx, dy are first in the pixel
                              "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.")
       .def(
           "tensor",
           [](const py::object& self, const std::string& product) {
             ToProducts({product});  // names the nearest where there is no such product
-            const py::object picture = self.attr(product.c_str());
-            if (picture.is_none()) throw InputError("product '" + product + "' was not captured: name it in Rig(products=…)");
-            return ToTensor(picture);
+            return ToTensor(self.attr(product.c_str()));
           },
           py::arg("product"), "A picture for from_dlpack of torch, jax, cupy or numpy, without a copy.")
       .def_property_readonly(
@@ -203,7 +260,8 @@ Pictures are views of this object's memory (no copies); those that the rig was n
 
   py::class_<CudaCapture, Capture, std::shared_ptr<CudaCapture>>(m, "CudaCapture", R"(A capture whose pictures stay in memory of the GPU.
 
-rgb, range and so on are None; tensor("rgb") is a tensor of CUDA for from_dlpack of torch, jax or cupy.)")
+rgb, range and so on are ValueErrors; tensor("rgb") is a tensor of CUDA for from_dlpack of torch, jax or cupy.)")
+      .def("__repr__", [](const CudaCapture& c) { return Text("CudaCapture(at %s m, t = %.3f s)", Text(c.X_WC.p).c_str(), Seconds(c.t_ns)); })
       .def("tensor", &PictureOf, py::arg("product"), "A picture for from_dlpack of torch, jax or cupy, without a copy.");
 }
 

@@ -1,6 +1,9 @@
 #include "convert.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <cstring>
 
 #include "airsim360/base/error.h"
@@ -96,6 +99,25 @@ Image<Rgb8> ToRgb(const py::handle& value, const char* what) {
   Image<Rgb8> image(static_cast<int>(a.shape(1)), static_cast<int>(a.shape(0)));
   if (!image.empty()) std::memcpy(image.pixels().data(), a.data(), image.size() * sizeof(Rgb8));
   return image;
+}
+
+std::string Text(const char* format, ...) {
+  va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  std::string text(static_cast<size_t>(std::max(0, std::vsnprintf(nullptr, 0, format, arguments))), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  va_end(arguments);
+  return text;
+}
+
+std::string Text(Vec3d v) { return Text("(%.3f, %.3f, %.3f)", v.x, v.y, v.z); }
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
 }
 
 }  // namespace airsim360::python

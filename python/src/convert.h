@@ -51,6 +51,12 @@ py::object ImageView(const Image<Pixel>& image, int channels, const py::handle& 
 /// A picture (an array) as an object that DLPack consumers take.
 py::object ToTensor(const py::object& picture);
 
+/// What __repr__ is made of: printf into a string; "(x, y, z)" to the millimetre; words with commas between.
+[[gnu::format(printf, 1, 2)]] std::string Text(const char* format, ...);
+std::string Text(Vec3d v);
+std::string Joined(const std::vector<std::string>& words);
+inline double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
+
 /// (H, W, 3) uint8 as a picture (copied); ValueError naming `what` otherwise.
 Image<Rgb8> ToRgb(const py::handle& value, const char* what);
 
@@ -65,6 +71,8 @@ void BindSimulation(py::module_& m);
 void BindPlanning(py::module_& m);
 void BindMetrics(py::module_& m);
 void BindVideo(py::module_& m);
+void BindGeodesy(py::module_& m);
+void BindPictures(py::module_& m);
 void BindVectorEnvironment(py::module_& m);
 
 }  // namespace airsim360::python

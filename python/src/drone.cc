@@ -93,6 +93,10 @@ indi. sensors: a sensor file. ValueError names what was not understood.)")
             return d;
           },
           py::arg("words"), "A drone from a description; every figure has its reason in `laws`.")
+      .def("__repr__",
+           [](const Drone& d) {
+             return Text("Drone(%s: %.4g kg, %zu rotors)", d.model.name.c_str(), d.model.mass, d.model.rotors.size());
+           })
       .def_property_readonly("model", [](const Drone& d) { return d.model.name; })
       .def_readonly("name", &Drone::name)
       .def_property_readonly(

@@ -76,6 +76,11 @@ yaw, pitch, roll: the mount in B. Radians. The default is AirSim's lidar.)")
            py::arg("through_panes") = false, py::arg("motion_distortion") = false,
            py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
            py::arg("roll") = 0.0)
+      .def("__repr__",
+           [](const Lidar& l) {
+             return Text("Lidar(%dx%d shots, %g ... %g m)", static_cast<int>(l.spec.channels), static_cast<int>(l.spec.columns),
+                         l.spec.min_range, l.spec.max_range);
+           })
       .def_property_readonly("channels", [](const Lidar& l) { return l.spec.channels; })
       .def_property_readonly("columns", [](const Lidar& l) { return l.spec.columns; });
 
@@ -96,6 +101,11 @@ S: +X forward, +Y left, +Z up. Arrays are views of this object's memory (no copi
           "pose", [](const LidarScan& s) { return FromPose(s.X_WS); }, "(4, 4) X_WS: p_W = X_WS p_S.")
       .def_readonly("shots", &LidarScan::shots, "Shots of the turn, those that met nothing too.")
       .def_readonly("t_ns", &LidarScan::t_ns, "Time of the scan, nanoseconds.")
+      .def("__repr__",
+           [](const LidarScan& s) {
+             return Text("LidarScan(%zu points of %lld shots, t = %.3f s)", s.points.size(), static_cast<long long>(s.shots),
+                         Seconds(s.t_ns));
+           })
       .def("__len__", [](const LidarScan& s) { return s.points.size(); });
 }
 

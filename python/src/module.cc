@@ -54,5 +54,7 @@ PYBIND11_MODULE(_native, m) {
   BindSimulation(m);
   BindMetrics(m);
   BindVideo(m);
+  BindGeodesy(m);
+  BindPictures(m);
   BindVectorEnvironment(m);
 }

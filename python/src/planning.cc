@@ -229,6 +229,11 @@ py::object CertificateOf(const Plan& p) {
 
 void BindPlanning(py::module_& m) {
   py::class_<Plan>(m, "Plan", "A minimum-snap trajectory in W: metres, seconds.")
+      .def("__repr__",
+           [](const Plan& p) {
+             return Text("Plan(%zu waypoints, %.3f s, at most %.3f m/s and %.3f m/s^2)", p.waypoints.size(),
+                         p.trajectory->duration(), p.peaks.speed.value, p.peaks.acceleration.value);
+           })
       .def_property_readonly("times", &Times, "(segments + 1,) seconds at which the waypoints are passed.")
       .def_property_readonly(
           "waypoints", [](const Plan& p) { return FromPoints(p.waypoints); }, "(segments + 1, 3)")

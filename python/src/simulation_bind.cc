@@ -14,6 +14,24 @@ struct Snapshot {
   std::shared_ptr<const SimState> state;
 };
 
+/// Steps until the command of a drone has reached its end, was refused or lost, or `timeout` seconds are over; whether it
+/// reached its end. What is posted now counts from the next step on, so at least kLook is simulated.
+bool Wait(Simulation& sim, const py::object& drone, double timeout) {
+  constexpr int64_t kLook = 10'000'000;  // nanoseconds between looks, and some periods of the autopilot
+  if (!(timeout >= 0 && timeout < 1e8)) throw InputError(Text("timeout: %g s is not in 0 ... 1e8", timeout));
+  const size_t i = sim.Find(drone);
+  const int64_t steps = std::max<int64_t>(1, kLook / sim.model()->dt_ns);
+  const int64_t end_ns = sim.loop().t_ns() + std::llround(timeout * 1e9);
+  const py::gil_scoped_release release;
+  while (sim.loop().t_ns() < end_ns) {
+    sim.loop().Advance(steps);
+    const uint64_t flags = sim.loop().Snapshot()->vehicles[i].autopilot.flags;
+    if (flags & kCommandDone) return true;
+    if (flags & (kCommandRefused | kCommandLost)) return false;
+  }
+  return false;
+}
+
 int64_t StepsOf(const Simulation& sim, double seconds) {
   if (!(seconds >= 0 && seconds < 1e8))
     throw InputError("seconds: " + std::to_string(seconds) + " is not 0 or more");
@@ -48,6 +66,7 @@ void BindSimulation(py::module_& m) {
       m, "Snapshot",
       "Everything that changes in a simulation, at one instant. Simulation.restore goes back to it exactly.")
       .def_property_readonly("t", [](const Snapshot& s) { return static_cast<double>(s.state->t_ns) * 1e-9; })
+      .def("__repr__", [](const Snapshot& s) { return Text("Snapshot(t = %.3f s)", Seconds(s.state->t_ns)); })
       .def_property_readonly("step", [](const Snapshot& s) { return s.state->step; })
       .def_property_readonly(
           "hash", [](const Snapshot& s) { return HashState(*s.state); },
@@ -64,6 +83,8 @@ void BindSimulation(py::module_& m) {
 
   py::class_<Recording, std::shared_ptr<Recording>>(m, "Recording",
                                                     "The commands of a run with hashes of its states.")
+      .def("__repr__",
+           [](const Recording& r) { return Text("Recording(%lld steps: '%s')", static_cast<long long>(r.steps), r.note.c_str()); })
       .def_readonly("note", &Recording::note)
       .def_readonly("steps", &Recording::steps)
       .def(
@@ -98,6 +119,9 @@ walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
             s.loop().Advance(n);
           },
           py::arg("seconds"), "Takes the steps of so many simulated seconds.")
+      .def("wait", &Wait, py::arg("drone") = 0, py::arg("timeout") = 60.0,
+           "Takes steps until the drone's command has reached its end (a take-off its height, fly_to its place, a landing the "
+           "ground): True; or until it is refused or lost, or `timeout` simulated seconds are over: False.")
       .def(
           "state",
           [](Simulation& s, const py::object& drone) {
@@ -175,6 +199,15 @@ walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
           "t", [](Simulation& s) { return static_cast<double>(s.loop().t_ns()) * 1e-9; },
           "Seconds since the start.")
       .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); })
+      .def_property_readonly(
+          "geo_frame", [](const Simulation& s) { return s.model()->world.frame; },
+          "GeoFrame: where W lies on the Earth, for satellite receivers.")
+      .def("__repr__",
+           [](Simulation& s) {
+             return Text("Simulation(%s, drones: %s, t = %.3f s, dt = %g s)", s.world()->name().c_str(),
+                         s.names().empty() ? "none" : Joined(s.names()).c_str(), Seconds(s.loop().t_ns()),
+                         Seconds(s.model()->dt_ns));
+           })
       .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; })
       .def_property_readonly("world", &Simulation::world)
       .def_property_readonly(

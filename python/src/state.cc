@@ -48,7 +48,10 @@ py::dict Sensors(const StateView& s) {
     d["latitude_deg"] = r.place.latitude_deg;
     d["longitude_deg"] = r.place.longitude_deg;
     d["altitude"] = r.place.altitude;
+    d["position"] = FromVec3(r.p_WS);
     d["velocity"] = FromVec3(r.v_WS);
+    d["eph"] = r.eph;
+    d["epv"] = r.epv;
     d["has_fix"] = r.has_fix;
     all[py::str(set.gnss[i].name)] = d;
   }
@@ -80,6 +83,12 @@ void BindState(py::module_& m) {
   py::class_<StateView>(
       m, "DroneState",
       "One drone at one instant: a look at an immutable snapshot. W, metres, seconds, radians.")
+      .def("__repr__",
+           [](const StateView& s) {
+             const Vehicle& v = s.vehicle();
+             return Text("DroneState(t = %.3f s, position %s m, velocity %s m/s, %s)", Seconds(s.state->t_ns),
+                         Text(v.motion.X_WB.p).c_str(), Text(v.motion.v_WB).c_str(), DescribeState(v.autopilot).c_str());
+           })
       .def_property_readonly("t",
                              [](const StateView& s) { return static_cast<double>(s.state->t_ns) * 1e-9; })
       .def_property_readonly("t_ns", [](const StateView& s) { return s.state->t_ns; })

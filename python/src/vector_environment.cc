@@ -17,27 +17,32 @@ double Number(const py::handle& value, const std::string& name) {
   }
 }
 
+constexpr std::pair<const char*, double NavigationTask::*> kTaskNumbers[] = {
+    {"least_distance", &NavigationTask::least_distance},
+    {"most_distance", &NavigationTask::most_distance},
+    {"goal_radius", &NavigationTask::goal_radius},
+    {"clearance", &NavigationTask::clearance},
+    {"area", &NavigationTask::area},
+    {"min_height", &NavigationTask::min_height},
+    {"max_height", &NavigationTask::max_height},
+    {"seconds", &NavigationTask::seconds},
+    {"safe_distance", &NavigationTask::safe_distance},
+    {"progress_reward", &NavigationTask::progress_reward},
+    {"goal_reward", &NavigationTask::goal_reward},
+    {"crash_cost", &NavigationTask::crash_cost},
+    {"step_cost", &NavigationTask::step_cost},
+    {"near_cost", &NavigationTask::near_cost},
+    {"seen_reward", &NavigationTask::seen_reward}};
+
+std::vector<std::string> TaskOptions() {
+  std::vector<std::string> names = {"target"};
+  for (const auto& [name, field] : kTaskNumbers) names.emplace_back(name);
+  return names;
+}
+
 NavigationTask ToTask(const std::string& kind, const py::dict& options) {
   NavigationTask task{.kind = ParseNavigationKind(kind)};
   if (task.kind == NavigationKind::kSearch) task.goal_radius = 3;
-  const std::pair<const char*, double NavigationTask::*> numbers[] = {
-      {"least_distance", &NavigationTask::least_distance},
-      {"most_distance", &NavigationTask::most_distance},
-      {"goal_radius", &NavigationTask::goal_radius},
-      {"clearance", &NavigationTask::clearance},
-      {"area", &NavigationTask::area},
-      {"min_height", &NavigationTask::min_height},
-      {"max_height", &NavigationTask::max_height},
-      {"seconds", &NavigationTask::seconds},
-      {"safe_distance", &NavigationTask::safe_distance},
-      {"progress_reward", &NavigationTask::progress_reward},
-      {"goal_reward", &NavigationTask::goal_reward},
-      {"crash_cost", &NavigationTask::crash_cost},
-      {"step_cost", &NavigationTask::step_cost},
-      {"near_cost", &NavigationTask::near_cost},
-      {"seen_reward", &NavigationTask::seen_reward}};
-  std::vector<std::string> choices = {"target"};
-  for (const auto& [name, field] : numbers) choices.emplace_back(name);
   for (const auto& [key, value] : options) {
     const auto name = key.cast<std::string>();
     if (name == "target") {
@@ -45,14 +50,42 @@ NavigationTask ToTask(const std::string& kind, const py::dict& options) {
       continue;
     }
     bool known = false;
-    for (const auto& [field_name, field] : numbers) {
+    for (const auto& [field_name, field] : kTaskNumbers) {
       if (name != field_name) continue;
       task.*field = Number(value, name);
       known = true;
     }
-    if (!known) throw InputError(UnknownChoiceMessage("task option", name, choices));
+    if (!known) throw InputError(UnknownChoiceMessage("task option", name, TaskOptions()));
   }
   return task;
+}
+
+/// One wish for all environments; each of goal, start and yaw for all, or with one row an environment.
+std::vector<EpisodeWish> ToWishes(const py::dict& options, size_t count) {
+  std::vector<EpisodeWish> wishes;
+  const auto each = [&](const py::handle& value, const char* name, int axes, const auto& set) {
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+    const bool rows = array && array.ndim() == axes + 1;
+    if (rows && static_cast<size_t>(array.shape(0)) != count) {
+      throw InputError(std::string(name) + ": " + std::to_string(array.shape(0)) + " rows for " + std::to_string(count) +
+                       " environments");
+    }
+    wishes.resize(rows ? count : std::max<size_t>(1, wishes.size()), wishes.empty() ? EpisodeWish{} : wishes[0]);
+    for (size_t i = 0; i < wishes.size(); ++i) set(wishes[i], rows ? value[py::int_(i)].cast<py::object>() : py::reinterpret_borrow<py::object>(value));
+  };
+  for (const auto& [key, value] : options) {
+    const auto name = key.cast<std::string>();
+    if (name == "goal") {
+      each(value, "goal", 1, [](EpisodeWish& w, const py::object& v) { w.goal_W = ToVec3(v, "goal"); });
+    } else if (name == "start") {
+      each(value, "start", 1, [](EpisodeWish& w, const py::object& v) { w.start_W = ToVec3(v, "start"); });
+    } else if (name == "yaw") {
+      each(value, "yaw", 0, [](EpisodeWish& w, const py::object& v) { w.yaw = Finite(Number(v, "yaw"), "yaw"); });
+    } else {
+      throw InputError(UnknownChoiceMessage("reset option", name, std::vector<std::string>{"goal", "start", "yaw"}));
+    }
+  }
+  return wishes;
 }
 
 void SetObservations(const std::vector<std::string>& names, VectorEnvironmentOptions& options) {
@@ -151,8 +184,17 @@ void BindVectorEnvironment(py::module_& m) {
            py::arg("observations") = std::vector<std::string>{"rgb", "range"}, py::arg("period") = 0.1,
            py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
            py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0)
-      .def("reset", &E::Reset, py::arg("seed") = py::none(), py::call_guard<py::gil_scoped_release>(),
-           "Begins anew: episode 0 of `seed`, or everyone's next episode.")
+      .def(
+          "reset",
+          [](E& e, std::optional<uint64_t> seed, const py::object& options) {
+            std::vector<EpisodeWish> wishes;
+            if (!options.is_none()) wishes = ToWishes(options.cast<py::dict>(), static_cast<size_t>(e.count()));
+            const py::gil_scoped_release release;
+            e.Reset(seed, wishes);
+          },
+          py::arg("seed") = py::none(), py::arg("options") = py::none(),
+          "Begins anew: episode 0 of `seed`, or everyone's next episode. options: a dictionary with goal and start (3,) of W "
+          "and yaw (radians), for all or with one row an environment; ValueError for places that are not free.")
       .def(
           "step",
           [](E& e, const Actions& actions) {
@@ -161,6 +203,9 @@ void BindVectorEnvironment(py::module_& m) {
             e.Step(span);
           },
           py::arg("actions"), "actions: (count, action_size) float32 in -1 … 1.")
+      .def_property_readonly_static(
+          "TASK_OPTIONS", [](const py::object&) { return py::tuple(py::cast(TaskOptions())); }, "Names that task_options takes.")
+      .def("__repr__", [](const E& e) { return Text("VectorEnvironment(%d of %dx%d)", e.count(), e.options().width, e.options().height); })
       .def_property_readonly("count", &E::count)
       .def_property_readonly("action_size", &E::action_size)
       .def_property_readonly("width", [](const E& e) { return e.options().width; })

@@ -188,6 +188,13 @@ ValueError names the nearest world where there is none of that name.)")
       .def(py::init<const std::string&, uint64_t, bool, const std::string&, const std::string&, int>(), py::arg("name"),
            py::arg("seed") = 0, py::arg("models") = true, py::kw_only(), py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1,
            py::call_guard<py::gil_scoped_release>())
+      .def("__repr__",
+           [](const World& w) {
+             const SceneCounts counts = w.scene().Count();
+             return Text("World(%s: %zu entities, %zu triangles, device %s)", w.name().c_str(),
+                         static_cast<size_t>(counts.entities), static_cast<size_t>(counts.instanced_triangles),
+                         w.device().device.c_str());
+           })
       .def_property_readonly("device", [](const World& w) { return w.device().device; })
       .def_property_readonly("name", &World::name)
       .def_property_readonly(

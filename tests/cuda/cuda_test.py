@@ -93,7 +93,8 @@ class CudaTensors(unittest.TestCase):
     def test_every_picture_is_that_of_the_vulkan_renderer(self):
         capture = self.sim.capture(RIG, memory="cuda")
         self.assertIsInstance(capture, airsim360.CudaCapture)
-        self.assertIsNone(capture.rgb)
+        with self.assertRaisesRegex(ValueError, "rgb"):
+            capture.rgb
         np.testing.assert_array_equal(capture.pose, self.expected.pose)
         for name in ("rgb", "range", "semantic", "entity", "normal"):
             tensor = capture.tensor(name)

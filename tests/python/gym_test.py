@@ -117,6 +117,61 @@ class SingleEnvs(unittest.TestCase):
         check_env(gym.make("reach", **SMALL), skip_render_check=True)
 
 
+class ResetOptions(unittest.TestCase):
+    def test_goal_start_and_yaw_are_those_asked_for(self):
+        env = gym.make("reach", **SMALL)
+        seen, info = env.reset(seed=1, options={"goal": [2, -3, 2], "start": [-2, 1, 1.5], "yaw": 0.5})
+        pose = env.native.pose_of(0)
+        np.testing.assert_allclose(pose[:3, 3], [-2, 1, 1.5])
+        self.assertAlmostEqual(np.arctan2(pose[1, 0], pose[0, 0]), 0.5)
+        np.testing.assert_allclose(env.native.goal_of(0), [2, -3, 2])
+        self.assertAlmostEqual(info["distance"], np.linalg.norm([4, -4, 0.5]), places=5)
+        # What was not asked for is as drawn; the next episode is drawn again.
+        drawn, _ = env.reset(seed=1)
+        start = env.native.pose_of(0)
+        env.reset(seed=1, options={"goal": [2, -3, 2]})
+        np.testing.assert_array_equal(env.native.pose_of(0), start)
+        again, _ = env.reset(seed=1)
+        np.testing.assert_array_equal(again["state"], drawn["state"])
+
+    def test_a_row_an_environment_and_only_the_first_episodes(self):
+        goals = np.array([[2, 2, 2], [-2, -2, 2], [0, 2, 3.0]])
+        env = gym.make_vec("reach", num_envs=3, **SMALL)
+        env.reset(seed=3, options={"goal": goals, "yaw": 1.0})
+        np.testing.assert_array_equal([env.native.goal_of(i) for i in range(3)], goals)
+        for _ in range(25):  # past the end of every episode (2 s)
+            env.step(np.zeros((3, 4)))
+        self.assertFalse(np.isclose([env.native.goal_of(i) for i in range(3)], goals).all(axis=1).any())
+
+    def test_what_cannot_be_honoured_is_refused_and_changes_nothing(self):
+        env, search = gym.make_vec("reach", num_envs=2, **SMALL), gym.make("search", **SMALL)
+        env.reset(seed=4)
+        before = env.native.hash()
+        for options, said in (({"gaol": [0, 0, 2]}, "did you mean 'goal'"), ({"goal": [0, 0, 50000]}, "outside"),
+                              ({"goal": [1e300, 0, 2]}, "outside"), ({"start": [4.99, 0, 2]}, "from a surface"),
+                              ({"goal": [float("nan"), 0, 2]}, "goal"), ({"goal": "kitchen"}, "goal"),
+                              ({"yaw": "north"}, "yaw"), ({"goal": np.zeros((3, 3))}, "3 rows for 2")):
+            with self.subTest(options), self.assertRaisesRegex(ValueError, said):
+                env.reset(seed=9, options=options)
+            self.assertEqual(env.native.hash(), before)
+        with self.assertRaisesRegex(ValueError, "target"):
+            search.reset(options={"goal": [0, 0, 2]})
+
+    def test_a_typing_error_in_an_option_names_it(self):
+        with self.assertRaisesRegex(ValueError, "did you mean 'width'"):
+            gym.make("reach", world=ROOM, wdith=64)
+
+    def test_what_wrappers_use_is_there(self):
+        env = gym.make("reach", **SMALL)
+        env.reset(seed=3)
+        first = env.np_random.integers(1 << 30)
+        env.reset(seed=3)
+        self.assertEqual(env.np_random.integers(1 << 30), first)
+        self.assertTrue(env.has_wrapper_attr("native") and not env.has_wrapper_attr("no_such"))
+        env.set_wrapper_attr("note", 5)
+        self.assertEqual(env.get_wrapper_attr("note"), 5)
+
+
 class Spaces(unittest.TestCase):
     def test_boxes_sample_within_their_bounds(self):
         box = gym.Box(np.array([-1, 0], np.float32), np.array([1, np.inf], np.float32), dtype=np.float32)

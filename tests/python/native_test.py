@@ -66,7 +66,8 @@ class Worlds(unittest.TestCase):
         self.assertGreater(changed.sum(), 10)
         np.testing.assert_array_equal(after.semantic == ids["made_up/thing"], changed)
         self.assertIn(ids["made_up/thing"], flown.semantic)
-        self.assertIsNone(after.entity)
+        with self.assertRaisesRegex(ValueError, "entity"):
+            after.entity
         self.assertEqual({e["category_path"] for e in world.entities}, {"made_up/thing", "construction/wall", "object"})
         scan = world.scan([0, 0, 3])
         np.testing.assert_array_equal(scan.semantic == ids["made_up/thing"], scan.entity == box["id"])
@@ -132,8 +133,10 @@ class Captures(unittest.TestCase):
         self.assertEqual(set(np.unique(c.part)), {0, window})
         self.assertEqual(set(np.unique(c.entity[c.part == window])), {house["id"]})
         self.assertLess((c.part == window).sum(), 0.6 * (c.entity == house["id"]).sum())
-        self.assertIsNone(c.semantic)
-        self.assertIsNone(c.material)
+        with self.assertRaisesRegex(ValueError, "semantic"):
+            c.semantic
+        with self.assertRaisesRegex(ValueError, "material"):
+            c.material
         np.testing.assert_array_equal(np.from_dlpack(c.tensor("part")), c.part)
         again = world.capture(rig=Rig(width=256, products=["part", "semantic", "material"], tier="labels"), **pose)
         np.testing.assert_array_equal(again.part, c.part)
@@ -208,6 +211,62 @@ class Captures(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "did you mean 'libx265'"):
                 airsim360.VideoWriter(other, encoder="libx265x")
 
+    def test_a_picture_that_was_not_asked_for_says_how_to_get_it(self):
+        c = ROOM.capture([0, 0, 3], Rig(width=64, tier="labels", products=["range"]))
+        self.assertEqual(c.products, ["range"])
+        for name in ("rgb", "semantic", "entity", "normal", "position", "albedo", "material", "part", "radiance", "flow"):
+            with self.subTest(name), self.assertRaisesRegex(ValueError, f"'{name}' was not captured: name it in Rig"):
+                getattr(c, name)
+            with self.subTest(name), self.assertRaises(ValueError):
+                c.tensor(name)
+
+    def test_repr_tells(self):
+        sim = Simulation(ROOM, airsim360.Drone("hummingbird", position=[1, 2, 3], airborne=True))
+        rig = Rig(width=64, products=["rgb", "range"])
+        plan = airsim360.plan_minimum_snap([[0, 0, 1], [3, 0, 1]])
+        for thing, says in ((ROOM, "box_room"), (sim, "box_room"), (rig, "64x32"), (ROOM.capture([0, 0, 3], rig), "rgb, range, 64x32"),
+                            (sim.state(), r"position \(1.000, 2.000, 3.000\)"), (sim.snapshot(), "t = 0.000"),
+                            (airsim360.Drone("crazyflie"), "4 rotors"), (plan, "2 waypoints"), (airsim360.Lidar(), "16x625"),
+                            (ROOM.scan([0, 0, 3]), "points"), (sim.geo_frame, "47.64")):
+            self.assertRegex(repr(thing), says)
+            self.assertNotIn("object at 0x", repr(thing))
+
+    def test_wait_ends_when_the_command_does(self):
+        sim = Simulation(ROOM, drones=1)
+        floor = sim.state().position[2]
+        sim.takeoff(height=1.5)
+        self.assertTrue(sim.wait())
+        self.assertAlmostEqual(sim.state().position[2], floor + 1.5, delta=0.3)
+        sim.fly_to([2, 2, 2])
+        self.assertTrue(sim.wait())
+        np.testing.assert_allclose(sim.state().position, [2, 2, 2], atol=0.3)
+        sim.fly_to([-2, -2, 2])
+        began = sim.t
+        self.assertFalse(sim.wait(timeout=0.5))
+        self.assertAlmostEqual(sim.t - began, 0.5, delta=0.011)
+        sim.land()
+        self.assertTrue(sim.wait())
+        for timeout in (-1, float("nan"), float("inf")):
+            with self.assertRaisesRegex(ValueError, "timeout"):
+                sim.wait(timeout=timeout)
+
+    def test_satellite_readings_and_the_frame_of_the_earth_agree(self):
+        sim = Simulation(ROOM, airsim360.Drone("hummingbird", position=[1, -2, 3], airborne=True))
+        sim.run(2)
+        reading = sim.state().sensors["gnss"]
+        place = [reading["latitude_deg"], reading["longitude_deg"], reading["altitude"]]
+        np.testing.assert_allclose(sim.geo_frame.to_world(place), reading["position"], atol=1e-6)
+        self.assertLess(np.linalg.norm(reading["position"] - [1, -2, 3]), 20)
+        # East is along the parallel, up is up; a closed form near the equator, and there and back.
+        frame = airsim360.GeoFrame(0, 10, 50)
+        np.testing.assert_allclose(frame.to_geodetic([0, 0, 7]), [0, 10, 57], atol=1e-9)
+        np.testing.assert_allclose(frame.to_geodetic([6378137.0 * np.radians(1e-4), 0, 0])[1], 10 + 1e-4, atol=2e-9)
+        points = np.random.default_rng(1).uniform(-5000, 5000, (50, 3))
+        np.testing.assert_allclose(frame.to_world(frame.to_geodetic(points)), points, atol=1e-6)
+        for bad in ((91, 0), (0, 181), (float("nan"), 0)):
+            with self.assertRaises(ValueError):
+                airsim360.GeoFrame(*bad)
+
     def test_shapes_types_and_the_room_itself(self):
         c = ROOM.capture([0, 0, 3], Rig(width=256, products=["rgb", "range", "semantic", "entity", "normal", "position"]))
         for name, shape, kind in (("rgb", (128, 256, 3), np.uint8), ("range", (128, 256), np.float32),
@@ -215,7 +274,8 @@ class Captures(unittest.TestCase):
                                   ("normal", (128, 256, 3), np.float32), ("position", (128, 256, 3), np.float32)):
             picture = getattr(c, name)
             self.assertEqual((picture.shape, picture.dtype), (shape, np.dtype(kind)), name)
-        self.assertIsNone(c.flow)
+        with self.assertRaisesRegex(ValueError, "flow"):
+            c.flow
         # Range times ray is the point, in W, for every pixel: the pose and the frames fit together.
         x, y = np.meshgrid(np.arange(256) + 0.5, np.arange(128) + 0.5)
         theta, phi = 2 * np.pi * (x / 256 - 0.5), np.pi * (0.5 - y / 128)

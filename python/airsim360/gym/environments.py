@@ -1,6 +1,7 @@
 """Env and VectorEnv over the native vector environment."""
 from __future__ import annotations
 
+import difflib
 from typing import Any, Optional, Sequence
 
 import numpy as np
@@ -13,7 +14,44 @@ try:
     import gymnasium
     _EnvBase, _VectorBase = gymnasium.Env, gymnasium.vector.VectorEnv
 except ImportError:
-    _EnvBase = _VectorBase = object
+    class _EnvBase:
+        """What of Gymnasium's base classes is used by wrappers and training code."""
+
+        _np_random: Optional[np.random.Generator] = None
+
+        @property
+        def np_random(self) -> np.random.Generator:
+            """Random numbers for code around the environment; its own episodes come from reset's seed alone."""
+            if self._np_random is None:
+                self._np_random = np.random.default_rng()
+            return self._np_random
+
+        @np_random.setter
+        def np_random(self, value: np.random.Generator) -> None:
+            self._np_random = value
+
+        def has_wrapper_attr(self, name: str) -> bool:
+            return hasattr(self, name)
+
+        def get_wrapper_attr(self, name: str) -> Any:
+            return getattr(self, name)
+
+        def set_wrapper_attr(self, name: str, value: Any, *, force: bool = True) -> bool:
+            if not force and not hasattr(self, name):
+                return False
+            setattr(self, name, value)
+            return True
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            self.close()
+
+    _VectorBase = _EnvBase
+
+# Options of the native environment; those of a task are airsim360.VectorEnvironment.TASK_OPTIONS.
+_NATIVE_OPTIONS = ("drone", "action", "width", "height", "tier", "period", "max_speed", "max_turn", "max_rate", "level")
 
 _IMAGES = {"rgb": (0, 255, np.uint8), "range": (0, np.inf, np.float32),
            "semantic": (0, 2**16 - 1, np.uint16), "entity": (0, 2**32 - 1, np.uint32)}
@@ -34,9 +72,12 @@ class _Base:
 
     def _open(self, task, world, count, seed, copy, observations, options, auto_reset):
         world = airsim360.World(world) if isinstance(world, str) else world
-        native_names = ("drone", "action", "width", "height", "tier", "period", "max_speed", "max_turn", "max_rate",
-                        "level")
-        native = {name: options.pop(name) for name in native_names if name in options}
+        known = (*_NATIVE_OPTIONS, *airsim360.VectorEnvironment.TASK_OPTIONS)
+        for name in options:
+            if name not in known:
+                near = difflib.get_close_matches(name, known, 1)
+                raise ValueError(f"unknown option {name!r}{f'; did you mean {near[0]!r}?' if near else ''} (options: {', '.join(known)})")
+        native = {name: options.pop(name) for name in _NATIVE_OPTIONS if name in options}
         self.native = airsim360.VectorEnvironment(world, task, options, count=count, seed=seed or 0,
                                                   observations=list(observations), auto_reset=auto_reset, **native)
         self.world, self.task, self._copy = world, task, copy
@@ -48,6 +89,11 @@ class _Base:
         boxes["state"] = spaces.Box(-np.inf, np.inf, (_STATE_SIZE,), np.float32)
         self._one_observation = spaces.Dict(boxes)
         self._one_action = spaces.Box(-1.0, 1.0, (self.native.action_size,), np.float32)
+
+    def _begin(self, seed, options):
+        if seed is not None:
+            self._np_random = np.random.default_rng(seed)
+        self.native.reset(seed, options)
 
     def _observe(self, row=None):
         views = self._views if row is None else {name: view[row] for name, view in self._views.items()}
@@ -85,8 +131,12 @@ class VectorEnv(_Base, _VectorBase):
         self._seed = seed
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
-        """All begin: with the first episodes of `seed`, or with the next ones. Returns observations and info."""
-        self.native.reset(seed)
+        """All begin: with the first episodes of `seed`, or with the next ones. Returns observations and info.
+
+        options: "goal" and "start" (metres in W) and "yaw" (radians) of these episodes instead of drawn ones, for all
+        or with one row an environment; ValueError for a place that is not free, and for other names.
+        """
+        self._begin(seed, options)
         return self._observe(), self._info()
 
     def step(self, actions):
@@ -119,8 +169,11 @@ class Env(_Base, _EnvBase):
         self.observation_space, self.action_space = self._one_observation, self._one_action
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
-        """Begins the first episode of `seed`, or the next one. Returns observation and info."""
-        self.native.reset(seed)
+        """Begins the first episode of `seed`, or the next one. Returns observation and info.
+
+        options: as VectorEnv.reset.
+        """
+        self._begin(seed, options)
         return self._observe(0), self._info()
 
     def step(self, action):

@@ -154,6 +154,33 @@ NavigationEpisode NavigationWorld::Sample(uint64_t seed, uint64_t environment, u
   return episode;
 }
 
+void NavigationWorld::CheckPlace(const char* what, Vec3d p) const {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(std::string(what) + ": (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
+                     std::to_string(p.z) + ") " + why);
+  };
+  const Box3f& bounds = tracer_->scene().bounds;
+  for (int i = 0; i < 3; ++i) {
+    // Above everything is still in the world.
+    if (!(p[i] >= bounds.min[i] && (i == 2 ? p[i] <= 1e4 : p[i] <= bounds.max[i]))) refuse("is outside the world");
+  }
+  const double least = 0.5 * task_.clearance;
+  const double free = tracer_->Clearance(VecCast<float>(p), static_cast<float>(task_.clearance));
+  if (free < least) refuse("is " + std::to_string(free) + " m from a surface; at least " + std::to_string(least) + " m");
+}
+
+NavigationEpisode NavigationWorld::Wished(NavigationEpisode episode, const EpisodeWish& wish) const {
+  if (wish.goal_W && task_.kind == NavigationKind::kSearch)
+    throw InputError("goal: a search looks for a thing: choose its category by the task's option 'target'");
+  if (wish.goal_W) CheckPlace("goal", *wish.goal_W);
+  if (wish.start_W) CheckPlace("start", *wish.start_W);
+  if (wish.yaw && !std::isfinite(*wish.yaw)) throw InputError("yaw: not a finite number");
+  if (wish.goal_W) episode.goal_W = *wish.goal_W;
+  if (wish.start_W) episode.X_WB.p = *wish.start_W;
+  if (wish.yaw) episode.X_WB = BodyPose(episode.X_WB.p, *wish.yaw, 0, 0);
+  return episode;
+}
+
 NavigationScore NavigationWorld::Score(const NavigationEpisode& episode, Vec3d before, Vec3d now,
                                        double clearance, bool crashed, const TargetSight& sight) const {
   NavigationScore score;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,12 @@ struct NavigationEpisode {
   EntityId target = kNoEntity;  ///< search
 };
 
+/// What is asked of an episode instead of what it would draw.
+struct EpisodeWish {
+  std::optional<Vec3d> start_W, goal_W;  ///< metres
+  std::optional<double> yaw;             ///< heading at the start, radians
+};
+
 /// What a step led to.
 struct NavigationScore {
   double reward = 0;
@@ -76,11 +83,16 @@ class NavigationWorld {
   /// Episode number `episode` of environment `environment`: a function of the three numbers alone.
   NavigationEpisode Sample(uint64_t seed, uint64_t environment, uint64_t episode) const;
 
+  /// `episode` as wished. InputError for a place outside the world or nearer to a surface than half the task's
+  /// clearance (as near as drawn ones come), for a number that is none, and for the goal of a search, which is a thing.
+  NavigationEpisode Wished(NavigationEpisode episode, const EpisodeWish& wish) const;
+
   /// What a step from `before` to `now` is worth; `clearance` in metres, `sight` counts for searches alone.
   NavigationScore Score(const NavigationEpisode& episode, Vec3d before, Vec3d now, double clearance,
                         bool crashed, const TargetSight& sight) const;
 
  private:
+  void CheckPlace(const char* what, Vec3d place) const;
   Vec3d Near(Vec3d place, double u, double v, double w) const;
   NavigationEpisode SampleSearch(RngStream& random) const;
 

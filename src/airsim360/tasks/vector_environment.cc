@@ -96,11 +96,21 @@ void VectorEnvironment::ForAll(const Body& body) {
   });
 }
 
-void VectorEnvironment::Reset(std::optional<uint64_t> seed) {
-  if (seed) seed_ = *seed;
+void VectorEnvironment::Reset(std::optional<uint64_t> seed, std::span<const EpisodeWish> wishes) {
+  if (wishes.size() > 1 && wishes.size() != lanes_.size()) {
+    throw InputError("reset: " + std::to_string(wishes.size()) + " wishes for " + std::to_string(lanes_.size()) +
+                     " environments");
+  }
+  const uint64_t from = seed.value_or(seed_);
+  std::vector<NavigationEpisode> episodes(lanes_.size());
+  for (size_t i = 0; i < lanes_.size(); ++i) {
+    episodes[i] = world_.Sample(from, i, seed ? 0 : lanes_[i].number + 1);
+    if (!wishes.empty()) episodes[i] = world_.Wished(episodes[i], wishes[wishes.size() == 1 ? 0 : i]);
+  }
+  seed_ = from;
   ForAll([&](size_t i, Slot& slot) {
     lanes_[i].number = seed ? 0 : lanes_[i].number + 1;
-    Begin(i);
+    Begin(i, episodes[i]);
     Look(i, slot);
     FillState(i);
   });

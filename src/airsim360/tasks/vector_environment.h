@@ -68,8 +68,9 @@ class VectorEnvironment {
   const VectorEnvironmentOptions& options() const { return options_; }
   const NavigationWorld& world() const { return world_; }
 
-  /// All environments begin: with episode 0 of `seed`, or with their next episodes.
-  void Reset(std::optional<uint64_t> seed);
+  /// All environments begin: with episode 0 of `seed`, or with their next episodes; these first ones as wished
+  /// (one wish for all, or one each). InputError as NavigationWorld::Wished, and then nothing has changed.
+  void Reset(std::optional<uint64_t> seed, std::span<const EpisodeWish> wishes = {});
   /// `actions`: [count][action_size]. InputError for another size, or for a number that is none (naming
   /// environment and place), and then nothing has changed.
   void Step(std::span<const float> actions);
@@ -108,7 +109,7 @@ class VectorEnvironment {
     Capture capture;
   };
 
-  void Begin(size_t i);
+  void Begin(size_t i, const NavigationEpisode& episode);
   Command CommandOf(std::span<const float> action) const;
   void StepLane(size_t i, std::span<const float> action, Slot& slot);
   TargetSight Look(size_t i, Slot& slot);

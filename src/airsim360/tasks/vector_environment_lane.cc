@@ -21,9 +21,9 @@ void CopyRow(const Image<Pixel>& image, size_t i, std::vector<Pixel>& rows) {
 
 }  // namespace
 
-void VectorEnvironment::Begin(size_t i) {
+void VectorEnvironment::Begin(size_t i, const NavigationEpisode& episode) {
   Lane& lane = lanes_[i];
-  lane.episode = world_.Sample(seed_, i, lane.number);
+  lane.episode = episode;
   lane.ended = false;
   lane.state = {};
   lane.state.vehicles.push_back(DroneAt(*model_, lane.state, 0, lane.episode.X_WB, true));
@@ -54,7 +54,7 @@ void VectorEnvironment::StepLane(size_t i, std::span<const float> action, Slot& 
   Lane& lane = lanes_[i];
   if (lane.ended) {
     ++lane.number;
-    Begin(i);
+    Begin(i, world_.Sample(seed_, i, lane.number));
     Look(i, slot);
     FillState(i);
     return;
