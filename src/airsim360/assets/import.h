@@ -1,4 +1,5 @@
-// glTF 2.0 (.glb, .gltf), Wavefront OBJ/MTL and CityJSON (.city.json, .json, .jsonl) into a Scene. Files are untrusted: any damage is an InputError
+// glTF 2.0 (.glb, .gltf), Wavefront OBJ/MTL and CityJSON (.city.json, .json, .jsonl) into a Scene; formats of other
+// programs through those (convert_model.h). Files are untrusted: any damage is an InputError
 // that names the file, the place in it and the value; sizes and depths are bounded; nothing crashes.
 #pragma once
 
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/assets/placement.h"
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
 
@@ -17,10 +19,11 @@ struct ImportOptions {
   /// YAML or JSON that overrides labels, see docs/importing.md; empty = NAME.labels.yaml (.yml, .json) beside
   /// the model NAME.glb if there is one.
   std::filesystem::path labels;
+  ModelPlacement placement = {};
 };
 
-/// Imports a model file as a world of its own under the default sky: exactly what it holds, no ground is
-/// added. Every node with a mesh (glTF) or object/group (OBJ) is an entity; its category comes from the label
+/// Imports a model file as a world of its own under the default sky: exactly what it holds; a ground is added
+/// where the placement asks for one. Every node with a mesh (glTF) or object/group (OBJ) is an entity; its category comes from the label
 /// file, else from keywords in the node, mesh, parents', material and file names, else "object". Sets a
 /// viewpoint. InputError if there is nothing to see.
 std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
