@@ -31,7 +31,8 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
 
 /// The scene with the categories and names that a label file gives its entities by their names: for worlds that
 /// are not imported models. Patterns are held against the whole name ('/' is a character like any other);
-/// `keywords`, `default` and `merge` do not count. An empty path changes nothing. InputError as ParseLabelRules.
+/// `keywords`, `default` and `merge` do not count. A rule that matches nothing is a warning. An empty path changes
+/// nothing. InputError as ParseLabelRules.
 std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels);
 
 /// Categories of entities that differ from those of their scene.
@@ -47,8 +48,9 @@ struct LabelPattern {
   std::string pattern, category;
 };
 /// `over` (null: none) changed by patterns, the first that matches an entity counts. Adds to `changed` how many
-/// entities match any. InputError for a malformed path.
-EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed);
+/// entities match any, to `unused` (where given) the patterns that match none. InputError for a malformed path.
+EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed,
+                           std::vector<std::string>* unused = nullptr);
 
 /// One model file as a single prop (all nodes merged), in metres, +Z up, standing on z = 0 and centred on the
 /// z axis.

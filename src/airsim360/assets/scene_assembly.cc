@@ -9,6 +9,7 @@
 #include "airsim360/assets/limits.h"
 #include "airsim360/assets/viewpoint.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 
 namespace airsim360::internal {
 namespace {
@@ -48,6 +49,7 @@ class Assembler {
 
   std::shared_ptr<const Scene> Assemble() {
     const std::vector<std::vector<PartLabel>> labels = LabelNodes(file_, rules_, title_);
+    for (const std::string& warning : UnusedRules(file_, rules_, labels)) LogWarning(warning);
     for (Texture& texture : file_.textures) builder_.AddTexture(std::move(texture));
     for (size_t i = 0; i < file_.materials.size(); ++i) builder_.AddMaterial(file_.materials[i]);
     for (size_t i = 0; i < file_.nodes.size(); ++i) {
