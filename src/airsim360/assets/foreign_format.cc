@@ -47,6 +47,7 @@ constexpr ForeignFormat kForeign[] = {
     {".ase", "3D Studio ASCII", {}, true, {}},
     {".x", "DirectX", {}, true, {}},
     {".pnts", "a point cloud of 3D Tiles", {}, false, kPoints},
+    {".i3dm", "an instanced tile of 3D Tiles", {}, false, "name its tileset.json, or the .glb that it instances"},
     {".las", "a LAS point cloud", {}, false, kPoints},
     {".laz", "a LAZ point cloud", {}, false, kPoints},
     {".e57", "an E57 point cloud", {}, false, kPoints},
@@ -107,7 +108,7 @@ const ForeignFormat* FindForeignFormat(std::string_view extension) {
 }
 
 std::string ReadFormats() {
-  return ".glb, .gltf, .obj, .city.json, .jsonl, .osm, .osm.pbf, and world files (.yaml)";
+  return ".glb, .gltf, .obj, .ply, tileset.json, .b3dm, .city.json, .jsonl, .osm, .osm.pbf, and world files (.yaml)";
 }
 
 std::string UnreadMessage(const std::filesystem::path& file) {

@@ -17,7 +17,9 @@
 #include "airsim360/assets/merge.h"
 #include "airsim360/assets/obj.h"
 #include "airsim360/assets/place_model.h"
+#include "airsim360/assets/ply.h"
 #include "airsim360/assets/scene_assembly.h"
+#include "airsim360/assets/tiles.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 
@@ -48,9 +50,13 @@ ReadModel ReadByExtension(const fs::path& path, const std::string& extension) {
   const Bytes bytes = ReadFile(path);
   const ResourceLoader load = FolderLoader(path.string(), path.parent_path());
   if (extension == ".json" || extension == ".jsonl") {
+    if (extension == ".json" && LooksLikeTileset(AsText(bytes)))
+      return {.file = ReadTileset(path.string(), AsText(bytes), load), .up = "z", .metres = true};
     if (!LooksLikeCityJson(AsText(bytes))) throw InputError(path.string() + ": not CityJSON");
     return {.file = ReadCityJson(path.string(), AsText(bytes)), .up = "z", .metres = true};
   }
+  if (extension == ".ply") return {.file = ReadPly(path.string(), bytes, load), .up = "z"};
+  if (extension == ".b3dm" || extension == ".cmpt") return {.file = ReadTile(path.string(), bytes, load)};
   if (extension == ".obj") return {.file = ReadObj(path.string(), AsText(bytes), load)};
   if (extension == ".glb" || extension == ".gltf") return {.file = ReadGltf(path.string(), bytes, load)};
   throw InputError(UnreadMessage(path));
@@ -84,8 +90,8 @@ LabelRules FindRules(const fs::path& file, const ImportOptions& options) {
 
 // What the file is about: its name, or its folder's where the file is just called "model".
 std::string TitleOf(const fs::path& file) {
-  static const std::array<std::string, 8> kGeneric = {"model",    "scene", "mesh",   "object",
-                                                      "untitled", "index", "export", "source"};
+  static const std::array<std::string, 9> kGeneric = {"model",    "scene", "mesh",   "object",
+                                                      "untitled", "index", "export", "source", "tileset"};
   const std::string stem = file.stem().string();
   const bool generic = std::find(kGeneric.begin(), kGeneric.end(), stem) != kGeneric.end();
   return CleanName(generic ? fs::absolute(file).parent_path().filename().string() : stem);

@@ -44,6 +44,7 @@ float Lowest(const internal::ImportedFile& file) {
 void Apply(const AffineTransform& X, internal::ImportedFile& file) {
   if (X == AffineTransform{}) return;
   for (internal::ImportedNode& node : file.nodes) node.X_WM = X * node.X_WM;
+  if (file.written && file.written->spawn) file.written->spawn = X * *file.written->spawn;
 }
 
 }  // namespace
