@@ -81,7 +81,10 @@ void GltfReader::CheckVersion() {
   if (const auto required = root_.Find("extensionsRequired")) {
     for (size_t i = 0; i < required->size(); ++i) {
       const JsonRef name = (*required)[i];
-      if (!IsKnownExtension(name.Text())) name.Fail("the file needs this extension, which is not read");
+      if (IsKnownExtension(name.Text())) continue;
+      const bool ktx = name.Text() == "KHR_texture_basisu" || name.Text() == "KHR_texture_ktx";
+      name.Fail(std::string("the file needs this extension, which is not read") +
+                (ktx ? ": its pictures are KTX2; 'npx @gltf-transform/cli ktxdecompress IN.glb OUT.glb' makes PNG of them" : ""));
     }
   }
 }

@@ -22,7 +22,6 @@ struct ImportedNode {
   int32_t parent = -1;
   int32_t mesh = -1;
   AffineTransform X_WM;  ///< mesh frame to W, the whole chain of parents included
-  Vec3d p_exact = {};    ///< X_WM.p as glTF files have it in double precision; zero where the reader has no more
 
   // What files written by `world export` say besides (gltf_extras.h).
   std::string category = {};  ///< path; "" = not said
@@ -30,6 +29,7 @@ struct ImportedNode {
   uint64_t copy = 0;          ///< 0 = the node that was written; else of the copies made of it since
   uint64_t number = 0;    ///< place among the world's instances; 0 = not said
   Vec3f tint{1, 1, 1};
+  Vec3d p_exact = {};     ///< X_WM.p as glTF files have it, in double precision; zero = there is no more to it
 };
 
 /// What a file written by `world export` says of the world beside its surfaces.
