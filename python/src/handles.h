@@ -62,7 +62,7 @@ class World {
   /// Categories given since the world was loaded; null = none.
   std::shared_ptr<const EntityLabels> labels();
   /// From the next capture on; returns how many entities match. InputError for a malformed category path.
-  size_t Relabel(const std::vector<LabelPattern>& patterns);
+  size_t Relabel(const std::vector<LabelPattern>& patterns, std::vector<std::string>& unused);
   const DeviceChoice& device() const { return renderers_.device(); }
   /// Both without the GIL.
   std::shared_ptr<const RayTracer> tracer();

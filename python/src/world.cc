@@ -43,10 +43,10 @@ std::shared_ptr<const EntityLabels> World::labels() {
   return labels_;
 }
 
-size_t World::Relabel(const std::vector<LabelPattern>& patterns) {
+size_t World::Relabel(const std::vector<LabelPattern>& patterns, std::vector<std::string>& unused) {
   size_t changed = 0;
   const std::lock_guard lock(labels_mutex_);
-  labels_ = std::make_shared<const EntityLabels>(LabelEntities(*scene_, labels_.get(), patterns, changed));
+  labels_ = std::make_shared<const EntityLabels>(LabelEntities(*scene_, labels_.get(), patterns, changed, &unused));
   return changed;
 }
 
@@ -219,12 +219,18 @@ ValueError names the nearest world where there is none of that name.)")
                 throw InputError("relabel: give a dictionary of name pattern -> category path");
               patterns.push_back({pattern.cast<std::string>(), category.cast<std::string>()});
             }
-            return w.Relabel(patterns);
+            std::vector<std::string> unused;
+            const size_t changed = w.Relabel(patterns, unused);
+            for (const std::string& pattern : unused) {
+              if (PyErr_WarnEx(PyExc_UserWarning, ("relabel: '" + pattern + "' matches no entity").c_str(), 1) < 0)
+                throw py::error_already_set();
+            }
+            return changed;
           },
           py::arg("labels"),
           "Categories by patterns of entity names ({'node/22*': 'furniture/misc'}; * any characters, ? one; the first that matches "
           "counts; paths that the tree lacks are added), from the next capture or scan on, in this world and its simulations. "
-          "Returns how many entities match.")
+          "Returns how many entities match; a pattern that matches none gives a UserWarning.")
       .def_property_readonly(
           "bounds", [](const World& w) { return BoundsOf(w.scene().bounds); },
           "(2, 3) least and greatest corner in W, metres.")

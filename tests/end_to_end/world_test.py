@@ -45,6 +45,50 @@ class WorldTest(ProgramTest):
         self.assertEqual(lamp["category_path"], "furniture/lighting/street_light")
         self.assertAlmostEqual(float(lamp["x"]), 10, delta=1.5)
 
+    def test_an_exported_map_comes_back_as_the_same_picture(self):
+        world, glb = self.folder / "town.yaml", self.folder / "town.glb"
+        world.write_text(f"world: {ROOT / 'data/osm/crossing.osm'}\nenvironment: {{sun_azimuth_deg: 120, cloud_cover: 0.7, wetness: 0.4}}\n")
+        self.run_ok("world", "export", world, "--out", glb)
+        rows = [json.loads(self.run_ok("world", "entities", w, "--json").stdout) for w in (world, glb)]
+        self.assertEqual([(e["id"], e["name"], e["category_path"]) for e in rows[0]], [(e["id"], e["name"], e["category_path"]) for e in rows[1]])
+        for number, pose in enumerate(("0,-20,12,60,-20", "15,5,1.7,200,0")):
+            pictures = []
+            for name, w in (("a", world), ("b", glb)):
+                out = self.folder / f"{name}{number}"
+                self.run_ok("render", "--world", w, "--pose", pose, "--size", "512x256", "--tier", "fast", "--out", out)
+                pictures.append(tree(out))
+            for product in ("rgb", "range", "semantic", "entity"):
+                file = next(path for path in pictures[0] if path.startswith(product))
+                self.assertEqual(pictures[0][file], pictures[1][file], f"{product} at {pose}")
+
+    def test_models_take_scale_up_ground_and_offset(self):
+        model = self.folder / "car.obj"
+        model.write_text("o car\nv 0 0 10\nv 450 0 10\nv 450 180 10\nv 0 0 160\nf 1 2 3\nf 1 2 4\n")
+        self.assertIn("centimetres: use scale: 0.01", self.run_ok("world", "import", model).stderr)
+        world = self.folder / "lot.yaml"
+        told = self.run_ok("world", "import", model, "--scale", "0.01", "--up", "z", "--ground", "--offset", "3,0,0.5", "--out", world)
+        self.assertNotIn("use scale", told.stderr)
+        rows = {e["name"]: e for e in json.loads(self.run_ok("world", "entities", world, "--json").stdout)}
+        for low, high, expected in zip(rows["car"]["box"]["min"], rows["car"]["box"]["max"], ((3, 7.5), (0, 1.8), (0.5, 2))):
+            self.assertAlmostEqual(low, expected[0], 5)
+            self.assertAlmostEqual(high, expected[1], 5)
+        self.assertEqual(rows["plain"]["category_path"], "ground/terrain/landscape")
+        for key, says in (("scale: 0", "scale"), ("scale: 1e9", "scale"), ("up: w", "'w'"), ("offset: {x: 1e7}", "x"), ("scales: 1", "'scale'")):
+            world.write_text(f"world: car.obj\n{key}\n")
+            self.run_bad(2, "world", "entities", world, says=["lot.yaml", says])
+        self.run_bad(2, "world", "import", model, "--scale", "-1", says=["--scale", "-1"])
+        world.write_text("world: box_room\nscale: 2\n")
+        self.run_bad(2, "world", "entities", world, says=["model files"])
+
+    def test_formats_that_are_not_read_say_so(self):
+        for name, says in (("a.las", "point cloud"), ("a.skp", "SketchUp"), ("a.geojson", "CityJSON"), ("a.qqq", "'.qqq'")):
+            (self.folder / name).write_text("x")
+            for words in (("world", "import"), ("world", "entities")):
+                self.run_bad(2, *words, self.folder / name, says=[name, says, ".glb"])
+        world = self.folder / "w.yaml"
+        world.write_text("world: a.las\n")
+        self.run_bad(2, "world", "entities", world, says=["a.las", "point cloud"])
+
     def test_label_files_change_categories_of_any_world(self):
         labels = self.folder / "mine.labels.yaml"
         labels.write_text("rules:\n  - match: way/10*\n    category: construction/house/gabled\n  - match: 'node/22?'\n    category: furniture/misc\n")

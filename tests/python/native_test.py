@@ -71,6 +71,8 @@ class Worlds(unittest.TestCase):
         self.assertEqual({e["category_path"] for e in world.entities}, {"made_up/thing", "construction/wall", "object"})
         scan = world.scan([0, 0, 3])
         np.testing.assert_array_equal(scan.semantic == ids["made_up/thing"], scan.entity == box["id"])
+        with self.assertWarnsRegex(UserWarning, "'zzz.' matches no entity"):
+            self.assertEqual(world.relabel({"zzz*": "object", "wall*": "construction/wall"}), 4)
         for bad in ({"box": "Not A Path"}, {"box": 3}):
             with self.assertRaises(ValueError):
                 world.relabel(bad)

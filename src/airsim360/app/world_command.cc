@@ -1,5 +1,6 @@
 // airsim360 world export, import, entities: worlds in and out, and what they hold.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -56,6 +57,8 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
 struct ImportArguments {
   std::string file, out, heights;
   bool no_fill = false, buildings = false;
+  ModelPlacement placement;
+  std::string offset;
 };
 
 // Counts of what a map's buildings became.
@@ -106,10 +109,26 @@ std::string WorldFileOf(const ImportArguments& arguments, const std::string& lab
   if (!arguments.heights.empty()) text += "heights: " + path(arguments.heights) + "\n";
   if (!labels.empty()) text += "labels: " + path(labels) + "\n";
   if (arguments.no_fill) text += "fill: false\n";
+  const ModelPlacement& placement = arguments.placement;
+  const auto number = [](double v) {
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.17g", v);
+    return std::string(digits.data());
+  };
+  if (placement.scale) text += "scale: " + number(*placement.scale) + "\n";
+  if (!placement.up.empty()) text += "up: " + placement.up + "\n";
+  if (placement.ground) text += "ground: true\n";
+  const Vec3d o = placement.offset;
+  if (!(o == Vec3d{})) text += "offset: {x: " + number(o.x) + ", y: " + number(o.y) + ", z: " + number(o.z) + "}\n";
   return text;
 }
 
-void RunImport(const ImportArguments& arguments, const GlobalOptions& globals) {
+void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
+  if (!arguments.offset.empty()) {
+    const std::vector<double> xyz = ParseNumbers("--offset", arguments.offset, 3, "x,y,z in metres");
+    arguments.placement.offset = {xyz[0], xyz[1], xyz[2]};
+  }
+  ValidatePlacement(arguments.placement, "--");
   fs::path out = arguments.out;
   if (!out.empty() && out.extension().empty()) out += ".yaml";
   if (!out.empty() && out.extension() != ".glb" && out.extension() != ".yaml")
@@ -122,7 +141,8 @@ void RunImport(const ImportArguments& arguments, const GlobalOptions& globals) {
                              .seed = globals.seed,
                              .labels = globals.labels,
                              .heights = arguments.heights,
-                             .fill = !arguments.no_fill};
+                             .fill = !arguments.no_fill,
+                             .placement = arguments.placement};
   scene = map ? LoadMap(request, &report) : LoadWorld(request);
   if (out.extension() == ".glb") WriteGlb(*scene, out);
   if (out.extension() == ".yaml") {
@@ -223,13 +243,17 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   to_file->callback([arguments, &globals] { RunExport(*arguments, globals); });
 
   CLI::App* from_file = command->add_subcommand(
-      "import", "read .osm, .osm.pbf, .osm.gz, .osm.bz2, .city.json, .glb, .gltf or .obj, and say what it holds");
+      "import", "read a map, city model or 3D model, and say what it holds");
   auto importing = std::make_shared<ImportArguments>();
   from_file->add_option("file", importing->file, "the file")->required();
   from_file->add_option("--out", importing->out, "FILE.glb: write it as glTF; NAME or FILE.yaml: write a world file that names it");
   AddLabelsFlag(*from_file, globals);
   from_file->add_option("--heights", importing->heights, "maps: GeoTIFF with the heights of the ground (needs gdal-bin)");
   from_file->add_flag("--no-fill", importing->no_fill, "maps: add no parked cars, lamps and trees by rule");
+  from_file->add_option("--scale", importing->placement.scale, "models: metres a unit of the file (0.01: it is in centimetres)");
+  from_file->add_option("--up", importing->placement.up, "models: axis of the file that points up: x, y, z, -x, -y, -z");
+  from_file->add_option("--offset", importing->offset, "models: x,y,z in metres to move it by");
+  from_file->add_flag("--ground", importing->placement.ground, "models: stands on a plain at z = 0");
   from_file->add_flag("--buildings", importing->buildings, "maps: with --json, list every building with its height");
   from_file->callback([importing, &globals] { RunImport(*importing, globals); });
 

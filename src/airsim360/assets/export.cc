@@ -11,6 +11,7 @@
 #include "airsim360/assets/axes.h"
 #include "airsim360/assets/glb_writer.h"
 #include "airsim360/assets/gltf_extras.h"
+#include "airsim360/assets/written_world.h"
 #include "airsim360/image/codecs.h"
 
 namespace airsim360 {
@@ -36,7 +37,7 @@ Bytes EncodePicture(const Image<Rgba8>& image) {
 class Exporter {
  public:
   explicit Exporter(const Scene& scene)
-      : scene_(scene), meshes_of_(scene.meshes.size()), used_(scene.meshes.size()) {}
+      : scene_(scene), meshes_of_(scene.meshes.size()), used_(scene.meshes.size()), seen_(scene.entities.size() + 1) {}
 
   Bytes Encode() {
     for (const Texture& texture : scene_.textures) AddTexture(texture);
@@ -48,6 +49,7 @@ class Exporter {
     ordered_json extras = {
         {kExtraSun, {scene_.environment.sun_azimuth_deg, scene_.environment.sun_elevation_deg}}};
     if (scene_.spawn) extras[kExtraSpawn] = ToJson(*scene_.spawn);
+    extras[kExtraWorld] = WriteWorld(scene_, seen_);
     writer_.Append("scenes", {{"name", scene_.name}, {"nodes", nodes}, {"extras", extras}});
     writer_.json["scene"] = 0;
     if (!scene_.attributions.empty()) {
@@ -78,7 +80,7 @@ class Exporter {
   const Scene& scene_;
   GlbWriter writer_;
   std::vector<std::vector<SubMesh>> meshes_of_;
-  std::vector<bool> used_;
+  std::vector<bool> used_, seen_;  // meshes that were written, entities that a node shows
 };
 
 void Exporter::AddTexture(const Texture& texture) {
@@ -107,6 +109,9 @@ ordered_json Exporter::TextureInfo(TextureId id, const Material& m) {
 ordered_json Exporter::MaterialExtras(const Material& m) const {
   ordered_json extras = {{kExtraKind, kSurfaceKindNames[static_cast<int>(m.kind)]}};
   if (m.transmission != 0) extras[kExtraTransmission] = m.transmission;
+  if (m.ground != GroundWear::kNone) extras[kExtraGround] = kGroundWearNames[static_cast<int>(m.ground)];
+  if (m.blend_tiles) extras[kExtraBlendTiles] = true;
+  if (!(m.units == Vec2f{})) extras[kExtraUnits] = {m.units.x, m.units.y};
   if (m.macro_variation != 0) extras[kExtraMacroVariation] = m.macro_variation;
   if (m.interior) extras[kExtraInterior] = true;
   if (m.lamp) extras[kExtraLamp] = true;
@@ -136,11 +141,13 @@ void Exporter::AddMaterial(const Material& m) {
   // A factor of at most 1 and its strength.
   const float strength = std::max({m.emission.x, m.emission.y, m.emission.z});
   if (strength > 0) {
-    out["emissiveFactor"] = ToJson(m.emission * (1 / std::max(strength, 1.0f)));
+    // A power of two divides without rounding.
+    const float power = strength > 1 ? std::exp2(std::ceil(std::log2(strength))) : 1;
+    out["emissiveFactor"] = ToJson(m.emission * (1 / power));
     if (m.emission_texture != kNoTexture) out["emissiveTexture"] = TextureInfo(m.emission_texture, m);
     if (strength > 1) {
       writer_.Use("KHR_materials_emissive_strength");
-      out["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+      out["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", power}};
     }
   }
   if (m.clear_coat > 0) {
@@ -195,7 +202,9 @@ size_t Exporter::AddSubMesh(const Mesh& mesh, EntityId entity) {
   }
   if (primitives.empty()) return SIZE_MAX;
   const std::string& name = entity == kNoEntity ? mesh.name : scene_.entity(entity).name;
-  return writer_.Append("meshes", {{"name", name}, {"primitives", primitives}});
+  ordered_json out = {{"name", name}, {"primitives", primitives}};
+  if (mesh.normals.empty()) out["extras"] = {{kExtraFlat, true}};
+  return writer_.Append("meshes", std::move(out));
 }
 
 const std::vector<Exporter::SubMesh>& Exporter::SubMeshesOf(MeshId id) {
@@ -224,14 +233,14 @@ void Exporter::AddInstances() {
         node["matrix"] = {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, p.x, p.y, p.z, 1};
       node["extras"] = {{kExtraEntity, id}, {kExtraCategory, scene_.tree[scene_.entity(id).category].path}};
       if (!(instance.tint == Vec3f{1, 1, 1})) node["extras"][kExtraTint] = ToJson(instance.tint);
+      node["extras"][kExtraNode] = nodes.size() + 1;
+      seen_[id] = true;
       nodes.emplace_back(id, std::move(node));
     }
   }
   std::stable_sort(nodes.begin(), nodes.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  size_t number = 0;
   for (auto& [id, node] : nodes) {
-    node["extras"][kExtraNode] = ++number;
     if (const std::string& name = scene_.entity(id).name; name.size() > kBlenderName) node["extras"][kExtraName] = name;
     writer_.Append("nodes", std::move(node));
   }

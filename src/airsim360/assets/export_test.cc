@@ -130,7 +130,7 @@ TEST(EncodeGlb, KeepsMaterials) {
     EXPECT_EQ(after->base_color, before.base_color);
     EXPECT_FLOAT_EQ(after->metallic, before.metallic);
     EXPECT_FLOAT_EQ(after->roughness, before.roughness);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(after->emission[k], before.emission[k], 1e-5f);
+    EXPECT_EQ(after->emission, before.emission);
     EXPECT_FLOAT_EQ(after->transmission, before.transmission);
     EXPECT_FLOAT_EQ(after->macro_variation, before.macro_variation);
     EXPECT_FLOAT_EQ(after->clear_coat, before.clear_coat);
@@ -142,6 +142,77 @@ TEST(EncodeGlb, KeepsMaterials) {
     EXPECT_EQ(back->textures[after->base_color_texture].levels[0],
               scene->textures[before.base_color_texture].levels[0]);
   }
+}
+
+/// Two rooms of a town: entities without surfaces between those that have some, the sky first, weather, traces of use.
+std::shared_ptr<const Scene> Street() {
+  SceneBuilder builder("street");
+  builder.AddSky();
+  builder.AddAttribution("a bench, CC-BY");
+  builder.SetSpawn({3, -7, 1.7f}, 37);
+  builder.environment().sun_azimuth_deg = 100;
+  builder.environment().cloud_cover = 0.8;
+  builder.environment().wetness = 0.25;
+  builder.environment().lamps = Lamps::kOn;
+  const auto category = [&](const char* path) { return builder.tree().At(path); };
+  const EntityId lost = builder.AddEntity("way/7", category("ground/road")), road = builder.AddEntity("way/8", category("ground/road")),
+                 odd = builder.AddEntity("tower", builder.tree().Add("construction/tower/odd", true)),
+                 house = builder.AddEntity("house", category("construction/house"));
+  static_cast<void>(lost), static_cast<void>(odd);
+  const TextureId checker = builder.AddTexture(Checker());
+  const MaterialId asphalt = builder.AddMaterial({.name = "asphalt", .emission = {3.3f, 1.1f, 0.7f}, .macro_variation = 0.2f, .base_color_texture = checker,
+                                                  .uv_scale = {0.3f, 0.7f}, .uv_offset = {0.1f, 0.2f}, .uv_rotation = 0.4f,
+                                                  .ground = GroundWear::kCarriageway, .blend_tiles = true, .units = {3, 5}});
+  Mesh flat = Square(asphalt, asphalt), round = Square(asphalt, asphalt);
+  flat.normals.clear();
+  const MeshId a = builder.AddMesh(flat), b = builder.AddMesh(round);
+  builder.AddInstance({b, PlaceUpright({0, 5, 0}, 0.1f, 1), house});
+  builder.AddInstance({a, PlaceUpright({3, 1, 0}, 0.7f, 3), road});
+  builder.AddInstance({b, PlaceUpright({9, 5, 0}, 0.2f, 1), house});
+  return builder.Build();
+}
+
+TEST(EncodeGlb, KeepsWhatIsNoSurface) {
+  const auto scene = Street(), back = RoundTrip(*scene);
+  ASSERT_EQ(back->entities.size(), scene->entities.size());
+  for (size_t i = 0; i < scene->entities.size(); ++i) {
+    EXPECT_EQ(back->entities[i].name, scene->entities[i].name);
+    EXPECT_EQ(back->tree[back->entities[i].category].path, scene->tree[scene->entities[i].category].path);
+  }
+  EXPECT_EQ(back->sky_entity, scene->sky_entity);
+  EXPECT_EQ(DescribeEnvironment(back->environment), DescribeEnvironment(scene->environment));
+  EXPECT_EQ(back->environment.lamps, Lamps::kOn);
+  EXPECT_EQ(back->spawn, scene->spawn);
+  EXPECT_EQ(back->spawn_yaw_deg, 37);
+  EXPECT_EQ(back->attributions, scene->attributions);
+  ASSERT_EQ(back->instances.size(), scene->instances.size());
+  for (size_t i = 0; i < scene->instances.size(); ++i) {
+    const Instance &x = back->instances[i], &y = scene->instances[i];
+    EXPECT_EQ(x.entity, y.entity);
+    EXPECT_EQ(x.X_WM, y.X_WM);
+    const Mesh &m = back->meshes[x.mesh], &n = scene->meshes[y.mesh];
+    EXPECT_EQ(m.positions, n.positions);
+    EXPECT_EQ(m.normals, n.normals);
+    EXPECT_EQ(m.uvs, n.uvs);
+    const Material &p = back->materials[m.parts[0].material], &q = scene->materials[n.parts[0].material];
+    EXPECT_EQ(p.ground, q.ground);
+    EXPECT_EQ(p.blend_tiles, q.blend_tiles);
+    EXPECT_EQ(p.units, q.units);
+    EXPECT_EQ(p.uv_scale, q.uv_scale);
+    EXPECT_EQ(p.uv_offset, q.uv_offset);
+    EXPECT_EQ(p.uv_rotation, q.uv_rotation);
+    EXPECT_EQ(p.emission, q.emission);
+  }
+}
+
+TEST(EncodeGlb, ARoomWithoutASkyComesBackWithoutOne) {
+  SceneBuilder builder("room");
+  builder.SetInteriorLight({0.5f, 0.25f, 0.125f});
+  const MaterialId grey = builder.AddMaterial({.name = "grey"});
+  builder.AddInstance({builder.AddMesh(Square(grey, grey)), {}, builder.AddEntity("wall", builder.tree().At("construction/wall"))});
+  const auto back = RoundTrip(*builder.Build());
+  EXPECT_EQ(back->sky_entity, kNoEntity);
+  EXPECT_EQ(back->interior_light, (Vec3f{0.5f, 0.25f, 0.125f}));
 }
 
 TEST(EncodeGlb, IsDeterministic) { EXPECT_EQ(EncodeGlb(*Everything()), EncodeGlb(*Everything())); }

@@ -8,6 +8,7 @@
 
 #include "airsim360/assets/gltf_extras.h"
 #include "airsim360/assets/gltf_parts.h"
+#include "airsim360/assets/written_world.h"
 
 namespace airsim360::internal {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 bool IsKnownExtension(const std::string& name) {
   static const std::set<std::string, std::less<>> kKnown = {"KHR_draco_mesh_compression",
                                                             "EXT_meshopt_compression",
+                                                            "KHR_meshopt_compression",
                                                             "KHR_mesh_quantization",
                                                             "KHR_texture_transform",
                                                             "EXT_texture_webp",
@@ -79,7 +81,10 @@ void GltfReader::CheckVersion() {
   if (const auto required = root_.Find("extensionsRequired")) {
     for (size_t i = 0; i < required->size(); ++i) {
       const JsonRef name = (*required)[i];
-      if (!IsKnownExtension(name.Text())) name.Fail("the file needs this extension, which is not read");
+      if (IsKnownExtension(name.Text())) continue;
+      const bool ktx = name.Text() == "KHR_texture_basisu" || name.Text() == "KHR_texture_ktx";
+      name.Fail(std::string("the file needs this extension, which is not read") +
+                (ktx ? ": its pictures are KTX2; 'npx @gltf-transform/cli ktxdecompress IN.glb OUT.glb' makes PNG of them" : ""));
     }
   }
 }
@@ -99,6 +104,10 @@ std::vector<uint32_t> GltfReader::SceneRoots() {
   const auto chosen = root_.Find("scene");
   if (chosen || (scenes && scenes->size() > 0)) {
     const JsonRef scene = chosen ? buffers_.Element("scenes", *chosen) : (*scenes)[0];
+    if (const auto extras = scene.Find("extras"); extras && extras->IsObject()) {
+      const std::string world = extras->TextOr(kExtraWorld, "");
+      if (!world.empty()) out_.written = ReadWrittenWorld(root_.file(), world);
+    }
     const auto list = scene.Find("nodes");
     for (size_t i = 0; list && i < list->size(); ++i) {
       const uint64_t node = (*list)[i].Uint();
@@ -120,7 +129,8 @@ void ReadNodeExtras(const JsonRef& json, ImportedNode& node, std::map<uint64_t, 
   if (!extras || !extras->IsObject()) return;
   node.category = extras->TextOr(kExtraCategory, "");
   node.entity = extras->UintOr(kExtraEntity, 0);
-  if (const uint64_t number = extras->UintOr(kExtraNode, 0)) node.copy = seen[number]++;
+  node.number = extras->UintOr(kExtraNode, 0);
+  if (node.number != 0) node.copy = seen[node.number]++;
   // The whole of a name that was cut short (and perhaps numbered, "….001"), unless it was changed or is a copy's.
   const std::string whole = CleanName(extras->TextOr(kExtraName, "")), kept = node.name.substr(0, node.name.rfind('.'));
   if (node.copy == 0 && whole.size() > kBlenderName && kept.size() + 8 > kBlenderName && whole.starts_with(kept)) node.name = whole;
@@ -145,6 +155,7 @@ void GltfReader::AddNode(uint32_t i, int32_t parent) {
     // A skinned mesh is where its joints are, wherever its node is.
     const bool skinned = mesh >= 0 && json.Has("skin");
     out_.nodes.push_back({name, parent, mesh, skinned ? AffineTransform{} : FromG(X)});
+    if (!skinned) out_.nodes.back().p_exact = FromG(X.p);
     ReadNodeExtras(json, out_.nodes.back(), copies_);
   }
   if (out_.nodes.size() > limits_.max_nodes)

@@ -43,7 +43,8 @@ void GuessKind(Material& m) {
 }
 
 // What `world export` wrote beyond glTF wins over guesses.
-void ReadExtras(const JsonRef& json, Material& m) {
+void ReadExtras(const JsonRef& json, GltfMaterial& out) {
+  Material& m = out.material;
   const auto extras = json.Find("extras");
   if (!extras || !extras->IsObject()) return;
   if (const auto kind = extras->Find(kExtraKind)) {
@@ -52,7 +53,22 @@ void ReadExtras(const JsonRef& json, Material& m) {
     if (found == std::end(kSurfaceKindNames)) kind->Fail("standard, foliage, glass or water expected");
     m.kind = static_cast<SurfaceKind>(found - std::begin(kSurfaceKindNames));
     m.transmission = Unit(extras->NumberOr(kExtraTransmission, 0));
+    // Our own materials move texture coordinates themselves: the mesh keeps its.
+    const auto single = [](double v) { return static_cast<float>(v); };
+    m.uv_scale = {single(out.uv.scale[0]), single(out.uv.scale[1])};
+    m.uv_offset = {single(out.uv.offset[0]), single(out.uv.offset[1])};
+    m.uv_rotation = single(out.uv.rotation);
+    out.uv = {.set = out.uv.set};
   }
+  if (const auto ground = extras->Find(kExtraGround)) {
+    const std::string name = ground->Text();
+    const auto* found = std::find(std::begin(kGroundWearNames), std::end(kGroundWearNames), name);
+    if (found == std::end(kGroundWearNames)) ground->Fail("an unknown kind of ground");
+    m.ground = static_cast<GroundWear>(found - std::begin(kGroundWearNames));
+  }
+  m.blend_tiles = extras->BoolOr(kExtraBlendTiles, false);
+  const std::vector<double> units = extras->NumbersOr(kExtraUnits, {0, 0});
+  m.units = {static_cast<float>(std::clamp(units[0], 0.0, 1e4)), static_cast<float>(std::clamp(units[1], 0.0, 1e4))};
   m.macro_variation = Unit(extras->NumberOr(kExtraMacroVariation, 0));
   m.interior = extras->BoolOr(kExtraInterior, false);
   m.lamp = extras->BoolOr(kExtraLamp, false);
@@ -163,7 +179,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
   static_cast<void>(
       json.BoolOr("doubleSided", false));  // every surface is seen from both sides here; still must be a bool
   GuessKind(m);
-  ReadExtras(json, m);
+  ReadExtras(json, out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "airsim360/assets/gltf_extras.h"
 #include "airsim360/assets/gltf_parts.h"
 #include "airsim360/assets/normals.h"
 
@@ -135,7 +136,11 @@ int32_t GltfMeshes::ReadMesh(const JsonRef& json, const std::vector<TransformG>*
   if (const auto list = json.Find("weights")) weights = list->Numbers(list->size());
   for (size_t i = 0; i < primitives.size(); ++i) AppendPrimitive(primitives[i], weights, joints, mesh);
   if (mesh.triangles.empty()) return -1;
-  FillMissingNormals(mesh);
+  const auto extras = json.Find("extras");
+  if (extras && extras->IsObject() && extras->BoolOr(kExtraFlat, false))
+    mesh.normals.clear();
+  else
+    FillMissingNormals(mesh);
   meshes.push_back(std::move(mesh));
   return static_cast<int32_t>(meshes.size() - 1);
 }

@@ -1,4 +1,5 @@
-// glTF 2.0 (.glb, .gltf), Wavefront OBJ/MTL and CityJSON (.city.json, .json, .jsonl) into a Scene. Files are untrusted: any damage is an InputError
+// glTF 2.0 (.glb, .gltf), Wavefront OBJ/MTL and CityJSON (.city.json, .json, .jsonl) into a Scene; formats of other
+// programs through those (convert_model.h). Files are untrusted: any damage is an InputError
 // that names the file, the place in it and the value; sizes and depths are bounded; nothing crashes.
 #pragma once
 
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/assets/placement.h"
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
 
@@ -17,10 +19,11 @@ struct ImportOptions {
   /// YAML or JSON that overrides labels, see docs/importing.md; empty = NAME.labels.yaml (.yml, .json) beside
   /// the model NAME.glb if there is one.
   std::filesystem::path labels;
+  ModelPlacement placement = {};
 };
 
-/// Imports a model file as a world of its own under the default sky: exactly what it holds, no ground is
-/// added. Every node with a mesh (glTF) or object/group (OBJ) is an entity; its category comes from the label
+/// Imports a model file as a world of its own under the default sky: exactly what it holds; a ground is added
+/// where the placement asks for one. Every node with a mesh (glTF) or object/group (OBJ) is an entity; its category comes from the label
 /// file, else from keywords in the node, mesh, parents', material and file names, else "object". Sets a
 /// viewpoint. InputError if there is nothing to see.
 std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
@@ -28,7 +31,8 @@ std::shared_ptr<const Scene> ImportScene(const std::filesystem::path& file,
 
 /// The scene with the categories and names that a label file gives its entities by their names: for worlds that
 /// are not imported models. Patterns are held against the whole name ('/' is a character like any other);
-/// `keywords`, `default` and `merge` do not count. An empty path changes nothing. InputError as ParseLabelRules.
+/// `keywords`, `default` and `merge` do not count. A rule that matches nothing is a warning. An empty path changes
+/// nothing. InputError as ParseLabelRules.
 std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels);
 
 /// Categories of entities that differ from those of their scene.
@@ -44,8 +48,9 @@ struct LabelPattern {
   std::string pattern, category;
 };
 /// `over` (null: none) changed by patterns, the first that matches an entity counts. Adds to `changed` how many
-/// entities match any. InputError for a malformed path.
-EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed);
+/// entities match any, to `unused` (where given) the patterns that match none. InputError for a malformed path.
+EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed,
+                           std::vector<std::string>* unused = nullptr);
 
 /// One model file as a single prop (all nodes merged), in metres, +Z up, standing on z = 0 and centred on the
 /// z axis.

@@ -91,7 +91,7 @@ TEST_F(ImportTest, RulesBesideTheModelAreFound) {
 }
 
 TEST_F(ImportTest, UnknownMissingAndEmptyFilesSaySo) {
-  EXPECT_TRUE(Contains(ErrorOf(folder_ / "a.fbx"), {"a.fbx", ".gltf"}));
+  EXPECT_TRUE(Contains(ErrorOf(folder_ / "a.fbx"), {"a.fbx: no such file"}));
   EXPECT_TRUE(Contains(ErrorOf(folder_ / "none.glb"), {"no such file"}));
   EXPECT_TRUE(Contains(ErrorOf(Write("e.obj", "")), {"no triangles"}));
   EXPECT_THROW(ImportModel(folder_ / "e.obj"), InputError);
@@ -156,6 +156,63 @@ TEST(RealFiles, AssimpsGltfModelsLoadOrSayWhyNot) {
     }
   }
   EXPECT_GE(loaded, 20);
+}
+
+TEST_F(ImportTest, ScaleUpGroundAndOffsetPlaceAModel) {
+  const fs::path file = Write("a.obj", "v 1 2 3\nv 2 2 3\nv 1 4 3\nv 1 2 4\nf 1 2 3\nf 1 2 4\n");
+  // The box of the file's coordinates (1, 2, 3) … (2, 4, 4), each axis as W's up.
+  struct Case {
+    const char* up;
+    Vec3f low, high;
+  };
+  for (const Case& c : {Case{"y", {1, -4, 2}, {2, -3, 4}}, Case{"z", {1, 2, 3}, {2, 4, 4}}, Case{"x", {2, 3, 1}, {4, 4, 2}},
+                        Case{"-x", {2, -4, -2}, {4, -3, -1}}, Case{"-y", {1, 3, -4}, {2, 4, -2}}, Case{"-z", {1, -4, -4}, {2, -2, -3}}}) {
+    const auto scene = ImportScene(file, {.placement = {.up = c.up}});
+    EXPECT_EQ(scene->bounds.min, c.low) << c.up;
+    EXPECT_EQ(scene->bounds.max, c.high) << c.up;
+    // Turned, not mirrored.
+    for (const Instance& instance : scene->instances) EXPECT_GT(instance.X_WM.A.determinant(), 0) << c.up;
+  }
+  const auto placed = ImportScene(file, {.placement = {.scale = 0.5, .up = "z", .ground = true, .offset = {10, 20, 1}}});
+  const auto model = std::find_if(placed->entities.begin(), placed->entities.end(), [](const Entity& e) { return e.name != "plain"; });
+  EXPECT_EQ(model->bounds.min, (Vec3f{10.5f, 21, 1}));
+  EXPECT_EQ(model->bounds.max, (Vec3f{11, 22, 1.5f}));
+  const auto plain = std::find_if(placed->entities.begin(), placed->entities.end(), [](const Entity& e) { return e.name == "plain"; });
+  ASSERT_NE(plain, placed->entities.end());
+  EXPECT_EQ(placed->tree[plain->category].path, "ground/terrain/landscape");
+  EXPECT_EQ(plain->bounds.max.z, 0);
+}
+
+TEST_F(ImportTest, PlacementsOutOfRangeNameTheValueAndTheRange) {
+  const auto error = [&](ModelPlacement placement) -> std::string {
+    try {
+      ValidatePlacement(placement, "w.yaml: ");
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error({.scale = 1e-6, .up = "-z", .offset = {-1e6, 0, 1e6}}), "no error");
+  for (double scale : {0.0, -1.0, 9e-7, 2e6, std::nan("")}) EXPECT_TRUE(Contains(error({.scale = scale}), {"w.yaml: scale", "1e-06"}));
+  EXPECT_TRUE(Contains(error({.up = "w"}), {"up: ", "'w'", "-x"}));
+  EXPECT_TRUE(Contains(error({.offset = {0, 0, 1.1e6}}), {"offset: 1.1e+06"}));
+}
+
+TEST_F(ImportTest, UnlikelyUnitsAreToldAloud) {
+  const auto told = [&](const std::string& name, double size, ModelPlacement placement = {}) {
+    const std::string s = std::to_string(size);
+    const fs::path file = Write("a.obj", "o " + name + "\nv 0 0 0\nv " + s + " 0 0\nv 0 1 0\nf 1 2 3\n");
+    testing::internal::CaptureStderr();
+    ImportScene(file, {.placement = placement});
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_TRUE(Contains(told("car", 450), {"'car' (vehicle/car)", "centimetres: use scale: 0.01"}));
+  EXPECT_TRUE(Contains(told("car", 4500), {"millimetres: use scale: 0.001"}));
+  EXPECT_TRUE(Contains(told("car", 177), {"inches: use scale: 0.0254"}));
+  EXPECT_TRUE(Contains(told("thing", 3438), {"3438 m wide", "centimetres: use scale: 0.01"}));
+  EXPECT_EQ(told("car", 4.5), "");
+  EXPECT_EQ(told("thing", 900), "");
+  EXPECT_EQ(told("car", 450, {.scale = 1}), "");  // the user has said it
 }
 
 }  // namespace

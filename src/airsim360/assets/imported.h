@@ -10,6 +10,7 @@
 
 #include "airsim360/base/file.h"
 #include "airsim360/math/transform.h"
+#include "airsim360/scene/environment.h"
 #include "airsim360/scene/material.h"
 #include "airsim360/scene/mesh.h"
 
@@ -26,15 +27,34 @@ struct ImportedNode {
   std::string category = {};  ///< path; "" = not said
   uint64_t entity = 0;        ///< nodes with the same number and `copy` are one entity; 0 = not said
   uint64_t copy = 0;          ///< 0 = the node that was written; else of the copies made of it since
+  uint64_t number = 0;    ///< place among the world's instances; 0 = not said
   Vec3f tint{1, 1, 1};
+  Vec3d p_exact = {};     ///< X_WM.p as glTF files have it, in double precision; zero = there is no more to it
 };
 
-/// Mesh parts refer to `materials` by index, materials to `textures` by index. Meshes have normals.
+/// What a file written by `world export` says of the world beside its surfaces.
+struct WrittenWorld {
+  struct Unseen {
+    uint64_t id = 0;
+    std::string name, category;
+    bool sky = false;
+  };
+  Environment environment;
+  std::optional<Vec3f> spawn;
+  float spawn_yaw_deg = 0;
+  Vec3f interior_light;
+  std::vector<std::string> attributions;
+  std::vector<Unseen> unseen;  ///< entities without a surface, by id; the sky, if there is one, among them
+};
+
+/// Mesh parts refer to `materials` by index, materials to `textures` by index. Meshes have normals, but
+/// for the flat ones of exported worlds.
 struct ImportedFile {
   std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<ImportedNode> nodes;
+  std::optional<WrittenWorld> written = {};
   std::string copyright;  ///< as the file says, "" if it does not
   std::vector<std::string> warnings;
 };

@@ -138,6 +138,14 @@ bool MatchesGlob(std::string_view pattern, std::string_view text) {
   return p == pattern.size();
 }
 
+std::string UnusedRule(const LabelRules& rules, size_t index, bool taken) {
+  const LabelRule& rule = rules.rules[index];
+  std::string pattern;
+  for (const std::string& part : rule.match) pattern += (&part == rule.match.data() ? "" : "/") + part;
+  return rules.file + ":" + std::to_string(rule.line) + ": rule " + std::to_string(index + 1) + " (" + Quoted(pattern) +
+         ") matches nothing" + (taken ? " that an earlier rule has not matched" : "");
+}
+
 bool Matches(const LabelRule& rule, std::string_view node, std::string_view mesh, std::string_view material) {
   const auto& m = rule.match;
   if (m.size() == 1) return MatchesGlob(m[0], node) || MatchesGlob(m[0], mesh) || MatchesGlob(m[0], material);

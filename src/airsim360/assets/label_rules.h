@@ -38,4 +38,7 @@ bool MatchesGlob(std::string_view pattern, std::string_view text);
 /// Does a rule match a part with these names?
 bool Matches(const LabelRule& rule, std::string_view node, std::string_view mesh, std::string_view material);
 
+/// "file:3: rule 1 ('zzz*') matches nothing", or, where `taken`, only what earlier rules have.
+std::string UnusedRule(const LabelRules& rules, size_t index, bool taken);
+
 }  // namespace airsim360::internal

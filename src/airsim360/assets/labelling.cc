@@ -19,16 +19,18 @@ class Keywords {
     std::map<std::string_view, int> found;  // categories of whole things, nodes of each
     for (size_t i = 0; i < file.nodes.size(); ++i) {
       const ImportedNode& node = file.nodes[i];
-      nodes_[i] = Lookup(node.name);
-      if (!nodes_[i] && node.mesh >= 0) nodes_[i] = Lookup(file.meshes[static_cast<size_t>(node.mesh)].name);
+      nodes_[i] = Lookup(node.name, NameKind::kNode);
+      if (!nodes_[i] && node.mesh >= 0)
+        nodes_[i] = Lookup(file.meshes[static_cast<size_t>(node.mesh)].name, NameKind::kNode);
       if (nodes_[i] && !nodes_[i]->part) ++found[nodes_[i]->category];
+      if (nodes_[i] && nodes_[i]->part && nodes_[i]->category == kVehicle) ++vehicle_parts_;
 
       // The nearest ancestor that is something whole; parents come before their children.
       if (node.parent < 0) continue;
       const auto parent = static_cast<size_t>(node.parent);
       owners_[i] = nodes_[parent] && !nodes_[parent]->part ? nodes_[parent]->category : owners_[parent];
     }
-    for (const Material& material : file.materials) materials_.push_back(Lookup(material.name));
+    for (const Material& material : file.materials) materials_.push_back(Lookup(material.name, NameKind::kMaterial));
     SetWhole(title, found);
   }
 
@@ -40,6 +42,8 @@ class Keywords {
     if (nodes_[node]) {
       const std::string_view part_of = owner.empty() ? only_ : owner;
       own = nodes_[node]->part ? CategoryOfPart(nodes_[node]->category, part_of) : nodes_[node]->category;
+      // One engine or wheel alone makes no vehicle.
+      if (own == kVehicle && vehicle_parts_ < 2) own = {};
     }
     if (own.empty()) own = owners_[node];
     if (!own.empty()) return std::vector<std::string>(mesh.parts.size(), std::string(own));
@@ -47,16 +51,19 @@ class Keywords {
   }
 
  private:
-  std::optional<KeywordMatch> Lookup(const std::string& name) {
-    const auto [it, is_new] = cache_.try_emplace(name);
-    if (is_new) it->second = FindKeyword(name);
+  static constexpr std::string_view kVehicle = "vehicle";
+
+  std::optional<KeywordMatch> Lookup(const std::string& name, NameKind kind) {
+    const auto [it, is_new] = cache_.try_emplace({name, kind});
+    if (is_new) it->second = FindKeyword(name, kind);
     return it->second;
   }
 
   // The file's name speaks for all that is nameless, unless most of the named things are of other kinds.
-  // Without it, parts belong to the one kind of whole thing there is.
+  // Without it, parts belong to the one kind of whole thing that most of the named are, vehicles only where parts
+  // of vehicles are among them.
   void SetWhole(const std::string& title, const std::map<std::string_view, int>& found) {
-    const std::optional<KeywordMatch> named = FindKeyword(title);
+    const std::optional<KeywordMatch> named = FindKeyword(title, NameKind::kFile);
     if (named && !named->part && CanNameAFile(named->category)) {
       int same = 0, all = 0;
       for (const auto& [category, nodes] : found) {
@@ -65,7 +72,13 @@ class Keywords {
       }
       if (2 * same >= all) whole_ = named->category;
     }
-    if (whole_.empty() && found.size() == 1) only_ = found.begin()->first;
+    int all = 0;
+    for (const auto& entry : found) all += entry.second;
+    for (const auto& [category, nodes] : found) {
+      const bool most = found.size() == 1 || (3 * nodes >= 2 * all && RootOf(category) == kVehicle && vehicle_parts_ > 0);
+      if (whole_.empty() && most) only_ = category;
+    }
+    if (whole_.empty() && found.empty() && vehicle_parts_ > 1) only_ = kVehicle;
   }
 
   static bool CanNameAFile(std::string_view category) {
@@ -105,10 +118,11 @@ class Keywords {
   }
 
   const ImportedFile& file_;
-  std::map<std::string, std::optional<KeywordMatch>> cache_;
+  std::map<std::pair<std::string, NameKind>, std::optional<KeywordMatch>> cache_;
   std::vector<std::optional<KeywordMatch>> nodes_, materials_;
   std::vector<std::string_view> owners_;
   std::string_view whole_, only_;
+  int vehicle_parts_ = 0;
 };
 
 int FindRule(const LabelRules& rules, std::string_view node, std::string_view mesh,
@@ -120,6 +134,29 @@ int FindRule(const LabelRules& rules, std::string_view node, std::string_view me
 }
 
 }  // namespace
+
+std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules& rules,
+                                     const std::vector<std::vector<PartLabel>>& labels) {
+  std::vector<bool> used(rules.rules.size());
+  for (const auto& parts : labels) {
+    for (const PartLabel& label : parts) {
+      if (label.rule >= 0) used[static_cast<size_t>(label.rule)] = true;
+    }
+  }
+  Warnings warnings;
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) continue;
+    const bool any = std::any_of(file.nodes.begin(), file.nodes.end(), [&](const ImportedNode& node) {
+      if (node.mesh < 0) return false;
+      const Mesh& mesh = file.meshes[static_cast<size_t>(node.mesh)];
+      return std::any_of(mesh.parts.begin(), mesh.parts.end(), [&](const MeshPart& part) {
+        return Matches(rules.rules[i], node.name, mesh.name, file.materials[part.material].name);
+      });
+    });
+    warnings.Add(UnusedRule(rules, i, any));
+  }
+  return warnings.Take();
+}
 
 std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const LabelRules& rules,
                                                const std::string& title) {

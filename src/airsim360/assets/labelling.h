@@ -22,4 +22,8 @@ struct PartLabel {
 std::vector<std::vector<PartLabel>> LabelNodes(const ImportedFile& file, const LabelRules& rules,
                                                const std::string& title);
 
+/// A warning for each rule that none of these labels comes from (the first 20).
+std::vector<std::string> UnusedRules(const ImportedFile& file, const LabelRules& rules,
+                                     const std::vector<std::vector<PartLabel>>& labels);
+
 }  // namespace airsim360::internal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct Row {
 constexpr Row kWhole[] = {
     {"vehicle/car",
      "car|automobile|sedan|suv|hatchback|coupe|taxi|cab|jeep|convertible|limousine|police car|sport "
-     "car|auto"},
+     "car|"
+     "lamborghini|ferrari|porsche|bmw|audi|mercedes|volkswagen|toyota|honda|ford|tesla|chevrolet|peugeot|renault|fiat|volvo|auto"},
     {"vehicle/van", "van|minivan|minibus|camper|ambulance"},
     {"vehicle/truck",
      "truck|lorry|pickup|dumper|tanker truck|fire truck|firetruck|garbage "
@@ -32,12 +34,12 @@ constexpr Row kWhole[] = {
     {"vehicle/bicycle", "bicycle|bike|cycle|tricycle"},
     {"vehicle/boat", "boat|ship|yacht|canoe|kayak|ferry|sailboat|rowboat|gondola|barge"},
     {"vehicle/trailer", "trailer|caravan"},
-    {"vehicle/airplane", "airplane|aeroplane|aircraft|jet|airliner|glider"},
+    {"vehicle/airplane", "airplane|aeroplane|aircraft|airliner|glider|jet fighter|fighter jet|jet plane|jet"},
     {"vehicle/helicopter", "helicopter|chopper"},
     {"uav/other", "drone|quadcopter|uav|multicopter|quadrotor"},
     {"human/person",
      "person|people|human|man|woman|men|women|child|boy|girl|pedestrian|character|mannequin|male|female|"
-     "soldier|worker|avatar"},
+     "soldier|worker|avatar|astronaut|lumberjack|knight"},
     {"human/rider", "rider|cyclist|biker"},
     {"animal", "animal|cow|sheep|pig|goat|chicken|duck|elephant|bear|deer|fox|rabbit|fish"},
     {"animal/dog", "dog|puppy|bulldog"},
@@ -46,7 +48,7 @@ constexpr Row kWhole[] = {
     {"animal/bird", "bird|pigeon|seagull|crow|eagle"},
     {"vegetation/tree/broadleaf/generic",
      "tree|oak|birch|poplar|beech|ash tree|acacia|sycamore|linden|chestnut|cherry tree|apple "
-     "tree|arbre|baum"},
+     "tree|arbre|baum|arbol|magnolia"},
     {"vegetation/tree/broadleaf/maple", "maple|acer"},
     {"vegetation/tree/broadleaf/elm", "elm"},
     {"vegetation/tree/broadleaf/weeping_willow", "willow|weeping willow"},
@@ -84,12 +86,14 @@ constexpr Row kWhole[] = {
     {"water/water_plane", "water"},
     {"sky", "skydome|skybox|skysphere"},
     {"construction/building",
+     "brewery|roastery|university|workshop|laboratory|research lab|community center|community centre|power plant|power station|"
+     "fire station|police station|gas station|petrol station|train station|railway station|general store|"
      "building|skyscraper|apartment|office "
      "building|library|church|castle|school|hospital|barn|factory|warehouse|shop|store|"
      "hotel|museum|station|temple|mosque|cathedral|palace|garage|hangar|facade|skyscraper|villa "
      "building|stadium|theatre|theater"},
     {"construction/house", "house|home|cottage|hut|cabin|villa|bungalow|mansion|shed|farmhouse"},
-    {"construction/tower", "tower|lighthouse|silo|water tower|pylon|chimney stack"},
+    {"construction/tower", "tower|lighthouse|silo|water tower|watertower|pylon|chimney stack"},
     {"construction/windmill", "windmill|wind mill|wind turbine"},
     {"construction/bridge", "bridge|viaduct|overpass|footbridge|aqueduct"},
     {"construction/tunnel", "tunnel"},
@@ -103,7 +107,7 @@ constexpr Row kWhole[] = {
     {"construction/well", "well|water well"},
     {"construction/statue", "statue|sculpture|monument|bust"},
     {"construction/scaffolding", "scaffold|scaffolding"},
-    {"construction/awning", "awning|canopy|marquee"},
+    {"construction/awning", "awning|marquee"},
     {"construction/phone_booth", "phone booth|telephone booth|phonebox"},
     {"construction/rooftop/water_tank", "water tank"},
     {"construction/rooftop/antenna", "antenna|aerial|satellite dish"},
@@ -115,7 +119,7 @@ constexpr Row kWhole[] = {
     {"furniture/seating/bench", "bench|park bench"},
     {"furniture/seating/chair", "chair|stool|seat|armchair|bar stool"},
     {"furniture/sofa", "sofa|couch|settee"},
-    {"furniture/table", "table|picnic table"},
+    {"furniture/table", "table|picnic table|pool table|coffee table|dining table|side table"},
     {"furniture/desk", "desk"},
     {"furniture/bed", "bed|bunk"},
     {"furniture/cabinet", "cabinet|wardrobe|cupboard|drawer|dresser|closet"},
@@ -124,7 +128,7 @@ constexpr Row kWhole[] = {
     {"furniture/rug", "rug|carpet"},
     {"furniture/mirror", "wall mirror"},
     {"furniture/painting", "painting|picture frame|picture"},
-    {"furniture/box", "box|crate|cardboard box|chest|barrel"},
+    {"furniture/box", "crate|cardboard box|wooden box|wood box|storage box|moving box|gift box|tool box|toolbox|barrel|chest"},
     {"furniture/book", "book"},
     {"furniture/vase", "vase"},
     {"furniture/sink", "sink|washbasin|basin"},
@@ -151,7 +155,7 @@ constexpr Row kWhole[] = {
     {"furniture/shade/umbrella", "umbrella|parasol|sunshade"},
     {"furniture/recreation/playground", "playground|slide|swing|seesaw|sandbox|sandpit|carousel|trampoline"},
     {"furniture/recreation/ferris_wheel", "ferris wheel|ferriswheel|giant wheel|big wheel"},
-    {"furniture/vending/food_stall", "stall|food stall|kiosk|market stall|booth"},
+    {"furniture/vending/food_stall", "stall|food stall|fruit stand|food stand|market stand|kiosk|market stall|booth"},
     {"furniture/vending/food_cart", "food cart"},
     {"furniture/vending/hotdog_cart", "hotdog cart|hot dog cart|hotdog"},
     {"signage/traffic_sign", "traffic sign|road sign|street sign|stop sign|signpost"},
@@ -160,7 +164,7 @@ constexpr Row kWhole[] = {
     {"signage/poster", "poster"},
     {"signage/flag", "flag|banner"},
     {"traffic/control/traffic_light", "traffic light|trafficlight|traffic signal|stoplight"},
-    {"traffic/temporary/cone", "cone|traffic cone"},
+    {"traffic/temporary/cone", "traffic cone|road cone|safety cone"},
     {"traffic/barrier/barrier", "barrier|barricade|jersey barrier"},
     {"traffic/bollard/road_column", "bollard"},
 };
@@ -171,6 +175,7 @@ constexpr Row kParts[] = {
      "steering|license plate|"
      "number plate|engine|rotor|propeller|wing|fuselage|cockpit|landing gear|fender|mudguard|radiator "
      "grille|dashboard|chassi|brake"},
+    {"construction/awning", "canopy"},
     {"construction/window", "window|glazing"},
     {"construction/door", "door|gate"},
     {"construction/building/roof", "roof|rooftop|roofing"},
@@ -178,6 +183,27 @@ constexpr Row kParts[] = {
     {"construction/chimney", "chimney"},
     {"vegetation/tree/broadleaf/generic", "leaf|foliage|trunk|branch|bark|twig|crown|canopy leaf"},
 };
+
+// Words that mean other things as often.
+constexpr std::string_view kWeak =
+    "temple|table|bin|auto|cycle|jet|stream|field|earth|step|slide|swing|pc|palm|rose|station|coach|bust|well|picture|crop|"
+    "water|ship|store|shop|stage|male|female|book|blind|bed|pool|plant|home|basin|bath|chest|bar|ford|lane|engine|brake|"
+    "crown|library|child|exhaust|wing|rim|gate|column|dresser|sign|seat|stall|aerial|field|island|litter|draw|mail|barrier|"
+    "canopy|tram|train|cab|duck|crow|sea|turf|soil|trail|hut";
+
+// Phrases that tell nothing of what a thing is.
+constexpr std::string_view kNothing =
+    "water bottle|car paint|brain stem|boom box|snow man|snowman|snow ball|star field|rocket ship|rose gold|jet black|"
+    "hotel room|living room|bed room|bedroom|bath room|bathroom|class room|classroom|room|interior|look up table|"
+    "property table|walk cycle|run cycle|sky box|cornell box|light box|bounding box|hit box|box collider";
+
+// Words that leave the meaning of the others as it is.
+constexpr std::string_view kNeutral =
+    "wood|wooden|metal|glass|plastic|stone|marble|concrete|brick|leather|iron|steel|old|new|big|small|large|medium|little|"
+    "mini|tall|low|high|long|short|round|square|rectangular|oval|red|green|blue|yellow|white|black|grey|gray|brown|orange|"
+    "pink|purple|dark|light|coffee|dining|kitchen|office|garden|picnic|side|bedside|poly|mesh|model|obj|object|prop|lp|hp|"
+    "lod|geo|grp|group|sm|sk|mat|asset|straight|curved|simple|basic|modern|antique|vintage|rusty|broken|toy|main|single|double|"
+    "plane|surface|body|base|default|material|clear|deep|shallow|the|a|of|with|and|set|static|diffuse|transmission";
 
 std::string Joined(std::span<const std::string> words) {
   std::string key;
@@ -203,17 +229,61 @@ const std::map<std::string, KeywordMatch, std::less<>>& Table() {
   return table;
 }
 
+std::set<std::string, std::less<>> WordSet(std::string_view list) {
+  std::set<std::string, std::less<>> out;
+  while (!list.empty()) {
+    const size_t end = std::min(list.find('|'), list.size());
+    out.insert(Joined(SplitWords(list.substr(0, end))));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return out;
+}
+
+bool IsWeak(const std::string& keyword) {
+  static const auto words = WordSet(kWeak);
+  return words.contains(keyword);
+}
+
+// Single letters number variants.
+bool IsNeutral(const std::string& word) {
+  static const auto words = WordSet(kNeutral);
+  return word.size() == 1 || words.contains(word);
+}
+
+bool SaysNothing(const std::string& phrase) {
+  static const auto phrases = WordSet(kNothing);
+  return phrases.contains(phrase);
+}
+
 }  // namespace
 
 namespace {
 
-// The longest keyword among the words, the last one of equal length; only whole things if `whole`.
-std::optional<KeywordMatch> LongestKeyword(const std::vector<std::string>& words, bool whole) {
+// A weak keyword counts where everything else is neutral.
+bool Counts(const std::string& keyword, const std::vector<std::string>& words, size_t begin, size_t end, NameKind kind) {
+  if (!IsWeak(keyword)) return true;
+  if (kind == NameKind::kMaterial) return keyword == "water";
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (i >= begin && i < end) continue;
+    if (IsNeutral(words[i])) continue;
+    // "character female": both say the same.
+    const auto other = Table().find(words[i]), own = Table().find(keyword);
+    if (other == Table().end() || RootOf(other->second.category) != RootOf(own->second.category)) return false;
+  }
+  return true;
+}
+
+// The longest keyword among the words, the last one of equal length; only whole things if `whole`. A phrase that
+// says nothing, as long, ends the search.
+std::optional<KeywordMatch> LongestKeyword(const std::vector<std::string>& words, bool whole, NameKind kind) {
   constexpr size_t kLongest = 3;
   for (size_t length = kLongest; length > 0; --length) {
     for (size_t end = words.size(); end >= length; --end) {
-      const auto it = Table().find(Joined(std::span(words).subspan(end - length, length)));
-      if (it != Table().end() && !(whole && it->second.part)) return it->second;
+      const std::string phrase = Joined(std::span(words).subspan(end - length, length));
+      if (SaysNothing(phrase)) return std::nullopt;
+      const auto it = Table().find(phrase);
+      if (it == Table().end() || (whole && it->second.part)) continue;
+      if (Counts(phrase, words, end - length, end, kind)) return it->second;
     }
   }
   return std::nullopt;
@@ -221,13 +291,13 @@ std::optional<KeywordMatch> LongestKeyword(const std::vector<std::string>& words
 
 }  // namespace
 
-std::optional<KeywordMatch> FindKeyword(std::string_view name) {
+std::optional<KeywordMatch> FindKeyword(std::string_view name, NameKind kind) {
   const std::vector<std::string> words = SplitWords(name.substr(0, 200));
-  const std::optional<KeywordMatch> match = LongestKeyword(words, false);
+  const std::optional<KeywordMatch> match = LongestKeyword(words, false, kind);
   if (!match || !match->part) return match;
 
   // "car_wheel": the owner stands in the same name.
-  const std::optional<KeywordMatch> owner = LongestKeyword(words, true);
+  const std::optional<KeywordMatch> owner = LongestKeyword(words, true, kind);
   return owner ? KeywordMatch{CategoryOfPart(match->category, owner->category), false} : *match;
 }
 

@@ -13,11 +13,15 @@ struct KeywordMatch {
   bool part = false;
 };
 
-/// The keyword of a name: words are compared in singular and without case; the longest keyword wins ("bus
-/// stop" over "bus"), then the last one ("car park bench" is a bench). A part whose owner stands in the same
-/// name belongs to it
-/// ("car_wheel" is car). nullopt if there is none.
-std::optional<KeywordMatch> FindKeyword(std::string_view name);
+/// What carries a name: a material of wood is no table, however it is called.
+enum class NameKind { kNode, kMaterial, kFile };
+
+/// The keyword of a name: whole words are compared in singular and without case; the longest keyword wins ("bus
+/// stop" over "bus"), then the last one ("car park bench" is a bench). Weak keywords, which mean other things as
+/// often ("table" of data, "temple" of spectacles), count only where all other words are colours, sizes, materials
+/// and the like, and never in materials. Some phrases tell that a name says nothing ("car paint", "hotel room").
+/// A part whose owner stands in the same name belongs to it ("car_wheel" is car). nullopt if there is none.
+std::optional<KeywordMatch> FindKeyword(std::string_view name, NameKind kind = NameKind::kNode);
 
 /// Category of a part with category `part` of something that is an `owner`: a wheel of a car is car, a window
 /// of a house stays a window, a window of a car is car.

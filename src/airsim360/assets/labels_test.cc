@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "airsim360/assets/label_names.h"
 #include "airsim360/assets/label_rules.h"
 #include "airsim360/assets/labelling.h"
 #include "airsim360/assets/scene_assembly.h"
@@ -35,6 +36,28 @@ TEST(Keywords, NamesFindTheirCategory) {
   EXPECT_EQ(CategoryOf("houseDoor"), "construction/door");
   EXPECT_EQ(CategoryOf("Cube.001"), "");
   EXPECT_EQ(CategoryOf("scarf"), "");  // "car" is inside, but no word of it
+}
+
+// Of 199 names, 94 of which tell something, one is missed ("box_A"); none is told wrongly. With every keyword of the
+// same weight there were 31 false positives, one wrong category and 13 missed.
+TEST(Keywords, OfNamesOfPublicModelsNoneIsToldWronglyAndFewAreMissed) {
+  std::vector<std::string> wrong, missed;
+  for (const LabelledName& labelled : kLabelledNames) {
+    const NameKind kind = labelled.kind == 'm'   ? NameKind::kMaterial
+                          : labelled.kind == 'f' ? NameKind::kFile
+                                                 : NameKind::kNode;
+    const auto match = FindKeyword(labelled.name, kind);
+    const std::string told = match ? std::string(match->category) : "", is = labelled.is;
+    bool right = told.empty() && is.empty();
+    for (size_t begin = 0; !is.empty() && begin <= is.size();) {
+      const size_t end = std::min(is.find('|', begin), is.size());
+      right |= told.starts_with(is.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    if (!right) (told.empty() ? missed : wrong).push_back(std::string(labelled.name) + ": " + told);
+  }
+  EXPECT_EQ(wrong, (std::vector<std::string>{}));
+  EXPECT_LE(missed.size(), 1u) << missed.back();
 }
 
 TEST(Keywords, AllLeadToWellFormedCategories) {
@@ -107,6 +130,36 @@ TEST(Labelling, TheFilesNameSpeaksForNamelessNodes) {
   EXPECT_EQ(Paths({{"Sphere", -1, {"x"}}, {"tree", -1, {"x"}}, {"bench", -1, {"x"}}}, "", "car"),
             (Lines{"Sphere: object", "tree: vegetation/tree/broadleaf/generic",
                    "bench: furniture/seating/bench", "sky: sky"}));
+}
+
+TEST(Labelling, AFilesNameOfAmbiguousWordsSpeaksForNothing) {
+  for (const char* title : {"hotel-room-lotus-carpet", "PropertyTable", "zero-sized-bin-chunk", "BoxTextured"})
+    EXPECT_EQ(Paths({{"", -1, {"Material.001"}}}, "", title), (Lines{std::string(title) + ": object", "sky: sky"}));
+  EXPECT_EQ(Paths({{"TempleLeft", -1, {"temples"}}, {"Frames", -1, {"x"}}}, "", "SunglassesKhronos"),
+            (Lines{"TempleLeft: object", "Frames: object", "sky: sky"}));
+}
+
+TEST(Labelling, PartsBelongToTheKindThatMostOfTheFileIs) {
+  // A car of many meshes with a seat among them: its windows are no windows of a house.
+  EXPECT_EQ(Paths({{"Lamborghini_Body", -1, {"x"}}, {"Lamborghini Doors", -1, {"x"}}, {"Seat", -1, {"x"}},
+                   {"Wheel", -1, {"x"}}, {"WindowTransparent", -1, {"x"}}}),
+            (Lines{"Lamborghini_Body: vehicle/car", "Lamborghini Doors: vehicle/car", "Seat: furniture/seating/chair",
+                   "Wheel: vehicle/car", "WindowTransparent: vehicle/car", "sky: sky"}));
+  // A street: the windows are those of houses.
+  EXPECT_EQ(Paths({{"car", -1, {"x"}}, {"car 2", -1, {"x"}}, {"house", -1, {"x"}}, {"Window", -1, {"x"}}}).at(3),
+            "Window: construction/window");
+  // An engine on a bench makes no vehicle.
+  EXPECT_EQ(Paths({{"engine", -1, {"x"}}}), (Lines{"engine: object", "sky: sky"}));
+}
+
+TEST(Labelling, RulesThatMatchNothingAreTold) {
+  testing::internal::CaptureStderr();
+  Paths({{"tree", -1, {"m"}}}, "rules:\n  - {match: 'zzz*', category: object}\n  - {match: 'tr*', category: object}\n"
+                              "  - {match: 'a/b', name: x}\n  - {match: tree, name: y}\n");
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(Contains(told, {"r.yaml:2: rule 1 ('zzz*') matches nothing\n", "r.yaml:4: rule 3 ('a/b') matches nothing\n",
+                              "r.yaml:5: rule 4 ('tree') matches nothing that an earlier rule has not matched"}));
+  EXPECT_EQ(told.find("'tr*'"), std::string::npos);
 }
 
 TEST(Labelling, OneMeshOfManyGroundsIsSplitByMaterial) {

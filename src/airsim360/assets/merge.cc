@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "airsim360/assets/limits.h"
+#include "airsim360/assets/normals.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360::internal {
@@ -67,6 +68,7 @@ Model MergeNodes(ImportedFile file, const std::string& name, uint64_t max_triang
     count += mesh.triangles.size();
     if (count > max_triangles)
       throw InputError(name + ": more than " + std::to_string(max_triangles) + " triangles as one model");
+    if (mesh.normals.empty()) FillMissingNormals(mesh);
     TransformMesh(mesh, node.X_WM);
     CheckInBounds(mesh, name, node.name);
     const uint32_t base = AppendVertices(model.mesh, mesh);

@@ -109,7 +109,11 @@ void FillMissingNormals(Mesh& mesh, double crease_deg) {
   std::vector<bool> missing(vertices);
   for (uint32_t i = 0; i < vertices; ++i) {
     missing[i] = IsMissing(mesh.normals[i]);
-    mesh.normals[i] = missing[i] ? Vec3f{0, 0, 1} : Normalized(mesh.normals[i]);
+    // Those of length one stay as they are, to the last bit.
+    if (missing[i])
+      mesh.normals[i] = {0, 0, 1};
+    else if (std::abs(Dot(mesh.normals[i], mesh.normals[i]) - 1) > 1e-6f)
+      mesh.normals[i] = Normalized(mesh.normals[i]);
   }
   if (std::find(missing.begin(), missing.end(), true) == missing.end()) return;
 

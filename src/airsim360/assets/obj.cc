@@ -203,7 +203,9 @@ ImportedFile ObjReader::Read() {
     ReadStatement(key, Trimmed(line));
   }
   CheckForward(forward_uv_, geometry_.uvs.size());
-  CheckForward(forward_normal_, geometry_.normals.size());
+  if (forward_normal_.largest > static_cast<int64_t>(geometry_.normals.size()))
+    warnings_.Add(lines_.file() + ":" + std::to_string(forward_normal_.line) + ": normal index " + std::to_string(forward_normal_.largest) +
+                  " of " + std::to_string(geometry_.normals.size()) + ": normals that are not there are computed");
   ImportedFile out;
   out.meshes = geometry_.TakeMeshes();
   for (size_t i = 0; i < out.meshes.size(); ++i) {

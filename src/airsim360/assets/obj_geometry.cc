@@ -52,7 +52,7 @@ Mesh ObjGeometry::MakeMesh(Group& group) const {
       std::any_of(all.begin(), all.end(), [](const ObjCorner& c) { return c.uv != ObjCorner::kAbsent; });
   for (const ObjCorner& c : all) {
     mesh.positions.push_back(positions[c.position]);
-    mesh.normals.push_back(c.normal == ObjCorner::kAbsent ? Vec3f{} : normals[c.normal]);
+    mesh.normals.push_back(c.normal < normals.size() ? normals[c.normal] : Vec3f{});
     if (any_uv) mesh.uvs.push_back(c.uv == ObjCorner::kAbsent ? Vec2f{} : uvs[c.uv]);
   }
 

@@ -28,8 +28,8 @@ class ObjGeometry {
   void StartGroup(std::string name);
   /// Adds a polygon (its position indices checked) to the current group.
   void AddFace(std::span<const ObjCorner> face, MaterialId material);
-  /// One mesh for each group with triangles, normals generated where missing; all corner indices must be
-  /// valid.
+  /// One mesh for each group with triangles, normals generated where missing; indices of positions
+  /// and uvs must be valid; a normal that is not there counts as missing.
   std::vector<Mesh> TakeMeshes();
 
  private:

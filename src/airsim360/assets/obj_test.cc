@@ -122,7 +122,7 @@ TEST(HostileObj, DamageNamesItsLine) {
   EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 0 1 2\n"), {"vertex index 0 of 4"}));
   EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1 2 99999999999999999999\n"), {"is not a vertex index"}));
   EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1/7 2/7 3/7\n"), {"test.obj:5: texture index 7 of 0"}));
-  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1//4000000000 2//1 3//1\n"), {"normal index 4000000000 of 0"}));
+  EXPECT_TRUE(Contains(ErrorOf(kSquare + "f 1//5000000000 2//1 3//1\n"), {"normal index 5000000000 of 0"}));
   EXPECT_TRUE(Contains(ErrorOf("\x89PNG\r\n"), {"is not an OBJ statement"}));
   EXPECT_TRUE(Contains(ErrorOf(std::string("v 0 0 0\n\0\0\0", 11)), {"zero byte"}));
   EXPECT_TRUE(Contains(ErrorOf("mtllib m.mtl\n", {{"m.mtl", "newmtl a\nKd red\n"}}),
@@ -145,6 +145,16 @@ TEST(HostileObj, TriangleLimitHolds) {
       ReadObj(
           "t", kSquare + "f 1 2 3 4\n", [](const std::string&) { return std::optional<Bytes>(); }, limits),
       InputError);
+}
+
+TEST(Obj, NormalsThatAreNotThereAreComputedWithAWarning) {
+  const ImportedFile file = Read(kSquare + "f 1//5 2//5 3//5\n"), plain = Read(kSquare + "f 1 2 3\n");
+  EXPECT_EQ(file.meshes.at(0).normals, plain.meshes.at(0).normals);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_TRUE(Contains(file.warnings[0], {"test.obj:5", "normal index 5 of 0", "computed"}));
+  // Those that are there stay.
+  const ImportedFile some = Read(kSquare + "vn 0 0.6 0.8\nf 1//1 2//9 3//9\n");
+  EXPECT_EQ(std::count(some.meshes.at(0).normals.begin(), some.meshes.at(0).normals.end(), Vec3f{0, -0.8f, 0.6f}), 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "airsim360/assets/label_rules.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/log.h"
 
 namespace airsim360 {
 namespace {
@@ -16,6 +17,10 @@ size_t FirstMatch(std::span<const std::string> patterns, const std::string& name
   const auto found =
       std::ranges::find_if(patterns, [&](const std::string& p) { return internal::MatchesGlob(p, name); });
   return static_cast<size_t>(found - patterns.begin());
+}
+
+bool MatchesAny(const std::string& pattern, const std::vector<Entity>& entities) {
+  return std::ranges::any_of(entities, [&](const Entity& e) { return internal::MatchesGlob(pattern, e.name); });
 }
 
 }  // namespace
@@ -33,9 +38,11 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
   auto changed = std::make_shared<Scene>(*scene);
   std::set<std::string> names;
   for (const Entity& entity : changed->entities) names.insert(entity.name);
+  std::vector<bool> used(patterns.size());
   for (Entity& entity : changed->entities) {
     const size_t first = FirstMatch(patterns, entity.name);
     if (first == patterns.size()) continue;
+    used[first] = true;
     const internal::LabelRule& rule = rules.rules[first];
     if (!rule.category.empty()) {
       try {
@@ -52,10 +59,16 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
       entity.name = name;
     }
   }
+  internal::Warnings warnings;
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) warnings.Add(internal::UnusedRule(rules, i, MatchesAny(patterns[i], scene->entities)));
+  }
+  for (const std::string& warning : warnings.Take()) LogWarning(warning);
   return changed;
 }
 
-EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed) {
+EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::span<const LabelPattern> patterns, size_t& changed,
+                           std::vector<std::string>* unused) {
   EntityLabels labels = over ? *over : EntityLabels{scene.tree, std::vector<CategoryId>(scene.entities.size() + 1, kVoid)};
   std::vector<std::string> names;
   std::vector<CategoryId> categories;
@@ -68,6 +81,9 @@ EntityLabels LabelEntities(const Scene& scene, const EntityLabels* over, std::sp
     if (first == names.size()) continue;
     labels.of_entity[entity.id] = categories[first];
     ++changed;
+  }
+  for (const std::string& name : names) {
+    if (unused && !MatchesAny(name, scene.entities)) unused->push_back(name);
   }
   return labels;
 }

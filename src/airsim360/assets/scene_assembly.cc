@@ -1,5 +1,6 @@
 #include "airsim360/assets/scene_assembly.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -9,6 +10,7 @@
 #include "airsim360/assets/limits.h"
 #include "airsim360/assets/viewpoint.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 
 namespace airsim360::internal {
 namespace {
@@ -48,23 +50,65 @@ class Assembler {
 
   std::shared_ptr<const Scene> Assemble() {
     const std::vector<std::vector<PartLabel>> labels = LabelNodes(file_, rules_, title_);
+    for (const std::string& warning : UnusedRules(file_, rules_, labels)) LogWarning(warning);
     for (Texture& texture : file_.textures) builder_.AddTexture(std::move(texture));
     for (size_t i = 0; i < file_.materials.size(); ++i) builder_.AddMaterial(file_.materials[i]);
-    for (size_t i = 0; i < file_.nodes.size(); ++i) {
-      if (file_.nodes[i].mesh >= 0) AddNode(file_.nodes[i], labels[i]);
-    }
+    for (size_t i : InOrderOfEntities()) AddNode(file_.nodes[i], labels[i]);
     if (instances_.empty()) throw InputError(where_ + ": has no triangles to show");
-    builder_.SetSpawn(ChooseViewpoint(meshes_, instances_, bounds_));
+    AddUnseen(UINT64_MAX);
+    SetSurroundings();
     for (Mesh& mesh : meshes_) builder_.AddMesh(std::move(mesh));
-    for (const Instance& instance : instances_) builder_.AddInstance(instance);
-    builder_.AddSky();
-    if (!file_.copyright.empty()) builder_.AddAttribution(title_ + ", " + file_.copyright);
+    std::stable_sort(instances_.begin(), instances_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& numbered : instances_) builder_.AddInstance(numbered.second);
     return builder_.Build();
   }
 
  private:
+  // Nodes that show something: those of an exported world by their entities' numbers, then the others.
+  std::vector<size_t> InOrderOfEntities() const {
+    std::vector<size_t> order;
+    for (size_t i = 0; i < file_.nodes.size(); ++i) {
+      if (file_.nodes[i].mesh >= 0) order.push_back(i);
+    }
+    const auto place = [&](size_t i) {
+      const ImportedNode& node = file_.nodes[i];
+      return file_.written && node.entity != 0 && node.copy == 0 ? node.entity : UINT64_MAX;
+    };
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return place(a) < place(b); });
+    return order;
+  }
+
+  // The entities of an exported world that nothing shows and that come before number `before`.
+  void AddUnseen(uint64_t before) {
+    if (!file_.written) return;
+    for (; unseen_ < file_.written->unseen.size() && file_.written->unseen[unseen_].id < before; ++unseen_) {
+      const WrittenWorld::Unseen& entity = file_.written->unseen[unseen_];
+      if (entity.sky)
+        builder_.AddSky();
+      else
+        builder_.AddEntity(entity.name, CategoryFor({entity.category, -1}));
+    }
+  }
+
+  // Sky, light, viewpoint and credits: those of the exported world, else usual ones.
+  void SetSurroundings() {
+    if (const auto& written = file_.written) {
+      builder_.environment() = written->environment;
+      builder_.SetInteriorLight(written->interior_light);
+      if (written->spawn) builder_.SetSpawn(*written->spawn, written->spawn_yaw_deg);
+      for (const std::string& line : written->attributions) builder_.AddAttribution(line);
+      return;
+    }
+    std::vector<Instance> instances;
+    for (const auto& numbered : instances_) instances.push_back(numbered.second);
+    builder_.SetSpawn(ChooseViewpoint(meshes_, instances, bounds_));
+    builder_.AddSky();
+    if (!file_.copyright.empty()) builder_.AddAttribution(title_ + ", " + file_.copyright);
+  }
+
   void AddNode(const ImportedNode& node, const std::vector<PartLabel>& labels) {
     if (!IsVisible(node)) return;
+    if (node.entity != 0 && node.copy == 0) AddUnseen(node.entity);
     std::map<PartLabel, std::vector<uint32_t>> groups;
     for (uint32_t i = 0; i < labels.size(); ++i) groups[labels[i]].push_back(i);
     for (const auto& [label, parts] : groups) {
@@ -73,7 +117,7 @@ class Assembler {
       instance.X_WM = node.X_WM;
       instance.entity = EntityFor(node, label, parts, groups.size() > 1);
       instance.tint = node.tint;
-      instances_.push_back(instance);
+      instances_.emplace_back(node.number == 0 ? UINT64_MAX : node.number, instance);
     }
   }
 
@@ -170,7 +214,8 @@ class Assembler {
   std::string title_, where_;
   SceneBuilder builder_;
   std::vector<Mesh> meshes_;
-  std::vector<Instance> instances_;
+  std::vector<std::pair<uint64_t, Instance>> instances_;  // with their places
+  size_t unseen_ = 0;
   Box3f bounds_;
   std::map<uint32_t, Box3f> boxes_;
   std::map<std::pair<uint32_t, std::vector<uint32_t>>, MeshId> mesh_ids_;

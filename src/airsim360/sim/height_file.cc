@@ -1,10 +1,5 @@
 #include "airsim360/sim/height_file.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +10,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-
-extern char** environ;
+#include "airsim360/base/process.h"
 
 namespace airsim360 {
 namespace {
@@ -28,38 +22,11 @@ constexpr double kMostCells = 1 << 26;
 constexpr int64_t kManyCells = 1 << 22;
 constexpr int kUnknown = -99999;
 
-// A folder that goes away with its object.
-struct ScratchFolder {
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "airsim360_heights_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw RuntimeError("cannot create a folder in " + fs::temp_directory_path().string());
-    path = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-  }
-  fs::path path;
-};
-
-// Runs a program without a shell. What it prints goes to `out`, what it complains of to `log`.
+// Runs one of GDAL's programs; what it prints goes to `out`, what it complains of to `log`.
 int Run(const std::vector<std::string>& words, const fs::path& out, const fs::path& log) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed) throw RuntimeError(words[0] + " is not installed: it reads GeoTIFF heights; install it with 'apt install gdal-bin'");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  const auto end = RunProgram(words, {.out = out, .complaints = log, .seconds = 3600});
+  if (!end) throw RuntimeError(words[0] + " is not installed: it reads GeoTIFF heights; install it with 'apt install gdal-bin'");
+  return end->status;
 }
 
 // Degrees and cells of a raster with north up.
@@ -88,7 +55,7 @@ class HeightReader {
     if (!source.contains("coordinateSystem") || source["coordinateSystem"].value("wkt", "").empty() || !source.contains("geoTransform"))
       throw Bad("has no place on the Earth (no coordinate system); 'gdal_translate -a_srs EPSG:… -a_ullr WEST NORTH EAST SOUTH' gives it one");
     // The whole file as GDAL would lay it in degrees, without reading a height.
-    const std::string whole = (scratch_.path / "whole.vrt").string();
+    const std::string whole = (scratch_.path() / "whole.vrt").string();
     Warp({"-of", "VRT", "-t_srs", "EPSG:4326"}, file_, whole);
     const Json turned = Info(whole, {});
     const bool same = turned["geoTransform"] == source["geoTransform"];
@@ -183,7 +150,7 @@ class HeightReader {
       std::snprintf(text.data(), text.size(), "%.17g", x);
       return std::string(text.data());
     };
-    const fs::path raw = scratch_.path / "heights.bin";
+    const fs::path raw = scratch_.path() / "heights.bin";
     Warp({"-of", "ENVI", "-r", filter, "-t_srs", "EPSG:4326", "-te", degrees(cut.west), degrees(cut.north - cut.lat * static_cast<double>(cut.rows)),
           degrees(cut.west + cut.lon * static_cast<double>(cut.columns)), degrees(cut.north), "-ts", std::to_string(cut.columns), std::to_string(cut.rows)},
          file_, raw.string());
@@ -203,11 +170,11 @@ class HeightReader {
     return grid;
   }
 
-  fs::path out() const { return scratch_.path / "out"; }
-  fs::path log() const { return scratch_.path / "log"; }
+  fs::path out() const { return scratch_.path() / "out"; }
+  fs::path log() const { return scratch_.path() / "log"; }
 
   std::string name_, file_;
-  ScratchFolder scratch_;
+  ScratchFolder scratch_{"heights"};
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "airsim360/sim/world_loader.h"
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -22,32 +22,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string LowerExtension(const fs::path& path) {
-  std::string extension = path.extension();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
-bool IsModelFile(const fs::path& path) {
-  const std::string extension = LowerExtension(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".json" || extension == ".jsonl";
-}
-
-bool IsPath(const fs::path& path) { return IsModelFile(path) || IsOsmFile(path); }
+// Names of built-in worlds have neither a folder nor an extension.
+bool IsPath(const fs::path& path) { return path.has_parent_path() || path.has_extension(); }
 
 bool IsWorldFile(const fs::path& path) {
-  const std::string extension = LowerExtension(path);
+  const std::string extension = path.extension();
   return extension == ".yaml" || extension == ".yml";
+}
+
+// How a model lies in W.
+void VisitPlacement(ConfigVisitor& v, ModelPlacement& placement) {
+  double scale = placement.scale.value_or(std::nan(""));
+  v.Field("scale", "models: metres a unit of the file", scale, ModelPlacement::kLeastScale, ModelPlacement::kMostScale);
+  if (!std::isnan(scale)) placement.scale = scale;
+  v.Field("up", "models: axis of the file that points up (x, y, z, -x, -y, -z)", placement.up);
+  v.Field("ground", "models: stands on a plain at z = 0", placement.ground);
+  v.Group("offset", "models: moved by so much in W, metres", [&](ConfigVisitor& group) {
+    for (const auto& [name, value] : {std::pair{"x", &placement.offset.x}, {"y", &placement.offset.y}, {"z", &placement.offset.z}})
+      group.Field(name, "metres", *value, -ModelPlacement::kMostOffset, ModelPlacement::kMostOffset);
+  });
 }
 
 // The fields of a world YAML, filled into `request` and, over its values, `environment`.
 WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environment& environment) {
   std::string world, labels, heights;
   ReadYamlFile(file, [&](ConfigVisitor& v) {
-    v.Field("world", "name of a built-in world, or a .glb, .gltf, .obj, .osm or .osm.pbf file", world);
+    v.Field("world", "name of a built-in world, or a model or map file", world);
     v.Field("seed", "seed of the world", request.seed);
     v.Field("labels", "label override file", labels);
     v.Field("heights", "maps: GeoTIFF of the ground's heights", heights);
+    VisitPlacement(v, request.placement);
     v.Field("fill", "maps: add parked cars, lamps and trees where the map has none", request.fill);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
     request.additions.Visit(v);
@@ -58,6 +62,7 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
   request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
   request.additions.Resolve(file);
+  ValidatePlacement(request.placement, file.string() + ": ");
   if (!labels.empty() && request.labels.empty()) request.labels = file.parent_path() / labels;
   if (!heights.empty()) request.heights = file.parent_path() / heights;
   return request;
@@ -131,7 +136,10 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
       (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
     throw InputError("'" + request.world +
                      "': 'city' is for new_york_city, 'props' for it and downtown_west");
-  if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
+  const bool model = IsPath(path) && !IsOsmFile(path);
+  if (model && request.heights.empty()) return ImportScene(path, {.labels = request.labels, .placement = request.placement});
+  if (!request.placement.empty())
+    throw InputError("'" + request.world + "': scale, up, offset and ground are for model files");
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
   return Relabelled(LoadBuilt(request), request.labels);

@@ -1,11 +1,11 @@
-// A world by name or by file: built-in worlds, model files (.glb, .gltf, .obj), maps (.osm, .osm.pbf, …), world
-// YAML.
+// A world by name or by file: built-in worlds, model files (assets/import.h), maps (.osm, .osm.pbf, …), world YAML.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "airsim360/assets/placement.h"
 #include "airsim360/scene/scene.h"
 #include "airsim360/sim/world_city.h"
 #include "airsim360/worlds/osm_world.h"
@@ -19,6 +19,7 @@ struct WorldRequest {
   bool use_models = true;             ///< use sweethome3d-furniture where installed
   std::filesystem::path heights = {};  ///< of the ground of maps: a GeoTIFF, read through GDAL's gdalwarp
   bool fill = true;              ///< maps: add by rule what they seldom hold, see docs/importing.md
+  ModelPlacement placement = {};  ///< models: units, up axis, ground, place
   WorldAdditions additions = {};  ///< what a world file adds
 };
 
