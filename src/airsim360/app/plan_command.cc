@@ -71,6 +71,7 @@ struct PlanWorld {
 };
 
 PlanWorld OpenPlanWorld(const std::string& name, uint64_t seed) {
+  const LongTask building("building " + name);
   PlanWorld world;
   world.tracer = std::make_shared<const RayTracer>(LoadWorld({.world = name, .seed = seed}));
   return world;

@@ -221,7 +221,7 @@ Json QueryObject(std::string_view query) {
     if (const auto [at, error] = std::from_chars(text.data(), end, whole); error == std::errc() && at == end) {
       object[key] = whole;
     } else if (const auto [at2, error2] = std::from_chars(text.data(), end, number);
-               error2 == std::errc() && at2 == end) {
+               error2 == std::errc() && at2 == end && std::isfinite(number)) {
       object[key] = number;
     } else {
       object[key] = std::string(text.substr(0, kLongest));
