@@ -55,7 +55,7 @@ std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& ar
   TrajectoryLimits limits;
   limits.speed = arguments.vmax;
   limits.acceleration = arguments.amax;
-  return std::make_shared<const PolynomialTrajectory>(AllocateTimes(points, limits).trajectory);
+  return std::make_shared<const PolynomialTrajectory>(AllocateTimes(points, limits, {.split = true}).trajectory);
 }
 
 std::vector<FlyTask> TasksOf(const FlyArguments& arguments,

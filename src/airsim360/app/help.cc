@@ -27,13 +27,15 @@ class GroupedHelp : public CLI::Formatter {
   std::string make_description(const CLI::App* app) const override {
     return Wrapped(app->get_description(), kColumns, 0) + "\n\n";
   }
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode) const override {
-    std::string text;
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string text = make_description(app) + make_usage(app, name) + make_positionals(app);
     for (const std::string_view group : FlagGroups()) {
       const auto flags = app->get_options([&](const CLI::Option* flag) { return flag->get_group() == group && flag->nonpositional(); });
       if (!flags.empty()) text += make_group(std::string(group), false, flags);
     }
-    return text;
+    text += make_subcommands(app, mode);
+    const std::string examples = make_footer(app);
+    return examples.empty() ? text : text + "\n" + examples;
   }
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     return Entry(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option));

@@ -80,10 +80,11 @@ TEST(Help, EveryCommandThatDoesSomethingHasTwoExamples) {
   for (const CommandExample& example : CommandExamples()) ++counts[std::string(example.command)];
   Program program;
   for (const CLI::App* command : CommandsOf(program.app())) {
-    if (command->get_subcommands([](const CLI::App*) { return true; }).empty())
+    if (command->get_subcommands([](const CLI::App*) { return true; }).empty()) {
       EXPECT_GE(counts[CommandPath(*command)], 2) << CommandPath(*command);
-    else
+    } else {
       EXPECT_EQ(counts[CommandPath(*command)], 0) << CommandPath(*command);
+    }
   }
 }
 
@@ -95,7 +96,9 @@ TEST(Help, NoLineIsLongerThanAHundredColumnsAndEveryFlagIsThereOnce) {
     for (std::string line; std::getline(lines, line);) {
       const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; });
       // An example is one line, however long.
-      if (line.find("airsim360 ") == std::string::npos) EXPECT_LE(columns, 100) << line;
+      if (line.find("airsim360 ") == std::string::npos) {
+        EXPECT_LE(columns, 100) << line;
+      }
     }
     for (const CLI::Option* option : command->get_options()) {
       if (option->get_group().empty() || !option->nonpositional()) continue;

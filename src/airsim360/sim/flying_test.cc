@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "airsim360/base/error.h"
+#include "airsim360/sensors/surface_label.h"
 #include "airsim360/sim/test_flights.h"
 
 namespace airsim360 {
@@ -287,7 +288,7 @@ TEST(Flying, LandsOnTheGroundOfATown) {
   const auto events = Fly(*model, state, 0, LandCommand{}, 8);
   EXPECT_NE(FindEvent(events, Kind::kCommandDone), nullptr);
   EXPECT_EQ(FindEvent(events, Kind::kCollision), nullptr);
-  const Entity& ground = scene->entity(below->entity);
+  const Entity& ground = scene->entity(LabelOf(*model->tracer, below->surface).entity);
   EXPECT_EQ(scene->tree[ground.category].path.substr(0, 6), "ground") << ground.name;
   EXPECT_NEAR(BottomOf(*model, state.vehicles[0]), setup.X_WB.p.z - below->distance, 0.05);
   EXPECT_LT(Norm(state.vehicles[0].drone.v_WB), 0.02);
