@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "airsim360/sim/en_route.h"
+
 namespace airsim360 {
 namespace {
 

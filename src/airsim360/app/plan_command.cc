@@ -16,6 +16,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/planning/arc_length.h"
+#include "airsim360/planning/knots.h"
 #include "airsim360/planning/point_to_point.h"
 #include "airsim360/sim/world_clearance.h"
 #include "airsim360/sim/world_loader.h"

@@ -32,6 +32,12 @@ std::string Singular(std::string word) {
   return word;
 }
 
+// "waving" and "wave" as one.
+std::string_view Stem(std::string_view word) {
+  if (word.size() > 5 && word.ends_with("ing")) return word.substr(0, word.size() - 3);
+  return word.size() > 3 && word.ends_with("e") ? word.substr(0, word.size() - 1) : word;
+}
+
 // A name as it is compared.
 struct Name {
   std::string plain;               // lower case, letters and digits alone, singular
@@ -95,6 +101,7 @@ constexpr auto kWays = std::to_array<bool (*)(const Name&, const Name&)>({
     [](const Name& word, const Name& choice) {
       return BeginsWith(choice.plain, word.plain) || BeginsWith(word.plain, choice.plain);
     },
+    [](const Name& word, const Name& choice) { return Stem(word.plain) == Stem(choice.plain); },
     [](const Name& word, const Name& choice) { return word.plain.size() > 1 && word.plain == choice.Initials(); },
     [](const Name& word, const Name& choice) { return SharesPart(word, choice, true); },
     [](const Name& word, const Name& choice) { return SharesPart(word, choice, false); },

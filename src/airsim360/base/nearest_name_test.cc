@@ -370,6 +370,13 @@ TEST(NearestName, AnswersAsAPersonWould) {
   Check(kLaterCases);
 }
 
+TEST(NearestName, FormsOfAWordAreOne) {
+  const Names states = {"walking", "waving", "sitting"};
+  EXPECT_EQ(NearestChoice("WAVE", states), "waving");
+  EXPECT_EQ(NearestChoice("walk", states), "walking");
+  EXPECT_EQ(NearestChoice("swim", states), "");
+}
+
 TEST(NearestName, WithoutANearOneNothingIsAsked) {
   EXPECT_EQ(DidYouMean("wdith", Names{"area", "width"}), "; did you mean 'width'?");
   EXPECT_EQ(DidYouMean("help", kCommands), "");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/planning/knots.h"
 
 namespace airsim360 {
 namespace {

@@ -152,13 +152,6 @@ PolynomialTrajectory Slowed(const PolynomialTrajectory& trajectory, double facto
   return PolynomialTrajectory(trajectory.degree(), std::move(durations), std::move(coefficients));
 }
 
-std::vector<Vec3d> KnotsOf(const PolynomialTrajectory& trajectory) {
-  std::vector<Vec3d> knots;
-  for (size_t i = 0; i < trajectory.segments(); ++i) knots.push_back(trajectory.At(trajectory.start(i)).p);
-  knots.push_back(trajectory.At(trajectory.duration()).p);
-  return knots;
-}
-
 std::vector<double> SampleTimes(double duration, double interval) {
   if (!(duration >= 0) || !std::isfinite(duration)) {
     throw InputError("sampling: duration " + std::to_string(duration) + " s must be finite and not negative");

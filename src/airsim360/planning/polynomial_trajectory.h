@@ -49,9 +49,6 @@ double IntegralOfSquaredDerivative(const PolynomialTrajectory& trajectory, int d
 /// zero.
 PolynomialTrajectory Slowed(const PolynomialTrajectory& trajectory, double factor);
 
-/// Where the segments of the path meet, with its two ends.
-std::vector<Vec3d> KnotsOf(const PolynomialTrajectory& trajectory);
-
 /// Multiples of `interval` > 0 from 0 up to `duration`, and the duration itself when it is none of them.
 std::vector<double> SampleTimes(double duration, double interval);
 

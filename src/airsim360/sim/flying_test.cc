@@ -7,6 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/sensors/surface_label.h"
+#include "airsim360/sim/en_route.h"
 #include "airsim360/sim/test_flights.h"
 
 namespace airsim360 {

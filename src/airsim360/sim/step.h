@@ -44,9 +44,9 @@ struct FollowRoute {
   int64_t start_ns = 0;
 };
 
-/// The last collision of a vehicle: not of one that stands, takes off or sets down. Stays until the next, or a reset.
+/// The last collision of a vehicle (docs/simulation.md, Events). Stays until the next one, or a reset.
 struct CollisionInfo {
-  uint64_t count = 0;  ///< collisions so far
+  uint64_t count = 0;  ///< collisions so far; standing, taking off and setting down are none
   int64_t t_ns = 0;
   Vec3d p_W;                    ///< on the surface
   Vec3d normal_W;               ///< unit, away from the surface
@@ -183,9 +183,6 @@ void Step(const SimModel& model, std::span<const SimCommand> commands, SimState&
 /// 64-bit hash of every number of the state: equal states have equal hashes on every machine with the same
 /// arithmetic. Routes, paths and trajectories count by their start alone.
 uint64_t HashState(const SimState& state);
-
-/// Whether a drone is in the air to fly: neither standing nor taking off nor setting down.
-bool IsEnRoute(const Vehicle& vehicle);
 
 /// Motion of a vehicle as its sensors feel it.
 BodyMotion MotionOf(const Vehicle& vehicle);

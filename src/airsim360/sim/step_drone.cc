@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/math/standard_atmosphere.h"
+#include "airsim360/sim/en_route.h"
 
 namespace airsim360::internal {
 namespace {
@@ -171,19 +172,6 @@ void KeepInWorld(const StepContext& context, size_t i, Vehicle& vehicle, std::ve
 }
 
 }  // namespace
-}  // namespace airsim360::internal
-
-namespace airsim360 {
-
-bool IsEnRoute(const Vehicle& vehicle) {
-  const FlightMode mode = vehicle.autopilot.mode;
-  if (mode == FlightMode::kReturn) return vehicle.autopilot.phase < kReturnDown;
-  return mode == FlightMode::kCommanded || mode == FlightMode::kHold;
-}
-
-}  // namespace airsim360
-
-namespace airsim360::internal {
 
 void CopyMotion(Vehicle& vehicle) {
   const DroneState& drone = vehicle.drone;

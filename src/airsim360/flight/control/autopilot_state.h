@@ -21,9 +21,6 @@ enum class FlightMode : int64_t {
   kLand,
 };
 
-/// AutopilotState::phase of a return that is above its home and comes down.
-inline constexpr int64_t kReturnDown = 2;
-
 /// Bits of AutopilotState::flags; those of a command fall with the next command.
 enum AutopilotFlag : uint64_t {
   kCommandRefused = 1,  ///< the present command cannot be flown: Autopilot::Problem says why

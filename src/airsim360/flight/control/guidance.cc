@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/flight/control/attitude.h"
+#include "airsim360/flight/control/return_phase.h"
 
 namespace airsim360::internal {
 namespace {
