@@ -23,9 +23,9 @@ class FlyTest(ProgramTest):
     def test_takes_off_hovers_and_lands_where_it_started(self):
         out, report = self.fly("run", "--script", "takeoff 2; hover 1; land")
         events = [event["event"] for event in report["events"]]
-        self.assertNotIn("crash", events)
-        landing = [event for event in report["events"] if event["event"] == "collision"][-1]
-        self.assertEqual(landing["entity"], "floor")
+        # Neither standing, nor taking off, nor landing is a collision.
+        self.assertEqual(set(events) - {"command done"}, set())
+        self.assertGreater(report["least_clearance"], 1.9)  # in the air
         with open(out / "trajectory.csv", newline="") as file:
             rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
         self.assertAlmostEqual(max(row["pz"] for row in rows), 2, delta=0.3)
@@ -59,12 +59,39 @@ class FlyTest(ProgramTest):
         self.assertAlmostEqual(hits[0]["point"][0], 5, delta=0.01)
         self.assertAlmostEqual(hits[0]["normal"][0], -1, delta=1e-3)
 
+    def test_a_flight_that_stays_on_the_ground_has_no_clearance(self):
+        _, report = self.fly("run", "--script", "land")
+        self.assertIsNone(report["least_clearance"])
+
+    def test_another_flight_is_refused_and_the_same_again_is_the_same(self):
+        script = ["--script", "takeoff 1; land"]
+        out, _ = self.fly("run", *script)
+        before = tree(out)
+        self.fly("run", *script)
+        self.assertEqual(tree(out), before)
+        self.fly("run", *script, "--frames", "1", "--size", "64x32", "--tier", "labels")
+        self.assertEqual({name: value for name, value in tree(out).items() if not name.startswith("frames/")}, before)
+        before = tree(out)
+        fly = ["fly", "--world", "box_room", "--out", out]
+        for flags, says in [([*script, "--seed", "2"], ["seed is 0 there, 2 here"]), (["--script", "takeoff 2; land"], ["script is"]),
+                            ([*script, "--drone", "f450"], ["drone is \"hummingbird\" there"]), ([*script, "--weather", "fog"], ["environment"])]:
+            self.run_bad(2, *fly, *flags, says=["--out", "holds another flight", *says])
+        self.run_bad(2, "fly", "--world", "sunlit_room", "--out", out, *script, says=["world is \"box_room\" there, \"sunlit_room\" here"])
+        self.run_bad(2, "render", "--world", "box_room", "--size", "64x32", "--tier", "labels", "--out", out, says=["not a dataset"])
+        self.assertEqual(tree(out), before)
+        (self.folder / "other").mkdir()
+        (self.folder / "other" / "letter.txt").write_text("mine")
+        self.run_bad(2, "fly", "--world", "box_room", "--out", self.folder / "other", *script, says=["not a flight", "letter.txt"])
+        self.assertEqual(list(tree(self.folder / "other")), ["letter.txt"])
+
     def test_wrong_flags_are_named(self):
         out = self.folder / "none"
         fly = ("fly", "--world", "box_room", "--out", out)
         self.run_bad(2, *fly, "--drone", "humingbird", says=["hummingbird"])
         self.run_bad(2, *fly, "--script", "takeof 2", says=["--script", "takeoff"])
-        self.run_bad(2, *fly, "--script", "hover soon", says=["--script", "soon"])
+        self.run_bad(2, *fly, "--script", "hover soon", says=["--script", "soon", "'hover SECONDS'"])
+        self.run_bad(2, *fly, "--script", "goto 20 5 8", says=["'20 5 8' is not a number", "'goto X,Y,Z[,SPEED]'"])
+        self.run_bad(2, *fly, "--script", "goto 1,2", says=["found 2 numbers", "'goto X,Y,Z[,SPEED]'"])
         self.run_bad(2, *fly, "--controller", "pid", says=["pid", "px4"])
         self.run_bad(2, *fly, "--drone", "a drone of cheese", says=["cheese"])
         self.assertFalse(out.exists())

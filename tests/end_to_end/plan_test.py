@@ -104,7 +104,7 @@ class Waypoints(ProgramTest):
 
     def test_all_formats_at_once_agree(self):
         self.plan("--out", self.folder / "a", "--format",
-                  "csv,json,npz,yaml,crazyflie,crazyflie-compressed,qgc,mavlink,svg")
+                  "csv,json,npz,yaml,crazyflie,crazyflie-compressed,qgc,mavlink,svg", "--origin", "47.397742,8.545594,488")
         trajectory = Trajectory(self.folder / "a.json")
         lines = (self.folder / "a.csv").read_text().splitlines()
         self.assertEqual(lines[0], "t_s,px,py,pz,vx,vy,vz,ax,ay,az")
@@ -141,6 +141,37 @@ class Waypoints(ProgramTest):
             count = len(trajectory.durations)
             self.assertEqual(list(struct.unpack(f"<{count}d", data[-8 * count:])), trajectory.durations)
         self.assertTrue((self.folder / "a.svg").read_text().endswith("</svg>\n"))
+
+    def test_the_place_of_a_qgc_plan_is_asked_for(self):
+        points = self.folder / "two.csv"
+        points.write_text("x,y,z\n0,0,2\n30,0,2\n")
+        plan = ["plan", "--waypoints", points, "--vmax", "8", "--amax", "4"]
+        for flags in (["--out", self.folder / "a.plan", "--format", "qgc"], ["--out", self.folder / "a", "--format", "csv,qgc"]):
+            self.run_bad(2, *plan, *flags, says=["--origin", "qgc", "47.397742,8.545594,488"])
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["two.csv"])
+
+    def test_times_in_the_csv_are_as_short_as_they_can_be(self):
+        points = self.folder / "two.csv"
+        points.write_text("x,y,z\n0,0,2\n30,0,2\n")
+        for step, digits in (("0.1", 1), ("0.025", 3), ("0.5", 1)):
+            self.run_ok("plan", "--waypoints", points, "--vmax", "8", "--amax", "4", "--dt", step, "--out", self.folder / "a.csv")
+            times = [line.split(",")[0] for line in (self.folder / "a.csv").read_text().splitlines()[1:]]
+            for i, time in enumerate(times):
+                self.assertLessEqual(len(time.partition(".")[2]), digits, time)
+                self.assertAlmostEqual(float(time), i * float(step), delta=1e-12)
+
+    def test_two_points_take_no_longer_than_with_points_between(self):
+        route = self.folder / "route.csv"
+        durations = []
+        for count in (0, 2, 6):
+            route.write_text("x,y,z\n" + "".join(f"{61.5 * i / (count + 1)},0,2\n" for i in range(count + 2)))
+            report = json.loads(self.run_ok("plan", "--waypoints", route, "--vmax", "8", "--amax", "4", "--json", "--out", self.folder / "a.json").stdout)
+            self.assertTrue(report["within_limits"])
+            durations.append(report["duration"])
+            planned = read_json(self.folder / "a.json")
+            self.assertEqual(len(planned["waypoints"]), report["segments"] + 1)
+            self.assertEqual(len(planned["waypoints"]) - (count + 2), report["waypoints_added"])
+        self.assertLess(durations[0], 1.02 * min(durations))
 
     def test_given_times_are_kept_and_limits_only_reported(self):
         self.file.write_text("# a comment\nx,y,z,t\n0,0,2,1\n10,0,3,3\n10,10,4,6.5\n")

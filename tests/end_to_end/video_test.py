@@ -64,7 +64,9 @@ class Videos(ProgramTest):
         script = ["--script", "takeoff 1.5; hover 0.5", "--seed", "4"]
         plain = json.loads(self.run_ok("fly", *ROOM, *script, "--json", "--out", self.folder / "a").stdout)
         video = self.folder / "deep" / "flight.mp4"
-        filmed = json.loads(self.run_ok("fly", *ROOM, *script, "--json", "--video", video, "--fps", "10", "--out", self.folder / "b").stdout)
+        result = self.run_ok("fly", *ROOM, *script, "--json", "--video", video, "--fps", "10", "--out", self.folder / "b")
+        filmed = json.loads(result.stdout)
+        self.assertRegex(result.stderr, rf"(?m)^video: {filmed['video']['pictures']} pictures of \d+x\d+, some \d+:\d\d$")
         self.assertEqual(plain["state_hash"], filmed["state_hash"])
         self.assertEqual(tree(self.folder / "a"), tree(self.folder / "b"))
         _, times = probe(video)

@@ -25,6 +25,9 @@ class Install(unittest.TestCase):
             run("cmake", "--build", folder / "build")
             self.assertEqual(run(folder / "build/consumer").strip(), "5.00")
             self.assertIn("box_room", run(folder / "prefix/bin/airsim360", "worlds"))
+            for file in ("man/man1/airsim360.1", "man/man1/airsim360-world-export.1", "bash-completion/completions/airsim360",
+                         "zsh/vendor-completions/_airsim360", "fish/vendor_completions.d/airsim360.fish"):
+                self.assertGreater((folder / "prefix/share" / file).stat().st_size, 500, file)
             # Headers and libraries alone: nothing of the prefix names the source tree.
             for file in (folder / "prefix/lib/cmake/airsim360").glob("*.cmake"):
                 self.assertNotIn(str(HERE.parents[1]) + "/", file.read_text(), file.name)

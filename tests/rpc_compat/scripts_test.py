@@ -154,6 +154,17 @@ class Moves(FlightTest):
         self.assertIn(info.object_name, client.simListSceneObjects())
         self.assertFalse(client.getMultirotorState().collision.has_collided, "AirSim never fills it")
 
+    def test_standing_and_taking_off_are_no_collisions(self):
+        client = self.client()
+        client.reset()
+        client.enableApiControl(True)
+        client.armDisarm(True)
+        self.assertFalse(client.simGetCollisionInfo().has_collided)
+        client.takeoffAsync().join()
+        self.assertFalse(client.simGetCollisionInfo().has_collided)
+        client.landAsync().join()
+        self.assertFalse(client.simGetCollisionInfo().has_collided, "a landing at 0.2 m/s")
+
     def test_teleport_and_kinematics(self):
         client = self.client()
         client.reset()

@@ -8,6 +8,7 @@
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 #include "airsim360/sim/world_loader.h"
 #include "airsim360/tasks/agent_server.h"
 #include "airsim360/worlds/worlds.h"
@@ -31,9 +32,12 @@ AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& 
   for (const WorldInfo& world : ListWorlds()) options.worlds.push_back(world.name);
   options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment, labels = globals.labels](
                      const std::string& name, uint64_t seed) {
+    const LongTask building("building " + name);
     std::shared_ptr<const Scene> scene = LoadWorld({.world = name, .seed = seed, .labels = labels});
     const Environment environment = ApplyFlags(flags, scene->environment);
-    return std::make_shared<AgentWorld>(name, std::move(scene), tier, environment);
+    auto world = std::make_shared<AgentWorld>(name, std::move(scene), tier, environment);
+    LogInfo(name + ": ready after " + ClockText(building.seconds()));
+    return world;
   };
   options.realtime = arguments.realtime;
   options.clock = SteadySeconds;

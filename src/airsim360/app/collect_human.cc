@@ -36,6 +36,7 @@ struct HumanWorld {
 
 HumanWorld OpenHumanWorld(const std::string& name, const GlobalOptions& globals) {
   HumanWorld world;
+  const LongTask building("building " + name);
   world.scene = LoadWorld({.world = name, .seed = globals.seed, .labels = globals.labels});
   world.mesh = NavMesh::Build(*world.scene);
   world.tracer = std::make_shared<const RayTracer>(world.scene);

@@ -35,5 +35,8 @@ void AddAgentCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddVideoCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
+/// About the program itself: `app` with all its commands, once they are there.
+void AddCompletionCommand(CLI::App& app);
+void AddManCommand(CLI::App& app);
 
 }  // namespace airsim360

@@ -14,7 +14,10 @@
 #include "airsim360/app/video_arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/dataset/folder.h"
+#include "airsim360/dataset/version.h"
 #include "airsim360/dataset/video.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
@@ -52,7 +55,7 @@ std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& ar
   TrajectoryLimits limits;
   limits.speed = arguments.vmax;
   limits.acceleration = arguments.amax;
-  return std::make_shared<const PolynomialTrajectory>(AllocateTimes(points, limits).trajectory);
+  return std::make_shared<const PolynomialTrajectory>(AllocateTimes(points, limits, {.split = true}).trajectory);
 }
 
 std::vector<FlyTask> TasksOf(const FlyArguments& arguments,
@@ -110,12 +113,47 @@ nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneMode
     json["tracking_rms"] = r.tracking_rms;
     json["tracking_max"] = r.tracking_max;
   }
-  json["least_clearance"] = r.flight.least_clearance;
+  json["least_clearance"] = nullptr;
+  if (r.least_clearance) json["least_clearance"] = *r.least_clearance;
   json["charge"] = r.charge;
   json["events"] = events;
   json["real_time_factor"] = r.pace.real_time_factor;
   json["state_hash"] = hash;
   return json;
+}
+
+std::string Metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f m", value);
+  return text;
+}
+
+constexpr char kFlightName[] = "flight.json";
+
+std::string FileSum(const std::string& file) { return file.empty() ? "" : "sha256:" + Sha256HexOfFile(file); }
+
+// All that the flight follows from; frames have a description of their own. Files count by what they hold.
+std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& globals, const Environment& environment) {
+  const bool is_file = fs::is_regular_file(arguments.drone);
+  const nlohmann::ordered_json json = {
+      {"format", "airsim360-flight-1"},
+      {"generator", std::string("airsim360 ") + kVersion},
+      {"parameters",
+       {{"world", arguments.world},
+        {"seed", globals.seed},
+        {"labels", DescribeLabels(globals)},
+        {"drone", is_file ? FileSum(arguments.drone) : arguments.drone},
+        {"controller", arguments.controller},
+        {"waypoints", FileSum(arguments.waypoints)},
+        {"script", arguments.script},
+        {"pose", arguments.pose},
+        {"vmax", arguments.vmax},
+        {"amax", arguments.amax},
+        {"sensors", FileSum(arguments.sensors)},
+        {"wind", FileSum(arguments.wind)},
+        {"people", arguments.people.Describe()},
+        {"environment", DescribeEnvironment(environment)}}}};
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
@@ -208,7 +246,10 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   if (!arguments.video.empty()) job.video_fps = arguments.fps;
   if (arguments.record) job.record_note = arguments.world + ", " + arguments.drone;
   job.log = [](const std::string& text) { LogInfo(text); };
-  CreateWritableFolder(arguments.out);
+  const std::string description = DescribeFlight(arguments, globals, world.environment);
+  CheckFolder(arguments.out, description, "flight", kFlightName);
+  const FolderLock lock(arguments.out);
+  WriteFileAtomically(fs::path(arguments.out) / kFlightName, description);
   FlyResult result = RunFlight(job);
   WriteFiles(arguments, result);
   WriteFrames(arguments, globals, world, result);
@@ -221,9 +262,10 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
     PrintJson(json);
     return;
   }
-  std::printf("%s: %.1f s of flight, %zu events, least clearance %.2f m, %.1f times real time\n",
-              arguments.out.c_str(), result.pace.simulated, result.events.size(),
-              result.flight.least_clearance, result.pace.real_time_factor);
+  const std::string clearance = result.least_clearance ? Metres(*result.least_clearance) : "not flown";
+  std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n",
+              arguments.out.c_str(), result.pace.simulated, result.events.size(), clearance.c_str(),
+              result.pace.real_time_factor);
   if (video)
     std::printf("%s: %lld pictures, %.2f s (%s)\n", arguments.video.c_str(), static_cast<long long>(video->pictures), video->seconds,
                 video->encoder.c_str());

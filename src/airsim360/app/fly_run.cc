@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "airsim360/sim/en_route.h"
+
 namespace airsim360 {
 namespace {
 
@@ -31,7 +33,6 @@ class Pilot {
     result_.sensor_csv[1] = "t_s,measured_s,latitude_deg,longitude_deg,altitude,vx,vy,vz,fix\n";
     result_.sensor_csv[2] = "t_s,pressure,altitude,temperature\n";
     result_.sensor_csv[3] = "t_s,bx,by,bz\n";
-    result_.flight.least_clearance = kClearanceRange;
     const SensorSet& sensors = job.model->drones[0]->setup().sensors;
     for (const auto& imu : sensors.imus) slice_ns_ = std::min(slice_ns_, PeriodNs(imu.spec.rate_hz));
     for (const auto& gnss : sensors.gnss) slice_ns_ = std::min(slice_ns_, PeriodNs(gnss.spec.rate_hz));
@@ -101,9 +102,10 @@ class Pilot {
     if (state.t_ns % kRecordPeriodNs != 0) return;
     result_.flight.trajectory.push_back({state.t_ns, drone.motion, drone.a_WB});
     if (job_.frames > 0) people_.push_back(state.people);
+    if (!IsEnRoute(drone)) return;
     const float clearance =
         job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
-    result_.flight.least_clearance = std::min<double>(result_.flight.least_clearance, clearance);
+    result_.least_clearance = std::min<double>(result_.least_clearance.value_or(kClearanceRange), clearance);
   }
 
   void NoteSensors(const SensorStates& sensors) {

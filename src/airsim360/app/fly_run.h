@@ -27,6 +27,9 @@ struct FlyResult {
   std::vector<Shot> video;    ///< at FlyJob::video_fps, each at the nearest step
   std::string sensor_csv[4];  ///< imu, gnss, barometer, magnetometer: all samples of the first of each
   std::vector<SimEvent> events;
+  /// Metres from the drone to the nearest surface, between take-off and landing (IsEnRoute) and at most 50; none
+  /// if it was never there.
+  std::optional<double> least_clearance;
   double tracking_rms = -1, tracking_max = -1;  ///< metres, of trajectory tasks; -1 = there were none
   PaceReport pace;
   uint64_t hash = 0;  ///< of the last state

@@ -11,6 +11,19 @@ namespace {
 
 constexpr double kLongest = 600;  // seconds that a task may take that ends by itself
 
+constexpr std::pair<std::string_view, std::string_view> kForms[] = {
+    {"takeoff", "takeoff [HEIGHT]"}, {"hover", "hover SECONDS"}, {"goto", "goto X,Y,Z[,SPEED]"},
+    {"velocity", "velocity X,Y,Z,SECONDS"}, {"return", "return"}, {"land", "land"}};
+
+// How the task is written that begins with the same word.
+std::string FormOf(std::string_view task) {
+  const std::string_view word = task.substr(0, task.find_first_of(" \t"));
+  for (const auto& [name, form] : kForms) {
+    if (name == word) return "'" + std::string(form) + "'";
+  }
+  return {};
+}
+
 [[noreturn]] void Fail(const std::string& task, const std::string& what) {
   throw InputError("--script: '" + task + "': " + what);
 }
@@ -30,14 +43,13 @@ std::vector<double> Numbers(const std::string& task, const std::string& text, si
     double value = 0;
     const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     if (error != std::errc() || stop != part.data() + part.size() || !std::isfinite(value))
-      Fail(task, "'" + part + "' is not a number");
+      Fail(task, "'" + part + "' is not a number; write " + FormOf(task));
     if (std::abs(value) > kCoordinateLimit) Fail(task, BeyondLimitText(value));
     numbers.push_back(value);
     begin = end + 1;
   }
   if (numbers.size() >= least && numbers.size() <= most) return numbers;
-  Fail(task, "takes " + std::to_string(least) + (most > least ? " to " + std::to_string(most) : "") +
-                 " numbers, found " + std::to_string(numbers.size()));
+  Fail(task, "found " + std::to_string(numbers.size()) + " numbers; write " + FormOf(task));
 }
 
 double Positive(const std::string& task, double value) {
@@ -70,7 +82,8 @@ FlyTask ParseTask(const std::string& task) {
     if (word == "return") return {task, ReturnCommand{}, kLongest, true};
     return {task, LandCommand{}, kLongest, true};
   }
-  const std::vector<std::string> words = {"takeoff", "hover", "goto", "velocity", "return", "land"};
+  std::vector<std::string> words;
+  for (const auto& form : kForms) words.emplace_back(form.first);
   throw InputError("--script: " + UnknownChoiceMessage("task", word, words));
 }
 

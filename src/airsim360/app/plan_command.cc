@@ -17,6 +17,7 @@
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/base/log.h"
 #include "airsim360/planning/arc_length.h"
+#include "airsim360/planning/knots.h"
 #include "airsim360/planning/point_to_point.h"
 #include "airsim360/sim/world_clearance.h"
 #include "airsim360/sim/world_loader.h"
@@ -30,7 +31,7 @@ struct PlanArguments {
   WaypointArguments waypoints;
   WaypointSetArguments set;
   LimitArguments limits;
-  std::string world, out, format, yaw, origin = "47.397742,8.545594,488", minimise = "snap";
+  std::string world, out, format, yaw, origin, minimise = "snap";
   double dt = 0, clearance = 0.5;
   int order = 0;
   bool avoid = false;
@@ -72,6 +73,7 @@ struct PlanWorld {
 };
 
 PlanWorld OpenPlanWorld(const std::string& name, uint64_t seed) {
+  const LongTask building("building " + name);
   PlanWorld world;
   world.tracer = std::make_shared<const RayTracer>(LoadWorld({.world = name, .seed = seed}));
   return world;
@@ -151,7 +153,7 @@ Planned Plan(const PlanArguments& arguments, const TrajectoryLimits& limits, con
              const PlanWorld& world) {
   const SplineKind kind = ParseKind(arguments);
   const FlightOptions options{.limits = limits,
-                              .allocation = {.kind = kind, .sample_interval = arguments.dt},
+                              .allocation = {.kind = kind, .sample_interval = arguments.dt, .split = true},
                               .radius = arguments.clearance};
   const bool timed = waypoints.points.front().has_time;
   if (arguments.avoid) {
@@ -180,7 +182,16 @@ Planned Plan(const PlanArguments& arguments, const TrajectoryLimits& limits, con
       LogWarning(text);
     }
   }
-  return {std::move(flight), certificate, 0, waypoints.Positions()};
+  std::vector<Vec3d> points = waypoints.Positions();
+  const size_t given = points.size();
+  if (flight.trajectory.segments() + 1 > given) points = KnotsOf(flight.trajectory);
+  return {std::move(flight), certificate, points.size() - given, std::move(points)};
+}
+
+// Metres that are proved for the whole flight.
+double LeastClearance(const Planned& planned, const ClearanceQuery& world) {
+  const double bound = LeastClearanceBound(planned.flight.trajectory, planned.flight.peaks, world);
+  return planned.certificate->certified ? std::max(bound, planned.certificate->least_clearance) : bound;
 }
 
 void Report(const TrajectoryLimits& limits, const Planned& planned, const PlanRecord& record,
@@ -228,7 +239,10 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   PlanOutput output{.out = arguments.out, .interval = arguments.dt > 0 ? arguments.dt : 0.1};
   if (!arguments.format.empty()) output.formats = ParseList("--format", arguments.format, PlanFormats());
   FormatsToWrite(output);
-  output.origin = ParseOrigin(arguments.origin);
+  if (!arguments.origin.empty()) output.origin = ParseOrigin(arguments.origin);
+  if (arguments.origin.empty() && std::ranges::count(FormatsToWrite(output), "qgc") > 0)
+    throw InputError("--origin: the format qgc is in latitude and longitude: give those and the altitude of the world's "
+                     "origin, for example 47.397742,8.545594,488 (where PX4's simulator starts)");
   ParseKind(arguments);
   if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
   CheckPositive("--clearance", arguments.clearance);
@@ -257,8 +271,10 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   }
 
   const double start = Seconds();
-  const Planned planned = Plan(arguments, limits, waypoints, world);
+  Planned planned = Plan(arguments, limits, waypoints, world);
   const double plan_ms = 1e3 * (Seconds() - start);
+  if (planned.certificate)
+    planned.certificate->least_clearance = LeastClearance(planned, *world.bounded);
   const PolynomialTrajectory& path = planned.flight.trajectory;
   const PlanRecord record{.trajectory = path,
                           .peaks = planned.flight.peaks,
@@ -318,7 +334,7 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--yaw", a->yaw,
                       "heading of the drone in exports: degrees anticlockwise from east (0), 'velocity' (the "
                       "way it flies) or x,y,z (towards a point)");
-  command->add_option("--origin", a->origin, "qgc: latitude,longitude,altitude of the origin of the world");
+  command->add_option("--origin", a->origin, "qgc, which cannot do without: latitude,longitude,altitude of the origin of the world");
   command->add_option("--dataset", a->set.dataset,
                       "waypoint: the Omni360-WayPoint set, into the folder --out");
   command->add_option("--routes", a->set.routes,

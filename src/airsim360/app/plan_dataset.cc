@@ -4,6 +4,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 #include "airsim360/dataset/waypoint_set.h"
 #include "airsim360/sim/world_loader.h"
 #include "airsim360/worlds/worlds.h"
@@ -33,7 +34,10 @@ void RunWaypointSet(const WaypointSetArguments& arguments, const GlobalOptions& 
     return false;
   };
   // Worlds are always those of seed 0: the seed varies the routes.
-  options.load = [](const std::string& name) { return LoadWorld({.world = name}); };
+  options.load = [](const std::string& name) {
+    const LongTask building("building " + name);
+    return LoadWorld({.world = name});
+  };
   const WaypointSetResult result = WriteWaypointSet(options);
   if (globals.json) {
     PrintJson({{"out", arguments.out},

@@ -27,8 +27,8 @@ Vec3d AxisLimit(const char* flag, const std::string& text) {
 }  // namespace
 
 void AddLimitFlags(CLI::App& command, LimitArguments& a) {
-  command.add_option("--vmax", a.vmax, "greatest speed, m/s");
-  command.add_option("--amax", a.amax, "greatest acceleration, m/s^2");
+  command.add_option("--vmax", a.vmax, "greatest speed, m/s; REQUIRED unless the waypoints have times");
+  command.add_option("--amax", a.amax, "greatest acceleration, m/s^2; REQUIRED unless the waypoints have times");
   command.add_option("--axis-vmax", a.axis_vmax, "greatest speed along each axis, x,y,z in m/s");
   command.add_option("--axis-amax", a.axis_amax, "greatest acceleration along each axis, x,y,z in m/s^2");
   command.add_option("--climb", a.climb, "greatest vertical speed upwards, m/s");

@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/nearest_name.h"
 #include "airsim360/planning/area_routes.h"
 #include "airsim360/planning/random_route.h"
 #include "airsim360/sim/road_route.h"
@@ -44,8 +45,7 @@ Vec3d CenterOfEntity(const Scene& scene, const std::string& name) {
     if (entity.name == name && !entity.bounds.empty()) return VecCast<double>(entity.bounds.center());
     names.push_back(entity.name);
   }
-  const std::string nearest = NearestChoice(name, names);
-  throw InputError("--entity: no entity '" + name + "' in the world; did you mean '" + nearest + "'?");
+  throw InputError("--entity: no entity '" + name + "' in the world" + DidYouMean(name, names));
 }
 
 std::vector<Vec3d> RandomWaypoints(const WaypointArguments& arguments,

@@ -1,6 +1,7 @@
 // airsim360 serve: the AirSim-compatible server, until SIGINT or SIGTERM.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
@@ -8,6 +9,7 @@
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 #include "airsim360/rpc/server.h"
 #include "airsim360/sim/world_environment.h"
 #include "airsim360/sim/world_loader.h"
@@ -65,6 +67,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   ServerOptions options = OptionsOf(arguments, globals);
   ApplyFlags(arguments.environment, {});
   const PeopleRequest people = arguments.people.Request(globals.seed);
+  std::optional<LongTask> building(std::in_place, "building " + arguments.world);
   std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
   options.environment = ApplyFlags(arguments.environment, scene->environment);
   if (people.any()) {
@@ -76,6 +79,8 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   // Before the server has threads, so that the signals come to Wait alone.
   const StopSignals stop;
   const AirSimServer server(std::move(scene), options);
+  LogInfo(arguments.world + ": ready after " + ClockText(building->seconds()));
+  building.reset();
   if (globals.json) {
     PrintJson({{"address", options.address}, {"port", server.port()}, {"functions", server.Methods()}});
   } else {

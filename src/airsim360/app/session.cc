@@ -1,10 +1,10 @@
 #include "airsim360/app/session.h"
 
-#include <chrono>
 #include <cstdio>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 #include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/world_loader.h"
@@ -22,7 +22,7 @@ OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Ti
   // Wrong flags are found before the world is loaded.
   ApplyFlags(flags, {});
   if (globals.gpu >= 0 && globals.device == "cpu") throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
-  const auto start = std::chrono::steady_clock::now();
+  const LongTask building("building " + world);
   OpenedWorld opened;
   opened.scene = LoadWorld({.world = world, .seed = globals.seed, .labels = globals.labels});
   if (people.any()) {
@@ -35,8 +35,7 @@ OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Ti
   if (renders)
     opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
                                    {globals.device, globals.gpu});
-  opened.load_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  opened.load_ms = 1e3 * building.seconds();
   return opened;
 }
 

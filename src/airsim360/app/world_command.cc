@@ -11,6 +11,7 @@
 #include "airsim360/app/world_sheet.h"
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
 #include "airsim360/scene/entity_table.h"
 #include "airsim360/sim/world_loader.h"
 #include "airsim360/worlds/osm_world.h"
@@ -36,6 +37,7 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
   if (out.extension() != ".glb")
     throw InputError("--out: '" + arguments.out + "': worlds are exported as .glb; did you mean '" +
                      fs::path(out).replace_extension(".glb").string() + "'?");
+  const LongTask building("building " + arguments.world);
   const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
   WriteGlb(*scene, out);
   const SceneCounts counts = scene->Count();
@@ -143,6 +145,7 @@ void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
                              .heights = arguments.heights,
                              .fill = !arguments.no_fill,
                              .placement = arguments.placement};
+  const LongTask building("reading " + arguments.file);
   scene = map ? LoadMap(request, &report) : LoadWorld(request);
   if (out.extension() == ".glb") WriteGlb(*scene, out);
   if (out.extension() == ".yaml") {
@@ -188,6 +191,7 @@ std::string CsvText(const std::string& text) {
 }
 
 void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& globals) {
+  const LongTask building("building " + arguments.world);
   const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
   const std::vector<EntityRow> rows = EntityTable(*scene);
   if (globals.json) {

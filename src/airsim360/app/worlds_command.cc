@@ -5,6 +5,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/base/log.h"
 #include "airsim360/sim/world_loader.h"
 #include "airsim360/worlds/world_floor.h"
 #include "airsim360/worlds/world_survey.h"
@@ -32,6 +33,7 @@ void PrintWorlds(bool json) {
 
 // What a world holds, counted on the built scene.
 nlohmann::ordered_json CountsOf(const std::string& name, uint64_t seed) {
+  const LongTask building("building " + name);
   const auto scene = LoadWorld({.world = name, .seed = seed});
   const WorldSurvey s = SurveyWorld(*scene);
   nlohmann::ordered_json floor = nlohmann::ordered_json::array();

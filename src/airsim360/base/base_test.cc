@@ -13,13 +13,6 @@
 namespace airsim360 {
 namespace {
 
-TEST(Error, NearestChoiceIsTheOneWithFewestEdits) {
-  const std::vector<std::string> worlds = {"box_room", "downtown_west", "new_york_city"};
-  EXPECT_EQ(NearestChoice("downtwn_west", worlds), "downtown_west");
-  EXPECT_EQ(NearestChoice("BOXROOM", worlds), "box_room");
-  EXPECT_EQ(NearestChoice("x", {}), "");
-}
-
 TEST(Hash, MatchesThePublishedVector) {
   // FIPS 180-4 example: SHA-256("abc").
   EXPECT_EQ(Sha256Hex(AsBytes("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

@@ -21,11 +21,11 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The entry of `choices` with the smallest edit distance to `word`, or "" when `choices` is empty.
+/// The entry of `choices` that was meant by `word` (base/nearest_name.h), or "" where none is near.
 std::string NearestChoice(std::string_view word, std::span<const std::string> choices);
 
-/// "unknown <what> 'word'; did you mean 'x'? (choices: a, b, …)": the text for a name that is not among
-/// `choices`.
+/// "unknown <what> 'word'; did you mean 'x'? (choices: a, b, …)", without the question where no choice is
+/// near: the text for a name that is not among `choices`.
 std::string UnknownChoiceMessage(std::string_view what, std::string_view word,
                                  std::span<const std::string> choices);
 

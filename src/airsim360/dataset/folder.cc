@@ -33,22 +33,22 @@ FolderLock::FolderLock(const fs::path& folder)
 
 FolderLock::~FolderLock() { ::close(fd_); }
 
-void CheckFolder(const fs::path& folder, const std::string& meta) {
+void CheckFolder(const fs::path& folder, const std::string& meta, const std::string& what, const char* name) {
   if (fs::exists(folder) && !fs::is_directory(folder))
     throw InputError("--out: '" + folder.string() + "' is not a folder");
   CreateWritableFolder(folder);
-  const fs::path on_disk = folder / kMetaName;
+  const fs::path on_disk = folder / name;
   if (!fs::exists(on_disk)) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (IsTemporary(entry.path())) continue;
-      throw InputError("--out: '" + folder.string() + "' is not empty and not a dataset (it holds '" +
+      throw InputError("--out: '" + folder.string() + "' is not empty and not a " + what + " (it holds '" +
                        entry.path().filename().string() + "')");
     }
     return;
   }
   const std::string difference = DescribeMetaDifference(ReadTextFile(on_disk), meta);
   if (!difference.empty()) {
-    throw InputError("--out: '" + folder.string() + "' holds another dataset: " + difference +
+    throw InputError("--out: '" + folder.string() + "' holds another " + what + ": " + difference +
                      "; choose another folder or the same parameters");
   }
 }

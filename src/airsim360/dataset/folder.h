@@ -24,8 +24,10 @@ class FolderLock {
 };
 
 /// Creates the folder if needed. InputError if it holds something that is not this dataset (naming the first
-/// difference of the parameters). `meta` is the meta.json wanted.
-void CheckFolder(const std::filesystem::path& folder, const std::string& meta);
+/// difference of the parameters). `meta` is the meta.json wanted; `what` and `name` are for what is described in
+/// another file of that form.
+void CheckFolder(const std::filesystem::path& folder, const std::string& meta, const std::string& what = "dataset",
+                 const char* name = kMetaName);
 
 /// Removes files that an interrupted run left under temporary names.
 void RemoveTemporaryFiles(const std::filesystem::path& folder);

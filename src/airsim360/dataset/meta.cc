@@ -150,7 +150,7 @@ std::string MetaJson(const DatasetSpec& spec, const Scene& scene) {
 std::string DescribeMetaDifference(const std::string& on_disk, const std::string& wanted) {
   if (on_disk == wanted) return {};
   const Json a = Json::parse(on_disk, nullptr, false), b = Json::parse(wanted);
-  if (!a.is_object()) return "its meta.json is damaged";
+  if (!a.is_object()) return "its description is damaged";
   const auto text = [](const Json& json, const std::string& key) {
     return json.is_object() && json.contains(key) ? json[key].dump() : std::string("nothing");
   };
@@ -165,7 +165,7 @@ std::string DescribeMetaDifference(const std::string& on_disk, const std::string
     return key +
            (brief ? " is " + text(a, key) + " there, " + value.dump() + " here" : std::string(" differs"));
   }
-  return "its meta.json differs";
+  return "its description differs";
 }
 
 }  // namespace airsim360

@@ -62,6 +62,12 @@ Image<Rgb8> ReadPicture(const fs::path& path) {
   return picture;
 }
 
+// How long the video will take, once its first picture is rendered.
+void TellEstimate(const DatasetSpec& spec, size_t pictures, double first_ms) {
+  LogInfo("video: " + std::to_string(pictures) + " pictures of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+          ", some " + ClockText(1e-3 * first_ms * static_cast<double>(pictures)));
+}
+
 }  // namespace
 
 VideoResult FilmFlight(const CollectInput& input, Renderer& renderer, const fs::path& file, const VideoOptions& options) {
@@ -80,6 +86,7 @@ VideoResult FilmFlight(const CollectInput& input, Renderer& renderer, const fs::
     // ffmpeg encodes while the next picture is rendered.
     writer.Add(captures.front().frame.rgb, shots[i].t_ns);
     progress.Update(static_cast<int64_t>(i) + 1);
+    if (i == 0) TellEstimate(input.spec, shots.size(), render_ms);
   }
   writer.Finish();
   VideoResult result = ResultOf(writer, shots.front().t_ns, shots.back().t_ns, options.frame_rate);

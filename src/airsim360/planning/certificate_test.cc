@@ -4,6 +4,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/planning/analytic_world.h"
+#include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/minimum_snap.h"
 
 namespace airsim360 {
@@ -74,6 +75,53 @@ TEST(Certificate, CertifiedFlightsKeepTheRadiusAtAMillionTimesAndOthersHaveAViol
   }
   EXPECT_GT(certified, 3);
   EXPECT_GT(refused, 3);
+}
+
+// Past balls, along floors, through them: the bound is below what any sample meets, and near it.
+TEST(LeastClearanceBound, IsNeverAboveTheLeastClearanceOfASampleAndNearIt) {
+  RngStream rng(2, "least clearance");
+  int certified = 0, touching = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < 8; ++i)
+      balls.push_back({{rng.Uniform(-8, 8), rng.Uniform(-8, 8), rng.Uniform(-8, 8)}, rng.Uniform(0.2, 1.2)});
+    const AnalyticWorld world(balls, {{{-50, -50, -9}, {50, 50, rng.Uniform(-8, -6)}}});
+    std::vector<Vec3d> points;
+    std::vector<double> durations;
+    const bool level = k % 4 == 0;
+    for (int i = 0; i < 2 + k % 3; ++i)
+      points.push_back({rng.Uniform(-6, 6), rng.Uniform(-6, 6), level ? -5.0 : rng.Uniform(-6, 6)});
+    for (size_t i = 1; i < points.size(); ++i) durations.push_back(rng.Uniform(0.2, 4));
+    const PolynomialTrajectory path = SolveMinimumSnap({.waypoints = points, .durations = durations});
+    const TrajectoryPeaks peaks = CertifiedPeaks(path);
+    double met = 1e9;
+    const int samples = 20'000;
+    for (int i = 0; i <= samples; ++i) met = std::min(met, world.Clearance(path.At(path.duration() * i / samples).p, 1e3));
+    const double bound = LeastClearanceBound(path, peaks, world);
+    EXPECT_LE(bound, met);
+    EXPECT_GE(bound, met - 0.01 - 1e-3 * ArcLength(path)) << k;
+    touching += met == 0;
+    const Certificate certificate = Certify(path, peaks, world, 0.2);
+    if (!certificate.certified) continue;
+    ++certified;
+    EXPECT_LE(certificate.least_clearance, met);
+    EXPECT_GE(certificate.least_clearance, 0.2);
+  }
+  EXPECT_GT(certified, 20);
+  EXPECT_GT(touching, 20);
+}
+
+TEST(LeastClearanceBound, FewQueriesGiveALowerBoundToo) {
+  const AnalyticWorld world({}, {{{-50, -50, -1}, {50, 50, 0}}});
+  const PolynomialTrajectory path = Straight({-20, 0, 2}, {20, 0, 2});
+  double last = 0;
+  for (const int queries : {4, 40, 400, 4000, 40000}) {
+    const double bound = LeastClearanceBound(path, CertifiedPeaks(path), world, queries);
+    EXPECT_LE(bound, 2);
+    EXPECT_GE(bound, last);
+    last = bound;
+  }
+  EXPECT_NEAR(last, 2, 2e-3);
 }
 
 TEST(Certificate, OfAPartLooksAtThatPartOnly) {

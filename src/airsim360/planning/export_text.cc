@@ -39,6 +39,13 @@ std::vector<std::array<double, 8>> YawSegments(const PolynomialTrajectory& path,
   return segments;
 }
 
+// A sum of short decimals is one.
+double TimeOf(const PlanRecord& plan, double t) {
+  constexpr double kGrid = 1e12;  // of a second
+  const double sum = plan.start_time + t;
+  return plan.start_time == 0 || std::fabs(sum) > 1e3 ? sum : std::round(sum * kGrid) / kGrid;
+}
+
 }  // namespace
 
 std::string TrajectorySamplesCsv(const PlanRecord& plan, double interval) {
@@ -47,7 +54,7 @@ std::string TrajectorySamplesCsv(const PlanRecord& plan, double interval) {
   out += yaw.is_constant() ? "\n" : ",yaw\n";
   for (const double t : SampleTimes(plan.trajectory.duration(), interval)) {
     const TrajectoryPoint point = plan.trajectory.At(t);
-    AppendNumber(out, plan.start_time + t);
+    AppendNumber(out, TimeOf(plan, t));
     for (const Vec3d v : {point.p, point.v, point.a}) {
       out += ',';
       AppendVector(out, v, ",");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/planning/knots.h"
 
 namespace airsim360 {
 namespace {
@@ -100,6 +101,9 @@ CertifiedFlight FlyThrough(std::vector<Vec3d> waypoints, const ClearanceQuery& w
   const size_t given = waypoints.size();
   for (int round = 0;; ++round) {
     AllocatedTrajectory flight = AllocateTimes(waypoints, options.limits, options.allocation);
+    // A straight flight may have been split: its legs are those that it was split into.
+    if (const std::vector<Vec3d> knots = KnotsOf(flight.trajectory); knots.size() > waypoints.size())
+      waypoints.insert(waypoints.end() - 1, knots.begin() + 1, knots.end() - 1);
     const std::vector<size_t> open = OpenLegs(flight, world, options.radius);
     // Middles of the open legs, unless they are short already.
     std::vector<Vec3d> more;

@@ -1,13 +1,48 @@
 #include "airsim360/planning/polynomial_trajectory.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "airsim360/base/error.h"
 
 namespace airsim360 {
 namespace {
+
+/// i times an interval; of a short decimal (0.1) the number nearest to the decimal product (0.3, not 0.1 * 3).
+class Multiples {
+ public:
+  explicit Multiples(double interval) : interval_(interval) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof(text), interval, std::chars_format::scientific).ptr;
+    const std::string_view decimal(text, static_cast<size_t>(end - text));
+    const size_t e = decimal.find('e');
+    int exponent = 0;
+    std::from_chars(decimal.data() + e + (decimal[e + 1] == '+' ? 2 : 1), end, exponent);
+    for (const char c : decimal.substr(0, e)) {
+      if (c == '.') continue;
+      digits_ = 10 * digits_ + (c - '0');
+      ++places_;
+    }
+    places_ -= 1 + exponent;  // digits after the point
+  }
+
+  double operator()(size_t i) const {
+    // Exact up to the division, which rounds once.
+    constexpr int64_t kExact = int64_t{1} << 53;
+    const bool exact = places_ >= 0 && places_ <= 22 && digits_ < kExact && static_cast<int64_t>(i) <= kExact / digits_;
+    return exact ? static_cast<double>(static_cast<int64_t>(i) * digits_) / std::pow(10.0, places_)
+                 : static_cast<double>(i) * interval_;
+  }
+
+ private:
+  double interval_;
+  int64_t digits_ = 0;
+  int places_ = 0;
+};
 
 void CheckFinite(std::span<const double> values, const char* what) {
   for (size_t i = 0; i < values.size(); ++i) {
@@ -126,10 +161,11 @@ std::vector<double> SampleTimes(double duration, double interval) {
                      " s must be positive and give at most 1e9 samples");
   }
   const auto whole = static_cast<size_t>(std::floor(duration / interval));
+  const Multiples multiple(interval);
   std::vector<double> times;
   times.reserve(whole + 2);
   for (size_t i = 0; i <= whole; ++i) {
-    const double t = static_cast<double>(i) * interval;
+    const double t = multiple(i);
     if (t <= duration) times.push_back(t);
   }
   // The end counts as reached when it lies within rounding of the last multiple.

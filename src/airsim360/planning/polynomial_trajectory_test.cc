@@ -54,6 +54,19 @@ TEST(PolynomialTrajectory, SampleTimesReachTheEndOnce) {
   EXPECT_EQ(SampleTimes(1.2, 0.5), (std::vector<double>{0, 0.5, 1, 1.2}));
   EXPECT_EQ(SampleTimes(0, 0.5), (std::vector<double>{0}));
   EXPECT_EQ(SampleTimes(0.3, 0.1).size(), 4u);
+  // Multiples of short decimals are short: 0.3, not 0.1 * 3.
+  EXPECT_EQ(SampleTimes(1, 0.1), (std::vector<double>{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1}));
+  for (const auto& [interval, places] : {std::pair{0.1, 1.0}, {0.025, 3.0}, {0.07, 2.0}, {3.0, 0.0}, {0.001, 3.0}, {1e-5, 5.0}}) {
+    for (const double t : SampleTimes(1000 * interval, interval)) {
+      const double power = std::pow(10.0, places);
+      EXPECT_EQ(t, std::round(t * power) / power) << interval;
+    }
+  }
+  for (const double interval : {1.0 / 3, 2.5e300, 4e-300}) {
+    const std::vector<double> times = SampleTimes(9.5 * interval, interval);
+    ASSERT_EQ(times.size(), 11u);
+    for (size_t i = 0; i < 10; ++i) EXPECT_DOUBLE_EQ(times[i], static_cast<double>(i) * interval);
+  }
   EXPECT_THROW(SampleTimes(1, 0), InputError);
   EXPECT_THROW(SampleTimes(NAN, 1), InputError);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -196,6 +197,60 @@ int Optimise(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, S
   return evaluations;
 }
 
+/// Splits of a leg that are tried, and how much longer than the shortest of them a flight in fewer may take.
+constexpr size_t kSplits[] = {2, 4, 6, 8, 10, 12, 16};
+constexpr double kWorthASplit = 1.01;
+
+/// Way at time t of the fastest straight flight over `distance` from rest to rest.
+double RestToRestWay(double t, double distance, double max_speed, double max_acceleration) {
+  const double total = RestToRestTime(distance, max_speed, max_acceleration);
+  const double ramp = std::min(max_speed / max_acceleration, total / 2);
+  if (t > total / 2) return distance - RestToRestWay(total - t, distance, max_speed, max_acceleration);
+  return t < ramp ? max_acceleration * t * t / 2 : max_acceleration * ramp * (t - ramp / 2);
+}
+
+/// `count` points between a and b at even times of the fastest straight flight.
+std::vector<Vec3d> OnTheWay(Vec3d a, Vec3d b, size_t count, const TrajectoryLimits& limits) {
+  const double distance = Norm(b - a), total = RestToRestTime(distance, limits.speed, limits.acceleration);
+  std::vector<Vec3d> points = {a};
+  for (size_t i = 1; i <= count; ++i) {
+    const double t = total * static_cast<double>(i) / static_cast<double>(count + 1);
+    points.push_back(a + (b - a) * (RestToRestWay(t, distance, limits.speed, limits.acceleration) / distance));
+  }
+  points.push_back(b);
+  return points;
+}
+
+/// The flight through exactly these waypoints.
+PolynomialTrajectory Fastest(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, const AllocationOptions& options,
+                             int& evaluations) {
+  std::vector<double> durations;
+  for (const double chord : Chords(waypoints)) durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
+  // As fast as speed and acceleration allow, which is where the objective has its numbers.
+  const TrajectoryLimits norms = {.speed = limits.speed, .acceleration = limits.acceleration};
+  PolynomialTrajectory best = Fly(waypoints, durations, options.kind, norms);
+  if (!options.optimise || durations.size() == 1) return WithOtherLimits(std::move(best), limits);
+  durations.assign(best.durations().begin(), best.durations().end());
+  evaluations += Optimise(waypoints, limits, options.kind, durations);
+  PolynomialTrajectory optimised = WithOtherLimits(Fly(waypoints, durations, options.kind, norms), limits);
+  best = WithOtherLimits(std::move(best), limits);
+  return optimised.duration() < best.duration() ? optimised : best;
+}
+
+/// `whole` flies from a to b in one segment: the flight in the fewest that is nearly as short as any.
+PolynomialTrajectory Split(PolynomialTrajectory whole, Vec3d a, Vec3d b, const TrajectoryLimits& limits,
+                           const AllocationOptions& options, int& evaluations) {
+  std::vector<PolynomialTrajectory> flights = {std::move(whole)};
+  for (const size_t count : kSplits) {
+    const std::vector<Vec3d> points = OnTheWay(a, b, count, limits);
+    if (std::ranges::adjacent_find(points) != points.end()) break;  // too near for so many
+    flights.push_back(Fastest(points, limits, options, evaluations));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const PolynomialTrajectory& flight : flights) least = std::min(least, flight.duration());
+  return *std::ranges::find_if(flights, [&](const auto& flight) { return flight.duration() <= kWorthASplit * least; });
+}
+
 }  // namespace
 
 double RestToRestTime(double distance, double max_speed, double max_acceleration) {
@@ -210,26 +265,12 @@ AllocatedTrajectory AllocateTimes(std::span<const Vec3d> waypoints, const Trajec
   if (!std::isfinite(limits.speed) || !std::isfinite(limits.acceleration)) {
     throw InputError("time allocation: limits on speed and acceleration must be finite");
   }
-  const std::vector<double> chords = Chords(waypoints);
-  std::vector<double> durations;
   double length = 0;
-  for (const double chord : chords) {
-    length += chord;
-    durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
-  }
-  // As fast as speed and acceleration allow, which is where the objective has its numbers.
-  const TrajectoryLimits norms = {.speed = limits.speed, .acceleration = limits.acceleration};
-  PolynomialTrajectory best = Fly(waypoints, durations, options.kind, norms);
+  for (const double chord : Chords(waypoints)) length += chord;
   int evaluations = 0;
-  if (options.optimise && durations.size() > 1) {
-    durations.assign(best.durations().begin(), best.durations().end());
-    evaluations = Optimise(waypoints, limits, options.kind, durations);
-    PolynomialTrajectory optimised = WithOtherLimits(Fly(waypoints, durations, options.kind, norms), limits);
-    best = WithOtherLimits(std::move(best), limits);
-    if (optimised.duration() < best.duration()) best = std::move(optimised);
-  } else {
-    best = WithOtherLimits(std::move(best), limits);
-  }
+  PolynomialTrajectory best = Fastest(waypoints, limits, options, evaluations);
+  if (options.split && options.optimise && waypoints.size() == 2 && best.duration() <= kLongestFlight)
+    best = Split(std::move(best), waypoints[0], waypoints[1], limits, options, evaluations);
   if (options.sample_interval > 0) {
     const double steps = std::ceil(best.duration() / options.sample_interval * (1 - 1e-12));
     best = Slowed(best, std::max(1.0, steps * options.sample_interval / best.duration()));

@@ -13,6 +13,9 @@ struct AllocationOptions {
   SplineKind kind = SplineKind::kMinimumSnap;
   bool optimise = true;        ///< false: trapezoidal profiles along the chords, scaled to the limits
   double sample_interval = 0;  ///< > 0: the whole flight takes a multiple of it
+  /// Two waypoints: further ones on the straight line between them as long as they save time. One polynomial
+  /// cannot hold a speed. The trajectory then has more segments than the waypoints given.
+  bool split = false;
 };
 
 struct AllocatedTrajectory {

@@ -51,6 +51,40 @@ TEST(TimeAllocation, NoSingleDurationCanBeImprovedMuch) {
   }
 }
 
+// Against points on the line that a user would add: evenly, or where the fastest flight is at even times.
+TEST(TimeAllocation, AStraightFlightIsAsShortAsWithPointsBetween) {
+  struct Leg {
+    double length, speed, acceleration;
+  };
+  for (const SplineKind kind : {SplineKind::kMinimumSnap, SplineKind::kPaperQuintic, SplineKind::kMinimumJerk}) {
+    for (const Leg leg : {Leg{61.5, 8, 4}, {136.8, 8, 4}, {5, 8, 4}, {20, 8, 4}, {61.5, 30, 4}, {0.3, 2, 9}, {47, 5, 1.3}}) {
+      const TrajectoryLimits limits = {.speed = leg.speed, .acceleration = leg.acceleration};
+      const Vec3d a{1, -2, 3}, way = Vec3d{0.6, -0.64, 0.48} * leg.length;
+      const std::vector<Vec3d> ends = {a, a + way};
+      const AllocatedTrajectory split = AllocateTimes(ends, limits, {.kind = kind, .split = true});
+      EXPECT_TRUE(WithinLimits(split.trajectory, limits));
+      EXPECT_GE(split.trajectory.duration(), split.lower_bound);
+      EXPECT_LT(Norm(split.trajectory.At(split.trajectory.duration()).p - ends[1]), 1e-9);
+      EXPECT_LT(split.trajectory.duration(), AllocateTimes(ends, limits, {.kind = kind}).trajectory.duration());
+      for (int n = 1; n <= 12; ++n) {
+        std::vector<Vec3d> even = {a};
+        for (int i = 1; i <= n; ++i) even.push_back(a + way * (static_cast<double>(i) / (n + 1)));
+        even.push_back(ends[1]);
+        const double other = AllocateTimes(even, limits, {.kind = kind}).trajectory.duration();
+        EXPECT_LE(split.trajectory.duration(), 1.02 * other) << leg.length << " m with " << n << " between";
+      }
+    }
+  }
+}
+
+TEST(TimeAllocation, OnlyTwoWaypointsAreSplitAndNotWhereTheyAreTooNear) {
+  const TrajectoryLimits limits = {.speed = 8, .acceleration = 4};
+  const std::vector<Vec3d> three = {{0, 0, 0}, {10, 0, 0}, {20, 5, 0}};
+  EXPECT_EQ(AllocateTimes(three, limits, {.split = true}).trajectory.segments(), 2u);
+  const std::vector<Vec3d> near = {{1, 0, 0}, {1 + 4e-16, 0, 0}};
+  EXPECT_EQ(AllocateTimes(near, limits, {.split = true}).trajectory.segments(), 1u);
+}
+
 TEST(TimeAllocation, SingleSegmentsTakeTheClosedFormDuration) {
   const std::vector<Vec3d> waypoints = {{0, 0, 0}, {100, 0, 0}};
   const AllocatedTrajectory septic = AllocateTimes(waypoints, {.speed = 16, .acceleration = 3});

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/nearest_name.h"
 
 namespace airsim360::internal {
 
@@ -68,8 +69,7 @@ void SettingsObject::Finish() {
     const std::string& key = node_.keys[i];
     if (asked_.contains(key)) continue;
     notices_.push_back(std::string(file_) + ":" + std::to_string(node_.items[i].line) + ": '" + key +
-                       "' is not known here and counts for nothing; the nearest known key is '" +
-                       NearestChoice(key, known) + "'");
+                       "' is not known here and counts for nothing" + DidYouMean(key, known));
   }
 }
 

@@ -12,7 +12,6 @@ constexpr auto kTaskPeriodNs = static_cast<int64_t>(kTaskPeriod * 1e9);
 // A drone that stands with its rotors turning does not touch the ground in every step.
 constexpr int64_t kTouchNs = 100'000'000;
 // When it has taken off or landed: motor output, vertical speed, all speeds.
-constexpr double kCollisionSpeed = 0.02;
 constexpr double kFlyingOutput = 0.1, kFlyingSpeed = 0.01, kLandedSpeed = 0.08;
 
 // Mean signal of the rotors, 0 to 1.
@@ -133,8 +132,7 @@ std::optional<FlightCommand> VehicleControl::Plan(const Vehicle& vehicle, int64_
 void VehicleControl::Observe(const DroneModel& model, const Vehicle& vehicle) {
   if (vehicle.collision.count != collisions_seen_) {
     collisions_seen_ = vehicle.collision.count;
-    // Coming to rest on the ground at the start is none.
-    if (vehicle.collision.impact_speed > kCollisionSpeed) status_.has_collided = settings_.enable_collisions;
+    status_.has_collided = vehicle.collision.count > 0 && settings_.enable_collisions;
   }
   const double output = MotorOutput(model, vehicle);
   const Vec3d v = vehicle.motion.v_WB;

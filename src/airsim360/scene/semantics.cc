@@ -7,6 +7,7 @@
 #include <array>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/nearest_name.h"
 #include "airsim360/base/random.h"
 
 namespace airsim360 {
@@ -278,8 +279,7 @@ CategoryId SemanticTree::At(std::string_view path) const {
   if (const auto id = Find(path)) return *id;
   std::vector<std::string> paths;
   for (const auto& [known, id] : ids_) paths.push_back(known);
-  throw InputError("unknown category '" + std::string(path.substr(0, 200)) + "'; the nearest is '" +
-                   NearestChoice(path, paths) + "'");
+  throw InputError("unknown category '" + std::string(path.substr(0, 200)) + "'" + DidYouMean(path, paths));
 }
 
 const Category& SemanticTree::operator[](CategoryId id) const {

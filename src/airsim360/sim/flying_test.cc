@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "airsim360/base/error.h"
+#include "airsim360/sensors/surface_label.h"
+#include "airsim360/sim/en_route.h"
 #include "airsim360/sim/test_flights.h"
 
 namespace airsim360 {
@@ -37,11 +39,7 @@ TEST(Flying, TakesOffHoversAndLandsOnTheFloor) {
 
   events = Fly(*model, state, 0, LandCommand{}, 8);
   EXPECT_NE(FindEvent(events, Kind::kCommandDone), nullptr);
-  EXPECT_EQ(FindEvent(events, Kind::kCrash), nullptr);
-  const SimEvent* touch = FindEvent(events, Kind::kCollision);
-  ASSERT_NE(touch, nullptr);
-  EXPECT_EQ(EntityName(*model, touch->collision.entity), "floor");
-  EXPECT_NEAR(touch->collision.normal_W.z, 1, 1e-6);
+  EXPECT_EQ(state.vehicles[0].collision.count, 0u);  // neither standing, nor taking off, nor landing is a collision
   EXPECT_NEAR(BottomOf(*model, state.vehicles[0]), 0, 0.01);
   EXPECT_LT(Norm(state.vehicles[0].drone.v_WB), 0.01);
   EXPECT_EQ(state.vehicles[0].autopilot.mode, FlightMode::kDisarmed);
@@ -54,6 +52,55 @@ TEST(Flying, TakesOffHoversAndLandsOnTheFloor) {
   EXPECT_NEAR(state.vehicles[0].sensors.imus[0].last.specific_force.z, kGravity, 0.3);
   Fly(*model, state, 0, TakeoffCommand{.height = 1}, 4);
   EXPECT_GT(state.vehicles[0].drone.p_WB.z, 0.9);
+}
+
+TEST(Flying, StandingForLongIsNoCollision) {
+  const auto model = RoomModel({HummingbirdAt({0, 0, 2}, false)});
+  SimState state = StartState(*model);
+  auto events = Wait(*model, state, 2);  // asleep by then
+  for (const Command& command : {Command{ArmCommand{}}, Command{DisarmCommand{}}, Command{ArmCommand{}}}) {
+    const auto more = Fly(*model, state, 0, command, 2);
+    events.insert(events.end(), more.begin(), more.end());
+  }
+  EXPECT_EQ(FindEvent(events, Kind::kCollision), nullptr);
+  EXPECT_EQ(state.vehicles[0].collision.count, 0u);
+}
+
+// The floor is touched at about the speed of the command.
+TEST(Flying, TheFloorIsACollisionInFlightAndWhereALandingIsHard) {
+  const auto collisions = [](const Command& down) {
+    const auto model = RoomModel({HummingbirdAt({0, 0, 1})});
+    SimState state = StartState(*model);
+    const auto events = Fly(*model, state, 0, down, 7);
+    const SimEvent* hit = FindEvent(events, Kind::kCollision);
+    if (hit == nullptr) {
+      EXPECT_EQ(state.vehicles[0].collision.count, 0u);
+      return 0.0;
+    }
+    EXPECT_EQ(EntityName(*model, hit->collision.entity), "floor");
+    EXPECT_NEAR(hit->collision.normal_W.z, 1, 1e-6);
+    return hit->collision.impact_speed;
+  };
+  EXPECT_EQ(collisions(LandCommand{}), 0);
+  EXPECT_GT(collisions(LandCommand{.speed = 1.6}), 1);
+  EXPECT_EQ(collisions(VelocityCommand{.v = {0, 0, -0.2}}), 0);
+  EXPECT_GT(collisions(VelocityCommand{.v = {0, 0, -0.6}}), 0.3);
+}
+
+TEST(Flying, ADroneThatStandsTakesOffReturnsOrLandsIsNotEnRoute) {
+  const auto model = RoomModel({HummingbirdAt({0, 0, 2}, false)});
+  SimState state = StartState(*model);
+  const auto en_route = [&](const Command& command, double seconds) {
+    Fly(*model, state, 0, command, seconds);
+    return IsEnRoute(state.vehicles[0]);
+  };
+  EXPECT_FALSE(IsEnRoute(state.vehicles[0]));
+  EXPECT_FALSE(en_route(TakeoffCommand{.height = 2}, 1));
+  EXPECT_TRUE(en_route(HoverCommand{}, 4));
+  EXPECT_TRUE(en_route(PositionCommand{.p_W = {2, 2, 2}}, 4));
+  EXPECT_TRUE(en_route(ReturnCommand{.height = 3}, 0.5));  // on its way up
+  EXPECT_FALSE(en_route(ReturnCommand{.height = 3}, 12));  // down again
+  EXPECT_EQ(state.vehicles[0].collision.count, 0u);
 }
 
 TEST(Flying, HittingAWallIsReportedWithItsEntityNormalAndSpeed) {
@@ -241,11 +288,9 @@ TEST(Flying, LandsOnTheGroundOfATown) {
   ASSERT_TRUE(below);
   const auto events = Fly(*model, state, 0, LandCommand{}, 8);
   EXPECT_NE(FindEvent(events, Kind::kCommandDone), nullptr);
-  const SimEvent* touch = FindEvent(events, Kind::kCollision);
-  ASSERT_NE(touch, nullptr);
-  const Entity& ground = scene->entity(touch->collision.entity);
+  EXPECT_EQ(FindEvent(events, Kind::kCollision), nullptr);
+  const Entity& ground = scene->entity(LabelOf(*model->tracer, below->surface).entity);
   EXPECT_EQ(scene->tree[ground.category].path.substr(0, 6), "ground") << ground.name;
-  EXPECT_GT(touch->collision.normal_W.z, 0.98);
   EXPECT_NEAR(BottomOf(*model, state.vehicles[0]), setup.X_WB.p.z - below->distance, 0.05);
   EXPECT_LT(Norm(state.vehicles[0].drone.v_WB), 0.02);
 }

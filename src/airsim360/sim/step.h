@@ -44,9 +44,9 @@ struct FollowRoute {
   int64_t start_ns = 0;
 };
 
-/// The last contact of a vehicle. Stays until the next one, or a reset.
+/// The last collision of a vehicle (docs/simulation.md, Events). Stays until the next one, or a reset.
 struct CollisionInfo {
-  uint64_t count = 0;  ///< contacts that began so far; 0 = never touched anything
+  uint64_t count = 0;  ///< collisions so far; standing, taking off and setting down are none
   int64_t t_ns = 0;
   Vec3d p_W;                    ///< on the surface
   Vec3d normal_W;               ///< unit, away from the surface

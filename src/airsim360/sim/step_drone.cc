@@ -5,14 +5,19 @@
 
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/math/standard_atmosphere.h"
+#include "airsim360/sim/en_route.h"
 
 namespace airsim360::internal {
 namespace {
 
 using Kind = SimEvent::Kind;
 
-// A contact that begins harder than this is a collision even while another lasts, m/s.
+// A contact harder than this is a collision even while another lasts, m/s.
 constexpr double kNewImpact = 0.3;
+// Standing on what faces up, or setting down on it as softly as this, is none: at most 45 degrees of slope, m/s.
+constexpr double kSupportSlope = 0.7, kTouchdownSpeed = 1;
+// Leaning on a surface is none, m/s.
+constexpr double kLeanSpeed = 0.02;
 // A drone that lies on something need not touch it in every step: it is the same contact within this time.
 constexpr int64_t kContactGapNs = 100'000'000;
 // Drones farther away than this do not meet within a step, metres: closing at 500 m/s.
@@ -124,13 +129,22 @@ void LieBroken(const StepContext& context, size_t i, Vehicle& vehicle, std::vect
        .text = CommandName(vehicle.command.command) + ": the drone has crashed; reset it first"});
 }
 
+// Whether a contact is more than standing, setting down and leaning.
+bool Collides(const ContactReport& report, const Vehicle& vehicle, int64_t t_ns) {
+  if (!report.touching) return false;
+  if (report.crashed) return true;
+  if (report.point.normal_W.z > kSupportSlope)
+    return report.impact_speed > (IsEnRoute(vehicle) ? kNewImpact : kTouchdownSpeed);
+  const bool lasts = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kContactGapNs;
+  return report.impact_speed > (lasts ? kNewImpact : kLeanSpeed);
+}
+
 void NoteCollision(const ContactReport& report, int64_t t_ns, size_t i, Vehicle& vehicle,
                    std::vector<SimEvent>& events) {
-  const bool lasts = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kContactGapNs;
-  const bool begins = report.touching && (!lasts || report.impact_speed > kNewImpact);
+  const bool collides = Collides(report, vehicle, t_ns);
   vehicle.touching = report.touching;
   if (report.touching) vehicle.touched_ns = t_ns;
-  if (!begins && !report.crashed) return;
+  if (!collides) return;
   CollisionInfo& collision = vehicle.collision;
   collision = {collision.count + 1, t_ns,
                report.point.p_W,    report.point.normal_W,

@@ -154,6 +154,7 @@ AgentResponse AgentApi::Route(const AgentRequest& request) {
     return OnEpisode(std::string(rest.substr(0, slash)), has_action ? std::string(rest.substr(slash + 1)) : "",
                      query, request);
   }
+  if (path == "/v1/ws") throw StatusError(426, "/v1/ws is the WebSocket itself: connect to it with an upgrade, and send it requests for other paths");
   const std::vector<std::string> paths = {"/", "/openapi.json", "/v1/episodes", "/v1/ws"};
   throw StatusError(404, UnknownChoiceMessage("path", path.substr(0, 128), paths));
 }

@@ -139,6 +139,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{kLook, R"({"panorama": {"width": 33}})", "panorama.width", "32"},
                     Mistake{kLook, R"({"views": [{"fov": 3}]})", "views[0].fov", "fov_deg"}));
 
+TEST(AgentApi, NumbersThatAreNoneHaveNoNearest) {
+  Agent agent;
+  const std::string id = agent.Create();
+  for (const char* text : {"nan", "inf", "-inf", "NaN", "abc"}) {
+    const Json error = agent.Call("GET", "/v1/episodes/" + id + "/view.jpg?fov_deg=" + text, {}, 422)["error"];
+    EXPECT_EQ(error.value("field", ""), "fov_deg");
+    EXPECT_FALSE(error.contains("nearest")) << error;
+    EXPECT_NE(error["message"].get<std::string>().find(text), std::string::npos) << error;
+  }
+}
+
+TEST(AgentApi, TheSocketIsNoPathForRequests) {
+  Agent agent;
+  const std::string message = agent.Call("GET", "/v1/ws", {}, 426)["error"]["message"].get<std::string>();
+  EXPECT_EQ(message.find("did you mean"), std::string::npos) << message;
+  EXPECT_NE(message.find("WebSocket"), std::string::npos) << message;
+}
+
 TEST(AgentApi, WhatIsNotThereIsToldWithWhatIs) {
   Agent agent;
   const std::string id = agent.Create();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/flight/control/attitude.h"
+#include "airsim360/flight/control/return_phase.h"
 
 namespace airsim360::internal {
 namespace {
@@ -118,8 +119,8 @@ class Guider {
     // Up, over, down.
     const Vec3d corner{state_.start_p_W.x, state_.start_p_W.y, above.z};
     if (state_.phase == 0 && Reached(corner)) state_.phase = 1;
-    if (state_.phase == 1 && Reached(above)) state_.phase = 2;
-    if (state_.phase < 2) return GoTo(state_.phase == 0 ? corner : above, c.speed);
+    if (state_.phase == 1 && Reached(above)) state_.phase = kReturnDown;
+    if (state_.phase < kReturnDown) return GoTo(state_.phase == 0 ? corner : above, c.speed);
     if (c.land) return Land(0.7);
     state_.flags |= kCommandDone;
     return GoTo(above, c.speed);

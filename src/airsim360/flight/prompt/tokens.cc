@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/nearest_name.h"
 
 namespace airsim360::internal {
 namespace {
@@ -67,8 +68,7 @@ Token ReadWord(std::string_view rest) {
   token.text = std::string(rest.substr(0, length));
   token.word = FindWord(token.text);
   if (token.word == nullptr) {
-    throw InputError("the word '" + token.text + "' is not understood; the nearest one that is: '" +
-                     NearestChoice(token.text, LexiconTexts()) + "'. " +
+    throw InputError("the word '" + token.text + "' is not understood" + DidYouMean(token.text, LexiconTexts()) + ". " +
                      "`airsim360 drone --words` lists all that can be said");
   }
   return token;

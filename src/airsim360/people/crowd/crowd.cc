@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/nearest_name.h"
 #include "airsim360/base/state_hash.h"
 #include "airsim360/people/crowd/agent.h"
 #include "airsim360/people/crowd/appearance.h"
@@ -209,7 +210,7 @@ PersonIndex PersonByName(const CrowdModel& model, std::string_view name) {
     if (model.people[i].name == name) return i;
     names.push_back(model.people[i].name);
   }
-  throw InputError("no person '" + std::string(name.substr(0, 100)) + "'; the nearest name is '" + NearestChoice(name, names) + "'");
+  throw InputError("no person '" + std::string(name.substr(0, 100)) + "'" + DidYouMean(name, names));
 }
 
 std::string_view PersonStateName(const CrowdModel& model, const CrowdState& state, PersonIndex person) {
