@@ -35,7 +35,9 @@ TEST(GpuVertexColors, AreTheCpusInEveryTier) {
       const EntityId entity = gpu.entity.pixels()[i];
       if (entity == scene->sky_entity || entity != cpu.entity.pixels()[i]) continue;
       const Rgb32f a = cpu.albedo.pixels()[i], b = gpu.albedo.pixels()[i];
-      EXPECT_NEAR(a.r, b.r, 2e-4), EXPECT_NEAR(a.g, b.g, 2e-4), EXPECT_NEAR(a.b, b.b, 2e-4);
+      EXPECT_NEAR(a.r, b.r, 2e-4);
+      EXPECT_NEAR(a.g, b.g, 2e-4);
+      EXPECT_NEAR(a.b, b.b, 2e-4);
       const Material& material =
           scene->materials[scene->meshes[scene->instances[entity - 1].mesh].parts[0].material];
       covered += material.alpha_mode == AlphaMode::kMask;
