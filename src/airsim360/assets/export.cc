@@ -166,12 +166,14 @@ ordered_json Exporter::Primitive(const Mesh& mesh, const std::vector<uint32_t>& 
   std::vector<uint32_t> moved(mesh.positions.size(), kUnused), indices;
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uvs;
+  std::vector<VertexColor> colors;
   const auto vertex = [&](uint32_t i) {
     if (moved[i] == kUnused) {
       moved[i] = static_cast<uint32_t>(positions.size());
       positions.push_back(ToG(mesh.positions[i]));
       if (!mesh.normals.empty()) normals.push_back(ToG(mesh.normals[i]));
       if (!mesh.uvs.empty()) uvs.push_back(mesh.uvs[i]);
+      if (!mesh.colors.empty()) colors.push_back(mesh.colors[i]);
     }
     indices.push_back(moved[i]);
   };
@@ -183,6 +185,7 @@ ordered_json Exporter::Primitive(const Mesh& mesh, const std::vector<uint32_t>& 
   ordered_json attributes = {{"POSITION", writer_.AddPositions(positions)}};
   if (!normals.empty()) attributes["NORMAL"] = writer_.AddVectors(normals);
   if (!uvs.empty()) attributes["TEXCOORD_0"] = writer_.AddUvs(uvs);
+  if (!colors.empty()) attributes["COLOR_0"] = writer_.AddColors(colors);
   return {{"attributes", attributes}, {"indices", writer_.AddIndices(indices)}, {"material", material}};
 }
 

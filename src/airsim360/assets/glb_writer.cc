@@ -9,7 +9,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr int kFloat = 5126, kUint32 = 5125;
+constexpr int kFloat = 5126, kUint32 = 5125, kUint16 = 5123;
 constexpr int kVertices = 34962, kIndices = 34963, kNoTarget = 0;
 
 void AppendUint32(Bytes& out, uint64_t value) {
@@ -66,6 +66,12 @@ size_t GlbWriter::AddPositions(std::span<const Vec3f> positions) {
 
 size_t GlbWriter::AddUvs(std::span<const Vec2f> uvs) {
   return AddAccessor(std::as_bytes(uvs), kVertices, kFloat, "VEC2", uvs.size());
+}
+
+size_t GlbWriter::AddColors(std::span<const VertexColor> colors) {
+  const size_t accessor = AddAccessor(std::as_bytes(colors), kVertices, kUint16, "VEC4", colors.size());
+  json["accessors"][accessor]["normalized"] = true;
+  return accessor;
 }
 
 size_t GlbWriter::AddIndices(std::span<const uint32_t> indices) {

@@ -7,6 +7,7 @@
 
 #include "airsim360/base/file.h"
 #include "airsim360/math/vector.h"
+#include "airsim360/scene/vertex_color.h"
 
 namespace airsim360::internal {
 
@@ -23,6 +24,8 @@ class GlbWriter {
   size_t AddPositions(std::span<const Vec3f> positions_G);
   size_t AddVectors(std::span<const Vec3f> vectors_G);
   size_t AddUvs(std::span<const Vec2f> uvs);
+  /// Four numbers of 16 bits, normalised.
+  size_t AddColors(std::span<const VertexColor> colors);
   size_t AddIndices(std::span<const uint32_t> indices);
   /// Appends to an array member and returns the new element's index.
   size_t Append(const char* array, nlohmann::ordered_json element);

@@ -118,7 +118,14 @@ void GltfMaterials::ReadSpecularGlossiness(const JsonRef& json, GltfMaterial& ou
   if (json.Has("specularGlossinessTexture")) m.roughness = std::max(m.roughness, 0.6f);
 }
 
-void GltfMaterials::ReadAlpha(const JsonRef& json, double alpha, Material& m) {
+void MakePane(Material& m, double alpha) {
+  m.kind = SurfaceKind::kGlass;
+  m.transmission = static_cast<float>(1 - alpha);
+  m.base_color *= static_cast<float>(0.15 + 0.85 * alpha * alpha);
+}
+
+void GltfMaterials::ReadAlpha(const JsonRef& json, GltfMaterial& out) {
+  Material& m = out.material;
   const std::string mode = json.TextOr("alphaMode", "OPAQUE");
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
     json.At("alphaMode").Fail("OPAQUE, MASK or BLEND expected");
@@ -129,12 +136,13 @@ void GltfMaterials::ReadAlpha(const JsonRef& json, double alpha, Material& m) {
   // Blending: a see-through surface is a pane, pictures with holes are cut out at one half.
   m.alpha_cutoff = 0.5f;
   const bool holes = textures_.HasHoles(m.base_color_texture);
-  if (alpha < 0.95 && !(holes && alpha >= 0.5)) {
-    m.kind = SurfaceKind::kGlass;
-    m.transmission = static_cast<float>(1 - alpha);
-    m.base_color *= static_cast<float>(0.15 + 0.85 * alpha * alpha);
+  const double alpha = m.base_alpha;
+  if (alpha < kOpaqueFrom && !(holes && alpha >= 0.5)) {
+    MakePane(m, alpha);
   } else if (holes) {
     m.alpha_mode = AlphaMode::kMask;
+  } else {
+    out.blends = true;
   }
 }
 
@@ -160,7 +168,7 @@ GltfMaterial GltfMaterials::Read(const JsonRef& json) {
   if (const auto emissive = json.Find("emissiveTexture"))
     m.emission_texture = ReadTexture(*emissive, true, m.normal_texture == kNoTexture ? uv_if_first : nullptr);
 
-  ReadAlpha(json, m.base_alpha, m);
+  ReadAlpha(json, out);
   if (const auto transmission = GltfExtension(json, "KHR_materials_transmission")) {
     const float share = Unit(transmission->NumberOr("transmissionFactor", 0));
     if (share > 0.3f) {

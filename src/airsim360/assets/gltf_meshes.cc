@@ -1,4 +1,5 @@
 // Meshes: primitives joined, skins bound, materials found.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,14 +10,15 @@
 namespace airsim360::internal {
 
 const GltfMaterial& GltfMeshes::MaterialAt(const JsonRef& primitive, MaterialId& id) {
-  // One id beyond all indices stands for "no material".
-  constexpr uint64_t kNone = UINT64_MAX;
+  // Ids beyond all indices stand for "no material": grey, or white where the vertices bring the colour.
+  constexpr uint64_t kGrey = UINT64_MAX, kWhite = kGrey - 1;
   const auto index = primitive.Find("material");
-  const uint64_t key = index ? index->Uint() : kNone;
+  const uint64_t key = index ? index->Uint() : primitive.At("attributes").Has("COLOR_0") ? kWhite : kGrey;
   auto it = material_ids_.find(key);
   if (it == material_ids_.end()) {
     GltfMaterial material;
     if (index) material = reader_.Read(buffers_.Element("materials", *index));
+    if (key == kWhite) material.material.base_color = {1, 1, 1};
     it = material_ids_.emplace(key, std::pair(static_cast<MaterialId>(materials.size()), material)).first;
     materials.push_back(material.material);
   }
@@ -24,13 +26,22 @@ const GltfMaterial& GltfMeshes::MaterialAt(const JsonRef& primitive, MaterialId&
   return it->second.second;
 }
 
-MaterialId GltfMeshes::Tinted(MaterialId material, Vec3f color) {
-  if (color == Vec3f{1, 1, 1}) return material;
+// For a primitive of mode BLEND whose vertex colours cover less than all: cut out at one half, or a pane where they
+// are see-through everywhere.
+MaterialId GltfMeshes::Covering(MaterialId material, const std::vector<VertexColor>& colors) {
+  const auto [low, high] = std::ranges::minmax(colors, {}, &VertexColor::a);
+  const double alpha = materials[material].base_alpha * high.a / 65535.0;
+  if (low.a == VertexColor().a) return material;
+  const bool pane = alpha < kOpaqueFrom;
   const auto [it, is_new] =
-      tinted_.try_emplace({material, color.x, color.y, color.z}, static_cast<MaterialId>(materials.size()));
+      covering_.try_emplace({material, pane ? high.a : VertexColor().a}, static_cast<MaterialId>(materials.size()));
   if (is_new) {
     Material copy = materials[material];
-    copy.base_color = copy.base_color * color;
+    if (pane) {
+      MakePane(copy, alpha);
+    } else {
+      copy.alpha_mode = AlphaMode::kMask;
+    }
     materials.push_back(std::move(copy));
   }
   return it->second;
@@ -88,6 +99,7 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
   std::optional<GltfPrimitive> primitive =
       ReadPrimitive(json, material.uv.set, weights, buffers_, limits_, warnings_);
   if (!primitive || primitive->triangles.empty()) return;
+  if (material.blends && !primitive->colors.empty()) material_id = Covering(material_id, primitive->colors);
   if (joints) {
     ApplySkin(*joints, json, *primitive);
     CheckPositions(primitive->positions, json);
@@ -99,6 +111,8 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
   std::vector<uint32_t> moved(primitive->positions.size(), kUnused);
   mesh.uvs.resize(primitive->uvs.empty() && mesh.uvs.empty() ? 0 : base);
   const bool uvs = !primitive->uvs.empty() || !mesh.uvs.empty();
+  const bool colors = !primitive->colors.empty() || !mesh.colors.empty();
+  mesh.colors.resize(colors ? base : 0);
   const auto vertex = [&](uint32_t i) {
     if (moved[i] != kUnused) return moved[i];
     moved[i] = static_cast<uint32_t>(mesh.positions.size());
@@ -109,16 +123,14 @@ void GltfMeshes::AppendPrimitive(const JsonRef& json, const std::vector<double>&
       const Vec2f moved_uv = material.uv.IsIdentity() ? uv : material.uv(uv);
       mesh.uvs.push_back(std::isfinite(moved_uv.x) && std::isfinite(moved_uv.y) ? moved_uv : Vec2f{});
     }
+    if (colors) mesh.colors.push_back(primitive->colors.empty() ? VertexColor{} : primitive->colors[i]);
     return moved[i];
   };
-  for (const ColorGroup& group : GroupByColor(*primitive)) {
-    const auto first = static_cast<uint32_t>(mesh.triangles.size());
-    for (const Vec3u& t : group.triangles) {
-      const Vec3u triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
-      mesh.triangles.push_back(triangle);
-    }
-    mesh.parts.push_back(
-        {first, static_cast<uint32_t>(group.triangles.size()), Tinted(material_id, group.color), kNoEntity});
+  mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()),
+                        static_cast<uint32_t>(primitive->triangles.size()), material_id, kNoEntity});
+  for (const Vec3u& t : primitive->triangles) {
+    const Vec3u triangle{vertex(t.x), vertex(t.y), vertex(t.z)};
+    mesh.triangles.push_back(triangle);
   }
   if (uvs) mesh.uvs.resize(mesh.positions.size());
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "airsim360/assets/axes.h"
@@ -29,7 +28,12 @@ struct UvUse {
 struct GltfMaterial {
   Material material;
   UvUse uv;
+  bool blends = false;  ///< BLEND, but opaque as far as the material alone says: vertex colours may cover less
 };
+
+/// What a material of mode BLEND becomes that covers `alpha` at most: a pane of glass if that is less than all.
+void MakePane(Material& material, double alpha);
+inline constexpr double kOpaqueFrom = 0.95;  ///< alpha that still counts as all
 
 /// The JSON text and the binary chunk of a file.
 struct GltfContainer {
@@ -50,7 +54,7 @@ class GltfMaterials {
   TextureId ReadTexture(const JsonRef& info, bool srgb, UvUse* uv);
   void ReadMetallicRoughness(const JsonRef& json, GltfMaterial& out);
   void ReadSpecularGlossiness(const JsonRef& json, GltfMaterial& out);
-  void ReadAlpha(const JsonRef& json, double alpha, Material& out);
+  void ReadAlpha(const JsonRef& json, GltfMaterial& out);
 
   JsonRef root_;
   GltfBuffers& buffers_;
@@ -64,7 +68,7 @@ struct GltfPrimitive {
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uvs;
   std::vector<float> joints, weights;  ///< four a vertex, or empty
-  std::vector<Vec3f> colors;           ///< linear light, or empty
+  std::vector<VertexColor> colors;     ///< or empty
   std::vector<Vec3u> triangles;
 };
 
@@ -76,14 +80,6 @@ std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
 
 /// InputError at `where` for a position that is not finite or beyond kMaxCoordinate.
 void CheckPositions(const std::vector<Vec3f>& positions, const JsonRef& where);
-
-/// The triangles of a primitive by vertex colour (mean of their corners, on at most 256 steps); white if it
-/// has none.
-struct ColorGroup {
-  Vec3f color;
-  std::vector<Vec3u> triangles;
-};
-std::vector<ColorGroup> GroupByColor(const GltfPrimitive& primitive);
 
 /// A node of /nodes with its place in the hierarchy.
 struct GltfNode {
@@ -117,7 +113,7 @@ class GltfMeshes {
   std::vector<TransformG> JointTransforms(const JsonRef& skin);
   void ApplySkin(const std::vector<TransformG>& joints, const JsonRef& where, GltfPrimitive& primitive);
   const GltfMaterial& MaterialAt(const JsonRef& primitive, MaterialId& id);
-  MaterialId Tinted(MaterialId material, Vec3f color);
+  MaterialId Covering(MaterialId material, const std::vector<VertexColor>& colors);
 
   JsonRef root_;
   GltfBuffers& buffers_;
@@ -127,7 +123,7 @@ class GltfMeshes {
   Warnings& warnings_;
   std::map<uint64_t, int32_t> mesh_ids_;
   std::map<uint64_t, std::pair<MaterialId, GltfMaterial>> material_ids_;
-  std::map<std::tuple<MaterialId, float, float, float>, MaterialId> tinted_;
+  std::map<std::pair<MaterialId, uint16_t>, MaterialId> covering_;
   uint64_t vertices_ = 0, triangles_ = 0;
 };
 

@@ -19,7 +19,7 @@ class Attributes {
     if (!draco) return;
     const std::map<std::string, int> wanted = {
         {"POSITION", 3}, {"NORMAL", 3},    {"TEXCOORD_0", 2}, {"TEXCOORD_" + std::to_string(uv_set), 2},
-        {"JOINTS_0", 4}, {"WEIGHTS_0", 4}, {"COLOR_0", 3}};
+        {"JOINTS_0", 4}, {"WEIGHTS_0", 4}, {"COLOR_0", ColorChannels()}};
     draco_ =
         DecodeDraco(buffers.View(draco->At("bufferView")), *draco, draco->At("attributes"), wanted, limits);
     buffers.Charge(draco_->indices.size() * 4 + draco_->vertices * uint64_t{64}, *draco);
@@ -46,6 +46,11 @@ class Attributes {
     return values;
   }
   const JsonRef& json() const { return json_; }
+  /// 4 with coverage, else 3.
+  int ColorChannels() const {
+    const auto index = json_.Find("COLOR_0");
+    return index && buffers_.Element("accessors", *index).At("type").Text() == "VEC4" ? 4 : 3;
+  }
 
  private:
   JsonRef json_;
@@ -60,17 +65,14 @@ std::vector<Vec3f> ToVec3(const std::vector<float>& values) {
   return out;
 }
 
-// Linear colours with or without alpha, which is left out.
-std::vector<Vec3f> ReadColors(Attributes& attributes, GltfBuffers& buffers) {
-  const auto index = attributes.json().Find("COLOR_0");
-  if (!index) return {};
-  const bool packed = attributes.draco() && attributes.draco()->attributes.contains("COLOR_0");
-  const size_t stride = !packed && buffers.Element("accessors", *index).At("type").Text() == "VEC4" ? 4 : 3;
+// Linear colours with or without coverage.
+std::vector<VertexColor> ReadColors(Attributes& attributes) {
+  const auto stride = static_cast<size_t>(attributes.ColorChannels());
   const std::vector<float> values = attributes.Read("COLOR_0", static_cast<int>(stride));
-  std::vector<Vec3f> colors;
+  std::vector<VertexColor> colors;
   for (size_t i = 0; i + stride <= values.size(); i += stride) {
-    const auto channel = [&](size_t k) { return values[i + k] >= 0 ? values[i + k] : 0.0f; };  // NaN too
-    colors.push_back({channel(0), channel(1), channel(2)});
+    colors.push_back(
+        MakeVertexColor({values[i], values[i + 1], values[i + 2]}, stride == 4 ? values[i + 3] : 1.0f));
   }
   return colors;
 }
@@ -168,7 +170,7 @@ std::optional<GltfPrimitive> ReadPrimitive(const JsonRef& json, uint64_t uv_set,
     const bool finite = std::isfinite(uvs[i]) && std::isfinite(uvs[i + 1]);
     out.uvs.push_back(finite ? Vec2f{uvs[i], uvs[i + 1]} : Vec2f{});
   }
-  out.colors = ReadColors(attributes, buffers);
+  out.colors = ReadColors(attributes);
   out.joints = attributes.Read("JOINTS_0", 4);
   out.weights = attributes.Read("WEIGHTS_0", 4);
   ApplyMorphs(json, morph_weights, buffers, out);

@@ -259,25 +259,6 @@ TEST(GltfMaterial, BlackDiffuseWithBrightSpecularIsMetal) {
   EXPECT_NEAR(m.base_color.y, 0.6f, 0.05f);
 }
 
-TEST(GltfMaterial, VertexColoursBecomeTintedParts) {
-  GltfDocument doc;
-  const size_t positions =
-      doc.AddAccessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0, 0, 2, 1, 0}, 5126, "VEC3");
-  const size_t colors = doc.AddAccessor<uint8_t>(
-      {255, 0, 0, 255, 255, 0, 0, 255, 255, 0, 0, 255, 255, 255, 255, 9, 255, 255, 255, 9, 255, 255, 255, 9},
-      5121, "VEC4");
-  doc.json["accessors"][colors]["normalized"] = true;
-  doc.json["meshes"].push_back(
-      {{"primitives", {{{"attributes", {{"POSITION", positions}, {"COLOR_0", colors}}}}}}});
-  doc.json["nodes"].push_back({{"mesh", 0}});
-  const ImportedFile file = ReadText(doc.Text());
-  const Mesh& mesh = file.meshes[0];
-  ASSERT_EQ(mesh.parts.size(), 2u);
-  const Vec3f base = file.materials[0].base_color;
-  EXPECT_EQ(file.materials[mesh.parts[0].material].base_color, (Vec3f{base.x, 0, 0}));
-  EXPECT_EQ(file.materials[mesh.parts[1].material].base_color, base);
-}
-
 TEST(GltfMaterial, MissingPictureIsAWarning) {
   GltfDocument doc = Textured({{"index", 0}});
   doc.json["images"][0] = {{"uri", "absent.png"}};

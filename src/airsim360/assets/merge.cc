@@ -18,16 +18,21 @@ Mat3f Cofactors(const Mat3f& A) {
   return Mat3f::FromColumns(Cross(b, c), Cross(c, a), Cross(a, b));
 }
 
-// Adds the vertices of `from` to `to`; uv and normals are filled in where only one of both has them.
+// Adds the vertices of `from` to `to`; uv, normals and colours are filled in where only one of both has them.
 uint32_t AppendVertices(Mesh& to, const Mesh& from) {
   const auto base = static_cast<uint32_t>(to.positions.size());
   if (!from.uvs.empty() || !to.uvs.empty()) {
     to.uvs.resize(base);
     to.uvs.insert(to.uvs.end(), from.uvs.begin(), from.uvs.end());
   }
+  if (!from.colors.empty() || !to.colors.empty()) {
+    to.colors.resize(base);
+    to.colors.insert(to.colors.end(), from.colors.begin(), from.colors.end());
+  }
   to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
   to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
   if (!to.uvs.empty()) to.uvs.resize(to.positions.size());
+  if (!to.colors.empty()) to.colors.resize(to.positions.size());
   return base;
 }
 

@@ -139,6 +139,7 @@ void FillMissingNormals(Mesh& mesh, double crease_deg) {
     mesh.positions.push_back(mesh.positions[vertex]);
     mesh.normals.push_back(normal);
     if (!mesh.uvs.empty()) mesh.uvs.push_back(mesh.uvs[vertex]);
+    if (!mesh.colors.empty()) mesh.colors.push_back(mesh.colors[vertex]);
     next.push_back(next[vertex]);
     next[vertex] = copy;
     return copy;

@@ -9,6 +9,7 @@
 #include "airsim360/assets/axes.h"
 #include "airsim360/assets/obj_geometry.h"
 #include "airsim360/assets/text_lines.h"
+#include "airsim360/image/color.h"
 
 namespace airsim360::internal {
 namespace {
@@ -27,7 +28,8 @@ class ObjReader {
 
  private:
   void ReadStatement(std::string_view key, std::string_view rest);
-  Vec3f ReadPosition(std::string_view rest);
+  Vec3f ReadPosition(std::string_view& rest);
+  void ReadColor(std::string_view rest);
   void ReadFace(std::string_view rest);
   ObjCorner ReadCorner(std::string_view word);
   // An index into a list that may still grow: some exporters refer to what comes later in the file.
@@ -56,6 +58,7 @@ class ObjReader {
   std::string material_name_;
   uint64_t triangles_ = 0;
   Forward forward_uv_{"texture"}, forward_normal_{"normal"};
+  int64_t beyond_line_ = 0;      // where a vertex colour first lay beyond [0, 1]
   std::vector<ObjCorner> face_;  // reused
 };
 
@@ -96,7 +99,7 @@ void ObjReader::ReadLibraries(std::string_view rest) {
   }
 }
 
-Vec3f ObjReader::ReadPosition(std::string_view rest) {
+Vec3f ObjReader::ReadPosition(std::string_view& rest) {
   Vec3f p;
   for (int i = 0; i < 3; ++i) {
     const std::string_view word = NextWord(rest);
@@ -105,6 +108,24 @@ Vec3f ObjReader::ReadPosition(std::string_view rest) {
     if (std::abs(p[i]) > kMaxCoordinate) lines_.Fail(Quoted(word) + " is too large for a coordinate");
   }
   return p;
+}
+
+// Of the vertex just read: three more numbers, as MeshLab writes them. They are what its window shows, so sRGB. One
+// or two more are the weights of curves.
+void ObjReader::ReadColor(std::string_view rest) {
+  std::string_view words[3];
+  for (std::string_view& word : words) {
+    word = NextWord(rest);
+    if (word.empty() || word.front() == '#') return;
+  }
+  Vec3f linear;
+  for (int i = 0; i < 3; ++i) {
+    const float encoded = ParseFloat(words[i], lines_);
+    if ((encoded < 0 || encoded > 1) && beyond_line_ == 0) beyond_line_ = lines_.line_number();
+    linear[i] = static_cast<float>(SrgbDecode(std::clamp(encoded, 0.0f, 1.0f)));
+  }
+  geometry_.colors.resize(geometry_.positions.size() - 1);
+  geometry_.colors.push_back(MakeVertexColor(linear));
 }
 
 uint32_t ObjReader::ReadIndex(std::string_view digits, size_t count, const char* what, Forward* forward) {
@@ -163,6 +184,7 @@ void ObjReader::ReadFace(std::string_view rest) {
 void ObjReader::ReadStatement(std::string_view key, std::string_view rest) {
   if (key == "v") {
     geometry_.positions.push_back(FromG(ReadPosition(rest)));
+    ReadColor(rest);
     if (geometry_.positions.size() > limits_.max_vertices)
       lines_.Fail("more than " + std::to_string(limits_.max_vertices) + " vertices");
   } else if (key == "vn") {
@@ -206,6 +228,16 @@ ImportedFile ObjReader::Read() {
   if (forward_normal_.largest > static_cast<int64_t>(geometry_.normals.size()))
     warnings_.Add(lines_.file() + ":" + std::to_string(forward_normal_.line) + ": normal index " + std::to_string(forward_normal_.largest) +
                   " of " + std::to_string(geometry_.normals.size()) + ": normals that are not there are computed");
+  if (beyond_line_ != 0) {
+    warnings_.Add(lines_.file() + ":" + std::to_string(beyond_line_) +
+                  ": vertex colours beyond 0 to 1 (here first) are clamped");
+  }
+  // Where colours are of the vertices alone, the plain grey would only darken them.
+  if (!geometry_.colors.empty()) {
+    for (Material& material : materials_) {
+      if (!library_.contains(material.name)) material.base_color = {1, 1, 1};
+    }
+  }
   ImportedFile out;
   out.meshes = geometry_.TakeMeshes();
   for (size_t i = 0; i < out.meshes.size(); ++i) {

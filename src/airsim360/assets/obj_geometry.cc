@@ -54,6 +54,7 @@ Mesh ObjGeometry::MakeMesh(Group& group) const {
     mesh.positions.push_back(positions[c.position]);
     mesh.normals.push_back(c.normal < normals.size() ? normals[c.normal] : Vec3f{});
     if (any_uv) mesh.uvs.push_back(c.uv == ObjCorner::kAbsent ? Vec2f{} : uvs[c.uv]);
+    if (!colors.empty()) mesh.colors.push_back(c.position < colors.size() ? colors[c.position] : VertexColor{});
   }
 
   // One part a material.

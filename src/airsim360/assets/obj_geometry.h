@@ -22,6 +22,7 @@ class ObjGeometry {
  public:
   std::vector<Vec3f> positions, normals;  ///< frame W
   std::vector<Vec2f> uvs;
+  std::vector<VertexColor> colors;  ///< of the first positions; the rest are white
 
   /// What follows belongs to this object or group. A named one may be continued; nameless ones are each their
   /// own.

@@ -27,6 +27,7 @@ Mesh ExtractParts(const Mesh& mesh, const std::vector<uint32_t>& parts) {
     out.positions.push_back(mesh.positions[i]);
     if (!mesh.normals.empty()) out.normals.push_back(mesh.normals[i]);
     if (!mesh.uvs.empty()) out.uvs.push_back(mesh.uvs[i]);
+    if (!mesh.colors.empty()) out.colors.push_back(mesh.colors[i]);
     return moved[i];
   };
   for (uint32_t index : parts) {

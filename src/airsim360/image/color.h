@@ -7,14 +7,14 @@
 
 namespace airsim360 {
 
+/// Linear light of an sRGB value, both in [0, 1].
+inline double SrgbDecode(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+
 /// Linear light in [0, 1] of an 8-bit sRGB value.
 inline float SrgbToLinear(uint8_t value) {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> t{};
-    for (int i = 0; i < 256; ++i) {
-      const double c = i / 255.0;
-      t[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-    }
+    for (int i = 0; i < 256; ++i) t[i] = static_cast<float>(SrgbDecode(i / 255.0));
     return t;
   }();
   return table[value];
@@ -32,10 +32,7 @@ class SrgbEncoder {
  public:
   SrgbEncoder() {
     // Where the rounded value steps from k to k + 1.
-    for (int k = 0; k < 255; ++k) {
-      const double s = (k + 0.5) / 255.0;
-      step_[k] = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-    }
+    for (int k = 0; k < 255; ++k) step_[k] = static_cast<float>(SrgbDecode((k + 0.5) / 255.0));
     for (int i = 0; i <= kGuesses; ++i) guess_[i] = LinearToSrgb8(static_cast<float>(i) / kGuesses);
   }
   uint8_t operator()(float linear) const {

@@ -27,6 +27,8 @@ void CheckMesh(const Mesh& mesh, size_t materials) {
     Fail(where, "normals do not match positions");
   if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
     Fail(where, "uvs do not match positions");
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+    Fail(where, "colours do not match positions");
   for (Vec3f p : mesh.positions) {
     if (!IsFinite(p)) Fail(where, "a vertex is not finite");
   }
@@ -176,6 +178,12 @@ Box3f Mesh::Bounds() const {
   Box3f box;
   for (Vec3f p : positions) box.Add(p);
   return box;
+}
+
+Vec3f Mesh::MeanColor(uint32_t triangle) const {
+  if (colors.empty()) return {1, 1, 1};
+  const Vec3u t = triangles[triangle];
+  return (LinearColor(colors[t.x]) + LinearColor(colors[t.y]) + LinearColor(colors[t.z])) / 3.0f;
 }
 
 SceneBuilder::SceneBuilder(std::string name) { scene_.name = std::move(name); }

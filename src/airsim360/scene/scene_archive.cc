@@ -14,6 +14,7 @@ namespace {
 // Kept as their memory: no padding whose bytes would be anything.
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8 && sizeof(Vec3u) == 12 && sizeof(Rgba8) == 4);
 static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 68 && sizeof(Box3f) == 24);
+static_assert(sizeof(VertexColor) == 8);
 // A field added to these belongs into the lists below.
 static_assert(sizeof(Material) == 152 && sizeof(Environment) == 152 && sizeof(Scene) == 528);
 
@@ -49,7 +50,7 @@ void VisitMaterial(Archive& archive, T& m) {
 
 template <class Archive, class T>
 void VisitMesh(Archive& archive, T& m) {
-  archive(m.name, m.positions, m.normals, m.uvs, m.triangles, m.parts);
+  archive(m.name, m.positions, m.normals, m.uvs, m.triangles, m.parts, m.colors);
 }
 
 template <class Archive, class T>

@@ -56,7 +56,8 @@ std::shared_ptr<const Scene> OddScene() {
                                        {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
                                        {{0, 0}, {1, 0}, {0, 1}},
                                        {{0, 1, 2}},
-                                       {{0, 1, 1, entity}}});
+                                       {{0, 1, 1, entity}},
+                                       {{1, 2, 3, 4}, {}, {65535, 0, 40000, 7}}});
   builder.AddInstance({mesh, PlaceUpright({1, 2, 3}, 0.5f, 2), entity, {0.5f, 0.6f, 0.7f}});
   builder.AddSky();
   builder.SetInteriorLight({0.1f, 0, 0.2f});
@@ -97,6 +98,7 @@ TEST(SceneArchive, GivesBackEveryPart) {
   EXPECT_EQ(read->meshes[0].positions, scene->meshes[0].positions);
   EXPECT_EQ(read->meshes[0].uvs, scene->meshes[0].uvs);
   EXPECT_EQ(read->meshes[0].parts[0].entity, 1u);
+  EXPECT_EQ(read->meshes[0].colors, scene->meshes[0].colors);
   EXPECT_EQ(read->instances[0].X_WM, scene->instances[0].X_WM);
   EXPECT_EQ(read->instances[0].tint, scene->instances[0].tint);
   EXPECT_EQ(read->entities[0].bounds.max, scene->entities[0].bounds.max);

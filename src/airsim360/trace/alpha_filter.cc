@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace airsim360::internal {
 namespace {
@@ -43,6 +44,14 @@ float BilinearAlpha(const Texture& texture, Vec2f uv) {
   };
   const float top = row(y0), bottom = row(y1);
   return (top + (bottom - top) * (y - fy)) * (1.0f / 255.0f);
+}
+
+float Coverage(VertexColor c) { return static_cast<float>(c.a) * (1.0f / 65535.0f); }
+
+// Exact where all corners are alike; corner_mix of the shaders.
+float CoverageAt(const Mesh& mesh, Vec3u t, float u, float v) {
+  const float a = Coverage(mesh.colors[t.x]), b = Coverage(mesh.colors[t.y]), c = Coverage(mesh.colors[t.z]);
+  return a + ((b - a) * u + (c - a) * v);
 }
 
 constexpr float kMaxRepeats = 1000;     // of a texture under one triangle
@@ -105,9 +114,9 @@ AlphaTest::AlphaTest(const Material& material, std::span<const Texture> textures
   if (!texture.levels.empty() && !texture.levels[0].empty()) texture_ = &texture;
 }
 
-bool AlphaTest::Solid(Vec2f uv) const {
+bool AlphaTest::Solid(Vec2f uv, float coverage) const {
   const float alpha = texture_ != nullptr ? BilinearAlpha(*texture_, transform_ * uv) : 1.0f;
-  return scale_ * alpha >= cutoff_;
+  return scale_ * (alpha * coverage) >= cutoff_;
 }
 
 Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
@@ -136,15 +145,22 @@ Opacity AlphaTest::Classify(const Mesh& mesh, uint32_t triangle) const {
     const double texels = std::max(image.width(), image.height());
     if (!AlphaUnder(*texture_, corners, static_cast<double>(reach) * texels, range)) return Opacity::kMixed;
   }
+  float lowest = 1, highest = 1;
+  if (!mesh.colors.empty()) {
+    const Vec3u t = mesh.triangles[triangle];
+    std::tie(lowest, highest) =
+        std::minmax({Coverage(mesh.colors[t.x]), Coverage(mesh.colors[t.y]), Coverage(mesh.colors[t.z])});
+  }
   const auto solid = [&](float alpha) { return scale_ * (alpha * (1.0f / 255.0f)) >= cutoff_; };
-  if (solid(static_cast<float>(range.lowest) - kAlphaMargin)) return Opacity::kOpaque;
-  if (!solid(static_cast<float>(range.highest) + kAlphaMargin)) return Opacity::kClear;
+  if (solid(static_cast<float>(range.lowest) * lowest - kAlphaMargin)) return Opacity::kOpaque;
+  if (!solid(static_cast<float>(range.highest) * highest + kAlphaMargin)) return Opacity::kClear;
   return Opacity::kMixed;
 }
 
-bool NeedsAlphaTest(const Material& material) {
+bool NeedsAlphaTest(const Material& material, const Mesh& mesh) {
   return material.alpha_mode == AlphaMode::kMask &&
-         (material.base_color_texture != kNoTexture || material.base_alpha < material.alpha_cutoff);
+         (material.base_color_texture != kNoTexture || material.base_alpha < material.alpha_cutoff ||
+          !mesh.colors.empty());
 }
 
 void FilterAlpha(const RTCFilterFunctionNArguments* args) {
@@ -153,14 +169,14 @@ void FilterAlpha(const RTCFilterFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, i);
+    const Vec3u triangle =
+        mesh.triangles[geometry.triangles.empty() ? primitive : geometry.triangles[primitive]];
+    const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
     Vec2f uv;
-    if (!mesh.uvs.empty()) {
-      const Vec3u triangle =
-          mesh.triangles[geometry.triangles.empty() ? primitive : geometry.triangles[primitive]];
-      const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+    if (!mesh.uvs.empty())
       uv = (1 - u - v) * mesh.uvs[triangle.x] + u * mesh.uvs[triangle.y] + v * mesh.uvs[triangle.z];
-    }
-    if (!geometry.tests[geometry.primitive_test[primitive]].Solid(uv)) args->valid[i] = 0;
+    const float coverage = mesh.colors.empty() ? 1.0f : CoverageAt(mesh, triangle, u, v);
+    if (!geometry.tests[geometry.primitive_test[primitive]].Solid(uv, coverage)) args->valid[i] = 0;
   }
 }
 

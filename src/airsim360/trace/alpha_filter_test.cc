@@ -29,8 +29,8 @@ Texture RandomTexture(RngStream& rng) {
 }
 
 // Cards with random places and texture coordinates, of all sizes from a texel to several repeats, some of
-// them instanced and some parts plain.
-std::shared_ptr<const Scene> LeafScene(RngStream& rng) {
+// them instanced and some parts plain; with `colors`, vertices cover random shares in half of the meshes.
+std::shared_ptr<const Scene> LeafScene(RngStream& rng, bool colors = false) {
   SceneBuilder builder("leaves");
   const EntityId entity = builder.AddEntity("leaves", builder.tree().At("vegetation"));
   const MaterialId plain = builder.AddMaterial({});
@@ -58,6 +58,8 @@ std::shared_ptr<const Scene> LeafScene(RngStream& rng) {
       }
       mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
+    for (size_t i = 0; colors && m % 2 == 1 && i < mesh.positions.size(); ++i)
+      mesh.colors.push_back(MakeVertexColor({1, 1, 1}, static_cast<float>(rng.Uniform(-0.2, 1.5))));
     mesh.parts = {{0, 250, cut_id, kNoEntity}, {250, 50, plain, kNoEntity}};
     const MeshId id = builder.AddMesh(mesh);
     for (int i = 0; i <= m % 2; ++i)
@@ -94,8 +96,8 @@ TEST(AlphaTest, OpaqueTrianglesHaveNoHoleAndClearOnesAreAllHole) {
 
 TEST(AlphaTest, SortingTrianglesByOpacityChangesNoHit) {
   RngStream rng(2, "alpha");
-  for (int round = 0; round < 3; ++round) {
-    const auto scene = LeafScene(rng);
+  for (int round = 0; round < 4; ++round) {
+    const auto scene = LeafScene(rng, round % 2 == 1);
     const RayTracer sorted(scene), filtered(scene, {.isa = {}, .sort_alpha = false});
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -117,6 +119,52 @@ TEST(AlphaTest, SortingTrianglesByOpacityChangesNoHit) {
     }
     EXPECT_GT(hits, 2000);
   }
+}
+
+// A triangle whose corners cover 0, 1/2 and 1, cut at different heights, without and with a picture that covers half:
+// rays meet it exactly where the closed form says.
+TEST(AlphaTest, CoverageOfVerticesCutsAlongStraightLines) {
+  for (const float cutoff : {0.1f, 0.4f, 0.7f}) {
+    for (const bool picture : {false, true}) {
+      for (const bool sort : {false, true}) {
+        SceneBuilder builder("cut");
+        Material material;
+        material.alpha_mode = AlphaMode::kMask;
+        material.alpha_cutoff = cutoff;
+        if (picture)
+          material.base_color_texture =
+              builder.AddTexture(Texture::FromImage("half", Image<Rgba8>(2, 2, {255, 255, 255, 128}), true));
+        Mesh mesh{"cut", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {{0, 1, 2}}, {}};
+        mesh.parts = {{0, 1, builder.AddMaterial(material), kNoEntity}};
+        mesh.colors = {MakeVertexColor({1, 1, 1}, 0), MakeVertexColor({1, 1, 1}, 0.5f), MakeVertexColor({1, 1, 1}, 1)};
+        builder.AddInstance(
+            {builder.AddMesh(mesh), {}, builder.AddEntity("leaf", builder.tree().At("vegetation"))});
+        const RayTracer tracer(builder.Build(), {.isa = {}, .sort_alpha = sort});
+        RngStream rng(5, "cut");
+        int seen = 0;
+        for (int i = 0; i < 2000; ++i) {
+          const auto u = static_cast<float>(rng.Uniform(0.01, 0.98)),
+                     v = static_cast<float>(rng.Uniform(0.01, 0.99 - static_cast<double>(u)));
+          const float alpha = (0.5f * u + v) * (picture ? 128.0f / 255 : 1.0f);
+          if (std::fabs(alpha - cutoff) < 1e-4f) continue;
+          const bool hit = tracer.Intersect({u, v, 1}, {0, 0, -1}).has_value();
+          ASSERT_EQ(hit, alpha > cutoff) << u << ' ' << v << ' ' << cutoff << picture << sort;
+          seen += hit;
+        }
+        EXPECT_EQ(seen > 0, !picture || cutoff < 0.5f);
+      }
+    }
+  }
+}
+
+// The alpha of vertices says nothing where the material is opaque.
+TEST(AlphaTest, OpaqueMaterialsIgnoreCoverage) {
+  SceneBuilder builder("solid");
+  Mesh mesh{"solid", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {{0, 1, 2}}, {}};
+  mesh.parts = {{0, 1, builder.AddMaterial({}), kNoEntity}};
+  mesh.colors.assign(3, MakeVertexColor({1, 1, 1}, 0));
+  builder.AddInstance({builder.AddMesh(mesh), {}, builder.AddEntity("leaf", builder.tree().At("vegetation"))});
+  EXPECT_TRUE(RayTracer(builder.Build()).Intersect({0.25f, 0.25f, 1}, {0, 0, -1}).has_value());
 }
 
 }  // namespace

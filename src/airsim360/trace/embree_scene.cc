@@ -39,7 +39,7 @@ std::vector<Group> Classify(const Mesh& mesh, const Scene& scene, bool sort_alph
   for (const MeshPart& part : mesh.parts) {
     const Material& material = scene.materials[part.material];
     const auto begin = out.begin() + part.first_triangle;
-    if (!NeedsAlphaTest(material)) {
+    if (!NeedsAlphaTest(material, mesh)) {
       if (IsClearPane(material)) std::fill(begin, begin + part.triangle_count, Group::kPane);
       continue;
     }

@@ -8,7 +8,7 @@ std::vector<TriangleOpacity> TriangleOpacities(const Scene& scene, const Mesh& m
   std::vector<TriangleOpacity> out(mesh.triangles.size(), TriangleOpacity::kOpaque);
   for (const MeshPart& part : mesh.parts) {
     const Material& material = scene.materials[part.material];
-    if (!internal::NeedsAlphaTest(material)) continue;
+    if (!internal::NeedsAlphaTest(material, mesh)) continue;
     const internal::AlphaTest test(material, scene.textures);
     for (uint32_t i = part.first_triangle; i < part.first_triangle + part.triangle_count; ++i) {
       switch (test.Classify(mesh, i)) {

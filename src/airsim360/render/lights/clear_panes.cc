@@ -43,6 +43,8 @@ void DimByPanes(const RayTracer& tracer, const SurfaceTables& tables, const int*
       const float one = scalar::fresnel_dielectric(kGlassIndex, cosine);
       const float kept = material.transmission * (1 - one) / (1 + one);
       for (int c = 0; c < 3; ++c) tint[i][c] *= material.base[c] * instance.tint[c] * kept;
+      if (instance.first_color != 0)
+        tint[i] = tint[i] * tables.ColorAt(instance, ref.triangle, rays.u[i], rays.v[i]);
       rays.t_near[i] = rays.t_far[i] * (1 + 1e-5f) + 1e-4f;
       rays.t_far[i] = t_far[i];
       if (!(rays.t_near[i] < t_far[i])) active[i] = 0;

@@ -13,18 +13,34 @@ struct alignas(64) Met {
   alignas(64) float m[9][16], albedo[3][16], emission[3][16], foliage[16], leaf[16], hit[16];
 };
 
+/// Vertex colours in the mean of each triangle, of vectors some lane of which lies in a mesh that has them.
+static __attribute__((noinline)) void TintMet(const ShadeView& view, const AmbientHits& hits,
+                                              const InstanceRecord* const* instance, int first,
+                                              float (&mean)[3][kLanes]) {
+  for (int i = 0; i < kLanes; ++i) {
+    if (instance[i]->first_color == 0 || hits.instance[first + i] == kMiss) continue;
+    const TriangleColors& colors = view.colors[instance[i]->first_color + hits.triangle[first + i]];
+    for (int k = 0; k < 3; ++k) {
+      const int sum = colors.corner[0][k] + colors.corner[1][k] + colors.corner[2][k];
+      mean[k][i] *= static_cast<float>(sum) * (1.0f / (3 * 65535.0f));
+    }
+  }
+}
+
 KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
   for (int first = 0; first < 16; first += kLanes) {
     const InstanceRecord* instance[kLanes];
     const TriangleRecord* triangle[kLanes];
     const MaterialRecord* material[kLanes];
     alignas(64) float mean[3][kLanes];
+    uint32_t colored = 0;
     for (int i = 0; i < kLanes; ++i) {
       const bool hit = hits.instance[first + i] != kMiss;
       met.hit[first + i] = hit ? 1.0f : 0.0f;
       instance[i] = &view.instances[hit ? hits.instance[first + i] : 0];
       triangle[i] = &view.triangles[instance[i]->first_triangle + (hit ? hits.triangle[first + i] : 0)];
       const uint32_t id = triangle[i]->material & ~kMirroredUv;
+      colored |= instance[i]->first_color;
       material[i] = &view.materials[id];
       met.normal[first + i] = static_cast<int32_t>(triangle[i]->geometric_normal);
       const float shines = hit ? hits.shines[first + i] : 0.0f;
@@ -33,6 +49,7 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
         met.emission[k][first + i] = shines * view.mean_emissions[3 * id + k];
       }
     }
+    if (colored != 0) TintMet(view, hits, instance, first, mean);
     const auto quad = [](const auto* const* records, int q) __attribute__((always_inline)) {
       return GatherQuads([&](int i) __attribute__((always_inline)) {
         return reinterpret_cast<const float*>(records[i]) + 4 * q;

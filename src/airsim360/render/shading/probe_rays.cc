@@ -62,7 +62,8 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
     const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
     if (lamp != LightTable::kNoLamp && world.lamps->Holds(lamp)) emission = {};
   }
-  return {point,    normal, Min(tables.mean_colors[material] * tint, Vec3f{0.9f, 0.9f, 0.9f}),
+  const Vec3f color = tables.mean_colors[material] * tint * tables.MeanColor(instance, ref.triangle);
+  return {point,    normal, Min(color, Vec3f{0.9f, 0.9f, 0.9f}),
           emission, back,   kind == SurfaceKind::kFoliage || kind == SurfaceKind::kGlass};
 }
 

@@ -38,6 +38,7 @@ ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const S
   view.mean_colors = tables.mean_colors.empty() ? nullptr : &tables.mean_colors[0].x;
   view.mean_emissions = tables.mean_emissions.empty() ? nullptr : &tables.mean_emissions[0].x;
   view.panes = tables.panes.data();
+  view.colors = tables.colors.empty() ? nullptr : tables.colors.data();
   view.macro_texture = 1;
   PutWeather(environment ? *environment : scene.environment, sky, view);
   view.ground_z = scene.bounds.empty() ? 0.0f : scene.bounds.min.z;

@@ -38,6 +38,12 @@ struct alignas(64) InstanceRecord {
   float texels_log2;  ///< minus log2 of its scale
   uint32_t first_triangle;
   uint32_t hash;
+  uint32_t first_color;  ///< TriangleColors of the mesh's first triangle; 0 = white
+};
+
+/// Vertex colours of one triangle: red, green, blue and coverage of each corner in steps of 1/65535.
+struct alignas(32) TriangleColors {
+  uint16_t corner[3][4];
 };
 
 enum MaterialFlags : uint32_t {
@@ -170,6 +176,7 @@ struct ShadeView {
   CloudShadowView cloud_shadow;
   SkyTableView sky_below;  ///< Sky::below; texels nullptr = far ground
   const PaneRecord* panes;
+  const TriangleColors* colors;  ///< the first is white; nullptr where no mesh has any
   float wetness, snow, rain;  ///< Environment: 0 … 1, 0 … 1, drops on puddles 0 … 1
   float lit_rooms;            ///< share of rooms whose lamps are on
   float lamplight;            ///< radiance of a white surface in a lit room

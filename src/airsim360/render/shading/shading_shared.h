@@ -24,6 +24,12 @@
 SHARED real clamp01(real x) { return rmin(real(1.0f), rmax(real(0.0f), x)); }
 SHARED real lerp1(real a, real b, real t) { return a + (b - a) * t; }
 SHARED real3 lerp3(real3 a, real3 b, real t) { return a + (b - a) * t; }
+// Mix of a triangle's corners at the weights u and v of the second and third; exact where all are alike.
+SHARED real corner_mix(real a, real b, real c, real u, real v) { return a + ((b - a) * u + (c - a) * v); }
+SHARED real3 corner_color(real3 a, real3 b, real3 c, real u, real v) {
+  return make3(clamp01(corner_mix(a.x, b.x, c.x, u, v)), clamp01(corner_mix(a.y, b.y, c.y, u, v)),
+               clamp01(corner_mix(a.z, b.z, c.z, u, v)));
+}
 SHARED real smooth01(real t) { return t * t * (3.0f - 2.0f * t); }
 SHARED real3 normalize3(real3 a) { return a * rsqrt_exact(rmax(dot3(a, a), real(1e-30f))); }
 // How far secondary rays start from a surface: above the rounding errors of hit points.

@@ -22,7 +22,7 @@ struct alignas(64) Fetched {
   BitLanes window;
 
   Lanes matrix[9], tint[3], scale_log2;
-  BitLanes first_triangle, instance_hash, unused_instance;
+  BitLanes first_triangle, instance_hash, first_color;
 
   Lanes base[3], metallic, roughness, emission[3], transmission, macro, normal_scale, kind;
   int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes], emission_id[kLanes];
@@ -34,9 +34,11 @@ struct alignas(64) Fetched {
   /// Set only where any_window.
   Lanes corner_a[3], corner_b[3], half_a, half_b, u_per_a, v_per_b, room, interior;
   int32_t right[kLanes], up[kLanes];
+  /// Set only where any_colored: the words of TriangleColors.
+  int32_t corner_words[8][kLanes];
   bool any_smooth;  ///< some corner's normal is not the triangle's own
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
-      any_unit, any_ground, any_window, any_leaf;
+      any_unit, any_ground, any_window, any_leaf, any_colored;
   bool any_picture;  ///< something that needs texture coordinates
   /// All lanes lie on one triangle, this one.
   bool one = false;
@@ -49,8 +51,8 @@ constexpr size_t kWord = sizeof(float), kRow = kWord * kLanes;
 static_assert(sizeof(TriangleRecord) == 16 * kWord && offsetof(TriangleRecord, window) == 15 * kWord &&
               offsetof(Fetched, window) == 15 * kRow && offsetof(Fetched, texels_log2) == 11 * kRow &&
               offsetof(TriangleRecord, texels_log2) == 11 * kWord);
-static_assert(offsetof(InstanceRecord, hash) == 14 * kWord && offsetof(Fetched, matrix) == 16 * kRow &&
-              offsetof(Fetched, instance_hash) == 30 * kRow && offsetof(Fetched, base) == 32 * kRow);
+static_assert(offsetof(InstanceRecord, first_color) == 15 * kWord && sizeof(TriangleColors) == 8 * kWord && offsetof(Fetched, matrix) == 16 * kRow &&
+              offsetof(Fetched, first_color) == 31 * kRow && offsetof(Fetched, base) == 32 * kRow);
 static_assert(offsetof(MaterialRecord, interior) == 26 * kWord &&
               offsetof(Fetched, room_material) == (32 + 26) * kRow &&
               offsetof(MaterialRecord, base_texture) == 12 * kWord &&
@@ -137,6 +139,29 @@ KERNEL void TakeRecords(const Record* const* records, const Record* shared, int 
   }
 }
 
+/// Vertex colours of vectors some lane of which lies in a mesh that has them.
+static __attribute__((noinline)) void FetchColors(const ShadeView& view, const RaySet& rays, int begin,
+                                                  Fetched& f) {
+  const TriangleColors* colors[kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    const uint32_t first = f.first_color[i];
+    colors[i] = &view.colors[first == 0 ? 0 : first + rays.triangle[begin + i]];
+  }
+  TakeRecords(colors, f.one ? colors[0] : nullptr, 2, f.corner_words);
+}
+
+KERNEL real3 CornerColor(const Fetched& f, int corner) {
+  const ireal rg(f.corner_words[2 * corner], stdx::vector_aligned),
+      ba(f.corner_words[2 * corner + 1], stdx::vector_aligned);
+  return make3(to_real(rg & 0xffff), to_real((rg >> 16) & 0xffff), to_real(ba & 0xffff)) *
+         real(1.0f / 65535.0f);
+}
+
+/// What vertex colours do to the base colour at barycentrics (u, v).
+static __attribute__((noinline)) real3 VertexColors(const Fetched& f, real u, real v) {
+  return corner_color(CornerColor(f, 0), CornerColor(f, 1), CornerColor(f, 2), u, v);
+}
+
 /// The rows of a material and what follows from them alone.
 KERNEL void TakeMaterials(const MaterialRecord* const* material, const MaterialRecord* shared, Fetched& f) {
   TakeRecords(material, shared, 7, f.base);
@@ -174,8 +199,10 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
   TakeRecords(triangle, one ? triangle[0] : nullptr, 4, f.normal);
   // Instance and material are mostly those of the vector before.
   const InstanceRecord* same_instance = Shared(instance);
-  if (same_instance == nullptr || same_instance != f.instance)
+  if (same_instance == nullptr || same_instance != f.instance) {
     TakeRecords(instance, same_instance, 4, f.matrix);
+    f.any_colored = stdx::any_of(Bits(f.first_color) != 0u);
+  }
   f.instance = same_instance;
   const MaterialRecord* same_material = Shared(material);
   if (same_material == nullptr || same_material != f.of_material) TakeMaterials(material, same_material, f);
@@ -192,6 +219,7 @@ KERNEL void Fetch(const ShadeView& view, const RaySet& rays, int begin, Fetched&
   f.any_smooth = stdx::any_of(IsSmooth(f));
   f.any_window = stdx::any_of(Bits(f.window) != 0u);
   if (f.any_window) FetchPanes(view, f);
+  if (f.any_colored) FetchColors(view, rays, begin, f);
 }
 
 }  // namespace airsim360::internal::AIRSIM360_ISA

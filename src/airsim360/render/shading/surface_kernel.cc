@@ -111,6 +111,7 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   }
 
   real3 color = load3(f.color[0], f.color[1], f.color[2]);
+  if (f.any_colored) color = color * VertexColors(f, u, v);
   real metallic = load(f.metallic), roughness = load(f.roughness);
   real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
   const TileCorners corners = ChooseCorners(f, tu, tv, footprint);

@@ -344,7 +344,12 @@ TEST(SurfaceKernel, AllInstructionSetsAgreeOnRoomsWeatherAndMixedTiles) {
     p = {static_cast<uint8_t>(random.Index(256)), static_cast<uint8_t>(random.Index(256)),
          static_cast<uint8_t>(random.Index(256)), 255};
   const TextureId texture = builder.AddTexture(Texture::FromImage("noise", noise, true));
+  int meshes = 0;
   const auto add = [&](Mesh mesh, Material m) {
+    // Every second mesh has vertex colours.
+    const auto level = [&] { return static_cast<uint16_t>(random.Index(65536)); };
+    mesh.colors.resize(meshes++ % 2 == 1 ? mesh.positions.size() : 0);
+    for (VertexColor& c : mesh.colors) c = {level(), level(), level()};
     mesh.parts = {{0, 2, builder.AddMaterial(m), kNoEntity}};
     builder.AddInstance({builder.AddMesh(std::move(mesh)), AffineTransform(), entity});
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <tuple>
 
@@ -281,11 +282,47 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
     }
   });
   AddPanes(scene);
-  for (size_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    instances.push_back(
-        MakeInstance(instance, instance.X_WM, first_[instance.mesh], static_cast<uint32_t>(i)));
+  AddColors(scene);
+  for (size_t i = 0; i < scene.instances.size(); ++i)
+    instances.push_back(Place(scene.instances[i], scene.instances[i].X_WM, static_cast<uint32_t>(i)));
+}
+
+InstanceRecord SurfaceTables::Place(const Instance& instance, const AffineTransform& X_WM,
+                                    uint32_t index) const {
+  InstanceRecord record = MakeInstance(instance, X_WM, first_[instance.mesh], index);
+  record.first_color = first_color_[instance.mesh];
+  return record;
+}
+
+void SurfaceTables::AddColors(const Scene& scene) {
+  first_color_.resize(scene.meshes.size());
+  size_t count = 0;
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    if (scene.meshes[m].colors.empty()) continue;
+    if (count == 0) count = 1;
+    first_color_[m] = static_cast<uint32_t>(count);
+    count += scene.meshes[m].triangles.size();
   }
+  colors.resize(count);
+  if (count > 0) std::memset(&colors[0], 0xff, sizeof colors[0]);
+  ParallelFor(static_cast<int64_t>(scene.meshes.size()), [&](int64_t m) {
+    const Mesh& mesh = scene.meshes[m];
+    if (mesh.colors.empty()) return;
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Vec3u t = mesh.triangles[i];
+      const VertexColor corners[3] = {mesh.colors[t.x], mesh.colors[t.y], mesh.colors[t.z]};
+      static_assert(sizeof corners == sizeof TriangleColors::corner);
+      std::memcpy(colors[first_color_[m] + i].corner, corners, sizeof corners);
+    }
+  });
+}
+
+Vec3f SurfaceTables::ColorAt(const InstanceRecord& instance, uint32_t triangle, float u, float v) const {
+  if (instance.first_color == 0) return {1, 1, 1};
+  const auto& corners = colors[instance.first_color + triangle].corner;
+  Vec3f c[3];
+  for (int k = 0; k < 3; ++k) c[k] = LinearColor({corners[k][0], corners[k][1], corners[k][2]});
+  return scalar::corner_color(c[0], c[1], c[2], u, v);
 }
 
 const std::vector<uint32_t>& SurfaceTables::Welds(const Mesh& mesh, MeshId id) {
@@ -310,8 +347,7 @@ void SurfaceTables::SetTriangles(const Scene& scene, MeshId id, const Mesh& shap
 void SurfaceTables::Apply(const Scene& scene, std::span<const MovedInstance> moved,
                           std::span<const DeformedMesh> deformed) {
   const auto place = [&](uint32_t i, const AffineTransform& X_WM) {
-    const Instance& instance = scene.instances[i];
-    instances[i] = MakeInstance(instance, X_WM, first_[instance.mesh], i);
+    instances[i] = Place(scene.instances[i], X_WM, i);
   };
   for (uint32_t i : moved_) place(i, scene.instances[i].X_WM);
   moved_.clear();

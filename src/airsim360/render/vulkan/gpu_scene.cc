@@ -101,6 +101,14 @@ void GpuScene::UploadMesh(MeshId id) {
     record.uvs = arena_.Put(mesh.uvs).address;
   }
 
+  // Read for their coverage alone.
+  const bool tested = std::ranges::any_of(
+      mesh.parts, [&](const MeshPart& part) { return scene_->materials[part.material].alpha_mode == AlphaMode::kMask; });
+  if (tested && !mesh.colors.empty()) {
+    record.flags |= kGpuHasColors;
+    record.colors = arena_.Put(mesh.colors).address;
+  }
+
   // Primitives in the order of their geometries.
   const Sorted sorted = Sort(*scene_, mesh);
   std::copy_n(sorted.first, 4, record.first);

@@ -11,6 +11,7 @@ namespace {
 
 static_assert(sizeof(GpuTriangle) == sizeof(TriangleRecord) && sizeof(GpuShaded) == sizeof(InstanceRecord) &&
               sizeof(GpuMaterial) == sizeof(MaterialRecord) && sizeof(GpuPane) == sizeof(PaneRecord) &&
+              sizeof(GpuTriangleColors) == sizeof(TriangleColors) &&
               sizeof(GpuLamp) == sizeof(LampRecord));
 
 template <size_t N>
@@ -112,6 +113,7 @@ GpuShadeTables::GpuShadeTables(GpuDevice& device, const Shader& shader, const Sc
   s.instances = arena_.Put(impl.tables.instances).address;
   s.materials = arena_.Put(impl.tables.materials).address;
   s.panes = arena_.Put(impl.tables.panes).address;
+  s.colors = arena_.Put(impl.tables.colors).address;
   s.mean_colors = arena_.Put(impl.tables.mean_colors).address;
   s.mean_emissions = arena_.Put(impl.tables.mean_emissions).address;
   s.textures = PutTextures(arena_, impl.tables.textures);

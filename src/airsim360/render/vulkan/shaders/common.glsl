@@ -40,7 +40,7 @@ layout(push_constant, scalar) uniform Push { Frames frame; int pass; int paths; 
 #include "airsim360/render/shading/shading_points.h"
 
 const uint kMiss = 0xffffffffu;
-const uint kHasUvs = 1, kSorted = 2, kHasEntities = 4;
+const uint kHasUvs = 1, kSorted = 2, kHasEntities = 4, kHasColors = 8;
 
 /// What a ray met.
 struct Hit {

@@ -96,6 +96,7 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
     const float share = max(cosine, 0.0) + max(-cosine, 0.0) * leaf;
     light += Vec(view.sun_irradiance) * (share * MapSun(p, foliage ? SHADE_LEAF_BIAS : bounce.sun_bias) * CloudShadow(p));
   }
-  const vec3 albedo = min(Load3(view.mean_colors, id) * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(0.9));
+  const vec3 color = Load3(view.mean_colors, id) * VertexColors(own, met.triangle, vec2(1.0 / 3.0));
+  const vec3 albedo = min(color * vec3(own.tint[0], own.tint[1], own.tint[2]), vec3(0.9));
   return diffuse(albedo, light) + emission;
 }

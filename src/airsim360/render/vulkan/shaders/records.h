@@ -5,6 +5,7 @@ struct GpuMesh {
   ADDRESS(Floats) positions;    // x y z
   ADDRESS(Uints) indices;       // three of each primitive: opaque triangles, then alpha-tested ones, then clear panes
   ADDRESS(Floats) uvs;          // u v, of the mesh; not read where flags lack kGpuHasUvs
+  ADDRESS(Uints) colors;        // two words a vertex, r g and b a of 16 bits; not read where flags lack kGpuHasColors
   ADDRESS(Uints) triangle_of;   // primitive -> triangle of the mesh; not read without kGpuSorted
   ADDRESS(Uints) entity_of;     // triangle -> entity; not read without kGpuHasEntities
   ADDRESS(Uints) material_of;   // triangle -> material

@@ -5,6 +5,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Mat
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Textures;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Panes;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lamps;
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleColors;
 #include "shade_records.h"
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Triangles { GpuTriangle v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadedInstances { GpuShaded v[]; };
@@ -12,6 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Mat
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Textures { GpuTexture v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Panes { GpuPane v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Lamps { GpuLamp v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleColors { GpuTriangleColors v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { GpuShade v; };
 #define view push.frame.v.shade.v
 
@@ -31,5 +33,15 @@ const uint kMirroredUv = 0x80000000u;
 vec3 UnpackDirection(uint p) {
   const float scale = 2.0 / 65534.0;
   return octahedral_decode(float(p & 0xffffu) * scale - 1.0, float(p >> 16) * scale - 1.0);
+}
+vec3 CornerColor(GpuTriangleColors c, int corner) {
+  const uint rg = c.corner[2 * corner], ba = c.corner[2 * corner + 1];
+  return vec3(float(rg & 0xffffu), float(rg >> 16), float(ba & 0xffffu)) * (1.0 / 65535.0);
+}
+/// What vertex colours do to the base colour of a triangle at the weights of its second and third corner.
+vec3 VertexColors(GpuShaded own, uint triangle, vec2 bary) {
+  if (own.first_color == 0) return vec3(1.0);
+  const GpuTriangleColors c = view.colors.v[own.first_color + triangle];
+  return corner_color(CornerColor(c, 0), CornerColor(c, 1), CornerColor(c, 2), bary.x, bary.y);
 }
 float HashOf(uint bits) { return float((bits * 0x9e3779b1u) >> 8) * (1.0 / 16777216.0); }

@@ -13,7 +13,12 @@ struct GpuTriangle {
 struct GpuShaded {
   float normal_matrix[9], tint[3];
   float texels_log2;
-  uint first_triangle, hash, pad;
+  uint first_triangle, hash, first_color;
+};
+
+struct GpuTriangleColors {
+  uint corner[6];                   // r g, b a of each
+  uint pad[2];
 };
 
 struct GpuMaterial {
@@ -64,6 +69,7 @@ struct GpuShade {
   ADDRESS(Materials) materials;
   ADDRESS(Textures) textures;
   ADDRESS(Panes) panes;
+  ADDRESS(TriangleColors) colors;   // by GpuShaded::first_color
   ADDRESS(Floats) mean_colors, mean_emissions;
   ADDRESS(Floats) probes;           // 16 floats each
   ADDRESS(Floats) layer_of_height;

@@ -305,6 +305,7 @@ Shaded Prepare(Ray ray) {
 
   vec3 color = vec3(m.base[0] * own.tint[0], m.base[1] * own.tint[1], m.base[2] * own.tint[2]);
   const vec3 tint = color;
+  color *= VertexColors(own, triangle, ray.bary);
   float metallic = m.metallic, roughness = m.roughness;
   vec3 emission = Vec(m.emission);
 
