@@ -35,7 +35,7 @@ ImportedFile ReadModelFile(const fs::path& path) {
   const Bytes bytes = ReadFile(path);
   const ResourceLoader load = FolderLoader(path.string(), path.parent_path());
   const bool city = extension == ".json" || extension == ".jsonl";
-  if (city && !LooksLikeCityJson(AsText(bytes))) throw InputError(path.string() + ": not CityJSON");
+  if (city) CheckIsCityJson(path.string(), AsText(bytes));
   ImportedFile file = city                  ? ReadCityJson(path.string(), AsText(bytes))
                       : extension == ".obj" ? ReadObj(path.string(), AsText(bytes), load)
                                             : ReadGltf(path.string(), bytes, load);

@@ -14,6 +14,7 @@
 #include "airsim360/scene/scene_archive.h"
 #include "airsim360/sim/height_file.h"
 #include "airsim360/sim/world_environment.h"
+#include "airsim360/worlds/city_facades.h"
 #include "airsim360/worlds/osm_world.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -28,9 +29,14 @@ std::string LowerExtension(const fs::path& path) {
   return extension;
 }
 
+bool IsCityFile(const fs::path& path) {
+  const std::string extension = LowerExtension(path);
+  return extension == ".json" || extension == ".jsonl";
+}
+
 bool IsModelFile(const fs::path& path) {
   const std::string extension = LowerExtension(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".json" || extension == ".jsonl";
+  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || IsCityFile(path);
 }
 
 bool IsPath(const fs::path& path) { return IsModelFile(path) || IsOsmFile(path); }
@@ -42,13 +48,17 @@ bool IsWorldFile(const fs::path& path) {
 
 // The fields of a world YAML, filled into `request` and, over its values, `environment`.
 WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environment& environment) {
-  std::string world, labels, heights;
+  std::string world, labels, heights, bbox, centre;
+  double radius = 0;
   ReadYamlFile(file, [&](ConfigVisitor& v) {
     v.Field("world", "name of a built-in world, or a .glb, .gltf, .obj, .osm or .osm.pbf file", world);
     v.Field("seed", "seed of the world", request.seed);
     v.Field("labels", "label override file", labels);
     v.Field("heights", "maps: GeoTIFF of the ground's heights", heights);
-    v.Field("fill", "maps: add parked cars, lamps and trees where the map has none", request.fill);
+    v.Field("bbox", "maps: only this piece, south,west,north,east in degrees", bbox);
+    v.Field("centre", "maps: only a square around latitude,longitude in degrees", centre);
+    v.Field("radius", "maps: of centre, metres to each side", radius, 10, 30000);
+    v.Field("fill", "maps: add parked cars, lamps and trees where the map has none; CityJSON: add facades", request.fill);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
     request.additions.Visit(v);
     v.Group("environment", "sun, sky and weather",
@@ -58,6 +68,9 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
   request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
   request.additions.Resolve(file);
+  // The flags count before the file.
+  const std::optional<MapCut> cut = MapCutOf(file.string() + ": ", bbox, centre, radius);
+  if (!request.cut) request.cut = cut;
   if (!labels.empty() && request.labels.empty()) request.labels = file.parent_path() / labels;
   if (!heights.empty()) request.heights = file.parent_path() / heights;
   return request;
@@ -66,15 +79,20 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
 // Everything that a world that we build depends on.
 CacheKey KeyOf(const WorldRequest& request) {
   CacheKey key("scene", 1);
-  key.AddProgram().Add(request.world).Add(request.seed).Add(request.use_models);
-  if (IsOsmFile(request.world)) {
-    key.AddFile(request.world).Add(request.fill).Add(request.heights.string());
+  // A map is the same by whatever name of its path.
+  std::error_code error;
+  const auto place = [&](const fs::path& path) { return fs::weakly_canonical(path, error).string(); };
+  const bool map = IsOsmFile(request.world);
+  key.AddProgram().Add(map ? place(request.world) : request.world).Add(request.seed).Add(request.use_models);
+  if (map) {
+    key.AddFile(request.world).Add(request.fill).Add(request.heights.empty() ? "" : place(request.heights));
     if (!request.heights.empty()) key.AddFile(request.heights);
+    if (request.cut)
+      for (double degrees : {request.cut->box.west, request.cut->box.south, request.cut->box.east, request.cut->box.north}) key.Add(degrees);
   }
   request.additions.AddTo(key);
   if (!request.use_models) return key;
   std::vector<fs::path> libraries;
-  std::error_code error;
   for (const auto& file : fs::recursive_directory_iterator(kSweetHomeFolder, error))
     libraries.push_back(file.path());
   std::sort(libraries.begin(), libraries.end());
@@ -90,7 +108,7 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
                                       .city = request.additions.city,
                                       .props = request.additions.LoadModels()});
   }
-  OsmOptions options{.seed = request.seed, .models = models.get(), .fill = request.fill};
+  OsmOptions options{.seed = request.seed, .models = models.get(), .cut = request.cut, .fill = request.fill};
   if (!request.heights.empty())
     options.heights = [&](const GeoBox& area) { return ReadHeights(request.heights, area); };
   return BuildOsmWorld(fs::path(request.world), options, report);
@@ -114,7 +132,20 @@ std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
 }  // namespace
 
 std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
-  return Relabelled(BuildAnew(request, report), request.labels);
+  auto built = BuildAnew(request, report);
+  const CacheKey key = KeyOf(request);
+  const DiskCache cache = DiskCache::OfUser();
+  if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
+  return Relabelled(WithCacheKey(std::move(built), key.Name()), request.labels);
+}
+
+std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
+  if (IsWorldFile(request.world)) {
+    Environment environment;
+    return OriginOfWorld(ReadWorldFile(request.world, request, environment));
+  }
+  if (!IsOsmFile(request.world)) return std::nullopt;
+  return OriginOfOsmWorld(request.world, request.cut);
 }
 
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
@@ -131,7 +162,12 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
       (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
     throw InputError("'" + request.world +
                      "': 'city' is for new_york_city, 'props' for it and downtown_west");
-  if (IsModelFile(path)) return ImportScene(path, {.labels = request.labels});
+  if (request.cut && !IsOsmFile(path))
+    throw InputError(request.cut->text + ": it cuts maps (.osm, .osm.pbf), not '" + request.world + "'");
+  if (IsModelFile(path)) {
+    auto scene = ImportScene(path, {.labels = request.labels});
+    return request.fill && IsCityFile(path) ? WithFacades(std::move(scene), request.seed) : scene;
+  }
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
   return Relabelled(LoadBuilt(request), request.labels);

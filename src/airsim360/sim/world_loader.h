@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "airsim360/scene/scene.h"
@@ -19,13 +20,18 @@ struct WorldRequest {
   bool use_models = true;             ///< use sweethome3d-furniture where installed
   std::filesystem::path heights = {};  ///< of the ground of maps: a GeoTIFF, read through GDAL's gdalwarp
   bool fill = true;              ///< maps: add by rule what they seldom hold, see docs/importing.md
+  std::optional<MapCut> cut = {};  ///< maps: only this piece
   WorldAdditions additions = {};  ///< what a world file adds
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request);
 
-/// A map (.osm, .osm.pbf, …), built anew, with what became of it.
+/// A map (.osm, .osm.pbf, …), built anew, with what became of it; LoadWorld finds it in the disk cache then.
 std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report);
+
+/// Where the world's origin lies on the Earth (altitude 0), read without building it; nullopt for worlds that are no
+/// maps.
+std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request);
 
 }  // namespace airsim360
