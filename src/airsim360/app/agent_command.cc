@@ -7,6 +7,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/stop_signals.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/sim/world_loader.h"
@@ -30,10 +31,12 @@ double SteadySeconds() {
 AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
   AgentApiOptions options{.world = arguments.world, .world_seed = globals.seed};
   for (const WorldInfo& world : ListWorlds()) options.worlds.push_back(world.name);
-  options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment, labels = globals.labels](
+  options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment, globals](
                      const std::string& name, uint64_t seed) {
     const LongTask building("building " + name);
-    std::shared_ptr<const Scene> scene = LoadWorld({.world = name, .seed = seed, .labels = labels});
+    WorldRequest request = RequestOf(name, globals);
+    request.seed = seed;
+    std::shared_ptr<const Scene> scene = LoadWorld(request);
     const Environment environment = ApplyFlags(flags, scene->environment);
     auto world = std::make_shared<AgentWorld>(name, std::move(scene), tier, environment);
     LogInfo(name + ": ready after " + ClockText(building.seconds()));
@@ -81,7 +84,7 @@ void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--realtime", arguments->realtime,
                     "what an agent takes to think passes in its episode too; else time passes in actions alone");
   AddEnvironmentFlags(*command, arguments->environment);
-  AddLabelsFlag(*command, globals);
+  AddWorldFlags(*command, globals);
   command->callback([arguments, &globals] { Serve(*arguments, globals); });
 }
 

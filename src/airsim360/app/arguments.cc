@@ -170,11 +170,6 @@ DroneModel FindDrone(const std::string& text) {
   return DroneFromPrompt(text).model;
 }
 
-void AddLabelsFlag(CLI::App& command, GlobalOptions& globals) {
-  command.add_option("--labels", globals.labels, "label file: categories by name patterns (docs/importing.md)")
-      ->check(CLI::ExistingFile);
-}
-
 std::string DescribeLabels(const GlobalOptions& globals) {
   return globals.labels.empty() ? "" : "sha256:" + Sha256HexOfFile(globals.labels);
 }

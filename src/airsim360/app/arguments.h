@@ -60,9 +60,6 @@ std::vector<double> ParseNumbers(const char* flag, const std::string& text, size
 /// A name of the catalogue, a drone .yaml, or words. InputError naming what is wrong with it.
 DroneModel FindDrone(const std::string& text);
 
-/// Adds --labels to a command that opens a world.
-void AddLabelsFlag(CLI::App& command, GlobalOptions& globals);
-
 /// What meta.json says of --labels: "sha256:…" of the file, "" without one. InputError if it cannot be read.
 std::string DescribeLabels(const GlobalOptions& globals);
 

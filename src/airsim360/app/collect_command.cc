@@ -12,6 +12,7 @@
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/plan_file.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
@@ -75,7 +76,7 @@ void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
 DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& globals) {
   DatasetSpec spec;
   spec.command = "collect";
-  spec.world = arguments.world;
+  spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
   const ImageSize size = ParseSize(arguments.size);
@@ -259,7 +260,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "body or level: turn with the body or only with its heading");
   arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
-  AddLabelsFlag(*command, globals);
+  AddWorldFlags(*command, globals);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,
                       "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");

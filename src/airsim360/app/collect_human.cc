@@ -8,6 +8,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
@@ -37,7 +38,7 @@ struct HumanWorld {
 HumanWorld OpenHumanWorld(const std::string& name, const GlobalOptions& globals) {
   HumanWorld world;
   const LongTask building("building " + name);
-  world.scene = LoadWorld({.world = name, .seed = globals.seed, .labels = globals.labels});
+  world.scene = LoadWorld(RequestOf(name, globals));
   world.mesh = NavMesh::Build(*world.scene);
   world.tracer = std::make_shared<const RayTracer>(world.scene);
   return world;

@@ -16,6 +16,8 @@ struct GlobalOptions {
   std::string device = "auto";  ///< auto, cpu or vulkan
   int gpu = -1;                 ///< index of a GPU; -1 = the best
   std::vector<int> gpus;        ///< of `collect --gpu 0,1` or all: several, then `gpu` is the first
+  std::string bbox, centre;     ///< of maps: the piece that is opened; empty = all
+  double radius = 0;            ///< with `centre`
   std::string labels;           ///< label file of commands that open a world; empty = the world's own labels
 };
 

@@ -12,6 +12,7 @@
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/video_arguments.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
@@ -169,7 +170,7 @@ void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
 DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, bool video) {
   DatasetSpec spec;
   spec.command = "fly";
-  spec.world = arguments.world;
+  spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
   const ImageSize size = ParseSize(arguments.size);
@@ -217,7 +218,7 @@ void CheckVideoFlags(const FlyArguments& arguments, const GlobalOptions& globals
   CheckVideo({spec.width, spec.height}, arguments.encoding.Options(arguments.fps));
 }
 
-void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
+void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded.
   if (!arguments.waypoints.empty() && !arguments.script.empty())
     throw InputError("fly: give --waypoints or --script, not both");
@@ -231,7 +232,10 @@ void RunFly(const FlyArguments& arguments, const GlobalOptions& globals) {
   const Tier tier = ParseTierArgument(arguments.tier);
   const bool pictures = arguments.frames > 0 || !arguments.video.empty();
   const WorldWind wind = ReadWind(arguments.wind);
-  if (!arguments.pose.empty()) ParsePose(arguments.pose);
+  if (!arguments.pose.empty()) {
+    arguments.pose = WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals));
+    ParsePose(arguments.pose);
+  }
 
   const OpenedWorld world =
       OpenWorld(arguments.world, globals, pictures ? tier : Tier::kLabels, arguments.environment, arguments.people.Request(globals.seed));
@@ -294,7 +298,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
                       "tasks: takeoff [HEIGHT]; hover SECONDS; goto X,Y,Z[,SPEED]; velocity X,Y,Z,SECONDS; "
                       "return; land (default \"takeoff 2; hover 3; land\")");
   command->add_option("--pose", arguments->pose,
-                      "x,y,z[,yaw_deg] above where it stands (default: the spawn)");
+                      "x,y,z[,yaw_deg] above where it stands; in maps also 60.1708N,24.9375E for x,y (default: the spawn)");
   command->add_option("--vmax", arguments->vmax, "m/s of --waypoints (default 4)")
       ->check(CLI::Range(0.01, 100.0));
   command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
@@ -317,7 +321,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   arguments->encoding.AddTo(*command);
   arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
-  AddLabelsFlag(*command, globals);
+  AddWorldFlags(*command, globals);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
   command->callback([arguments, &globals] { RunFly(*arguments, globals); });
 }

@@ -13,6 +13,7 @@
 #include "airsim360/app/plan_limits.h"
 #include "airsim360/app/plan_output.h"
 #include "airsim360/app/plan_waypoints.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/base/log.h"
@@ -72,11 +73,21 @@ struct PlanWorld {
   std::unique_ptr<BoundedClearance> bounded;
 };
 
-PlanWorld OpenPlanWorld(const std::string& name, uint64_t seed) {
-  const LongTask building("building " + name);
+PlanWorld OpenPlanWorld(const WorldRequest& request) {
+  const LongTask building("building " + request.world);
   PlanWorld world;
-  world.tracer = std::make_shared<const RayTracer>(LoadWorld({.world = name, .seed = seed}));
+  world.tracer = std::make_shared<const RayTracer>(LoadWorld(request));
   return world;
+}
+
+// Places on the Earth become metres.
+void Place(WaypointArguments& arguments, const WorldRequest& request) {
+  const auto place = [&](const char* flag, std::string& text) {
+    if (!text.empty()) text = WithPlace(flag, text, request);
+  };
+  place("--from", arguments.from);
+  place("--to", arguments.to);
+  place("--center", arguments.center);
 }
 
 void MapAround(PlanWorld& world, const std::vector<Vec3d>& points) {
@@ -254,6 +265,8 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
 
   PlanWorld world;
   PlanWaypoints waypoints;
+  const WorldRequest request = RequestOf(arguments.world, globals);
+  Place(arguments.waypoints, request);
   if (!NeedsWorld(arguments.waypoints))
     waypoints = FindWaypoints(arguments.waypoints, nullptr, globals.seed, arguments.clearance);
   if (!waypoints.points.empty()) CheckWaypoints(waypoints);
@@ -261,7 +274,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   if (timed && arguments.avoid) throw InputError("--avoid: the waypoints have times; remove the column t");
   const TrajectoryLimits limits = ParseLimits(arguments.limits, timed);
   if (!arguments.world.empty()) {
-    world = OpenPlanWorld(arguments.world, globals.seed);
+    world = OpenPlanWorld(request);
     if (waypoints.points.empty()) {
       waypoints = FindWaypoints(arguments.waypoints, world.tracer, globals.seed, arguments.clearance);
       CheckWaypoints(waypoints);
@@ -311,9 +324,10 @@ void AddPlanCommand(CLI::App& app, GlobalOptions& globals) {
                       "degree: 7, the true minimum of snap (default), or 5, as in the paper");
   command->add_option("--minimise", a->minimise, "snap (default) or jerk (then of degree 5)");
   command->add_option("--world", a->world, "name or file of a world: the flight is checked against it");
+  AddBoxFlag(*command, globals);
   command->add_flag("--avoid", a->avoid, "go around what is in the way in --world");
   command->add_option("--clearance", a->clearance, "metres to keep from every surface (default 0.5)");
-  command->add_option("--from", w.from, "x,y,z: start of a free flight in --world");
+  command->add_option("--from", w.from, "x,y,z: start of a free flight in --world; in maps also 60.1708N,24.9375E for x,y");
   command->add_option("--to", w.to, "x,y,z: its end");
   command->add_option("--route", w.route, "coverage, orbit, road or random: waypoints of that kind");
   command->add_option("--area", w.area, "coverage: x0,y0,x1,y1");

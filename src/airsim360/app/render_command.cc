@@ -11,6 +11,7 @@
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360 {
@@ -87,7 +88,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded.
   DatasetSpec spec;
   spec.command = "render";
-  spec.world = arguments.world;
+  spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
   SetCamera(arguments, spec);
@@ -112,7 +113,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   if (spec.overlay && (spec.people.empty() || spec.tier == Tier::kLabels))
     throw InputError("--overlay: draws the labels of people into the colours: it needs --people and a tier with colours");
   PoseArgument pose;
-  if (!arguments.pose.empty()) pose = ParsePose(arguments.pose);
+  if (!arguments.pose.empty()) pose = ParsePose(WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals)));
 
   const OpenedWorld world =
       OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
@@ -143,7 +144,8 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option(
       "--pose", arguments->pose,
-      "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees (default: the world's spawn)");
+      "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees; in maps also 60.1708N,24.9375E for x,y (default: "
+      "the world's spawn)");
   command->add_option("--projection", arguments->projection, "erp, cube, pinhole or fisheye (default erp)");
   command->add_option("--size", arguments->size,
                       "WxH; a cube face for cube (default 2048x1024, 512x512, 1024x768, 1024x1024)");
@@ -160,7 +162,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   arguments->people.AddTo(*command);
   command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");
   AddEnvironmentFlags(*command, arguments->environment);
-  AddLabelsFlag(*command, globals);
+  AddWorldFlags(*command, globals);
   arguments->picture.AddTo(*command);
   command->add_option("--products", arguments->products,
                       "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");

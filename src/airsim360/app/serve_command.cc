@@ -8,6 +8,7 @@
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/stop_signals.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/server.h"
@@ -68,7 +69,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   ApplyFlags(arguments.environment, {});
   const PeopleRequest people = arguments.people.Request(globals.seed);
   std::optional<LongTask> building(std::in_place, "building " + arguments.world);
-  std::shared_ptr<const Scene> scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
+  std::shared_ptr<const Scene> scene = LoadWorld(RequestOf(arguments.world, globals));
   options.environment = ApplyFlags(arguments.environment, scene->environment);
   if (people.any()) {
     PopulatedScene populated = Populate(std::move(scene), people);
@@ -109,7 +110,7 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--lockstep", arguments->lockstep,
                     "time passes only in simContinueForTime and simContinueForFrames, as fast as it can");
   AddEnvironmentFlags(*command, arguments->environment);
-  AddLabelsFlag(*command, globals);
+  AddWorldFlags(*command, globals);
   command->callback([arguments, &globals] { Serve(*arguments, globals); });
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/render/vulkan/choose_renderer.h"
@@ -24,7 +25,7 @@ OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Ti
   if (globals.gpu >= 0 && globals.device == "cpu") throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
   const LongTask building("building " + world);
   OpenedWorld opened;
-  opened.scene = LoadWorld({.world = world, .seed = globals.seed, .labels = globals.labels});
+  opened.scene = LoadWorld(RequestOf(world, globals));
   if (people.any()) {
     PopulatedScene populated = Populate(std::move(opened.scene), people);
     opened.scene = std::move(populated.scene);

@@ -8,6 +8,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/world_flags.h"
 #include "airsim360/app/world_sheet.h"
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
@@ -38,7 +39,7 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
     throw InputError("--out: '" + arguments.out + "': worlds are exported as .glb; did you mean '" +
                      fs::path(out).replace_extension(".glb").string() + "'?");
   const LongTask building("building " + arguments.world);
-  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
+  const auto scene = LoadWorld(RequestOf(arguments.world, globals));
   WriteGlb(*scene, out);
   const SceneCounts counts = scene->Count();
   const uint64_t bytes = fs::file_size(out);
@@ -100,7 +101,7 @@ Json CategoriesJson(const Scene& scene) {
 }
 
 // A world file that names the imported one, so that its settings need not be repeated.
-std::string WorldFileOf(const ImportArguments& arguments, const std::string& labels, const fs::path& out) {
+std::string WorldFileOf(const ImportArguments& arguments, const GlobalOptions& globals, const fs::path& out) {
   const auto path = [&](const std::string& file) {
     std::error_code error;
     const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
@@ -109,7 +110,9 @@ std::string WorldFileOf(const ImportArguments& arguments, const std::string& lab
   };
   std::string text = "world: " + path(arguments.file) + "\n";
   if (!arguments.heights.empty()) text += "heights: " + path(arguments.heights) + "\n";
-  if (!labels.empty()) text += "labels: " + path(labels) + "\n";
+  if (!globals.labels.empty()) text += "labels: " + path(globals.labels) + "\n";
+  if (!globals.bbox.empty()) text += "bbox: '" + globals.bbox + "'\n";
+  if (!globals.centre.empty()) text += "centre: '" + globals.centre + "'\nradius: " + nlohmann::json(globals.radius).dump() + "\n";
   if (arguments.no_fill) text += "fill: false\n";
   const ModelPlacement& placement = arguments.placement;
   const auto number = [](double v) {
@@ -139,18 +142,16 @@ void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
   OsmReport report;
   std::shared_ptr<const Scene> scene;
   const bool map = IsOsmFile(arguments.file);
-  const WorldRequest request{.world = arguments.file,
-                             .seed = globals.seed,
-                             .labels = globals.labels,
-                             .heights = arguments.heights,
-                             .fill = !arguments.no_fill,
-                             .placement = arguments.placement};
+  WorldRequest request = RequestOf(arguments.file, globals);
+  request.heights = arguments.heights;
+  request.fill = !arguments.no_fill;
+  request.placement = arguments.placement;
   const LongTask building("reading " + arguments.file);
   scene = map ? LoadMap(request, &report) : LoadWorld(request);
   if (out.extension() == ".glb") WriteGlb(*scene, out);
   if (out.extension() == ".yaml") {
     if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
-    WriteFileAtomically(out, std::string_view(WorldFileOf(arguments, globals.labels, out)));
+    WriteFileAtomically(out, std::string_view(WorldFileOf(arguments, globals, out)));
   }
   const SceneCounts counts = scene->Count();
   Json json{{"file", arguments.file},
@@ -192,7 +193,7 @@ std::string CsvText(const std::string& text) {
 
 void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& globals) {
   const LongTask building("building " + arguments.world);
-  const auto scene = LoadWorld({.world = arguments.world, .seed = globals.seed, .labels = globals.labels});
+  const auto scene = LoadWorld(RequestOf(arguments.world, globals));
   const std::vector<EntityRow> rows = EntityTable(*scene);
   if (globals.json) {
     Json list = Json::array();
@@ -243,7 +244,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   auto arguments = std::make_shared<ExportArguments>();
   to_file->add_option("world", arguments->world, kWorldHelp)->required();
   to_file->add_option("--out", arguments->out, "the .glb file to write")->required();
-  AddLabelsFlag(*to_file, globals);
+  AddWorldFlags(*to_file, globals);
   to_file->callback([arguments, &globals] { RunExport(*arguments, globals); });
 
   CLI::App* from_file = command->add_subcommand(
@@ -251,9 +252,9 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   auto importing = std::make_shared<ImportArguments>();
   from_file->add_option("file", importing->file, "the file")->required();
   from_file->add_option("--out", importing->out, "FILE.glb: write it as glTF; NAME or FILE.yaml: write a world file that names it");
-  AddLabelsFlag(*from_file, globals);
+  AddWorldFlags(*from_file, globals);
   from_file->add_option("--heights", importing->heights, "maps: GeoTIFF with the heights of the ground (needs gdal-bin)");
-  from_file->add_flag("--no-fill", importing->no_fill, "maps: add no parked cars, lamps and trees by rule");
+  from_file->add_flag("--no-fill", importing->no_fill, "maps: add no parked cars, lamps and trees by rule; CityJSON: no facades");
   from_file->add_option("--scale", importing->placement.scale, "models: metres a unit of the file (0.01: it is in centimetres)");
   from_file->add_option("--up", importing->placement.up, "models: axis of the file that points up: x, y, z, -x, -y, -z");
   from_file->add_option("--offset", importing->offset, "models: x,y,z in metres to move it by");
@@ -264,7 +265,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* entities = command->add_subcommand("entities", "the table of entities: id, name, category, pose, 3D box");
   auto table = std::make_shared<EntitiesArguments>();
   entities->add_option("world", table->world, kWorldHelp)->required();
-  AddLabelsFlag(*entities, globals);
+  AddWorldFlags(*entities, globals);
   entities->add_flag("--csv", table->csv, "comma-separated values");
   entities->callback([table, &globals] { RunEntities(*table, globals); });
   CLI::App* sheet = command->add_subcommand(
@@ -277,7 +278,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');
   sheet->add_option("--width", view->width, "of one panorama in pixels (512)");
   sheet->add_option("--tier", view->tier, "labels, fast, high or reference (fast)");
-  AddLabelsFlag(*sheet, globals);
+  AddWorldFlags(*sheet, globals);
   sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
 }
 

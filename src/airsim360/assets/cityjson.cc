@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "airsim360/assets/cityjson_palette.h"
@@ -328,11 +329,57 @@ class CityReader {
   Warnings warnings_;
 };
 
+// The keys of the outermost object, until its "type" says CityJSON.
+class OutermostMembers : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  std::set<std::string> keys;
+  std::string type;
+  bool done() const { return type == "CityJSON"; }
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t& value) override {
+    if (depth_ == 1 && key_ == "type") type = value;
+    return !done();
+  }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(size_t) override { return ++depth_, true; }
+  bool key(string_t& value) override {
+    if (depth_ == 1 && keys.size() < 64) keys.insert(value);
+    if (depth_ == 1) key_ = value;
+    return true;
+  }
+  bool end_object() override { return --depth_, depth_ > 0; }  // what follows is another line
+  bool start_array(size_t) override { return ++depth_, true; }
+  bool end_array() override { return --depth_, true; }
+  bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override { return damaged = true, false; }
+  bool damaged = false;
+
+ private:
+  int depth_ = 0;
+  std::string key_;
+};
+
 }  // namespace
 
-bool LooksLikeCityJson(std::string_view text) {
-  const std::string_view head = text.substr(0, 4096), tail = text.substr(text.size() - std::min<size_t>(text.size(), 4096));
-  return head.find("CityJSON") != std::string_view::npos || tail.find("CityJSON") != std::string_view::npos;
+void CheckIsCityJson(const std::string& file, std::string_view text) {
+  // A stream's first line is its head.
+  const size_t begin = std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size());
+  OutermostMembers outermost;
+  nlohmann::json::sax_parse(text.begin() + static_cast<std::ptrdiff_t>(begin), text.end(), &outermost, nlohmann::json::input_format_t::json, false);
+  if (outermost.damaged) return;
+  if (outermost.type == "CityJSON") return;
+  const auto has = [&](std::string_view key) { return outermost.keys.contains(std::string(key)); };
+  if (outermost.type == "CityJSONFeature")
+    throw InputError(file + ": a stream of CityJSON features without the line of \"type\": \"CityJSON\" before them");
+  const bool features = outermost.type == "Feature" || outermost.type == "FeatureCollection";
+  if (features && (has("conformsTo") || has("coordRefSys") || has("featureType") || has("geometryDimension")))
+    throw InputError(file + ": JSON-FG (OGC Features and Geometries) is not read; CityJSON of the same city is (citygml4j's citygml-tools and FME convert)");
+  if (features) throw InputError(file + ": GeoJSON is not read; buildings as CityJSON or OpenStreetMap data (.osm, .osm.pbf) are");
+  throw InputError(file + ": not CityJSON: " + (outermost.type.empty() ? "its outermost object has no \"type\"" : "\"type\" is \"" + outermost.type + "\""));
 }
 
 ImportedFile ReadCityJson(const std::string& file, std::string_view text, const ImportLimits& limits) {

@@ -9,8 +9,10 @@
 
 namespace airsim360::internal {
 
-/// Is this text CityJSON? Looks at its first kilobytes only.
-bool LooksLikeCityJson(std::string_view text);
+/// Throws InputError for JSON of another kind, naming it (JSON-FG, GeoJSON). Reads the members
+/// of the outermost object up to "type", in any order, without keeping what lies between. Damage passes:
+/// ReadCityJson names its place.
+void CheckIsCityJson(const std::string& file, std::string_view text);
 
 /// One node for each city object and kind of its surfaces: "ID" and, where the file tells them apart, "ID/roof",
 /// "ID/window", "ID/door"; labelled by the object's type. Geometry of the highest level of detail; surfaces,

@@ -1,7 +1,10 @@
 // CityJSON: a hand-made house, road and tree (data/cityjson) against closed forms; damage; streams.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "airsim360/assets/cityjson.h"
@@ -174,6 +177,39 @@ TEST(CityJson, DamageNamesThePlace) {
   EXPECT_NE(ErrorOf(Replaced(good, "[0.001, 0.001, 0.001]", "[0, 1, 1]")).find("/transform/scale: no scale may be 0"), std::string::npos);
   EXPECT_NE(ErrorOf("{}").find("not CityJSON"), std::string::npos);
   EXPECT_NE(ErrorOf(Replaced(good, "[0.001, 0.001, 0.001]", "[1e300, 1, 1]")).find("out of range"), std::string::npos);
+}
+
+std::string KindError(const std::string& text) {
+  try {
+    CheckIsCityJson("x.json", text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Keys of JSON have no order: "type" may stand anywhere, also behind a megabyte of others.
+TEST(CityJson, IsKnownWhereverItsTypeStands) {
+  std::string text = ReadTextFile(kHouse);
+  const std::string type = "\"type\": \"CityJSON\",";
+  text = Replaced(text, type, "\"+note\": {\"type\": \"Feature\", \"of\": [\"" + std::string(1'200'000, 'x') + "\"]},");
+  text.insert(text.rfind('}'), ", \"type\": \"CityJSON\"");
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("airsim360_" + std::to_string(getpid()) + ".city.json");
+  WriteFileAtomically(path, std::string_view(text));
+  const auto scene = ImportScene(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(scene->Count().unique_triangles, ImportScene(kHouse)->Count().unique_triangles);
+}
+
+TEST(CityJson, OtherJsonIsNamed) {
+  EXPECT_EQ(KindError(ReadTextFile(kHouse)), "");
+  EXPECT_EQ(KindError("{\"type\": \"CityJSON\"}\n{\"type\": \"CityJSONFeature\"}"), "");
+  EXPECT_NE(KindError("{\"type\": \"CityJSONFeature\"}").find("before them"), std::string::npos);
+  EXPECT_NE(KindError("{\"features\": [], \"conformsTo\": [], \"type\": \"FeatureCollection\"}").find("JSON-FG"), std::string::npos);
+  EXPECT_NE(KindError("{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"CityJSON\"}]}").find("GeoJSON"), std::string::npos);
+  EXPECT_NE(KindError("{\"a\": {\"type\": \"CityJSON\"}}").find("no \"type\""), std::string::npos);
+  EXPECT_NE(KindError("[{\"type\": \"CityJSON\"}]").find("not CityJSON"), std::string::npos);
+  EXPECT_EQ(KindError("{\"type\" 5"), "");  // damage: ReadCityJson tells its place
 }
 
 }  // namespace

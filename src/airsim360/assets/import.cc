@@ -52,7 +52,7 @@ ReadModel ReadByExtension(const fs::path& path, const std::string& extension) {
   if (extension == ".json" || extension == ".jsonl") {
     if (extension == ".json" && LooksLikeTileset(AsText(bytes)))
       return {.file = ReadTileset(path.string(), AsText(bytes), load), .up = "z", .metres = true};
-    if (!LooksLikeCityJson(AsText(bytes))) throw InputError(path.string() + ": not CityJSON");
+    CheckIsCityJson(path.string(), AsText(bytes));
     return {.file = ReadCityJson(path.string(), AsText(bytes)), .up = "z", .metres = true};
   }
   if (extension == ".ply") return {.file = ReadPly(path.string(), bytes, load), .up = "z"};

@@ -14,6 +14,7 @@
 #include "airsim360/scene/scene_archive.h"
 #include "airsim360/sim/height_file.h"
 #include "airsim360/sim/world_environment.h"
+#include "airsim360/worlds/city_facades.h"
 #include "airsim360/worlds/osm_world.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -24,6 +25,12 @@ namespace fs = std::filesystem;
 
 // Names of built-in worlds have neither a folder nor an extension.
 bool IsPath(const fs::path& path) { return path.has_parent_path() || path.has_extension(); }
+
+bool IsCityFile(const fs::path& path) {
+  std::string extension = path.extension();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".json" || extension == ".jsonl";
+}
 
 bool IsWorldFile(const fs::path& path) {
   const std::string extension = path.extension();
@@ -45,14 +52,18 @@ void VisitPlacement(ConfigVisitor& v, ModelPlacement& placement) {
 
 // The fields of a world YAML, filled into `request` and, over its values, `environment`.
 WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environment& environment) {
-  std::string world, labels, heights;
+  std::string world, labels, heights, bbox, centre;
+  double radius = 0;
   ReadYamlFile(file, [&](ConfigVisitor& v) {
     v.Field("world", "name of a built-in world, or a model or map file", world);
     v.Field("seed", "seed of the world", request.seed);
     v.Field("labels", "label override file", labels);
     v.Field("heights", "maps: GeoTIFF of the ground's heights", heights);
     VisitPlacement(v, request.placement);
-    v.Field("fill", "maps: add parked cars, lamps and trees where the map has none", request.fill);
+    v.Field("bbox", "maps: only this piece, south,west,north,east in degrees", bbox);
+    v.Field("centre", "maps: only a square around latitude,longitude in degrees", centre);
+    v.Field("radius", "maps: of centre, metres to each side", radius, 10, 30000);
+    v.Field("fill", "maps: add parked cars, lamps and trees where the map has none; CityJSON: add facades", request.fill);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
     request.additions.Visit(v);
     v.Group("environment", "sun, sky and weather",
@@ -63,6 +74,9 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
   request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
   request.additions.Resolve(file);
   ValidatePlacement(request.placement, file.string() + ": ");
+  // The flags count before the file.
+  const std::optional<MapCut> cut = MapCutOf(file.string() + ": ", bbox, centre, radius);
+  if (!request.cut) request.cut = cut;
   if (!labels.empty() && request.labels.empty()) request.labels = file.parent_path() / labels;
   if (!heights.empty()) request.heights = file.parent_path() / heights;
   return request;
@@ -71,15 +85,20 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
 // Everything that a world that we build depends on.
 CacheKey KeyOf(const WorldRequest& request) {
   CacheKey key("scene", 1);
-  key.AddProgram().Add(request.world).Add(request.seed).Add(request.use_models);
-  if (IsOsmFile(request.world)) {
-    key.AddFile(request.world).Add(request.fill).Add(request.heights.string());
+  // A map is the same by whatever name of its path.
+  std::error_code error;
+  const auto place = [&](const fs::path& path) { return fs::weakly_canonical(path, error).string(); };
+  const bool map = IsOsmFile(request.world);
+  key.AddProgram().Add(map ? place(request.world) : request.world).Add(request.seed).Add(request.use_models);
+  if (map) {
+    key.AddFile(request.world).Add(request.fill).Add(request.heights.empty() ? "" : place(request.heights));
     if (!request.heights.empty()) key.AddFile(request.heights);
+    if (request.cut)
+      for (double degrees : {request.cut->box.west, request.cut->box.south, request.cut->box.east, request.cut->box.north}) key.Add(degrees);
   }
   request.additions.AddTo(key);
   if (!request.use_models) return key;
   std::vector<fs::path> libraries;
-  std::error_code error;
   for (const auto& file : fs::recursive_directory_iterator(kSweetHomeFolder, error))
     libraries.push_back(file.path());
   std::sort(libraries.begin(), libraries.end());
@@ -95,7 +114,7 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
                                       .city = request.additions.city,
                                       .props = request.additions.LoadModels()});
   }
-  OsmOptions options{.seed = request.seed, .models = models.get(), .fill = request.fill};
+  OsmOptions options{.seed = request.seed, .models = models.get(), .cut = request.cut, .fill = request.fill};
   if (!request.heights.empty())
     options.heights = [&](const GeoBox& area) { return ReadHeights(request.heights, area); };
   return BuildOsmWorld(fs::path(request.world), options, report);
@@ -119,7 +138,20 @@ std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
 }  // namespace
 
 std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
-  return Relabelled(BuildAnew(request, report), request.labels);
+  auto built = BuildAnew(request, report);
+  const CacheKey key = KeyOf(request);
+  const DiskCache cache = DiskCache::OfUser();
+  if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
+  return Relabelled(WithCacheKey(std::move(built), key.Name()), request.labels);
+}
+
+std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
+  if (IsWorldFile(request.world)) {
+    Environment environment;
+    return OriginOfWorld(ReadWorldFile(request.world, request, environment));
+  }
+  if (!IsOsmFile(request.world)) return std::nullopt;
+  return OriginOfOsmWorld(request.world, request.cut);
 }
 
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
@@ -136,8 +168,13 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
       (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
     throw InputError("'" + request.world +
                      "': 'city' is for new_york_city, 'props' for it and downtown_west");
+  if (request.cut && !IsOsmFile(path))
+    throw InputError(request.cut->text + ": it cuts maps (.osm, .osm.pbf), not '" + request.world + "'");
   const bool model = IsPath(path) && !IsOsmFile(path);
-  if (model && request.heights.empty()) return ImportScene(path, {.labels = request.labels, .placement = request.placement});
+  if (model && request.heights.empty()) {
+    auto scene = ImportScene(path, {.labels = request.labels, .placement = request.placement});
+    return request.fill && IsCityFile(path) ? WithFacades(std::move(scene), request.seed) : scene;
+  }
   if (!request.placement.empty())
     throw InputError("'" + request.world + "': scale, up, offset and ground are for model files");
   if (!request.heights.empty() && !IsOsmFile(path))

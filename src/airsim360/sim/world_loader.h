@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "airsim360/assets/placement.h"
@@ -20,13 +21,18 @@ struct WorldRequest {
   std::filesystem::path heights = {};  ///< of the ground of maps: a GeoTIFF, read through GDAL's gdalwarp
   bool fill = true;              ///< maps: add by rule what they seldom hold, see docs/importing.md
   ModelPlacement placement = {};  ///< models: units, up axis, ground, place
+  std::optional<MapCut> cut = {};  ///< maps: only this piece
   WorldAdditions additions = {};  ///< what a world file adds
 };
 
 /// InputError for an unknown name (naming the nearest), a missing or malformed file.
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request);
 
-/// A map (.osm, .osm.pbf, …), built anew, with what became of it.
+/// A map (.osm, .osm.pbf, …), built anew, with what became of it; LoadWorld finds it in the disk cache then.
 std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report);
+
+/// Where the world's origin lies on the Earth (altitude 0), read without building it; nullopt for worlds that are no
+/// maps.
+std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request);
 
 }  // namespace airsim360

@@ -5,7 +5,9 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/log.h"
 #include "airsim360/worlds/osm/osm_scene.h"
+#include "airsim360/worlds/osm/osm_sea.h"
 #include "airsim360/worlds/osm/osm_streets.h"
 
 namespace airsim360 {
@@ -55,6 +57,26 @@ Relief ReliefOf(const OsmData& data, const OsmOptions& options) {
                 e.width() * e.depth());
 }
 
+// A word about multipolygons that do not close although nothing is cut off.
+void WarnOfBroken(const std::string& name, const std::vector<OsmArea>& areas) {
+  constexpr int kMostNamed = 5;
+  const auto broken = std::count_if(areas.begin(), areas.end(), [](const OsmArea& area) { return area.broken; });
+  int named = 0;
+  for (const OsmArea& area : areas)
+    if (area.broken && ++named <= kMostNamed) LogWarning(name + ": " + area.id + ": its ways do not close; only what closes is shown");
+  if (broken > kMostNamed) LogWarning(name + ": " + std::to_string(broken - kMostNamed) + " more relations do not close");
+}
+
+// Open country ends where the sea begins; bays and straits are there where it is.
+void EndAtTheCoast(std::vector<OsmArea>& areas, const Patches& sea) {
+  if (sea.empty()) return;
+  for (OsmArea& area : areas) {
+    const bool bay = area.tags->Is("natural", "bay") || area.tags->Is("natural", "strait");
+    if (area.patches.empty() || !(bay || IsOpenCountry(*area.tags))) continue;
+    area.patches = bay ? Intersect(area.patches, sea) : Subtract(area.patches, sea);
+  }
+}
+
 // Where to begin: over the street nearest to the middle, looking along it.
 void ChooseSpawn(OsmScene& scene, const Neighbours& near) {
   const LineIndex::Near road = near.roads.Find(scene.focus, 400);
@@ -78,9 +100,13 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
   PropShelf shelf(builder, options.models, options.seed);
   Occupancy occupancy;
   Tints tints(builder);
-  const std::vector<OsmArea> areas = FindAreas(data);
+  std::vector<OsmArea> areas = FindAreas(data);
+  const Sea sea = FindSea(data, GroundBox(data));
+  for (const std::string& fault : sea.faults) LogWarning(name + ": " + fault);
+  EndAtTheCoast(areas, sea.water);
+  WarnOfBroken(name, areas);
   const Vec2d middle{(data.extent.x0 + data.extent.x1) / 2, (data.extent.y0 + data.extent.y1) / 2};
-  OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, ReliefOf(data, options), options, middle,
+  OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, sea.water, ReliefOf(data, options), options, middle,
                  data.origin.longitude_deg > -30};
   const std::vector<OsmBuilding> buildings = PlanOsmBuildings(data, areas);
 
@@ -126,12 +152,16 @@ bool IsOsmFile(const std::filesystem::path& file) { return internal::IsOsmName(f
 std::shared_ptr<const Scene> BuildOsmWorld(const std::string& name, std::span<const std::byte> bytes, const OsmOptions& options,
                                            OsmReport* report) {
   return internal::BuildMapScene(
-      name, internal::ReadOsm(name, bytes), options,
+      name, internal::ReadOsm(name, bytes, {}, options.cut), options,
       "map data (c) OpenStreetMap contributors, Open Database License 1.0 (openstreetmap.org/copyright)", report);
 }
 
 std::shared_ptr<const Scene> BuildOsmWorld(const std::filesystem::path& file, const OsmOptions& options, OsmReport* report) {
   return BuildOsmWorld(file.string(), ReadFile(file, internal::OsmLimits().max_bytes), options, report);
+}
+
+GeoPoint OriginOfOsmWorld(const std::filesystem::path& file, const std::optional<MapCut>& cut) {
+  return internal::ReadOsm(file.string(), ReadFile(file, internal::OsmLimits().max_bytes), {}, cut).origin;
 }
 
 }  // namespace airsim360

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,13 +12,9 @@
 #include "airsim360/math/geodesy.h"
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/worlds/map_cut.h"
 
 namespace airsim360 {
-
-/// A piece of the Earth between meridians and parallels, degrees.
-struct GeoBox {
-  double west = 0, south = 0, east = 0, north = 0;
-};
 
 /// Heights of the ground on a regular grid of degrees (north up), metres over any common level.
 struct HeightGrid {
@@ -33,6 +30,7 @@ struct OsmOptions {
   /// Heights of the ground in an area (the map and a kilometre around it); empty = flat. Cells that are unknown
   /// take the heights around them.
   std::function<HeightGrid(const GeoBox&)> heights = {};
+  std::optional<MapCut> cut = {};  ///< only this piece of the map
   bool fill = true;  ///< add what maps seldom hold, by rule: parked cars, and lamps or trees where the map has none
 };
 
@@ -62,6 +60,8 @@ bool IsOsmFile(const std::filesystem::path& file);
 /// line:column) for damage, an empty extract, or one beyond the limits of osm_data.h.
 std::shared_ptr<const Scene> BuildOsmWorld(const std::filesystem::path& file, const OsmOptions& options,
                                            OsmReport* report = nullptr);
+/// Where W of that world would lie, as OsmReport::origin but without heights, without building it.
+GeoPoint OriginOfOsmWorld(const std::filesystem::path& file, const std::optional<MapCut>& cut);
 /// The same of bytes in memory; `name` tells the format by its ending.
 std::shared_ptr<const Scene> BuildOsmWorld(const std::string& name, std::span<const std::byte> bytes,
                                            const OsmOptions& options, OsmReport* report = nullptr);

@@ -11,7 +11,8 @@ namespace {
 constexpr size_t kMaxRingWays = 20000;
 
 // Rings of ways joined end to end; a chain that does not close is closed where its ends are near each other.
-std::vector<Ring> JoinWays(std::vector<const OsmWay*> ways) {
+// `open` is set where one does not.
+std::vector<Ring> JoinWays(std::vector<const OsmWay*> ways, bool& open) {
   std::vector<Ring> rings;
   if (ways.size() > kMaxRingWays) ways.resize(kMaxRingWays);
   std::multimap<int64_t, size_t> ends;  // node -> index into ways
@@ -40,6 +41,7 @@ std::vector<Ring> JoinWays(std::vector<const OsmWay*> ways) {
     }
     const Vec2d gap = ring.front() - ring.back();
     if (std::hypot(gap.x, gap.y) < 0.01) ring.pop_back();
+    open = open || end != start;
     // Cut off at the edge of the extract: close what is nearly a ring, leave the rest.
     if (end != start && std::hypot(gap.x, gap.y) > 0.35 * std::sqrt(std::abs(SignedArea(ring)))) continue;
     if (ring.size() >= 3 && std::abs(SignedArea(ring)) > 0.02) rings.push_back(std::move(ring));
@@ -57,17 +59,22 @@ Patches ToPatches(const std::vector<Ring>& outer, const std::vector<Ring>& inner
 
 struct Rings {
   std::vector<Ring> outer, inner;
+  bool broken = false;
 };
 Rings RingsOf(const OsmData& data, const OsmRelation& relation) {
   std::vector<const OsmWay*> outer, inner;
+  bool whole = true, open = false;
   for (const OsmMember& member : relation.members) {
     if (member.type != 'w') continue;
     const OsmWay* way = data.FindWay(member.id);
+    whole = whole && way && way->whole;
     if (!way || way->nodes.size() < 2) continue;
     if (member.role == "inner") inner.push_back(way);
     if (member.role == "outer" || member.role.empty()) outer.push_back(way);
   }
-  return {JoinWays(std::move(outer)), JoinWays(std::move(inner))};
+  Rings rings{JoinWays(std::move(outer), open), JoinWays(std::move(inner), open)};
+  rings.broken = whole && open;
+  return rings;
 }
 
 // Tags that make a relation a thing of its own.
@@ -115,6 +122,7 @@ std::vector<OsmArea> FindAreas(const OsmData& data) {
     OsmArea area{OsmId("relation", relation.id), relation.id, true, &relation.tags, {}, 0, {}};
     const Rings rings = RingsOf(data, relation);
     if (!rings.outer.empty()) area.patches = ToPatches(rings.outer, rings.inner);
+    area.broken = rings.broken;
     Measure(area);
     areas.push_back(std::move(area));
   }

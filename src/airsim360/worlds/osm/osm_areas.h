@@ -18,6 +18,7 @@ struct OsmArea {
   Patches patches;  ///< empty where the file lacks its ways or they do not close
   double area = 0;  ///< m^2
   Bounds2d bounds;
+  bool broken = false;  ///< a multipolygon whose ways are all there and do not close
 };
 
 /// All areas with tags, ways by id, then relations by id. Inner rings of multipolygons whose tags are on their

@@ -270,10 +270,12 @@ void AddVolumes(OsmBuilding& building, const std::vector<const OsmArea*>& parts,
   }
   Patches rest = low.empty() ? building.outline : Subtract(building.outline, low);
   if (parts.empty() || Area(rest) > 0.02 * Area(building.outline)) {
-    const double rest_top = parts.empty() ? top : low.empty() ? std::min(top, std::max(first_bottom, bottom + 0.1)) : lowest_top;
+    // An outline that is a part itself stands as tagged among the others.
+    const bool itself = parts.empty() || tags.Has("building:part");
+    const double rest_top = itself ? top : low.empty() ? std::min(top, std::max(first_bottom, bottom + 0.1)) : lowest_top;
     if (!rest.empty()) {
       OsmVolume volume = VolumeOf(building.id, tags, std::move(rest), rest_top, std::min(bottom, rest_top - 0.05));
-      if (!parts.empty()) {
+      if (!itself) {
         volume.roof = OsmRoof::kFlat;
         volume.roof_height = 0;
       }

@@ -13,6 +13,7 @@
 
 #include "airsim360/math/geodesy.h"
 #include "airsim360/math/vector.h"
+#include "airsim360/worlds/map_cut.h"
 
 namespace airsim360::internal {
 
@@ -42,6 +43,8 @@ struct OsmWay {
   int64_t id = 0;
   std::vector<int64_t> nodes;  ///< those that the file holds, without repeats in a row
   std::vector<Vec2d> line;     ///< as long as `nodes`
+  std::vector<size_t> gaps;    ///< the file lacks nodes before these of `nodes`
+  bool whole = true;           ///< it lacks none
   OsmTags tags;
   bool closed() const { return nodes.size() > 3 && nodes.front() == nodes.back(); }
 };
@@ -91,8 +94,10 @@ struct OsmLimits {
 
 /// Reads .osm (XML), .osm.pbf/.pbf, .osm.gz, .osm.bz2 from memory; `name` is the file's, its ending tells the
 /// format. InputError naming the file (and line:column in XML) for damage, an empty file, or more than the
-/// limits.
-OsmData ReadOsm(const std::string& name, std::span<const std::byte> bytes, const OsmLimits& limits = {});
+/// limits. `cut`: only that piece, with the ways and multipolygons that reach into it whole, and all coastlines;
+/// limits but max_bytes then hold for what is kept.
+OsmData ReadOsm(const std::string& name, std::span<const std::byte> bytes, const OsmLimits& limits = {},
+                const std::optional<MapCut>& cut = {});
 
 /// Is this the name of a file that ReadOsm reads?
 bool IsOsmName(std::string_view name);

@@ -45,6 +45,8 @@ class Dresser {
   void Bicycles(const OsmNode& node);
   void Pole(const OsmNode& node);
   void Statue(const OsmNode& node);
+  void Camera(const OsmNode& node);
+  void VendingMachine(const OsmNode& node);
   bool Here(Vec2d p) const;
   bool HasAny(std::string_view key, std::string_view value) const;
   bool OnRoad(Vec2d p, double margin) const;

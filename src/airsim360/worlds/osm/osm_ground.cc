@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/osm/osm_ground_builder.h"
+#include "airsim360/worlds/osm/osm_country.h"
 #include "airsim360/worlds/osm/osm_streets.h"
 
 namespace airsim360::internal {
 namespace {
-
-constexpr double kRoadDrop = 0.13, kWaterDrop = 0.28;
 
 // u across (0 in the middle), v along the line: for wheel tracks.
 GroundUv StreetUv(std::vector<Vec2d> line) {
@@ -45,6 +43,8 @@ constexpr AreaKind kAreas[] = {
     {"waterway", "dock", "water/lake", Surface::kWater},
     {"landuse", "reservoir", "water/lake", Surface::kWater},
     {"landuse", "basin", "water/lake", Surface::kWater},
+    {"natural", "bay", "water/sea", Surface::kWater},
+    {"natural", "strait", "water/sea", Surface::kWater},
     {"leisure", "swimming_pool", "water/pool", Surface::kWater},
     {"amenity", "fountain", "water/pool", Surface::kWater},
     {"leisure", "playground", "ground/sand", Surface::kPath},
@@ -68,6 +68,8 @@ constexpr AreaKind kAreas[] = {
     {"area:highway", "footway", "ground/sidewalk", Surface::kSlabs},
     {"place", "square", "ground/pavement/modular", Surface::kPlazaStone},
     {"man_made", "pier", "ground/pavement/modular", Surface::kSlabsWarm},
+    {"man_made", "breakwater", "ground/gravel", Surface::kPath},
+    {"man_made", "groyne", "ground/gravel", Surface::kPath},
     {"landuse", "meadow", "ground/grass", Surface::kLawn},
     {"landuse", "recreation_ground", "ground/grass", Surface::kLawn},
     {"landuse", "cemetery", "ground/grass", Surface::kLawn},
@@ -129,10 +131,12 @@ struct PathKind {
   std::string_view highway, category;
   double width;
 };
+// In the order in which they are laid: steps lie in what leads to them.
 constexpr PathKind kPaths[] = {
+    {"steps", "construction/stairs", 2.4},
     {"pedestrian", "ground/pavement/modular", 6}, {"cycleway", "ground/bike_lane", 2.2},
     {"footway", "ground/path/park_walkway", 2.4}, {"path", "ground/path/park_walkway", 1.8},
-    {"steps", "construction/stairs", 2.4},        {"track", "ground/dirt", 2.6},
+    {"track", "ground/dirt", 2.6},
     {"bridleway", "ground/path/park_walkway", 2}, {"corridor", "ground/sidewalk", 2},
 };
 
@@ -149,11 +153,32 @@ void LayPaths(OsmScene& scene, GroundBuilder& ground) {
   }
 }
 
-void LayAreas(OsmScene& scene, GroundBuilder& ground) {
+// Piers and breakwaters that are lines.
+void LayPiers(OsmScene& scene, GroundBuilder& ground) {
+  for (const OsmWay& way : scene.data.ways) {
+    if (way.closed() || way.line.size() < 2) continue;
+    const AreaKind* kind = way.tags.Has("man_made") ? KindOf(way.tags) : nullptr;
+    if (!kind || kind->key != "man_made") continue;
+    const double width = ParseOsmLength(way.tags.Get("width"), 60).value_or(kind->value == "pier" ? 2.5 : 5);
+    ground.Lay(OsmId("way", way.id) + (way.tags.Has("name") ? " " + std::string(way.tags.Get("name")) : ""), kind->category,
+               kind->surface, Band(way.line, width / 2, width / 2), 0);
+  }
+}
+
+// The side of a piece of water, and the stones on it.
+void LayBank(OsmScene& scene, GroundBuilder& ground, size_t piece, const std::string& id) {
+  ground.mesh().SetEntity(scene.builder.AddEntity(id + "/bank", scene.builder.tree().At("construction/wall")));
+  ground.mesh().SetMaterial(scene.surfaces[Surface::kLimestone]);
+  ground.Rim(piece, kWaterDrop, 0.3);
+}
+
+// Areas, and the sea below them all; its entity, kNoEntity where there is none.
+EntityId LayAreas(OsmScene& scene, GroundBuilder& ground) {
   std::vector<const OsmArea*> areas;
   for (const OsmArea& area : scene.areas)
     if (!area.patches.empty() && !area.tags->Has("building") && !area.tags->Has("building:part") && KindOf(*area.tags)) areas.push_back(&area);
   std::stable_sort(areas.begin(), areas.end(), [](const OsmArea* a, const OsmArea* b) { return a->area < b->area; });
+  std::vector<std::pair<size_t, std::string>> waters;  // without banks yet
   for (const OsmArea* area : areas) {
     const AreaKind& kind = *KindOf(*area->tags);
     const bool water = kind.surface == Surface::kWater;
@@ -161,10 +186,25 @@ void LayAreas(OsmScene& scene, GroundBuilder& ground) {
     const size_t before = ground.pieces().size();
     ground.Lay(name, kind.category, kind.surface, area->patches, water ? -kWaterDrop : 0, PlainUv, water);
     if (!water || ground.pieces().size() == before) continue;
-    ground.mesh().SetEntity(scene.builder.AddEntity(area->id + "/bank", scene.builder.tree().At("construction/wall")));
-    ground.mesh().SetMaterial(scene.surfaces[Surface::kLimestone]);
-    ground.Rim(before, kWaterDrop, 0.3);
+    // Waters that may open into the sea have their banks when it is there.
+    if (scene.sea.empty())
+      LayBank(scene, ground, before, area->id);
+    else
+      waters.emplace_back(before, area->id);
   }
+  EntityId sea = kNoEntity;
+  if (!scene.sea.empty()) {
+    const Bounds2d box = BoundsOf(ground.clip()[0].outer);
+    const double cell = std::max({100.0, (box.max.x - box.min.x) / 64, (box.max.y - box.min.y) / 64});
+    waters.emplace_back(ground.pieces().size(), "sea");
+    sea = ground.Lay("sea", "water/sea", Surface::kWater, scene.sea, -kWaterDrop, PlainUv, true, cell);
+    if (sea == kNoEntity) {  // bays and piers cover it
+      waters.pop_back();
+      sea = scene.builder.AddEntity("sea", scene.builder.tree().At("water/sea"));
+    }
+  }
+  for (const auto& water : waters) LayBank(scene, ground, water.first, water.second);
+  return sea;
 }
 
 // Plots of a block where a garden is rather than a court.
@@ -214,6 +254,11 @@ std::vector<Neighbours::Yard> LayRest(GroundBuilder& ground, const std::vector<O
 }
 
 }  // namespace
+
+bool IsOpenCountry(const OsmTags& tags) {
+  const AreaKind* kind = KindOf(tags);
+  return kind && kind->value != "pitch" && (kind->category == "ground/terrain/landscape" || kind->category == "ground/grass" || kind->category == "ground/dirt");
+}
 
 void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, Neighbours& near) {
   LineIndex walls;
@@ -271,7 +316,8 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
     ground.Lay(OsmId("node", graph.nodes[i].id) + "/pavement", "ground/sidewalk", Surface::kSlabs, Band(ring, 0, std::min(width, 4.5)), 0);
   }
   LayPaths(scene, ground);
-  LayAreas(scene, ground);
+  LayPiers(scene, ground);
+  const EntityId sea = LayAreas(scene, ground);
   near.yards = LayRest(ground, buildings, scene.options.fill);
   for (const RoadSegment& segment : graph.segments) PaintSegment(scene, ground.mesh(), graph, segment, -kRoadDrop);
   PaintCrossings(scene, ground.mesh(), graph, -kRoadDrop);
@@ -280,8 +326,9 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   double built = 0;
   for (const OsmBuilding& building : buildings) built += Area(building.outline);
   const bool town = built > 0.2 * scene.data.extent.width() * scene.data.extent.depth();
-  LayCountry(scene, ground, town);
-  if (town && scene.options.fill) RaiseBackdrop(scene, ground.mesh(), buildings);
+  const std::vector<EdgeStretch> edge = EdgeOf(scene, ground, town);
+  LayCountry(scene, ground, edge, town, sea);
+  if (town && scene.options.fill) RaiseBackdrop(scene, ground.mesh(), buildings, edge);
   ground.Finish("ground");
   near.graph = std::make_shared<RoadGraph>(std::move(graph));
 }

@@ -11,27 +11,27 @@
 
 namespace airsim360::internal {
 
-inline constexpr double kClip = 30;  ///< metres around the extract that the ground reaches
+inline constexpr double kRoadDrop = 0.13, kWaterDrop = 0.28;  ///< metres below the ground
 
 /// A piece of ground of one entity.
 struct GroundPiece {
   Patches patches;
   EntityId entity = kNoEntity;
   std::string id;  // of the map, without what people call it
-  bool green = false;
+  Surface surface = Surface::kLawn;
   bool sunk = false;  // a carriageway or water: lies lower than its neighbours
 };
 
 class GroundBuilder {
  public:
   explicit GroundBuilder(OsmScene& scene) : scene_(scene) {
-    const OsmBox& e = scene.data.extent;
-    clip_ = {{{{e.x0 - kClip, e.y0 - kClip}, {e.x1 + kClip, e.y0 - kClip}, {e.x1 + kClip, e.y1 + kClip}, {e.x0 - kClip, e.y1 + kClip}}, {}}};
+    const OsmBox e = GroundBox(scene.data);
+    clip_ = {{{{e.x0, e.y0}, {e.x1, e.y0}, {e.x1, e.y1}, {e.x0, e.y1}}, {}}};
   }
 
-  // Lays what of an area is still free, as a new entity. Returns kNoEntity where nothing is.
+  // Lays what of an area is still free, as a new entity. Returns kNoEntity where nothing is. `cell`: as of Cover.
   EntityId Lay(const std::string& name, std::string_view category, Surface surface, const Patches& area, double z,
-               const GroundUv& uv = PlainUv, bool sunk = false) {
+               const GroundUv& uv = PlainUv, bool sunk = false, double cell = 100) {
     if (area.empty()) return kNoEntity;
     Patches free = Intersect(area, clip_);
     if (free.empty()) return kNoEntity;
@@ -47,9 +47,9 @@ class GroundBuilder {
     const EntityId entity = scene_.builder.AddEntity(name, scene_.builder.tree().Add(category, false));
     mesh_.SetEntity(entity);
     mesh_.SetMaterial(scene_.surfaces[surface]);
-    Cover(free, z, uv);
+    Cover(free, z, uv, cell);
     index_.Add(box, static_cast<uint32_t>(pieces_.size()));
-    pieces_.push_back({std::move(free), entity, name.substr(0, name.find(' ')), surface == Surface::kLawn, sunk});
+    pieces_.push_back({std::move(free), entity, name.substr(0, name.find(' ')), surface, sunk});
     return entity;
   }
   const GroundPiece& last() const { return pieces_.back(); }
@@ -61,7 +61,7 @@ class GroundBuilder {
   std::vector<std::pair<EntityId, Patches>> Lawns() const {
     std::vector<std::pair<EntityId, Patches>> lawns;
     for (const GroundPiece& piece : pieces_) {
-      if (!piece.green) continue;
+      if (piece.surface != Surface::kLawn) continue;
       Patches near;
       for (const Patch& patch : piece.patches) {
         const Bounds2d box = BoundsOf(patch.outer);
@@ -71,6 +71,14 @@ class GroundBuilder {
       if (!near.empty()) lawns.emplace_back(piece.entity, std::move(near));
     }
     return lawns;
+  }
+
+  // The piece at p, null where none is.
+  const GroundPiece* At(Vec2d p) const {
+    for (uint32_t i : index_.Find(p))
+      for (const Patch& patch : pieces_[i].patches)
+        if (Inside(patch, p)) return &pieces_[i];
+    return nullptr;
   }
 
   // Is there another sunken piece at p?
@@ -97,12 +105,11 @@ class GroundBuilder {
     scene_.builder.AddInstance({scene_.builder.AddMesh(mesh_.Finish(name)), {}, kNoEntity});
   }
 
-  // Triangles at `z` over the ground; in squares where the outline has many corners.
-  void Cover(const Patches& patches, double z, const GroundUv& uv) {
+  // Triangles at `z` over the ground; in squares of `cell` metres where the outline has many corners.
+  void Cover(const Patches& patches, double z, const GroundUv& uv, double cell = 100) {
     for (const Patch& patch : patches) {
       size_t corners = patch.outer.size();
       for (const Ring& hole : patch.holes) corners += hole.size();
-      const double cell = 100;
       const Bounds2d box = BoundsOf(patch.outer);
       const bool small = box.max.x - box.min.x < cell * 1.6 && box.max.y - box.min.y < cell * 1.6;
       if (small || corners < 400) {
@@ -174,11 +181,5 @@ class GroundBuilder {
   std::vector<GroundPiece> pieces_;
   BoxIndex index_;
 };
-
-/// The country around, to the horizon, and a sheet below everything that closes what rounding leaves open. `paved`:
-/// a town goes on outside.
-void LayCountry(OsmScene& scene, GroundBuilder& ground, bool paved);
-/// Around a built-up extract the town goes on: blocks of plain houses as high as those inside, thinning out.
-void RaiseBackdrop(OsmScene& scene, MeshBuilder& mesh, const std::vector<OsmBuilding>& buildings);
 
 }  // namespace airsim360::internal

@@ -1,6 +1,7 @@
 // Trees, lamps and furniture that a map has as points.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "airsim360/worlds/osm/osm_dresser.h"
 
@@ -28,7 +29,6 @@ constexpr NodeKind kNodes[] = {
     {"amenity", "fountain", "fountain", false},
     {"advertising", "*", "poster_stand", false},
     {"tourism", "information", "poster_stand", false},
-    {"amenity", "vending_machine", "parking_meter", true},
     {"barrier", "bollard", "car_pillar", false},
     {"barrier", "block", "road_block", false},
     {"leisure", "picnic_table", "picnic_table", false},
@@ -71,6 +71,10 @@ void Dresser::Nodes() {
       Bicycles(node);
     } else if (node.tags.Is("man_made", "flagpole")) {
       Pole(node);
+    } else if (node.tags.Is("man_made", "surveillance")) {
+      Camera(node);
+    } else if (node.tags.Is("amenity", "vending_machine")) {
+      VendingMachine(node);
     } else if (node.tags.Is("historic", "memorial") || node.tags.Is("historic", "monument") || node.tags.Is("tourism", "artwork")) {
       Statue(node);
     } else {
@@ -181,6 +185,60 @@ void Dresser::Statue(const OsmNode& node) {
   mesh_.SetMaterial(scene_.tints.Get(scene_.surfaces[Surface::kMetal], {0.10f, 0.13f, 0.10f}, 0.42f, 0.6f));
   mesh_.Tube(p + Vec3f{0, 0, 1.5f}, p + Vec3f{0, 0, 2.9f}, 0.34f, 0.2f, 12);
   mesh_.Sphere(p + Vec3f{0, 0, 3.1f}, {0.19f, 0.19f, 0.23f}, 8, 12);
+}
+
+// A camera on a mast, or at the wall of the building that it is mapped at.
+void Dresser::Camera(const OsmNode& node) {
+  const std::string_view where = node.tags.Get("surveillance");
+  if (where == "indoor" || where == "indoors" || where == "interior" || Underground(node.tags)) return;
+  const double height = ParseOsmLength(node.tags.Get("height"), 60).value_or(3.6);
+  Vec2d at = node.p, front{0, -1};
+  if (const LineIndex::Near road = near_.roads.Find(node.p, 60); road.owner != UINT32_MAX && road.distance > 0.3) front = (road.point - node.p) * (1 / road.distance);
+  const bool wall = InBuilding(node.p, 0.8);
+  if (wall) {
+    // Out to the nearest face of the wall.
+    double best = 3;
+    for (double step = 0; step <= 3; step += 0.25)
+      for (int i = 0; i < 16; ++i) {
+        const Vec2d way{std::cos(i * kTau / 16), std::sin(i * kTau / 16)};
+        if (step >= best || InBuilding(node.p + way * step, 0.05)) continue;
+        best = step;
+        at = node.p + way * step;
+        front = way;
+      }
+  } else if (OnRoad(node.p, 0.2)) {
+    std::tie(at, front) = Beside(node.p, 0.55);
+  }
+  if (const auto compass = ParseOsmNumber(node.tags.Get("camera:direction"), 0, 360))
+    front = {std::sin(*compass * M_PI / 180), std::cos(*compass * M_PI / 180)};
+  mesh_.SetEntity(scene_.builder.AddEntity(NameOf(node), scene_.builder.tree().Add("furniture/utility/camera")));
+  mesh_.SetMaterial(scene_.surfaces[Surface::kMetal]);
+  const Vec3f foot = scene_.On(at, -0.02), head = scene_.On(at, height);
+  if (!wall) mesh_.Tube(foot, head, 0.06f, 0.045f, 10, false, true);
+  mesh_.SetTransform(PlaceUpright(head, static_cast<float>(Yaw(front))));
+  mesh_.SetMaterial(scene_.surfaces[Surface::kTrimWhite]);
+  // Its front is -y, as of all props.
+  mesh_.Box({-0.07f, -0.38f, -0.06f}, {0.07f, 0.06f, 0.08f});
+  mesh_.SetTransform({});
+  if (!wall) scene_.occupancy.Add({ToFloat(at), {0.3f, 0.3f}, 0});
+}
+
+void Dresser::VendingMachine(const OsmNode& node) {
+  const std::string_view sells = node.tags.Get("vending");
+  if (sells == "parking_tickets" || sells == "excrement_bags") return Place(node, "parking_meter", true);
+  if (Underground(node.tags)) return;
+  RngStream rng(scene_.options.seed, OsmId("node", node.id));
+  auto [p, front] = Beside(node.p, 0.9);
+  if (!OnRoad(node.p, 0.2)) p = node.p;
+  static constexpr Vec3f kPaints[] = {{0.35f, 0.03f, 0.03f}, {0.04f, 0.09f, 0.28f}, {0.4f, 0.4f, 0.38f}, {0.05f, 0.2f, 0.08f}};
+  mesh_.SetEntity(scene_.builder.AddEntity(NameOf(node), scene_.builder.tree().Add("furniture/vending/machine")));
+  mesh_.SetMaterial(scene_.tints.Get(scene_.surfaces[Surface::kMetal], kPaints[rng.Index(4)], 0.42f, 0.1f));
+  mesh_.SetTransform(PlaceUpright(scene_.On(p, -0.02), static_cast<float>(Yaw(front))));
+  mesh_.Box({-0.46f, -0.4f, 0}, {0.46f, 0.4f, 1.85f});
+  mesh_.SetMaterial(scene_.surfaces[Surface::kGlassDark]);
+  mesh_.Quad({-0.38f, -0.405f, 0.65f}, {0.2f, -0.405f, 0.65f}, {0.2f, -0.405f, 1.75f}, {-0.38f, -0.405f, 1.75f});
+  mesh_.SetTransform({});
+  scene_.occupancy.Add({ToFloat(p), {0.6f, 0.6f}, 0});
 }
 
 bool Dresser::Here(Vec2d p) const { return scene_.data.extent.Contains(p, 24); }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/worlds/osm/osm_scene.h"
+#include "airsim360/worlds/osm/osm_stacking.h"
 
 namespace airsim360::internal {
 namespace {
@@ -262,11 +262,9 @@ std::vector<std::pair<double, double>> ProfileOf(OsmRoof roof) {
 // A deck with a rim: parapet, coping, the rim's inner side.
 void FlatRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof, MaterialId wall,
               MaterialId cover) {
-  const double top = base + volume.top, height = volume.top - volume.bottom;
-  const bool rim = height > 3.4 && Area(volume.footprint) > 25;
-  const double deck = top - (rim ? std::min(0.95, height * 0.1) : 0), thick = 0.3;
+  const double top = base + volume.top, deck = base + LowestRoof(volume), thick = 0.3;
   Patches inner;
-  if (rim) {
+  if (deck < top) {
     Patches bands;
     for (const Patch& patch : volume.footprint) {
       const auto band = [&](const Ring& ring) {

@@ -35,6 +35,12 @@ class Tints {
 using GroundUv = std::function<Vec2f(Vec2d)>;
 inline Vec2f PlainUv(Vec2d p) { return {static_cast<float>(p.x), static_cast<float>(-p.y)}; }
 
+inline constexpr double kClip = 30;  ///< metres around the extract that the ground reaches
+inline OsmBox GroundBox(const OsmData& data) {
+  const OsmBox& e = data.extent;
+  return {e.x0 - kClip, e.y0 - kClip, e.x1 + kClip, e.y1 + kClip};
+}
+
 struct OsmScene {
   SceneBuilder& builder;
   const Surfaces& surfaces;
@@ -43,6 +49,7 @@ struct OsmScene {
   Tints& tints;
   const OsmData& data;
   const std::vector<OsmArea>& areas;
+  const Patches& sea;  ///< within GroundBox
   Relief relief;
   OsmOptions options;
   Vec2d focus;  ///< where the viewer starts; detail falls with the distance from it
@@ -95,6 +102,9 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
                                            const std::string& attribution, OsmReport* report = nullptr);
 /// What a roof is made of.
 MaterialId RoofCover(OsmScene& scene, const OsmVolume& volume, const OsmTags& building, uint64_t seed);
+
+/// Is this area open country, which ends at the coast whatever its outline says (a park, a wood, a reserve)?
+bool IsOpenCountry(const OsmTags& tags);
 
 /// Streets, pavements, paths, areas and the ground between, as entities without overlap.
 void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, Neighbours& near);

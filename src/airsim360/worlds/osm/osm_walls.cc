@@ -4,15 +4,14 @@
 #include <map>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/facade.h"
-#include "airsim360/worlds/facade_bays.h"
+#include "airsim360/worlds/osm/osm_facade.h"
 #include "airsim360/worlds/osm/osm_scene.h"
+#include "airsim360/worlds/osm/osm_stacking.h"
 #include "airsim360/worlds/osm/osm_streets.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr double kFullDetail = 230, kSimpleDetail = 480;  // metres from the focus
 constexpr double kSetBack = 0.16;                               // of dressed walls from the outline
 constexpr double kChunk = 120;                            // metres of one merged mesh
 
@@ -29,7 +28,9 @@ bool IsAny(std::string_view value, std::initializer_list<std::string_view> choic
   return std::find(choices.begin(), choices.end(), value) != choices.end();
 }
 
-FacadeStyle PickStyle(const OsmTags& tags, std::string_view material, int floors, bool europe, RngStream& rng) {
+}  // namespace
+
+FacadeStyle PickFacadeStyle(const OsmTags& tags, std::string_view material, int floors, bool europe, RngStream& rng) {
   using F = FacadeStyle;
   const auto one = [&](std::initializer_list<F> list) {
     return *(list.begin() + rng.Index(static_cast<uint32_t>(list.size())));
@@ -50,6 +51,8 @@ FacadeStyle PickStyle(const OsmTags& tags, std::string_view material, int floors
   if (europe) return one({F::kStuccoShutters, F::kClassicStone, F::kClassicStone, F::kBrickWalkUp, F::kStuccoShutters});
   return one({F::kBrickWalkUp, F::kBrickWalkUp, F::kBrickWalkUp, F::kBrickLoft, F::kClassicStone, F::kStuccoShutters});
 }
+
+namespace {
 
 // A wall surface in the building's own colour.
 MaterialId Coloured(OsmScene& scene, Surface wall, Vec3f colour, std::string_view material) {
@@ -96,7 +99,7 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
   const std::string_view material = tag("building:material");
   const double walls = volume.top - volume.bottom - volume.roof_height;
   look.plain = HasNoWindows(building, volume);
-  look.plan.style = PickStyle(*building.tags, material, static_cast<int>(walls / 3.3), scene.europe, rng);
+  look.plan.style = PickFacadeStyle(*building.tags, material, static_cast<int>(walls / 3.3), scene.europe, rng);
   look.plan.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(look.plan.style).palettes)));
   // The storeys that need the least stretching; the roof's parapet is not the facade's affair.
   look.plan.roof = RoofKind::kHipTile;
@@ -194,13 +197,14 @@ std::vector<Vec2f> SetBack(const Ring& ring, const std::vector<double>& back) {
   return moved;
 }
 
-// One low storey: windows and a door by turns, at heights that people need.
-void LowWall(MeshBuilder& mesh, const Look& look, Vec2f a, Vec2f b, float base, float height, EntityId entity, RngStream& rng) {
-  FacadePen pen(mesh, look.surfaces);
+}  // namespace
+
+void BuildLowWall(MeshBuilder& mesh, const Surfaces& surfaces, const Dress& dress, Vec2f a, Vec2f b, float base, float height,
+                  EntityId entity, RngStream& rng) {
+  FacadePen pen(mesh, surfaces);
   pen.SetScale(base, 1, 0.6f);
   pen.SetWall(a, b);
   pen.UseEntity(entity);
-  const Dress dress = DressOf(look.plan);
   const float length = pen.length();
   const int bays = std::max(1, static_cast<int>(std::lround(length / 3.0f)));
   const float w = length / static_cast<float>(bays), head = std::min(height - 0.25f, 2.15f);
@@ -217,6 +221,8 @@ void LowWall(MeshBuilder& mesh, const Look& look, Vec2f a, Vec2f b, float base, 
   }
   mesh.SetTransform({});
 }
+
+namespace {
 
 class WallBuilder {
  public:
@@ -312,7 +318,7 @@ class WallBuilder {
         PlainWall(mesh_, a, b, z0, z1, u);
       } else if (kinds[i] == Kind::kLow) {
         RngStream rng(look.plan.seed, "low wall", i);
-        LowWall(mesh_, own, a, b, z0, height, entity, rng);
+        BuildLowWall(mesh_, own.surfaces, DressOf(own.plan), a, b, z0, height, entity, rng);
       }
       u += length;
     }
@@ -371,7 +377,7 @@ void Clutter(OsmScene& scene, const OsmVolume& volume, double base, uint64_t see
     if (area < 45 || scene.Far(patch.outer[0]) > kSimpleDetail) continue;
     RngStream rng(seed, "deck");
     const Bounds2d box = BoundsOf(patch.outer);
-    const double deck = base + volume.top - std::min(0.95, (volume.top - volume.bottom) * 0.1);
+    const double deck = base + LowestRoof(volume);
     Occupancy taken;
     const auto scatter = [&](const char* kind, int count, float scale) {
       const float r = FindPropKind(kind).footprint_radius * scale;
@@ -414,13 +420,13 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
       const Vec2d at = volume.footprint[0].outer[0];
       MeshBuilder& mesh = chunks[{static_cast<int>(std::floor(at.x / kChunk)), static_cast<int>(std::floor(at.y / kChunk))}];
       const Look look = LookOf(scene, building, volume);
-      double ground = 1e18;
-      for (Vec2d p : volume.footprint[0].outer) ground = std::min(ground, scene.relief.At(p));
+      const double ground = GroundUnder(scene, near, volume);
       const EntityId roof = scene.builder.AddEntity(volume.id + "/roof", roofs_are);
       if (volume.canopy)
         BuildCanopy(scene, mesh, volume, ground, entity);
       else
         WallBuilder(scene, near, mesh, balcony, window_box).Build(building, volume, look, ground, entity);
+      CloseOnSupports(mesh, near, volume, ground, look.surfaces[look.wall], entity);
       BuildOsmRoof(mesh, volume, ground, entity, roof, look.surfaces[look.wall],
                    RoofCover(scene, volume, *building.tags, look.plan.seed));
       if (!look.plain && !volume.canopy) Clutter(scene, volume, ground, look.plan.seed);

@@ -71,9 +71,16 @@ class Drawer {
     return tags;
   }
 
+  static OsmWay WayOf(int64_t id, OsmTags tags) {
+    OsmWay way;
+    way.id = id;
+    way.tags = std::move(tags);
+    return way;
+  }
+
   void Streets() {
     for (size_t i = 0; i < avenues_.size(); ++i) {
-      OsmWay way{static_cast<int64_t>(10 + i), {}, {}, Tags({{"highway", "secondary"}, {"name", "Avenue " + std::string(1, static_cast<char>('A' + i))}, {"width", "13"}, {"lanes", "3"}, {"oneway", i % 2 ? "yes" : "no"}})};
+      OsmWay way = WayOf(static_cast<int64_t>(10 + i), Tags({{"highway", "secondary"}, {"name", "Avenue " + std::string(1, static_cast<char>('A' + i))}, {"width", "13"}, {"lanes", "3"}, {"oneway", i % 2 ? "yes" : "no"}}));
       if (i == 1) way.tags.Add("cycleway", "lane");
       for (size_t k = 0; k < streets_.size(); ++k) {
         way.nodes.push_back(CrossingId(i, k));
@@ -83,7 +90,7 @@ class Drawer {
       data_.ways.push_back(std::move(way));
     }
     for (size_t k = 0; k < streets_.size(); ++k) {
-      OsmWay way{static_cast<int64_t>(50 + k), {}, {}, Tags({{"highway", "residential"}, {"name", "Street " + std::to_string(k + 1)}, {"width", "9.6"}, {"oneway", "yes"}})};
+      OsmWay way = WayOf(static_cast<int64_t>(50 + k), Tags({{"highway", "residential"}, {"name", "Street " + std::to_string(k + 1)}, {"width", "9.6"}, {"oneway", "yes"}}));
       for (size_t i = 0; i < avenues_.size(); ++i) {
         way.nodes.push_back(CrossingId(i, k));
         way.line.push_back({avenues_[i], streets_[k]});
@@ -123,7 +130,7 @@ class Drawer {
   }
 
   void House(double x0, double x1, double front, double rear, double height) {
-    OsmWay way{next_way_++, {}, {}, Tags({{"building", "yes"}, {"height", std::to_string(height).substr(0, 5)}})};
+    OsmWay way = WayOf(next_way_++, Tags({{"building", "yes"}, {"height", std::to_string(height).substr(0, 5)}}));
     const double low = std::min(front, rear), high = std::max(front, rear);
     for (const Vec2d& p : {Vec2d{x0, low}, Vec2d{x1, low}, Vec2d{x1, high}, Vec2d{x0, high}, Vec2d{x0, low}}) {
       way.nodes.push_back(next_node_++);
@@ -151,14 +158,14 @@ class Drawer {
   }
 
   void Park(double x0, double y0, double x1, double y1) {
-    OsmWay park{next_way_++, {}, {}, Tags({{"leisure", "park"}, {"name", "Town Garden"}})};
+    OsmWay park = WayOf(next_way_++, Tags({{"leisure", "park"}, {"name", "Town Garden"}}));
     for (const Vec2d& p : {Vec2d{x0, y0}, Vec2d{x1, y0}, Vec2d{x1, y1}, Vec2d{x0, y1}, Vec2d{x0, y0}}) {
       park.nodes.push_back(next_node_++);
       park.line.push_back(p);
     }
     park.nodes.back() = park.nodes.front();
     data_.ways.push_back(std::move(park));
-    OsmWay path{next_way_++, {}, {}, Tags({{"highway", "footway"}})};
+    OsmWay path = WayOf(next_way_++, Tags({{"highway", "footway"}}));
     for (int i = 0; i <= 12; ++i) {
       path.nodes.push_back(next_node_++);
       path.line.push_back({x0 + (x1 - x0) * i / 12, (y0 + y1) / 2 + 9 * std::sin(i * 0.52)});
