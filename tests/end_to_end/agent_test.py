@@ -129,6 +129,62 @@ class AgentTest(unittest.TestCase):
         self.assertEqual(self.agent.call("POST", "/v1/episodes", "{}", {"Content-Type": "text/plain"})[0], 415)
         self.assertEqual(self.agent.call("POST", "/v1/episodes", b" " * (2 << 20))[0], 413)
 
+    def raw(self, head, body=b""):
+        """Status of a request that is sent as it is."""
+        with socket.create_connection(("127.0.0.1", self.agent.port), 20) as one:
+            one.sendall(head.replace("\n", "\r\n").encode() + b"\r\n\r\n" + body)
+            return int(one.makefile("rb").readline().split()[1])
+
+    def test_media_types_in_any_case_are_json(self):
+        for kind in ("Application/JSON", "application/json; charset=utf-8", "APPLICATION/JSON ;charset=utf-8"):
+            status, _ = self.agent.call("POST", "/v1/episodes", {"nothing": 1}, {"Content-Type": kind})
+            self.assertEqual(status, 422, kind)
+        for kind in ("application/jsonp", "application/x-www-form-urlencoded", "text/json", ""):
+            status, answer = self.agent.call("POST", "/v1/episodes", "{}", {"Content-Type": kind})
+            self.assertEqual(status, 415, kind)
+            self.assertIn("Content-Type: application/json", answer["error"]["message"])
+
+    def test_a_request_has_one_host(self):
+        port = self.agent.port
+        for head, status in [("GET / HTTP/1.1", 400), ("GET / HTTP/1.0", 200), (f"GET / HTTP/1.1\nHost: 127.0.0.1:{port}", 200),
+                             (f"GET / HTTP/1.1\nHost: 127.0.0.1:{port}\nHost: example.org", 400),
+                             (f"GET / HTTP/1.1\nHost: localhost\nHost: localhost", 400)]:
+            self.assertEqual(self.raw(head), status, head)
+
+    def test_pages_of_other_servers_on_this_machine_are_refused(self):
+        port = self.agent.port
+        for origin, status in [(f"http://127.0.0.1:{port}", 200), (f"http://localhost:{port}", 200), (f"http://[::1]:{port}", 200),
+                               ("http://localhost", 403), (f"http://localhost:{port + 1}", 403), ("http://localhost:80", 403), ("null", 403),
+                               (f"http://localhost.example.org:{port}", 403), (f"http://example.org:{port}", 403)]:
+            self.assertEqual(self.agent.call("GET", "/", headers={"Origin": origin})[0], status, origin)
+
+    def test_connections_without_a_request_lock_out_nobody(self):
+        held = []
+        for start in (b"", b"GET / HTTP/1.1\r\nHo"):
+            for _ in range(200):
+                one = socket.create_connection(("127.0.0.1", self.agent.port), 20)
+                one.sendall(start)
+                held.append(one)
+        for _ in range(10):
+            self.assertEqual(self.agent.call("GET", "/")[0], 200)
+        for one in held:
+            one.close()
+
+    def test_the_free_space_around_is_observed(self):
+        _, made = self.agent.call("POST", "/v1/episodes", {"start": {"p": [-3, 0, 2]}})
+        # A room of 10 x 10 m: 2 m to the wall and to the floor.
+        self.assertAlmostEqual(made["observation"]["clearance"], 2, delta=0.05)
+
+    def test_it_ends_in_the_middle_of_an_action(self):
+        agent = Agent("--tier", "reference")
+        _, made = agent.call("POST", "/v1/episodes", {"start": {"p": [-3, 0, 2]}})
+        with socket.create_connection(("127.0.0.1", agent.port), 20) as one:
+            one.sendall(f"GET /v1/episodes/{made['episode']}/panorama.jpg?width=4096 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+            time.sleep(1)
+            start = time.monotonic()
+            self.assertEqual(agent.stop(), 0)
+            self.assertLess(time.monotonic() - start, 10)
+
     def test_slow_and_hostile_clients_hold_up_nobody(self):
         held = []
         for start in (b"", b"POST /v1/episodes HTTP/1.1\r\nContent-Le", b"POST /v1/episodes HTTP/1.1\r\nContent-Length: 1000\r\n\r\n{"):

@@ -169,6 +169,39 @@ class Labels(RoomTest):
         self.airsim.simClearDetectionMeshNames("0", 0)
         self.assertEqual(self.airsim.simGetDetections("0", 0), [])
 
+    def test_the_relative_pose_of_a_detection_is_that_of_object_and_camera(self):
+        c = self.airsim
+        box = c.simGetObjectPose("box").position
+        c.simAddDetectionFilterMeshName("0", 0, "target")
+        c.simSetDetectionFilterRadius("0", 0, 200 * 100)
+        self.put(0, 0, 0.5, 0)
+        camera_mount = c.simGetCameraInfo("0").pose
+        for object_yaw in (0, 30, 90, -135):
+            for camera_yaw in (0, 30, -45):
+                for pitch, roll in ((0, 0), (20, -10)):
+                    case = (object_yaw, camera_yaw, pitch, roll)
+                    turn = airsim.to_quaternion(math.radians(pitch), math.radians(roll), math.radians(object_yaw))
+                    # North of the drone, which looks north.
+                    place = airsim.Vector3r(camera_mount.position.x_val + 2, camera_mount.position.y_val, camera_mount.position.z_val)
+                    self.put(0, 0, 0.5, 0)
+                    start = c.simGetVehiclePose().position
+                    world = c.simGetObjectPose("Drone1").position
+                    place = place + (world - start)
+                    self.assertEqual(c.simSpawnObject("target", "Cube", airsim.Pose(place, turn), airsim.Vector3r(.4, .4, .4)), "target")
+                    self.put(0, 0, 0.5, math.radians(camera_yaw))
+                    found = c.simGetDetections("0", 0)
+                    self.assertEqual([item.name for item in found], ["target"], case)
+                    camera, thing = c.simGetCameraInfo("0").pose, c.simGetObjectPose("target")
+                    expected = camera.orientation.inverse() * thing.orientation
+                    relative = found[0].relative_pose
+                    self.assertAlmostEqual(abs(expected.dot(relative.orientation)), 1, delta=1e-5, msg=str(case))
+                    # And the vector from camera to object, in the frame of the camera.
+                    way = thing.position - (camera.position + (world - start))
+                    turned = camera.orientation.inverse() * airsim.Quaternionr(way.x_val, way.y_val, way.z_val, 0) * camera.orientation
+                    np.testing.assert_allclose(relative.position.to_numpy_array(), [turned.x_val, turned.y_val, turned.z_val], atol=2e-3, err_msg=str(case))
+                    self.assertTrue(c.simDestroyObject("target"))
+        c.simClearDetectionMeshNames("0", 0)
+
     def test_an_object_can_be_moved_and_taken_away(self):
         pose = self.airsim.simGetObjectPose("box")
         self.put(0, 0, 0.5, math.pi / 2)
@@ -227,9 +260,23 @@ class Added(RoomTest):
         scale = {"x_val": 1.0, "y_val": 1.0, "z_val": 1.0}
         self.assertError(lambda: raw.call("simSpawnObject", "a", "Teapot", pose, scale, False, False),
                          "There were no assets with name Teapot found in the Registry")
-        for _ in range(8):
+        for _ in range(128):
             raw.call("simSpawnObject", "a", "Cone", pose, scale, False, False)
-        self.assertError(lambda: raw.call("simSpawnObject", "a", "Cone", pose, scale, False, False), "All 8 objects of asset Cone")
+        self.assertError(lambda: raw.call("simSpawnObject", "a", "Cone", pose, scale, False, False), "All 128 objects of asset Cone")
+
+    def test_a_course_of_hundreds_of_cubes_is_built_seen_and_cleared(self):
+        c = self.airsim
+        before = c.simListSceneObjects()
+        names = []
+        for i in range(300):
+            names.append(c.simSpawnObject("post", "Cube", self.place(-4 + 8 * (i % 20) / 19, -4 + 8 * (i // 20) / 14, 3), airsim.Vector3r(.1, .1, .1)))
+        self.assertEqual(len(set(names)), 300)
+        self.assertEqual(set(c.simListSceneObjects()) - set(before), set(names))
+        self.put(-4, -4.5, 3)
+        self.assertAlmostEqual(self.picture("0", 1)[72, 128], 0.5 - 0.25 - 0.05, delta=0.01)
+        for name in names:
+            self.assertTrue(c.simDestroyObject(name))
+        self.assertEqual(c.simListSceneObjects(), before)
 
     def test_a_drone_that_is_added_later_is_seen_by_the_others(self):
         c = self.airsim

@@ -281,6 +281,88 @@ class ManyDrones(FlightTest):
         self.assertEqual(len(client.simGetImages([airsim.ImageRequest("0", 0)], "Drone3")), 1)
 
 
+class Mixed(FlightTest):
+    """Drones beside a vehicle that only looks."""
+    settings = {"ClockSpeed": 8, "Vehicles": {"Drone1": {"VehicleType": "SimpleFlight"},
+                                              "Eye": {"VehicleType": "ComputerVision", "X": -2, "Y": 1, "Z": -2,
+                                                      "Cameras": {"own": {"CaptureSettings": [{"ImageType": 0, "Width": 40, "Height": 30}]}}},
+                                              "Wall": {"VehicleType": "SimpleFlight", "X": 0, "Y": 5}}}
+
+    def test_a_drone_is_added_beside_one_that_only_looks(self):
+        client = self.client()
+        eye = client.simGetVehiclePose("Eye")
+        client.simAddDetectionFilterMeshName("own", 0, "New*", "Eye")
+        client.simSetDetectionFilterRadius("own", 0, 50 * 100, "Eye")
+        self.assertTrue(client.simAddVehicle("New1", "SimpleFlight", airsim.Pose(airsim.Vector3r(-2, -2, -1))))
+        self.assertEqual(set(client.listVehicles()), {"Drone1", "Eye", "Wall", "New1"})
+        # The one that looks is where it was, with its camera and its filter.
+        self.assertNear(client.simGetVehiclePose("Eye").position, tuple(eye.position), 1e-3)
+        image = client.simGetImages([airsim.ImageRequest("own", 0, False, False)], "Eye")[0]
+        self.assertEqual((image.width, image.height), (40, 30))
+        client.simSetVehiclePose(airsim.Pose(airsim.Vector3r(0, 0, 0), airsim.to_quaternion(0, 0, 0)), True, "Eye")
+        # The new one flies.
+        client.enableApiControl(True, "New1")
+        client.armDisarm(True, "New1")
+        self.assertTrue(client.takeoffAsync(vehicle_name="New1").get())
+        self.assertTrue(client.moveToPositionAsync(0.5, 0, -2, 1, vehicle_name="New1").get())
+        self.assertNear(position(client, "New1"), (0.5, 0, -2), 1)
+        self.assertFalse(client.simAddVehicle("Car", "PhysXCar", airsim.Pose()))
+        self.assertIn("'Car' was not added: there are vehicles of type SimpleFlight alone", self.server.messages())
+
+    def test_a_start_in_a_wall_is_told_with_the_nearest_free_place(self):
+        log = self.server.messages()
+        self.assertRegex(log, r"vehicle 'Wall' starts (in something or against it|over no ground) at X 0\.00, Y 5\.00, .*"
+                              r"the nearest free place found is X -?[0-9.]+, Y 4\.[0-9]+")
+        self.assertNotIn("vehicle 'Drone1' starts", log)
+
+    def test_a_goal_outside_the_room_is_told(self):
+        client = self.client()
+        client.enableApiControl(True)
+        client.armDisarm(True)
+        client.moveToPositionAsync(1, 1, -2, 5).join()
+        self.assertNotIn("lies outside the world", self.server.messages())
+        move = client.moveToPositionAsync(-10, 10, -10, 5)
+        client.cancelLastTask()
+        move.join()
+        self.assertIn("a goal of vehicle 'Drone1' lies outside the world, which in its frame reaches from (-5.0, -5.0, ", self.server.messages())
+
+
+class GpuLidar(ServerTest):
+    settings = {"SettingsVersion": 2.0, "Vehicles": {"Drone1": {"VehicleType": "SimpleFlight", "Sensors": {
+        "gpu": {"SensorType": 8, "NumberOfChannels": 4, "MeasurementsPerCycle": 90, "Range": 30, "VerticalFOVUpper": 10, "VerticalFOVLower": -10,
+                "GenerateNoise": True, "MinNoiseStandardDeviation": 0.01, "NoiseDistanceScale": 3, "DrawSensor": False, "DataFrame": "SensorLocalFrame"},
+        "exact": {"SensorType": 6, "NumberOfChannels": 4, "MeasurementsPerCycle": 90, "Range": 30, "VerticalFOVUpper": 10, "VerticalFOVLower": -10,
+                  "DataFrame": "SensorLocalFrame"},
+        "huge": {"SensorType": 8, "NumberOfChannels": 1024, "MeasurementsPerCycle": 36000},
+        "sonar": {"SensorType": 7, "NumberOfTraces": 100}}}}}
+    arguments = ("--lockstep",)
+
+    def ranges(self, method, name, width):
+        cloud = self.raw().call(method, name, "")["point_cloud"]
+        points = np.array(cloud, np.float32).reshape(-1, width)[:, :3]
+        return np.linalg.norm(points, axis=1)
+
+    def test_it_measures_as_many_points_as_asked_for_with_the_noise_asked_for(self):
+        exact = self.ranges("getLidarData", "exact", 3)
+        noisy = self.ranges("getGPULidarData", "gpu", 5)
+        self.assertEqual((len(exact), len(noisy)), (360, 360))
+        expected = 0.01 + exact / 30 * (0.03 - 0.01)
+        normal = (noisy - exact) / expected
+        # 360 normal numbers: mean and deviation within four of their own.
+        self.assertLess(abs(np.mean(normal)), 4 / np.sqrt(360))
+        self.assertLess(abs(np.std(normal) - 1), 4 / np.sqrt(720))
+        # Without a name: the first of its kind.
+        np.testing.assert_array_equal(self.ranges("getGPULidarData", "", 5), noisy)
+        np.testing.assert_array_equal(self.ranges("getLidarData", "", 3), exact)
+
+    def test_one_with_too_many_points_is_refused_before_it_measures(self):
+        self.assertError(lambda: self.raw().call("getGPULidarData", "huge", ""), "of at most 320 MiB", "fewer points")
+
+    def test_sensors_that_there_are_not_are_told_and_the_rest_works(self):
+        self.assertIn("there are no sensors of type 7", self.server.messages())
+        self.assertError(lambda: self.raw().call("getLidarData", "sonar", ""), "No lidar with name sonar")
+
+
 class ReinforcementLearning(FlightTest):
     def test_the_loop_of_a_training_environment(self):
         client = self.client()

@@ -48,6 +48,8 @@ AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& 
   return options;
 }
 
+constexpr std::chrono::milliseconds kLastJob{800};  // that an action or a picture has to end when the server is stopped
+
 void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
   if (arguments.port < 0 || arguments.port > 65535)
     throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
@@ -55,9 +57,9 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
     throw InputError("--episodes: " + std::to_string(arguments.episodes) + " is not in 1 ... 1024");
   ApplyFlags(arguments.environment, {});
 
+  AgentApi api(OptionsOf(arguments, globals));
   // Before the server has threads, so that the signals come to Wait alone.
   const StopSignals stop;
-  AgentApi api(OptionsOf(arguments, globals));
   const AgentServer server(api, {.address = arguments.host, .port = arguments.port});
   if (globals.json) {
     PrintJson({{"address", arguments.host}, {"port", server.port()}});
@@ -66,6 +68,7 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
   }
   std::fflush(stdout);
   stop.Wait();
+  EndWithin(kLastJob);
 }
 
 }  // namespace

@@ -19,9 +19,11 @@
 namespace airsim360 {
 namespace {
 
+constexpr std::chrono::milliseconds kLastJob{800};  // that a job has to end when the server is stopped
+
 struct ServeArguments {
   std::string world, settings, tier = "fast", host;
-  int port = -1;
+  std::optional<int> port;
   PeopleArguments people;
   bool realtime = false, lockstep = false;
   EnvironmentFlags environment;
@@ -33,8 +35,8 @@ void Check(const ServeArguments& arguments) {
     throw InputError(
         "--lockstep: time passes by the wall clock (--realtime) or by calls (--lockstep), not both");
   }
-  if (arguments.port < -1 || arguments.port > 65535) {
-    throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
+  if (arguments.port && (*arguments.port < 0 || *arguments.port > 65535)) {
+    throw InputError("--port: " + std::to_string(*arguments.port) + " is not in 0 (any free one) ... 65535");
   }
 }
 
@@ -54,7 +56,7 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
   ServerOptions options;
   if (!arguments.settings.empty()) options.settings = ReadSettings(arguments.settings);
   options.address = arguments.host.empty() ? options.settings.local_host_ip : arguments.host;
-  options.port = arguments.port >= 0 ? arguments.port : options.settings.port;
+  options.port = arguments.port.value_or(options.settings.port);
   options.lockstep = arguments.lockstep;
   options.tier = ParseTierArgument(arguments.tier);
   options.device = {globals.device, globals.gpu};
@@ -90,6 +92,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   }
   std::fflush(stdout);
   stop.Wait();
+  EndWithin(kLastJob);
 }
 
 }  // namespace

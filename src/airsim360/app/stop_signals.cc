@@ -1,5 +1,8 @@
 #include "airsim360/app/stop_signals.h"
 
+#include <cstdlib>
+#include <thread>
+
 #include "airsim360/base/log.h"
 
 namespace airsim360 {
@@ -16,6 +19,14 @@ void StopSignals::Wait() const {
   int signal = 0;
   sigwait(&signals_, &signal);
   LogInfo("stopping");
+}
+
+void EndWithin(std::chrono::milliseconds time) {
+  std::thread([time] {
+    std::this_thread::sleep_for(time);
+    LogInfo("stopped in the middle of a job");
+    std::_Exit(EXIT_SUCCESS);
+  }).detach();
 }
 
 }  // namespace airsim360

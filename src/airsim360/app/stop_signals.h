@@ -1,6 +1,7 @@
 // Commands that serve until they are interrupted.
 #pragma once
 
+#include <chrono>
 #include <csignal>
 
 namespace airsim360 {
@@ -20,5 +21,9 @@ class StopSignals {
  private:
   sigset_t signals_;
 };
+
+/// From now on the process has that long to end by itself; then it ends with status 0, whatever still runs. For what
+/// cannot be stopped in the middle, as a picture. To be called once what is kept is on the disk.
+void EndWithin(std::chrono::milliseconds time);
 
 }  // namespace airsim360

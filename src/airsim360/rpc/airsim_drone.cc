@@ -9,6 +9,8 @@
 namespace airsim360 {
 namespace {
 
+constexpr double kAirSimPointsPerSecond = 100000;
+
 double Given(double value, double otherwise) { return std::isnan(value) ? otherwise : value; }
 
 // The sensors of a type that the settings name, or one with AirSim's default name.
@@ -32,12 +34,16 @@ Mount AsMount(const RigidTransform& X_BS) {
   return {X_BS.p, angles.yaw * kDegrees, angles.pitch * kDegrees, angles.roll * kDegrees};
 }
 
-LidarSpec AsLidar(const SensorSettings& sensor) {
+LidarSpec AsLidar(const SensorSettings& sensor, bool cosys) {
   LidarSpec spec;
   spec.mount = AsMount(MountOf(sensor.pose, {0, 0, 0, 0, 0, 0}));  // AirSim puts those of cars alone a metre higher
   spec.rate_hz = sensor.rotations_per_second;
   spec.channels = static_cast<uint64_t>(sensor.channels);
-  const double shots = sensor.points_per_second / sensor.rotations_per_second / sensor.channels;
+  constexpr int kCosysMeasurements = 512;
+  const double points = Given(sensor.points_per_second, kAirSimPointsPerSecond);
+  double shots = points / sensor.rotations_per_second / sensor.channels;
+  if (cosys && std::isnan(sensor.points_per_second)) shots = kCosysMeasurements;
+  if (sensor.measurements_per_cycle > 0) shots = sensor.measurements_per_cycle;
   spec.columns = static_cast<uint64_t>(std::clamp(std::round(shots), 1.0, 36000.0));
   spec.low_deg = std::min(sensor.vertical_fov_lower, sensor.vertical_fov_upper);
   spec.high_deg = std::max(sensor.vertical_fov_lower, sensor.vertical_fov_upper);
@@ -93,10 +99,12 @@ RigidTransform MountOf(const SettingsPose& pose, const SettingsPose& otherwise) 
 
 RaySensors MakeRaySensors(const AirSimSettings& settings, const VehicleSettings& vehicle) {
   RaySensors sensors;
-  ForSensors(settings, vehicle, SensorType::kLidar, nullptr,
-             [&](const std::string& name, const SensorSettings& s) {
-               sensors.lidars.push_back({name, AsLidar(s), s.sensor_local_frame});
-             });
+  for (const SensorType type : {SensorType::kLidar, SensorType::kGpuLidar}) {
+    ForSensors(settings, vehicle, type, nullptr, [&](const std::string& name, const SensorSettings& s) {
+      sensors.lidars.push_back({name, AsLidar(s, settings.cosys), s.sensor_local_frame, type == SensorType::kGpuLidar,
+                                s.noise_sigma, s.noise_sigma * s.noise_scale});
+    });
+  }
   ForSensors(settings, vehicle, SensorType::kDistance, nullptr,
              [&](const std::string& name, const SensorSettings& s) {
                RangeFinderSpec spec;

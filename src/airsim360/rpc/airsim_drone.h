@@ -12,6 +12,8 @@ struct RaySensors {
     std::string name;
     LidarSpec spec;
     bool sensor_local_frame = false;
+    bool gpu = false;  ///< of Cosys-AirSim's type: the first that getGPULidarData finds without a name
+    double sigma = 0, far_sigma = 0;  ///< metres, of ranges 0 and max_range; in between it grows evenly
   };
   struct Distance {
     std::string name;

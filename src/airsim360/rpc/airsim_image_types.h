@@ -1,6 +1,10 @@
 // Requests for pictures and their answers as they travel (see airsim_types.h).
 #pragma once
 
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include "airsim360/rpc/airsim_types.h"
 
 namespace airsim360::airsim {
@@ -58,6 +62,17 @@ struct ImageRequest {
     v("compress", compress), v("annotation_name", annotation_name), v("binary_float", binary_float);
   }
 };
+
+/// The requests of one call. More than kMost are refused before memory is taken for them.
+struct ImageRequests {
+  static constexpr size_t kMost = 64;
+  std::vector<ImageRequest> list;
+};
+inline void FromWire(const WireValue& value, ImageRequests& out) {
+  if (value.items.size() > ImageRequests::kMost)
+    throw std::invalid_argument("more than " + std::to_string(ImageRequests::kMost) + " images in one call");
+  airsim360::FromWire(value, out.list);
+}
 
 /// Floats as AirSim sends them, or as the bytes that ImageRequest::binary_float asks for.
 struct FloatPixels {

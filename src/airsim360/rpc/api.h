@@ -4,6 +4,7 @@
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/image_service.h"
 #include "airsim360/rpc/method_table.h"
+#include "airsim360/rpc/notice.h"
 #include "airsim360/rpc/session.h"
 
 namespace airsim360 {
@@ -118,8 +119,5 @@ void AddPeopleCalls(Api& api);
 void AddPlotCalls(Api& api);
 void AddCosysCalls(Api& api);
 void AddUnavailableCalls(Api& api);
-
-/// Writes a notice to the log, each text once in the life of the process and at most a few hundred.
-void NoticeOnce(const std::string& text);
 
 }  // namespace airsim360

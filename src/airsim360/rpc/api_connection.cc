@@ -1,7 +1,4 @@
 // Connection, clock, control: ping … simContinueForFrames, reset, settings.
-#include <mutex>
-#include <set>
-
 #include "airsim360/rpc/api.h"
 #include "airsim360/rpc/ned.h"
 
@@ -29,14 +26,6 @@ void AddClockCalls(Api& api) {
 
 }  // namespace
 
-void NoticeOnce(const std::string& text) {
-  constexpr size_t kMostTexts = 500;
-  static std::mutex mutex;
-  static std::set<std::string> told;
-  const std::lock_guard lock(mutex);
-  if (told.size() < kMostTexts && told.insert(text).second) LogInfo(text);
-}
-
 void AddConnectionCalls(Api& api) {
   api.Read("ping", [](const Snapshot&) { return true; });
   // What the clients of AirSim, and of Cosys-AirSim, want at least.
@@ -61,7 +50,8 @@ void AddConnectionCalls(Api& api) {
            });
   api.Change("startRecording", [](Session& s) { s.recorder().Start(); });
   api.Change("stopRecording", [](Session& s) { s.recorder().Stop(); });
-  api.Read("isRecording", [](const Snapshot& now) { return now.recording; });
+  // Asked of the recorder itself: a recording can end at any time, also while time stands still.
+  api.Change("isRecording", [](Session& s) { return s.recorder().running(); });
 }
 
 }  // namespace airsim360

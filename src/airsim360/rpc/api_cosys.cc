@@ -27,7 +27,7 @@ std::vector<airsim::Pose> ObjectPoses(Api& api, const Snapshot& now) {
     const ObjectPlace place = PlaceNow(now, objects, entity.id);
     if (place.hidden) continue;
     poses.push_back({airsim::ToVector(NedFromWorld(place.X_WO.p - api.session().origin_W())),
-                     airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))});
+                     airsim::ToQuaternionr(NedAttitude(place))});
   }
   return poses;
 }

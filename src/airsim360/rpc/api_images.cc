@@ -5,7 +5,6 @@ namespace airsim360 {
 namespace {
 
 constexpr int kSmallestPanorama = 16, kLargestPanorama = 8192;  // pixels across
-constexpr size_t kMostRequests = 64;
 
 // Each panorama has a resolution; those that have none of their own follow the first that gets one.
 bool SetPanoramaResolution(Session& s, const std::string& name, int width, int height,
@@ -42,29 +41,23 @@ airsim::LentImages LeaveIn(const LentRegion& region, std::vector<airsim::ImageRe
   return lent;
 }
 
-void CheckCount(const std::vector<airsim::ImageRequest>& requests) {
-  if (requests.size() > kMostRequests) throw std::invalid_argument("more than 64 images in one call");
-}
-
 }  // namespace
 
 void AddImageCalls(Api& api) {
   api.Picture(
       "simGetImages",
-      [](ImageService& images, const SnapshotPointer& now, const std::vector<airsim::ImageRequest>& requests,
+      [](ImageService& images, const SnapshotPointer& now, const airsim::ImageRequests& requests,
          const std::string& vehicle, const airsim::External& external) {
-        CheckCount(requests);
-        return images.Capture(now, requests, vehicle, external.external);
+        return images.Capture(now, requests.list, vehicle, external.external);
       },
       1);
   // Ours: `token` and the region are of memory that the client has lent (MemoryLoans). Floats are as with binary_float.
   api.Picture("simGetImagesLent",
-              [&api](ImageService& images, const SnapshotPointer& now, std::vector<airsim::ImageRequest> requests,
+              [&api](ImageService& images, const SnapshotPointer& now, airsim::ImageRequests requests,
                      const std::string& vehicle, bool external, uint64_t token, uint64_t offset, uint64_t size) {
-                CheckCount(requests);
                 LentRegion region(api.loans().Find(token), offset, size);
-                for (airsim::ImageRequest& request : requests) request.binary_float = true;
-                return LeaveIn(region, images.Capture(now, requests, vehicle, external, &region));
+                for (airsim::ImageRequest& request : requests.list) request.binary_float = true;
+                return LeaveIn(region, images.Capture(now, requests.list, vehicle, external, &region));
               });
   api.Picture(
       "simGetImage",

@@ -1,6 +1,7 @@
 // takeoff … moveByMotorPWMs: each starts a task and answers when it ends.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "airsim360/rpc/api.h"
 #include "airsim360/rpc/ned.h"
@@ -44,8 +45,28 @@ void Takeoff(Session& s, const Reply& reply, Seconds timeout_sec, Text vehicle) 
   });
 }
 
+// Says in the log that a drone is sent where it cannot come to: out of a room, below the ground, off the edge of the world.
+void NoticeFarGoal(Session& s, const std::vector<Vec3d>& path_N, Text name) {
+  const Box3f& bounds = s.objects().scene().bounds;
+  const bool closed = s.objects().scene().sky_entity == kNoEntity;
+  const VehicleStatus& status = s.control(name).status();
+  const Vec3d low = VecCast<double>(bounds.min) - status.origin_W, high = VecCast<double>(bounds.max) - status.origin_W;
+  const auto is_out = [&](Vec3d p_N) {
+    const Vec3d p = NedFromWorld(p_N);
+    return p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || p.z < low.z || (closed && p.z > high.z);
+  };
+  if (bounds.empty() || std::ranges::none_of(path_N, is_out)) return;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "a goal of vehicle '%.80s' lies outside the world, which in its frame reaches from (%.1f, %.1f, %.1f) to "
+                "(%.1f, %.1f, %.1f): it may never come there",
+                status.name.c_str(), low.y, low.x, -low.z, high.y, high.x, -high.z);
+  NoticeOnce(text);
+}
+
 void MoveTo(Session& s, const Reply& reply, const std::vector<Vec3d>& path, double timeout,
             const PathOptions& options, Text vehicle) {
+  NoticeFarGoal(s, path, vehicle);
   Begin(s, reply, vehicle,
         [&](const FlightView& view) { return MakePathTask(view, path, timeout, options); });
 }

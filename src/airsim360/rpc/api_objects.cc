@@ -76,9 +76,8 @@ void AddPoseCalls(Api& api) {
         if (entity == kNoEntity) return NoPose();
         const ObjectPlace place = PlaceNow(now, api.session().objects(), entity);
         if (place.hidden) return NoPose();
-        // An unturned object has the unit quaternion, whatever the axes.
         return airsim::Pose{airsim::ToVector(NedFromWorld(place.X_WO.p - origin_W)),
-                            airsim::ToQuaternionr(ObjectRotation(place.X_WO.R))};
+                            airsim::ToQuaternionr(NedAttitude(place))};
       },
       1);
   api.Change("simSetObjectPose", [](Session& s, Text name, const airsim::Pose& pose, bool /*teleport*/) {

@@ -1,6 +1,9 @@
 // Readings of sensors; errors as AirSim's for names that there are not.
+#include <algorithm>
+
 #include "airsim360/rpc/airsim_sensor_types.h"
 #include "airsim360/rpc/api.h"
+#include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/segmentation_palette.h"
 #include "airsim360/rpc/vehicle_state.h"
@@ -97,6 +100,8 @@ airsim::DistanceSensorData Distance(ImageService& images, const Snapshot& now, T
           static_cast<float>(spec.max_range), airsim::ToMount(X_BS)};
 }
 
+constexpr uint64_t kBytesOfPoint = 128;  // from the ray to the wire, at the most
+
 // One scan with its points in the frame that AirSim's DataFrame names.
 struct Scan {
   LidarScan scan;
@@ -104,9 +109,25 @@ struct Scan {
   std::vector<Vec3d> points_F;
 };
 
-Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v) {
+// Cosys-AirSim's noise of ranges.
+void AddNoise(const RaySensors::Lidar& lidar, const SensorKey& key, int64_t t_ns, LidarPoint& point) {
+  if (lidar.sigma <= 0 && lidar.far_sigma <= 0) return;
+  RngStream random = SampleStream(key, "lidar range", MixBits(static_cast<uint64_t>(t_ns)) + point.shot);
+  const double share = point.range / lidar.spec.max_range;
+  const double noise = random.Normal() * (lidar.sigma + share * (lidar.far_sigma - lidar.sigma));
+  const auto factor = static_cast<float>(1 + noise / point.range);
+  point.p_S *= factor;
+  point.range *= factor;
+}
+
+// Without a name: the first of that kind, or else of the other.
+Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v, bool gpu) {
   const auto& lidars = now.world->ray_sensors[v].lidars;
-  const size_t i = SensorIndex(lidars, name, "lidar");
+  const auto first = std::ranges::find(lidars, gpu, &RaySensors::Lidar::gpu);
+  const size_t i = name.empty() && first != lidars.end() ? static_cast<size_t>(first - lidars.begin())
+                                                        : SensorIndex(lidars, name, "lidar");
+  CheckReplyBytes(lidars[i].spec.channels * lidars[i].spec.columns * kBytesOfPoint,
+                  "give the lidar fewer points a turn (NumberOfChannels, PointsPerSecond / RotationsPerSecond)");
   const RigidTransform X_BS = lidars[i].spec.mount.pose();
   const SensorKey key{now.model->world.seed, static_cast<uint32_t>(v), static_cast<uint32_t>(i)};
   Scan out;
@@ -115,7 +136,8 @@ Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v) {
   const Vec3d origin_W = now.vehicles[v].origin_W;
   const RigidTransform X_WS = body.X_WB * X_BS;
   out.pose = airsim::ToPose(X_WS, origin_W);
-  for (const LidarPoint& point : out.scan.points) {
+  for (LidarPoint& point : out.scan.points) {
+    AddNoise(lidars[i], key, now.state.t_ns, point);
     const Vec3d p_S = VecCast<double>(point.p_S);
     // VehicleInertialFrame: N, with the vehicle as origin.
     out.points_F.push_back(lidars[i].sensor_local_frame ? FrdFromBody(p_S)
@@ -125,7 +147,7 @@ Scan ScanOf(ImageService& images, const Snapshot& now, Text name, size_t v) {
 }
 
 airsim::LidarData Lidar(ImageService& images, const Snapshot& now, Text name, Text vehicle) {
-  const Scan scan = ScanOf(images, now, name, now.Find(vehicle));
+  const Scan scan = ScanOf(images, now, name, now.Find(vehicle), false);
   airsim::LidarData data;
   data.time_stamp = now.time_stamp();
   data.pose = scan.pose;
@@ -138,7 +160,7 @@ airsim::LidarData Lidar(ImageService& images, const Snapshot& now, Text name, Te
 }
 
 airsim::GpuLidarData GpuLidar(ImageService& images, const Snapshot& now, Text name, Text vehicle) {
-  const Scan scan = ScanOf(images, now, name, now.Find(vehicle));
+  const Scan scan = ScanOf(images, now, name, now.Find(vehicle), true);
   airsim::GpuLidarData data;
   data.time_stamp = now.time_stamp();
   data.pose = scan.pose;

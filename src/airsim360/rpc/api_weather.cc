@@ -29,6 +29,15 @@ double Of(const WorldView& world, WeatherParameter parameter) {
   return std::clamp(world.weather[static_cast<size_t>(parameter)], 0.0f, 1.0f);
 }
 
+// Clouds and the colour of the air follow in quarters: a new sky takes seconds, and fades come in small steps.
+double InQuarters(double share) { return std::ceil(4 * share) / 4; }
+
+bool IsSame(const Environment& a, const Environment& b) {
+  return a.lamps == b.lamps && a.hdri == b.hdri &&
+         std::ranges::all_of(EnvironmentFields(),
+                             [&](const EnvironmentField& field) { return a.*field.value == b.*field.value; });
+}
+
 // The environment with the weather that calls have asked for.
 void ApplyWeather(Session& s) {
   WorldView& world = s.world();
@@ -38,14 +47,15 @@ void ApplyWeather(Session& s) {
     const double fog = Of(world, WeatherParameter::kFog), dust = Of(world, WeatherParameter::kDust);
     weather.rain_mm_h = std::max(weather.rain_mm_h, kHeaviestRain * rain);
     weather.snowfall_mm_h = std::max(weather.snowfall_mm_h, kHeaviestSnow * snow);
-    weather.cloud_cover = std::max({weather.cloud_cover, rain, snow});
+    weather.cloud_cover = std::max(weather.cloud_cover, InQuarters(std::max(rain, snow)));
     weather.wetness = std::max(weather.wetness, Of(world, WeatherParameter::kRoadWetness));
     weather.snow_depth = std::max(weather.snow_depth, Of(world, WeatherParameter::kRoadSnow));
-    weather.turbidity = std::max(weather.turbidity, 2.5 + (kHaziest - 2.5) * dust);
+    weather.turbidity = std::max(weather.turbidity, 2.5 + (kHaziest - 2.5) * InQuarters(dust));
     const double visibility =
         std::min(fog > 0 ? kThickestFog / fog : 1e9, dust > 0 ? kThickestDust / dust : 1e9);
     if (visibility < 1e9) weather.visibility_m = visibility;
   }
+  if (IsSame(weather, world.environment)) return;
   world.environment = weather;
   s.EnvironmentChanged();
 }

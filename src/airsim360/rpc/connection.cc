@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <string>
 
 namespace airsim360::internal {
 namespace {
@@ -18,11 +19,12 @@ bool WouldBlock(int error) { return error == EAGAIN || error == EWOULDBLOCK || e
 
 }  // namespace
 
-Connection::Connection(ConnectionId id, int fd, const TcpLimits& limits, std::atomic<size_t>& total_output)
-    : id_(id), fd_(fd), limits_(limits), total_output_(total_output), scanner_(limits.message) {}
+Connection::Connection(ConnectionId id, int fd, const TcpLimits& limits, Totals& totals)
+    : id_(id), fd_(fd), limits_(limits), totals_(totals), scanner_(limits.message) {}
 
 Connection::~Connection() {
-  total_output_ -= queued_;
+  totals_.output -= queued_;
+  totals_.input -= held_bytes_;
   ::close(fd_);
 }
 
@@ -30,7 +32,14 @@ Connection::Read Connection::ReadSome(const std::function<void(std::string)>& on
   char buffer[kReadBytes];
   const ssize_t got = ::recv(fd_, buffer, sizeof buffer, MSG_DONTWAIT);
   if (got == 0 || (got < 0 && !WouldBlock(errno))) return Read::kEnded;
-  if (got > 0) input_.append(buffer, static_cast<size_t>(got));
+  if (got > 0) {
+    input_.append(buffer, static_cast<size_t>(got));
+    held_bytes_ += static_cast<size_t>(got);
+    totals_.input += static_cast<size_t>(got);
+    if (totals_.input > limits_.total_input_bytes && held_bytes_ > limits_.small_input_bytes)
+      throw WireError("all clients together have sent more than " + std::to_string(limits_.total_input_bytes >> 20) +
+                      " MiB that is not answered yet");
+  }
 
   // Hand over what is complete; the rest stays at the front.
   size_t start = 0;
@@ -38,7 +47,9 @@ Connection::Read Connection::ReadSome(const std::function<void(std::string)>& on
     const auto* bytes = reinterpret_cast<const uint8_t*>(input_.data());
     const auto length = scanner_.Scan({bytes + start, input_.size() - start});
     if (!length) break;
-    ++unanswered;
+    ++unanswered_;
+    unanswered_bytes_ += *length;
+    has_called_ = true;
     on_message(input_.substr(start, *length));
     start += *length;
   }
@@ -47,17 +58,44 @@ Connection::Read Connection::ReadSome(const std::function<void(std::string)>& on
   return Read::kOpen;
 }
 
-bool Connection::Send(WireBlocks bytes) {
+void Connection::Settle(size_t message_bytes) {
+  --unanswered_;
+  unanswered_bytes_ -= message_bytes;
+  held_bytes_ -= message_bytes;
+  totals_.input -= message_bytes;
+}
+
+Connection::Sent Connection::Send(WireBlocks bytes) {
   const std::lock_guard lock(mutex_);
-  if (broken_) return false;
+  if (broken_) return Sent::kGone;
+  if (queued_ > limits_.output_bytes) {
+    AbandonLocked();
+    return Sent::kTooSlow;
+  }
+  if (output_.empty()) last_read_ = std::chrono::steady_clock::now();
   const size_t size = SizeOf(bytes);
   queued_ += size;
-  total_output_ += size;
+  totals_.output += size;
   for (WireBlock& block : bytes) output_.push_back(std::move(block));
-  if (!FlushLocked(SIZE_MAX)) return false;
-  if (queued_ > limits_.output_bytes || (queued_ > 0 && total_output_ > limits_.total_output_bytes))
-    broken_ = true;
-  return !broken_;
+  return FlushLocked(SIZE_MAX) ? Sent::kYes : Sent::kGone;
+}
+
+std::chrono::steady_clock::time_point Connection::last_read() const {
+  const std::lock_guard lock(mutex_);
+  return last_read_;
+}
+
+void Connection::Abandon() {
+  const std::lock_guard lock(mutex_);
+  AbandonLocked();
+}
+
+// Memory goes at once, not when the last user of the connection has let go.
+void Connection::AbandonLocked() {
+  broken_ = true;
+  output_.clear();
+  totals_.output -= queued_;
+  queued_ = 0;
 }
 
 bool Connection::Flush() {
@@ -81,12 +119,13 @@ bool Connection::FlushLocked(size_t most) {
     const ssize_t put = ::sendmsg(fd_, &message, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (put < 0) {
       if (WouldBlock(errno)) return true;
-      broken_ = true;
+      AbandonLocked();
       break;
     }
+    last_read_ = std::chrono::steady_clock::now();
     sent += static_cast<size_t>(put);
     queued_ -= static_cast<size_t>(put);
-    total_output_ -= static_cast<size_t>(put);
+    totals_.output -= static_cast<size_t>(put);
     // Blocks that have gone wholly are let go.
     sent_ += static_cast<size_t>(put);
     while (!output_.empty() && sent_ >= output_.front().size()) {

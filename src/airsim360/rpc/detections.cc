@@ -36,7 +36,8 @@ airsim::DetectionInfo Describe(const Entity& entity, const std::string& name, co
   }
   info.box3D.min = airsim::ToVector(low);
   info.box3D.max = airsim::ToVector(high);
-  info.relative_pose = airsim::ToMount(X_AO);
+  info.relative_pose = {airsim::ToVector(FrdFromBody(X_AO.p)),
+                        airsim::ToQuaternionr(NedRotation(X_WA.R).transpose() * NedAttitude(place))};
   return info;
 }
 

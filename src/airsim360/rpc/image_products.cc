@@ -267,11 +267,17 @@ std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const
   return pixels;
 }
 
+size_t PixelBytes(ImageContent content, const Camera& camera, bool as_float, bool binary) {
+  const auto rows = static_cast<size_t>(Height(camera));
+  if (!as_float) return 3 * static_cast<size_t>(Width(camera)) * rows;
+  return FloatsInRow(content, camera) * rows * (binary ? sizeof(float) : kWireFloatBytes);
+}
+
 airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options, bool binary, const TakeBytes& take) {
   const size_t row = FloatsInRow(content, camera), count = row * static_cast<size_t>(Height(camera));
   const size_t size = binary ? sizeof(float) : kWireFloatBytes;
-  const std::shared_ptr<char[]> bytes = take(count * size);
+  const std::shared_ptr<char[]> bytes = take(PixelBytes(content, camera, true, binary));
   ForRows(camera, [&](int y) {
     char* out = bytes.get() + size * row * static_cast<size_t>(y);
     if (binary) return FloatRow(content, frame, camera, options, y, reinterpret_cast<float*>(out));
@@ -284,8 +290,8 @@ airsim::FloatPixels FloatBytesOf(ImageContent content, const Frame& frame, const
 
 WireBlock BytePixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                       const PixelOptions& options, const TakeBytes& take) {
-  const int width = Width(camera), height = Height(camera);
-  const size_t size = 3 * static_cast<size_t>(width) * static_cast<size_t>(height);
+  const int width = Width(camera);
+  const size_t size = PixelBytes(content, camera, false, false);
   const std::shared_ptr<char[]> pixels = take(size);
   ForRows(camera, [&](int y) {
     char* out = pixels.get() + 3 * static_cast<size_t>(y) * static_cast<size_t>(width);

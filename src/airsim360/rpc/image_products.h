@@ -40,6 +40,9 @@ struct PixelOptions {
 /// Depth of what no ray meets: the largest half-precision number, as AirSim's sky.
 inline constexpr float kSkyDepth = 65504;
 
+/// Bytes of a picture as it travels without compression: three a pixel, or floats, which take four each in
+/// binary and five else.
+size_t PixelBytes(ImageContent content, const Camera& camera, bool as_float, bool binary);
 /// One float a pixel, two of flow.
 std::vector<float> FloatPixelsOf(ImageContent content, const Frame& frame, const Camera& camera,
                                  const PixelOptions& options);

@@ -1,7 +1,12 @@
 #include "airsim360/rpc/image_service.h"
 
-#include <algorithm>
+#include <malloc.h>
 
+#include <algorithm>
+#include <chrono>
+
+#include "airsim360/render/relightable.h"
+#include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 
 namespace airsim360 {
@@ -68,20 +73,46 @@ void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot)
 }
 
 void ImageService::Run() {
+  constexpr std::chrono::seconds kPause{1};  // without a job: nobody is in a hurry
+  const auto called = [&] { return stopping_ || !jobs_.empty(); };
   std::unique_lock lock(mutex_);
   while (true) {
-    wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+    if (holds_memory_ && !wake_.wait_for(lock, kPause, called)) {
+      lock.unlock();
+      GiveBackMemory();
+      lock.lock();
+    }
+    wake_.wait(lock, called);
     if (stopping_) return;
-    const Job job = std::move(jobs_.front());
+    Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
     job(*this);
+    job = {};
+    holds_memory_ = true;
     lock.lock();
   }
 }
 
+// Images and blocks are kept from one picture to the next, large ones not for ever.
+void ImageService::GiveBackMemory() {
+  constexpr int64_t kSmall = 2048 * 1024;  // pixels
+  if (frame_pixels_ > kSmall) {
+    // Renderers keep images of the last size: a tiny picture takes their place.
+    frame_ = {};
+    frame_pixels_ = 0;
+    renderer_->Render({.camera = Equirectangular{16, 8}, .tier = options_.tier}, frame_);
+  }
+  pool_.Rest();
+  ::malloc_trim(0);
+  holds_memory_ = false;
+}
+
 void ImageService::FollowEnvironment(const WorldView& world) {
-  if (renderer_ == nullptr || world.environment_version != environment_version_) MakeRendererFor(world);
+  if (renderer_ != nullptr && world.environment_version == environment_version_) return;
+  auto* relightable = dynamic_cast<Relightable*>(renderer_.get());
+  if (relightable == nullptr || !relightable->SetEnvironment(world.environment)) return MakeRendererFor(world);
+  environment_version_ = world.environment_version;
 }
 
 void ImageService::MakeRendererFor(const WorldView& world) {
@@ -124,6 +155,7 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
     request.X_WC_next = (carried ? next.X_WB * shot.X_BA : shot.X_WA) * CameraInBody();
     request.next_state = WithObjects(snapshot, next.state);
   }
+  frame_pixels_ = std::max(frame_pixels_, int64_t{Width(shot.camera)} * Height(shot.camera));
   render_ms_ += renderer_->Render(request, frame_).render_ms;
   return frame_;
 }
@@ -164,6 +196,23 @@ airsim::ImageResponse ImageService::Respond(const airsim::ImageRequest& request,
     response.image_data_uint8.bytes = BytePixelsOf(content, frame_, shot.camera, options, take);
   }
   return response;
+}
+
+// Bytes of all pictures of a call whose size is known before they are made and that do not fit in lent memory.
+size_t ImageService::SocketBytes(const std::vector<Shot>& shots, const std::vector<airsim::ImageRequest>& requests,
+                                 const LentRegion* region) {
+  std::optional<LentRegion> trial;
+  if (region != nullptr) trial = *region;
+  size_t bytes = 0;
+  for (const Shot& shot : shots) {
+    for (const auto& [i, content] : shot.requests) {
+      const airsim::ImageRequest& request = requests[i];
+      if (!request.pixels_as_float && request.compress) continue;
+      const size_t size = PixelBytes(content, shot.camera, request.pixels_as_float, request.binary_float);
+      if (!trial || !trial->Take(size)) bytes += size;
+    }
+  }
+  return bytes;
 }
 
 // Requests that the same rays can answer are one shot.
@@ -226,10 +275,19 @@ std::vector<airsim::ImageResponse> ImageService::Capture(const SnapshotPointer& 
   const Vec3d origin_W = external ? session_.origin_W() : instant->vehicles[index].origin_W;
   std::vector<airsim::ImageResponse> responses(requests.size());
   render_ms_ = 0;
-  for (const Shot& shot : PlanShots(requests, *instant, index, external)) {
+  const std::vector<Shot> shots = PlanShots(requests, *instant, index, external);
+  size_t bytes = SocketBytes(shots, requests, region);
+  constexpr const char* kHelp =
+      "what helps: fewer pictures in a call, PNG (compress = True), or airsim360.airsim on the server's machine, which "
+      "takes them through lent memory";
+  CheckReplyBytes(bytes, kHelp);
+  for (const Shot& shot : shots) {
     RenderShot(*instant, shot);
     for (const auto& [i, content] : shot.requests) {
       responses[i] = Respond(requests[i], content, *instant, shot, origin_W, region);
+      if (requests[i].pixels_as_float || !requests[i].compress) continue;
+      bytes += responses[i].image_data_uint8.bytes.size();
+      CheckReplyBytes(bytes, kHelp);
     }
   }
   return responses;

@@ -41,7 +41,8 @@ class ImageService {
 
   /// The pictures of one call: all from one instant, that of the last trigger where a panorama is among them.
   /// `region`: pixels that are not compressed are written there as far as they fit. std::exception for a camera or vehicle
-  /// that there is not.
+  /// that there is not, and, before anything is rendered, for an answer beyond kMostReplyBytes; compressed pictures count when
+  /// they are made.
   std::vector<airsim::ImageResponse> Capture(const SnapshotPointer& now,
                                              const std::vector<airsim::ImageRequest>& requests,
                                              const std::string& vehicle, bool external,
@@ -64,6 +65,7 @@ class ImageService {
  private:
   struct Shot;
   void Run();
+  void GiveBackMemory();
   const Frame& RenderShot(const Snapshot& snapshot, const Shot& shot);
   void FollowEnvironment(const WorldView& world);
   void MakeRendererFor(const WorldView& world);
@@ -74,6 +76,8 @@ class ImageService {
                               size_t vehicle, bool external) const;
   SnapshotPointer InstantFor(const std::vector<airsim::ImageRequest>& requests, const SnapshotPointer& now,
                              size_t vehicle);
+  static size_t SocketBytes(const std::vector<Shot>& shots, const std::vector<airsim::ImageRequest>& requests,
+                            const LentRegion* region);
   airsim::ImageResponse Respond(const airsim::ImageRequest& request, ImageContent content,
                                 const Snapshot& snapshot, const Shot& shot, Vec3d origin_W, LentRegion* region);
 
@@ -86,6 +90,8 @@ class ImageService {
   Frame frame_;
   BlockPool pool_;  // of the answers
   double render_ms_ = 0;
+  int64_t frame_pixels_ = 0;   // of the largest picture since the last GiveBackMemory
+  bool holds_memory_ = false;  // a job has run since the last GiveBackMemory
 
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;

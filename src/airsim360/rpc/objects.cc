@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "airsim360/base/pattern.h"
+#include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/sim/people/people.h"
 
@@ -78,6 +79,10 @@ void ObjectIndex::Move(EntityId entity, const ObjectPlace& place, std::vector<Mo
   }
 }
 
+Mat3d NedAttitude(const ObjectPlace& place) {
+  return place.is_body ? NedRotation(place.X_WO.R) : ObjectRotation(place.X_WO.R);
+}
+
 ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId entity) {
   const auto found = world.places.find(entity);
   return found == world.places.end() ? objects.PlaceOf(entity) : found->second;
@@ -85,12 +90,13 @@ ObjectPlace PlaceIn(const WorldView& world, const ObjectIndex& objects, EntityId
 
 ObjectPlace PlaceNow(const Snapshot& now, const ObjectIndex& objects, EntityId entity) {
   for (size_t i = 0; i < now.model->drones.size(); ++i) {
-    if (now.model->drones[i]->setup().entity == entity) return {.X_WO = now.state.vehicles[i].motion.X_WB};
+    if (now.model->drones[i]->setup().entity == entity)
+      return {.X_WO = now.state.vehicles[i].motion.X_WB, .is_body = true};
   }
   if (now.model->people && now.state.people && IsPerson(*now.model->people, entity)) {
     const SimPeople& people = *now.model->people;
     const auto X = PlaceOfPerson(people, *now.state.people, now.state.t_ns + people.epoch_ns, entity);
-    return X ? ObjectPlace{.X_WO = *X} : ObjectPlace{.X_WO = {}, .hidden = true};
+    return X ? ObjectPlace{.X_WO = *X, .is_body = true} : ObjectPlace{.X_WO = {}, .hidden = true};
   }
   return PlaceIn(*now.world, objects, entity);
 }

@@ -16,7 +16,10 @@ struct ObjectPlace {
   RigidTransform X_WO;
   Vec3d scale = {1, 1, 1};
   bool hidden = false;
+  bool is_body = false;  ///< of a drone or a person: X_WO is the pose of a body that looks along +X
 };
+/// Its attitude in N. An object that is not turned has the unit quaternion, whatever the axes.
+Mat3d NedAttitude(const ObjectPlace& place);
 
 /// Names that calls have given to objects of the scene that were held ready without one.
 using ObjectNames = std::map<EntityId, std::string>;

@@ -11,21 +11,30 @@ namespace airsim360 {
 /// Says when a record is due; who owns the pictures writes it. Of the session's thread.
 class FlightRecorder {
  public:
-  /// Told of a snapshot to be recorded.
-  using Sink = std::function<void(const SnapshotPointer&)>;
+  /// One recording, from its start to its end.
+  class Recording {
+   public:
+    virtual ~Recording() = default;
+    /// Takes a snapshot that is due; does not wait until it is written.
+    virtual void Record(const SnapshotPointer& snapshot) = 0;
+    /// Whether it has ended by itself: it could not be written.
+    virtual bool failed() const = 0;
+  };
+  /// std::exception with the reason where nothing can be written.
+  using Open = std::function<std::shared_ptr<Recording>()>;
 
-  explicit FlightRecorder(const RecordingSettings& settings)
-      : settings_(settings), running_(settings.enabled) {}
-  void SetSink(Sink sink) { sink_ = std::move(sink); }
-  void Start() { running_ = true; }
-  void Stop() { running_ = false; }
-  bool running() const { return running_; }
+  explicit FlightRecorder(const RecordingSettings& settings) : settings_(settings) {}
+  void SetOpen(Open open) { open_ = std::move(open); }
+  /// A new recording, if none is running. Throws as Open.
+  void Start();
+  void Stop() { recording_.reset(); }
+  bool running() const { return recording_ != nullptr && !recording_->failed(); }
   void Observe(const SnapshotPointer& snapshot);
 
  private:
   RecordingSettings settings_;
-  Sink sink_;
-  bool running_;
+  Open open_;
+  std::shared_ptr<Recording> recording_;
   int64_t next_ns_ = 0;
   Vec3d last_p_W_;
 };

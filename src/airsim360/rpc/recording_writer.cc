@@ -1,9 +1,14 @@
 #include "airsim360/rpc/recording_writer.h"
 
+#include <atomic>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
+#include <sstream>
 
+#include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/ned.h"
@@ -17,9 +22,15 @@ std::filesystem::path NewFolder(const std::filesystem::path& parent) {
   std::tm local{};
   ::localtime_r(&now, &local);
   std::strftime(name, sizeof name, "%Y-%m-%d-%H-%M-%S", &local);
-  if (!parent.empty()) return parent / name;
   const char* home = std::getenv("HOME");
-  return std::filesystem::path(home ? home : ".") / "Documents" / "AirSim" / name;
+  const std::filesystem::path folder =
+      parent.empty() ? std::filesystem::path(home ? home : ".") / "Documents" / "AirSim" : parent;
+  // Two recordings may start in one second.
+  std::filesystem::path unused = folder / name;
+  std::error_code error;
+  for (int number = 2; std::filesystem::exists(unused, error); ++number)
+    unused = folder / (name + ("-" + std::to_string(number)));
+  return unused;
 }
 
 // Portable float map, as AirSim writes it: little-endian, top row first.
@@ -33,28 +44,55 @@ std::string Pfm(const airsim::ImageResponse& image) {
   return text;
 }
 
-}  // namespace
+class Recording : public FlightRecorder::Recording, public std::enable_shared_from_this<Recording> {
+ public:
+  Recording(const RecordingSettings& settings, ImageService& images);
+  void Record(const SnapshotPointer& snapshot) override;
+  bool failed() const override { return failed_; }
 
-RecordingWriter::RecordingWriter(Session& session, ImageService& images)
-    : settings_(session.settings().recording) {
-  if (settings_.cameras.empty()) settings_.cameras.push_back({});
-  session.Post([this, &images](Session& s) -> std::function<void()> {
-    s.recorder().SetSink([this, &images](const SnapshotPointer& snapshot) {
-      images.Post([this, snapshot](ImageService& service) { Write(service, snapshot); });
-    });
-    return {};
-  });
-}
+ private:
+  void Write(ImageService& images, const SnapshotPointer& snapshot);
+  void WriteVehicle(ImageService& images, const SnapshotPointer& snapshot, size_t index);
+  std::string WriteImage(const airsim::ImageResponse& image, const std::string& vehicle);
+  void Append(const std::string& line);
 
-void RecordingWriter::Open() {
-  folder_ = NewFolder(settings_.folder);
+  const RecordingSettings settings_;
+  ImageService& images_;
+  const std::filesystem::path folder_;
+  std::atomic<bool> failed_{false};
+  std::atomic<int> waiting_{0};  // records that are not written yet
+  bool is_late_ = false;         // of the session's thread: the log knows
+};
+
+Recording::Recording(const RecordingSettings& settings, ImageService& images)
+    : settings_(settings), images_(images), folder_(NewFolder(settings.folder)) {
   CreateWritableFolder(folder_ / "images");
-  std::ofstream(folder_ / "airsim_rec.txt")
-      << "VehicleName\tTimeStamp\tPOS_X\tPOS_Y\tPOS_Z\tQ_W\tQ_X\tQ_Y\tQ_Z\tImageFile\n";
+  Append("VehicleName\tTimeStamp\tPOS_X\tPOS_Y\tPOS_Z\tQ_W\tQ_X\tQ_Y\tQ_Z\tImageFile\n");
   LogInfo("recording to " + folder_.string());
 }
 
-std::string RecordingWriter::WriteImage(const airsim::ImageResponse& image, const std::string& vehicle) {
+void Recording::Record(const SnapshotPointer& snapshot) {
+  constexpr int kMostWaiting = 256;
+  if (waiting_ >= kMostWaiting) {
+    if (!is_late_) LogWarning("the recording does not keep up: records are left out");
+    is_late_ = true;
+    return;
+  }
+  ++waiting_;
+  images_.Post([self = shared_from_this(), snapshot](ImageService& images) {
+    self->Write(images, snapshot);
+    --self->waiting_;
+  });
+}
+
+void Recording::Append(const std::string& line) {
+  const std::filesystem::path path = folder_ / "airsim_rec.txt";
+  std::ofstream file(path, std::ios::app);
+  errno = 0;
+  if (!(file << line << std::flush)) throw RuntimeError(path.string() + ": cannot write: " + std::strerror(errno));
+}
+
+std::string Recording::WriteImage(const airsim::ImageResponse& image, const std::string& vehicle) {
   const std::string name = "img_" + vehicle + "_" +
                            std::filesystem::path(image.camera_name).filename().string() + "_" +
                            std::to_string(static_cast<int>(image.image_type)) + "_" +
@@ -64,39 +102,59 @@ std::string RecordingWriter::WriteImage(const airsim::ImageResponse& image, cons
   return name;
 }
 
-void RecordingWriter::Write(ImageService& images, const SnapshotPointer& snapshot) {
+void Recording::Write(ImageService& images, const SnapshotPointer& snapshot) {
   if (failed_) return;
   try {
-    if (folder_.empty()) Open();
-    for (size_t v = 0; v < snapshot->vehicles.size(); ++v) {
-      const VehicleStatus& vehicle = snapshot->vehicles[v];
-      std::vector<airsim::ImageRequest> requests;
-      for (const RecordingSettings::Camera& camera : settings_.cameras) {
-        if (camera.vehicle.empty() ? v != 0 : camera.vehicle != vehicle.name) continue;
-        airsim::ImageRequest request;
-        request.camera_name.text = camera.camera;
-        request.image_type = camera.type;
-        request.pixels_as_float = camera.pixels_as_float;
-        requests.push_back(request);
-      }
-      if (requests.empty()) continue;
-      std::string files;
-      for (const auto& image : images.Capture(snapshot, requests, vehicle.name, false)) {
-        if (!files.empty()) files += ';';
-        files += WriteImage(image, vehicle.name);
-      }
-      const airsim::Pose pose = airsim::ToPose(snapshot->state.vehicles[v].motion.X_WB, vehicle.origin_W);
-      const auto& p = pose.position;
-      const auto& q = pose.orientation;
-      std::ofstream(folder_ / "airsim_rec.txt", std::ios::app)
-          << vehicle.name << '\t' << snapshot->time_stamp() / 1000000 << '\t' << p.x_val << '\t' << p.y_val
-          << '\t' << p.z_val << '\t' << q.w_val << '\t' << q.x_val << '\t' << q.y_val << '\t' << q.z_val
-          << '\t' << files << '\n';
-    }
+    for (size_t v = 0; v < snapshot->vehicles.size(); ++v) WriteVehicle(images, snapshot, v);
   } catch (const std::exception& error) {
     failed_ = true;
     LogWarning("recording has ended: " + std::string(error.what()));
   }
+}
+
+// One line of the table and the pictures that it names.
+void Recording::WriteVehicle(ImageService& images, const SnapshotPointer& snapshot, size_t v) {
+  const VehicleStatus& vehicle = snapshot->vehicles[v];
+  std::vector<airsim::ImageRequest> requests;
+  for (const RecordingSettings::Camera& camera : settings_.cameras) {
+    if (camera.vehicle.empty() ? v != 0 : camera.vehicle != vehicle.name) continue;
+    airsim::ImageRequest request;
+    request.camera_name.text = camera.camera;
+    request.image_type = camera.type;
+    request.pixels_as_float = camera.pixels_as_float;
+    requests.push_back(request);
+  }
+  if (requests.empty()) return;
+  std::string files;
+  for (const auto& image : images.Capture(snapshot, requests, vehicle.name, false)) {
+    if (!files.empty()) files += ';';
+    files += WriteImage(image, vehicle.name);
+  }
+  const airsim::Pose pose = airsim::ToPose(snapshot->state.vehicles[v].motion.X_WB, vehicle.origin_W);
+  const auto& p = pose.position;
+  const auto& q = pose.orientation;
+  std::ostringstream line;
+  line << vehicle.name << '\t' << snapshot->time_stamp() / 1000000 << '\t' << p.x_val << '\t' << p.y_val << '\t'
+       << p.z_val << '\t' << q.w_val << '\t' << q.x_val << '\t' << q.y_val << '\t' << q.z_val << '\t' << files
+       << '\n';
+  Append(line.str());
+}
+
+}  // namespace
+
+void WriteRecordings(Session& session, ImageService& images) {
+  session.Post([&images](Session& s) -> std::function<void()> {
+    RecordingSettings settings = s.settings().recording;
+    if (settings.cameras.empty()) settings.cameras.push_back({});
+    s.recorder().SetOpen([settings, &images] { return std::make_shared<Recording>(settings, images); });
+    if (!settings.enabled) return {};
+    try {
+      s.recorder().Start();
+    } catch (const std::exception& error) {
+      LogWarning("nothing is recorded: " + std::string(error.what()));
+    }
+    return {};
+  });
 }
 
 }  // namespace airsim360

@@ -1,25 +1,12 @@
 // Writes what AirSim's recording writes: airsim_rec.txt and images/ in a folder of its own.
 #pragma once
 
-#include <filesystem>
-
 #include "airsim360/rpc/image_service.h"
 
 namespace airsim360 {
 
-class RecordingWriter {
- public:
-  /// Becomes the sink of the session's recorder. `images` must outlive the session.
-  RecordingWriter(Session& session, ImageService& images);
-
- private:
-  void Write(ImageService& images, const SnapshotPointer& snapshot);
-  void Open();
-  std::string WriteImage(const airsim::ImageResponse& image, const std::string& vehicle);
-
-  RecordingSettings settings_;
-  std::filesystem::path folder_;  // empty until the first record
-  bool failed_ = false;
-};
+/// Makes the recordings of a session from now on, each in a new folder, and starts one if the settings say so. `images`
+/// must outlive the session.
+void WriteRecordings(Session& session, ImageService& images);
 
 }  // namespace airsim360

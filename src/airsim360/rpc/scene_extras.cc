@@ -10,9 +10,10 @@ namespace {
 
 constexpr float kHalf = 0.5f;  // metres: all shapes fit a cube of 1 m, standing on z = 0
 constexpr int kRound = 32;     // sides of what is round
+constexpr const char* kShapeCategory = "object";
 
 SpawnAsset Finish(const char* name, Mesh mesh) {
-  SpawnAsset asset{name, "object", {}};
+  SpawnAsset asset{name, kShapeCategory, {}};
   mesh.name = name;
   mesh.parts = {{0, static_cast<uint32_t>(mesh.triangles.size()), 0}};
   asset.model.materials = {{.name = "spawned", .base_color = {0.45f, 0.45f, 0.47f}, .roughness = 0.7f}};
@@ -74,12 +75,15 @@ Mesh Sphere() {
   return Turned(profile);
 }
 
-// Adds one body and then copies of it; their refs are the last `count`.
+// Adds one body and then copies of it, each with a name of its own; their refs are the last `count`.
 void AddCopies(const std::string& name, const std::string& category, const Model& model, Vec3d somewhere,
                size_t count, std::vector<DroneBodySpec>& bodies) {
   const size_t first = bodies.size();
   for (size_t i = 0; i < count; ++i) {
-    DroneBodySpec body{.name = name, .model = {}, .X_WB = {{}, somewhere}, .category = category};
+    DroneBodySpec body{.name = i == 0 ? name : name + " " + std::to_string(i + 1),
+                       .model = {},
+                       .X_WB = {{}, somewhere},
+                       .category = category};
     i == 0 ? (void)(body.model = model) : (void)(body.same_as = first);
     bodies.push_back(std::move(body));
   }
@@ -96,6 +100,12 @@ std::vector<SpawnAsset> ShapeAssets() {
   return assets;
 }
 
+size_t CopiesOf(const SpawnAsset& asset) {
+  constexpr size_t kCubes = 512, kShapes = 128, kProps = 16;
+  if (asset.name == "Cube") return kCubes;
+  return asset.category == kShapeCategory ? kShapes : kProps;
+}
+
 std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
                                        const std::vector<SpawnAsset>& assets, SceneExtras& extras) {
   const Vec3d somewhere = VecCast<double>(scene->spawn.value_or(scene->bounds.center()));
@@ -108,15 +118,17 @@ std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const
   AddCopies("unused drone", "uav/other", drone, somewhere, kSpareDrones, bodies);
   const size_t drones = bodies.size();
   for (const SpawnAsset& asset : assets)
-    AddCopies("unused " + asset.name, asset.category, asset.model, somewhere, kSpareCopies, bodies);
+    AddCopies("unused " + asset.name, asset.category, asset.model, somewhere, CopiesOf(asset), bodies);
 
   std::vector<DroneBodyRef> refs;
   scene = AddDroneBodies(std::move(scene), bodies, refs);
   extras.drones.assign(refs.begin(), refs.begin() + static_cast<ptrdiff_t>(drones));
   extras.stock.clear();
-  for (size_t i = 0; i < assets.size(); ++i) {
-    const auto first = refs.begin() + static_cast<ptrdiff_t>(drones + i * kSpareCopies);
-    extras.stock.push_back({assets[i].name, {first, first + static_cast<ptrdiff_t>(kSpareCopies)}});
+  auto first = refs.begin() + static_cast<ptrdiff_t>(drones);
+  for (const SpawnAsset& asset : assets) {
+    const auto end = first + static_cast<ptrdiff_t>(CopiesOf(asset));
+    extras.stock.push_back({asset.name, {first, end}});
+    first = end;
   }
   return scene;
 }

@@ -31,7 +31,9 @@ struct SceneExtras {
   std::vector<SpawnStock> stock;
 };
 
-inline constexpr size_t kSpareDrones = 32, kSpareCopies = 8;
+inline constexpr size_t kSpareDrones = 32;
+/// Objects of an asset that can be in the world at a time: obstacle courses are made of cubes.
+size_t CopiesOf(const SpawnAsset& asset);
 
 /// The scene with everything of `extras`, which is filled.
 std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,

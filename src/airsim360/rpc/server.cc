@@ -40,7 +40,6 @@ struct AirSimServer::Impl {
   std::unique_ptr<TcpServer> tcp;
   MemoryLoans loans;
   std::unique_ptr<ImageService> images;
-  std::unique_ptr<RecordingWriter> recording;
   std::unique_ptr<Session> session;
   std::unique_ptr<Api> api;
 
@@ -50,13 +49,11 @@ struct AirSimServer::Impl {
     const RpcMessage call = ParseMessage(value);
     const Reply reply(
         call.id, std::string(call.method), call.arguments->items.size(),
-        [this, id](WireBlocks answer) { Send(id, std::move(answer)); },
+        [this, id, size = message.size()](WireBlocks answer) {
+          answer.empty() ? tcp->Done(id, size) : tcp->Answer(id, size, std::move(answer));
+        },
         [this, id] { return connections.IsOpen(id); });
     api->table().Call(call, reply);
-  }
-
-  void Send(ConnectionId id, WireBlocks answer) {
-    answer.empty() ? tcp->Done(id) : tcp->Answer(id, std::move(answer));
   }
 };
 
@@ -72,7 +69,7 @@ AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptio
                                                             .environment = options.environment,
                                                             .people = options.people});
   impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier, options.device});
-  impl_->recording = std::make_unique<RecordingWriter>(*impl_->session, *impl_->images);
+  WriteRecordings(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,
                          AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls,

@@ -103,7 +103,10 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
                          const RigidTransform& X_WB) {
   const bool is_drone = settings.type != "ComputerVision";
   auto model = std::make_shared<SimModel>(*model_);
-  const size_t index = state_.vehicles.size();
+  // Drones come before all others in the simulation.
+  const size_t index = is_drone ? model_->drones.size() : state_.vehicles.size();
+  MakeRoomAt(index);
+  const auto place = static_cast<std::ptrdiff_t>(index);
   RigidTransform start = X_WB;
   if (is_drone) {
     DroneSetup setup = MakeDroneSetup(name, options_.settings, settings, {}, X_WB);
@@ -128,14 +131,25 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
     if (!on_ground) vehicle.motion.X_WB = vehicle.drone.p_WB.z < X_WB.p.z ? X_WB : vehicle.motion.X_WB;
     vehicle.drone.p_WB = vehicle.motion.X_WB.p;
     start = vehicle.motion.X_WB;
-    state_.vehicles.push_back(vehicle);
+    state_.vehicles.insert(state_.vehicles.begin() + place, vehicle);
     SampleSensors(index);
   } else {
     state_.vehicles.push_back(VehicleAt(*model_, X_WB));
   }
-  controls_.push_back(std::make_unique<VehicleControl>(index, name, settings, is_drone, start.p));
-  world().cameras.push_back(MakeCameras(options_.settings, settings));
-  world().ray_sensors.push_back(MakeRaySensors(options_.settings, settings));
+  controls_.insert(controls_.begin() + place,
+                   std::make_unique<VehicleControl>(index, name, settings, is_drone, start.p));
+  world().cameras.insert(world().cameras.begin() + place, MakeCameras(options_.settings, settings));
+  world().ray_sensors.insert(world().ray_sensors.begin() + place, MakeRaySensors(options_.settings, settings));
+}
+
+// Vehicles from `index` on are one further back.
+void Session::MakeRoomAt(size_t index) {
+  if (index == controls_.size()) return;
+  for (size_t i = index; i < controls_.size(); ++i) controls_[i]->MoveUp();
+  decltype(WorldView::detection) detection;
+  for (auto& [key, filter] : world().detection)
+    detection[{key.first + (key.first >= index ? 1 : 0), key.second}] = std::move(filter);
+  world().detection = std::move(detection);
 }
 
 void Session::BuildVehicles() {
@@ -153,7 +167,9 @@ void Session::BuildVehicles() {
   for (const bool drones : {true, false}) {
     for (const auto& [name, settings] : options_.settings.vehicles) {
       if (!settings.auto_create || (settings.type != "ComputerVision") != drones) continue;
-      AddToModel(name, settings, StartPose(settings));
+      const RigidTransform start = StartPose(settings);
+      AddToModel(name, settings, start);
+      if (drones) NoticeBadStart(name, start);
     }
   }
 }
@@ -185,7 +201,6 @@ void Session::Publish() {
   next->model = model_;
   next->world = world_;
   next->paused = pacer_.paused();
-  next->recording = recorder_.running();
   next->epoch_ns = snapshot_->epoch_ns;
   next->real_time_factor = pacer_.real_time_factor();
   for (const auto& control : controls_) next->vehicles.push_back(control->status());

@@ -67,7 +67,7 @@ class Session {
   void ObjectsMoved();
   /// Gains of a drone's controllers were changed.
   void GainsChanged(const VehicleControl& control);
-  /// A drone added at a place; false if the name is taken or the type unknown.
+  /// A drone added at a place; false, with a notice why, if the name is taken or the type unknown.
   bool AddVehicle(const std::string& name, const std::string& type, const RigidTransform& X_WB);
   /// Brings an object of an asset into the world; its name, which is another one if `name` is taken.
   /// std::runtime_error with AirSim's text for an asset that there is not, or when all copies are in use.
@@ -89,6 +89,9 @@ class Session {
   void BuildVehicles();
   void RebuildModel();
   void AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB);
+  void MakeRoomAt(size_t index);
+  /// Says in the log that a drone cannot stay where it starts, and the nearest place where it can.
+  void NoticeBadStart(const std::string& name, const RigidTransform& X_WB) const;
   RigidTransform StartPose(const VehicleSettings& settings) const;
   /// What the sensors of a drone read before time has passed: as AirSim's they have values at once.
   void SampleSensors(size_t index);

@@ -1,10 +1,13 @@
 // What calls change in a session, beyond commands to vehicles.
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "airsim360/base/file_name.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/rpc/notice.h"
 #include "airsim360/rpc/session.h"
+#include "airsim360/rpc/start_place.h"
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
@@ -53,15 +56,35 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr size_t kMostVehicles = 256;
-  const bool taken = HasVehicle(name);
-  // Drones come before all others in the simulation: after one of those there is no room for them.
-  const bool only_drones = model_->drones.size() == state_.vehicles.size();
-  if (taken || name.empty() || lower != "simpleflight" || !only_drones || controls_.size() >= kMostVehicles) {
+  const char* why = HasVehicle(name) || name.empty()    ? "the name is empty or taken"
+                    : lower != "simpleflight"           ? "there are vehicles of type SimpleFlight alone"
+                    : controls_.size() >= kMostVehicles ? "256 vehicles are the most"
+                    : model_->drones.empty() && !controls_.empty()
+                        ? "where all vehicles are of type ComputerVision there are no drones"
+                                                        : nullptr;
+  if (why != nullptr) {
+    NoticeOnce("simAddVehicle: '" + name.substr(0, 100) + "' was not added: " + why);
     return false;
   }
   CheckFileName("vehicle_name", name);  // recordings name pictures after it
   AddToModel(name, VehicleSettings{}, X_WB);
+  NoticeBadStart(name, X_WB);
   return true;
+}
+
+void Session::NoticeBadStart(const std::string& name, const RigidTransform& X_WB) const {
+  const double radius = Norm(AirSimQuad().half_size_B) + Norm(AirSimQuad().rotors.front().p_B);
+  const std::string fault = StartFault(*base_tracer_, X_WB.p, radius);
+  if (fault.empty()) return;
+  const auto text = [&](Vec3d p_W) {
+    const Vec3d p_N = NedFromWorld(p_W - origin_W_);
+    char place[100];
+    std::snprintf(place, sizeof place, "X %.2f, Y %.2f, Z %.2f", p_N.x, p_N.y, p_N.z);
+    return std::string(place);
+  };
+  std::string notice = "vehicle '" + name.substr(0, 100) + "' starts " + fault + " at " + text(X_WB.p) + ": it will be pushed out or fall";
+  const auto free = NearestStart(*base_tracer_, X_WB.p, radius);
+  NoticeOnce(notice + (free ? "; the nearest free place found is " + text(*free) : std::string()));
 }
 
 std::vector<std::string> Session::AssetNames() const {

@@ -74,8 +74,55 @@ CameraSettings ReadCamera(const JsonNode& node, SettingsObject& parent) {
   return camera;
 }
 
+// Of a type that there is not here everything is read and left.
+SensorType ReadSensorType(SettingsObject& object) {
+  static constexpr const char* kHere =
+      "1 barometer, 2 imu, 3 gps, 4 magnetometer, 5 distance, 6 lidar, 8 GPU lidar";
+  int type = 0;
+  object.Read("SensorType", type, 0, 1000);
+  if (type == 0) object.Fail(object.node(), std::string("SensorType: missing or 0; there are ") + kHere);
+  const bool known = type <= static_cast<int>(SensorType::kLidar) || type == static_cast<int>(SensorType::kGpuLidar);
+  if (known) return static_cast<SensorType>(type);
+  object.notices().push_back(std::string(object.file()) + ":" + std::to_string(object.node().line) +
+                             ": SensorType: there are no sensors of type " + std::to_string(type) +
+                             " here, and so not this one (there are " + kHere + ")");
+  object.IgnoreTheRest();
+  return SensorType::kNone;
+}
+
+// Cosys-AirSim's noise of ranges.
+void ReadNoise(SettingsObject& object, SensorSettings& sensor) {
+  bool noise = false;
+  double sigma = 0, scale = 1;
+  object.Read("GenerateNoise", noise);
+  object.Read("MinNoiseStandardDeviation", sigma, 0, 100);
+  object.Read("NoiseDistanceScale", scale, 0, 1000);
+  const bool lidar = sensor.type == SensorType::kLidar || sensor.type == SensorType::kGpuLidar;
+  if (noise && lidar) {
+    sensor.noise_sigma = sigma, sensor.noise_scale = scale;
+  } else if (noise) {
+    static constexpr const char* kNoise[] = {"GenerateNoise", "MinNoiseStandardDeviation", "NoiseDistanceScale"};
+    object.Ignore(kNoise);
+  }
+}
+
 SensorSettings ReadSensor(const JsonNode& node, SettingsObject& parent) {
   static constexpr const char* kOther[] = {"DrawDebugPoints",
+                                           "DrawSensor",
+                                           "DrawMode",
+                                           "External",
+                                           "ExternalLocal",
+                                           "LimitPoints",
+                                           "Resolution",
+                                           "IgnoreMarked",
+                                           "GroundTruth",
+                                           "InstanceSegmentation",
+                                           "Annotation",
+                                           "GenerateIntensity",
+                                           "rangeMaxLambertianPercentage",
+                                           "rainMaxIntensity",
+                                           "rainConstantA",
+                                           "rainConstantB",
                                            "ExternalController",
                                            "UpdateLatency",
                                            "UpdateFrequency",
@@ -102,20 +149,17 @@ SensorSettings ReadSensor(const JsonNode& node, SettingsObject& parent) {
                                            "ScaleFactor"};
   SettingsObject object(node, parent.file(), parent.notices());
   SensorSettings sensor;
-  int type = 0;
-  object.Read("SensorType", type, 0, 1000);
-  if (type < 1 || type > 6) {
-    object.Fail(node,
-                "SensorType: " + std::to_string(type) +
-                    " is not a sensor here (1 barometer, 2 imu, 3 gps, 4 magnetometer, 5 distance, 6 lidar)");
-  }
-  sensor.type = static_cast<SensorType>(type);
+  sensor.type = ReadSensorType(object);
+  if (sensor.type == SensorType::kNone) return sensor;
   object.Read("Enabled", sensor.enabled);
   ReadPose(object, sensor.pose);
+  if (sensor.type == SensorType::kGpuLidar) sensor.channels = 64, sensor.measurements_per_cycle = 2048, sensor.range = 50;
   object.Read("MinDistance", sensor.min_distance, 0, kFar),
       object.Read("MaxDistance", sensor.max_distance, 0.01, kFar);
   object.Read("NumberOfChannels", sensor.channels, 1, 1024), object.Read("Range", sensor.range, 0.01, kFar);
   object.Read("PointsPerSecond", sensor.points_per_second, 1, 1e7);
+  object.Read("MeasurementsPerCycle", sensor.measurements_per_cycle, 1, 36000);
+  ReadNoise(object, sensor);
   object.Read("RotationsPerSecond", sensor.rotations_per_second, 0.1, 1000);
   object.Read("HorizontalFOVStart", sensor.horizontal_fov_start, -360, 360);
   object.Read("HorizontalFOVEnd", sensor.horizontal_fov_end, -360, 360);
@@ -148,8 +192,17 @@ std::map<std::string, T> ReadNamed(SettingsObject& parent, const char* key, cons
   return named;
 }
 
+constexpr const char* kPx4 = "PX4Multirotor";
+// What such a vehicle says of its autopilot and of the links to it (docs/px4_setup.md there).
+constexpr const char* kOfPx4[] = {"ControlIp",     "ControlPort",      "ControlPortLocal", "ControlPortRemote", "LocalHostIp",
+                                  "LogViewerHostIp", "LogViewerPort",  "LogViewerSendPort", "Logs",             "ParamFile",
+                                  "QgcHostIp",     "QgcPort",          "SerialBaudRate",   "SerialPort",        "SimSysID",
+                                  "SimCompID",     "SitlIp",           "SitlPort",         "TcpPort",           "UdpIp",
+                                  "UdpPort",       "VehicleSysID",     "VehicleCompID",    "OffboardSysID",     "OffboardCompID",
+                                  "AirSimSysID",   "AirSimCompID"};
+
 VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
-  static const std::vector<std::string> kTypes = {"SimpleFlight", "ComputerVision"};
+  static const std::vector<std::string> kTypes = {"SimpleFlight", "ComputerVision", kPx4};
   static constexpr const char* kOther[] = {"RC",
                                            "EnableTrace",
                                            "EnableCollisionPassthrogh",
@@ -173,6 +226,12 @@ VehicleSettings ReadVehicle(const JsonNode& node, SettingsObject& parent) {
     object.Fail(node, "VehicleType: " + UnknownChoiceMessage("vehicle type", vehicle.type, kTypes));
   }
   vehicle.type = *type;
+  if (vehicle.type == kPx4) {
+    object.notices().push_back(std::string(object.file()) + ":" + std::to_string(node.line) +
+                               ": VehicleType: there is no PX4 here: the built-in SimpleFlight flies this vehicle");
+    vehicle.type = kTypes[0];
+    object.Ignore(kOfPx4);
+  }
   std::string state = "Armed";
   object.Read("DefaultVehicleState", state);
   vehicle.armed = state == "Armed";

@@ -29,7 +29,17 @@ struct CameraSettings {
   std::map<airsim::ImageType, CaptureSettings> captures;  ///< types not named have the defaults
 };
 
-enum class SensorType { kBarometer = 1, kImu = 2, kGps = 3, kMagnetometer = 4, kDistance = 5, kLidar = 6 };
+/// kNone: a type that there is not here, read with a notice.
+enum class SensorType {
+  kNone,
+  kBarometer,
+  kImu,
+  kGps,
+  kMagnetometer,
+  kDistance,
+  kLidar,
+  kGpuLidar = 8  ///< Cosys-AirSim's; a lidar like the others here
+};
 
 struct SensorSettings {
   SensorType type = SensorType::kImu;
@@ -39,7 +49,11 @@ struct SensorSettings {
   double min_distance = 0.2, max_distance = 40;
   // Lidar.
   int channels = 16;
-  double range = 100, points_per_second = 100000, rotations_per_second = 10;
+  int measurements_per_cycle = 0;  ///< shots of a channel in one turn; 0 = by points_per_second
+  double range = 100, rotations_per_second = 10;
+  double points_per_second = SettingsPose::kNotGiven;  ///< of all channels; 100,000 in AirSim
+  double noise_sigma = 0;  ///< metres at the lidar
+  double noise_scale = 1;  ///< times that at `range`
   double horizontal_fov_start = 0, horizontal_fov_end = 359;
   double vertical_fov_upper = -15, vertical_fov_lower = -45;
   bool sensor_local_frame = false;

@@ -60,7 +60,27 @@ void SettingsObject::Read(const char* key, std::string& value) {
 }
 
 void SettingsObject::Ignore(std::span<const char* const> keys) {
-  for (const char* key : keys) asked_.insert(key);
+  std::vector<std::string> given;
+  for (const char* key : keys) {
+    asked_.insert(key);
+    if (node_.Find(key) != nullptr) given.emplace_back(key);
+  }
+  NoticeIgnored(given);
+}
+
+void SettingsObject::IgnoreTheRest() {
+  std::vector<std::string> given;
+  for (const std::string& key : node_.keys) {
+    if (asked_.insert(key).second) given.push_back(key);
+  }
+  NoticeIgnored(given);
+}
+
+void SettingsObject::NoticeIgnored(const std::vector<std::string>& keys) {
+  if (keys.empty()) return;
+  std::string text = std::string(file_) + ":" + std::to_string(node_.line) + ": counts for nothing here: ";
+  for (const std::string& key : keys) text += (&key == &keys.front() ? "" : ", ") + key;
+  notices_.push_back(text);
 }
 
 void SettingsObject::Finish() {

@@ -25,8 +25,10 @@ class SettingsObject {
   const JsonNode* Take(const char* key);
   /// The member as an object; nullptr if it is missing.
   const JsonNode* TakeObject(const char* key);
-  /// Keys that AirSim knows and that have no meaning here: read without a word.
+  /// Keys that AirSim knows and that have no meaning here: those that are there are named in one notice.
   void Ignore(std::span<const char* const> keys);
+  /// As Ignore, for all keys that nobody has asked for.
+  void IgnoreTheRest();
   void Finish();
 
   [[noreturn]] void Fail(const JsonNode& node, const std::string& what) const;
@@ -35,6 +37,7 @@ class SettingsObject {
   std::vector<std::string>& notices() { return notices_; }
 
  private:
+  void NoticeIgnored(const std::vector<std::string>& keys);
   const JsonNode* Typed(const char* key, JsonNode::Kind kind, const char* kind_name);
 
   const JsonNode& node_;

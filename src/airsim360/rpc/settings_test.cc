@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/rpc/airsim_drone.h"
 
 namespace airsim360 {
 namespace {
@@ -77,6 +79,80 @@ TEST(Settings, ErrorsNameFileLineAndKey) {
   EXPECT_NE(ErrorOf("{\"a\": tru}").find("expected a value"), std::string::npos);
   EXPECT_NE(ErrorOf("{} {}").find("follows the end"), std::string::npos);
   EXPECT_NE(ErrorOf(std::string(200, '[')).find("too deeply"), std::string::npos);
+}
+
+// Whether one notice says all of it.
+bool Noticed(const AirSimSettings& settings, std::initializer_list<std::string_view> texts) {
+  return std::ranges::any_of(settings.notices, [&](const std::string& notice) {
+    return std::ranges::all_of(texts, [&](std::string_view text) { return notice.find(text) != std::string::npos; });
+  });
+}
+
+TEST(Settings, LidarsOfCosysAirSimHaveTheResolutionThatTheyAskFor) {
+  const AirSimSettings settings = ParseSettings(R"({"SettingsVersion": 2.0, "Vehicles": {"A": {"VehicleType": "SimpleFlight", "Sensors": {
+    "a": {"SensorType": 6, "MeasurementsPerCycle": 300, "NumberOfChannels": 4},
+    "b": {"SensorType": 6, "PointsPerSecond": 12000, "RotationsPerSecond": 10, "NumberOfChannels": 4},
+    "c": {"SensorType": 6},
+    "gpu": {"SensorType": 8, "MeasurementsPerCycle": 512, "NumberOfChannels": 32, "Range": 50,
+            "GenerateNoise": true, "MinNoiseStandardDeviation": 0.02, "NoiseDistanceScale": 3},
+    "gpu2": {"SensorType": 8}}}}})",
+                                                "settings.json");
+  EXPECT_TRUE(settings.notices.empty()) << settings.notices[0];
+  const RaySensors sensors = MakeRaySensors(settings, settings.vehicles.at("A"));
+  ASSERT_EQ(sensors.lidars.size(), 5u);
+  const auto lidar = [&](const char* name) { return *std::ranges::find(sensors.lidars, name, &RaySensors::Lidar::name); };
+  EXPECT_EQ(lidar("a").spec.columns, 300u);
+  EXPECT_EQ(lidar("b").spec.columns, 300u);  // 12000 / 10 / 4
+  EXPECT_EQ(lidar("c").spec.columns, 512u);  // there, where AirSim's has 625
+  EXPECT_EQ(lidar("gpu").spec.shots(), 512u * 32);
+  EXPECT_TRUE(lidar("gpu").gpu);
+  EXPECT_DOUBLE_EQ(lidar("gpu").sigma, 0.02);
+  EXPECT_DOUBLE_EQ(lidar("gpu").far_sigma, 0.06);
+  EXPECT_EQ(lidar("gpu2").spec.shots(), 64u * 2048);
+  EXPECT_EQ(lidar("gpu2").sigma, 0);
+  const AirSimSettings old = ParseSettings(R"({"Vehicles": {"A": {"VehicleType": "SimpleFlight", "Sensors": {"c": {"SensorType": 6}}}}})", "");
+  EXPECT_EQ(MakeRaySensors(old, old.vehicles.at("A")).lidars.at(0).spec.columns, 625u);
+}
+
+TEST(Settings, SensorsThatThereAreNotAreReadWithANotice) {
+  for (int type = 1; type <= 1000; type += type < 20 ? 1 : 97) {
+    const bool here = type <= 6 || type == 8;
+    const std::string text = "{\"Vehicles\": {\"A\": {\"VehicleType\": \"SimpleFlight\", \"Sensors\": {\n\"s\": {\"SensorType\": " +
+                             std::to_string(type) + ", \"Enabled\": true, \"NumberOfTraces\": 100}}}}}";
+    const AirSimSettings settings = ParseSettings(text, "settings.json");
+    const bool noticed = Noticed(settings, {"settings.json:2: SensorType", "there are no sensors of type " + std::to_string(type)});
+    EXPECT_EQ(noticed, !here) << type;
+    if (!here) {
+      EXPECT_TRUE(Noticed(settings, {"settings.json:2", "NumberOfTraces"})) << type;
+      EXPECT_EQ(MakeRaySensors(settings, settings.vehicles.at("A")).lidars.size(), 0u);
+    }
+  }
+  EXPECT_NE(ErrorOf("{\"DefaultSensors\": {\n\"s\": {\"Enabled\": true}}}").find("settings.json:2: SensorType: missing or 0"),
+            std::string::npos);
+}
+
+TEST(Settings, KeysThatCountForNothingAreNamed) {
+  const AirSimSettings settings = ParseSettings(R"({"ViewMode": "Fpv", "SubWindows": [],
+    "Vehicles": {"A": {"VehicleType": "SimpleFlight", "RC": {}, "Sensors": {
+      "l": {"SensorType": 6, "DrawDebugPoints": true, "External": false},
+      "i": {"SensorType": 2, "GenerateNoise": true}}}}})",
+                                                "settings.json");
+  EXPECT_EQ(settings.notices.size(), 4u);
+  EXPECT_TRUE(Noticed(settings, {"counts for nothing", "ViewMode", "SubWindows"}));
+  EXPECT_TRUE(Noticed(settings, {"counts for nothing", "RC"}));
+  EXPECT_TRUE(Noticed(settings, {"counts for nothing", "DrawDebugPoints", "External"}));
+  EXPECT_TRUE(Noticed(settings, {"counts for nothing", "GenerateNoise"}));
+}
+
+TEST(Settings, AVehicleOfPx4IsFlownBySimpleFlightWithANotice) {
+  const AirSimSettings settings = ParseSettings(R"({"Vehicles": {"PX4": {"VehicleType": "PX4Multirotor", "UseSerial": false,
+    "LockStep": true, "TcpPort": 4560, "ControlIp": "127.0.0.1", "QgcHostIp": "", "X": 3}}})",
+                                                "settings.json");
+  EXPECT_EQ(settings.vehicles.at("PX4").type, "SimpleFlight");
+  EXPECT_EQ(settings.vehicles.at("PX4").pose.x, 3);
+  EXPECT_TRUE(Noticed(settings, {"settings.json:1", "there is no PX4 here", "SimpleFlight flies"}));
+  EXPECT_TRUE(Noticed(settings, {"counts for nothing", "TcpPort", "ControlIp", "QgcHostIp"}));
+  EXPECT_FALSE(Noticed(settings, {"not known"}));
 }
 
 TEST(Settings, UnknownKeysAreNoticedWithTheNearest) {

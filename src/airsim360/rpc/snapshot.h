@@ -65,7 +65,7 @@ struct Snapshot {
   std::vector<VehicleStatus> vehicles;
   std::shared_ptr<const SimModel> model;
   std::shared_ptr<const WorldView> world;
-  bool paused = false, recording = false;
+  bool paused = false;
   uint64_t epoch_ns = 0;  ///< sim time 0 on the clients' clock
   double real_time_factor = 1;
 

@@ -13,11 +13,12 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
+#include "airsim360/base/bounded_log.h"
 #include "airsim360/base/error.h"
-#include "airsim360/base/log.h"
 #include "airsim360/rpc/connection.h"
 
 namespace airsim360 {
@@ -87,8 +88,9 @@ struct TcpServer::Impl {
   TcpLimits limits;
   int port = 0;
   Descriptor listener, epoll, wake;
-  std::atomic<size_t> total_output{0};
+  Connection::Totals totals;
   std::atomic<bool> stopping{false};
+  BoundedLog log;  // of what clients can cause at will
 
   mutable std::mutex mutex;  // of what follows, and of every epoll_ctl
   std::map<ConnectionId, std::shared_ptr<Connection>> open;
@@ -113,7 +115,7 @@ struct TcpServer::Impl {
   void Rearm(Connection& connection) {
     const std::lock_guard lock(mutex);
     uint32_t events = EPOLLRDHUP;
-    if (connection.unanswered < limits.unanswered) events |= EPOLLIN;
+    if (!connection.is_full()) events |= EPOLLIN;
     if (connection.output_waits()) events |= EPOLLOUT;
     if (events == connection.events || !open.contains(connection.id())) return;
     connection.events = events;
@@ -127,18 +129,58 @@ struct TcpServer::Impl {
       const int fd = ::accept4(listener.fd, reinterpret_cast<sockaddr*>(&peer), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
       if (fd < 0) return;
       PrepareSocket(fd, peer);
-      const std::lock_guard lock(mutex);
-      if (open.size() >= limits.connections) {
+      if (!MakeRoom()) {
         ::close(fd);
-        LogWarning("a client was turned away: " + std::to_string(limits.connections) +
-                   " are connected already");
+        log.Warn("a client was turned away: " + std::to_string(limits.connections) + " are connected already");
         continue;
       }
-      const auto connection = std::make_shared<Connection>(next_id++, fd, limits, total_output);
+      const std::lock_guard lock(mutex);
+      const auto connection = std::make_shared<Connection>(next_id++, fd, limits, totals);
       open[connection->id()] = connection;
       connection->events = EPOLLIN | EPOLLRDHUP;
       Watch(fd, connection->id(), connection->events, EPOLL_CTL_ADD);
     }
+  }
+
+  // Whether one more can be connected: who never called, longest connected first, goes for it.
+  bool MakeRoom() {
+    std::optional<ConnectionId> idle;
+    {
+      const std::lock_guard lock(mutex);
+      if (open.size() < limits.connections) return true;
+      for (const auto& [id, connection] : open) {
+        if (!idle && !connection->has_called()) idle = id;
+      }
+    }
+    if (!idle) return false;
+    log.Warn("a client that never called was disconnected: " + std::to_string(limits.connections) +
+             " are connected");
+    Close(*idle);
+    return true;
+  }
+
+  // Too much waits in all: those that have read nothing for the longest time go.
+  void FreeOutput() {
+    while (totals.output > limits.total_output_bytes) {
+      std::shared_ptr<Connection> slowest;
+      {
+        const std::lock_guard lock(mutex);
+        for (const auto& [id, connection] : open) {
+          if (connection->output_waits() && (!slowest || connection->last_read() < slowest->last_read()))
+            slowest = connection;
+        }
+      }
+      if (!slowest) return;
+      log.Warn("a client was disconnected: all together leave more than " +
+               std::to_string(limits.total_output_bytes >> 20) + " MiB of answers unread");
+      Lose(*slowest);
+    }
+  }
+
+  // Left to the server's thread, which sees the hang-up.
+  void Lose(Connection& connection) {
+    connection.Abandon();
+    ::shutdown(connection.fd(), SHUT_RDWR);
   }
 
   void Close(ConnectionId id) {
@@ -168,7 +210,7 @@ struct TcpServer::Impl {
       if (ended) return Close(id);
       Rearm(*connection);
     } catch (const WireError& error) {
-      LogWarning("a client was disconnected: " + std::string(error.what()));
+      log.Warn("a client was disconnected: " + std::string(error.what()));
       Close(id);
     }
   }
@@ -211,22 +253,24 @@ void TcpServer::Stop() {
 
 int TcpServer::port() const { return impl_->port; }
 
-void TcpServer::Answer(ConnectionId id, WireBlocks bytes) {
+void TcpServer::Answer(ConnectionId id, size_t message_bytes, WireBlocks bytes) {
   const auto connection = impl_->Find(id);
   if (!connection) return;
-  --connection->unanswered;
-  // A client that is lost is left to the server's thread: it sees the hang-up.
-  if (!connection->Send(std::move(bytes))) {
-    ::shutdown(connection->fd(), SHUT_RDWR);
-    return;
+  connection->Settle(message_bytes);
+  const Connection::Sent sent = connection->Send(std::move(bytes));
+  if (sent == Connection::Sent::kTooSlow) {
+    impl_->log.Warn("a client was disconnected: it leaves more than " +
+                    std::to_string(impl_->limits.output_bytes >> 20) + " MiB of answers unread");
   }
+  if (sent != Connection::Sent::kYes) return impl_->Lose(*connection);
+  impl_->FreeOutput();
   impl_->Rearm(*connection);
 }
 
-void TcpServer::Done(ConnectionId id) {
+void TcpServer::Done(ConnectionId id, size_t message_bytes) {
   const auto connection = impl_->Find(id);
   if (!connection) return;
-  --connection->unanswered;
+  connection->Settle(message_bytes);
   impl_->Rearm(*connection);
 }
 

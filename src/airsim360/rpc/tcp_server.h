@@ -16,10 +16,16 @@ using ConnectionId = uint64_t;
 
 struct TcpLimits {
   WireLimits message;
-  size_t connections = 64;                  ///< further ones are closed at once
-  size_t unanswered = 1024;                 ///< messages of a connection: then nothing more is read from it
-  size_t output_bytes = size_t{128} << 20;  ///< waiting for a client that does not read: then it is closed
-  size_t total_output_bytes = size_t{512} << 20;  ///< the same over all clients
+  /// Then the one that has waited longest without a call makes room, or a further one is closed at once.
+  size_t connections = 256;
+  size_t unanswered = 1024;  ///< messages of a connection: then nothing more is read from it
+  size_t unanswered_bytes = size_t{16} << 20;  ///< the same
+  /// Unanswered of all clients, half messages included: then who sends on and has more than small_input_bytes is closed.
+  size_t total_input_bytes = size_t{256} << 20, small_input_bytes = size_t{1} << 20;
+  /// Waiting for a client that does not read when one more answer is there: then it is closed.
+  size_t output_bytes = size_t{128} << 20;
+  /// The same over all clients: those that have read nothing for the longest time are closed.
+  size_t total_output_bytes = size_t{512} << 20;
 };
 
 /// What the server tells its owner, always on the server's own thread.
@@ -44,11 +50,11 @@ class TcpServer {
   /// Takes no more messages and joins the thread; answers can still be given.
   void Stop();
   int port() const;
-  /// Sends the answer to one message; from any thread, never waits. Nothing happens if the connection is
-  /// gone.
-  void Answer(ConnectionId connection, WireBlocks bytes);
-  /// One message will get no answer (a notification); counts against TcpLimits::unanswered no longer.
-  void Done(ConnectionId connection);
+  /// Sends the answer to one message of `message_bytes`; from any thread, never waits. Nothing happens if the
+  /// connection is gone.
+  void Answer(ConnectionId connection, size_t message_bytes, WireBlocks bytes);
+  /// One message will get no answer (a notification); counts as unanswered no longer.
+  void Done(ConnectionId connection, size_t message_bytes);
   size_t connections() const;
 
  private:

@@ -39,6 +39,8 @@ class VehicleControl {
   const VehicleStatus& status() const { return status_; }
   const VehicleSettings& settings() const { return settings_; }
   size_t index() const { return index_; }
+  /// Another vehicle has come before it.
+  void MoveUp() { ++index_; }
   airsim::RCData& rc() { return status_.rc; }
   SimpleFlightGains gains;
 

@@ -21,7 +21,13 @@ void BlockPool::Shelf::Put(Piece piece) {
   const std::lock_guard lock(mutex);
   size_t bytes = piece.size;
   for (const Piece& other : pieces) bytes += other.size;
-  if (pieces.size() < kMost && bytes <= kMostBytes) pieces.push_back(std::move(piece));
+  if (!resting && pieces.size() < kMost && bytes <= kMostBytes) pieces.push_back(std::move(piece));
+}
+
+void BlockPool::Rest() {
+  const std::lock_guard lock(shelf_->mutex);
+  shelf_->resting = true;
+  shelf_->pieces.clear();
 }
 
 std::shared_ptr<char[]> BlockPool::Take(size_t size) {
@@ -31,6 +37,7 @@ std::shared_ptr<char[]> BlockPool::Take(size_t size) {
   {
     // The smallest that is large enough, unless most of it would be idle.
     const std::lock_guard lock(shelf_->mutex);
+    shelf_->resting = false;
     auto best = shelf_->pieces.end();
     for (auto it = shelf_->pieces.begin(); it != shelf_->pieces.end(); ++it) {
       const bool fits = it->size >= size && it->size <= 4 * size;

@@ -42,6 +42,8 @@ class BlockPool {
   BlockPool() : shelf_(std::make_shared<Shelf>()) {}
   /// As TakeBytes.
   std::shared_ptr<char[]> Take(size_t size);
+  /// Gives back what is idle, and from then to the next Take what becomes so.
+  void Rest();
 
  private:
   struct Shelf {
@@ -53,6 +55,7 @@ class BlockPool {
     void Put(Piece piece);
     std::mutex mutex;
     std::vector<Piece> pieces;
+    bool resting = false;
   };
   std::shared_ptr<Shelf> shelf_;
 };

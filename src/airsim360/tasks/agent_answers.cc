@@ -8,6 +8,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr float kClearanceReach = 20;  // metres up to which it is measured
 
 // Direction to a place in the level frame of a heading, degrees.
 Answer DirectionTo(Vec3d p_W, const RigidTransform& X_WB) {
@@ -114,6 +115,7 @@ Answer ObservationOf(Episode& episode, const ObserveRequest& request) {
        {{"p", VectorOf(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}, {"yaw_deg", HeadingOfBody(X_WB) * kDegrees}}},
       {"velocity", {{"v", VectorOf(motion.v_WB)}, {"w", VectorOf(motion.w_WB_B)}}},
       {"collision", CollisionOf(episode)},
+      {"clearance", episode.world().tracer()->Clearance(VecCast<float>(X_WB.p), kClearanceReach)},
       {"distance_to_goal", episode.distance_to_goal()},
       {"goal_direction", DirectionTo(episode.goal(), X_WB)}};
   if (request.grid)

@@ -11,8 +11,8 @@
 #include <deque>
 #include <thread>
 
+#include "airsim360/base/bounded_log.h"
 #include "airsim360/base/error.h"
-#include "airsim360/base/log.h"
 
 namespace airsim360 {
 namespace {
@@ -73,6 +73,8 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
+class HttpSession;
+
 // What all connections share.
 struct Shared {
   AgentApi& api;
@@ -80,25 +82,52 @@ struct Shared {
   Workers workers;
   std::atomic<size_t> open{0};
   bool local = false;  // listens to this machine alone
+  int port = 0;
+  std::deque<std::weak_ptr<HttpSession>> silent = {};  // in the order of their coming; those that have called since count no more
+  BoundedLog log = {};                                 // of what clients can cause at will
 };
 
-std::string_view HostOf(std::string_view text) {
+struct HostPort {
+  std::string_view host, port;
+};
+
+// Of a Host or an Origin; the port is "" where none is named.
+HostPort SplitHost(std::string_view text) {
   if (const size_t scheme = text.find("://"); scheme != std::string_view::npos) text.remove_prefix(scheme + 3);
   text = text.substr(0, text.find('/'));
-  return text.starts_with('[') ? text.substr(0, text.find(']') + 1) : text.substr(0, text.find(':'));
+  const size_t end = text.starts_with('[') ? text.find(']') : 0;
+  const size_t colon = end == std::string_view::npos ? end : text.find(':', end);
+  return {text.substr(0, colon), colon == std::string_view::npos ? "" : text.substr(colon + 1)};
 }
 
 bool IsLocal(std::string_view host) { return host == "127.0.0.1" || host == "localhost" || host == "[::1]"; }
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
-// Web pages of other sites must not fly drones through the browser of whoever looks at them: their origin
-// tells them apart, and a name that only points here is no name of this machine.
-bool IsForeign(const http::request<http::string_body>& request, bool local) {
+// Web pages of other sites, and of other servers on this machine, must not fly drones through the browser of whoever
+// looks at them: their origin tells them apart, and a name that only points here is no name of this machine.
+bool IsForeign(const http::request<http::string_body>& request, const Shared& shared) {
   const auto origin = request.find(http::field::origin);
-  if (origin != request.end() && !IsLocal(HostOf(View(origin->value())))) return true;
+  if (origin != request.end()) {
+    const HostPort from = SplitHost(View(origin->value()));
+    const std::string_view port = from.port.empty() ? "80" : from.port;
+    if (!IsLocal(from.host) || port != std::to_string(shared.port)) return true;
+  }
   const auto host = request.find(http::field::host);
-  return local && host != request.end() && !IsLocal(HostOf(View(host->value())));
+  return shared.local && host != request.end() && !IsLocal(SplitHost(View(host->value())).host);
+}
+
+// RFC 9112, 3.2: one Host, and from HTTP/1.1 on not less.
+bool HasOneHost(const http::request<http::string_body>& request) {
+  const size_t hosts = request.count(http::field::host);
+  return hosts == 1 || (hosts == 0 && request.version() < 11);
+}
+
+// Whether a Content-Type is JSON's; case and parameters do not count.
+bool IsJson(std::string_view type) {
+  type = type.substr(0, type.find(';'));
+  while (!type.empty() && (type.back() == ' ' || type.back() == '\t')) type.remove_suffix(1);
+  return beast::iequals({type.data(), type.size()}, "application/json");
 }
 
 std::string ErrorText(const std::string& message) { return "{\"error\":{\"message\":\"" + message + "\"}}"; }
@@ -163,6 +192,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
  public:
   HttpSession(tcp::socket socket, Shared& shared) : Counted(shared), stream_(std::move(socket)) {}
   void Run() { Read(); }
+  bool has_called() const { return has_called_; }
+  /// Makes room for another one.
+  void Abandon() { stream_.close(); }
 
  private:
   void Read() {
@@ -182,7 +214,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
     if (error && not_http && error != http::error::end_of_stream) return Refuse(400, "this is not HTTP");
     if (error) return Close();
     request_ = parser_->release();
-    if (IsForeign(request_, shared().local)) return Refuse(403, "requests of other sites are not answered");
+    has_called_ = true;
+    if (!HasOneHost(request_)) return Refuse(400, "a request has one Host header");
+    if (IsForeign(request_, shared())) return Refuse(403, "requests of other sites are not answered");
     if (websocket::is_upgrade(request_)) {
       if (View(request_.target()) != "/v1/ws") return Refuse(404, "the WebSocket is at /v1/ws");
       stream_.expires_never();
@@ -195,9 +229,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
   void Answer() {
     // Browsers send other types without asking first.
     const auto type = request_.find(http::field::content_type);
-    if (!request_.body().empty() && type != request_.end() &&
-        !View(type->value()).starts_with("application/json"))
-      return Refuse(415, "bodies are application/json");
+    if (!request_.body().empty() && type != request_.end() && !IsJson(View(type->value())))
+      return Refuse(415, "bodies are JSON and say so: add the header Content-Type: application/json (curl -H "
+                         "'Content-Type: application/json')");
     stream_.expires_never();
     shared().workers.Post([self = shared_from_this()] {
       const http::request<http::string_body>& request = self->request_;
@@ -252,7 +286,23 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, Counted {
   http::response<http::string_body> response_;
   std::array<char, 4096> dropped_;
   size_t dropped_bytes_ = 0;
+  bool has_called_ = false;
 };
+
+// Whether one more can be connected: who has sent no whole request, longest connected first, goes for it.
+bool MakeRoom(Shared& shared) {
+  const auto has_called = [](const std::weak_ptr<HttpSession>& session) {
+    const auto held = session.lock();
+    return !held || held->has_called();
+  };
+  std::erase_if(shared.silent, has_called);
+  if (shared.open < shared.options.connections) return true;
+  if (shared.silent.empty()) return false;
+  shared.log.Warn("a client that sent no request was disconnected: " + std::to_string(shared.open) + " are connected");
+  if (const auto silent = shared.silent.front().lock()) silent->Abandon();
+  shared.silent.pop_front();
+  return true;
+}
 
 }  // namespace
 
@@ -283,12 +333,14 @@ struct AgentServer::Impl {
   void Accept() {
     acceptor.async_accept([this](Code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (!error && shared->open < shared->options.connections) {
+      if (!error && MakeRoom(*shared)) {
         Code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        std::make_shared<HttpSession>(std::move(socket), *shared)->Run();
+        const auto session = std::make_shared<HttpSession>(std::move(socket), *shared);
+        shared->silent.push_back(session);
+        session->Run();
       } else if (!error) {
-        LogWarning("a client was turned away: " + std::to_string(shared->open) + " are connected already");
+        shared->log.Warn("a client was turned away: " + std::to_string(shared->open) + " are connected already");
       }
       Accept();
     });
@@ -298,6 +350,7 @@ struct AgentServer::Impl {
 AgentServer::AgentServer(AgentApi& api, const AgentServerOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->shared.reset(new Shared{api, options, Workers(options.workers)});
   impl_->Listen(options);
+  impl_->shared->port = port();
   impl_->Accept();
   impl_->thread = std::thread([impl = impl_.get()] { impl->io.run(); });
 }

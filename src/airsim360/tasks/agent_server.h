@@ -11,7 +11,8 @@ namespace airsim360 {
 struct AgentServerOptions {
   std::string address = "127.0.0.1";  ///< IPv4
   int port = 8361;                    ///< 0 = any free one
-  size_t connections = 128;           ///< further ones are closed at once
+  /// Then the one that has waited longest without a whole request makes room, or a further one is closed at once.
+  size_t connections = 128;
   size_t body_bytes = size_t{1} << 20;
   int seconds = 60;  ///< for one request to arrive, for one answer to leave; then the connection is closed
   int workers = 4;   ///< requests answered at a time

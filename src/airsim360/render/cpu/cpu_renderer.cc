@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "airsim360/render/filter/exposure.h"
 #include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/reference/path_tracer.h"
+#include "airsim360/render/relightable.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
@@ -47,7 +49,7 @@ bool IsFinite(const RigidTransform& X) {
   return std::isfinite(sum);
 }
 
-class CpuRenderer : public Renderer {
+class CpuRenderer : public Renderer, public Relightable {
  public:
   CpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options)
       : tracer_(std::move(tracer)),
@@ -58,10 +60,11 @@ class CpuRenderer : public Renderer {
         labels_(tables_.view()),
         products_(SceneOf(tracer_)) {
     if (options.tier != Tier::kLabels) shader_ = std::make_unique<Shader>(tracer_, environment_);
-    if (options.tier == Tier::kHigh) high_.Prepare(*tracer_, *shader_);
+    if (options.tier == Tier::kHigh) high_->Prepare(*tracer_, *shader_);
   }
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override;
+  bool SetEnvironment(const Environment& environment) override;
 
  private:
   // The scene lives as long as its tracer.
@@ -99,7 +102,7 @@ class CpuRenderer : public Renderer {
   Antialiaser antialiaser_;
   CoveragePass coverage_;
   SurfaceProducts products_;
-  HighFrame high_;
+  std::optional<HighFrame> high_{std::in_place};
   Image<EntityId> entity_;  // where the frame does not want it but edges need it
   Image<uint8_t> luma_, edges_;
   Image<SunPixel> sun_;     // where edges need it
@@ -137,6 +140,22 @@ void CpuRenderer::SetState(const std::shared_ptr<const SceneState>& state) {
   applied_ = std::move(tracer);
 }
 
+bool CpuRenderer::SetEnvironment(const Environment& environment) {
+  const bool same_lamps = environment.lamps_on() == environment_.lamps_on();
+  environment_ = environment;
+  if (shader_ == nullptr) return true;
+  if (same_lamps) {
+    // Light is baked in the scene as built.
+    shader_->Apply(tracer_);
+    shader_->SetEnvironment(environment_);
+  } else {
+    shader_ = std::make_unique<Shader>(tracer_, environment_);
+  }
+  shader_->Apply(applied_);
+  high_.emplace();
+  return true;
+}
+
 RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   RenderRequest request = asked;
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
@@ -162,7 +181,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   // Tier high fills the labels alone: what else comes from the centre rays is traced as in tier labels.
   RenderStats stats;
   if (high)
-    stats.rays += high_.Render(*applied_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
+    stats.rays += high_->Render(*applied_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
   const bool more = SurfaceProducts::Wanted(request.products) || request.products.coverage;
   if (!high || more) stats.rays += RenderTiles(request, color && !paths && !high, frame);
   if (paths) stats.rays += RenderPaths(request, RadianceOf(frame));

@@ -27,26 +27,63 @@ constexpr float kDarkest = 1e-8f;
 
 float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
+// An environment without what the light does not depend on: how wet and snowy surfaces are.
+Environment LightPart(Environment environment) {
+  environment.wetness = environment.snow_depth = 0;
+  return environment;
+}
+
+// Without what lies before the sky, too.
+Environment SkyTablePart(const Environment& environment) {
+  Environment part = LightPart(environment);
+  part.haze = 1;
+  part.visibility_m = part.rain_mm_h = part.snowfall_mm_h = 0;
+  return part;
+}
+
+std::string KeyOf(const Environment& environment) {
+  CacheKey key("light", 1);
+  AddToKey(key, environment);
+  return key.Name();
+}
+
 }  // namespace
 
 Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
     : tracer(std::move(t)),
       tables(tracer->scene(), environment.lamps_on()),
       lights(tracer->scene(), tables, environment) {
+  SetLight(environment);
+}
+
+void Shader::Impl::SetLight(const Environment& environment) {
+  using internal::Sky, internal::LampGrid, internal::LightProbes;
   const Scene& scene = tracer->scene();
-  const internal::LightCache cache(*tracer, environment);
-  if (scene.sky_entity != kNoEntity) {
-    sky = cache.Get<internal::Sky>("sky",
-                                   [&] { return internal::Sky(environment, scene.spawn.value_or(Vec3f{})); });
+  const std::string key = KeyOf(LightPart(environment)), table_key = KeyOf(SkyTablePart(environment));
+  auto same = std::ranges::find(last_lights, key, &Light::key);
+  if (same != last_lights.end()) {
+    std::rotate(same, same + 1, last_lights.end());
+  } else {
+    // Sky, lamps by its light, probes by both.
+    Light light{.key = key, .table_key = table_key};
+    const internal::LightCache cache(*tracer, environment);
+    if (scene.sky_entity != kNoEntity) {
+      const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
+      const Sky* table = like == last_lights.end() ? nullptr : like->sky.get();
+      light.sky = std::make_shared<const Sky>(
+          cache.Get<Sky>("sky", [&] { return Sky(environment, scene.spawn.value_or(Vec3f{}), table); }));
+    }
+    light.lamps = std::make_shared<const LampGrid>(*tracer, lights, light.sky ? light.sky->GroundIlluminance() : 0.0f);
+    if (!scene.instances.empty()) {
+      const internal::ProbeLight around{*tracer, tables, light.sky.get(), &lights, light.lamps.get()};
+      light.probes = std::make_shared<const LightProbes>(
+          cache.Get<LightProbes>("light_probes", [&] { return LightProbes(around, LightProbes::Options{}); }));
+    }
+    if (last_lights.size() == kMostLights) last_lights.erase(last_lights.begin());
+    last_lights.push_back(std::move(light));
   }
-  lamps.emplace(*tracer, lights, Daylight());
-  if (!scene.instances.empty()) {
-    const internal::ProbeLight light{*tracer, tables, sky ? &*sky : nullptr, &lights, &*lamps};
-    probes = cache.Get<internal::LightProbes>(
-        "light_probes", [&] { return internal::LightProbes(light, internal::LightProbes::Options{}); });
-  }
-  view = internal::MakeShadeView(scene, tables, sky ? &*sky : nullptr, probes ? &*probes : nullptr,
-                                 &environment);
+  sky = last_lights.back().sky, lamps = last_lights.back().lamps, probes = last_lights.back().probes;
+  view = internal::MakeShadeView(scene, tables, sky.get(), probes.get(), &environment);
   view.lamps = lamps->view();
   exposure = ChooseExposure(scene);
 }
@@ -77,6 +114,8 @@ float Shader::Impl::ChooseExposure(const Scene& scene) const {
 Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment)
     : impl_(std::make_unique<Impl>(std::move(tracer), environment)) {}
 Shader::~Shader() = default;
+
+void Shader::SetEnvironment(const Environment& environment) { impl_->SetLight(environment); }
 
 void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
   impl_->tables.Apply(tracer->scene(), tracer->moved(), tracer->deformed());

@@ -38,6 +38,9 @@ class Shader {
   Shader(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
   ~Shader();
 
+  /// Another environment with the same lamps on, between frames and with nothing applied: from then on it is as one made for
+  /// that environment. What of the light is the same as for one of the last few is not computed again.
+  void SetEnvironment(const Environment& environment);
   /// Follows what moves, between frames: `tracer` is the one of construction or one that a DynamicTracer made
   /// of it. Light probes and lamps stay as built.
   void Apply(std::shared_ptr<const RayTracer> tracer);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/lights/light_table.h"
@@ -33,6 +34,8 @@ struct Shader::Impl {
 
   Impl(std::shared_ptr<const RayTracer> tracer, const Environment& environment);
 
+  /// The light that an environment brings about, and all that the kernels need to know of it.
+  void SetLight(const Environment& environment);
   float ChooseExposure(const Scene& scene) const;
   /// Irradiance of sun and sky on level ground.
   float Daylight() const;
@@ -54,9 +57,18 @@ struct Shader::Impl {
   std::shared_ptr<const RayTracer> tracer;
   internal::SurfaceTables tables;
   internal::LightTable lights;
-  std::optional<internal::Sky> sky;
-  std::optional<internal::LampGrid> lamps;
-  std::optional<internal::LightProbes> probes;
+  std::shared_ptr<const internal::Sky> sky;
+  std::shared_ptr<const internal::LampGrid> lamps;
+  std::shared_ptr<const internal::LightProbes> probes;
+  /// The last lights, latest last: kMostLights at the most.
+  struct Light {
+    std::string key, table_key;  ///< of what in an environment counts for all of it, and for the table of the sky
+    std::shared_ptr<const internal::Sky> sky;
+    std::shared_ptr<const internal::LampGrid> lamps;
+    std::shared_ptr<const internal::LightProbes> probes;
+  };
+  static constexpr size_t kMostLights = 3;
+  std::vector<Light> last_lights;
   internal::ShadeView view{};
   Kernels kernels;
   float exposure = 1;

@@ -54,17 +54,30 @@ Moon MoonOf(const Environment& environment) {
 
 }  // namespace
 
-Sky::Sky(const Environment& environment, Vec3f place) : place_(place), sun_radius_(kSunRadius) {
-  if (environment.hdri) {
-    BakePicture(environment);
+Sky::Sky(const Environment& environment, Vec3f place, const Sky* like) : place_(place), sun_radius_(kSunRadius) {
+  if (like != nullptr) {
+    TakeTable(*like);
   } else {
-    BakeSky(environment);
+    environment.hdri ? BakePicture(environment) : BakeSky(environment);
+    clear_sun_ = sun_irradiance_;
+    BakeIrradiance();
+    clear_sh_ = sh_;
   }
-  BakeIrradiance();
   BakeAir(environment);
   if (air_.weather > 0) BakeIrradiance();
   BakeBlurred();
   BakeSampler();
+}
+
+// All that does not depend on haze and weather.
+void Sky::TakeTable(const Sky& like) {
+  to_sun_ = like.to_sun_;
+  sun_irradiance_ = clear_sun_ = like.clear_sun_;
+  table_ = like.table_;
+  below_ = like.below_;
+  cloud_shadow_ = like.cloud_shadow_;
+  sh_ = clear_sh_ = like.clear_sh_;
+  BakeGround();
 }
 
 Vec3f Sky::sun_radiance() const { return sun_irradiance_ * (1 / kSunSolidAngle); }
@@ -164,6 +177,10 @@ void Sky::BakeIrradiance() {
     const double lobe = k == 0 ? M_PI : k < 4 ? 2 * M_PI / 3 : M_PI / 4;
     sh_[k] = VecCast<float>(sum[k] * (scale[k] * lobe));
   }
+  BakeGround();
+}
+
+void Sky::BakeGround() {
   const Vec3f up =
       Irradiance({0, 0, 1}) + sun_irradiance_ * (std::max(0.0f, to_sun_.z) * cloud_shadow_.mean());
   ground_radiance_ = up * Vec3f{0.21f, 0.20f, 0.17f} * (1 / kPi);

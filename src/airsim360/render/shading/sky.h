@@ -32,8 +32,9 @@ class Sky {
 
   /// Black, to be filled by Visit.
   Sky() = default;
-  /// `place` (in W) stands in the sun between the clouds, and fog lies on its height.
-  explicit Sky(const Environment& environment, Vec3f place = {});
+  /// `place` (in W) stands in the sun between the clouds, and fog lies on its height. `like`, if not null: a sky over the same
+  /// place whose environment differs in haze, visibility, rain, falling and lying snow and wetness alone; its table is taken.
+  explicit Sky(const Environment& environment, Vec3f place = {}, const Sky* like = nullptr);
 
   // ---- the directional light
   Vec3f to_sun() const { return to_sun_; }
@@ -80,11 +81,11 @@ class Sky {
   /// All fields, for the disk cache.
   template <class Archive, class Self>
   static void Visit(Archive& archive, Self& s) {
-    archive(s.place_, s.to_sun_, s.sun_irradiance_, s.extinction_, s.ground_radiance_, s.sun_radius_);
+    archive(s.place_, s.to_sun_, s.sun_irradiance_, s.clear_sun_, s.extinction_, s.ground_radiance_, s.sun_radius_);
     SkyTable::Visit(archive, s.table_);
     SkyTable::Visit(archive, s.below_);
     for (auto& level : s.blurred_) SkyTable::Visit(archive, level);
-    archive(s.sh_, s.air_);
+    archive(s.sh_, s.clear_sh_, s.air_);
     CloudShadowMap::Visit(archive, s.cloud_shadow_);
     SkySampler::Visit(archive, s.sampler_);
   }
@@ -92,17 +93,20 @@ class Sky {
  private:
   void BakeSky(const Environment& environment);
   void BakePicture(const Environment& environment);
+  void TakeTable(const Sky& like);
   void BakeIrradiance();
+  void BakeGround();
   void BakeAir(const Environment& environment);
   void BakeWeather(const Environment& environment);
   void BakeBlurred();
   void BakeSampler();
 
   Vec3f place_, to_sun_, sun_irradiance_, extinction_, ground_radiance_;
+  Vec3f clear_sun_;  // irradiance before weather
   float sun_radius_ = 0;
   SkyTable table_, below_;
   std::array<SkyTable, kBlurLevels> blurred_;
-  std::array<Vec3f, 9> sh_{};
+  std::array<Vec3f, 9> sh_{}, clear_sh_{};  // with and before weather
   AirView air_{};
   CloudShadowMap cloud_shadow_;
   SkySampler sampler_;

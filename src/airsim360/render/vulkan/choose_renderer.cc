@@ -8,12 +8,13 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/render/relightable.h"
 
 namespace airsim360 {
 namespace {
 
 // A GPU for as long as it can, then the CPU.
-class AutoRenderer : public Renderer {
+class AutoRenderer : public Renderer, public Relightable {
  public:
   AutoRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                std::unique_ptr<GpuRenderer> gpu)
@@ -30,6 +31,12 @@ class AutoRenderer : public Renderer {
     }
     if (!cpu_) cpu_ = MakeCpuRenderer(tracer_, options_);
     return cpu_->Render(request, frame);
+  }
+
+  bool SetEnvironment(const Environment& environment) override {
+    options_.environment = environment;
+    auto* cpu = dynamic_cast<Relightable*>(cpu_.get());
+    return cpu != nullptr && cpu->SetEnvironment(environment);
   }
 
  private:
