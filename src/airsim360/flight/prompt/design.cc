@@ -14,10 +14,8 @@ namespace airsim360 {
 namespace internal {
 namespace {
 constexpr double kPi = std::numbers::pi;
-constexpr double kFastestTip = 0.65 * 340.3;  // m/s; the gate ends at Mach 0.7
 // Hover disc loadings of drones that exist, N/m^2: from indoor fliers to heavy-lift racers.
 constexpr double kLeastLoading = 8, kMostLoading = 600;
-constexpr double kLeastRatio = 1.5;  // thrust to weight that is not gone below unasked
 
 }  // namespace
 
@@ -33,14 +31,20 @@ std::string Text(const char* format, ...) {
 DroneDesign Designer::Run() {
   ChooseClass();
   ChooseRotors();
-  ChooseSize();
-  ChooseArms();
-  ChoosePropeller();
-  ChooseThrust();
-  // Motors for much thrust may leave no mass for the rest: unless it was asked for, less thrust will do.
-  while (!Weigh()) {
-    if (said_.thrust_to_weight || said_.speed || ratio_ * 0.93 < kLeastRatio) RefuseWeights();
-    SetThrust(ratio_ * 0.93, law_of_thrust_ + ", lowered to leave mass for the body");
+  CheckBatterySaid();
+  if (said_.lithium_ion) give_.specific_energy = 220;
+  for (;;) {
+    ChooseSize();
+    ChooseArms();
+    ChoosePropeller();
+    ChooseThrust();
+    if (!MatchEnergy()) {
+      if (!GiveEnergy()) RefuseEnergy();
+    } else if (Weigh()) {
+      break;
+    } else if (!GiveMass()) {
+      RefuseWeights();
+    }
   }
   Finish();
   return std::move(out_);
@@ -48,9 +52,18 @@ DroneDesign Designer::Run() {
 
 const std::string& Designer::Words(const char* field) const { return said_.words.at(field); }
 
+std::string Designer::WordsOr(const char* field, const std::string& otherwise) const {
+  const auto found = said_.words.find(field);
+  return found == said_.words.end() ? otherwise : "'" + found->second + "'";
+}
+
+void Designer::Decide(const std::string& sentence) { out_.decided.push_back(sentence); }
+
 void Designer::Law(const char* parameter, std::string law) { out_.laws[parameter] = std::move(law); }
 
-std::string Designer::Said(const char* field) const { return "said: '" + Words(field) + "'"; }
+std::string Designer::Said(const char* field) const {
+  return (said_.facts.count(field) ? "known of " : "said: ") + ("'" + Words(field) + "'");
+}
 
 void Designer::Refuse(const std::string& why) { throw InputError("no drone fits the description: " + why); }
 
@@ -61,7 +74,7 @@ void Designer::ChooseClass() {
     name = *said_.drone_class;
     law = Said("drone_class");
   } else if (said_.propeller.value_or(1) < 0.07 || said_.mass.value_or(1) < 0.06) {
-    name = "nano";
+    name = said_.cells.value_or(1) > 1 || said_.motor_kv || said_.brushless ? "nano_brushless" : "nano";
     law = "as small as a nano drone";
   } else if (said_.blades.value_or(2) >= 3 && said_.propeller.value_or(1) < 0.2) {
     name = "freestyle";
@@ -80,9 +93,7 @@ void Designer::ChooseRotors() {
   n_ = static_cast<int>(said_.rotors.value_or(coaxial ? 8 : 4));
   // "coaxial quad" means four arms.
   if (coaxial && n_ == 4) n_ = 8;
-  if (coaxial && n_ != 8) {
-    Refuse("'" + Words("rotors") + "' contradicts '" + Words("layout") + "': coaxial pairs sit on four arms");
-  }
+  if (coaxial && n_ == 6) Decide("six coaxial rotors sit on three arms, as a Y6");
   const bool quad_only = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX;
   if (quad_only && n_ != 4) {
     Refuse("'" + Words("layout") + "' is a layout of four rotors, '" + Words("rotors") + "' are " +
@@ -94,34 +105,50 @@ void Designer::ChooseRotors() {
 double Designer::Disc(double diameter) const { return n_ * kPi * diameter * diameter / 4; }
 
 void Designer::ChooseSize() {
-  const double loading = kind_.disc_loading;
-  const bool arm_only = said_.arm && !said_.propeller;
+  const double loading = kind_.disc_loading * give_.loading;
+  D_ = 0;
   if (said_.propeller) {
     D_ = *said_.propeller;
     Law("diameter", Said("propeller"));
-  } else if (arm_only) {
+  } else if (said_.arm) {
     D_ = *said_.arm * 2 * std::sin(kPi / ArmsOf(n_, layout_)) / kind_.spacing;
     Law("diameter",
         Text("neighbouring hubs %.2f diameters apart (%s)", kind_.spacing, out_.drone_class.c_str()));
   }
+  ChooseMass();
+  if (D_ <= 0) {
+    D_ = std::sqrt(4 * m_ * kGravity / (n_ * kPi * loading));
+    Law("diameter", Text("disc loading %.3g N/m^2 (%s)", loading, out_.drone_class.c_str()));
+  }
+  CheckSize();
+}
+
+void Designer::ChooseMass() {
   if (said_.mass) {
     m_ = *said_.mass;
     Law("mass", Said("mass"));
-  } else if (D_ > 0) {
+    return;
+  }
+  const double loading = kind_.disc_loading;
+  const double energy = EnergySaid();
+  if (D_ > 0) {
     m_ = loading * Disc(D_) / kGravity;
     Law("mass", Text("disc loading %g N/m^2 (%s)", loading, out_.drone_class.c_str()));
-  } else if (said_.payload) {
+    if (said_.payload && m_ < *said_.payload / 0.45) {
+      m_ = *said_.payload / 0.45;
+      Law("mass", "payload / 0.45");
+    }
+  } else if (said_.payload && !said_.facts.count("payload")) {
     m_ = *said_.payload / 0.3;
     Law("mass", "payload / 0.3");
+  } else if (energy > 0 && !said_.size) {
+    m_ = energy / give_.specific_energy / kind_.battery_share + said_.payload.value_or(0);
+    Law("mass", Text("battery / %.2f (%s)", kind_.battery_share, out_.drone_class.c_str()));
   } else {
-    m_ = kind_.mass * SizeFactor();
+    m_ = kind_.mass * SizeFactor() + said_.payload.value_or(0);
     Law("mass", "usual for " + out_.drone_class + (said_.size ? ", " + Words("size") : ""));
   }
-  if (D_ <= 0) {
-    D_ = std::sqrt(4 * m_ * kGravity / (n_ * kPi * loading));
-    Law("diameter", Text("disc loading %g N/m^2 (%s)", loading, out_.drone_class.c_str()));
-  }
-  CheckSize();
+  m_ *= give_.mass;
 }
 
 double Designer::SizeFactor() const {
@@ -146,20 +173,24 @@ void Designer::CheckSize() const {
     Refuse("the payload '" + Words("payload") + "' is too much of " +
            (said_.mass ? "'" + Words("mass") + "'" : Text("%.3g kg", m_)) + " in all (at most 60 %)");
   }
-  if (!said_.size) return;
+  if (!said_.size || !said_.mass) return;
   const std::string& size = *said_.size;
-  const bool fits = size == "tiny"    ? m_ < 0.5
-                    : size == "small" ? m_ < 5
-                    : size == "large" ? m_ > 0.5
-                    : size == "huge"  ? m_ > 3
+  const bool fits = size == "tiny"    ? m_ < 5
+                    : size == "small" ? m_ < 30
+                    : size == "large" ? m_ > 0.08
+                    : size == "huge"  ? m_ > 0.5
                                       : true;
-  if (!fits)
-    Refuse("'" + Words("size") + Text("' contradicts a mass of %.3g kg", m_) +
-           (said_.mass ? " ('" + Words("mass") + "')" : ""));
+  if (!fits) Refuse("'" + Words("size") + Text("' contradicts a mass of %.3g kg", m_) + " ('" + Words("mass") + "')");
 }
 
 void Designer::ChooseArms() {
   const int arms = ArmsOf(n_, layout_);
+  // Where the longer sides of an H leave the propellers no room, its motors stand in a square.
+  if (layout_ == RotorLayout::kH && said_.arm && *said_.arm * 1.2 < 1.02 * D_ &&
+      *said_.arm * 2 * std::sin(kPi / 4) >= 1.02 * D_) {
+    layout_ = RotorLayout::kX;
+    Decide("the motors of the H frame stand in a square, for the propellers to have room");
+  }
   // Distance of neighbouring hubs over arm length; H and wide X have their shorter side in between.
   const double gap =
       layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX ? 1.2 : 2 * std::sin(kPi / arms);
@@ -188,8 +219,11 @@ void Designer::ChoosePropeller() {
            " ('" + Words("pitch") + "'): propellers have 0.15 to 1.3 diameters");
   }
   const PropellerCoefficients c = CoefficientsOf(b, out_.blades, D_);
+  // The figure of merit stays below what the gate lets pass.
+  const double figure = std::sqrt(2 / kPi) * std::pow(c.thrust, 1.5) / c.power;
+  merit_least_ = std::min(1.0, std::max(0.8, figure / 0.78));
   k_f_ = c.thrust * kSeaLevelAirDensity * std::pow(D_, 4) / (4 * kPi * kPi);
-  ratio_km_ = c.power * D_ / (2 * kPi * c.thrust);
+  ratio_km_ = give_.merit * c.power * D_ / (2 * kPi * c.thrust);
   Law("pitch",
       said_.pitch ? Said("pitch") : Text("%.2f diameters (%s)", kind_.pitch_ratio, out_.drone_class.c_str()));
   Law("blades", said_.blades ? Said("blades") : "usual for " + out_.drone_class);
@@ -201,63 +235,43 @@ void Designer::ChoosePropeller() {
            c.power));
 }
 
-void Designer::SetThrust(double ratio, const std::string& law) {
-  ratio_ = ratio;
-  law_of_thrust_ = law;
-  thrust_ = ratio * m_ * kGravity / n_;
-  speed_ = std::sqrt(thrust_ / k_f_);
-  Law("max_speed", law + Text(": %.2f N a rotor, speed = sqrt(T / k_f)", thrust_));
-}
-
-void Designer::ChooseThrust() {
-  if (said_.thrust_to_weight) {
-    SetThrust(*said_.thrust_to_weight, Said("thrust_to_weight"));
-  } else {
-    SetThrust(kind_.thrust_to_weight,
-              Text("thrust to weight %.1f (%s)", kind_.thrust_to_weight, out_.drone_class.c_str()));
-    // Motors that belong to the propeller rather than to the weight.
-    const double matched = kind_.full_disc_loading * kPi * D_ * D_ / 4 * n_ / (m_ * kGravity);
-    if (matched > ratio_)
-      SetThrust(matched,
-                Text("motors matched to the propeller, %g N/m^2 at full throttle", kind_.full_disc_loading));
-    if (ratio_ > 14) SetThrust(14, "thrust to weight at most 14");
-  }
-  // Tips stay subsonic.
-  const double most = std::pow(2 * kFastestTip / D_, 2) * k_f_ * n_ / (m_ * kGravity);
-  if (ratio_ > most) {
-    if (said_.thrust_to_weight || most < kLeastRatio) {
-      Refuse(Text("%d propellers of %.0f mm at Mach 0.65 of their tips give %.2f times the weight of %.3g kg",
-                  n_, D_ * 1000, most, m_) +
-             (said_.thrust_to_weight ? ", not " + Words("thrust_to_weight") : ""));
-    }
-    SetThrust(most, "as much as tips at Mach 0.65 give");
-  }
-  most_ratio_ = std::min(most, 14.0);
-  ReachSpeed();
-}
-
-double Designer::LevelSpeed() const {
-  DroneModel model = Aerodynamics();
-  const double tilt = std::min(std::acos(std::min(1.0, 1 / (0.95 * ratio_))), 1.3);
-  return LevelSpeedAtTilt(model, tilt);
-}
-
-void Designer::ReachSpeed() {
-  if (!said_.speed) return;
-  while (LevelSpeed() < *said_.speed) {
-    if (said_.thrust_to_weight || ratio_ * 1.05 > most_ratio_) {
-      Refuse("'" + Words("speed") + "' contradicts " +
-             (said_.thrust_to_weight ? "'" + Words("thrust_to_weight") + "'"
-                                     : Text("a thrust of %.1f times the weight", ratio_)) +
-             Text(": level flight ends at %.1f m/s", LevelSpeed()));
-    }
-    SetThrust(ratio_ * 1.05, "raised until level flight reaches " + Words("speed"));
-  }
-}
-
 }  // namespace internal
 
-DroneDesign DesignDrone(const DroneRequest& request) { return internal::Designer(request).Run(); }
+namespace {
+
+void DropField(DroneRequest& request, const std::string& field) {
+  const std::pair<const char*, std::optional<double>*> fields[] = {
+      {"speed", &request.speed},           {"hover_time", &request.hover_time}, {"flight_time", &request.flight_time},
+      {"pitch", &request.pitch},           {"energy_wh", &request.energy_wh},   {"cells", &request.cells},
+      {"capacity_ah", &request.capacity_ah}, {"arm", &request.arm},             {"propeller", &request.propeller},
+      {"payload", &request.payload},       {"mass", &request.mass}};
+  for (const auto& [name, value] : fields) {
+    if (field == name) value->reset();
+  }
+  if (field == "layout") request.layout.reset();
+  request.words.erase(field);
+  request.facts.erase(field);
+}
+
+}  // namespace
+
+DroneDesign DesignDrone(const DroneRequest& request) {
+  // Facts give way in this order, the most derived ones first.
+  static constexpr const char* kOrder[] = {"speed",  "hover_time", "flight_time", "pitch",   "capacity_ah", "energy_wh",
+                                           "cells",  "arm",        "propeller",   "payload", "layout",      "mass"};
+  DroneRequest said = request;
+  for (const char* field : kOrder) {
+    if (said.facts.empty()) break;
+    try {
+      return internal::Designer(said).Run();
+    } catch (const InputError&) {
+      if (!said.facts.count(field)) continue;
+      said.decided.push_back(said.words.at(field) + "'s " + field + " does not go with what was said and is left open");
+      DropField(said, field);
+    }
+  }
+  return internal::Designer(said).Run();
+}
 DroneDesign DroneFromPrompt(std::string_view prompt) { return DesignDrone(ParsePrompt(prompt)); }
 
 }  // namespace airsim360

@@ -8,10 +8,6 @@
 #include "airsim360/flight/prompt/laws.h"
 
 namespace airsim360::internal {
-namespace {
-constexpr double kLeastBody = 0.06;  // of the mass: plate, wiring, electronics
-}  // namespace
-
 Vec3d Designer::Box() const { return Vec3d{kind_.body_x, kind_.body_y, kind_.body_z} * L_; }
 
 DroneModel Designer::Aerodynamics() const {
@@ -30,61 +26,50 @@ DroneModel Designer::Aerodynamics() const {
     rotor.tau_up = rotor.tau_down = RotorLag(D_, kind_.brushed);
     rotor.inertia = PropellerMass(D_, out_.blades) * D_ * D_ / 12;
   }
-  // Drag coefficient 1 for the box and for arms as wide as 8 % of the propellers.
+  // Drag coefficient 1 for the box and for arms as wide as 8 % of the propellers, times what a said speed needs.
   const Vec3d box = Box();
   const double arms = ArmsOf(n_, layout_) * L_ * 0.08 * D_;
   model.quadratic_drag_B =
-      Vec3d{box.y * box.z + 0.7 * arms, box.x * box.z + 0.7 * arms, box.x * box.y + arms} * (0.5 * rho);
+      Vec3d{box.y * box.z + 0.7 * arms, box.x * box.z + 0.7 * arms, box.x * box.y + arms} * (0.5 * rho * drag_);
   return model;
 }
-
-double Designer::HoverPower() const {
-  const double hover = m_ * kGravity / n_;
-  const double shaft = n_ * hover * ratio_km_ * std::sqrt(hover / k_f_);
-  return shaft / kDriveEfficiency + IdlePower();
-}
-
-double Designer::IdlePower() const { return 0.3 + 4 * std::min(m_, 2.0); }
 
 bool Designer::Weigh() {
   DroneParts& parts = out_.parts;
   const double torque = thrust_ * ratio_km_;
-  parts.motors = n_ * MotorMass(torque) * kind_.motor_factor;
+  parts.motors = n_ * MotorMass(torque) * kind_.motor_factor * give_.motors;
   parts.propellers = n_ * PropellerMass(D_, out_.blades);
   parts.guards = guarded_ ? 0.12 * m_ : 0;
-  parts.arms = kind_.arm_share * m_;
+  parts.arms = kind_.arm_share * give_.arms * m_;
   parts.payload = said_.payload.value_or(0);
   parts.battery = BatteryMass();
   parts.body = 0;
   parts.body = m_ - parts.Sum();
   // An ordinary battery may be somewhat smaller than usual.
-  const bool free_battery = !said_.endurance && !said_.capacity_ah;
-  if (free_battery && parts.body < kLeastBody * m_) {
+  const bool free_battery = HoverTimeAsked() <= 0 && EnergySaid() <= 0 && !said_.battery_mass;
+  if (free_battery && parts.body < give_.body * m_) {
     const double spare = parts.battery - 0.12 * m_;
-    const double moved = std::clamp(kLeastBody * m_ - parts.body, 0.0, std::max(spare, 0.0));
+    const double moved = std::clamp(give_.body * m_ - parts.body, 0.0, std::max(spare, 0.0));
     parts.battery -= moved;
     parts.body += moved;
   }
-  return parts.body >= kLeastBody * m_ * (1 - 1e-9);
+  return parts.body >= give_.body * m_ * (1 - 1e-9);
 }
 
 double Designer::BatteryMass() const {
-  const double energy_per_kg = kSpecificEnergy * 3600;  // J/kg
-  if (said_.capacity_ah) return *said_.capacity_ah * 3600 * kCellVoltage * Cells() / energy_per_kg;
-  if (said_.endurance) return HoverPower() * *said_.endurance / kUsableCharge / energy_per_kg;
+  if (said_.battery_mass) return *said_.battery_mass;
+  if (const double energy = EnergySaid()) return energy / give_.specific_energy;
+  if (const double time = HoverTimeAsked())
+    return HoverPower() * time / 3600 / give_.usable / give_.specific_energy;
   return kind_.battery_share * (m_ - said_.payload.value_or(0));
-}
-
-int Designer::Cells() const {
-  if (said_.cells) return static_cast<int>(*said_.cells);
-  return CellsFor(HoverPower() * std::pow(ratio_, 1.5));
 }
 
 void Designer::RefuseWeights() const {
   const DroneParts& p = out_.parts;
   std::string asked;
   for (const char* field :
-       {"mass", "payload", "endurance", "capacity_ah", "thrust_to_weight", "speed", "propeller"}) {
+       {"mass", "payload", "hover_time", "flight_time", "capacity_ah", "energy_wh", "battery_mass",
+        "thrust_to_weight", "speed", "propeller"}) {
     if (said_.words.count(field)) asked += (asked.empty() ? "'" : ", '") + Words(field) + "'";
   }
   Refuse((asked.empty() ? "" : asked + " do not go together: ") +
@@ -114,7 +99,11 @@ void Designer::Finish() {
     reach_y = std::max(reach_y, std::abs(rotor.p_B.y));
   }
   model.half_size_B = {reach_x + D_ / 2, reach_y + D_ / 2, std::max(Box().z / 2, 0.08 * L_ + 0.1 * D_)};
-  out_.level_speed = LevelSpeed();
+  out_.wheelbase = 2 * L_;
+  out_.level_speed = speed_held_ ? *said_.speed : LevelSpeed();
+  out_.unused = said_.unused;
+  out_.decided.insert(out_.decided.begin(), said_.decided.begin(), said_.decided.end());
+  TellLatitude();
   FillLaws();
 
   // The net under all of the above.
@@ -125,50 +114,41 @@ void Designer::Finish() {
   Refuse("its figures belong to no real drone: " + all);
 }
 
-void Designer::FillBattery() {
-  BatteryModel& battery = out_.model.battery;
-  const double energy = out_.parts.battery * kSpecificEnergy;  // W h
-  battery.cells = Cells();
-  battery.capacity_ah = said_.capacity_ah.value_or(energy / (kCellVoltage * battery.cells));
-  battery.resistance = battery.cells * 0.012 / battery.capacity_ah;
-  battery.efficiency = kDriveEfficiency;
-  battery.idle_power = IdlePower();
-  out_.hover_power = HoverPower();
-  out_.endurance =
-      kUsableCharge * battery.capacity_ah * kCellVoltage * battery.cells * 3600 / out_.hover_power;
-  if (said_.endurance && said_.capacity_ah && std::abs(out_.endurance / *said_.endurance - 1) > 0.3) {
-    Refuse("'" + Words("endurance") + "' contradicts '" + Words("capacity_ah") +
-           Text("': that battery hovers for %.0f s", out_.endurance));
-  }
-  // The pack must give the hover current without losing more than a quarter of its voltage.
-  const double voltage = kCellVoltage * battery.cells;
-  if (battery.resistance * out_.hover_power / voltage > 0.25 * voltage) {
-    Refuse(Text("a battery of %.2g Ah cannot give the %.3g W of hovering", battery.capacity_ah,
-                out_.hover_power));
-  }
-}
-
 void Designer::FillLaws() {
   Law("inertia", "motors, propellers and guards at the hubs, arms as rods, body and battery as a box (" +
                      out_.drone_class +
                      Text("): %.2f x %.2f x %.2f arm lengths", kind_.body_x, kind_.body_y, kind_.body_z));
   Law("motors",
-      Text("14.5 g (torque / 0.0466 N m)^(3/3.5) (Budinger 2020), speed controllers + 25 %%, times %g (%s)",
-           kind_.motor_factor, out_.drone_class.c_str()));
+      Text("14.5 g (torque / 0.0466 N m)^(3/3.5) (Budinger 2020), speed controllers + 25 %%, times %.3g (%s)",
+           kind_.motor_factor * give_.motors, out_.drone_class.c_str()));
   Law("propellers", "3.2 g (D / 127 mm)^2 blades / 3 (Budinger 2020)");
   Law("guards", guarded_ ? "12 % of the mass" : "none");
-  Law("arms", Text("%.0f %% of the mass (%s)", kind_.arm_share * 100, out_.drone_class.c_str()));
-  Law("battery", said_.capacity_ah ? Said("capacity_ah") + ", 150 W h/kg"
-                 : said_.endurance ? Said("endurance") + ": hover power over 80 % of the charge, 150 W h/kg"
-                                   : Text("%.0f %% of the mass without payload (%s)",
-                                          kind_.battery_share * 100, out_.drone_class.c_str()));
+  Law("arms", Text("%.0f %% of the mass (%s)", kind_.arm_share * give_.arms * 100, out_.drone_class.c_str()));
+  const char* energy = said_.energy_wh ? "energy_wh" : "capacity_ah";
+  const char* time = said_.hover_time ? "hover_time" : "flight_time";
+  const std::string pack = Text("%.0f W h/kg", give_.specific_energy);
+  Law("battery", said_.battery_mass        ? Said("battery_mass")
+                 : EnergySaid() > 0        ? Said(energy) + ", " + pack
+                 : HoverTimeAsked() > 0    ? Said(time) + Text(": hover power over %.0f %% of the charge, ",
+                                                               give_.usable * 100) + pack
+                                           : Text("%.0f %% of the mass without payload (%s)",
+                                                  kind_.battery_share * 100, out_.drone_class.c_str()));
   Law("body", "what is left of the mass");
   Law("payload", said_.payload ? Said("payload") : "none");
   Law("cells",
       said_.cells ? Said("cells") : "voltage 1.84 P^0.36 (Budinger 2020) at full power, 3.7 V a cell");
-  Law("capacity_ah", said_.capacity_ah ? Said("capacity_ah") : "battery mass, 150 W h/kg");
+  Law("capacity_ah", said_.capacity_ah ? Said("capacity_ah") : "battery energy over 3.7 V a cell");
+  Law("motor_kv", said_.motor_kv ? Said("motor_kv") : "full speed at 0.72 of the speed without load, 4.2 V a cell");
+  Law("hover_time", said_.hover_time ? Said("hover_time")
+                                     : Text("%.0f %% of the charge over hover power", give_.usable * 100));
+  Law("flight_time", said_.flight_time ? Said("flight_time")
+                                       : "hover time / 0.87: the best speed takes less power than hovering");
+  Law("level_speed", speed_held_    ? Said("speed") + Text(": its lean is held, its thrust would reach %.1f m/s",
+                                                           LevelSpeed())
+                     : said_.speed  ? Said("speed") + Text(": drag area %.2f times that of the law", drag_)
+                                    : "largest lean that keeps the height with 5 % of the thrust in reserve");
   Law("resistance", "12 mOhm Ah a cell");
-  Law("efficiency", "motors and speed controllers of this kind: 0.75");
+  Law("efficiency", Text("of motors and speed controllers: %.2f", give_.efficiency));
   Law("idle_power", "0.3 W + 4 W/kg up to 2 kg");
   Law("tau", kind_.brushed ? "72 ms, brushed motors of the Crazyflie (Eschmann 2024)"
                            : "33 ms (D / 127 mm)^0.5, through 5-inch racers and X500");
@@ -179,7 +159,7 @@ void Designer::FillLaws() {
   Law("translational_lift", "0.03 rho D^2, half of the Hummingbird's (RotorPy)");
   Law("flapping", "rigid small propellers: none");
   Law("linear_drag", "none beyond the rotors'");
-  Law("quadratic_drag", "1/2 rho C_d A, C_d 1, of box and arms");
+  Law("quadratic_drag", Text("1/2 rho C_d A, C_d %.2f, of box and arms", drag_));
   Law("half_size", "arms, propeller discs and box");
 }
 

@@ -52,6 +52,13 @@ std::vector<RotorModel> PlaceRotors(int count, RotorLayout layout, double arm, d
     rotor.direction = direction;
     rotors.push_back(rotor);
   };
+  if (layout == RotorLayout::kCoaxial && count == 6) {
+    // Y6: arms at the front left, the front right and behind; all upper rotors turn alike, all lower ones against.
+    for (const double side : {1.0, -1.0}) {
+      for (const double angle : {-kPi / 3, kPi, kPi / 3}) add(std::cos(angle), std::sin(angle), side, side * above);
+    }
+    return rotors;
+  }
   if (ArmsOf(count, layout) == 4) {
     // Forward and left reach of an arm of length 1; rotors that face each other turn alike.
     const bool wide = layout == RotorLayout::kWideX, h = layout == RotorLayout::kH;

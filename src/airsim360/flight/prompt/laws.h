@@ -25,10 +25,9 @@ double PropellerMass(double diameter, int blades);
 double RotorLag(double diameter, bool brushed);
 /// Voltage that a power (W) is drawn at: 1.84 P^0.36 (Budinger et al.), as cells of 3.7 V.
 int CellsFor(double power);
-inline constexpr double kSpecificEnergy = 150;  ///< W h/kg of lithium polymer packs
-inline constexpr double kUsableCharge = 0.8;
 inline constexpr double kCellVoltage = 3.7;
-inline constexpr double kDriveEfficiency = 0.75;
+/// Power at the speed of least power over that of hovering (DJI's Mavic 3 hovers 40 minutes and flies 46).
+inline constexpr double kFlightPower = 0.87;
 
 /// Hubs for a layout with arms of length `arm`, `above` metres above the centre of mass; directions and order
 /// of quads as AirSim's: front right, rear left, front left, rear right.

@@ -1,300 +1,120 @@
 #include "airsim360/flight/prompt/lexicon.h"
 
 #include <algorithm>
+#include <deque>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace airsim360::internal {
 namespace {
-using enum WordKind;
 
-constexpr Word kWords[] = {
-    // Says nothing.
-    {"a", kFiller},
-    {"an", kFiller},
-    {"the", kFiller},
-    {"with", kFiller},
-    {"and", kFiller},
-    {"of", kFiller},
-    {"for", kFiller},
-    {"that", kFiller},
-    {"is", kFiller},
-    {"to", kFiller},
-    {"at", kFiller},
-    {"its", kFiller},
-    {"about", kFiller},
-    {"around", kFiller},
-    {"roughly", kFiller},
-    {"has", kFiller},
-    {"which", kFiller},
-    {"can", kFiller},
-    {"fly", kFiller},
-    {"flies", kFiller},
-    {"flying", kFiller},
-    {"drone", kFiller},
-    {"drones", kFiller},
-    {"multirotor", kFiller},
-    {"uav", kFiller},
-    {"uas", kFiller},
-    {"copter", kFiller},
-    {"multicopter", kFiller},
-    {"aircraft", kFiller},
-    {"vehicle", kFiller},
-    {"weighing", kFiller},
-    {"weighs", kFiller},
-    {"weight", kFiller},
-    {"mass", kFiller},
-    {"takeoff", kFiller},
-    {"type", kFiller},
-    {"style", kFiller},
-    {"class", kFiller},
-    {"layout", kFiller},
-    {"configuration", kFiller},
-    {"up", kFiller},
-    {"in", kLengthUnit, 0.0254},
-    {"on", kFiller},
-    {"total", kFiller},
-    {"ratio", kFiller},
-    {"diameter", kFiller},
-    {"size", kFiller},
-    {"sized", kFiller},
-    {"electric", kFiller},
-    {"per", kFiller},
-    {"fast", kFiller},
-    {"top", kFiller},
-    {"maximum", kFiller},
-    {"max", kFiller},
-    {"long", kFiller},
-    {"by", kFiller},
-    {"it", kFiller},
-    {"one", kNumber, 1},
-    // Numbers.
-    {"two", kNumber, 2},
-    {"three", kNumber, 3},
-    {"four", kNumber, 4},
-    {"five", kNumber, 5},
-    {"six", kNumber, 6},
-    {"seven", kNumber, 7},
-    {"eight", kNumber, 8},
-    {"nine", kNumber, 9},
-    {"ten", kNumber, 10},
-    {"eleven", kNumber, 11},
-    {"twelve", kNumber, 12},
-    {"fifteen", kNumber, 15},
-    {"twenty", kNumber, 20},
-    {"thirty", kNumber, 30},
-    {"forty", kNumber, 40},
-    {"fifty", kNumber, 50},
-    {"sixty", kNumber, 60},
-    // Units.
-    {"g", kMassUnit, 1e-3},
-    {"gram", kMassUnit, 1e-3},
-    {"grams", kMassUnit, 1e-3},
-    {"gramme", kMassUnit, 1e-3},
-    {"grammes", kMassUnit, 1e-3},
-    {"kg", kMassUnit, 1},
-    {"kilo", kMassUnit, 1},
-    {"kilos", kMassUnit, 1},
-    {"kilogram", kMassUnit, 1},
-    {"kilograms", kMassUnit, 1},
-    {"lb", kMassUnit, 0.45359237},
-    {"lbs", kMassUnit, 0.45359237},
-    {"pound", kMassUnit, 0.45359237},
-    {"pounds", kMassUnit, 0.45359237},
-    {"oz", kMassUnit, 0.028349523125},
-    {"ounce", kMassUnit, 0.028349523125},
-    {"ounces", kMassUnit, 0.028349523125},
-    {"inch", kLengthUnit, 0.0254},
-    {"inches", kLengthUnit, 0.0254},
-    {"mm", kLengthUnit, 1e-3},
-    {"millimetre", kLengthUnit, 1e-3},
-    {"millimetres", kLengthUnit, 1e-3},
-    {"millimeter", kLengthUnit, 1e-3},
-    {"millimeters", kLengthUnit, 1e-3},
-    {"cm", kLengthUnit, 1e-2},
-    {"centimetre", kLengthUnit, 1e-2},
-    {"centimetres", kLengthUnit, 1e-2},
-    {"centimeter", kLengthUnit, 1e-2},
-    {"centimeters", kLengthUnit, 1e-2},
-    {"m", kLengthUnit, 1},
-    {"metre", kLengthUnit, 1},
-    {"metres", kLengthUnit, 1},
-    {"meter", kLengthUnit, 1},
-    {"meters", kLengthUnit, 1},
-    {"min", kTimeUnit, 60},
-    {"mins", kTimeUnit, 60},
-    {"minute", kTimeUnit, 60},
-    {"minutes", kTimeUnit, 60},
-    {"h", kLayout, 0, "h"},
-    {"hour", kTimeUnit, 3600},
-    {"hours", kTimeUnit, 3600},
-    {"seconds", kTimeUnit, 1},
-    {"second", kTimeUnit, 1},
-    {"m/s", kSpeedUnit, 1},
-    {"mps", kSpeedUnit, 1},
-    {"km/h", kSpeedUnit, 1 / 3.6},
-    {"kmh", kSpeedUnit, 1 / 3.6},
-    {"kph", kSpeedUnit, 1 / 3.6},
-    {"mph", kSpeedUnit, 0.44704},
-    {"knots", kSpeedUnit, 1852.0 / 3600},
-    {"mah", kCapacityUnit, 1e-3},
-    {"ah", kCapacityUnit, 1},
-    {"s", kCells},
-    {"cell", kCells},
-    {"cells", kCells},
-    // Kinds of drones.
-    {"generic", kClass, 0, "generic"},
-    {"ordinary", kClass, 0, "generic"},
-    {"nano", kClass, 0, "nano"},
-    {"crazyflie", kClass, 0, "nano"},
-    {"palm", kClass, 0, "nano"},
-    {"whoop", kClass, 0, "whoop"},
-    {"racing", kClass, 0, "racing"},
-    {"race", kClass, 0, "racing"},
-    {"racer", kClass, 0, "racing"},
-    {"fpv", kClass, 0, "racing"},
-    {"agile", kClass, 0, "racing"},
-    {"acrobatic", kClass, 0, "freestyle"},
-    {"freestyle", kClass, 0, "freestyle"},
-    {"cinematic", kClass, 0, "cinematic"},
-    {"cinewhoop", kClass, 0, "cinematic"},
-    {"camera", kClass, 0, "camera"},
-    {"photo", kClass, 0, "camera"},
-    {"photography", kClass, 0, "camera"},
-    {"filming", kClass, 0, "camera"},
-    {"video", kClass, 0, "camera"},
-    {"consumer", kClass, 0, "camera"},
-    {"research", kClass, 0, "research"},
-    {"lab", kClass, 0, "research"},
-    {"laboratory", kClass, 0, "research"},
-    {"hummingbird", kClass, 0, "research"},
-    {"hobby", kClass, 0, "hobby"},
-    {"training", kClass, 0, "hobby"},
-    {"trainer", kClass, 0, "hobby"},
-    {"diy", kClass, 0, "frame_kit"},
-    {"kit", kClass, 0, "frame_kit"},
-    {"flamewheel", kClass, 0, "frame_kit"},
-    {"development", kClass, 0, "frame_kit"},
-    {"survey", kClass, 0, "survey"},
-    {"surveying", kClass, 0, "survey"},
-    {"mapping", kClass, 0, "survey"},
-    {"surveillance", kClass, 0, "survey"},
-    {"endurance", kEndurance},
-    {"inspection", kClass, 0, "inspection"},
-    {"enterprise", kClass, 0, "inspection"},
-    {"industrial", kClass, 0, "inspection"},
-    {"matrice", kClass, 0, "inspection"},
-    {"rescue", kClass, 0, "inspection"},
-    {"delivery", kClass, 0, "delivery"},
-    {"courier", kClass, 0, "delivery"},
-    {"transport", kClass, 0, "delivery"},
-    {"heavylift", kClass, 0, "heavy_lift"},
-    {"lifter", kClass, 0, "heavy_lift"},
-    {"cargo", kClass, 0, "heavy_lift"},
-    {"agricultural", kClass, 0, "agricultural"},
-    {"agriculture", kClass, 0, "agricultural"},
-    {"spraying", kClass, 0, "agricultural"},
-    {"farming", kClass, 0, "agricultural"},
-    {"crop", kClass, 0, "agricultural"},
-    // Sizes.
-    {"tiny", kSize, 0, "tiny"},
-    {"micro", kSize, 0, "tiny"},
-    {"mini", kSize, 0, "small"},
-    {"small", kSize, 0, "small"},
-    {"compact", kSize, 0, "small"},
-    {"medium", kSize, 0, "medium"},
-    {"large", kSize, 0, "large"},
-    {"big", kSize, 0, "large"},
-    {"huge", kSize, 0, "huge"},
-    {"giant", kSize, 0, "huge"},
-    // Rotors and their layout.
-    {"quad", kRotors, 4},
-    {"quadcopter", kRotors, 4},
-    {"quadrotor", kRotors, 4},
-    {"quads", kRotors, 4},
-    {"hexa", kRotors, 6},
-    {"hex", kRotors, 6},
-    {"hexacopter", kRotors, 6},
-    {"hexarotor", kRotors, 6},
-    {"hexrotor", kRotors, 6},
-    {"hexcopter", kRotors, 6},
-    {"octo", kRotors, 8},
-    {"octocopter", kRotors, 8},
-    {"octorotor", kRotors, 8},
-    {"tricopter", kRotors, 3},
-    {"tri", kNumber, 3},
-    {"bi", kNumber, 2},
-    {"rotor", kRotorNoun},
-    {"rotors", kRotorNoun},
-    {"motor", kRotorNoun},
-    {"motors", kRotorNoun},
-    {"x", kLayout, 0, "x"},
-    {"+", kLayout, 0, "plus"},
-    {"plus", kLayout, 0, "plus"},
-    {"wide", kLayout, 0, "wide"},
-    {"coax", kLayout, 0, "coaxial"},
-    {"coaxial", kLayout, 0, "coaxial"},
-    {"x8", kLayout, 0, "coaxial"},
-    {"flat", kFiller},
-    {"frame", kWheelbase},
-    // Nouns that claim the number beside them.
-    {"blade", kBlades},
-    {"blades", kBlades},
-    {"bladed", kBlades},
-    {"triblade", kBlades, 3},
-    {"propeller", kPropeller},
-    {"propellers", kPropeller},
-    {"prop", kPropeller},
-    {"props", kPropeller},
-    {"arm", kArm},
-    {"arms", kArm},
-    {"wheelbase", kWheelbase},
-    {"diagonal", kWheelbase},
-    {"payload", kPayload},
-    {"load", kPayload},
-    {"parcel", kPayload},
-    {"package", kPayload},
-    {"carrying", kPayload},
-    {"carries", kPayload},
-    {"carry", kPayload},
-    {"lifting", kPayload},
-    {"lifts", kPayload},
-    {"battery", kBattery},
-    {"lipo", kBattery},
-    {"pitch", kPitch},
-    {"flight", kFiller},
-    {"time", kEndurance},
-    {"hover", kFiller},
-    {"hovering", kFiller},
-    {"speed", kSpeed},
-    {"twr", kThrustRatio},
-    {"t/w", kThrustRatio},
-    {"thrust", kThrustRatio},
-    {"ducted", kGuards},
-    {"guards", kGuards},
-    {"guarded", kGuards},
-    {"ducts", kGuards},
-    {"guard", kGuards},
-    {"brushless", kClass, 0, "brushless"},
-    {"heavy", kSize, 0, "large"},
-    {"lift", kPayload},
+struct Entry {
+  const Word* word = nullptr;
+  bool several = false;  ///< listed as several words
 };
+
+/// All aliases by their text without spaces. A word of two languages means what English has it mean.
+class Index {
+ public:
+  Index() {
+    for (const auto words : {EnglishWords(), NounWords(), LoadWords(), ForeignWords()}) {
+      for (const Word& word : words) Add(word);
+    }
+  }
+  const Entry* Find(std::string_view key) const {
+    const auto found = entries_.find(key);
+    return found == entries_.end() ? nullptr : &found->second;
+  }
+  const auto& entries() const { return entries_; }
+
+ private:
+  void Add(const Word& word) {
+    for (std::string_view rest = word.aliases; !rest.empty();) {
+      const size_t bar = std::min(rest.find('|'), rest.size());
+      const std::string_view alias = rest.substr(0, bar);
+      rest.remove_prefix(std::min(bar + 1, rest.size()));
+      std::string key;
+      std::copy_if(alias.begin(), alias.end(), std::back_inserter(key), [](char c) { return c != ' '; });
+      const bool foreign_script = static_cast<unsigned char>(key[0]) >= 0x80;
+      const bool several = key.size() < alias.size() || foreign_script;
+      const auto [at, is_new] = entries_.try_emplace(texts_.emplace_back(key), Entry{&word, several});
+      if (!is_new && at->second.word == &word) at->second.several |= several;
+    }
+  }
+  std::deque<std::string> texts_;
+  std::unordered_map<std::string_view, Entry> entries_;
+};
+
+const Index& TheIndex() {
+  static const Index kIndex;
+  return kIndex;
+}
+
+/// Edit distance with swaps of neighbours, at most `most`, else most + 1.
+size_t Distance(std::string_view a, std::string_view b, size_t most) {
+  if (a.size() > b.size() + most || b.size() > a.size() + most) return most + 1;
+  std::vector<size_t> before2, before(b.size() + 1), row(b.size() + 1);
+  for (size_t k = 0; k <= b.size(); ++k) before[k] = k;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (size_t k = 1; k <= b.size(); ++k) {
+      row[k] = std::min({before[k] + 1, row[k - 1] + 1, before[k - 1] + (a[i - 1] != b[k - 1])});
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+        row[k] = std::min(row[k], before2[k - 2] + 1);
+    }
+    before2 = std::exchange(before, row);
+  }
+  return before[b.size()];
+}
+
+bool Matters(const Word& word) {
+  switch (word.kind) {
+    case WordKind::kMassUnit:
+    case WordKind::kLengthUnit:
+    case WordKind::kTimeUnit:
+    case WordKind::kVolumeUnit:
+    case WordKind::kDrone:
+    case WordKind::kRotors:
+    case WordKind::kPropeller:
+    case WordKind::kMass:
+    case WordKind::kPayload:
+    case WordKind::kBattery:
+    case WordKind::kHover:
+    case WordKind::kFlight:
+    case WordKind::kWheelbase:
+    case WordKind::kGuards:
+    case WordKind::kClass:
+    case WordKind::kLayout:
+      return true;
+    default:
+      return false;
+  }
+}
 
 }  // namespace
 
-std::span<const Word> Lexicon() { return kWords; }
-
-const Word* FindWord(std::string_view text) {
-  const auto found =
-      std::find_if(std::begin(kWords), std::end(kWords), [&](const Word& word) { return word.text == text; });
-  return found == std::end(kWords) ? nullptr : found;
+const Word* FindWord(std::string_view key, bool joined) {
+  const Entry* entry = TheIndex().Find(key);
+  return entry != nullptr && (!joined || entry->several) ? entry->word : nullptr;
 }
 
-const std::vector<std::string>& LexiconTexts() {
-  static const std::vector<std::string> kTexts = [] {
-    std::vector<std::string> texts;
-    for (const Word& word : kWords) texts.emplace_back(word.text);
-    return texts;
-  }();
-  return kTexts;
+std::string_view Respelled(std::string_view text) {
+  if (text.size() < 6) return {};
+  const size_t most = text.size() >= 9 ? 2 : 1;
+  std::string_view best;
+  size_t least = most + 1;
+  for (const auto& [alias, entry] : TheIndex().entries()) {
+    if (alias.size() < 6 || alias[0] != text[0] || !Matters(*entry.word)) continue;
+    const size_t distance = Distance(text, alias, most);
+    // Of equally near ones the first by the alphabet: the index has no order.
+    if (distance < least || (distance == least && distance <= most && alias < best)) {
+      best = alias;
+      least = distance;
+    }
+  }
+  return best;
 }
 
 }  // namespace airsim360::internal

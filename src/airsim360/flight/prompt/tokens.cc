@@ -1,120 +1,226 @@
 #include "airsim360/flight/prompt/tokens.h"
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <optional>
 
 #include "airsim360/base/error.h"
-#include "airsim360/base/nearest_name.h"
+#include "airsim360/flight/prompt/number_words.h"
+#include "airsim360/flight/prompt/plain_text.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr size_t kLongestPrompt = 1000;
+constexpr size_t kMostChunks = 8;  // of one name or phrase
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-bool IsLetter(char c) { return c >= 'a' && c <= 'z'; }
+bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; }
 
-/// Lower case, hyphens between words as spaces; InputError for anything but plain text.
-std::string Clean(std::string_view prompt) {
-  if (prompt.size() > kLongestPrompt) throw InputError("the description is longer than 1000 characters");
-  std::string text;
-  for (size_t i = 0; i < prompt.size(); ++i) {
-    char c = prompt[i];
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    const bool starts = i == 0 || prompt[i - 1] == ' ';
-    if (c == '-' && starts && i + 1 < prompt.size() && IsDigit(prompt[i + 1])) {
-      throw InputError("a negative number describes no drone: '" + std::string(prompt.substr(i, 12)) + "'");
+/// A run of letters and digits, or one character of a script without spaces.
+struct Chunk {
+  size_t begin = 0, end = 0;
+};
+
+class Cutter {
+ public:
+  explicit Cutter(std::string text) : text_(std::move(text)) {}
+
+  std::vector<Token> Run() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (IsDigit(c) || IsLetter(c) || (c == '.' && at_ + 1 < text_.size() && IsDigit(text_[at_ + 1]))) {
+        CutPiece();
+      } else {
+        CutSign(c);
+      }
     }
-    if (c == '-' || c == '\t' || c == '\n' || c == '\r' || c == '(' || c == ')') c = ' ';
-    if (c == ';') c = ',';
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) {
-      throw InputError("the description holds a character that is not plain ASCII text");
+    return std::move(tokens_);
+  }
+
+ private:
+  void Add(Token token, size_t length) {
+    token.text = text_.substr(at_, length);
+    at_ += length;
+    tokens_.push_back(std::move(token));
+  }
+  void AddKind(Token::Kind kind, size_t length) {
+    Token token;
+    token.kind = kind;
+    Add(std::move(token), length);
+  }
+
+  void CutSign(char c) {
+    const bool after_number = !tokens_.empty() && tokens_.back().kind == Token::Kind::kNumber && at_ > 0;
+    if (c == '"' || c == '\'' || c == '%' || c == '+' || c == '<' || c == '&') {
+      // An inch, a foot; two feet signs are one inch sign.
+      const bool two = c == '\'' && at_ + 1 < text_.size() && text_[at_ + 1] == '\'';
+      const bool is_unit = after_number && (IsDigit(text_[at_ - 1]) || text_[at_ - 1] == '.' || c == '%');
+      Token token;
+      token.kind = Token::Kind::kWord;
+      token.word = c == '&'   ? FindWord("with", false)
+                   : c == '+' ? nullptr
+                   : c == '<' ? FindWord("under", false)
+                   : is_unit  ? FindWord(two ? "\"" : std::string_view(&c, 1), false)
+                              : nullptr;
+      if (c == '+') token.kind = Token::Kind::kUnknown;
+      if (token.word != nullptr || c == '+') return Add(std::move(token), two ? 2 : 1);
+      ++at_;
+      return;
     }
-    text += c;
+    if (c == '-' || c == '/') {
+      return c == '-' ? AddKind(Token::Kind::kDash, 1) : AddKind(Token::Kind::kComma, 1);
+    }
+    const bool ends = c == ',' || c == ';' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')' ||
+                      c == '[' || c == ']' || c == '|';
+    if (ends) return AddKind(Token::Kind::kComma, 1);
+    ++at_;
   }
-  return text;
-}
 
-/// A plain decimal number at the start; its length, 0 if there is none.
-size_t ReadNumber(std::string_view text, double& value) {
-  if (text.empty() || !(IsDigit(text[0]) || (text[0] == '.' && text.size() > 1 && IsDigit(text[1]))))
-    return 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  if (error != std::errc() || !(value < 1e9)) {
-    throw InputError("the number '" + std::string(text.substr(0, 20)) + "' describes no drone");
+  size_t EndOfChunk(size_t begin) const {
+    if (static_cast<unsigned char>(text_[begin]) >= 0xe0)
+      return begin + CharacterLength(std::string_view(text_).substr(begin));
+    size_t end = begin;
+    while (end < text_.size()) {
+      const char c = text_[end];
+      const bool point = c == '.' && end + 1 < text_.size() && IsDigit(text_[end + 1]) &&
+                         (end == begin || IsDigit(text_[end - 1]) || IsLetter(text_[end - 1]));
+      const bool letter = IsLetter(c) && static_cast<unsigned char>(c) < 0xe0;
+      if (!IsDigit(c) && !letter && !point) break;
+      ++end;
+    }
+    return std::max(end, begin + 1);
   }
-  return static_cast<size_t>(end - text.data());
-}
 
-/// "5x4.3x3" at the start; its length, 0 if there is none.
-size_t ReadPropellerCode(std::string_view text, double (&code)[3]) {
-  size_t at = ReadNumber(text, code[0]);
-  for (int k = 1; at > 0 && k < 3; ++k) {
-    if (at >= text.size() || text[at] != 'x') return k == 1 ? 0 : at;
-    const size_t length = ReadNumber(text.substr(at + 1), code[k]);
-    if (length == 0) return k == 1 ? 0 : at;
-    at += 1 + length;
+  /// The longest name or phrase that begins here.
+  bool CutPhrase() {
+    std::string key;
+    size_t begin = at_;
+    Token best;
+    size_t best_length = 0;
+    for (size_t n = 0; n < kMostChunks && begin < text_.size(); ++n) {
+      const size_t end = EndOfChunk(begin);
+      key += text_.substr(begin, end - begin);
+      size_t next = end;
+      if (next < text_.size() && text_[next] == '+') {
+        if (const KnownModel* model = FindKnownModel(key + "plus")) {
+          best.kind = Token::Kind::kModel;
+          best.model = model;
+          best_length = next + 1 - at_;
+        }
+      }
+      Take(key, n > 0, end, best, best_length);
+      while (next < text_.size() && (text_[next] == ' ' || text_[next] == '-' || text_[next] == '/' ||
+                                     text_[next] == '.' || text_[next] == '\''))
+        ++next;
+      if (next >= text_.size() || !(IsDigit(text_[next]) || IsLetter(text_[next]))) break;
+      begin = next;
+    }
+    if (best_length == 0) return false;
+    Add(std::move(best), best_length);
+    return true;
   }
-  return at;
-}
 
-Token ReadWord(std::string_view rest) {
-  size_t length = 0;
-  while (length < rest.size() && (IsLetter(rest[length]) || IsDigit(rest[length]) || rest[length] == '/'))
-    ++length;
-  if (length == 0) length = 1;  // a sign such as "+"
-  Token token;
-  token.text = std::string(rest.substr(0, length));
-  token.word = FindWord(token.text);
-  if (token.word == nullptr) {
-    throw InputError("the word '" + token.text + "' is not understood" + DidYouMean(token.text, LexiconTexts()) + ". " +
-                     "`airsim360 drone --words` lists all that can be said");
+  void Take(const std::string& key, bool joined, size_t end, Token& best, size_t& best_length) const {
+    if (const KnownModel* model = FindKnownModel(key); model && !IsCount(key, end)) {
+      best.kind = Token::Kind::kModel;
+      best.model = model;
+      best.word = nullptr;
+      best_length = end - at_;
+    } else if (const Word* word = FindWord(key, joined)) {
+      best.kind = Token::Kind::kWord;
+      best.word = word;
+      best.model = nullptr;
+      best_length = end - at_;
+    }
   }
-  return token;
-}
+
+  /// Whether the figure that ends a name ("mini 2") rather counts what follows it ("a mini 2 inch quad").
+  bool IsCount(const std::string& key, size_t end) const {
+    if (!IsDigit(key.back())) return false;
+    while (end < text_.size() && (text_[end] == ' ' || text_[end] == '-')) ++end;
+    if (end >= text_.size()) return false;
+    if (text_[end] == '"') return true;
+    const Word* next = FindWord(text_.substr(end, EndOfChunk(end) - end), false);
+    if (next == nullptr) return false;
+    return (next->kind >= WordKind::kMassUnit && next->kind <= WordKind::kPercent && next->aliases[0] != 's') ||
+           next->kind == WordKind::kRotorNoun || next->kind == WordKind::kMotor ||
+           next->kind == WordKind::kPropeller;
+  }
+
+  void CutPiece() {
+    const size_t end = EndOfChunk(at_);
+    const bool starts_with_digit = !IsLetter(text_[at_]);
+    if (starts_with_digit && CutNumber(end)) return;
+    if (CutPhrase()) return;
+    const std::string text = text_.substr(at_, end - at_);
+    if (starts_with_digit) return AddKind(Token::Kind::kUnknown, std::max<size_t>(end - at_, 1));
+    CutWord(text);
+  }
+
+  /// A number with what is written onto it: "920kv", "5x4.3x3". False where a name is meant: "3dr".
+  bool CutNumber(size_t end) {
+    const size_t place = at_;
+    const size_t tokens = tokens_.size();
+    if (end > at_ && CutPhrase()) {
+      if (tokens_.back().kind == Token::Kind::kModel || tokens_.back().Is(WordKind::kLithiumIon)) return true;
+      at_ = place;
+      tokens_.resize(tokens);
+    }
+    Token token;
+    size_t length = 0;
+    if (ReadPropellerCode(std::string_view(text_).substr(at_), token.code, length)) {
+      token.kind = Token::Kind::kPropellerCode;
+      Add(std::move(token), length);
+      return true;
+    }
+    token.kind = Token::Kind::kNumber;
+    length = ReadNumber(std::string_view(text_).substr(at_), token.value);
+    if (length == 0) return false;
+    const bool dash = at_ > 0 && text_[at_ - 1] == '-';
+    const bool spaced = at_ < 2 || text_[at_ - 2] == ' ' || text_[at_ - 2] == ',';
+    token.negative = dash && spaced && (tokens_.size() < 2 || tokens_[tokens_.size() - 2].kind != Token::Kind::kNumber);
+    // "4:1"
+    const std::string_view rest = std::string_view(text_).substr(at_ + length);
+    const bool to_one = rest.starts_with(":1") && !(rest.size() > 2 && IsDigit(rest[2]));
+    Add(std::move(token), length + (to_one ? 2 : 0));
+    return true;
+  }
+
+  void CutWord(const std::string& text) {
+    // Letters with a number onto them: "kv920".
+    const size_t letters = std::find_if(text.begin(), text.end(), IsDigit) - text.begin();
+    if (letters < text.size()) {
+      const bool unit = !tokens_.empty() && tokens_.back().kind == Token::Kind::kNumber;
+      if (const Word* word = FindWord(text.substr(0, letters), false);
+          word != nullptr && word->kind > WordKind::kTo && (letters > 1 || unit)) {
+        Token token;
+        token.kind = Token::Kind::kWord;
+        token.word = word;
+        return Add(std::move(token), letters);
+      }
+      return AddKind(Token::Kind::kUnknown, text.size());
+    }
+    Token token;
+    const std::string_view respelled = Respelled(text);
+    if (!respelled.empty()) {
+      token.kind = Token::Kind::kWord;
+      token.word = FindWord(respelled, false) ? FindWord(respelled, false) : FindWord(respelled, true);
+      token.respelled = std::string(respelled);
+    }
+    Add(std::move(token), text.size());
+  }
+
+  std::string text_;
+  size_t at_ = 0;
+  std::vector<Token> tokens_;
+};
 
 }  // namespace
 
 std::vector<Token> Tokenize(std::string_view prompt) {
-  const std::string text = Clean(prompt);
-  std::vector<Token> tokens;
-  for (size_t at = 0; at < text.size();) {
-    const std::string_view rest = std::string_view(text).substr(at);
-    // A full stop ends a sentence, an apostrophe says nothing.
-    const bool stop = rest[0] == '.' && !(rest.size() > 1 && IsDigit(rest[1]));
-    if (rest[0] == ' ' || rest[0] == '\'' || rest[0] == '~') {
-      ++at;
-      continue;
-    }
-    Token token;
-    size_t length = 1;
-    if (rest[0] == ',' || stop || rest[0] == ':') {
-      token.kind = Token::Kind::kComma;
-    } else if (rest[0] == '"') {
-      token.word = FindWord("inch");
-    } else if (const size_t code = ReadPropellerCode(rest, token.code)) {
-      token.kind = Token::Kind::kPropellerCode;
-      length = code;
-    } else if (const size_t number = ReadNumber(rest, token.value)) {
-      token.kind = Token::Kind::kNumber;
-      length = number;
-      // "4:1"
-      if (rest.substr(number).starts_with(":1") && !(rest.size() > number + 2 && IsDigit(rest[number + 2])))
-        length += 2;
-    } else {
-      token = ReadWord(rest);
-      length = token.text.size();
-      if (token.word->kind == WordKind::kNumber) {
-        token.kind = Token::Kind::kNumber;
-        token.value = token.word->value;
-      }
-    }
-    token.text = std::string(rest.substr(0, length));
-    tokens.push_back(std::move(token));
-    at += length;
-  }
-  return tokens;
+  if (prompt.size() > kLongestPrompt) throw InputError("the description is longer than 1000 bytes");
+  return JoinNumbers(Cutter(PlainText(prompt)).Run());
 }
 
 }  // namespace airsim360::internal

@@ -1,24 +1,39 @@
-// A prompt cut into words and numbers.
+// A description cut into words, numbers and names of real drones.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "airsim360/flight/prompt/known_models.h"
 #include "airsim360/flight/prompt/lexicon.h"
 
 namespace airsim360::internal {
 
 struct Token {
-  enum class Kind { kWord, kNumber, kComma, kPropellerCode };
-  Kind kind = Kind::kWord;
-  std::string text;            ///< as written
-  double value = 0;            ///< of a number
-  const Word* word = nullptr;  ///< of a word
-  double code[3] = {};         ///< "5x4.3x3": diameter and pitch in inches, blades (0 = not said)
+  enum class Kind {
+    kWord,           ///< of the lexicon
+    kNumber,         ///< digits or number words, put together
+    kPropellerCode,  ///< "5x4.3x3"
+    kModel,
+    kUnknown,
+    kComma,  ///< any sign that ends a phrase
+    kDash,
+  };
+  Kind kind = Kind::kUnknown;
+  std::string text;                   ///< as written, in lower case
+  double value = 0;                   ///< of a number
+  double low = 0, high = 0;           ///< of a range of numbers, else both 0
+  bool negative = false;              ///< a number with a minus before it
+  const Word* word = nullptr;         ///< of a word
+  const KnownModel* model = nullptr;  ///< of a model
+  double code[3] = {};                ///< of a propeller code: inches, inches, blades (0 = not said)
+  std::string respelled;              ///< the word that a misspelt one is read as
+
+  bool Is(WordKind word_kind) const { return kind == Kind::kWord && word->kind == word_kind; }
 };
 
-/// InputError for a character or word that is not understood, a negative or a too large number.
+/// InputError for a description of more than 1000 bytes and for a number beyond 1e9.
 std::vector<Token> Tokenize(std::string_view prompt);
 
 }  // namespace airsim360::internal

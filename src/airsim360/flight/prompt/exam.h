@@ -1,0 +1,77 @@
+// Sentences with what they must lead to, for tests: {"text", "expect": "build" or "refuse", "figures": {...}}.
+#pragma once
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/design.h"
+#include "airsim360/flight/prompt/gate.h"
+
+namespace airsim360 {
+
+struct ExamSentence {
+  std::string text;
+  bool build = true;
+  std::map<std::string, double> figures;
+};
+
+inline std::vector<ExamSentence> ReadExam(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file + ": cannot be read");
+  const nlohmann::json list = nlohmann::json::parse(in);
+  std::vector<ExamSentence> sentences;
+  for (const auto& entry : list.is_array() ? list : list.at("sentences")) {
+    ExamSentence sentence{entry.at("text"), entry.at("expect") == "build", {}};
+    const nlohmann::json figures = entry.value("figures", nlohmann::json::object());
+    for (const auto& [name, value] : figures.items()) {
+      if (value.is_number()) sentence.figures[name] = value;
+    }
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+/// A figure of the design by the name that the exam has for it.
+inline double ExamFigure(const DroneDesign& design, const std::string& name) {
+  const DroneModel& model = design.model;
+  if (name == "mass_kg") return model.mass;
+  if (name == "rotor_count") return static_cast<double>(model.rotors.size());
+  if (name == "rotor_diameter_m") return model.rotors[0].diameter;
+  if (name == "wheelbase_m") return design.wheelbase;
+  if (name == "payload_kg") return design.parts.payload;
+  if (name == "hover_time_s") return design.hover_time;
+  if (name == "flight_time_s") return design.flight_time;
+  if (name == "max_speed_m_s") return design.level_speed;
+  if (name == "thrust_to_weight") return FiguresOf(model).thrust_to_weight;
+  if (name == "battery_cells") return model.battery.cells;
+  if (name == "battery_capacity_ah") return model.battery.capacity_ah;
+  if (name == "battery_energy_wh") return design.energy_wh;
+  if (name == "motor_kv") return design.motor_kv;
+  throw InputError("the exam asks for an unknown figure '" + name + "'");
+}
+
+/// Empty: built or refused as it must be, every figure within 2 %, through the gate. Else what went wrong.
+inline std::string ExamProblem(const ExamSentence& sentence) {
+  DroneDesign design;
+  try {
+    design = DroneFromPrompt(sentence.text);
+  } catch (const InputError& error) {
+    return sentence.build ? std::string("refused: ") + error.what() : "";
+  }
+  if (!sentence.build) return "built, but must be refused";
+  std::string problems;
+  for (const std::string& problem : GateProblems(design.model)) problems += "gate: " + problem + "; ";
+  for (const auto& [name, value] : sentence.figures) {
+    const double is = ExamFigure(design, name);
+    if (!(std::abs(is - value) <= 0.02 * std::abs(value)))
+      problems += name + " is " + std::to_string(is) + ", said " + std::to_string(value) + "; ";
+  }
+  return problems;
+}
+
+}  // namespace airsim360

@@ -1,0 +1,148 @@
+// Kinds, sizes, parts of drones, and what is no multirotor.
+#include "airsim360/flight/prompt/lexicon.h"
+
+namespace airsim360::internal {
+namespace {
+using enum WordKind;
+
+constexpr Word kWords[] = {
+    {kDrone, 0, "",
+     "drone|drones|multirotor|multirotors|multicopter|multi rotor|uav|uavs|uas|copter|copters|aircraft|mav|"
+     "micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|suas|rpas"},
+    {kClass, 0, "generic", "generic|ordinary|normal|standard|plain"},
+    {kClass, 0, "nano", "nano|palm|palm sized|pocket sized nano"},
+    {kClass, 0, "whoop", "whoop|tiny whoop|tinywhoop|micro whoop|toy whoop"},
+    {kClass, 0, "racing",
+     "racing|race|racer|races|fpv|agile|speed drone|speed quad|speed run|speedrun|racers|drone racing|interceptor"},
+    {kClass, 0, "freestyle", "acrobatic|aerobatic|freestyle|freestyler|bando|toothpick|acro|juicy flicks"},
+    {kClass, 0, "cinematic", "cinewhoop|cinematic|cine whoop|cinewhoops"},
+    {kClass, 0, "camera",
+     "photo|photography|photographing|filming|video|videography|consumer|selfie|aerial photography|film|films|"
+     "cinematography|vlogging|vlog|travel|prosumer|folding camera|foldable camera|cinema|movie|movies|videos|photos"},
+    {kClass, 0, "research", "research|lab|laboratory|experimental|academic|swarm|university"},
+    {kClass, 0, "hobby", "hobby|training|trainer|hobbyist|beginner|beginners|toy|kids|educational|education|school"},
+    {kClass, 0, "frame_kit", "diy|kit|flamewheel|flame wheel|development|dev|homebuilt|home built|home made"},
+    {kClass, 0, "survey",
+     "survey|surveying|mapping|surveillance|photogrammetry|scouting|topographic|long range|long ranger|long endurance|"
+     "cruiser|endurance drone|monitoring|patrol"},
+    {kClass, 0, "inspection",
+     "inspection|inspecting|inspect|enterprise|industrial|matrice|rescue|search and rescue|police|firefighting|"
+     "fire fighting|public safety|commercial|professional"},
+    {kClass, 0, "delivery", "delivery|courier|transport|deliveries|deliver|delivers|delivering|logistics|drop"},
+    {kClass, 0, "heavy_lift",
+     "heavy lift|lifter|cargo|heavy lifter|heavylift|cine lifter|cinelifter|heavy lifting|freight|heavy duty"},
+    {kClass, 0, "agricultural",
+     "agricultural|agriculture|spraying|farming|crop|crop spraying|sprayer|spray|sprays|crop duster|spreading|"
+     "spreader|farm|ag|seeding|fertilizing|fertiliser|pesticide|crop dusting"},
+    // Sizes.
+    {kSize, 0, "tiny", "tiny|micro|miniature|ultra small"},
+    {kSize, 0, "small", "mini|small|compact|little|smallish"},
+    {kSize, 0, "medium", "medium|mid sized|midsize|medium sized"},
+    {kSize, 0, "large", "large|big|biggish|large scale"},
+    {kSize, 0, "huge", "huge|giant|enormous|massive|very large|gigantic"},
+    // Rotors and their layout.
+    {kRotors, 4, "",
+     "quad|quadcopter|quadrotor|quads|quadrocopter|quadricopter|quadracopter|quadcopters|quadrotors|four rotor|"
+     "quadrupel|quadri copter|quadropter"},
+    {kRotors, 6, "", "hexa|hex|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
+    {kRotors, 8, "", "octo|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
+                     "eight rotor|oktokopter"},
+    {kRotors, 3, "", "tricopter|trirotor|tri copter|tri rotor|tricopters"},
+    {kRotors, 2, "", "bicopter|bi copter|dualcopter|twin rotor"},
+    {kRotors, 5, "", "pentacopter"},
+    {kRotors, 10, "", "decacopter"},
+    {kRotors, 12, "", "dodecacopter|dodecarotor"},
+    {kCoaxial, 8, "", "x8|octo x8|quad x8|octoquad|octo quad|x8 coaxial|coaxial x8|coax x8"},
+    {kCoaxial, 6, "", "y6|y6b|y6 coaxial|coaxial y6"},
+    {kLayout, 0, "x", "x frame|x layout|x configuration|x config|x quad|true x|x shaped"},
+    {kLayout, 0, "plus", "plus frame|plus layout|plus configuration|plus config|plus shaped|in plus"},
+    {kLayout, 0, "h", "h frame|h layout|h quad|h shaped|h configuration"},
+    {kLayout, 0, "wide", "wide x|stretched x|squashed x|dead cat|deadcat"},
+    {kLayout, 0, "coaxial", "coaxial|coax|co axial|coaxially"},
+    {kGuards, 0, "",
+     "ducted|guards|guarded|ducts|guard|duct|cage|caged|propeller guard|propeller guards|prop guard|prop guards|"
+     "shrouded|protective cage|collision tolerant|indoor hull|bumpers"},
+    {kBrushless, 0, "", "brushless"},
+    {kLithiumIon, 0, "", "li ion|liion|lithium ion|18650|21700|li ions|liion pack|li ion pack|18650s|21700s"},
+    // Nouns that claim the number beside them.
+    {kRotorNoun, 0, "", "rotor|rotors|rotored"},
+    {kMotor, 0, "", "motor|motors|engine|engines|motored"},
+    {kPropeller, 0, "",
+     "propeller|propellers|prop|props|rotor diameter|propeller diameter|prop diameter|propellor|propellors|airscrew|"
+     "prop size|propeller size|rotor blades|rotors diameter|propped"},
+    {kBlades, 0, "", "blade|blades|bladed"},
+    {kBlades, 3, "", "triblade|tri blade|tri blades|tri bladed|triblades|three bladed"},
+    {kBlades, 2, "", "bi blade|bi blades|two bladed|biblade|bi bladed"},
+    {kBlades, 4, "", "quad blade|quad blades|four bladed|quadblade"},
+    {kArm, 0, "", "arm|arms|arm length|booms|boom"},
+    {kWheelbase, 0, "",
+     "wheelbase|diagonal|motor to motor|diagonally|motor to motor distance|wheel base|motor spacing|across|mtm|"
+     "diagonal size|diagonal distance|diagonal wheelbase|shaft to shaft|hub to hub"},
+    {kFrame, 0, "", "frame|frames|airframe|frame size"},
+    {kSizeNoun, 0, "", "class|size|sized"},
+    {kPitch, 0, "", "pitch"},
+    {kMass, 0, "",
+     "weighing|weighs|weigh|weight|mass|takeoff|take off|takeoff weight|take off weight|takeoff mass|take off mass|"
+     "auw|all up|all up weight|all up mass|mtow|mtom|tow|gross|gross weight|maximum takeoff weight|max takeoff weight|"
+     "maximum take off weight|total|total weight|total mass|flying weight|flight weight|ready to fly|rtf|all in|"
+     "weight with battery|at takeoff|at take off|overall weight|in weight|in mass|tips the scales at|loaded|"
+     "fully loaded|including battery|with battery|wet weight|weight including battery|launch weight|heavy|"
+     "all up at|auw of"},
+    {kEmpty, 0, "",
+     "empty|empty weight|dry weight|dry|without payload|without load|unladen|operating empty weight|bare weight|"
+     "empty mass|weight without payload"},
+    {kPayload, 0, "",
+     "payload|payloads|carrying|carries|carry|lifting|lifts|lift|useful load|payload capacity|max payload|"
+     "maximum payload|hauling|haul|hauls|drops|payload of|cargo of|carrying capacity|holds|takes|lifts up|picks up"},
+    {kBattery, 0, "", "battery|batteries|lipo|lipos|lipo pack|battery pack|accumulator|lihv|li po|hv lipo|lithium"},
+    {kHover, 0, "", "hover|hovering|hovers|hover time|hovered|hover endurance|hovering time|hover flight|loiter"},
+    {kFlight, 0, "",
+     "time|flight|flights|endurance|flight time|flying time|fly time|air time|airtime|in the air|aloft|battery life|"
+     "stay up|airborne|stays up|runtime|run time|flight duration"},
+    {kSpeed, 0, "",
+     "speed|top speed|max speed|maximum speed|velocity|speeds|full speed|flat out|vmax|level speed|top end"},
+    {kWind, 0, "",
+     "wind|winds|gust|gusts|wind resistance|windy|breeze|cruise|cruising|cruises|cruise speed|cruising speed|"
+     "headwind|crosswind|storm"},
+    {kThrustRatio, 0, "",
+     "twr|t w|thrust to weight|thrust to weight ratio|thrust weight|thrust weight ratio|power to weight|"
+     "power to weight ratio|t to w|thrust ratio|thrust to mass"},
+    {kElse, 0, "",
+     "sensor size|inch sensor|sensor diagonal|screen|display|lens|focal|altitude|ceiling|range of|distance|radius|"
+     "height|tall|resolution|charge|charging|recharge|charges|setup|set up|assembly|assemble|warmup|limit|limits|"
+     "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|thrust|"
+     "part|level|ip|version|mark|gen|generation|field of view|fov|latency|zoom|deep|thick|cable|tether|per motor|"
+     "each motor|landing gear|legs|antenna|goggles|goggle|price|cost|budget|row|swath|temperature|wing loading|"
+     "controller|transmitter|remote|above ground|agl|high|swath width|width"},
+    // No multirotors. A drone is lifted by fixed propellers alone.
+    {kNoMultirotor, 0, "a fixed wing",
+     "fixed wing|glider|sailplane|wingspan|wing span|flying wing|delta wing|airplane|aeroplane|ornithopter|"
+     "flapping wing|flapping wings|ebee|scaneagle|scan eagle|raven rq|predator drone|mq 9|reaper drone|global hawk|"
+     "bayraktar|tb2|biplane|seaplane|turboprop|cessna|monoplane|elevons|ailerons|sensefly ebee|parrot disco|albatross "
+     "uav|x8 skywalker|skywalker x8|flying fish wing|paraglider|hang glider|propeller plane|model plane|rc plane"},
+    {kNoMultirotor, 0, "a VTOL with wings",
+     "vtol|e vtol|evtol|tail sitter|tailsitter|tilt rotor|tiltrotor|tilt wing|tiltwing|quadplane|quad plane|"
+     "wingtraone|wingtra|wingcopter|deltaquad|quantum trinity|trinity f90|convertiplane|songbird vtol|zipline|"
+     "marlyn|foxtech babyshark|transition drone|osprey|v 22"},
+    {kNoMultirotor, 0, "a helicopter",
+     "helicopter|helicopters|heli|single rotor|tail rotor|collective pitch|autogyro|gyrocopter|swashplate|chinook|"
+     "tandem rotor helicopter|main rotor|gyroplane|flybar|rotorcraft helicopter|black hornet"},
+    {kNoMultirotor, 0, "a water craft",
+     "submarine|submarines|underwater|rov|submersible|auv|torpedo|torpedoes|diving drone|sub sea|subsea"},
+    {kNoMultirotor, 0, "lighter than air",
+     "blimp|airship|zeppelin|balloon|hot air balloon|weather balloon|dirigible|aerostat|helium"},
+    {kNoMultirotor, 0, "a jet or rocket",
+     "jet fighter|fighter jet|turbofan|turbofans|turbojet|jet engine|jet engines|jet powered|afterburner|afterburners|"
+     "afterburning|rocket|missile|cruise missile|rocket powered|scramjet|spaceship|spacecraft|satellite|jetpack|"
+     "jet turbine|turbine powered"},
+    {kNoMultirotor, 0, "a ground vehicle", "hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
+    {kVehicle, 0, "a vehicle",
+     "boat|ship|car|rover|truck|bicycle|bike|motorcycle|train|tank vehicle|yacht|plane|planes|jet|bus|tractor|"
+     "tram|scooter|sailboat|bird|dog|kite|frisbee|elevator|tank|wing"},
+};
+
+}  // namespace
+
+std::span<const Word> NounWords() { return kWords; }
+
+}  // namespace airsim360::internal

@@ -1,0 +1,24 @@
+// Numbers in digits and in words.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "airsim360/flight/prompt/tokens.h"
+
+namespace airsim360::internal {
+
+/// A plain decimal number at the start ("16,000", "1,2" and "1.2" alike); its length, 0 if there is none.
+/// InputError beyond 1e9.
+size_t ReadNumber(std::string_view text, double& value);
+
+/// "5x4.3x3" or "10x4.5" at the start, of a propeller's size.
+bool ReadPropellerCode(std::string_view text, double (&code)[3], size_t& length);
+
+/// "9450", "1045", "51466" as diameter and pitch in inches; false where the figures are no propeller's.
+bool ReadPropellerFigures(std::string_view digits, double (&code)[3]);
+
+/// Puts number words ("two and a half", "half a"), ranges ("25-30", "4 to 5") and fractions together.
+std::vector<Token> JoinNumbers(std::vector<Token> tokens);
+
+}  // namespace airsim360::internal

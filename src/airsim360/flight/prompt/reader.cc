@@ -1,0 +1,269 @@
+#include "airsim360/flight/prompt/reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360::internal {
+namespace {
+
+std::string Kilograms(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g kg", value);
+  return text;
+}
+
+}  // namespace
+
+Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
+  request_.prompt = std::string(prompt);
+  used_.assign(tokens_.size(), false);
+  claimed_.assign(tokens_.size(), false);
+}
+
+DroneRequest Reader::Run() {
+  RefuseOthers();
+  for (const Token& token : tokens_) {
+    if (!token.respelled.empty()) Decide("'" + token.text + "' is read as '" + token.respelled + "'");
+    if (token.kind != Token::Kind::kModel) continue;
+    anything_ = true;
+    if (model_ == nullptr) model_ = token.model;
+  }
+  // Kinds and layouts first: counts and numbers lean on them.
+  for (size_t i = 0; i < tokens_.size(); ++i) {
+    if (tokens_[i].kind == Token::Kind::kWord) ReadWord(i);
+    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes)) ReadSign(i);
+  }
+  for (size_t i = 0; i < tokens_.size(); ++i) {
+    if (used_[i]) continue;
+    ReadToken(i);
+  }
+  if (!anything_) {
+    throw InputError(tokens_.empty() ? "the description is empty; say for example \"a 250 g five-inch racing quad\""
+                                     : "nothing in '" + request_.prompt.substr(0, 80) +
+                                           "' describes a drone; say for example \"a 250 g five-inch racing quad\"");
+  }
+  Finish();
+  return std::move(request_);
+}
+
+/// Whether a thing is only what the drone is for: "a drone to film boats".
+bool Reader::IsPurpose(size_t i) const {
+  bool purpose = false;
+  for (size_t k = 0; k < i; ++k) {
+    const std::string& text = tokens_[k].text;
+    if (text == "for" || text == "to" || text == "near" || text == "over" || text == "from" || text == "through" ||
+        text == "against" || text == "following" || text == "filming" || text == "film" || text == "chasing" ||
+        text == "inspecting" || text == "inspection" || text == "launched from" || text == "on" || text == "off")
+      purpose = true;
+    if (tokens_[k].kind == Token::Kind::kComma) purpose = false;
+  }
+  return purpose;
+}
+
+void Reader::RefuseOthers() const {
+  const bool head = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
+    return token.kind == Token::Kind::kModel || token.Is(WordKind::kDrone) || token.Is(WordKind::kRotors) ||
+           token.Is(WordKind::kCoaxial);
+  });
+  for (size_t i = 0; i < tokens_.size(); ++i) {
+    const bool strong = Is(i, WordKind::kNoMultirotor), vehicle = Is(i, WordKind::kVehicle);
+    if (!strong && !vehicle) continue;
+    const bool negated = (i > 0 && Is(i - 1, WordKind::kNegation)) || (i > 1 && Is(i - 2, WordKind::kNegation));
+    const bool drone_before = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<long>(i), [](const Token& t) {
+      return t.kind == Token::Kind::kModel || t.Is(WordKind::kDrone) || t.Is(WordKind::kRotors);
+    });
+    const bool always = strong && tokens_[i].word->meaning == "a VTOL with wings";
+    if (negated || (strong && !always && drone_before && IsPurpose(i)) || (vehicle && (head || IsPurpose(i))))
+      continue;
+    throw InputError("'" + tokens_[i].text + "' is " + std::string(tokens_[i].word->meaning) +
+                     ", not a multirotor: a drone here is carried by 4 to 8 fixed propellers alone");
+  }
+}
+
+void Reader::ReadToken(size_t i) {
+  if (tokens_[i].kind == Token::Kind::kPropellerCode) return ReadCode(i);
+  if (Is(i, WordKind::kFactor)) {
+    ReadFactor(i);
+    return;
+  }
+  if (tokens_[i].kind != Token::Kind::kNumber) return;
+  if (!ReadQuantity(i)) ReadBareNumber(i);
+}
+
+void Reader::ReadWord(size_t i) {
+  const Word& word = *tokens_[i].word;
+  const std::string& text = tokens_[i].text;
+  const std::string meaning(word.meaning);
+  switch (word.kind) {
+    case WordKind::kClass:
+      return ReadClass(meaning, text), Use(i);
+    case WordKind::kSize:
+      used_[i] = anything_ = true;
+      if (!request_.size) {
+        request_.size = meaning;
+        request_.words["size"] = text;
+      }
+      return;
+    case WordKind::kRotors:
+      used_[i] = true;
+      return SetRotors(word.value, text);
+    case WordKind::kCoaxial:
+      used_[i] = true;
+      SetRotors(word.value, text);
+      return SetLayout("coaxial", text);
+    case WordKind::kLayout:
+      used_[i] = true;
+      return SetLayout(meaning, text);
+    case WordKind::kBlades:
+      if (word.value <= 0) return;
+      used_[i] = true;
+      return Set({"blades", 2, 6, ""}, request_.blades, word.value, text);
+    case WordKind::kGuards:
+      used_[i] = anything_ = request_.guarded = true;
+      request_.words["guarded"] = text;
+      return;
+    case WordKind::kBrushless:
+      used_[i] = request_.brushless = true;
+      return;
+    case WordKind::kLithiumIon:
+      used_[i] = request_.lithium_ion = true;
+      return;
+    case WordKind::kLoad:
+      return ReadLoad(i);
+    case WordKind::kDrone:
+      anything_ = true;
+      return;
+    default:
+      return;
+  }
+}
+
+void Reader::ReadLoad(size_t i) {
+  const Word& word = *tokens_[i].word;
+  if (word.meaning == "camera" && hinted_class_.empty()) {
+    hinted_class_ = "camera";
+    hinted_words_ = tokens_[i].text;
+    used_[i] = anything_ = true;
+  }
+  if (word.value <= 0) return;
+  used_[i] = anything_ = true;
+  known_load_ = known_load_.value_or(0) + word.value;
+  known_load_words_ += (known_load_words_.empty() ? "" : ", ") + tokens_[i].text;
+}
+
+void Reader::ReadClass(const std::string& name, const std::string& words) {
+  anything_ = true;
+  if (!request_.drone_class) {
+    request_.drone_class = name;
+    request_.words["drone_class"] = words;
+  } else if (*request_.drone_class != name) {
+    Decide("of the kinds '" + request_.words["drone_class"] + "' and '" + words + "' the first is taken");
+  }
+}
+
+/// "x", "h" and "plus" say a layout before a word for the drone only.
+void Reader::ReadSign(size_t i) {
+  const std::string& text = tokens_[i].text;
+  const std::string meaning = text == "+" || text == "plus" ? "plus" : text == "x" ? "x" : text == "h" ? "h" : "";
+  if (meaning.empty() || (i > 0 && tokens_[i - 1].kind == Token::Kind::kNumber)) return;
+  const size_t next = i + 1;
+  const bool sign = next < tokens_.size() && (tokens_[next].text == "plus" || tokens_[next].text == "+");
+  if (!sign && !Is(next, WordKind::kRotors) && !Is(next, WordKind::kDrone) && !Is(next, WordKind::kClass)) return;
+  used_[i] = true;
+  SetLayout(meaning, text);
+}
+
+void Reader::SetLayout(const std::string& meaning, const std::string& text) {
+  const RotorLayout layout = meaning == "plus"      ? RotorLayout::kPlus
+                             : meaning == "h"       ? RotorLayout::kH
+                             : meaning == "wide"    ? RotorLayout::kWideX
+                             : meaning == "coaxial" ? RotorLayout::kCoaxial
+                                                    : RotorLayout::kX;
+  anything_ = true;
+  // "wide X" says X twice.
+  if (request_.layout == RotorLayout::kWideX && layout == RotorLayout::kX) return;
+  if (request_.layout && *request_.layout != layout) Contradiction("layout", text);
+  request_.layout = layout;
+  request_.words["layout"] = text;
+}
+
+void Reader::Finish() {
+  FinishRotors();
+  FinishMasses();
+  if (request_.brushless && request_.drone_class == "nano") request_.drone_class = "nano_brushless";
+  if (model_ != nullptr) {
+    ApplyModel(*model_, request_);
+    Decide(std::string(model_->title) + " is known: " + ModelFacts(*model_) + " (" + std::string(model_->source) + ")");
+  } else if (!request_.drone_class && !hinted_class_.empty()) {
+    ReadClass(hinted_class_, hinted_words_);
+  }
+  ListUnused();
+}
+
+void Reader::FinishRotors() {
+  if (!arm_count_) return;
+  const std::string words = request_.words["arms"];
+  const bool coaxial = request_.layout == RotorLayout::kCoaxial;
+  const double rotors = coaxial ? 2 * *arm_count_ : *arm_count_;
+  if (!request_.rotors) return SetRotors(rotors, words);
+  if (*request_.rotors == 2 * *arm_count_ && !coaxial) {
+    if (request_.layout) Contradiction("layout", words);
+    Decide("two rotors an arm are coaxial pairs");
+    return SetLayout("coaxial", words);
+  }
+  if (*request_.rotors != rotors) Contradiction("rotors", words);
+}
+
+void Reader::FinishMasses() {
+  const FieldRange mass{"mass", 0.01, 400, "kg"}, payload{"payload", 0.0005, 1000, "kg"};
+  for (const Loose& loose : loose_masses_) {
+    const Quantity& q = loose.quantity;
+    const bool bound = q.unit && IsAtMost(q);
+    if (bound && request_.mass && *request_.mass <= q.value * 1.005) continue;
+    // What is beside the mass of a drone is carried.
+    const bool carried = loose.thing && !bound && !request_.payload;
+    if (carried) {
+      Decide("'" + q.words + "' is read as payload");
+      Set(payload, request_.payload, q.value, q.words);
+    } else {
+      if (bound) Decide("'" + q.words + "' is not reached by a little: " + Kilograms(q.value));
+      Set(mass, request_.mass, q.value, q.words);
+    }
+  }
+  if (liquid_ && !request_.payload) {
+    Decide("'" + liquid_words_ + "' of liquid weigh " + Kilograms(*liquid_) + ", as water");
+    Set(payload, request_.payload, *liquid_, liquid_words_);
+  }
+  if (known_load_ && !request_.payload) {
+    Decide("'" + known_load_words_ + "' weighs " + Kilograms(*known_load_) + " and is the payload");
+    Set(payload, request_.payload, *known_load_, known_load_words_);
+    request_.facts.insert("payload");
+  }
+  if (!request_.empty_mass) return;
+  const std::string& words = request_.words["empty_mass"];
+  if (request_.mass && !request_.payload && *request_.mass > *request_.empty_mass) {
+    Set(payload, request_.payload, *request_.mass - *request_.empty_mass, request_.words["mass"] + " less " + words);
+    return;
+  }
+  const double whole = *request_.empty_mass + request_.payload.value_or(0);
+  Set(mass, request_.mass, whole, request_.payload ? words + " and " + request_.words["payload"] : words);
+}
+
+void Reader::ListUnused() {
+  for (size_t i = 0; i < tokens_.size(); ++i) {
+    if (used_[i]) continue;
+    const Token& token = tokens_[i];
+    const Word* word = WordAt(i);
+    const bool says_nothing = token.kind == Token::Kind::kUnknown || token.kind == Token::Kind::kNumber ||
+                              (word && ((word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit) ||
+                                        word->kind == WordKind::kElse || word->kind == WordKind::kVehicle ||
+                                        word->kind == WordKind::kNoMultirotor || word->kind == WordKind::kLoad ||
+                                        word->kind == WordKind::kFactor));
+    if (says_nothing) request_.unused.push_back(token.text);
+  }
+}
+
+}  // namespace airsim360::internal

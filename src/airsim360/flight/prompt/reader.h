@@ -1,0 +1,104 @@
+// Inside ParsePrompt: tokens become fields of a request.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "airsim360/flight/prompt/request.h"
+#include "airsim360/flight/prompt/tokens.h"
+
+namespace airsim360::internal {
+
+/// A number with its unit, somewhere in the sentence.
+struct Quantity {
+  size_t first = 0, last = 0;  ///< tokens
+  double value = 0;            ///< SI, or Ah, Wh, litres, volts, cells, rpm/V
+  const Word* unit = nullptr;
+  std::string words;
+};
+
+/// A field that was said: its name in the request, and the range it may have in words and figures.
+struct FieldRange {
+  const char* name;
+  double low, high;
+  const char* unit;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view prompt);
+  DroneRequest Run();
+
+ private:
+  using Field = std::optional<double>;
+
+  // reader.cc
+  void RefuseOthers() const;
+  bool IsPurpose(size_t i) const;
+  void ReadToken(size_t i);
+  void ReadWord(size_t i);
+  void ReadSign(size_t i);
+  void ReadClass(const std::string& name, const std::string& words);
+  void ReadLoad(size_t i);
+  void SetLayout(const std::string& meaning, const std::string& text);
+  void Finish();
+  void FinishMasses();
+  void FinishRotors();
+  void ListUnused();
+
+  // reader_fields.cc
+  void Set(const FieldRange& range, Field& field, double value, const std::string& words);
+  void SetRotors(double value, const std::string& words);
+  void CorrectWith(const char* name, Field& field, size_t i);
+  [[noreturn]] void Contradiction(const char* name, const std::string& words) const;
+  void Decide(const std::string& sentence);
+  const Word* WordAt(size_t i) const;
+  bool Is(size_t i, WordKind kind) const { return i < tokens_.size() && tokens_[i].Is(kind); }
+  bool EndsPhrase(size_t i) const;
+  bool SaysLittle(size_t i) const;
+  /// The token that names what a quantity is of, after it and before it in its phrase; nothing: npos.
+  size_t NounAfter(const Quantity& q) const;
+  size_t NounBefore(const Quantity& q, bool adjacent) const;
+  bool PhraseHas(const Quantity& q, WordKind kind) const;
+  bool Claims(size_t i) const;
+  void Use(size_t i);
+  bool IsAtMost(const Quantity& q) const;
+
+  // reader_quantities.cc
+  bool ReadQuantity(size_t i);
+  void ReadMass(const Quantity& q);
+  void ReadLength(const Quantity& q);
+  void ReadTime(const Quantity& q);
+  void ReadSpeed(const Quantity& q);
+  void ReadVolume(const Quantity& q);
+  void ReadVoltage(const Quantity& q);
+  void ReadCode(size_t i);
+  void ReadBareNumber(size_t i);
+  bool ReadPartNumber(size_t i);
+  bool ReadCount(size_t i);
+  bool ReadComparison(size_t i, double factor, size_t last);
+  bool ReadFactor(size_t i);
+  void NameElse(const Quantity& q, size_t noun);
+  /// The token of `kind` among the words just before or after a bare number, else kNone.
+  size_t Beside(size_t i, WordKind kind, bool after) const;
+
+  static constexpr size_t kNone = static_cast<size_t>(-1);
+
+  std::vector<Token> tokens_;
+  std::vector<bool> used_;     ///< tokens that said something
+  std::vector<bool> claimed_;  ///< nouns that have their number
+  DroneRequest request_;
+  const KnownModel* model_ = nullptr;
+  struct Loose {
+    Quantity quantity;
+    bool thing = false;  ///< "a 300 g sandwich"
+  };
+  std::vector<Loose> loose_masses_;
+  std::optional<double> arm_count_, liquid_, known_load_;
+  std::string liquid_words_, known_load_words_;
+  std::string hinted_class_, hinted_words_;  ///< a kind that things carried hint at
+  bool anything_ = false;
+};
+
+}  // namespace airsim360::internal

@@ -1,0 +1,178 @@
+// Numbers without a unit: counts, ratios, codes of parts, comparisons with a real drone.
+#include "airsim360/flight/prompt/reader.h"
+
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/number_words.h"
+
+namespace airsim360::internal {
+
+size_t Reader::Beside(size_t i, WordKind kind, bool after) const {
+  for (size_t n = 1; n <= 4; ++n) {
+    if (!after && n > i) break;
+    const size_t k = after ? i + n : i - n;
+    if (k >= tokens_.size() || EndsPhrase(k) || tokens_[k].kind == Token::Kind::kNumber) break;
+    if (Is(k, kind)) return k;
+    const bool goes_on = SaysLittle(k) || tokens_[k].kind == Token::Kind::kUnknown || Is(k, WordKind::kBrushless) ||
+                         Is(k, WordKind::kSize);
+    if (!goes_on) break;
+  }
+  return kNone;
+}
+
+void Reader::ReadCode(size_t i) {
+  const Token& token = tokens_[i];
+  used_[i] = true;
+  if (Is(i + 1, WordKind::kLengthUnit)) used_[i + 1] = true;
+  Use(Beside(i, WordKind::kPropeller, true));
+  Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, token.code[0] * 0.0254, token.text);
+  Set({"pitch", 0.005, 1, "m"}, request_.pitch, token.code[1] * 0.0254, token.text);
+  if (token.code[2] > 0) Set({"blades", 2, 6, ""}, request_.blades, std::floor(token.code[2]), token.text);
+}
+
+/// "9450 props", "2212 920 KV", "3S 2200".
+bool Reader::ReadPartNumber(size_t i) {
+  const Token& token = tokens_[i];
+  if (token.value < 1000 || token.value > 99999) return false;
+  size_t next = i + 1;
+  while (next < tokens_.size() && next < i + 3 &&
+         (tokens_[next].text == "/" || tokens_[next].kind == Token::Kind::kDash || tokens_[next].text == ","))
+    ++next;
+  const bool kv = next + 1 < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber &&
+                  (Is(next + 1, WordKind::kKvUnit) ||
+                   (tokens_[next + 1].kind == Token::Kind::kDash && Is(next + 2, WordKind::kKvUnit)));
+  if (kv || Beside(i, WordKind::kMotor, true) != kNone) return used_[i] = true;
+  double code[3];
+  const bool propeller =
+      Beside(i, WordKind::kPropeller, true) != kNone || Beside(i, WordKind::kPropeller, false) != kNone;
+  if (propeller && ReadPropellerFigures(token.text, code)) {
+    Token read = token;
+    std::copy(std::begin(code), std::end(code), std::begin(read.code));
+    tokens_[i].kind = Token::Kind::kPropellerCode;
+    std::copy(std::begin(code), std::end(code), std::begin(tokens_[i].code));
+    ReadCode(i);
+    return true;
+  }
+  if (Beside(i, WordKind::kMotor, false) != kNone) return used_[i] = true;
+  if (i > 0 && Is(i - 1, WordKind::kCells) && used_[i - 1]) {
+    Decide("'" + token.text + "' is read as mAh");
+    Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, token.value / 1000, token.text);
+    return used_[i] = true;
+  }
+  return false;
+}
+
+/// "six rotors", "4x 2212 motors", "three 12 inch propellers", "3-blade".
+bool Reader::ReadCount(size_t i) {
+  const Token& token = tokens_[i];
+  if (token.value != std::floor(token.value) || token.value > 40 || token.value < 1) return false;
+  for (size_t k = i + 1; k < tokens_.size() && k <= i + 5; ++k) {
+    const Word* word = WordAt(k);
+    const Token::Kind kind = tokens_[k].kind;
+    if (word && word->kind == WordKind::kBlades && k <= i + 2) {
+      used_[i] = true;
+      Set({"blades", 2, 6, ""}, request_.blades, token.value, token.text + " " + tokens_[k].text);
+      return true;
+    }
+    if (word && (word->kind == WordKind::kRotorNoun || word->kind == WordKind::kMotor ||
+                 word->kind == WordKind::kPropeller)) {
+      // "two spare propellers" are none of those that it flies with.
+      if (word->kind == WordKind::kPropeller && token.value < 3) return false;
+      used_[i] = true;
+      const std::string words = token.text + " " + tokens_[k].text;
+      if (!(request_.layout == RotorLayout::kCoaxial && word->kind != WordKind::kArm && token.value == 3))
+        SetRotors(token.value, words);
+      return true;
+    }
+    if (word && word->kind == WordKind::kArm) {
+      used_[i] = anything_ = true;
+      arm_count_ = token.value;
+      request_.words["arms"] = token.text + " " + tokens_[k].text;
+      return true;
+    }
+    const bool size = kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode ||
+                      (word && (word->kind == WordKind::kLengthUnit || word->kind == WordKind::kTimes ||
+                                word->kind == WordKind::kBrushless || word->kind == WordKind::kKvUnit));
+    if (!size && kind != Token::Kind::kDash && kind != Token::Kind::kUnknown) break;
+  }
+  return false;
+}
+
+/// What a real drone's figure is multiplied with: "twice as heavy", "20 % heavier". True when it was read.
+bool Reader::ReadComparison(size_t i, double factor, size_t last) {
+  if (model_ == nullptr) return false;
+  for (size_t k = last + 1; k < tokens_.size() && k <= last + 4; ++k) {
+    const Word* word = WordAt(k);
+    if (word == nullptr || SaysLittle(k)) continue;
+    const bool percent = Is(last, WordKind::kPercent);
+    const bool compares = word->kind >= WordKind::kHeavier && word->kind <= WordKind::kFaster;
+    const double f = percent ? 1 + (compares && word->value < 0 ? -factor : factor)
+                     : compares && word->value < 0 && factor > 1 ? 1 / factor : factor;
+    const std::string words = tokens_[i].text + (percent ? " % " : " ") + tokens_[k].text;
+    const std::string of = "'" + words + "' is of " + std::string(model_->title);
+    const auto use = [&] {
+      for (size_t n = i; n <= k; ++n) used_[n] = true;
+      claimed_[k] = true;
+    };
+    if (word->kind == WordKind::kHeavier || word->kind == WordKind::kMass) {
+      Set({"mass", 0.01, 400, "kg"}, request_.mass, model_->mass * f, words);
+    } else if (word->kind == WordKind::kBigger || word->kind == WordKind::kSizeNoun) {
+      if (model_->diagonal > 0) Set({"arm", 0.02, 3, "m"}, request_.arm, f * model_->diagonal / 2000, words);
+      if (model_->propeller > 0)
+        Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, f * model_->propeller * 0.0254, words);
+      if (!request_.mass) loose_masses_.push_back({{i, k, f * f * model_->mass, nullptr, words}, false});
+    } else if (word->kind == WordKind::kLonger || word->kind == WordKind::kFlight || word->kind == WordKind::kHover) {
+      const double minutes = model_->flight > 0 && word->kind != WordKind::kHover ? model_->flight : model_->hover;
+      if (minutes <= 0) return false;
+      Field& field = minutes == model_->flight ? request_.flight_time : request_.hover_time;
+      Set({minutes == model_->flight ? "flight_time" : "hover_time", 10, 36000, "s"}, field, f * minutes * 60, words);
+    } else if ((word->kind == WordKind::kFaster || word->kind == WordKind::kSpeed) && model_->speed > 0) {
+      Set({"speed", 0.5, 150, "m/s"}, request_.speed, f * model_->speed, words);
+    } else {
+      return false;
+    }
+    use();
+    Decide(of);
+    return true;
+  }
+  return false;
+}
+
+bool Reader::ReadFactor(size_t i) {
+  if (Is(i, WordKind::kFactor)) return ReadComparison(i, tokens_[i].word->value, i);
+  if (tokens_[i].kind != Token::Kind::kNumber) return false;
+  if (Is(i + 1, WordKind::kTimes)) return ReadComparison(i, tokens_[i].value, i + 1);
+  return false;
+}
+
+void Reader::ReadBareNumber(size_t i) {
+  const double value = tokens_[i].value;
+  if (ReadFactor(i) || ReadPartNumber(i)) return;
+  for (const bool after : {true, false}) {
+    const size_t ratio = Beside(i, WordKind::kThrustRatio, after);
+    if (ratio == kNone || claimed_[ratio]) continue;
+    Use(ratio);
+    used_[i] = true;
+    if (Is(i + 1, WordKind::kTo) && i + 2 < tokens_.size() && tokens_[i + 2].value == 1) used_[i + 2] = true;
+    return Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, value,
+               "thrust to weight " + tokens_[i].text);
+  }
+  if (ReadCount(i)) return;
+  if (const size_t kv = Beside(i, WordKind::kKvUnit, false); kv != kNone && !claimed_[kv]) {
+    Use(kv);
+    used_[i] = true;
+    return Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, value, tokens_[i].text + " kv");
+  }
+  // "a 250 class quad", "450 frame", "a 450 quad": millimetres between motors that face each other.
+  const bool size = Beside(i, WordKind::kSizeNoun, true) != kNone || Beside(i, WordKind::kFrame, true) != kNone ||
+                    Beside(i, WordKind::kWheelbase, true) != kNone || Beside(i, WordKind::kWheelbase, false) != kNone ||
+                    Beside(i, WordKind::kRotors, true) != kNone;
+  if (size && value >= 60 && value <= 2500 && !request_.arm) {
+    used_[i] = true;
+    Decide("'" + tokens_[i].text + "' is read as the diagonal in millimetres");
+    Set({"arm", 0.02, 3, "m"}, request_.arm, value / 2000, tokens_[i].text);
+  }
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,222 @@
+// Which figure of the drone a number with a unit is.
+#include "airsim360/flight/prompt/reader.h"
+
+#include <cmath>
+
+#include "airsim360/base/error.h"
+
+namespace airsim360::internal {
+
+bool Reader::ReadQuantity(size_t i) {
+  size_t unit = i + 1;
+  if (unit < tokens_.size() && tokens_[unit].kind == Token::Kind::kDash) ++unit;
+  const Word* word = WordAt(unit);
+  if (word == nullptr || word->kind < WordKind::kMassUnit || word->kind > WordKind::kOtherUnit) return false;
+  // "hovers 20 in the wind": no inches.
+  if (tokens_[unit].text == "in" && unit + 1 < tokens_.size() &&
+      (tokens_[unit + 1].text == "the" || tokens_[unit + 1].text == "a" || tokens_[unit + 1].text == "my"))
+    return false;
+  Quantity q{i, unit, tokens_[i].value * word->value, word, tokens_[i].text + " " + tokens_[unit].text};
+  if (tokens_[i].negative) throw InputError("a negative number describes no drone: '-" + q.words + "'");
+  used_[i] = used_[unit] = true;
+  // "2 lb 3 oz", "1 h 30 min"
+  const size_t next = unit + (Is(unit + 1, WordKind::kBreak) && tokens_[unit + 1].text == "and" ? 2 : 1);
+  if (next + 1 < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber && Is(next + 1, word->kind) &&
+      tokens_[next + 1].word->value < 0.7 * word->value &&
+      tokens_[next].value * tokens_[next + 1].word->value < word->value) {
+    q.value += tokens_[next].value * tokens_[next + 1].word->value;
+    q.last = next + 1;
+    q.words += " " + tokens_[next].text + " " + tokens_[next + 1].text;
+    used_[next] = used_[next + 1] = true;
+  }
+  if (tokens_[i].high > 0) Decide("of '" + q.words + "' the middle is taken");
+  switch (word->kind) {
+    case WordKind::kMassUnit:
+      ReadMass(q);
+      break;
+    case WordKind::kLengthUnit:
+      ReadLength(q);
+      break;
+    case WordKind::kTimeUnit:
+      ReadTime(q);
+      break;
+    case WordKind::kSpeedUnit:
+      ReadSpeed(q);
+      break;
+    case WordKind::kCapacityUnit:
+      CorrectWith("capacity_ah", request_.capacity_ah, i);
+      Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, q.value, q.words);
+      break;
+    case WordKind::kEnergyUnit:
+      Set({"energy_wh", 0.1, 50000, "Wh"}, request_.energy_wh, q.value, q.words);
+      break;
+    case WordKind::kVolumeUnit:
+      ReadVolume(q);
+      break;
+    case WordKind::kVoltUnit:
+      ReadVoltage(q);
+      break;
+    case WordKind::kKvUnit:
+      Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, q.value, q.words);
+      break;
+    case WordKind::kCells:
+      if (tokens_[i].value != std::floor(tokens_[i].value)) {
+        throw InputError("'" + q.words + "' is not a whole number");
+      }
+      Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
+      break;
+    case WordKind::kPercent:
+      if (!ReadComparison(i, tokens_[i].value * 0.01, unit)) NameElse(q, kNone);
+      break;
+    default:
+      NameElse(q, kNone);
+  }
+  return true;
+}
+
+/// A quantity that is none of the drone's own figures.
+void Reader::NameElse(const Quantity& q, size_t noun) {
+  for (size_t i = q.first; i <= q.last; ++i) used_[i] = false;
+  if (noun != kNone) claimed_[noun] = true;
+}
+
+void Reader::ReadMass(const Quantity& q) {
+  const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
+  const auto is_label = [&](size_t noun) {
+    if (noun == kNone) return false;
+    const WordKind kind = kind_of(noun);
+    return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty ||
+           kind == WordKind::kBattery;
+  };
+  size_t noun = NounBefore(q, true);
+  const size_t after = NounAfter(q);
+  // "camera weighing 300 g", "battery of 400 g" say whose weight it is.
+  if (noun != kNone && kind_of(noun) == WordKind::kMass && after == kNone) {
+    size_t owner = noun;
+    while (owner-- > 0 && SaysLittle(owner)) {
+    }
+    if (owner != kNone && (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
+                           (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
+        !claimed_[owner] && !(owner + 1 < tokens_.size() && EndsPhrase(owner + 1))) {
+      used_[noun] = true;
+      noun = owner;
+    }
+  }
+  if (!is_label(noun) || (kind_of(noun) == WordKind::kPayload && after != kNone &&
+                          (kind_of(after) == WordKind::kMass || kind_of(after) == WordKind::kEmpty)))
+    noun = after != kNone ? after : NounBefore(q, false);
+  const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
+                     tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
+                     (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
+                     Is(q.first - 2, WordKind::kBreak);
+  const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  if (noun == kNone) {
+    loose_masses_.push_back({q, thing});
+    return;
+  }
+  const WordKind kind = kind_of(noun);
+  if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
+      kind == WordKind::kFrame || kind == WordKind::kWind)
+    return kind == WordKind::kElse ? NameElse(q, noun) : loose_masses_.push_back({q, false});
+  Use(noun);
+  switch (kind) {
+    case WordKind::kPayload:
+    case WordKind::kLoad:
+      if (request_.payload && kind == WordKind::kLoad) {  // "2 kg payload, 400 g gimbal"
+        Decide("'" + q.words + "' is part of the payload '" + request_.words["payload"] + "'");
+        return;
+      }
+      CorrectWith("payload", request_.payload, q.first);
+      return Set(payload, request_.payload, q.value, q.words);
+    case WordKind::kBattery:
+      return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
+    case WordKind::kEmpty:
+      return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+    default:
+      break;
+  }
+  // "under 250 g" is met just below, unless the mass itself is said.
+  if (IsAtMost(q)) {
+    Quantity less = q;
+    less.value *= 0.996;
+    loose_masses_.push_back({less, false});
+    return;
+  }
+  CorrectWith("mass", request_.mass, q.first);
+  Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+}
+
+void Reader::ReadLength(const Quantity& q) {
+  const bool inches = q.unit->value == 0.0254;
+  size_t noun = NounAfter(q);
+  const size_t before = NounBefore(q, true);
+  const auto kind_of = [&](size_t n) { return WordAt(n) ? WordAt(n)->kind : WordKind::kDrone; };
+  const auto says = [&](size_t n) {
+    return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm ||
+                          kind_of(n) == WordKind::kWheelbase || kind_of(n) == WordKind::kPitch ||
+                          kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
+                          kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades);
+  };
+  if (!says(noun)) noun = says(before) ? before : kNone;
+  WordKind kind = noun == kNone ? WordKind::kFiller : kind_of(noun);
+  // "5 inch sensor", "a 6 inch screen", "at 30 m": not of the drone.
+  const bool load_only = NounAfter(q) != kNone && kind_of(NounAfter(q)) == WordKind::kLoad && inches &&
+                         q.last + 1 == NounAfter(q) && tokens_[NounAfter(q)].text == "sensor";
+  const bool far = kind != WordKind::kPropeller && kind != WordKind::kWheelbase && kind != WordKind::kArm &&
+                   kind != WordKind::kRotorNoun && kind != WordKind::kFrame && q.value > 3;
+  if (kind == WordKind::kElse || load_only || far) return NameElse(q, noun);
+  if (noun != kNone && kind != WordKind::kFrame) Use(noun);
+  if (kind == WordKind::kBlades) claimed_[noun] = false;
+  if (kind == WordKind::kFrame) used_[noun] = true;
+  if (kind == WordKind::kPitch) return Set({"pitch", 0.005, 1, "m"}, request_.pitch, q.value, q.words);
+  const bool blades = kind == WordKind::kPropeller || kind == WordKind::kRotorNoun || kind == WordKind::kBlades;
+  if (blades || (inches && kind != WordKind::kArm && kind != WordKind::kWheelbase)) {
+    CorrectWith("propeller", request_.propeller, q.first);
+    return Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, q.value, q.words);
+  }
+  Set({"arm", 0.02, 3, "m"}, request_.arm, kind == WordKind::kArm ? q.value : q.value / 2, q.words);
+}
+
+void Reader::ReadTime(const Quantity& q) {
+  if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
+  const bool hover = PhraseHas(q, WordKind::kHover);
+  const char* name = hover ? "hover_time" : "flight_time";
+  const char* other = hover ? "flight_time" : "hover_time";
+  Field& field = hover ? request_.hover_time : request_.flight_time;
+  CorrectWith(other, hover ? request_.flight_time : request_.hover_time, q.first);
+  CorrectWith(name, field, q.first);
+  Set({name, 10, 36000, "s"}, field, q.value, q.words);
+}
+
+void Reader::ReadSpeed(const Quantity& q) {
+  if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
+  if (PhraseHas(q, WordKind::kWind)) {
+    if (request_.least_speed && *request_.least_speed >= q.value) return;
+    request_.least_speed.reset();
+    return Set({"least_speed", 0.1, 150, "m/s"}, request_.least_speed, q.value, q.words);
+  }
+  CorrectWith("speed", request_.speed, q.first);
+  Set({"speed", 0.5, 150, "m/s"}, request_.speed, q.value, q.words);
+}
+
+void Reader::ReadVolume(const Quantity& q) {
+  if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
+  for (const WordKind kind : {WordKind::kLoad, WordKind::kPayload}) {
+    if (const size_t noun = NounAfter(q); noun != kNone && Is(noun, kind)) Use(noun);
+  }
+  anything_ = true;
+  if (liquid_) return;
+  liquid_ = q.value;
+  liquid_words_ = q.words;
+}
+
+void Reader::ReadVoltage(const Quantity& q) {
+  const double full = q.value / 4.2;
+  const bool charged = std::abs(full - std::round(full)) < 0.01;
+  const double cells = charged ? std::round(full) : std::round(q.value / 3.8);
+  if (request_.cells || cells < 1) return NameElse(q, kNone);
+  Decide("'" + q.words + "' is read as " + std::to_string(static_cast<int>(cells)) + " cells");
+  Set({"cells", 1, 24, ""}, request_.cells, cells, q.words);
+}
+
+}  // namespace airsim360::internal
