@@ -26,7 +26,7 @@ class Recording(unittest.TestCase):
             return file.read().splitlines()
 
     def test_each_recording_has_a_folder_with_a_picture_for_each_line(self):
-        with tempfile.TemporaryDirectory() as place:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
             _, client = self.server(place)
             self.assertIs(client.call("isRecording"), False)
             for number in (1, 2):
@@ -47,7 +47,7 @@ class Recording(unittest.TestCase):
                     self.assertTrue(os.path.getsize(os.path.join(place, name, "images", line[-1])))
 
     def test_a_folder_that_cannot_be_made_is_an_error_at_once(self):
-        with tempfile.TemporaryDirectory() as place:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
             file = os.path.join(place, "taken")
             open(file, "w").close()
             _, client = self.server(file)
@@ -67,7 +67,7 @@ class Recording(unittest.TestCase):
             self.assertIn("nothing is recorded", server.messages())
 
     def test_it_ends_when_nothing_more_can_be_written(self):
-        with tempfile.TemporaryDirectory() as place:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
             server, client = self.server(place)
             client.call("startRecording")
             folder = os.path.join(place, os.listdir(place)[0], "images")

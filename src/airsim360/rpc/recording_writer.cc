@@ -29,7 +29,7 @@ std::filesystem::path NewFolder(const std::filesystem::path& parent) {
   std::filesystem::path unused = folder / name;
   std::error_code error;
   for (int number = 2; std::filesystem::exists(unused, error); ++number)
-    unused = folder / (name + ("-" + std::to_string(number)));
+    unused = folder / std::string(name).append("-").append(std::to_string(number));
   return unused;
 }
 

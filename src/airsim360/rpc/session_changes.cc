@@ -73,8 +73,8 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
 }
 
 void Session::NoticeBadStart(const std::string& name, const RigidTransform& X_WB) const {
-  const double radius = Norm(AirSimQuad().half_size_B) + Norm(AirSimQuad().rotors.front().p_B);
-  const std::string fault = StartFault(*base_tracer_, X_WB.p, radius);
+  const double body = Norm(AirSimQuad().half_size_B), whole = body + Norm(AirSimQuad().rotors.front().p_B);
+  const std::string fault = StartFault(*base_tracer_, X_WB.p, body);
   if (fault.empty()) return;
   const auto text = [&](Vec3d p_W) {
     const Vec3d p_N = NedFromWorld(p_W - origin_W_);
@@ -83,7 +83,7 @@ void Session::NoticeBadStart(const std::string& name, const RigidTransform& X_WB
     return std::string(place);
   };
   std::string notice = "vehicle '" + name.substr(0, 100) + "' starts " + fault + " at " + text(X_WB.p) + ": it will be pushed out or fall";
-  const auto free = NearestStart(*base_tracer_, X_WB.p, radius);
+  const auto free = NearestStart(*base_tracer_, X_WB.p, whole);
   NoticeOnce(notice + (free ? "; the nearest free place found is " + text(*free) : std::string()));
 }
 

@@ -65,7 +65,8 @@ void Shader::Impl::SetLight(const Environment& environment) {
     std::rotate(same, same + 1, last_lights.end());
   } else {
     // Sky, lamps by its light, probes by both.
-    Light light{.key = key, .table_key = table_key};
+    Light light;
+    light.key = key, light.table_key = table_key;
     const internal::LightCache cache(*tracer, environment);
     if (scene.sky_entity != kNoEntity) {
       const auto like = std::ranges::find(last_lights, table_key, &Light::table_key);
