@@ -48,8 +48,10 @@ TextureId GltfMaterials::ReadTexture(const JsonRef& info, bool srgb, UvUse* uv) 
 
   // Which picture, and how it goes on beyond its edges.
   const JsonRef texture = buffers_.Element("textures", info.At("index"));
-  const auto webp = GltfExtension(texture, "EXT_texture_webp");
-  const auto source = webp ? webp->Find("source") : texture.Find("source");
+  std::optional<JsonRef> source = texture.Find("source");
+  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu", "KHR_texture_ktx"}) {
+    if (const auto extension = GltfExtension(texture, name)) source = extension->Find("source");
+  }
   if (!source) {
     warnings_.Add(root_.file() + ": " + texture.pointer() + ": has no picture that we read: left out");
     return kNoTexture;

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "airsim360/assets/ktx2.h"
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs.h"
 
 namespace airsim360::internal {
 namespace {
 
-// By the first bytes: a format that DecodeRgba8 reads.
+// By the first bytes: a format that DecodeRgba8 or DecodeKtx2 reads.
 bool IsReadable(const Bytes& bytes) {
   const std::string_view text = AsText(bytes).substr(0, 12);
   return text.starts_with("\x89PNG") || text.starts_with("\xff\xd8\xff") ||
-         (text.starts_with("RIFF") && text.size() == 12 && text.substr(8) == "WEBP");
+         (text.starts_with("RIFF") && text.size() == 12 && text.substr(8) == "WEBP") || IsKtx2(bytes);
 }
 
 // Alpha of `image` = brightness of `mask` at the same place.
@@ -34,16 +35,24 @@ std::optional<Image<Rgba8>> TextureStore::Decode(const std::string& name, const 
   const std::optional<Bytes> bytes = load(name);
   if (!bytes || !IsReadable(*bytes)) {
     warnings_.Add(model_ + ": texture " + Quoted(name) + " " +
-                  (bytes ? "is neither PNG, JPEG nor WebP" : "is missing") + ": left out");
+                  (bytes ? "is neither PNG, JPEG, WebP nor KTX2" : "is missing") + ": left out");
     return std::nullopt;
   }
-  Image<Rgba8> image = DecodeRgba8(*bytes, model_ + ": texture " + Quoted(name));
+  const std::string where = model_ + ": texture " + Quoted(name);
+  std::string unread;
+  std::optional<Image<Rgba8>> decoded =
+      IsKtx2(*bytes) ? DecodeKtx2(*bytes, where, limits_.max_texture_pixels - pixels_, unread) : DecodeRgba8(*bytes, where);
+  if (!decoded) {
+    warnings_.Add(where + " is " + unread + ": left out; 'npx @gltf-transform/cli ktxdecompress' makes PNG of it");
+    return std::nullopt;
+  }
+  Image<Rgba8>& image = *decoded;
   pixels_ += image.size();
   if (pixels_ > limits_.max_texture_pixels) {
     throw InputError(model_ + ": textures of more than " + std::to_string(limits_.max_texture_pixels) +
                      " pixels");
   }
-  return image;
+  return decoded;
 }
 
 TextureId TextureStore::Get(const std::string& name, const TextureUse& use, const ResourceLoader& load) {
