@@ -166,7 +166,7 @@ DroneModel FindDrone(const std::string& text) {
   }
   if (text.ends_with(".yaml") || text.ends_with(".yml")) return ReadDroneFile(text).model;
   // One word that is no name is a misspelt one.
-  if (text.find(' ') == std::string::npos) return CatalogModel(text);
+  if (text.find(' ') == std::string::npos && !NamesRealDrone(text)) return CatalogModel(text);
   return DroneFromPrompt(text).model;
 }
 

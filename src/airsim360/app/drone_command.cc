@@ -55,6 +55,18 @@ nlohmann::ordered_json DesignJson(const DroneDesign& design) {
     json["endurance_s"] = design.endurance;
     json["level_speed"] = design.level_speed;
   }
+  if (design.hover_time > 0) {
+    json["hover_time_s"] = design.hover_time;
+    json["flight_time_s"] = design.flight_time;
+    json["wheelbase"] = design.wheelbase;
+    json["payload"] = design.parts.payload;
+    json["motor_kv"] = design.motor_kv;
+    json["battery"] = {{"cells", model.battery.cells},
+                       {"capacity_ah", model.battery.capacity_ah},
+                       {"energy_wh", design.energy_wh}};
+  }
+  json["unused"] = design.unused;
+  json["decided"] = design.decided;
   if (!laws.empty()) json["laws"] = laws;
   return json;
 }
@@ -79,9 +91,15 @@ void PrintDesign(const DroneDesign& design) {
               f.figure_of_merit, f.tip_mach);
   if (design.endurance > 0) {
     std::printf("  battery         %dS %.3g Ah, hovers %.1f minutes at %.3g W\n", model.battery.cells,
-                model.battery.capacity_ah, design.endurance / 60, design.hover_power);
+                model.battery.capacity_ah, (design.hover_time > 0 ? design.hover_time : design.endurance) / 60,
+                design.hover_power);
     std::printf("  level speed     %.1f m/s\n", design.level_speed);
   }
+  if (design.hover_time > 0) std::printf("  flies           %.1f minutes\n", design.flight_time / 60);
+  for (const std::string& sentence : design.decided) std::printf("  decided         %s\n", sentence.c_str());
+  std::string unused;
+  for (const std::string& word : design.unused) unused += " " + word;
+  if (!unused.empty()) std::printf("  not used       %s\n", unused.c_str());
   for (const std::string& problem : GateProblems(model))
     std::printf("  implausible     %s\n", problem.c_str());
 }
@@ -165,7 +183,7 @@ void AddDroneCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--real", options->real, "a real drone by its name in the catalogue");
   command->add_option("--file", options->file, "a drone's YAML file to read and report");
   command->add_flag("--catalog", options->catalog, "list the real drones that are known");
-  command->add_flag("--words", options->words, "list the words that descriptions may use");
+  command->add_flag("--words", options->words, "what descriptions may say, and the real drones that are known");
   command->add_flag("--check", options->check, "fly it: hover and the standard lemniscate, untuned");
   command->callback([options, &globals] { RunDrone(*options, globals); });
 }

@@ -11,6 +11,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/design.h"
 #include "airsim360/flight/prompt/gate.h"
+#include "airsim360/flight/prompt/known_models.h"
 
 namespace airsim360 {
 

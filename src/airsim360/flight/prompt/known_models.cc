@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <unordered_map>
 
@@ -84,10 +85,14 @@ void ApplyModel(const KnownModel& m, DroneRequest& r) {
   fact("propeller", r.propeller, scale * m.propeller * 0.0254, m.propeller > 0 && !r.arm);
   const bool said_propeller = r.propeller && !r.facts.count("propeller");
   fact("pitch", r.pitch, scale * m.pitch * 0.0254, m.pitch > 0 && !said_propeller);
-  fact("arm", r.arm, scale * m.diagonal / 2000, m.diagonal > 0 && !said_propeller && *r.rotors == m.rotors);
+  // Larger propellers than the frame has room for stand on longer arms.
+  const double arms = r.layout == RotorLayout::kCoaxial ? *r.rotors / 2 : *r.rotors;
+  const double room = scale * m.diagonal / 1000 * std::sin(std::numbers::pi / arms);
+  fact("arm", r.arm, scale * m.diagonal / 2000,
+       m.diagonal > 0 && *r.rotors == m.rotors && !(said_propeller && *r.propeller * 1.02 > room));
+  if (same_battery && scale == 1) fact("cells", r.cells, static_cast<double>(m.cells), m.cells > 0);
   if (same_battery && same_time && scale == 1) {
-    fact("cells", r.cells, static_cast<double>(m.cells), m.cells > 0);
-    fact("capacity_ah", r.capacity_ah, m.capacity, m.capacity > 0 && m.energy <= 0);
+    fact("capacity_ah", r.capacity_ah, m.capacity, m.capacity > 0);
     fact("energy_wh", r.energy_wh, m.energy, m.energy > 0);
     if (same_mass && same_rotors) {
       fact("flight_time", r.flight_time, m.flight * 60, m.flight > 0);

@@ -39,7 +39,13 @@ double RotorLag(double diameter, bool brushed) {
 }
 
 int CellsFor(double power) {
-  return std::clamp(static_cast<int>(std::lround(1.84 * std::pow(power, 0.36) / kCellVoltage)), 1, 14);
+  const double cells = 1.84 * std::pow(power, 0.36) / kCellVoltage;
+  // Packs that are sold.
+  int best = 1;
+  for (const int sold : {2, 3, 4, 6, 8, 12, 14}) {
+    if (std::abs(sold - cells) < std::abs(best - cells)) best = sold;
+  }
+  return best;
 }
 
 int ArmsOf(int count, RotorLayout layout) { return layout == RotorLayout::kCoaxial ? count / 2 : count; }

@@ -12,8 +12,10 @@ constexpr Word kWords[] = {
      "upto|at least|maximum|max|minimum|least|most|at most|no more than|not more than|no less than|more than|over|"
      "only|just|each|per|so|or so|ish|please|give me|build|design|make|want|need|there|are|in all|equal to|by|"
      "do|does|doing|capable of|able to|using|made|type|style|kind|ratio|diameter|electric|together|than|"
-     "fly|flies|flys|flying|generic name|new|good|nice"},
-    {kBreak, 0, "", "with|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
+     "fly|flies|flys|flying|new|nice|like|similar to|something|someone|kindly|also|very|really|must|not|"
+     "could|might|may|shall|looking|look|get|get me|got|other|another|one of those|both|own|basic|i d|i m|it s|"
+     "along|plus or minus|overall|they|them|he|she|his|her|if possible|preferably|preferred|ideally|hoping|say that"},
+    {kBreak, 0, "", "with|whose|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
                     "through|if|because|having|featuring|including|incl|that has|which has|running|run|runs"},
     {kTo, 0, "", "to|or|until|through to|bis|jusqu|至|到|hasta"},
     {kNumber, 0, "", "zero"},

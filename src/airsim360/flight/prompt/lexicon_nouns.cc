@@ -82,7 +82,7 @@ constexpr Word kWords[] = {
     {kSizeNoun, 0, "", "class|size|sized"},
     {kPitch, 0, "", "pitch"},
     {kMass, 0, "",
-     "weighing|weighs|weigh|weight|mass|takeoff|take off|takeoff weight|take off weight|takeoff mass|take off mass|"
+     "takes off at|taking off at|weighing in at|weighs in at|weighing|weighs|weigh|weight|mass|takeoff|take off|takeoff weight|take off weight|takeoff mass|take off mass|"
      "auw|all up|all up weight|all up mass|mtow|mtom|tow|gross|gross weight|maximum takeoff weight|max takeoff weight|"
      "maximum take off weight|total|total weight|total mass|flying weight|flight weight|ready to fly|rtf|all in|"
      "weight with battery|at takeoff|at take off|overall weight|in weight|in mass|tips the scales at|loaded|"
@@ -95,9 +95,10 @@ constexpr Word kWords[] = {
      "payload|payloads|carrying|carries|carry|lifting|lifts|lift|useful load|payload capacity|max payload|"
      "maximum payload|hauling|haul|hauls|drops|payload of|cargo of|carrying capacity|holds|takes|lifts up|picks up"},
     {kBattery, 0, "", "battery|batteries|lipo|lipos|lipo pack|battery pack|accumulator|lihv|li po|hv lipo|lithium"},
-    {kHover, 0, "", "hover|hovering|hovers|hover time|hovered|hover endurance|hovering time|hover flight|loiter"},
+    {kHover, 0, "", "hover|hovering|hovering for|hovers for|hover for|hovering at|hovers|hover time|hovered|hover endurance|hovering time|hover flight|loiter"},
     {kFlight, 0, "",
-     "time|flight|flights|endurance|flight time|flying time|fly time|air time|airtime|in the air|aloft|battery life|"
+     "time|flight|flights|flies for|fly for|flying for|stays up for|stay up for|airborne for|in the air for|aloft for|"
+     "lasts|lasting|last|stay in the air|stay in the air for|stays in the air|stays in the air for|endurance|flight time|flying time|fly time|air time|airtime|in the air|aloft|battery life|"
      "stay up|airborne|stays up|runtime|run time|flight duration"},
     {kSpeed, 0, "",
      "speed|top speed|max speed|maximum speed|velocity|speeds|full speed|flat out|vmax|level speed|top end"},

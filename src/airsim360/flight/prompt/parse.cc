@@ -1,10 +1,19 @@
 #include "airsim360/flight/prompt/request.h"
 
+#include "airsim360/flight/prompt/plain_text.h"
 #include "airsim360/flight/prompt/reader.h"
 
 namespace airsim360 {
 
 DroneRequest ParsePrompt(std::string_view prompt) { return internal::Reader(prompt).Run(); }
+
+bool NamesRealDrone(std::string_view words) {
+  std::string key;
+  for (const char c : internal::PlainText(words)) {
+    if (c != ' ' && c != '-') key += c;
+  }
+  return internal::FindKnownModel(key) != nullptr;
+}
 
 std::string PromptHelp() {
   std::string help =
@@ -25,6 +34,11 @@ std::string PromptHelp() {
     }
     help += "\n";
   };
+  help += "  known drones  ";
+  for (const auto models : {internal::DjiModels(), internal::OtherModels(), internal::BuilderModels()}) {
+    for (const internal::KnownModel& model : models) help += " " + std::string(model.title) + ",";
+  }
+  help.back() = '\n';
   list("  kinds         ", internal::WordKind::kClass);
   list("  sizes         ", internal::WordKind::kSize);
   return help;

@@ -219,9 +219,19 @@ void Reader::FinishRotors() {
 
 void Reader::FinishMasses() {
   const FieldRange mass{"mass", 0.01, 400, "kg"}, payload{"payload", 0.0005, 1000, "kg"};
+  // "... and a 4S 5 Ah battery weighing 2 kg": no battery of that charge is so heavy, the drone is.
+  const double energy = request_.energy_wh.value_or(request_.capacity_ah.value_or(0) * 3.7 * request_.cells.value_or(0));
+  if (request_.battery_mass && !request_.mass && energy > 0 && energy < 60 * *request_.battery_mass) {
+    const std::string words = request_.words["battery_mass"];
+    Decide("'" + words + "' is too much for that battery and is read as the mass of the drone");
+    Set(mass, request_.mass, *request_.battery_mass, words);
+    request_.battery_mass.reset();
+    request_.words.erase("battery_mass");
+  }
   for (const Loose& loose : loose_masses_) {
     const Quantity& q = loose.quantity;
     const bool bound = q.unit && IsAtMost(q);
+    const double value = bound ? 0.996 * q.value : q.value;
     if (bound && request_.mass && *request_.mass <= q.value * 1.005) continue;
     // What is beside the mass of a drone is carried.
     const bool carried = loose.thing && !bound && !request_.payload;
@@ -229,8 +239,8 @@ void Reader::FinishMasses() {
       Decide("'" + q.words + "' is read as payload");
       Set(payload, request_.payload, q.value, q.words);
     } else {
-      if (bound) Decide("'" + q.words + "' is not reached by a little: " + Kilograms(q.value));
-      Set(mass, request_.mass, q.value, q.words);
+      if (bound) Decide("'" + q.words + "' is not reached by a little: " + Kilograms(value));
+      Set(mass, request_.mass, value, q.words);
     }
   }
   if (liquid_ && !request_.payload) {
@@ -258,7 +268,8 @@ void Reader::ListUnused() {
     const Token& token = tokens_[i];
     const Word* word = WordAt(i);
     const bool says_nothing = token.kind == Token::Kind::kUnknown || token.kind == Token::Kind::kNumber ||
-                              (word && ((word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit) ||
+                              (word && ((word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit &&
+                                         i > 0 && tokens_[i - 1].kind == Token::Kind::kNumber) ||
                                         word->kind == WordKind::kElse || word->kind == WordKind::kVehicle ||
                                         word->kind == WordKind::kNoMultirotor || word->kind == WordKind::kLoad ||
                                         word->kind == WordKind::kFactor));

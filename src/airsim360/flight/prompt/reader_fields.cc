@@ -93,6 +93,13 @@ size_t Reader::NounAfter(const Quantity& q) const {
     if (EndsPhrase(i) || kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode) break;
     // "of" joins only at once: "2 kg of bait", not "2 kg drone of ..."
     if (found != kNone && SaysLittle(i) && kind != Token::Kind::kDash) break;
+    // "a 2 kg quad carrying ..." goes on with something else.
+    const std::string& text = tokens_[i].text;
+    const bool verb = (Is(i, WordKind::kPayload) || Is(i, WordKind::kMass) || Is(i, WordKind::kHover) ||
+                       Is(i, WordKind::kWind)) &&
+                      (text.ends_with("ing") || text.ends_with("s") || text == "carry") &&
+                      !text.ends_with("payloads") && !text.ends_with("mass");
+    if (verb && found != kNone) break;
     if (!Claims(i) || claimed_[i]) continue;
     found = i;
     // These say for certain; of other nouns the last is the head: "249 g camera drone".

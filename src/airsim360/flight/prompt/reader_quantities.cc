@@ -102,8 +102,9 @@ void Reader::ReadMass(const Quantity& q) {
       noun = owner;
     }
   }
-  if (!is_label(noun) || (kind_of(noun) == WordKind::kPayload && after != kNone &&
-                          (kind_of(after) == WordKind::kMass || kind_of(after) == WordKind::kEmpty)))
+  const bool says_empty = after != kNone && kind_of(after) == WordKind::kEmpty;
+  if (!is_label(noun) || says_empty ||
+      (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
     noun = after != kNone ? after : NounBefore(q, false);
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
                      tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
@@ -118,7 +119,8 @@ void Reader::ReadMass(const Quantity& q) {
   if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
       kind == WordKind::kFrame || kind == WordKind::kWind)
     return kind == WordKind::kElse ? NameElse(q, noun) : loose_masses_.push_back({q, false});
-  Use(noun);
+  // A drone has other figures besides.
+  if (kind >= WordKind::kRotorNoun) Use(noun);
   switch (kind) {
     case WordKind::kPayload:
     case WordKind::kLoad:
@@ -136,12 +138,7 @@ void Reader::ReadMass(const Quantity& q) {
       break;
   }
   // "under 250 g" is met just below, unless the mass itself is said.
-  if (IsAtMost(q)) {
-    Quantity less = q;
-    less.value *= 0.996;
-    loose_masses_.push_back({less, false});
-    return;
-  }
+  if (IsAtMost(q)) return loose_masses_.push_back({q, false});
   CorrectWith("mass", request_.mass, q.first);
   Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
 }

@@ -52,6 +52,9 @@ struct DroneRequest {
 /// each other, and for what is not a multirotor. Prompts of up to 1000 bytes, any bytes.
 DroneRequest ParsePrompt(std::string_view prompt);
 
+/// Whether these words, and nothing besides, name a real drone whose figures are known: "iris", "Mavic 3".
+bool NamesRealDrone(std::string_view words);
+
 /// What can be said, by kind, for help: one line each.
 std::string PromptHelp();
 
