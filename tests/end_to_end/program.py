@@ -43,8 +43,8 @@ def read_png(path):
         if kind == b"IDAT":
             packed += data[at + 8:at + 8 + length]
         at += 12 + length
-    channels, size = {0: 1, 2: 3}[colour], depth // 8
-    raw, step, stride = zlib.decompress(packed), {0: 1, 2: 3}[colour] * (depth // 8), 0
+    channels, size = {0: 1, 2: 3, 3: 1}[colour], depth // 8  # with a palette: indices
+    raw, step, stride = zlib.decompress(packed), channels * (depth // 8), 0
     stride = width * step
     rows, above = [], bytearray(stride)
     for y in range(height):

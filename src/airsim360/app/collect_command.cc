@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/camera_arguments.h"
+#include "airsim360/app/camera_check.h"
 #include "airsim360/app/collect_human.h"
 #include "airsim360/app/collect_processes.h"
 #include "airsim360/app/commands.h"
@@ -18,8 +21,10 @@
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/video.h"
 #include "airsim360/planning/export_text.h"
+#include "airsim360/sim/people_survey.h"
 #include "airsim360/sim/route_file.h"
 #include "airsim360/sim/survey.h"
+#include "airsim360/sim/visit_poses.h"
 
 namespace airsim360 {
 namespace {
@@ -30,12 +35,14 @@ constexpr double kFileRouteSpeed = 3;  // m/s along route files without times
 constexpr double kTouching = 0.05;     // metres: a route closer to a surface is worth a warning
 
 struct CollectArguments {
-  std::string world, route = "auto", size = "2048x1024", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out, products, plan, recipe, subset;
-  int64_t frames = 0;  // 0: not given
-  double fps = 0;      // 0: not given
+  std::string world, route = "auto", tier = "fast", format = "native", rgb_format = "png";
+  std::string pano_frame = "body", shard = "0/1", out, products, plan, poses, recipe, subset;
+  int64_t frames = 0;          // 0: not given
+  double fps = 0;              // 0: not given
+  std::optional<double> start;
   int samples = 0;
   bool normal = false, no_denoise = false;
+  CameraArguments camera;
   EnvironmentFlags environment;
   PictureArguments picture;
   PeopleArguments people;
@@ -64,9 +71,15 @@ void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
   spec.video = wanted("video");
   if (spec.video && spec.tier == Tier::kLabels)
     throw InputError("--format: a video needs colours; use --tier fast instead of labels");
+  if (spec.video && Views(spec).size() > 1)
+    throw InputError("--format: a video shows one picture a frame; use --projection erp, pinhole or fisheye");
   if (spec.video) CheckVideo({spec.width, spec.height}, {});
   spec.crops = wanted("crops");
   spec.overlay = wanted("overlay");
+  for (const char* format : {"kitti", "nuscenes", "monoloco"}) {
+    if (wanted(format) && (!IsPanoramic(spec) || !spec.cameras.empty()))
+      throw InputError("--format: '" + std::string(format) + "' is made of panoramas; use --projection erp");
+  }
   if (spec.people.empty() && (spec.crops || spec.overlay || !spec.people_formats.empty()))
     throw InputError("--format: '" + arguments.format + "' is about people; add --people N");
   if ((spec.crops || spec.overlay) && spec.tier == Tier::kLabels)
@@ -79,10 +92,7 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& glo
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
-  const ImageSize size = ParseSize(arguments.size);
-  CheckPanoramaSize(size);
-  spec.width = size.width;
-  spec.height = size.height;
+  arguments.camera.Apply(spec);
   spec.tier = ParseTierArgument(arguments.tier);
   spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
@@ -98,30 +108,50 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& glo
   const Shard shard = ParseShard(arguments.shard);
   spec.shard = shard.index;
   spec.shards = shard.count;
-  if (arguments.fps > 0 && arguments.frames > 0) throw InputError("--fps: give either --frames or --fps, not both");
   return spec;
 }
 
 // The moments of frames along a route: as many as are wanted, evenly, or one each 1 / fps seconds.
 std::vector<int64_t> ShotTimes(const CollectArguments& arguments, const Route& route) {
   if (arguments.fps == 0) return EvenTimes(route, arguments.frames > 0 ? arguments.frames : kDefaultFrames);
-  const auto frames = static_cast<int64_t>(std::floor(route.duration() * arguments.fps + 1e-9)) + 1;
-  if (frames > kMaxFrames)
-    throw InputError("--fps: " + std::to_string(frames) + " frames are more than " + std::to_string(kMaxFrames));
+  const double start = arguments.start.value_or(0), left = route.duration() - start;
+  char text[160];
+  if (left < 0) {
+    std::snprintf(text, sizeof text, "--start: %g s is after the end of the flight, which lasts %.6g s", start,
+                  route.duration());
+    throw InputError(text);
+  }
+  const auto most = static_cast<int64_t>(std::floor(std::min(left * arguments.fps, 1e12) + 1e-9)) + 1;
+  if (arguments.frames > most) {
+    std::snprintf(text, sizeof text, "--frames: %lld are more than the %lld of the %.6g s of flight at --fps %g",
+                  static_cast<long long>(arguments.frames), static_cast<long long>(most), left, arguments.fps);
+    throw InputError(text);
+  }
+  const int64_t frames = arguments.frames > 0 ? arguments.frames : most;
+  if (frames > kMaxFrames) {
+    throw InputError("--fps: " + std::to_string(frames) + " frames are more than " + std::to_string(kMaxFrames) +
+                     "; take the first of them with --frames");
+  }
   std::vector<int64_t> times;
-  for (int64_t i = 0; i < frames; ++i) times.push_back(std::llround(static_cast<double>(i) * 1e9 / arguments.fps));
+  for (int64_t i = 0; i < frames; ++i)
+    times.push_back(std::llround((start + static_cast<double>(i) / arguments.fps) * 1e9));
   return times;
 }
 
 // What meta.json says of the frames of a route: nothing where they are so many, evenly.
 std::string Rate(const CollectArguments& arguments) {
   if (arguments.fps == 0) return "";
-  char text[48];
+  char text[96];
   std::snprintf(text, sizeof text, ", %.9g frames/s", arguments.fps);
-  return text;
+  std::string rate = text;
+  if (arguments.start) {
+    std::snprintf(text, sizeof text, " from %.9g s", *arguments.start);
+    rate += text;
+  }
+  return rate;
 }
 
-// The route and the moments of its frames; fills spec.route and spec.frames.
+// The route and the moments of its frames.
 struct Plan {
   std::shared_ptr<const Route> route;
   std::vector<int64_t> shot_times_ns;
@@ -152,29 +182,78 @@ Plan PlanFromTrajectory(const CollectArguments& arguments, DatasetSpec& spec) {
   return plan;
 }
 
-Plan MakePlan(const CollectArguments& arguments, const RayTracer& tracer, DatasetSpec& spec) {
-  Plan plan;
-  if (!arguments.plan.empty()) {
-    plan = PlanFromTrajectory(arguments, spec);
-  } else if (arguments.route == "auto") {
-    plan.route = std::make_shared<const Route>(PlanSurvey(tracer, {.seed = spec.seed}));
-    plan.shot_times_ns = ShotTimes(arguments, *plan.route);
-    spec.route = "auto" + Rate(arguments);
+// A survey of a world with people: frames where the body hovers near them, as far as there are as many such places;
+// nullopt if there are none.
+std::optional<Plan> PlanNearPeople(const CollectArguments& arguments, const SimModel& model, DatasetSpec& spec) {
+  PeopleSurveyOptions options{.seed = spec.seed};
+  const int64_t frames = arguments.frames > 0 ? arguments.frames : kDefaultFrames;
+  if (arguments.fps == 0) options.viewpoints = static_cast<int>(std::min<int64_t>(frames, kMostPeopleStops));
+  std::optional<PeopleSurvey> survey = PlanPeopleSurvey(model, options);
+  if (!survey) return std::nullopt;
+  Plan plan{std::make_shared<const Route>(std::move(survey->route)), {}};
+  spec.route = "auto, near people" + Rate(arguments);
+  if (arguments.fps == 0 && frames == static_cast<int64_t>(survey->stop_times_ns.size())) {
+    plan.shot_times_ns = std::move(survey->stop_times_ns);
   } else {
-    plan = PlanFromFile(arguments, spec);
-  }
-  spec.frames = static_cast<int64_t>(plan.shot_times_ns.size());
-  if (spec.shards > spec.frames) {
-    throw InputError("--shard: '" + arguments.shard + "': more shards than frames (" +
-                     std::to_string(spec.frames) + ")");
+    plan.shot_times_ns = ShotTimes(arguments, *plan.route);
   }
   return plan;
 }
 
+Plan MakePlan(const CollectArguments& arguments, const SimModel& model, DatasetSpec& spec) {
+  if (!arguments.plan.empty()) return PlanFromTrajectory(arguments, spec);
+  if (arguments.route != "auto") return PlanFromFile(arguments, spec);
+  if (std::optional<Plan> near_people = PlanNearPeople(arguments, model, spec)) return *std::move(near_people);
+  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, {.seed = spec.seed})), {}};
+  plan.shot_times_ns = ShotTimes(arguments, *plan.route);
+  spec.route = "auto" + Rate(arguments);
+  return plan;
+}
+
+// All shots and what lies between; fills spec.route and spec.frames.
+Flight Fly(const CollectArguments& arguments, const SimModel& model, DatasetSpec& spec, std::string& trajectory_json) {
+  Flight flight;
+  if (!arguments.poses.empty()) {
+    flight = VisitPoses(model, ReadPoseFile(arguments.poses));
+    spec.route = "poses of sha256:" + Sha256HexOfFile(arguments.poses);
+  } else {
+    const Plan plan = MakePlan(arguments, model, spec);
+    flight = FlyRoute(model, plan.route, plan.shot_times_ns);
+    if (const auto* path = plan.route->path()) {
+      trajectory_json = TrajectoryJson({.trajectory = *path,
+                                        .peaks = CertifiedPeaks(*path),
+                                        .cost_snap = IntegralOfSquaredDerivative(*path, 4),
+                                        .yaw = ConstantYaw{ReadPlanFile(arguments.plan).yaw.value_or(0)}});
+    }
+  }
+  spec.frames = static_cast<int64_t>(flight.shots.size());
+  if (spec.shards > spec.frames) {
+    throw InputError("--shard: '" + arguments.shard + "': more shards than frames (" +
+                     std::to_string(spec.frames) + ")");
+  }
+  return flight;
+}
+
+// What can be wrong with where the frames are to be, before a world is loaded.
+void CheckRoute(const CollectArguments& arguments) {
+  if (arguments.route != "auto") ReadRouteFile(arguments.route);
+  if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
+  if (!arguments.poses.empty()) ReadPoseFile(arguments.poses);
+  if (!arguments.plan.empty() && arguments.route != "auto")
+    throw InputError("--plan: give either --plan or --route, not both");
+  if (!arguments.poses.empty() && (arguments.route != "auto" || !arguments.plan.empty()))
+    throw InputError("--poses: give one of --poses, --route and --plan");
+  if (!arguments.poses.empty() && (arguments.frames > 0 || arguments.fps > 0))
+    throw InputError("--poses: there is one frame at each pose; leave out --frames and --fps");
+  if (arguments.start && arguments.fps == 0)
+    throw InputError("--start: it is when the frames of --fps begin; add --fps");
+}
+
 // A dataset for each subset of a table.
 void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
-  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.people.people.empty())
-    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan and --people");
+  if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.poses.empty() ||
+      !arguments.people.people.empty())
+    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan, --poses and --people");
   if (arguments.processes.processes > 1 || !globals.gpus.empty() || arguments.fps > 0)
     throw InputError("--recipe: it takes no --fps, --processes or several GPUs; use --shard I/N in several runs");
   CollectArguments with_people = arguments;
@@ -198,26 +277,21 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
   if (!arguments.subset.empty()) throw InputError("--subset: it is about --recipe; add --recipe omni360-human");
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals);
-  if (arguments.route != "auto") ReadRouteFile(arguments.route);
-  if (!arguments.plan.empty()) ReadPlanFile(arguments.plan);
-  if (!arguments.plan.empty() && arguments.route != "auto")
-    throw InputError("--plan: give either --plan or --route, not both");
+  CheckRoute(arguments);
   const OpenedWorld world = OpenWorld(arguments.world, globals, spec.tier, arguments.environment,
                                       arguments.people.Request(globals.seed), processes == 1);
   spec.environment = DescribeEnvironment(world.environment);
-  const Plan plan = MakePlan(arguments, *world.tracer, spec);
-  const Flight flight = FlyRoute(world.Model(kRouteStepNs), plan.route, plan.shot_times_ns);
-  if (flight.least_clearance < kTouching && !arguments.processes.is_worker()) LogWarning("the route touches or enters a surface of the world");
-  CollectInput input{spec, *world.scene, flight, arguments.out};
+  const SimModel model = world.Model(kRouteStepNs);
+  std::string trajectory_json;
+  const Flight flight = Fly(arguments, model, spec, trajectory_json);
+  if (!arguments.processes.is_worker()) {
+    CheckCameraPlaces(*model.tracer, spec, flight);
+    CheckFlowSteps(*model.tracer, spec, flight);
+    if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
+  }
+  CollectInput input{spec, *world.scene, flight, arguments.out, trajectory_json};
   input.people = world.people;
   input.tracer = world.tracer;
-  if (const auto* path = plan.route->path()) {
-    const PlannedPath planned = ReadPlanFile(arguments.plan);
-    input.trajectory_json = TrajectoryJson({.trajectory = *path,
-                                            .peaks = CertifiedPeaks(*path),
-                                            .cost_snap = IntegralOfSquaredDerivative(*path, 4),
-                                            .yaw = ConstantYaw{planned.yaw.value_or(0)}});
-  }
   if (arguments.processes.is_worker()) return RunWorker(input, *world.renderer);
   const CollectResult result =
       processes == 1 ? Collect(input, *world.renderer) : Collect(input, RenderInProcesses(processes));
@@ -238,16 +312,22 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_west/03");
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
-                      "auto (a survey through free space), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
+                      "auto (a survey through free space; near people if there are any), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
                       "KML): without --frames one frame at each waypoint");
   command->add_option(
       "--plan", arguments->plan,
       "fly a trajectory of `airsim360 plan` (its JSON or YAML), frames spread evenly over it");
-  command->add_option("--frames", arguments->frames, "frames, spread evenly over the flight (default 8)")
+  command->add_option("--poses", arguments->poses,
+                      "one frame at each pose of a file: CSV x,y,z[,yaw_deg,pitch_deg,roll_deg] or qw,qx,qy,qz, TUM, or "
+                      "frames.jsonl of another dataset (docs/datasets.md)");
+  command->add_option("--frames", arguments->frames,
+                      "frames, spread evenly over the flight (default 8); with --fps so many at that rate")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));
-  command->add_option("--fps", arguments->fps, "instead of --frames: so many frames a second of the flight")
+  command->add_option("--fps", arguments->fps, "so many frames a second of the flight, as long as it lasts")
       ->check(CLI::Range(0.001, 1000.0));
-  command->add_option("--size", arguments->size, "WxH of the panorama, W = 2 H (default 2048x1024)");
+  command->add_option("--start", arguments->start, "with --fps: the first frame, seconds after the flight's start")
+      ->check(CLI::Range(0.0, 1e7));
+  arguments->camera.AddTo(*command);
   command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
                       "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");

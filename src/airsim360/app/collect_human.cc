@@ -12,6 +12,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
+#include "airsim360/dataset/index.h"
 #include "airsim360/dataset/people/human_set.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/world_loader.h"
@@ -46,7 +47,7 @@ HumanWorld OpenHumanWorld(const std::string& name, const GlobalOptions& globals)
 
 CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, const HumanSubset& subset,
                             const HumanWorld& world, uint64_t seed) {
-  const HumanArea area = PickArea(*world.mesh, subset, seed);
+  const HumanArea area = PickArea(*world.scene, *world.mesh, subset, seed);
   // The file that the people are made of is kept: the subset can be made again, or changed, by hand.
   const fs::path folder = fs::path(run.out) / subset.name;
   const fs::path people_file = folder.string() + ".people.yaml";
@@ -90,7 +91,8 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
 
   std::map<std::string, HumanWorld> worlds;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  int64_t frames = 0, written = 0, skipped = 0;
+  int64_t frames = 0, written = 0, skipped = 0, people = 0;
+  PeopleTotals seen;
   for (size_t i = 0; i < subsets.size(); ++i) {
     HumanSubset& subset = subsets[i];
     if (run.frames > 0) subset.frames = std::min(subset.frames, run.frames);
@@ -114,14 +116,22 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
     const CollectResult result = CollectSubset(one, recipe, subset, worlds.at(subset.world), globals.seed);
     frames += result.frames;
     written += result.written;
+    const PeopleTotals totals = DatasetIndex(fs::path(run.out) / subset.name, DatasetIndex::Mode::kRead).CountPeople();
+    people += static_cast<int64_t>(subset.people);
+    seen.persons_seen += totals.persons_seen;
+    seen.persons_large += totals.persons_large;
   }
   WriteFileAtomically(fs::path(run.out) / "subsets.json", list.dump(1) + "\n");
   if (globals.json) {
-    PrintJson({{"out", run.out}, {"subsets", subsets.size()}, {"subsets_without_world", skipped}, {"frames", frames}, {"frames_written", written}});
+    PrintJson({{"out", run.out}, {"subsets", subsets.size()}, {"subsets_without_world", skipped}, {"frames", frames}, {"frames_written", written},
+               {"people", people}, {"people_seen", seen.persons_seen}, {"people_seen_100px", seen.persons_large}});
     return;
   }
   std::printf("%s: %lld frames (%lld written now); %lld subsets wait for their worlds\n", run.out.c_str(),
               static_cast<long long>(frames), static_cast<long long>(written), static_cast<long long>(skipped));
+  std::printf("people: %lld of %lld have pixels, %lld of them %lld or more in some picture\n",
+              static_cast<long long>(seen.persons_seen), static_cast<long long>(people),
+              static_cast<long long>(seen.persons_large), static_cast<long long>(kLargePerson));
 }
 
 }  // namespace airsim360

@@ -7,6 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/image/palette_png.h"
 #include "airsim360/projection/camera.h"
 
 namespace airsim360 {
@@ -95,6 +96,21 @@ FaceKind KindOf(const fs::path& path, const Bytes& bytes) {
   return png.bit_depth == 16 ? FaceKind::kColor16 : FaceKind::kColor8;
 }
 
+// Whether six 8-bit pictures are of labels: palette pictures of one palette. Colours that a program has squeezed into
+// palettes have one of their own each.
+bool ShareAPalette(const CubeFolder& faces) {
+  const auto palette_of = [&](size_t f) {
+    const std::string name = faces.files[f].string();
+    if (LowerCaseExtension(name) != ".png" || !IsPalettePng(faces.bytes[f], name)) return std::vector<Rgb8>{};
+    return DecodePalettePng(faces.bytes[f], name).palette;
+  };
+  const std::vector<Rgb8> first = palette_of(0);
+  for (size_t f = 1; f < 6 && !first.empty(); ++f) {
+    if (palette_of(f) != first) return false;
+  }
+  return !first.empty();
+}
+
 }  // namespace
 
 std::string LowerCaseExtension(const fs::path& path) { return LowerCase(path.extension()); }
@@ -112,6 +128,7 @@ CubeFolder ReadCubeFolder(const std::string& folder, const std::string& axes) {
                        "; all faces must be of one kind");
     }
   }
+  if (faces.kind == FaceKind::kColor8 && ShareAPalette(faces)) faces.kind = FaceKind::kPalette;
   return faces;
 }
 

@@ -1,5 +1,6 @@
 #include "airsim360/app/picture_arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -54,9 +55,10 @@ void PictureArguments::Apply(DatasetSpec& spec) const {
   spec.exposure_ev = spec.auto_exposure ? 0 : ParseStops(exposure);
   spec.radiance = radiance;
   spec.edge_samples = CheckEdgeSamples("--edge-samples", edge_samples);
-  if (spec.lens == LensModel::kReal360 && spec.projection != Projection::kErp)
+  if (spec.lens == LensModel::kReal360 && !IsPanoramic(spec))
     throw InputError("--lens: 'real360' makes equirectangular pictures; use --projection erp");
-  if (spec.auto_exposure && spec.projection == Projection::kCube)
+  const auto is_cube = [](const View& view) { return view.projection == Projection::kCube; };
+  if (spec.auto_exposure && std::ranges::any_of(Views(spec), is_cube))
     throw InputError("--exposure: 'auto' would differ between the faces of a cube; use --projection erp");
   if (spec.radiance && spec.tier == Tier::kLabels)
     throw InputError("--radiance: tier 'labels' has no light; use --tier fast");

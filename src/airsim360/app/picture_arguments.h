@@ -16,7 +16,7 @@ struct PictureArguments {
 
   /// Adds the flags; this object must outlive the parsing.
   void AddTo(CLI::App& command);
-  /// Fills the spec, whose projection and tier are set. InputError naming the flag and the value.
+  /// Fills the spec, whose cameras and tier are set. InputError naming the flag and the value.
   void Apply(DatasetSpec& spec) const;
 };
 

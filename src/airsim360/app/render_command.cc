@@ -4,8 +4,11 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/camera_arguments.h"
+#include "airsim360/app/camera_check.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
@@ -13,56 +16,24 @@
 #include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
+#include "airsim360/sim/people_survey.h"
 
 namespace airsim360 {
 namespace {
 
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kLookDown = -20;  // degrees, of a narrow camera near people
+
 struct RenderArguments {
-  std::string world, pose, projection = "erp", size, tier = "fast", rgb_format = "png", pano_frame = "body",
-                           out, products;
-  double fov_deg = 0;  // 0: not given
+  std::string world, pose, tier = "fast", rgb_format = "png", pano_frame = "body", out, products;
   int samples = 0;
   bool normal = false, no_denoise = false;
+  CameraArguments camera;
   EnvironmentFlags environment;
   PictureArguments picture;
   PeopleArguments people;
   bool overlay = false;
 };
-
-Projection ParseProjection(const std::string& text) {
-  const std::vector<std::string> names(std::begin(kProjectionNames), std::end(kProjectionNames));
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end())
-    throw InputError("--projection: " + UnknownChoiceMessage("projection", text, names));
-  return static_cast<Projection>(found - names.begin());
-}
-
-// The size and field of view that fit the projection.
-void SetCamera(const RenderArguments& arguments, DatasetSpec& spec) {
-  static constexpr const char* kDefaultSizes[] = {"2048x1024", "512x512", "1024x768", "1024x1024"};
-  spec.projection = ParseProjection(arguments.projection);
-  const bool pinhole = spec.projection == Projection::kPinhole,
-             fisheye = spec.projection == Projection::kFisheye;
-  const ImageSize size =
-      ParseSize(arguments.size.empty() ? kDefaultSizes[static_cast<int>(spec.projection)] : arguments.size);
-  if (spec.projection == Projection::kErp) CheckPanoramaSize(size);
-  if (spec.projection == Projection::kCube && size.width != size.height) {
-    throw InputError("--size: '" + arguments.size + "': cube faces are square; did you mean '" +
-                     std::to_string(size.width) + "x" + std::to_string(size.width) + "'?");
-  }
-  spec.width = size.width;
-  spec.height = size.height;
-  if (arguments.fov_deg != 0 && !pinhole && !fisheye) {
-    throw InputError("--fov: '" + arguments.projection +
-                     "' has no field of view to choose; use pinhole or fisheye");
-  }
-  const double limit = pinhole ? 179 : 360;
-  spec.fov_deg = arguments.fov_deg != 0 ? arguments.fov_deg : pinhole ? 90 : 180;
-  if (!(spec.fov_deg >= 1 && spec.fov_deg <= limit)) {
-    throw InputError("--fov: " + std::to_string(arguments.fov_deg) + " degrees is not in 1 … " +
-                     std::to_string(static_cast<int>(limit)));
-  }
-}
 
 std::string Number(double value) {
   char buffer[32];
@@ -70,17 +41,27 @@ std::string Number(double value) {
 }
 
 // The scene's first viewpoint: facing east, or from outside the scene facing its middle.
-PoseArgument DefaultPose(const Scene& scene) {
+PoseArgument ScenePose(const Scene& scene) {
   const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
   PoseArgument pose;
   pose.p = VecCast<double>(spawn);
   pose.yaw_deg = scene.spawn_yaw_deg;
   const Vec3d to_middle = VecCast<double>(scene.bounds.center() - spawn);
   if (!scene.bounds.empty() && !scene.bounds.Contains(spawn)) {
-    constexpr double kDegrees = 180 / std::numbers::pi;
     pose.yaw_deg = std::atan2(to_middle.y, to_middle.x) * kDegrees;
     pose.pitch_deg = std::atan2(to_middle.z, std::hypot(to_middle.x, to_middle.y)) * kDegrees;
   }
+  return pose;
+}
+
+// Where people are seen best, if there are any.
+PoseArgument DefaultPose(const SimModel& model, const DatasetSpec& spec) {
+  const std::optional<PeopleSurvey> survey = PlanPeopleSurvey(model, {.seed = spec.seed, .viewpoints = 1});
+  if (!survey) return ScenePose(model.tracer->scene());
+  const RoutePoint start = survey->route.At(0);
+  PoseArgument pose{.p = start.p, .yaw_deg = start.yaw * kDegrees};
+  // People are below; a panorama sees them anyway, and its horizon stays level.
+  if (!IsPanoramic(spec)) pose.pitch_deg = kLookDown;
   return pose;
 }
 
@@ -91,7 +72,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
-  SetCamera(arguments, spec);
+  arguments.camera.Apply(spec);
   spec.tier = ParseTierArgument(arguments.tier);
   spec.samples = CheckSamples(spec.tier, arguments.samples);
   spec.denoise = !arguments.no_denoise;
@@ -118,13 +99,15 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   const OpenedWorld world =
       OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
   spec.environment = DescribeEnvironment(world.environment);
-  if (arguments.pose.empty()) pose = DefaultPose(*world.scene);
+  const SimModel model = world.Model(kRouteStepNs);
+  if (arguments.pose.empty()) pose = DefaultPose(model, spec);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
   constexpr double kRadians = std::numbers::pi / 180;
   Flight flight =
       Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
   if (world.people) flight.shots[0].people = world.people->start;
+  CheckCameraPlaces(*model.tracer, spec, flight);
   CollectInput input{spec, *world.scene, flight, arguments.out};
   input.people = world.people;
   input.tracer = world.tracer;
@@ -145,13 +128,8 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option(
       "--pose", arguments->pose,
       "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees; in maps also 60.1708N,24.9375E for x,y (default: "
-      "the world's spawn)");
-  command->add_option("--projection", arguments->projection, "erp, cube, pinhole or fisheye (default erp)");
-  command->add_option("--size", arguments->size,
-                      "WxH; a cube face for cube (default 2048x1024, 512x512, 1024x768, 1024x1024)");
-  command->add_option(
-      "--fov", arguments->fov_deg,
-      "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
+      "the world's spawn, or near people)");
+  arguments->camera.AddTo(*command);
   command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
   command->add_option("--samples", arguments->samples,
                       "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");

@@ -12,6 +12,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/image/palette_png.h"
 #include "airsim360/projection/resample.h"
 
 namespace airsim360 {
@@ -100,6 +101,14 @@ Result StitchFolder(const StitchOptions& options, const CubeFolder& folder, bool
   switch (folder.kind) {
     case FaceKind::kGray8:
       return Run<uint8_t>(options, folder, DecodeGray8, pick, png);
+    case FaceKind::kPalette: {
+      const auto decode = [](const Bytes& bytes, const std::string& name) {
+        return DecodePalettePng(bytes, name).indices;
+      };
+      const std::vector<Rgb8> palette = DecodePalettePng(folder.bytes[0], folder.files[0].string()).palette;
+      return Run<uint8_t>(options, folder, decode, pick,
+                          [&](const auto& picture) { return EncodePalettePng(picture, palette); });
+    }
     case FaceKind::kGray16:
       return Run<uint16_t>(options, folder, DecodeGrayPng, pick, png);
     case FaceKind::kColor16:

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "airsim360/dataset/people/people_export.h"
+#include "airsim360/dataset/pose_export.h"
 #include "airsim360/dataset/summaries.h"
 #include "airsim360/dataset/version.h"
 #include "airsim360/dataset/video.h"
@@ -42,14 +44,34 @@ std::string HistogramTable(const std::vector<CategoryTotal>& totals, const Scene
   return table;
 }
 
+// Files that only datasets with people, or with cameras that have intrinsics, hold.
+std::string FurtherFiles(const DatasetSpec& spec) {
+  std::string text;
+  const auto line = [&](const std::string& path, const std::string& holds) { text += "- `" + path + "` " + holds + "\n"; };
+  if (spec.video) line(kVideoName, "the colour pictures as a video, of panoramas in 360 degrees");
+  if (spec.material) line("materials.json", "what the values of `material/` are");
+  if (spec.part) line("parts.json", "what the values of `part/` are");
+  for (const std::string& name : PoseFileNames(spec))
+    line(name, name.ends_with(".json") ? "poses and intrinsics for nerfstudio" : "poses and intrinsics for COLMAP");
+  if (spec.people.empty()) return text;
+  line("people.jsonl", "everyone in every picture: boxes, keypoints, skeletons, behaviours, one line a picture");
+  line("keypoint_orders.json", "names of keypoints and joints, and their order in COCO, OpenPose, SMPL and others");
+  for (const auto& [format, path, holds] : kPeopleFormatPaths) {
+    if (std::ranges::count(spec.people_formats, format) > 0) line(path, holds);
+  }
+  if (spec.crops) line("crops/*.png", "a pinhole picture of everyone who can be seen");
+  if (spec.overlay) line("overlay/*.png", "the colour pictures with the labels of people drawn in");
+  return text;
+}
+
 }  // namespace
 
 std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene) {
   const std::vector<CategoryTotal> totals = index.CategoryTotals();
   const size_t entities = index.SeenEntities().size();
   std::string text = "# " + scene.name + ": labelled " +
-                     (spec.projection == Projection::kErp ? "panoramas" : "pictures") + "\n\n";
-  text += "![colour, range, semantic and entity pictures of some frames](contact_sheet.png)\n\n";
+                     (IsPanoramic(spec) ? "panoramas" : "pictures") + "\n\n";
+  text += "![colour, range, semantic and entity pictures of some frames, with a legend](contact_sheet.png)\n\n";
   text += "| | |\n|---|---|\n";
   const auto row = [&](const std::string& key, const std::string& value) {
     text += "| " + key + " | " + value + " |\n";
@@ -60,8 +82,17 @@ std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, con
           (spec.shards > 1 ? " (shard " + std::to_string(spec.shard) + " of " + std::to_string(spec.shards) +
                                  " of " + std::to_string(spec.frames) + ")"
                            : std::string()));
-  row("size", std::to_string(spec.width) + " x " + std::to_string(spec.height) + ", " +
-                  kProjectionNames[static_cast<int>(spec.projection)]);
+  const auto size_of = [](const auto& camera) {
+    return std::to_string(camera.width) + " x " + std::to_string(camera.height) + ", " +
+           kProjectionNames[static_cast<int>(camera.projection)];
+  };
+  if (spec.cameras.empty()) row("size", size_of(spec));
+  for (const RigCamera& camera : spec.cameras) row("camera `" + camera.name + "`", size_of(camera));
+  if (!spec.people.empty()) {
+    const PeopleTotals people = index.CountPeople();
+    row("people", spec.people + "; seen " + std::to_string(people.persons_seen) + ", with at least " +
+                      std::to_string(kLargePerson) + " pixels in some picture " + std::to_string(people.persons_large));
+  }
   row("tier", kTierNames[static_cast<int>(spec.tier)]);
   row("route", spec.route);
   row("classes seen", std::to_string(totals.size()));
@@ -72,7 +103,7 @@ std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, con
   for (const ProductFolder& folder : ProductFolders(spec)) {
     text += "- `" + folder.name + "/*" + folder.extension + "`\n";
   }
-  if (spec.video) text += std::string("- `") + kVideoName + "` the colour pictures as a 360 degree video\n";
+  text += FurtherFiles(spec);
   text +=
       "- `frames.jsonl` pose, velocity and SHA-256 of every file, one line a frame; `entities.json`; "
       "`panoptic.json` (COCO panoptic)\n"

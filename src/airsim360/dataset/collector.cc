@@ -12,6 +12,7 @@
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/frame_writer.h"
 #include "airsim360/dataset/people/people_export.h"
+#include "airsim360/dataset/pose_export.h"
 #include "airsim360/dataset/shot_source.h"
 #include "airsim360/dataset/summaries.h"
 #include "airsim360/dataset/video.h"
@@ -62,16 +63,15 @@ bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   if (spec.part && !fs::exists(folder / "parts.json")) return false;
   if (spec.video && !fs::exists(folder / kVideoName)) return false;
   if (!spec.people.empty()) {
-    const std::map<std::string, std::string> made = {{"coco_keypoints", "person_keypoints.json"},
-                                                     {"kitti", "kitti/label_2"},
-                                                     {"nuscenes", "nuscenes/v1.0-airsim360/sample.json"},
-                                                     {"monoloco", "monoloco.json"}};
     for (const char* name : {"people.jsonl", "keypoint_orders.json"}) {
       if (!fs::exists(folder / name)) return false;
     }
-    for (const std::string& format : spec.people_formats) {
-      if (!fs::exists(folder / made.at(format))) return false;
+    for (const auto& [format, path, holds] : kPeopleFormatPaths) {
+      if (std::ranges::count(spec.people_formats, format) > 0 && !fs::exists(folder / path)) return false;
     }
+  }
+  for (const std::string& name : PoseFileNames(spec)) {
+    if (!fs::exists(folder / name)) return false;
   }
   for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "trajectory.csv",
                            "README.md", "contact_sheet.png"}) {
@@ -112,7 +112,9 @@ void WriteSummaries(const CollectInput& input) {
     WriteFileAtomically(input.out / name, bytes);
     checksums[name] = Sha256Hex(bytes);
   };
-  write("frames.jsonl", AsBytes(FramesJsonl(index)));
+  const std::string frames = FramesJsonl(index);
+  write("frames.jsonl", AsBytes(frames));
+  for (const ExportedFile& file : ExportPoses(frames, input.spec)) write(file.path.c_str(), AsBytes(file.text));
   write("entities.json", AsBytes(EntitiesJson(index, input.scene)));
   if (input.spec.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
   if (input.spec.part) write("parts.json", AsBytes(PartsJson()));
@@ -131,7 +133,7 @@ void WriteSummaries(const CollectInput& input) {
     FilmDataset(input.out, input.out / kVideoName, {});
     checksums[kVideoName] = Sha256HexOfFile(input.out / kVideoName);
   }
-  write("contact_sheet.png", ContactSheetPng(index, input.spec, input.out));
+  write("contact_sheet.png", ContactSheetPng(index, input.spec, input.scene, input.out));
   write("README.md", AsBytes(CardMarkdown(index, input.spec, input.scene)));
 
   for (const char* name : {kMetaName, kIndexName}) checksums[name] = Sha256HexOfFile(input.out / name);

@@ -1,11 +1,14 @@
 // contact_sheet.png: what a dataset looks like, at a glance.
 #include <algorithm>
+#include <functional>
 
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/summaries.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/draw.h"
+#include "airsim360/image/palette_png.h"
+#include "airsim360/scene/category_colors.h"
 
 namespace airsim360 {
 namespace {
@@ -46,23 +49,79 @@ Rgb8 RangeColor(float range) {
   return range > 0 ? ScaleColor(1 - LogScale(range, kNearest, kFarthest)) : Rgb8{};
 }
 
-Image<Rgb8> Thumbnail(const std::string& product, const std::filesystem::path& file, int width, int height) {
+Image<Rgb8> Thumbnail(const std::string& product, const SemanticTree& tree, const std::filesystem::path& file,
+                      int width, int height) {
   const Bytes bytes = ReadFile(file);
   const std::string name = file.string();
   if (product == "range") return ShrinkNearest(DecodeExr(bytes, name), width, height, RangeColor);
-  if (product == "semantic") return ShrinkNearest(DecodeGrayPng(bytes, name), width, height, IdColor);
+  if (product == "semantic") {
+    return ShrinkNearest(DecodeLabelPng(bytes, name), width, height,
+                         [&](uint16_t id) { return CategoryColor(tree, id); });
+  }
   if (product == "entity") return ShrinkNearest(DecodeIdPng(bytes, name), width, height, IdColor);
   return ResizeBox(WithoutAlpha(DecodeRgba8(bytes, name)), width, height);
 }
 
+// What the colours mean: a scale of ranges, and the categories seen, the largest first.
+class Legend {
+ public:
+  Legend(const DatasetIndex& index, const Scene& scene, int width) : width_(width) {
+    std::vector<CategoryTotal> totals = index.CategoryTotals();
+    std::ranges::stable_sort(totals, std::greater(), &CategoryTotal::pixels);
+    const size_t shown = std::min(totals.size(), kMost);
+    for (size_t i = 0; i < shown; ++i) {
+      entries_.push_back({CategoryColor(scene.tree, totals[i].category), scene.tree[totals[i].category].path});
+      column_ = std::max(column_, kSwatch + 3 * kGap + TextWidth(entries_.back().text, 1));
+    }
+    if (shown < totals.size())
+      entries_.push_back({{255, 255, 255}, std::to_string(totals.size() - shown) + " more: README.md"});
+    columns_ = std::max(1, width_ / column_);
+  }
+
+  int height() const {
+    const int rows = (static_cast<int>(entries_.size()) + columns_ - 1) / columns_;
+    return kScaleHeight + rows * kLine + kGap;
+  }
+
+  void Draw(int top, Image<Rgb8>& sheet) const {
+    // Ranges from left to right, with their metres below.
+    const int length = std::min(width_ - 2 * kGap, kThumbWidth);
+    for (int x = 0; x < length; ++x) {
+      const double t = static_cast<double>(x) / length;
+      FillRectangle(kGap + x, top, 1, kSwatch, ScaleColor(1 - t), sheet);
+    }
+    for (int metres : {1, 3, 10, 30, 100}) {
+      const int x = kGap + static_cast<int>(LogScale(metres, kNearest, kFarthest) * length);
+      DrawText(std::to_string(metres) + " m", x, top + kSwatch + 2, {0, 0, 0}, 1, sheet);
+    }
+    for (size_t i = 0; i < entries_.size(); ++i) {
+      const int x = kGap + static_cast<int>(i) % columns_ * column_;
+      const int y = top + kScaleHeight + static_cast<int>(i) / columns_ * kLine;
+      FillRectangle(x, y, kSwatch, kSwatch, entries_[i].color, sheet);
+      DrawText(entries_[i].text, x + kSwatch + kGap, y + 2, {0, 0, 0}, 1, sheet);
+    }
+  }
+
+ private:
+  static constexpr size_t kMost = 60;
+  static constexpr int kSwatch = 12, kLine = 16, kScaleHeight = 32;
+  struct Entry {
+    Rgb8 color;
+    std::string text;
+  };
+  int width_, column_ = 1, columns_ = 1;
+  std::vector<Entry> entries_;
+};
+
 }  // namespace
 
-Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
+Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene,
                       const std::filesystem::path& folder) {
-  // Rows are pictures spread evenly over frames and views, columns are products.
+  // Rows are pictures spread evenly over the frames, the views by turns; columns are products.
   struct Cell {
     std::string product;
     std::filesystem::path file;
+    int width, height;
   };
   std::vector<ProductFolder> products = ProductFolders(spec);
   std::erase_if(products, [](const ProductFolder& product) {
@@ -73,31 +132,38 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
   const std::vector<View> views = Views(spec);
   const auto pictures = static_cast<int64_t>(frames.size() * views.size());
   const int64_t rows = std::min<int64_t>(kContactRows, pictures);
+  // Each row is as high as its pictures; columns are as wide as the widest.
   std::vector<Cell> cells;
+  std::vector<int> tops = {kHeader};
+  int width = 1;
   for (int64_t row = 0; row < rows; ++row) {
-    const auto picture = static_cast<size_t>(row * pictures / rows);
-    const std::string stem = Stem(frames[picture / views.size()]) + views[picture % views.size()].suffix;
+    const View& view = views[static_cast<size_t>(row) % views.size()];
+    const auto frame = static_cast<size_t>(row * static_cast<int64_t>(frames.size()) / rows);
+    const std::string stem = Stem(frames[frame]) + view.suffix;
+    const int w = std::min(kThumbWidth, Width(view.camera));
+    const int h = std::max(1, static_cast<int>(int64_t{w} * Height(view.camera) / Width(view.camera)));
+    width = std::max(width, w);
+    tops.push_back(tops.back() + h + kGap);
     for (const ProductFolder& product : products)
-      cells.push_back({product.name, folder / product.name / (stem + product.extension)});
+      cells.push_back({product.name, folder / product.name / (stem + product.extension), w, h});
   }
 
-  const int width = std::min(kThumbWidth, spec.width);
-  const int height = std::max(1, static_cast<int>(static_cast<int64_t>(width) * spec.height / spec.width));
-  const auto columns = static_cast<int64_t>(products.size());
-  Image<Rgb8> sheet(static_cast<int>(columns) * (width + kGap) - kGap,
-                    kHeader + static_cast<int>(rows) * (height + kGap) - kGap, {255, 255, 255});
+  const int sheet_width = static_cast<int>(products.size()) * (width + kGap) - kGap;
+  const Legend legend(index, scene, sheet_width);
+  Image<Rgb8> sheet(sheet_width, tops.back() + legend.height(), {255, 255, 255});
   for (size_t c = 0; c < products.size(); ++c) {
     DrawText(Title(products[c].name), static_cast<int>(c) * (width + kGap) + kGap, kGap, {0, 0, 0}, 2, sheet);
   }
   std::vector<Image<Rgb8>> thumbs(cells.size());
   ParallelFor(static_cast<int64_t>(cells.size()), [&](int64_t i) {
     const Cell& cell = cells[static_cast<size_t>(i)];
-    thumbs[static_cast<size_t>(i)] = Thumbnail(cell.product, cell.file, width, height);
+    thumbs[static_cast<size_t>(i)] = Thumbnail(cell.product, scene.tree, cell.file, cell.width, cell.height);
   });
   for (size_t i = 0; i < cells.size(); ++i) {
-    const int column = static_cast<int>(i % products.size()), row = static_cast<int>(i / products.size());
-    Blit(thumbs[i], column * (width + kGap), kHeader + row * (height + kGap), sheet);
+    const int column = static_cast<int>(i % products.size());
+    Blit(thumbs[i], column * (width + kGap), tops[i / products.size()], sheet);
   }
+  legend.Draw(tops.back(), sheet);
   return EncodePng(sheet);
 }
 

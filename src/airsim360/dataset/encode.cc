@@ -10,6 +10,8 @@
 #include "airsim360/dataset/encode_extra.h"
 #include "airsim360/dataset/people/person_record.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/image/palette_png.h"
+#include "airsim360/scene/category_colors.h"
 
 namespace airsim360 {
 namespace {
@@ -26,9 +28,9 @@ GPano PhotoSpherePose(const Mat3d& R_WC) {
           std::atan2(-right.z, -down.z) * kDegrees};
 }
 
-Bytes EncodeRgb(const Capture& capture, const DatasetSpec& spec) {
+Bytes EncodeRgb(const Capture& capture, Projection projection, const DatasetSpec& spec) {
   std::optional<GPano> gpano;
-  if (spec.projection == Projection::kErp) gpano = PhotoSpherePose(capture.X_WC.R);
+  if (projection == Projection::kErp) gpano = PhotoSpherePose(capture.X_WC.R);
   return spec.rgb_format == RgbFormat::kJpeg ? EncodeJpeg(capture.frame.rgb, kJpegQuality, gpano)
                                              : EncodePng(capture.frame.rgb, gpano);
 }
@@ -38,7 +40,7 @@ Bytes EncodeSemantic(const Image<CategoryId>& semantic, bool wide) {
   Image<uint8_t> narrow(semantic.width(), semantic.height());
   std::transform(semantic.pixels().begin(), semantic.pixels().end(), narrow.pixels().begin(),
                  [](CategoryId id) { return static_cast<uint8_t>(id); });
-  return EncodePng(narrow);
+  return EncodePalettePng(narrow, CategoryPalette());
 }
 
 // n in [-1, 1] as round((n + 1) * 32767); nothing hit stays (0, 0, 0), which no unit normal gives.
@@ -54,8 +56,9 @@ Bytes EncodeNormal(const Image<Vec3f>& normal) {
   return EncodePng(coded);
 }
 
-Bytes EncodeProduct(const std::string& product, const Capture& capture, const EncodeContext& context) {
-  if (product == "rgb") return EncodeRgb(capture, context.spec);
+Bytes EncodeProduct(const std::string& product, const Capture& capture, const View& view,
+                    const EncodeContext& context) {
+  if (product == "rgb") return EncodeRgb(capture, view.projection, context.spec);
   if (product == "range") return EncodeExr(capture.frame.range);
   if (product == "semantic") return EncodeSemantic(capture.frame.semantic, NeedsWideSemantics(context.scene));
   if (product == "entity") return EncodeIdPng(capture.frame.entity);
@@ -136,7 +139,6 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
   frame.record.t_ns = captures[0].t_ns;
   frame.record.X_WC = captures[0].X_WC;
   frame.record.body = captures[0].body;
-  frame.record.X_WC_next = captures[0].X_WC_next;
   frame.record.views.resize(views);
   frame.files.resize(folders.size() * views);
 
@@ -148,18 +150,19 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
       const ProductFolder& folder = folders[i / views];
       const View& view = context.views[i % views];
       EncodedFile& file = frame.files[i];
-      file.bytes = EncodeProduct(folder.name, captures[i % views], context);
+      file.bytes = EncodeProduct(folder.name, captures[i % views], view, context);
       file.record = {folder.name + view.suffix,
                      folder.name + "/" + Stem(index) + view.suffix + folder.extension,
                      static_cast<int64_t>(file.bytes.size()), Sha256Hex(file.bytes)};
     } else if (i < frame.files.size() + views) {
       const size_t v = i - frame.files.size();
       const Frame& image = captures[v].frame;
+      const Projection projection = context.views[v].projection;
       frame.record.views[v] = {
-          context.views[v].suffix,
+          context.views[v].suffix, captures[v].X_WC, captures[v].X_WC_next,
           FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
-                       {.wraps = context.spec.projection == Projection::kErp,
-                        .allows_void = context.spec.projection == Projection::kFisheye})};
+                       {.wraps = projection == Projection::kErp,
+                        .allows_void = projection == Projection::kFisheye})};
     } else {
       FillRangeFigures(captures, frame.record);
     }

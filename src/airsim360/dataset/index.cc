@@ -122,6 +122,18 @@ std::vector<std::string> DatasetIndex::Persons(int64_t frame, const std::string&
   return persons;
 }
 
+PeopleTotals DatasetIndex::CountPeople() const {
+  const auto count = [&](const std::string& what) {
+    Statement row(impl_->database, "SELECT COUNT(" + what + ") FROM persons");
+    return row.Next() ? row.Int(0) : 0;
+  };
+  return {.views = count("*"),
+          .views_seen = count("CASE WHEN pixels > 0 THEN 1 END"),
+          .persons_seen = count("DISTINCT CASE WHEN pixels > 0 THEN track END"),
+          .persons_large =
+              count("DISTINCT CASE WHEN pixels >= " + std::to_string(kLargePerson) + " THEN track END")};
+}
+
 std::vector<CategoryTotal> DatasetIndex::CategoryTotals() const {
   std::vector<CategoryTotal> totals;
   Statement rows(impl_->database,

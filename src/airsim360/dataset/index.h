@@ -29,6 +29,15 @@ struct SeenEntity {
   int64_t first_frame = 0;
 };
 
+/// How well the people of a dataset are seen.
+struct PeopleTotals {
+  int64_t views = 0;         ///< persons in the lists of all pictures
+  int64_t views_seen = 0;    ///< of them with at least one pixel
+  int64_t persons_seen = 0;  ///< different persons with at least one pixel in some picture
+  int64_t persons_large = 0; ///< … with at least kLargePerson pixels in one
+};
+inline constexpr int64_t kLargePerson = 100;
+
 class DatasetIndex {
  public:
   enum class Mode { kRead, kJournal };  ///< kJournal creates the file if it is missing
@@ -45,6 +54,7 @@ class DatasetIndex {
   std::string FrameLine(int64_t frame) const;          ///< line of frames.jsonl
   std::vector<Segment> Segments(int64_t frame, const std::string& view) const;  ///< by entity id
   std::vector<std::string> Persons(int64_t frame, const std::string& view) const;  ///< texts, by entity id
+  PeopleTotals CountPeople() const;
   std::vector<CategoryTotal> CategoryTotals() const;                            ///< by category id
   std::vector<SeenEntity> SeenEntities() const;                                 ///< by entity id
 

@@ -1,5 +1,6 @@
 #include "airsim360/dataset/label_check.h"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -46,12 +47,22 @@ std::string CompareLabels(const fs::path& file, const Json& annotation, bool all
   return {};
 }
 
-// True for projections whose pictures have pixels without a ray.
-bool AllowsVoid(const fs::path& folder) {
+// Ends of the names of pictures that have pixels without a ray.
+std::vector<std::string> SuffixesWithVoid(const fs::path& folder) {
   const Json meta =
       fs::exists(folder / kMetaName) ? Json::parse(ReadTextFile(folder / kMetaName), nullptr, false) : Json();
-  const Json::json_pointer projection("/parameters/projection");
-  return meta.is_object() && meta.contains(projection) && meta[projection] == "fisheye";
+  std::vector<std::string> suffixes;
+  const Json::json_pointer projection("/parameters/projection"), cameras("/parameters/cameras");
+  if (!meta.is_object()) return suffixes;
+  if (meta.contains(cameras) && meta[cameras].is_array()) {
+    for (const Json& camera : meta[cameras]) {
+      if (camera.is_object() && camera.value("projection", Json()) == "fisheye" && camera.value("name", Json()).is_string())
+        suffixes.push_back("_" + camera["name"].get<std::string>() + ".png");
+    }
+  } else if (meta.contains(projection) && meta[projection] == "fisheye") {
+    suffixes.push_back(".png");
+  }
+  return suffixes;
 }
 
 }  // namespace
@@ -63,7 +74,7 @@ void CheckLabels(const fs::path& folder, std::vector<Finding>& findings) {
     findings.push_back({Finding::Kind::kLabels, "panoptic.json", "not COCO panoptic JSON"});
     return;
   }
-  const bool allows_void = AllowsVoid(folder);
+  const std::vector<std::string> with_void = SuffixesWithVoid(folder);
   const Json& annotations = panoptic["annotations"];
   std::vector<std::vector<Finding>> found(annotations.size());
   ParallelFor(static_cast<int64_t>(annotations.size()), [&](int64_t i) {
@@ -71,6 +82,7 @@ void CheckLabels(const fs::path& folder, std::vector<Finding>& findings) {
     std::string path = "panoptic.json", problem;
     try {
       path = "entity/" + annotation.at("file_name").get<std::string>();
+      const bool allows_void = std::ranges::any_of(with_void, [&](const std::string& end) { return path.ends_with(end); });
       if (fs::exists(folder / path)) problem = CompareLabels(folder / path, annotation, allows_void);
     } catch (const std::exception& error) {
       problem = error.what();

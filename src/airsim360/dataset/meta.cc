@@ -1,13 +1,51 @@
 // meta.json: what a dataset is, for people and programs.
 #include <nlohmann/json.hpp>
 
+#include "airsim360/dataset/intrinsics.h"
 #include "airsim360/dataset/spec.h"
 #include "airsim360/dataset/version.h"
+#include "airsim360/scene/category_colors.h"
 
 namespace airsim360 {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+Json RigJson(const DatasetSpec& spec) {
+  Json list = Json::array();
+  for (const RigCamera& camera : spec.cameras) {
+    Json json = {{"name", camera.name},
+                 {"projection", kProjectionNames[static_cast<int>(camera.projection)]},
+                 {"width", camera.width},
+                 {"height", camera.height},
+                 {"p_B", {camera.p_B.x, camera.p_B.y, camera.p_B.z}},
+                 {"yaw_deg", camera.yaw_deg},
+                 {"pitch_deg", camera.pitch_deg},
+                 {"roll_deg", camera.roll_deg}};
+    if (camera.projection == Projection::kPinhole || camera.projection == Projection::kFisheye)
+      json["fov_deg"] = camera.fov_deg;
+    list.push_back(json);
+  }
+  return list;
+}
+
+// Name, place on the body and intrinsics of every view that has them.
+Json CamerasJson(const DatasetSpec& spec) {
+  Json list = Json::array();
+  for (const View& view : Views(spec)) {
+    const Json K = IntrinsicsJson(view.camera);
+    if (K.is_null() && spec.cameras.empty()) continue;
+    const Quaternion q = ToQuaternion(view.X_BC.R);
+    const Vec3d p = view.X_BC.p;
+    Json json = {{"name", view.name},
+                 {"suffix", view.suffix},
+                 {"projection", kProjectionNames[static_cast<int>(view.projection)]},
+                 {"X_BC", {{"p", {p.x, p.y, p.z}}, {"q_wxyz", {q.w, q.x, q.y, q.z}}}}};
+    if (!K.is_null()) json["K"] = K;
+    list.push_back(json);
+  }
+  return list;
+}
 
 Json ParametersJson(const DatasetSpec& spec) {
   Json json = {{"command", spec.command},
@@ -28,8 +66,9 @@ Json ParametersJson(const DatasetSpec& spec) {
   Json products = Json::array();
   for (const ProductFolder& folder : ProductFolders(spec)) products.push_back(folder.name);
   json["products"] = products;
-  if (spec.projection == Projection::kPinhole || spec.projection == Projection::kFisheye)
-    json["fov_deg"] = spec.fov_deg;
+  const bool has_fov = spec.projection == Projection::kPinhole || spec.projection == Projection::kFisheye;
+  if (spec.cameras.empty() && has_fov) json["fov_deg"] = spec.fov_deg;
+  if (!spec.cameras.empty()) json["cameras"] = RigJson(spec);
   if (!spec.labels.empty()) json["labels"] = spec.labels;
   if (spec.samples != 0) json["samples"] = spec.samples;
   if (!spec.denoise) json["denoise"] = false;
@@ -60,6 +99,9 @@ Json ConventionsJson() {
       {"equirectangular",
        "COLMAP EQUIRECTANGULAR, W = 2H: theta = 2 pi ((x + 0.5) / W - 0.5), phi = pi (0.5 - (y + 0.5) / H), "
        "ray = (cos phi sin theta, -sin phi, cos phi cos theta)"},
+      {"K",
+       "of pinhole (COLMAP PINHOLE) and fisheye pictures (OPENCV_FISHEYE, angle in radians = radius / f): x = fx X / Z + cx "
+       "in pixels, the centre of the first pixel at (0.5, 0.5)"},
       {"pano_frame", "body: the panorama turns with the body; level: only with its heading, up is world up"},
       {"cube",
        "faces STEM_+x, -x, +y, -y, +z, -z: 90 degree pinholes along the axes of C, +z forward, -y up; the "
@@ -74,8 +116,11 @@ Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
   }
   json["range"] =
       "OpenEXR float32, channel Y: metres along the ray through the pixel centre, 0 = nothing hit (sky)";
-  json["semantic"] = std::string(NeedsWideSemantics(scene) ? "16" : "8") +
-                     "-bit PNG, category id of `categories`; 0 = void, never written";
+  json["semantic"] =
+      NeedsWideSemantics(scene)
+          ? "16-bit gray PNG, category id of `categories` (custom ones are 256 and above); 0 = void, never written"
+          : "8-bit palette PNG: the index stored in a pixel is the category id of `categories`, the palette holds "
+            "their colours; PIL's np.asarray(Image.open(f)) gives indices, cv2.imread colours; 0 = void, never written";
   json["entity"] = "8-bit RGB PNG, entity id = R + 256 G + 65536 B; 0 never appears";
   if (spec.normal) {
     json["normal"] =
@@ -114,8 +159,10 @@ Json CategoriesJson(const SemanticTree& tree) {
   Json list = Json::array();
   for (const auto& [id, category] : tree.categories()) {
     if (id == kVoid) continue;
+    const Rgb8 color = CategoryColor(tree, id);
     list.push_back({{"id", id},
                     {"path", category.path},
+                    {"color", {color.r, color.g, color.b}},
                     {"parent", category.parent},
                     {"kind", category.thing ? "thing" : "stuff"},
                     {"ade20k", category.ade20k},
@@ -144,6 +191,7 @@ std::string MetaJson(const DatasetSpec& spec, const Scene& scene) {
       {"conventions", ConventionsJson()},
       {"encodings", EncodingsJson(spec, scene)},
       {"categories", CategoriesJson(scene.tree)}};
+  if (const Json cameras = CamerasJson(spec); !cameras.empty()) json["cameras"] = cameras;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

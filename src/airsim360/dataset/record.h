@@ -32,7 +32,9 @@ struct PersonRow {
 
 struct ViewRecord {
   std::string suffix;
-  std::vector<Segment> segments;
+  RigidTransform X_WC;
+  std::optional<RigidTransform> X_WC_next = {};  ///< where the flow leads to, if the dataset has flow
+  std::vector<Segment> segments = {};
   std::vector<PersonRow> persons = {};  ///< by entity id
 };
 
@@ -40,13 +42,12 @@ struct ViewRecord {
 struct FrameRecord {
   int64_t index = 0;
   int64_t t_ns = 0;
-  RigidTransform X_WC;
+  RigidTransform X_WC;  ///< of the first view
   Kinematics body;
   double range_min = 0;     ///< metres, over the pixels that hit something; 0 if none did
   double range_median = 0;  ///< lower median
   std::vector<FileRecord> files;
-  std::vector<ViewRecord> views;
-  std::optional<RigidTransform> X_WC_next;  ///< where the flow leads to, if the dataset has flow
+  std::vector<ViewRecord> views;  ///< as Views(spec)
 };
 
 /// One line of frames.jsonl, without the line feed.

@@ -8,6 +8,7 @@ namespace {
 PanoramicRig MakeRig(const DatasetSpec& spec, const View& view, const Products& products) {
   PanoramicRig rig;
   rig.camera = view.camera;
+  rig.X_BC = view.X_BC;
   rig.pano_frame = spec.pano_frame;
   rig.tier = spec.tier;
   rig.products = products;

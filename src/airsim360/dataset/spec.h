@@ -15,6 +15,16 @@ inline constexpr const char* kProjectionNames[] = {"erp", "cube", "pinhole", "fi
 
 enum class RgbFormat { kPng, kJpeg };
 
+/// One camera of a rig: what it sees and where it sits on the body.
+struct RigCamera {
+  std::string name;  ///< in file names and frames.jsonl: 1 to 32 of [a-z0-9_]
+  Projection projection = Projection::kPinhole;
+  int width = 1024, height = 768;  ///< of one picture; a cube face for Projection::kCube
+  double fov_deg = 90;             ///< as DatasetSpec::fov_deg
+  Vec3d p_B;                       ///< metres in B
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;  ///< of the forward axis, as BodyPose
+};
+
 /// Parameters of a dataset. Two runs with equal parameters (and the same program and models) write the same
 /// bytes.
 struct DatasetSpec {
@@ -24,6 +34,7 @@ struct DatasetSpec {
   Projection projection = Projection::kErp;
   int width = 2048, height = 1024;  ///< of one picture; a cube face for Projection::kCube
   double fov_deg = 90;              ///< pinhole: across the width; fisheye: across the shorter side
+  std::vector<RigCamera> cameras;  ///< a rig, in the order of its files; empty: one camera as above, at B
   Tier tier = Tier::kFast;
   bool normal = false;
   RgbFormat rgb_format = RgbFormat::kPng;
@@ -70,15 +81,20 @@ inline constexpr OptionalProduct kOptionalProducts[] = {
 inline constexpr const char* kFixedProducts[] = {"rgb", "range", "semantic", "entity"};
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube
-/// six with
-/// "_+x", "_-x", … appended to the stem.
+/// six with "_+x", "_-x", … appended to the stem; a rig has those of each camera, with "_NAME" before.
 struct View {
   std::string suffix;
   Camera camera;
+  Projection projection = Projection::kErp;
+  RigidTransform X_BC = CameraInBody();
+  std::string name = {};  ///< of the rig's camera; "" without a rig
 };
 
 /// The views of a capture, in the order in which they are written.
 std::vector<View> Views(const DatasetSpec& spec);
+
+/// Whether every picture is an equirectangular panorama.
+bool IsPanoramic(const DatasetSpec& spec);
 
 /// The products a capture fills: colour unless the tier is labels.
 Products ProductsOf(const DatasetSpec& spec);

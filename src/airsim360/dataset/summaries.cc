@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "airsim360/base/random.h"
 #include "airsim360/dataset/people/person_record.h"
+#include "airsim360/scene/category_colors.h"
 #include "airsim360/scene/parts.h"
 
 namespace airsim360 {
@@ -17,13 +17,14 @@ std::string Dump(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 // The first part of a path: "vegetation" of "vegetation/tree/elm".
 std::string Root(const std::string& path) { return path.substr(0, path.find('/')); }
 
-Json CategoryJson(const Category& category) {
-  const uint64_t color = MixBits(HashName(category.path));
+Json CategoryJson(const SemanticTree& tree, CategoryId id) {
+  const Category& category = tree[id];
+  const Rgb8 color = CategoryColor(tree, id);
   return {{"id", category.id},
           {"name", category.path},
           {"supercategory", Root(category.path)},
           {"isthing", category.thing ? 1 : 0},
-          {"color", {color & 255, color >> 8 & 255, color >> 16 & 255}}};
+          {"color", {color.r, color.g, color.b}}};
 }
 
 Json SegmentJson(const Segment& segment) {
@@ -101,7 +102,7 @@ std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, con
       const int64_t id = frame * static_cast<int64_t>(views.size()) + static_cast<int64_t>(v);
       const std::string stem = Stem(frame) + views[v].suffix;
       const Json image = {
-          {"id", id}, {"file_name", stem + extension}, {"width", spec.width}, {"height", spec.height}};
+          {"id", id}, {"file_name", stem + extension}, {"width", Width(views[v].camera)}, {"height", Height(views[v].camera)}};
       images += (images.empty() ? "\n" : ",\n") + Dump(image);
       std::string segments;
       for (const Segment& segment : index.Segments(frame, views[v].suffix)) {
@@ -117,7 +118,7 @@ std::string PanopticJson(const DatasetIndex& index, const DatasetSpec& spec, con
   for (const Entity& entity : scene.entities) used.insert(entity.category);
   std::string categories;
   for (CategoryId id : used)
-    categories += (categories.empty() ? "\n" : ",\n") + Dump(CategoryJson(scene.tree[id]));
+    categories += (categories.empty() ? "\n" : ",\n") + Dump(CategoryJson(scene.tree, id));
   return "{\"images\":[" + images + "],\n\"annotations\":[" + annotations + "],\n\"categories\":[" +
          categories + "]}\n";
 }

@@ -24,9 +24,9 @@ std::string PartsJson();
 /// README.md: the dataset card.
 std::string CardMarkdown(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene);
 /// contact_sheet.png: colour | range | semantic | entity, one row for each of up to kContactRows frames
-/// spread evenly. Reads the pictures from `folder`.
+/// spread evenly, and below what the colours of ranges and categories mean. Reads the pictures from `folder`.
 inline constexpr int kContactRows = 8;
-std::vector<std::byte> ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec,
+std::vector<std::byte> ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const Scene& scene,
                                        const std::filesystem::path& folder);
 
 }  // namespace airsim360

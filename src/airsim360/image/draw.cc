@@ -123,6 +123,10 @@ double LogScale(double value, double low, double high) {
   return std::min(1.0, std::log(value / low) / std::log(high / low));
 }
 
+Rgb8 OklchColor(double lightness, double chroma, double hue_deg) {
+  return FromOklch(lightness, chroma, Radians(hue_deg));
+}
+
 Rgb8 IdColor(uint32_t id) {
   if (id == 0) return {0, 0, 0};
   // Steps of the golden angle keep neighbouring ids apart in hue; lightness and chroma come from the hash.

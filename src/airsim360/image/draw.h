@@ -26,6 +26,9 @@ Rgb8 ScaleColor(double t);
 /// 0 at `low`, 1 at `high`, in equal steps for equal ratios; clamped. 0 < low < high. Values <= 0 give 0.
 double LogScale(double value, double low, double high);
 
+/// A colour of Oklab by lightness in [0, 1], chroma and hue in degrees; clipped to sRGB.
+Rgb8 OklchColor(double lightness, double chroma, double hue_deg);
+
 /// Colour of an id: the same everywhere, well spread for neighbouring ids; 0 is black.
 Rgb8 IdColor(uint32_t id);
 

@@ -2,11 +2,13 @@
 // two functions that call setjmp.
 #include <png.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs_internal.h"
+#include "airsim360/image/palette_png.h"
 
 namespace airsim360 {
 namespace {
@@ -64,6 +66,16 @@ class Reader {
         static_cast<uint64_t>(png_get_channels(png_, info_)) * info.bit_depth * info.width * info.height;
     if (bits / 8 / 1032 > file_size) internal::ThrowDamaged(name_, "truncated PNG");
     return info;
+  }
+
+  /// The palette; empty where there is none. After ReadHeader.
+  std::vector<Rgb8> Palette() const {
+    png_colorp colors = nullptr;
+    int count = 0;
+    std::vector<Rgb8> palette;
+    if (png_get_PLTE(png_, info_, &colors, &count) == 0) return palette;
+    for (int i = 0; i < count; ++i) palette.push_back({colors[i].red, colors[i].green, colors[i].blue});
+    return palette;
   }
 
   /// Reads all pixels as `form` into rows of memory, to the end of the file.
@@ -145,16 +157,44 @@ PngKind ReadPngKind(std::span<const std::byte> bytes, std::string_view name) {
   return {info.color_type & PNG_COLOR_MASK_COLOR ? 3 : 1, info.bit_depth};
 }
 
+namespace {
+
+Image<uint16_t> Widened(const Image<uint8_t>& narrow) {
+  Image<uint16_t> image(narrow.width(), narrow.height());
+  std::copy(narrow.pixels().begin(), narrow.pixels().end(), image.pixels().begin());
+  return image;
+}
+
+}  // namespace
+
+bool IsPalettePng(std::span<const std::byte> bytes, std::string_view name) {
+  return Reader(bytes, name).ReadHeader().color_type == PNG_COLOR_TYPE_PALETTE;
+}
+
+PalettePicture DecodePalettePng(std::span<const std::byte> bytes, std::string_view name) {
+  Reader reader(bytes, name);
+  const Info info = reader.ReadHeader();
+  if (info.color_type != PNG_COLOR_TYPE_PALETTE)
+    internal::ThrowDamaged(name, "a PNG with a palette is expected");
+  PalettePicture picture{.palette = reader.Palette()};
+  picture.indices = ReadInto<uint8_t>(reader, info, Form::kGray);
+  const auto beyond = [&](uint8_t index) { return index >= picture.palette.size(); };
+  if (std::any_of(picture.indices.pixels().begin(), picture.indices.pixels().end(), beyond))
+    internal::ThrowDamaged(name, "a pixel is beyond the palette");
+  return picture;
+}
+
+Image<uint16_t> DecodeLabelPng(std::span<const std::byte> bytes, std::string_view name) {
+  return IsPalettePng(bytes, name) ? Widened(DecodePalettePng(bytes, name).indices) : DecodeGrayPng(bytes, name);
+}
+
 Image<uint16_t> DecodeGrayPng(std::span<const std::byte> bytes, std::string_view name) {
   Reader reader(bytes, name);
   const Info info = reader.ReadHeader();
   if (info.color_type & PNG_COLOR_MASK_COLOR)
     internal::ThrowDamaged(name, "a gray PNG is expected, this one has colour");
   if (info.bit_depth == 16) return ReadInto<uint16_t>(reader, info, Form::kGray);
-  const auto narrow = ReadInto<uint8_t>(reader, info, Form::kGray);
-  Image<uint16_t> image(narrow.width(), narrow.height());
-  for (size_t i = 0; i < narrow.size(); ++i) image.pixels()[i] = narrow.pixels()[i];
-  return image;
+  return Widened(ReadInto<uint8_t>(reader, info, Form::kGray));
 }
 
 Image<Rgb16> DecodeRgb16Png(std::span<const std::byte> bytes, std::string_view name) {

@@ -21,6 +21,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/codecs_internal.h"
+#include "airsim360/image/palette_png.h"
 
 namespace airsim360 {
 namespace {
@@ -121,22 +122,33 @@ void AppendXmp(Bytes& out, const std::string& packet) {
   AppendChunk(out, "iTXt", AsBytes("XML:com.adobe.xmp\0\0\0\0\0"s + packet));
 }
 
+// PNG 1.2 section 4.1.2: three bytes a colour.
+Bytes PaletteChunk(std::span<const Rgb8> palette) {
+  Bytes data;
+  for (const Rgb8& color : palette) {
+    for (uint8_t v : {color.r, color.g, color.b}) data.push_back(static_cast<std::byte>(v));
+  }
+  return data;
+}
+
+// With a palette the only channel holds indices into it.
 template <class FillRow>
 Bytes WritePng(const Layout& layout, const FillRow& fill_row,
-               const std::optional<GPano>& gpano = std::nullopt) {
+               const std::optional<GPano>& gpano = std::nullopt, std::span<const Rgb8> palette = {}) {
   internal::CheckSize(layout.width, layout.height, "PNG");
   Bytes out;
   const auto signature = AsBytes("\x89PNG\r\n\x1a\n");
   out.assign(signature.begin(), signature.end());
 
-  // IHDR: gray is colour type 0, RGB is 2, RGBA is 6; deflate, adaptive filters, not interlaced.
+  // IHDR: gray is colour type 0, RGB is 2, palette is 3, RGBA is 6; deflate, adaptive filters, not interlaced.
   Bytes header;
   AppendBigEndian32(header, static_cast<uint32_t>(layout.width));
   AppendBigEndian32(header, static_cast<uint32_t>(layout.height));
-  const int color_type = layout.channels == 1 ? 0 : layout.channels == 4 ? 6 : 2;
+  const int color_type = !palette.empty() ? 3 : layout.channels == 1 ? 0 : layout.channels == 4 ? 6 : 2;
   for (int v : {layout.bit_depth, color_type, 0, 0, 0})
     header.push_back(static_cast<std::byte>(v));
   AppendChunk(out, "IHDR", header);
+  if (!palette.empty()) AppendChunk(out, "PLTE", PaletteChunk(palette));
   if (gpano) AppendXmp(out, internal::GPanoXmp(*gpano, layout.width, layout.height));
 
   // A chunk holds at most 2^31 - 1 bytes, so large pictures take several.
@@ -184,6 +196,21 @@ Bytes EncodePng(const Image<Rgb16>& image) {
 Bytes EncodePng(const Image<uint8_t>& image) {
   const auto fill = [&](int y, uint8_t* out) { std::memcpy(out, image.row(y).data(), image.row(y).size()); };
   return WritePng({image.width(), image.height(), 8, 1}, fill);
+}
+
+Bytes EncodePalettePng(const Image<uint8_t>& indices, std::span<const Rgb8> palette) {
+  if (palette.empty() || palette.size() > 256)
+    throw InputError("a palette has 1 to 256 colours, not " + std::to_string(palette.size()));
+  for (uint8_t index : indices.pixels()) {
+    if (index >= palette.size()) {
+      throw InputError("index " + std::to_string(index) + " is not in a palette of " +
+                       std::to_string(palette.size()) + " colours");
+    }
+  }
+  const auto fill = [&](int y, uint8_t* out) {
+    std::memcpy(out, indices.row(y).data(), indices.row(y).size());
+  };
+  return WritePng({indices.width(), indices.height(), 8, 1}, fill, std::nullopt, palette);
 }
 
 Bytes EncodePng(const Image<uint16_t>& image) {

@@ -126,6 +126,23 @@ TEST(SceneArchive, CustomCategoriesKeepIdAndKind) {
   EXPECT_EQ(read->tree.categories().size(), scene->tree.categories().size());
 }
 
+TEST(SceneArchive, CategoriesThatWantOneIdKeepTheirs) {
+  SceneBuilder builder("many");
+  builder.AddMaterial({});
+  bool moved = false;
+  for (int i = 1500; i > 0; --i) {
+    const std::string path = "thing/name_" + std::to_string(i);
+    moved |= builder.tree().Add(path) != SemanticTree().Add(path);
+  }
+  ASSERT_TRUE(moved);  // else this tests nothing
+  builder.AddSky();
+  const auto scene = builder.Build();
+  const std::optional<Scene> read = SceneFromArchive(ArchiveScene(*scene));
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->tree.categories().size(), scene->tree.categories().size());
+  for (const auto& [id, category] : scene->tree.categories()) EXPECT_EQ(read->tree[id].path, category.path);
+}
+
 TEST(SceneArchive, CutOffAndLongerBytesAreRejected) {
   Bytes bytes = ArchiveScene(*OddScene());
   for (size_t size = 0; size < bytes.size(); ++size)

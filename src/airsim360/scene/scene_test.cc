@@ -6,6 +6,7 @@
 #include <set>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
 
 namespace airsim360 {
 namespace {
@@ -23,6 +24,32 @@ TEST(Semantics, IdsAreUniqueBelowTheCustomRangeAndParentsComeByPath) {
   }
   EXPECT_EQ(tree[tree.At("construction/building")].cityscapes, 11);
   EXPECT_EQ(tree[tree.At("sky")].coco, 187);
+}
+
+// Datasets of different versions can be mixed: what was added later stands behind.
+TEST(Semantics, TheIdsOfTheFirst208CategoriesNeverChange) {
+  const SemanticTree tree;
+  std::string paths;
+  for (CategoryId id = 1; id <= 208; ++id) paths += tree[id].path + "\n";
+  EXPECT_EQ(HashName(paths), 0xd46d9e45e57e0242u);
+}
+
+// As many names as a large import has: two of 2000 have the same hash nearly always.
+TEST(Semantics, ThousandsOfCustomCategoriesHaveIdsOfTheirOwn) {
+  SemanticTree tree;
+  std::set<CategoryId> ids;
+  for (int i = 0; i < 5000; ++i) ids.insert(tree.Add("thing/name_" + std::to_string(i)));
+  EXPECT_EQ(ids.size(), 5000u);
+  EXPECT_GE(*ids.begin(), kFirstCustomId);
+}
+
+TEST(Semantics, WhenIdsRunOutItIsSaid) {
+  SemanticTree tree;
+  EXPECT_THROW(
+      {
+        for (int i = 0; i < 70000; ++i) tree.Add("n" + std::to_string(i));
+      },
+      InputError);
 }
 
 TEST(Semantics, ACustomPathHasTheSameIdInEveryTreeAndInheritsFromItsAncestor) {

@@ -231,6 +231,14 @@ constexpr Row kRows[] = {
     {"furniture/recreation/ferris_wheel", true, -1, 4, -1, ""},
     {"construction/windmill", true, 84, 11, 197, ""},
     {"construction/well", true, -1, 4, -1, ""},
+    {"object/phone", true, -1, 5, 77, ""},
+    {"object/bag", true, 115, 5, 31, ""},
+    {"object/umbrella", true, -1, 5, 28, ""},
+    {"object/stroller", true, -1, 5, -1, ""},
+    {"construction/building/backdrop", true, 1, 11, 197, ""},
+    {"construction/building/part", true, 1, 11, 197, ""},
+    {"construction/mast", true, 93, 17, -1, ""},
+    {"ground/rail", false, -1, 10, 147, ""},
 };
 // clang-format on
 static_assert(std::size(kRows) < kFirstCustomId);
@@ -297,13 +305,17 @@ CategoryId SemanticTree::Add(std::string_view path, bool thing) {
   const size_t slash = path.rfind('/');
   const CategoryId parent = slash == std::string_view::npos ? kVoid : Add(path.substr(0, slash), thing);
 
-  // The id depends on the path alone; two paths that collide (1 in 65,000) are refused rather than
-  // renumbered.
-  const auto id = static_cast<CategoryId>(kFirstCustomId + HashName(path) % (65536 - kFirstCustomId));
-  if (categories_.contains(id)) {
-    throw InputError("category path '" + std::string(path) + "' has the same id as '" + categories_[id].path +
-                     "': choose another name for one of them");
+  // The id depends on the path alone, unless an earlier path has it (1 in 65,000 pairs): then it is the next free one.
+  constexpr uint64_t kIds = 65536 - kFirstCustomId;
+  uint64_t place = HashName(path) % kIds;
+  for (uint64_t tried = 0; categories_.contains(static_cast<CategoryId>(kFirstCustomId + place)); ++tried) {
+    if (tried == kIds) {
+      throw InputError("category path '" + std::string(path) + "': all " + std::to_string(kIds) +
+                       " ids of custom categories are taken");
+    }
+    place = (place + 1) % kIds;
   }
+  const auto id = static_cast<CategoryId>(kFirstCustomId + place);
   Category category{id, std::string(path), parent, thing, -1, -1, -1, {}};
   for (CategoryId up = parent; up != kVoid; up = categories_[up].parent) {
     if (category.ade20k < 0) category.ade20k = categories_[up].ade20k;

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/sim/people_survey.h"
 
 namespace airsim360 {
 namespace {
@@ -95,31 +99,57 @@ std::vector<HumanSubset> SubsetsOf(const HumanRecipe& recipe) {
   return subsets;
 }
 
-HumanArea PickArea(const NavMesh& mesh, const HumanSubset& subset, uint64_t seed) {
-  constexpr int kTries = 64;
-  constexpr double kRoom = 2;  // m^2 a person
+namespace {
+
+// How many kinds of everyday things stand in and around a rectangle: kerbside things, signs, cars, doors; a bare block has few.
+size_t Liveliness(const Scene& scene, Vec2d low, Vec2d high) {
+  constexpr double kAround = 15;       // metres
+  constexpr float kEverydaySize = 25;  // metres: larger ones (a district's ground in one piece) tell nothing of a place
+  std::set<CategoryId> kinds;
+  for (const Entity& entity : scene.entities) {
+    const Box3f& box = entity.bounds;
+    if (box.empty() || std::max({box.size().x, box.size().y, box.size().z}) > kEverydaySize) continue;
+    const Vec3d c = VecCast<double>(box.center());
+    if (c.x > low.x - kAround && c.x < high.x + kAround && c.y > low.y - kAround && c.y < high.y + kAround)
+      kinds.insert(entity.category);
+  }
+  return kinds.size();
+}
+
+}  // namespace
+
+HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& subset, uint64_t seed) {
+  constexpr int kTries = 96;
+  constexpr double kRoom = 2;      // m^2 a person
+  constexpr double kOpen = 0.6;    // of the most open rectangle's ground
+  struct Candidate {
+    HumanArea area;
+    double square_metres;
+  };
   RngStream rng(seed, "omni360_human " + subset.name);
   const NavArea everywhere = mesh.AreaOf({}, ~0u);
-  HumanArea best;
-  double largest = 0;
+  std::vector<Candidate> candidates;
+  double most = 0;
   for (int i = 0; i < kTries; ++i) {
     const NavPoint center = mesh.Pick(everywhere, rng);
     if (!center.valid()) continue;
     const Vec2d half{subset.width / 2, subset.depth / 2}, c{center.p_W.x, center.p_W.y};
     const Vec2d low = c - half, high = c + half;
     const Vec2d outline[] = {low, {high.x, low.y}, high, {low.x, high.y}};
-    const NavArea inside = mesh.AreaOf(outline, ~0u);
-    const double area = inside.square_metres;
-    if (area <= largest) continue;
-    largest = area;
-    best = {low, high, center.p_W.z};
+    candidates.push_back({{low, high, center.p_W.z}, mesh.AreaOf(outline, ~0u).square_metres});
+    most = std::max(most, candidates.back().square_metres);
   }
-  if (largest < kRoom * static_cast<double>(subset.people)) {
+  if (most < kRoom * static_cast<double>(subset.people)) {
     throw InputError("subset " + subset.name + ": no area of " + std::to_string(subset.width) + " x " +
                      std::to_string(subset.depth) + " m in '" + subset.world + "' has room for " +
                      std::to_string(subset.people) + " people");
   }
-  return best;
+  const double least = std::max(kOpen * most, kRoom * static_cast<double>(subset.people));
+  std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.square_metres < least; });
+  const auto rank = [&](const Candidate& candidate) {
+    return std::pair(Liveliness(scene, candidate.area.low, candidate.area.high), candidate.square_metres);
+  };
+  return std::ranges::max_element(candidates, {}, rank)->area;
 }
 
 std::string PeopleFileOf(const HumanArea& area, uint64_t people) {
@@ -133,23 +163,40 @@ std::string PeopleFileOf(const HumanArea& area, uint64_t people) {
 
 namespace {
 
-// A free place for the camera over or beside the area, facing its middle.
+using PeoplePlaces = std::vector<std::optional<Vec3d>>;
+
+PeoplePlaces PlacesOf(const PeopleState& state) {
+  PeoplePlaces places;
+  for (const PersonState& person : state.crowd.people)
+    places.push_back(person.visible ? std::optional(person.p_WP) : std::nullopt);
+  return places;
+}
+
+// A free place for the camera over or beside the area, facing its middle: of several the one that shows people best.
 RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
-                        const RayTracer& world, RngStream& rng) {
-  constexpr int kTries = 200;
+                        const RayTracer& world, const PeoplePlaces& people, RngStream& rng) {
+  constexpr int kTries = 400, kRated = 32;
   constexpr float kFree = 1;     // metres to every surface
   constexpr double kBeside = 4;  // metres that the camera may stand outside the area
-  for (int i = 0; i < kTries; ++i) {
+  const Vec2d middle = (area.low + area.high) * 0.5;
+  std::optional<RigidTransform> best;
+  double most = -1;
+  for (int i = 0, rated = 0; i < kTries && rated < kRated; ++i) {
     const Vec3d p{rng.Uniform(area.low.x - kBeside, area.high.x + kBeside),
                   rng.Uniform(area.low.y - kBeside, area.high.y + kBeside),
                   area.ground + rng.Uniform(recipe.lowest, recipe.highest)};
-    if (world.Clearance(VecCast<float>(p), kFree) < kFree) continue;
-    const Vec2d middle = (area.low + area.high) * 0.5;
     const double yaw = std::atan2(middle.y - p.y, middle.x - p.x) + rng.Uniform(-0.6, 0.6);
+    if (world.Clearance(VecCast<float>(p), kFree) < kFree) continue;
     // Seen by those who are in the area: not from behind a wall.
     if (world.Occluded(VecCast<float>(p), VecCast<float>(Vec3d{middle.x, middle.y, area.ground + 1}))) continue;
-    return BodyPose(p, yaw, -subset.pitch_deg * kRadians, 0);
+    const std::optional<double> seen = RatePeopleView(world, p, people);
+    if (!seen) continue;
+    ++rated;
+    if (*seen <= most) continue;
+    most = *seen;
+    best = BodyPose(p, yaw, -subset.pitch_deg * kRadians, 0);
   }
+  if (best) return *best;
   throw InputError("subset " + subset.name + ": no free place for the camera around its area");
 }
 
@@ -163,7 +210,9 @@ Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const Hu
   const int64_t interval_ns = std::max<int64_t>(std::llround(recipe.interval * 1e9) / kCrowdTickNs, 1) * kCrowdTickNs;
   Kinematics body;
   for (int64_t i = 0; i < subset.frames; ++i) {
-    if (i % static_cast<int64_t>(recipe.frames_a_view) == 0) body.X_WB = PickView(recipe, subset, area, world, rng);
+    if (i % static_cast<int64_t>(recipe.frames_a_view) == 0) {
+      body.X_WB = PickView(recipe, subset, area, world, PlacesOf(state), rng);
+    }
     const int64_t t_ns = i * interval_ns;
     flight.shots.push_back({t_ns, body, std::make_shared<const PeopleState>(state)});
     flight.trajectory.push_back({t_ns, body, {}});

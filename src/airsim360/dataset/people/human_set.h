@@ -52,15 +52,17 @@ struct HumanArea {
   Vec2d low, high;
   double ground = 0;  ///< height of the mesh in its middle
 };
-/// A rectangle of the subset's size of which as much can be walked on as on any of 64 tries, a pure function
-/// of its arguments. InputError if there is no place for the people (2 m^2 each).
-HumanArea PickArea(const NavMesh& mesh, const HumanSubset& subset, uint64_t seed);
+/// The liveliest of 96 rectangles of the subset's size: of those of which at least 60 % as much can be walked on as on the most
+/// open one, the one with the most kinds of everyday things in and around it, as its streets look. A pure function of its
+/// arguments. InputError if there is no place for the people (2 m^2 each).
+HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& subset, uint64_t seed);
 
 /// people.yaml of an area and a number of people.
 std::string PeopleFileOf(const HumanArea& area, uint64_t people);
 
 /// Frames of a subset: the camera hovers over or beside the area, at least 1 m from every surface of `world`
-/// (the scene without people), and looks a little downwards; the people go on living and notice it.
+/// (the scene without people), where it sees people best of 32 places, and looks a little downwards; the people go on living
+/// and notice it.
 Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
                   const SimPeople& people, const RayTracer& world, uint64_t seed);
 

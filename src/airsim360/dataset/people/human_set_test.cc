@@ -4,6 +4,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/people/human_set.h"
+#include "airsim360/people/navigation/test_ground.h"
 #include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/world_loader.h"
 
@@ -42,7 +43,7 @@ TEST(HumanRecipe, ASubsetIsFilmedInFreeSpaceWithItsPeople) {
   HumanSubset subset{.world = "box_room", .name = "box_room/01", .width = 8, .depth = 10, .people = 4, .pitch_deg = 20, .frames = 4};
   const auto scene = LoadWorld({.world = "box_room"});
   const auto mesh = NavMesh::Build(*scene);
-  const HumanArea area = PickArea(*mesh, subset, 1);
+  const HumanArea area = PickArea(*scene, *mesh, subset, 1);
   EXPECT_NEAR(area.high.x - area.low.x, 8, 1e-9);
   const PopulatedScene populated = Populate(scene, {.count = 4, .warm_up = 0, .level = 2, .seed = 1, .navmesh = mesh});
   const RayTracer world(scene);
@@ -56,7 +57,26 @@ TEST(HumanRecipe, ASubsetIsFilmedInFreeSpaceWithItsPeople) {
   EXPECT_NE(flight.shots[0].body.X_WB.p.x, flight.shots[2].body.X_WB.p.x);
   // Too many for the place.
   subset.people = 400;
-  EXPECT_THROW(PickArea(*mesh, subset, 1), InputError);
+  EXPECT_THROW(PickArea(*scene, *mesh, subset, 1), InputError);
+}
+
+// A bare lot, and a corner of it where a street has its things.
+TEST(HumanRecipe, PlacesAreWhereThingsStand) {
+  internal::TestGround ground;
+  ground.Floor("ground/pavement", -60, -60, 60, 60);
+  const char* things[] = {"traffic/temporary/cone", "furniture/waste/trash_can", "furniture/seating/bench", "furniture/mail/post_box",
+                          "furniture/utility/fire_hydrant", "signage/poster_stand", "vehicle/car", "furniture/lighting/street_light"};
+  for (int i = 0; i < 8; ++i) {
+    const float x = 30.0f + 3 * static_cast<float>(i);
+    ground.Box(things[i], {x, 40, 0}, {x + 0.5f, 40.5f, 1});
+  }
+  const auto scene = ground.Build();
+  const auto mesh = NavMesh::Build(*scene);
+  for (uint64_t seed = 0; seed < 5; ++seed) {
+    const HumanArea area = PickArea(*scene, *mesh, {.world = "lot", .name = "lot/01", .width = 12, .depth = 12, .people = 8}, seed);
+    EXPECT_GT(area.high.x, 15) << seed;
+    EXPECT_GT(area.high.y, 25) << seed;
+  }
 }
 
 }  // namespace

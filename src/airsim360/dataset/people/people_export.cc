@@ -54,8 +54,8 @@ ExportedFile internal::CocoKeypoints(const std::string& people_jsonl, const Data
     const auto image_id = static_cast<int64_t>(images.size()) + 1;
     images.push_back({{"id", image_id},
                       {"file_name", line["stem"].get<std::string>() + extension},
-                      {"width", spec.width},
-                      {"height", spec.height},
+                      {"width", line["camera"]["width"]},
+                      {"height", line["camera"]["height"]},
                       {"camera", line["camera"]}});
     for (const Json& person : line["persons"]) {
       if (person["area"] == 0) continue;
@@ -69,7 +69,7 @@ ExportedFile internal::CocoKeypoints(const std::string& people_jsonl, const Data
       }
       // COCO's box is inside the picture: of someone across the seam it spans all columns.
       const Json& box = person["bbox"];
-      annotation["bbox"] = person["bbox_wrap"].get<bool>() ? Json{0, box[1], spec.width, box[3]} : box;
+      annotation["bbox"] = person["bbox_wrap"].get<bool>() ? Json{0, box[1], line["camera"]["width"], box[3]} : box;
       annotation["bbox_wrap"] = box;
       annotation["bbox_parts"] = person["bbox_parts"];
       annotations.push_back(std::move(annotation));

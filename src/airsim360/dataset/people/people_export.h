@@ -13,6 +13,18 @@ struct ExportedFile {
   std::string text;
 };
 
+/// What tells that a format has been written: a file or folder.
+struct PeopleFormatPath {
+  const char* format;
+  const char* path;
+  const char* holds;  ///< in words
+};
+inline constexpr PeopleFormatPath kPeopleFormatPaths[] = {
+    {"coco_keypoints", "person_keypoints.json", "COCO keypoints"},
+    {"kitti", "kitti/label_2", "KITTI labels of every picture"},
+    {"nuscenes", "nuscenes/v1.0-airsim360/sample.json", "nuScenes' thirteen tables, in this folder"},
+    {"monoloco", "monoloco.json", "MonoLoco's joints with their targets"}};
+
 /// keypoint_orders.json (always), then what spec.people_formats asks for. docs/people_labels.md says how
 /// panoramas fit into formats made for pinhole cameras.
 std::vector<ExportedFile> ExportPeople(const std::string& people_jsonl, const DatasetSpec& spec);

@@ -187,17 +187,18 @@ std::string PeopleLine(const std::string& frame_line, const DatasetSpec& spec, c
                        std::span<const std::string> persons) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   const Json frame = Json::parse(frame_line);
-  Json camera = {{"X_WC", frame["X_WC"]}};
-  const Json& q = frame["X_WC"]["q_wxyz"];
+  const Json& X_WC = spec.cameras.empty() ? frame["X_WC"] : frame["cameras"][view.name]["X_WC"];
+  Json camera = {{"X_WC", X_WC}};
+  const Json& q = X_WC["q_wxyz"];
   const Mat3d R_WC = ToMatrix({q[0], q[1], q[2], q[3]});
   // The body whose forward axis is the image centre.
   const Mat3d R_WB = R_WC * CameraInBody().R.transpose();
   const double yaw = std::atan2(R_WB.m[1][0], R_WB.m[0][0]), pitch = std::asin(std::clamp(R_WB.m[2][0], -1.0, 1.0)),
                roll = std::atan2(R_WB.m[2][1], R_WB.m[2][2]);
   camera["yaw_pitch_roll_deg"] = {Angle(yaw * kDegrees), Angle(pitch * kDegrees), Angle(roll * kDegrees)};
-  camera["width"] = spec.width;
-  camera["height"] = spec.height;
-  camera["projection"] = kProjectionNames[static_cast<int>(spec.projection)];
+  camera["width"] = Width(view.camera);
+  camera["height"] = Height(view.camera);
+  camera["projection"] = kProjectionNames[static_cast<int>(view.projection)];
   if (const auto* pinhole = std::get_if<Pinhole>(&view.camera))
     camera["K"] = {{pinhole->fx, 0, pinhole->cx}, {0, pinhole->fy, pinhole->cy}, {0, 0, 1}};
   Json line = {{"index", frame["index"]},

@@ -107,7 +107,6 @@ void AddLevel(const PersonInScene& person, int level, MaterialId first_material,
     const EntityId prop = part.entity;
     if (prop == 0) continue;
     if (ref.props[prop] == kNoEntity) {
-      scene.tree.Add(kPropCategories[prop]);
       ref.props[prop] = AddEntity(scene, person.name + "/" + std::string(PropName(static_cast<Prop>(prop))), kPropCategories[prop]);
     }
     part.entity = ref.props[prop];

@@ -247,7 +247,7 @@ void RaiseBackdrop(OsmScene& scene, MeshBuilder& mesh, const std::vector<OsmBuil
   std::sort(heights.begin(), heights.end());
   const OsmBox& e = scene.data.extent;
   SemanticTree& tree = scene.builder.tree();
-  const CategoryId category = tree.Add("construction/building/backdrop");
+  const CategoryId category = tree.At("construction/building/backdrop");
   // Mapped houses that stand outside the extract keep their ground.
   LineIndex mapped;
   for (const OsmBuilding& building : buildings)

@@ -78,7 +78,7 @@ void Dresser::Barrier(const OsmWay& way) {
 
 void Dresser::Rails(const OsmWay& way) {
   if (Underground(way.tags)) return;
-  mesh_.SetEntity(scene_.builder.AddEntity(OsmId("way", way.id) + "/rails", scene_.builder.tree().Add("ground/rail", false)));
+  mesh_.SetEntity(scene_.builder.AddEntity(OsmId("way", way.id) + "/rails", scene_.builder.tree().At("ground/rail")));
   mesh_.SetMaterial(scene_.surfaces[Surface::kMetal]);
   const double z = way.tags.Is("railway", "tram") ? -0.12 : 0.14;
   for (double d : {-0.75, 0.75})

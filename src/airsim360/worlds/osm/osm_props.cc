@@ -167,7 +167,7 @@ void Dresser::Bicycles(const OsmNode& node) {
 
 void Dresser::Pole(const OsmNode& node) {
   const double height = ParseOsmLength(node.tags.Get("height"), 120).value_or(9);
-  mesh_.SetEntity(scene_.builder.AddEntity(OsmId("node", node.id), scene_.builder.tree().Add("construction/mast")));
+  mesh_.SetEntity(scene_.builder.AddEntity(OsmId("node", node.id), scene_.builder.tree().At("construction/mast")));
   mesh_.SetMaterial(scene_.surfaces[Surface::kMetal]);
   const Vec3f p = scene_.On(node.p);
   mesh_.Tube(p, p + Vec3f{0, 0, static_cast<float>(height)}, 0.09f, 0.05f, 10, false, true);

@@ -411,7 +411,7 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
   std::vector<EntityId> entities;
   for (size_t i = 0; i < buildings.size(); ++i) {
     const OsmBuilding& building = buildings[i];
-    const CategoryId category = building.orphan ? tree.Add("construction/building/part") : walls_are;
+    const CategoryId category = building.orphan ? tree.At("construction/building/part") : walls_are;
     const EntityId entity =
         scene.builder.AddEntity(building.id + (building.name.empty() ? "" : " " + building.name), category);
     entities.push_back(entity);

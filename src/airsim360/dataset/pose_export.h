@@ -1,0 +1,21 @@
+// Poses and intrinsics of pinhole and fisheye pictures as COLMAP and nerfstudio read them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "airsim360/dataset/people/people_export.h"
+#include "airsim360/dataset/spec.h"
+
+namespace airsim360 {
+
+/// Names of the files that ExportPoses makes; none if no view has intrinsics or there are no colour pictures.
+std::vector<std::string> PoseFileNames(const DatasetSpec& spec);
+
+/// COLMAP's text model (cameras.txt, images.txt, an empty points3D.txt): poses map W to the camera, axes right, down,
+/// forward, names are relative to rgb/. nerfstudio's transforms.json: poses map the camera to W, axes right, up, backward;
+/// a rig that has fisheyes beside pinholes has those in transforms_fisheye.json, for a file has one camera model.
+/// `frames_jsonl` holds the frames of this dataset.
+std::vector<ExportedFile> ExportPoses(const std::string& frames_jsonl, const DatasetSpec& spec);
+
+}  // namespace airsim360

@@ -1,0 +1,262 @@
+#include "airsim360/sim/people_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+#include "airsim360/sim/people/people.h"
+#include "airsim360/sim/roadmap.h"
+#include "airsim360/trace/whereabouts.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kEyes = 1.5;         // metres of a person's face above the ground
+constexpr double kNearest = 2;        // metres to a face: nearer is not safe
+constexpr double kFarthest = 15;      // metres at which people no longer count
+constexpr double kGood = 4.5;         // metres up to which nearer is no better
+constexpr double kTurnSeconds = 1;    // before and after looking
+constexpr double kNearSeconds = 40;   // stops farther away are looked for only where nearer ones show nobody
+constexpr FlightLimits kCalm = {.speed = 3, .acceleration = 2, .corner = 1};
+constexpr size_t kMostCandidates = 1200;
+constexpr double kSpacing = 2.5;      // metres between candidates
+
+// Where the people are second by second, as they live without the body.
+class Tracks {
+ public:
+  explicit Tracks(const SimPeople& people) : people_(people), state_(*people.start) { Note(); }
+  // Ground points of those who are in the world, by index; nullopt for the others.
+  const std::vector<std::optional<Vec3d>>& At(double seconds) {
+    const auto second = static_cast<size_t>(std::max(0.0, std::round(seconds)));
+    constexpr int kTicks = 1'000'000'000 / kCrowdTickNs;
+    while (places_.size() <= second) {
+      for (int i = 0; i < kTicks; ++i) TickPeople(people_, {}, state_);
+      Note();
+    }
+    return places_[second];
+  }
+
+ private:
+  void Note() {
+    std::vector<std::optional<Vec3d>> places(state_.crowd.people.size());
+    for (size_t i = 0; i < places.size(); ++i) {
+      if (state_.crowd.people[i].visible) places[i] = state_.crowd.people[i].p_WP;
+    }
+    places_.push_back(std::move(places));
+  }
+  const SimPeople& people_;
+  PeopleState state_;
+  std::vector<std::vector<std::optional<Vec3d>>> places_;
+};
+
+// Free places around where the people are now and a while later.
+std::vector<Vec3d> PlacesAround(const RayTracer& tracer, Tracks& tracks, const PeopleSurveyOptions& options, double radius) {
+  constexpr double kLater[] = {0, 20, 60};  // seconds
+  std::vector<Vec3d> candidates;
+  RngStream random(options.seed, "people survey");
+  const size_t people = std::max<size_t>(tracks.At(0).size(), 1);
+  const size_t each = std::clamp<size_t>(kMostCandidates / people, 1, 30);
+  for (const double seconds : kLater) {
+    for (const std::optional<Vec3d>& place : tracks.At(seconds)) {
+      for (size_t k = 0; place && k < each; ++k) {
+        // Low places more often: from above one sees hats.
+        const double u = random.Uniform(), angle = random.Uniform(0, 2 * std::numbers::pi);
+        const double height = options.min_height + u * u * (options.max_height - options.min_height);
+        const double way = random.Uniform(kNearest, 8);
+        candidates.push_back(*place + Vec3d{way * std::cos(angle), way * std::sin(angle), height});
+      }
+    }
+  }
+  std::vector<uint8_t> free(candidates.size());
+  ParallelFor(static_cast<int64_t>(candidates.size()), [&](int64_t i) {
+    const Vec3f p = VecCast<float>(candidates[static_cast<size_t>(i)]);
+    // Outdoors as indoors there is ground not far below.
+    free[static_cast<size_t>(i)] = tracer.Clearance(p, static_cast<float>(radius + 1)) >= radius &&
+                                   tracer.Intersect(p, {0, 0, -1}, static_cast<float>(options.max_height + 2));
+  });
+  std::vector<Vec3d> places;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const auto is_near = [&](Vec3d p) { return Norm(p - candidates[i]) < kSpacing; };
+    if (free[i] && places.size() < kMostCandidates && std::ranges::none_of(places, is_near)) places.push_back(candidates[i]);
+  }
+  return places;
+}
+
+using Places = std::span<const std::optional<Vec3d>>;
+
+// Someone whose face is seen: the direction, and the share of a picture that they fill.
+struct Seen {
+  size_t person;
+  double weight;
+  Vec3d to;
+};
+
+// Everybody seen from a place; nobody where someone would be too near.
+std::vector<Seen> SeenFrom(const RayTracer& tracer, Vec3d eye, Places people) {
+  std::vector<Seen> seen;
+  for (size_t i = 0; i < people.size(); ++i) {
+    if (!people[i]) continue;
+    const Vec3d face = *people[i] + Vec3d{0, 0, kEyes}, to = face - eye;
+    const double distance = Norm(to);
+    if (distance < kNearest) return {};
+    if (distance > kFarthest || tracer.Occluded(VecCast<float>(eye), VecCast<float>(face))) continue;
+    seen.push_back({i, std::min(1.0, kGood * kGood / (distance * distance)), to});
+  }
+  return seen;
+}
+
+// Heading towards people, radians; nullopt where nobody is.
+std::optional<double> HeadingTo(const std::vector<Seen>& seen) {
+  Vec2d sum;
+  for (const Seen& person : seen) {
+    const double way = std::max(1e-6, std::hypot(person.to.x, person.to.y));
+    sum = sum + Vec2d{person.to.x, person.to.y} * (person.weight / way);
+  }
+  if (std::hypot(sum.x, sum.y) < 1e-9) return std::nullopt;
+  return std::atan2(sum.y, sum.x);
+}
+
+// The way of the map from one place to another with corners cut where the straight way is free; its first point left out.
+std::vector<Vec3d> ShortWay(const RayTracer& tracer, const Roadmap& map, const CheapestWays& ways, size_t to, double radius) {
+  std::vector<Vec3d> way, points;
+  for (int place = static_cast<int>(to); place >= 0; place = ways.previous[static_cast<size_t>(place)])
+    way.push_back(map.places[static_cast<size_t>(place)]);
+  std::ranges::reverse(way);
+  for (size_t i = 0; i + 1 < way.size();) {
+    size_t j = way.size() - 1;
+    while (j > i + 1 && !IsFree(tracer, way[i], way[j], radius)) --j;
+    points.push_back(way[j]);
+    i = j;
+  }
+  return points;
+}
+
+/// Flies from stop to stop, at rest at each.
+class Tour {
+ public:
+  explicit Tour(Vec3d start, double yaw) : nodes_{{.t = 0, .p = start, .v = {}, .yaw = yaw}}, stops_{0} {}
+  double time() const { return nodes_.back().t; }
+  // Along `way` and on to the moment of looking, `yaw` at the end, or as it comes where there is nobody.
+  void FlyTo(const std::vector<Vec3d>& way, const Route& leg, std::optional<double> yaw) {
+    const double start = time() + kTurnSeconds;
+    for (const RouteNode& node : leg.nodes()) nodes_.push_back({start + node.t, node.p, node.v, node.yaw});
+    nodes_.push_back({time() + kTurnSeconds, way.back(), {}, yaw.value_or(nodes_.back().yaw)});
+    stops_.push_back(time());
+  }
+  PeopleSurvey Finish() {
+    PeopleSurvey survey{Route(std::move(nodes_)), {}};
+    for (const double t : stops_) survey.stop_times_ns.push_back(std::llround(t * 1e9));
+    return survey;
+  }
+
+ private:
+  std::vector<RouteNode> nodes_;
+  std::vector<double> stops_;
+};
+
+// Place with the best view now among those that lead to many others; nullopt if nobody is seen from any.
+std::optional<size_t> FirstPlace(const Roadmap& map, const std::vector<double>& gains) {
+  constexpr size_t kTries = 40;
+  std::vector<size_t> order(gains.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, std::greater(), [&](size_t i) { return gains[i]; });
+  std::optional<size_t> best;
+  size_t most = 0;
+  for (size_t k = 0; k < std::min(kTries, order.size()) && gains[order[k]] > 0; ++k) {
+    const CheapestWays ways = FindCheapestWays(map, static_cast<int>(order[k]));
+    const auto reached = static_cast<size_t>(std::ranges::count_if(ways.cost, [](double c) { return std::isfinite(c); }));
+    if (reached > 2 * most) best = order[k], most = reached;
+    if (2 * most >= order.size()) break;
+  }
+  return best;
+}
+
+std::optional<PeopleSurvey> TryTour(const SimModel& model, const PeopleSurveyOptions& options, double clearance) {
+  const RayTracer& tracer = *model.tracer;
+  const double radius = clearance + 0.2 * std::min(1.0, clearance);  // rounded corners leave the legs by as much
+  Tracks tracks(*model.people);
+  if (std::ranges::none_of(tracks.At(0), [](const auto& place) { return place.has_value(); })) return std::nullopt;
+  std::vector<Vec3d> places = PlacesAround(tracer, tracks, options, radius);
+  const size_t viewpoints = places.size();
+  // Ways between groups of people lead over other low places.
+  const PlaceOptions low{.seed = options.seed, .radius = radius, .min_height = options.min_height, .max_height = options.max_height};
+  std::ranges::move(FindFreePlaces(tracer, low), std::back_inserter(places));
+  if (viewpoints == 0) return std::nullopt;
+  const Roadmap map = Connect(tracer, std::move(places), radius);
+  std::vector<double> seen_before(model.people->cast.size()), worth(viewpoints);
+  // What a place shows, those weighing more who have been seen less.
+  const auto gain = [&](size_t place, Places people) {
+    double sum = 0;
+    for (const Seen& seen : SeenFrom(tracer, map.places[place], people))
+      sum += seen.weight / (1 + 3 * seen_before[seen.person]);
+    return sum;
+  };
+  // Looks at people: notes who has been seen, and gives the heading.
+  const auto look = [&](size_t place, Places people) {
+    const std::vector<Seen> seen = SeenFrom(tracer, map.places[place], people);
+    for (const Seen& person : seen) seen_before[person.person] += person.weight;
+    return HeadingTo(seen);
+  };
+  const auto rate = [&](const auto& of) {
+    ParallelFor(static_cast<int64_t>(viewpoints), [&](int64_t i) { worth[static_cast<size_t>(i)] = of(static_cast<size_t>(i)); });
+  };
+
+  rate([&](size_t i) { return gain(i, tracks.At(0)); });
+  const std::optional<size_t> first = FirstPlace(map, worth);
+  if (!first) return std::nullopt;
+  size_t here = *first;
+  Tour tour(map.places[here], look(here, tracks.At(0)).value_or(0));
+  for (int stop = 1; stop < options.viewpoints; ++stop) {
+    // The stop that shows most for the time that it takes, when the body would be there.
+    const CheapestWays ways = FindCheapestWays(map, static_cast<int>(here));
+    const auto arrival = [&](size_t i) { return tour.time() + 2 * kTurnSeconds + 1 + ways.cost[i] / kCalm.speed; };
+    size_t best = here;
+    for (const double farthest : {kNearSeconds, std::numeric_limits<double>::infinity()}) {
+      const auto in_reach = [&](size_t i) {
+        return i != here && std::isfinite(ways.cost[i]) && arrival(i) - tour.time() <= farthest;
+      };
+      for (size_t i = 0; i < viewpoints; ++i) {
+        if (in_reach(i)) tracks.At(arrival(i));  // before several threads ask
+      }
+      rate([&](size_t i) {
+        return in_reach(i) ? gain(i, tracks.At(arrival(i))) / (arrival(i) - tour.time()) : 0.0;
+      });
+      best = static_cast<size_t>(std::ranges::max_element(worth) - worth.begin());
+      if (worth[best] > 0) break;
+    }
+    if (!(worth[best] > 0)) break;
+    const std::vector<Vec3d> way = ShortWay(tracer, map, ways, best, radius);
+    std::vector<Vec3d> points = {map.places[here]};
+    points.insert(points.end(), way.begin(), way.end());
+    const Route leg = RoundedRoute(points, kCalm);
+    tour.FlyTo(way, leg, look(best, tracks.At(tour.time() + 2 * kTurnSeconds + leg.duration())));
+    here = best;
+  }
+  return tour.Finish();
+}
+
+}  // namespace
+
+std::optional<PeopleSurvey> PlanPeopleSurvey(const SimModel& model, const PeopleSurveyOptions& options) {
+  if (!model.people) return std::nullopt;
+  for (double clearance = options.clearance; clearance > options.clearance / 20; clearance /= 2) {
+    if (std::optional<PeopleSurvey> survey = TryTour(model, options, clearance)) return survey;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> RatePeopleView(const RayTracer& world, Vec3d p_W, std::span<const std::optional<Vec3d>> people) {
+  const auto is_near = [&](const auto& place) { return place && Norm(*place + Vec3d{0, 0, kEyes} - p_W) < kNearest; };
+  if (std::ranges::any_of(people, is_near) || FindWhereabouts(world, p_W).kind != Whereabouts::Kind::kOpen)
+    return std::nullopt;
+  double sum = 0;
+  for (const Seen& seen : SeenFrom(world, p_W, people)) sum += seen.weight;
+  return sum;
+}
+
+}  // namespace airsim360

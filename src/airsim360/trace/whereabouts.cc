@@ -1,0 +1,73 @@
+#include "airsim360/trace/whereabouts.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace airsim360 {
+namespace {
+
+constexpr int kDirections = 256;
+constexpr double kLeastHits = 0.25;   // share of the directions that meet something, to be inside of it
+constexpr double kLeastBacks = 0.9;   // share of backs among what they meet
+
+// Directions spread evenly over the sphere: a Fibonacci lattice.
+Vec3f Direction(int i) {
+  const double z = 1 - (2.0 * i + 1) / kDirections, r = std::sqrt(1 - z * z);
+  const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+  return VecCast<float>(Vec3d{r * std::cos(angle), r * std::sin(angle), z});
+}
+
+// Outward normal of a triangle in W, not of unit length; mirrored instances keep their outside.
+Vec3f FrontOf(const RayTracer& tracer, SurfaceRef surface) {
+  const Instance& instance = tracer.scene().instances[surface.instance];
+  const Vec3u triangle = tracer.scene().meshes[instance.mesh].triangles[surface.triangle];
+  const auto positions = tracer.Positions(instance.mesh);
+  const AffineTransform& place = tracer.Place(surface.instance);
+  const Vec3f a = place * positions[triangle.x], b = place * positions[triangle.y], c = place * positions[triangle.z];
+  return Cross(b - a, c - a) * (place.A.determinant() < 0 ? -1.0f : 1.0f);
+}
+
+// The entity of a triangle: that of its part, else of its instance.
+EntityId EntityOf(const Scene& scene, SurfaceRef surface) {
+  const Instance& instance = scene.instances[surface.instance];
+  for (const MeshPart& part : scene.meshes[instance.mesh].parts) {
+    const bool holds = surface.triangle >= part.first_triangle && surface.triangle - part.first_triangle < part.triangle_count;
+    if (holds && part.entity != kNoEntity) return part.entity;
+  }
+  return instance.entity;
+}
+
+// What rays from a place meet.
+struct Surroundings {
+  int rays = 0, hits = 0, backs = 0;
+};
+
+Surroundings LookAround(const RayTracer& tracer, Vec3f p, int step) {
+  Surroundings seen;
+  for (int i = step / 2; i < kDirections; i += step) {
+    const Vec3f direction = Direction(i);
+    const auto hit = tracer.Intersect(p, direction);
+    ++seen.rays;
+    seen.hits += hit.has_value();
+    seen.backs += hit && Dot(FrontOf(tracer, hit->surface), direction) > 0;
+  }
+  return seen;
+}
+
+}  // namespace
+
+Whereabouts FindWhereabouts(const RayTracer& tracer, Vec3d p_W) {
+  const bool closed = tracer.scene().sky_entity == kNoEntity;
+  const Vec3f p = VecCast<float>(p_W);
+  // A few rays tell of most places that nothing is wrong with them.
+  constexpr int kFew = 16;
+  const Surroundings few = LookAround(tracer, p, kDirections / kFew);
+  if (2 * few.backs < few.hits && !(closed && few.hits < few.rays)) return {};
+  const Surroundings all = LookAround(tracer, p, 1);
+  if (closed && all.hits < all.rays) return {Whereabouts::Kind::kOutside};
+  if (all.hits < kLeastHits * all.rays || all.backs < kLeastBacks * all.hits) return {};
+  const auto nearest = tracer.Nearest(p, 1e4f);
+  return {Whereabouts::Kind::kInside, nearest ? EntityOf(tracer.scene(), nearest->surface) : kNoEntity};
+}
+
+}  // namespace airsim360

@@ -1,0 +1,24 @@
+// Whether a place can be looked around from: in the open, inside something solid, or outside of a closed scene.
+#pragma once
+
+#include <cstdint>
+
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360 {
+
+struct Whereabouts {
+  enum class Kind {
+    kOpen,
+    kInside,  ///< nearly all around there are backs of surfaces: within a solid, or below the ground
+    kOutside  ///< rays leave a scene that has no sky
+  };
+  Kind kind = Kind::kOpen;
+  EntityId entity = kNoEntity;  ///< kInside: whose surface is nearest
+};
+
+/// Tells from rays in 256 directions which sides of surfaces they meet, and from the nearest surface. The front of a triangle
+/// is where its vertices run counter-clockwise; models that are wound at random are `kOpen`.
+Whereabouts FindWhereabouts(const RayTracer& tracer, Vec3d p_W);
+
+}  // namespace airsim360
