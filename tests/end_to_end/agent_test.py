@@ -85,8 +85,8 @@ class AgentTest(unittest.TestCase):
     @unittest.skipUnless(shutil.which("curl"), "curl is not installed")
     def test_the_commands_of_the_documentation_work(self):
         text = DOCS.read_text()
-        block = text[text.index("    curl"):text.index("## Episodes")]
-        commands = re.split(r"\n(?=curl)", re.sub(r"(?m)^    ", "", block).strip())
+        block = text[text.index("\ncurl"):text.index("```\n", text.index("\ncurl"))]
+        commands = re.split(r"\n(?=curl)", block.strip())
         self.assertGreater(len(commands), 6)
         agent = Agent()  # its first episode is e1
         self.addCleanup(agent.stop)
