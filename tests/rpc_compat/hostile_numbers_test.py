@@ -151,13 +151,11 @@ def replaced(value, path, new):
 
 
 def numbers_in(value):
-    for path in number_paths(value):
-        for key in path:
-            value_at = value[key] if key == path[0] and value is not None else None
-        inner = value
-        for key in path:
-            inner = inner[key]
-        yield inner
+    if isinstance(value, (int, float)):
+        yield value
+    elif isinstance(value, (list, dict)):
+        for item in (value if isinstance(value, list) else value.values()):
+            yield from numbers_in(item)
 
 
 def hostile_calls(shapes):
@@ -242,7 +240,7 @@ class Rpc(unittest.TestCase):
             error, result = answers[other]
             self.assertIsNone(error, f"{other} after {name}{arguments!r}")
             if other in ("getMultirotorState", "getImuData", "simGetVehiclePose"):
-                for number in numbers_in(json.loads(json.dumps(result))):
+                for number in numbers_in(result):
                     self.assertTrue(math.isfinite(number), f"{other} after {name}{arguments!r}: {result}")
         return answers[name]
 
@@ -326,7 +324,7 @@ class Rpc(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.server.folder.name)), ["grid.binvox", "log", "settings.json"])
 
     def test_patterns_that_never_end_elsewhere_end_here(self):
-        for pattern in ("(.*)*x", "(.*.*)*x", "(a+)+$b", "(.|.)*x", "((.*)*)*x"):
+        for pattern in ("(.*)*y", "(.*.*)*y", "(a+)+$b", "(.|.)*y", "((.*)*)*y"):
             self.assertEqual(self.client.call("simListSceneObjects", pattern), [])
             self.assertIs(self.client.call("simSetSegmentationObjectID", pattern, 3, True), False)
         self.assertEqual(self.client.call("simListSceneObjects", "BO[w-z]"), ["box"])
