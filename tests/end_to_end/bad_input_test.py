@@ -45,6 +45,8 @@ class BadFlags(ProgramTest):
         for value in ["1,2", "1,2,3,4,5,6,7", "a,b,c", "1,2,nan", "1,2,inf", "1,2,1e30", ""]:
             result = run("render", *ROOM, "--pose", value, "--out", out)
             self.assertEqual(result.returncode, 2 if value else 0, (value, result.stderr))
+        for flag, value in [("--pose", "1,2,1e30"), ("--pose", "-1.1e7,2,3")]:
+            self.run_bad(2, "render", *ROOM, flag, value, "--out", out, says=[flag, value, "is not in -1e+07 … 1e+07"])
         for value in ["0.5", "180", "nan", "-90"]:
             self.run_bad(2, "render", "--world", "box_room", "--projection", "pinhole", "--fov", value, "--out", out, says=["--fov"])
         self.run_bad(2, "render", "--world", "box_room", "--projection", "cube", "--size", "64x32", "--out", out, says=["did you mean '64x64'"])

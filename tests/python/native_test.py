@@ -38,6 +38,18 @@ class Worlds(unittest.TestCase):
         self.assertEqual(len(set(entity)), 3)
         np.testing.assert_allclose(ROOM.clearance([[0, 0, 3], [-4, 0, 3]]), [3, 1], atol=1e-5)
 
+    def test_places_that_no_ray_can_reach_are_refused(self):
+        for value in (1.1e7, 2e18, -1e30, 1e308, math.inf, math.nan):
+            for axis in range(3):
+                place = [0.0, 0.0, 3.0]
+                place[axis] = value
+                for call in (lambda: ROOM.raycast([place], [[0, 0, -1]]), lambda: ROOM.raycast([[0, 0, 3]], [place]),
+                             lambda: ROOM.clearance([place])):
+                    with self.assertRaisesRegex(ValueError, "is not in -1e|is not a finite number"):
+                        call()
+        distance, _ = ROOM.raycast([[0, 0, 1e7]], [[0, 0, 1]])
+        self.assertEqual(distance[0], 0)
+
     def test_worlds_are_listed_and_exported(self):
         self.assertIn("box_room", [w["name"] for w in airsim360.worlds()])
         with tempfile.TemporaryDirectory() as folder:

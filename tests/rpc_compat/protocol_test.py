@@ -82,7 +82,7 @@ class BadCalls(ServerTest):
             (("getImuData", "imu9", ""), "No IMU with name imu9 exist on vehicle"),
             (("getLidarData", "", ""), "No lidar with name  exist on vehicle"),
             (("simSetVehiclePose", {"position": {"x_val": float("nan")}}, True, ""), "not a number"),
-            (("simSetVehiclePose", {"position": {"x_val": float("inf")}}, True, ""), "not finite"),
+            (("simSetVehiclePose", {"position": {"x_val": float("inf")}}, True, ""), "position.x_val of argument 1: inf is not in"),
             (("simSetVehiclePose", {"orientation": {"w_val": 0}}, True, ""), "no rotation"),
             (("moveToPosition", float("nan"), 0, 0, 1, 1, 0, {}, -1, 1, ""), "not a number"),
             (("moveToPosition", 1, 0, 0, 1, 1, 0, {}, 0, 1, ""), "lookahead distance cannot be 0"),

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = PatternProgram::Kind;
 
-constexpr size_t kHalfBytes = 16;            // in a word, and values of one
+constexpr size_t kHalfBytes = 16;  // in a word, and values of one
 constexpr int32_t kDead = 0, kStart = 1, kUnknown = -1;
 constexpr int32_t kMostStates = 4096;
 constexpr uint64_t kMixer = 0x9e3779b97f4a7c15;
@@ -98,11 +98,13 @@ Pattern::Pattern(const PatternProgram& program) : words_((program.places.size() 
 // Bytes that the same places fit are one class, which keeps the tables of matchers small.
 void Pattern::MakeClasses(const PatternProgram& program) {
   std::vector<uint8_t> of_byte(256);
-  for (size_t byte = 0; byte < 256; ++byte) of_byte[byte] = asserts_ && IsWordByte(static_cast<uint8_t>(byte));
+  for (size_t byte = 0; byte < 256; ++byte)
+    of_byte[byte] = asserts_ && IsWordByte(static_cast<uint8_t>(byte));
   const auto split_by = [&](const auto& key) {
     std::map<std::pair<uint8_t, bool>, uint8_t> classes;
     for (size_t byte = 0; byte < 256; ++byte) {
-      const auto found = classes.try_emplace({of_byte[byte], key(byte)}, static_cast<uint8_t>(classes.size()));
+      const auto found =
+          classes.try_emplace({of_byte[byte], key(byte)}, static_cast<uint8_t>(classes.size()));
       of_byte[byte] = found.first->second;
     }
   };
@@ -185,7 +187,8 @@ void Pattern::CheckWork() const {
 }
 
 // Whether there is any place to go to.
-bool Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class, uint64_t* to) const {
+bool Pattern::Advance(const uint64_t* from, bool is_start, bool after_word, size_t byte_class,
+                      uint64_t* to) const {
   const bool before_word = class_is_word_[byte_class];
   const uint64_t* fits = &class_places_[byte_class * words_];
   if (is_start) {

@@ -71,6 +71,9 @@ TEST(Settings, ErrorsNameFileLineAndKey) {
   EXPECT_NE(
       ErrorOf("{\"Vehicles\": {\n\"A\": {\"VehicleType\": \"px4\"}}}").find("settings.json:2: VehicleType"),
       std::string::npos);
+  EXPECT_EQ(ErrorOf("{\"Vehicles\": {\n\"../../evil\": {\"VehicleType\": \"SimpleFlight\"}}}"),
+            "settings.json:2: Vehicles: '../../evil' holds a '/': it becomes the name of a file");
+  EXPECT_NE(ErrorOf("{\"ExternalCameras\": {\"a\\u0000b\": {}}}").find("control character"), std::string::npos);
   EXPECT_EQ(ErrorOf("{\"ClockSpeed\": 1,\n}"), "settings.json:2: expected a key in quotation marks");
   EXPECT_EQ(ErrorOf("{\"ClockSpeed\": 1"), "settings.json:1: the text ends too early");
   EXPECT_NE(ErrorOf("{\"CameraDefaults\": {\"CaptureSettings\": [\n{\"Width\": 0}]}}")

@@ -15,8 +15,8 @@
 
 namespace airsim360 {
 
-/// An argument that cannot be taken: which part of which argument, its value, what would do. Of one that is of the
-/// wrong kind the text begins as AirSim's server's, std::bad_cast.
+/// An argument that cannot be taken: which part of which argument, its value, what would do. Of one that is
+/// of the wrong kind the text begins as AirSim's server's, std::bad_cast.
 class BadArgument : public std::exception {
  public:
   enum class Reason : uint8_t { kKind, kRange };
@@ -78,7 +78,8 @@ void FromWire(const WireValue& value, T& out) {
   }
   out = static_cast<T>(value.integer);
 }
-/// No real number on the wire has a meaning beyond the limit of coordinates, whatever its unit; times do (Seconds).
+/// No real number on the wire has a meaning beyond the limit of coordinates, whatever its unit; times do
+/// (Seconds).
 template <std::floating_point T>
 void FromWire(const WireValue& value, T& out) {
   out = static_cast<T>(RealFromWire(value, kCoordinateLimit));

@@ -134,6 +134,7 @@ TEST(RouteCsv, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(ParseError("x,y,z\n1,2,3\n1,two,3\n"), "route.csv:3:3: two: not a finite number");
   EXPECT_EQ(ParseError("x,y,z\n1,2\n"), "route.csv:2:1: 2 values for 3 columns");
   EXPECT_EQ(ParseError("x,y,z\n1,2,nan\n"), "route.csv:2:5: nan: not a finite number");
+  EXPECT_EQ(ParseError("x,y,z\n1,2,2e18\n"), "route.csv:2:5: 2e+18 is not in -1e+07 … 1e+07 metres");
   EXPECT_EQ(ParseError("x,y\n"), "route.csv:1:1: column 'z' is missing from the header");
   EXPECT_EQ(ParseError("x,y,z,x\n"), "route.csv:1:7: column 'x' is there twice");
   EXPECT_EQ(ParseError("x,y,z,t\n0,0,0,1\n0,0,0,1\n"), "route.csv:3:1: t does not grow: 1 s after 1 s");

@@ -14,8 +14,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 // Of every size that a float can have, with both signs in use.
-constexpr float kHostile[] = {1.1e12f, 1e15f, 1e17f,   1.8e18f, 2e18f,     9.3e18f, 1e20f,
-                              1e30f,   1e38f, 3.4e38f, -1e38f,  -3.4e38f, kInfinity, -kInfinity, kNan};
+constexpr float kHostile[] = {1.1e12f, 1e15f,   1e17f,  1.8e18f,  2e18f,     9.3e18f,    1e20f, 1e30f,
+                              1e38f,   3.4e38f, -1e38f, -3.4e38f, kInfinity, -kInfinity, kNan};
 
 AffineTransform Scaled(float factor, Vec3f p) {
   AffineTransform X;
@@ -119,7 +119,8 @@ TEST(HostileRays, MissWhatHasMoved) {
 
 TEST(HostileRays, InstancesWithoutExtentAreNotMetAndEndNothing) {
   for (const float factor : {0.0f, 1e-38f, 1e-30f, 1e-15f}) {
-    const RayTracer tracer(Pyramids({AffineTransform(), Scaled(factor, {3, 0, 0}), Scaled(factor, {0, 0, 3})}));
+    const RayTracer tracer(
+        Pyramids({AffineTransform(), Scaled(factor, {3, 0, 0}), Scaled(factor, {0, 0, 3})}));
     CheckAll(tracer);
     for (int i = 0; i < 100; ++i) {
       const float x = 0.05f * static_cast<float>(i);
