@@ -16,7 +16,9 @@ def coast(folder):
     def node(number, x, y):
         return f"<node id='{number}' version='1' lat='{LATITUDE + y / NORTH:.8f}' lon='{LONGITUDE + x / EAST:.8f}'/>"
     path = folder / "coast.osm"
-    path.write_text("<osm version='0.6'>" + node(1, -2000, 0) + node(2, 2000, 0) + node(3, 0, 900) + node(4, 50, 950) + node(5, 0, -900) +
+    south, north, west, east = LATITUDE - 1000 / NORTH, LATITUDE + 1000 / NORTH, LONGITUDE - 1000 / EAST, LONGITUDE + 1000 / EAST
+    path.write_text(f"<osm version='0.6'><bounds minlat='{south}' minlon='{west}' maxlat='{north}' maxlon='{east}'/>" +
+                    node(1, -2000, 0) + node(2, 2000, 0) + node(3, 0, 800) + node(4, 50, 850) +
                     "<way id='1' version='1'><nd ref='1'/><nd ref='2'/><tag k='natural' v='coastline'/></way>"
                     "<way id='2' version='1'><nd ref='3'/><nd ref='4'/><tag k='highway' v='residential'/></way></osm>")
     return path

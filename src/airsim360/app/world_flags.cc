@@ -1,5 +1,6 @@
 #include "airsim360/app/world_flags.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
