@@ -68,7 +68,7 @@ MaterialId ObjReader::FindMaterial(const std::string& name) {
   const auto mtl = library_.find(name);
   if (mtl == library_.end() && !name.empty()) {
     warnings_.Add(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": material '" + name +
-                  "' is in no MTL file: plain grey");
+                  "' is in no MTL file: plain");
   }
   MtlMaterial plain;
   plain.name = name;
