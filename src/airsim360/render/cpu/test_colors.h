@@ -21,8 +21,8 @@ inline std::shared_ptr<const Scene> MakeColoredSquare() {
   RngStream rng(11, "colours");
   const auto uniform = [&](double low, double high) { return static_cast<float>(rng.Uniform(low, high)); };
   const auto color = [&] { return Vec3f{uniform(0, 1), uniform(0, 1), uniform(0, 1)}; };
-  const auto add = [&](MeshId mesh, Vec3f tint = {1, 1, 1}, Vec3f shift = {}) {
-    builder.AddInstance({mesh, {Mat3f(), shift}, builder.AddEntity("thing", category), tint});
+  const auto add = [&](MeshId mesh, Vec3f tint = {1, 1, 1}) {
+    builder.AddInstance({mesh, {}, builder.AddEntity("thing", category), tint});
   };
   const auto quad = [&](Vec3f corner, Vec3f a, Vec3f b, Material material) {
     Mesh mesh{"quad", {corner, corner + a, corner + a + b, corner + b}, {}, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {}, {}};
@@ -46,8 +46,7 @@ inline std::shared_ptr<const Scene> MakeColoredSquare() {
   const MaterialId matte_id = builder.AddMaterial(matte);
   std::optional<MeshId> last;
   for (int i = 0; i < 100; ++i) {
-    const bool copy = i % 5 == 4;
-    if (!copy) {
+    if (i % 5 != 4 || !last) {
       const Vec3f middle{uniform(-8, 8), uniform(-8, 8), uniform(0.3, 3)};
       Mesh mesh{"triangle", {}, {}, {}, {{0, 1, 2}}, {{0, 1, matte_id, kNoEntity}}};
       for (int k = 0; k < 3; ++k) {
@@ -56,7 +55,7 @@ inline std::shared_ptr<const Scene> MakeColoredSquare() {
       }
       last = builder.AddMesh(mesh);
     }
-    add(*last, i % 2 == 0 ? Vec3f{1, 1, 1} : color(), copy ? Vec3f{0.5f, -0.25f, 0.75f} : Vec3f{});
+    add(*last, i % 2 == 0 ? Vec3f{1, 1, 1} : color());
   }
 
   Material clear;
@@ -85,7 +84,6 @@ inline std::shared_ptr<const Scene> MakeColoredSquare() {
 /// Base colour of the surface of an instance at a point in W: material, picture, tint and corners. nullopt beside it.
 inline std::optional<Vec3d> ColorAt(const Scene& scene, size_t instance, Vec3d p) {
   const Instance& placed = scene.instances[instance];
-  p = p - VecCast<double>(placed.X_WM.p);
   const Mesh& mesh = scene.meshes[placed.mesh];
   const Material& material = scene.materials[mesh.parts[0].material];
   for (const Vec3u& t : mesh.triangles) {
