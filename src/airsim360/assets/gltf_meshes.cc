@@ -26,8 +26,8 @@ const GltfMaterial& GltfMeshes::MaterialAt(const JsonRef& primitive, MaterialId&
   return it->second.second;
 }
 
-// For a primitive of mode BLEND whose vertex colours cover less than all: cut out at one half, or a pane where they
-// are see-through everywhere.
+// For a primitive of mode BLEND whose vertex colours cover less than all: cut out at one half, or a pane where
+// they are see-through everywhere.
 MaterialId GltfMeshes::Covering(MaterialId material, const std::vector<VertexColor>& colors) {
   const auto [low, high] = std::ranges::minmax(colors, {}, &VertexColor::a);
   const double alpha = materials[material].base_alpha * high.a / 65535.0;

@@ -28,10 +28,10 @@ struct UvUse {
 struct GltfMaterial {
   Material material;
   UvUse uv;
-  bool blends = false;  ///< BLEND, but opaque as far as the material alone says: vertex colours may cover less
+  bool blends = false;  ///< BLEND, but opaque as far as the material says: vertex colours may cover less
 };
 
-/// What a material of mode BLEND becomes that covers `alpha` at most: a pane of glass if that is less than all.
+/// Makes a material of mode BLEND that covers `alpha` at most, less than all, a pane of glass.
 void MakePane(Material& material, double alpha);
 inline constexpr double kOpaqueFrom = 0.95;  ///< alpha that still counts as all
 

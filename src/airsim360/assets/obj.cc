@@ -68,7 +68,7 @@ MaterialId ObjReader::FindMaterial(const std::string& name) {
   const auto mtl = library_.find(name);
   if (mtl == library_.end() && !name.empty()) {
     warnings_.Add(lines_.file() + ":" + std::to_string(lines_.line_number()) + ": material '" + name +
-                  "' is in no MTL file: plain grey");
+                  "' is in no MTL file: plain");
   }
   MtlMaterial plain;
   plain.name = name;
@@ -110,8 +110,8 @@ Vec3f ObjReader::ReadPosition(std::string_view& rest) {
   return p;
 }
 
-// Of the vertex just read: three more numbers, as MeshLab writes them. They are what its window shows, so sRGB. One
-// or two more are the weights of curves.
+// Of the vertex just read: three more numbers, as MeshLab writes them. They are what its window shows, so sRGB.
+// One or two more are the weights of curves.
 void ObjReader::ReadColor(std::string_view rest) {
   std::string_view words[3];
   for (std::string_view& word : words) {

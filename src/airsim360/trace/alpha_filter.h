@@ -18,8 +18,8 @@ enum class Opacity : uint8_t { kOpaque, kClear, kMixed };
 class AlphaTest {
  public:
   AlphaTest(const Material& material, std::span<const Texture> textures);
-  /// Whether a ray that meets the surface at mesh coordinates `uv`, where vertices cover the share `coverage`, hits
-  /// it: base alpha * (texture alpha * coverage) >= cutoff, the texture read bilinearly at full size.
+  /// Whether a ray that meets the surface at mesh coordinates `uv`, where vertices cover the share `coverage`,
+  /// hits it: base alpha * (texture alpha * coverage) >= cutoff, the texture read bilinearly at full size.
   bool Solid(Vec2f uv, float coverage = 1) const;
   /// kOpaque only where Solid is true at every point of the triangle, kClear only where it is nowhere.
   /// Conservative: a triangle that comes within rounding of the other kind, or that spans more texels than
@@ -32,7 +32,7 @@ class AlphaTest {
   float scale_, cutoff_;
 };
 
-/// Whether rays can pass anywhere through a surface of this material on such a mesh, so that it needs a filter.
+/// Whether rays can pass anywhere through a surface of this material on such a mesh: it then needs a filter.
 bool NeedsAlphaTest(const Material& material, const Mesh& mesh);
 
 /// User data of an alpha-tested Embree geometry.
