@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/plain_text.h"
 
 namespace airsim360::internal {
 namespace {
@@ -18,7 +19,7 @@ std::string Kilograms(double value) {
 }  // namespace
 
 Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
-  request_.prompt = std::string(prompt);
+  request_.prompt = PrintableText(prompt);
   used_.assign(tokens_.size(), false);
   claimed_.assign(tokens_.size(), false);
 }
