@@ -35,7 +35,8 @@ DroneRequest Reader::Run() {
   // Kinds and layouts first: counts and numbers lean on them.
   for (size_t i = 0; i < tokens_.size(); ++i) {
     if (tokens_[i].kind == Token::Kind::kWord) ReadWord(i);
-    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes)) ReadSign(i);
+    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes) || tokens_[i].text == "h")
+      ReadSign(i);
   }
   for (size_t i = 0; i < tokens_.size(); ++i) {
     if (used_[i]) continue;
