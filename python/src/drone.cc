@@ -19,7 +19,7 @@ Drone MakeDrone(const std::string& what) {
   }
   const bool is_file = what.ends_with(".yaml") || what.ends_with(".yml");
   // One word that is no name is a misspelt one: CatalogModel names the nearest.
-  if (!is_file && what.find(' ') == std::string::npos) CatalogModel(what);
+  if (!is_file && what.find(' ') == std::string::npos && !NamesRealDrone(what)) CatalogModel(what);
   const DroneDesign design = is_file ? ReadDroneFile(what) : DroneFromPrompt(what);
   drone.model = design.model;
   drone.laws = design.laws;

@@ -1,5 +1,6 @@
 #include "airsim360/flight/prompt/plain_text.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace airsim360::internal {
@@ -22,6 +23,8 @@ Decoded Decode(std::string_view text) {
     if ((byte(i) & 0xc0) != 0x80) return {};
     code = code << 6 | (byte(i) & 0x3f);
   }
+  const bool shortest = code >= (length == 2 ? 0x80u : length == 3 ? 0x800u : 0x10000u);
+  if (!shortest || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {};
   return {code, length};
 }
 
@@ -61,6 +64,23 @@ std::string Folded(uint32_t code) {
 size_t CharacterLength(std::string_view text) {
   const size_t length = Decode(text).length;
   return length == 0 ? 1 : length;
+}
+
+std::string PrintableText(std::string_view bytes) {
+  std::string text;
+  for (size_t at = 0; at < bytes.size();) {
+    const auto [code, length] = Decode(bytes.substr(at));
+    const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x2000 && code < 0x2010) ||
+                         (code >= 0x2028 && code < 0x2030) || (code >= 0xfe00 && code < 0xff01) ||
+                         (code >= 0xff5f && code < 0x10000) || (code >= 0xe000 && code < 0xf900);
+    if (length == 0 || control) {
+      text += ' ';
+    } else {
+      text += bytes.substr(at, length);
+    }
+    at += std::max<size_t>(length, 1);
+  }
+  return text;
 }
 
 std::string PlainText(std::string_view bytes) {

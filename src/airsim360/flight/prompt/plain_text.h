@@ -11,6 +11,9 @@ namespace airsim360::internal {
 /// space.
 std::string PlainText(std::string_view bytes);
 
+/// The same text with a space for each control character and byte that is no UTF-8: what files may hold.
+std::string PrintableText(std::string_view bytes);
+
 /// Length in bytes of the UTF-8 character at the start of valid UTF-8.
 size_t CharacterLength(std::string_view text);
 

@@ -64,7 +64,7 @@ TEST(Prompt, AWordThatCarriesNoFigureIsListedAndNeverARefusal) {
   EXPECT_EQ(r.unused, (std::vector<std::string>{"shiny", "nephew", "4", "k", "pixhawk", "3", "friends"}));
   EXPECT_TRUE(ParsePrompt("a 1 kg quad").unused.empty());
   EXPECT_EQ(DroneFromPrompt("a quad with 7").unused, std::vector<std::string>{"7"});
-  EXPECT_EQ(DroneFromPrompt("a quad of \xc3\xa9 kg").unused, std::vector<std::string>{"e"});
+  EXPECT_TRUE(DroneFromPrompt("a quad of \xc3\xa9 kg").unused.empty());
 }
 
 TEST(Prompt, AMisspeltWordThatMattersIsReadAndSaid) {

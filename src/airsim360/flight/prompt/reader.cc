@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/plain_text.h"
 
 namespace airsim360::internal {
 namespace {
@@ -18,7 +19,7 @@ std::string Kilograms(double value) {
 }  // namespace
 
 Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
-  request_.prompt = std::string(prompt);
+  request_.prompt = PrintableText(prompt);
   used_.assign(tokens_.size(), false);
   claimed_.assign(tokens_.size(), false);
 }
@@ -34,7 +35,8 @@ DroneRequest Reader::Run() {
   // Kinds and layouts first: counts and numbers lean on them.
   for (size_t i = 0; i < tokens_.size(); ++i) {
     if (tokens_[i].kind == Token::Kind::kWord) ReadWord(i);
-    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes)) ReadSign(i);
+    if (tokens_[i].kind == Token::Kind::kUnknown || Is(i, WordKind::kTimes) || tokens_[i].text == "h")
+      ReadSign(i);
   }
   for (size_t i = 0; i < tokens_.size(); ++i) {
     if (used_[i]) continue;

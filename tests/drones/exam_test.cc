@@ -1,6 +1,6 @@
 // Ordinary descriptions, written by people who did not see the lexicon, must be built with every said figure within
 // 2 %, or refused. AIRSIM360_PROMPT_EXAM names another file of the same form.
-#include "airsim360/flight/prompt/exam.h"
+#include "exam.h"
 
 #include <gtest/gtest.h>
 
@@ -14,11 +14,7 @@ namespace {
 constexpr const char* kFiles[] = {"exam_newcomers.json", "exam_own.json"};
 constexpr size_t kFlightEvery = 9;
 
-std::string InData(const std::string& file) {
-  // This file is src/airsim360/flight/prompt/exam_test.cc.
-  const std::string here = __FILE__;
-  return here.substr(0, here.rfind('/') + 1) + "../../../../data/drones/" + file;
-}
+std::string InData(const std::string& file) { return AIRSIM360_SOURCE_DIR "/data/drones/" + file; }
 
 /// The share of sentences that are met; those that are not are printed.
 double Score(const std::string& file) {
