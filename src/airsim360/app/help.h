@@ -1,5 +1,5 @@
-// What `--help`, the manual pages and the completion of shells say of a command beside what its flags say themselves:
-// which group a flag belongs to, examples, what a flag can be.
+// What `--help`, the manual pages and the completion of shells say of a command beside what its flags say
+// themselves: which group a flag belongs to, examples, what a flag can be.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,8 +23,8 @@ std::span<const CommandExample> CommandExamples();
 std::span<const std::string_view> FlagGroups();
 std::string_view GroupOfFlag(std::string_view flag);
 
-/// What a flag ("--tier") or an argument ("world") of the command can be, for completion; empty where any text or a
-/// file is meant.
+/// What a flag ("--tier") or an argument ("world") of the command can be, for completion; empty where any
+/// text or a file is meant.
 std::vector<std::string> ChoicesOf(std::string_view command, std::string_view flag);
 /// Whether a file or folder may be given for it.
 bool TakesFiles(std::string_view flag);
@@ -37,8 +37,8 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& program);
 /// Flags in groups, lines of at most 100 columns, examples at the end: of every command of `program`.
 void ArrangeHelp(CLI::App& program);
 
-/// `text` in lines of at most `width` characters (a word longer than that has a line of its own), each after the first
-/// indented by `indent` spaces.
+/// `text` in lines of at most `width` characters (a word longer than that has a line of its own), each after
+/// the first indented by `indent` spaces.
 std::string Wrapped(std::string_view text, size_t width, size_t indent);
 
 }  // namespace airsim360

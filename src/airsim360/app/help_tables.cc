@@ -20,17 +20,22 @@ struct FlagGroup {
 constexpr auto kGroups = std::to_array<FlagGroup>({
     {"World", " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes "},
     {"Drone", " --drone --real --file --catalog --words --check --controller --sensors --wind "},
-    {"Route", " --waypoints --route --plan --pose --script --from --to --avoid --clearance --area --height --spacing "
-              "--heading --center --entity --radius --turns --length --yaw --origin --poses "},
-    {"Limits", " --vmax --amax --axis-vmax --axis-amax --climb --descent --dt --order --minimise --speed --realtime "
-               "--lockstep "},
-    {"Camera", " --projection --size --fov --pano-frame --lens --width --cube --axes --depth-z --nearest --filter --ppd "
-               "--wrap "},
+    {"Route",
+     " --waypoints --route --plan --pose --script --from --to --avoid --clearance --area --height --spacing "
+     "--heading --center --entity --radius --turns --length --yaw --origin --poses "},
+    {"Limits",
+     " --vmax --amax --axis-vmax --axis-amax --climb --descent --dt --order --minimise --speed --realtime "
+     "--lockstep "},
+    {"Camera",
+     " --projection --size --fov --pano-frame --lens --width --cube --axes --depth-z --nearest --filter "
+     "--ppd "
+     "--wrap "},
     {"Quality", " --tier --samples --no-denoise --edge-samples --tone --exposure "},
     {"People", " --people --people-warmup --people-level --people-reserve --sockets --overlay "},
     {"Weather", " --weather --sun --time --place --hdri --environment "},
-    {"Output", " --out --frames --fps --shard --products --normal --radiance --format --rgb-format --video --encoder "
-               "--quality --record --buildings --csv --count --dataset --routes --worlds --json "},
+    {"Output",
+     " --out --frames --fps --shard --products --normal --radiance --format --rgb-format --video --encoder "
+     "--quality --record --buildings --csv --count --dataset --routes --worlds --json "},
     {"Further", ""},
     {"Machine", " --threads --device --gpu --processes --no-cache --host --port --help --version "},
 });
@@ -43,50 +48,72 @@ constexpr auto kGroupNames = [] {
 
 constexpr auto kExamples = std::to_array<CommandExample>({
     {"worlds", "airsim360 worlds", "lists the worlds that are built in"},
-    {"worlds", "airsim360 worlds --count city_park --json", "how many triangles, entities and pixels of what one holds"},
-    {"world export", "airsim360 world export city_park --out park.glb", "for Blender, and back in with --world park.glb"},
-    {"world export", "airsim360 world export new_york_city --seed 7 --out city.glb", "another city of the same kind"},
+    {"worlds", "airsim360 worlds --count city_park --json",
+     "how many triangles, entities and pixels of what one holds"},
+    {"world export", "airsim360 world export city_park --out park.glb",
+     "for Blender, and back in with --world park.glb"},
+    {"world export", "airsim360 world export new_york_city --seed 7 --out city.glb",
+     "another city of the same kind"},
     {"world import", "airsim360 world import town.osm.pbf", "what a map holds"},
-    {"world import", "airsim360 world import town.osm.pbf --heights ground.tif --out town", "with hills, as --world town.yaml"},
-    {"world entities", "airsim360 world entities downtown_west", "names, categories and places of everything"},
-    {"world entities", "airsim360 world entities downtown_west --csv > entities.csv", "with boxes, for a spreadsheet"},
-    {"world sheet", "airsim360 world sheet city_park --out park.jpg", "the world from 16 places at four heights"},
-    {"world sheet", "airsim360 world sheet box_room --poses 4 --heights 1.6,3 --out room.png", "from four, at two"},
+    {"world import", "airsim360 world import town.osm.pbf --heights ground.tif --out town",
+     "with hills, as --world town.yaml"},
+    {"world entities", "airsim360 world entities downtown_west",
+     "names, categories and places of everything"},
+    {"world entities", "airsim360 world entities downtown_west --csv > entities.csv",
+     "with boxes, for a spreadsheet"},
+    {"world sheet", "airsim360 world sheet city_park --out park.jpg",
+     "the world from 16 places at four heights"},
+    {"world sheet", "airsim360 world sheet box_room --poses 4 --heights 1.6,3 --out room.png",
+     "from four, at two"},
     {"render", "airsim360 render --world downtown_west --pose -19,0,1.7,45 --out street",
      "a panorama from the street, looking north-east, with range, classes and entities"},
-    {"render", "airsim360 render --world city_park --projection pinhole --fov 70 --tier high --weather sunset --out picture",
+    {"render",
+     "airsim360 render --world city_park --projection pinhole --fov 70 --tier high --weather sunset --out "
+     "picture",
      "an ordinary picture of higher quality, at sunset"},
     {"collect", "airsim360 collect --world new_york_city --frames 100 --out dataset",
      "100 labelled panoramas on a way through the city"},
-    {"collect", "airsim360 collect --world city_park --route route.csv --size 1024x512 --products normal,flow --out dataset",
+    {"collect",
+     "airsim360 collect --world city_park --route route.csv --size 1024x512 --products normal,flow --out "
+     "dataset",
      "at the waypoints of a file, with normals and flow; the same line again finishes what was interrupted"},
     {"plan", "airsim360 plan --waypoints points.csv --vmax 8 --amax 4 --out flight.csv",
      "the smoothest flight through points, as samples of time, place, velocity and acceleration"},
-    {"plan", "airsim360 plan --world downtown_west --from -19,0,2 --to 60,40,10 --vmax 8 --amax 4 --format json,svg --out flight",
+    {"plan",
+     "airsim360 plan --world downtown_west --from -19,0,2 --to 60,40,10 --vmax 8 --amax 4 --format json,svg "
+     "--out flight",
      "a way round everything, and a drawing of it"},
     {"verify", "airsim360 verify dataset", "whether every file of a dataset is there and unharmed"},
     {"verify", "airsim360 verify dataset --json", "the same, for programs"},
     {"video", "airsim360 video dataset --out film.mp4", "the panoramas of a dataset as a 360 degree video"},
-    {"video", "airsim360 video dataset --fps 10 --encoder libx264 --out film.mp4", "ten a second, the same bytes on any machine"},
+    {"video", "airsim360 video dataset --fps 10 --encoder libx264 --out film.mp4",
+     "ten a second, the same bytes on any machine"},
     {"stitch", "airsim360 stitch --cube faces --out panorama.png", "six square pictures become one panorama"},
-    {"stitch", "airsim360 stitch --cube depth --depth-z --out range.exr", "planar depth becomes range along the ray"},
+    {"stitch", "airsim360 stitch --cube depth --depth-z --out range.exr",
+     "planar depth becomes range along the ray"},
     {"eval image", "airsim360 eval image mine.png reference.png", "how much two pictures differ"},
     {"eval image", "airsim360 eval image mine.png reference.png --wrap --json", "of panoramas, for programs"},
     {"eval statistics", "airsim360 eval statistics panorama.png", "figures about one panorama"},
     {"eval statistics", "airsim360 eval statistics first.png second.png --json", "of two, for programs"},
     {"fly", "airsim360 fly --world box_room --script \"takeoff 2; goto 2,2,3; hover 2; return\" --out flight",
      "take off, go somewhere, come back"},
-    {"fly", "airsim360 fly --world downtown_west --waypoints points.csv --vmax 8 --video flight.mp4 --fps 15 --out flight",
+    {"fly",
+     "airsim360 fly --world downtown_west --waypoints points.csv --vmax 8 --video flight.mp4 --fps 15 --out "
+     "flight",
      "through points, filmed"},
     {"serve", "airsim360 serve --world downtown_west", "AirSim's clients connect to port 41451"},
-    {"serve", "airsim360 serve --world box_room --settings settings.json --lockstep", "with AirSim's settings; time stands still between calls"},
+    {"serve", "airsim360 serve --world box_room --settings settings.json --lockstep",
+     "with AirSim's settings; time stands still between calls"},
     {"agent", "airsim360 agent --world downtown_west", "episodes at http://127.0.0.1:8361"},
-    {"agent", "airsim360 agent --world city_park --port 0 --tier high --weather overcast", "at any free port, with finer pictures"},
-    {"drone", "airsim360 drone \"a 250 g five-inch racing quad\" --out racer.yaml", "a drone from words, for fly --drone racer.yaml"},
+    {"agent", "airsim360 agent --world city_park --port 0 --tier high --weather overcast",
+     "at any free port, with finer pictures"},
+    {"drone", "airsim360 drone \"a 250 g five-inch racing quad\" --out racer.yaml",
+     "a drone from words, for fly --drone racer.yaml"},
     {"drone", "airsim360 drone --catalog", "the real drones that are known"},
     {"doctor", "airsim360 doctor", "what is missing on this machine, and the command that installs it"},
     {"doctor", "airsim360 doctor --json", "the same, for programs"},
-    {"completion", "airsim360 completion bash > ~/.local/share/bash-completion/completions/airsim360", "for bash, from the next shell on"},
+    {"completion", "airsim360 completion bash > ~/.local/share/bash-completion/completions/airsim360",
+     "for bash, from the next shell on"},
     {"completion", "airsim360 completion fish > ~/.config/fish/completions/airsim360.fish", "for fish"},
     {"man", "airsim360 man ~/.local/share/man/man1", "then 'man airsim360' and 'man airsim360-render'"},
     {"man", "airsim360 man", "the page of the program, to the terminal"},
@@ -155,7 +182,10 @@ std::vector<std::string> ChoicesOf(string_view command, string_view flag) {
     return names;
   }
   if (flag == "--weather") return EnvironmentPresetNames();
-  if (flag == "--format") return command == "plan" ? PlanFormats() : Words("native coco video coco_keypoints kitti nuscenes monoloco crops overlay");
+  if (flag == "--format")
+    return command == "plan"
+               ? PlanFormats()
+               : Words("native coco video coco_keypoints kitti nuscenes monoloco crops overlay");
   if (flag == "--route") return Words(command == "plan" ? "coverage orbit road random" : "auto");
   if (flag == "--products") {
     for (const OptionalProduct& product : kOptionalProducts) names.emplace_back(product.name);
@@ -168,9 +198,11 @@ std::vector<std::string> ChoicesOf(string_view command, string_view flag) {
 }
 
 bool TakesFiles(string_view flag) {
-  return Holds(" --world --labels --heights --recipe --settings --drone --file --sensors --wind --waypoints --route --plan "
-               "--cube --people --sockets --hdri --out --video world file files first second DIR ",
-               flag);
+  return Holds(
+      " --world --labels --heights --recipe --settings --drone --file --sensors --wind --waypoints --route "
+      "--plan "
+      "--cube --people --sockets --hdri --out --video world file files first second DIR ",
+      flag);
 }
 
 }  // namespace airsim360

@@ -117,8 +117,10 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
   for (const std::string& word : app.remaining(true)) {
     if (word == "--") continue;
     if (word.starts_with("-")) {
-      const std::string flag = word.substr(0, word.find('=')), question = DidYouMean(flag, FlagNames(*command));
-      return of + "unknown flag '" + flag + "'" + question + (question.empty() ? "; " : " ") + HelpHint(*command);
+      const std::string flag = word.substr(0, word.find('=')),
+                        question = DidYouMean(flag, FlagNames(*command));
+      return of + "unknown flag '" + flag + "'" + question + (question.empty() ? "; " : " ") +
+             HelpHint(*command);
     }
     // A command of commands: the word is a wrong one.
     const auto inner = command->get_subcommands(Any);
@@ -130,7 +132,8 @@ std::string UnknownArgumentMessage(const CLI::App& app, const CLI::ParseError& e
 
 // `airsim360 help [COMMAND]`.
 void AddHelpCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("help", "what the program or one of its commands does, with its flags");
+  CLI::App* command =
+      app.add_subcommand("help", "what the program or one of its commands does, with its flags");
   const auto words = std::make_shared<std::vector<std::string>>();
   command->add_option("command", *words, "one of those that 'airsim360 help' lists");
   command->callback([&app, words] {

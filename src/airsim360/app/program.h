@@ -18,7 +18,8 @@ class Program {
   /// The description of the command line, from which --help, manual pages and completion are made.
   CLI::App& app() { return app_; }
 
-  /// Parses the command line and does what it says. InputError for a wrong one, and whatever the command throws.
+  /// Parses the command line and does what it says. InputError for a wrong one, and whatever the command
+  /// throws.
   void Run(int argc, const char* const* argv);
 
  private:

@@ -33,7 +33,8 @@ std::string ClockText(double seconds) {
 
 namespace internal {
 
-/// What is being done and since when; tells it from a thread of its own, as one step of the work may take minutes.
+/// What is being done and since when; tells it from a thread of its own, as one step of the work may take
+/// minutes.
 class ProgressTicker {
  public:
   /// `total` 0: unknown.
@@ -85,7 +86,8 @@ class ProgressTicker {
 
   void Tell() const {
     if (total_ == 0) return LogInfo(label_ + ": " + std::to_string(static_cast<int64_t>(seconds())) + " s");
-    const std::string left = done_ > 0 ? ClockText(SecondsLeft()) + " left" : ClockText(seconds()) + " so far";
+    const std::string left =
+        done_ > 0 ? ClockText(SecondsLeft()) + " left" : ClockText(seconds()) + " so far";
     LogInfo(label_ + ": " + std::to_string(done_) + "/" + std::to_string(total_) + ", " + left);
   }
 
@@ -93,8 +95,8 @@ class ProgressTicker {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(Fraction() * kWidth);
     std::fprintf(stderr, "\r%s [%s%s] %lld/%lld  %s left ", label_.c_str(), std::string(filled, '#').c_str(),
-                 std::string(kWidth - filled, '.').c_str(), static_cast<long long>(done_), static_cast<long long>(total_),
-                 ClockText(SecondsLeft()).c_str());
+                 std::string(kWidth - filled, '.').c_str(), static_cast<long long>(done_),
+                 static_cast<long long>(total_), ClockText(SecondsLeft()).c_str());
     std::fflush(stderr);
   }
 
@@ -112,7 +114,8 @@ class ProgressTicker {
 }  // namespace internal
 
 ProgressBar::ProgressBar(std::string label, int64_t total, std::chrono::milliseconds period)
-    : ticker_(std::make_unique<internal::ProgressTicker>(std::move(label), std::max<int64_t>(total, 1), period)) {}
+    : ticker_(std::make_unique<internal::ProgressTicker>(std::move(label), std::max<int64_t>(total, 1),
+                                                         period)) {}
 ProgressBar::~ProgressBar() = default;
 void ProgressBar::Update(int64_t done) { ticker_->Update(done); }
 

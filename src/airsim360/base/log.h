@@ -20,8 +20,8 @@ namespace internal {
 class ProgressTicker;
 }
 
-/// How far work has come: on a terminal a bar with the time left, elsewhere lines such as "collect: 37/100, 1:02 left"
-/// each `period`; nothing for what is over sooner.
+/// How far work has come: on a terminal a bar with the time left, elsewhere lines such as "collect: 37/100,
+/// 1:02 left" each `period`; nothing for what is over sooner.
 class ProgressBar {
  public:
   ProgressBar(std::string label, int64_t total, std::chrono::milliseconds period = kLogPeriod);
@@ -35,7 +35,8 @@ class ProgressBar {
   std::unique_ptr<internal::ProgressTicker> ticker_;
 };
 
-/// Work of unknown length while the object lives: "building city_park: 15 s" each `period`, on a terminal too.
+/// Work of unknown length while the object lives: "building city_park: 15 s" each `period`, on a terminal
+/// too.
 class LongTask {
  public:
   explicit LongTask(std::string what, std::chrono::milliseconds period = kLogPeriod);

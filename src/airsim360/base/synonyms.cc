@@ -7,9 +7,9 @@
 namespace airsim360::internal {
 namespace {
 
-// Rows of words that users take for each other, apart by spaces, with a space at both ends. What is compared is
-// lower case, letters and digits alone, singular. A row helps only where one of its words is a choice, so that
-// rows of different fields (pictures, weather, flags) may share words; the first row that helps wins.
+// Rows of words that users take for each other, apart by spaces, with a space at both ends. What is compared
+// is lower case, letters and digits alone, singular. A row helps only where one of its words is a choice, so
+// that rows of different fields (pictures, weather, flags) may share words; the first row that helps wins.
 constexpr auto kRows = std::to_array<std::string_view>({
     // Pictures.
     " range depth distance dist zdepth depthmap ",

@@ -9,7 +9,7 @@ namespace airsim360 {
 namespace {
 
 constexpr double kFarthest = 1e4;  // metres that are looked for the least clearance
-constexpr double kFar = 8;       // metres beyond the radius that exact queries look
+constexpr double kFar = 8;         // metres beyond the radius that exact queries look
 constexpr double kRoomy = 0.75;  // metres beyond the radius at which a coarse bound is good enough to step by
 
 double Bound(const ClearanceQuery& world, Vec3d p, double radius) {
@@ -27,7 +27,8 @@ double TimeToGo(double way, double speed, const TrajectoryPeaks& peaks) {
   return std::isnan(t) ? std::numeric_limits<double>::infinity() : t;  // a path that stands still
 }
 
-// The least clearance on a way of length `way` whose ends have clearances a and b: it changes by no more than the way.
+// The least clearance on a way of length `way` whose ends have clearances a and b: it changes by no more than
+// the way.
 double Between(double a, double b, double way) { return std::min({a, b, (a + b - way) / 2}); }
 
 // Part of a path with the clearances of its ends, and what the clearance cannot fall below between.
@@ -49,7 +50,8 @@ Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeak
     const double clearance = Bound(world, point.p, radius);
     ++result.queries;
     // Half of the slack covers the rounding of the way.
-    result.least_clearance = std::min({result.least_clearance, clearance, Between(last, clearance, way + 0.5 * kCertificateSlack)});
+    result.least_clearance = std::min(
+        {result.least_clearance, clearance, Between(last, clearance, way + 0.5 * kCertificateSlack)});
     if (!(clearance >= radius + kCertificateSlack)) {
       result.violation_time = t;
       result.least_clearance = clearance;
@@ -86,7 +88,8 @@ double LeastClearanceBound(const PolynomialTrajectory& trajectory, const Traject
   }
   // The stretch that may come nearest is halved, until it cannot come much nearer than what was met.
   std::make_heap(stretches.begin(), stretches.end());
-  for (int i = static_cast<int>(stretches.size()); i < queries && stretches.front().bound < seen - kTolerance && seen > 0; ++i) {
+  for (int i = static_cast<int>(stretches.size());
+       i < queries && stretches.front().bound < seen - kTolerance && seen > 0; ++i) {
     std::pop_heap(stretches.begin(), stretches.end());
     const Stretch whole = stretches.back();
     const double middle = 0.5 * (whole.from + whole.to), met = clearance(middle);

@@ -17,8 +17,8 @@ inline constexpr double kCertificateSlack = 1e-3;
 struct Certificate {
   bool certified = false;
   double violation_time = 0;   ///< seconds; first time that could not be proved free, if not certified
-  double least_clearance = 0;  ///< metres: if certified, the clearance is never less on the way, and this is at
-                               ///< least radius; else the clearance at violation_time is at least this
+  double least_clearance = 0;  ///< metres: if certified, the clearance is never less on the way, and this is
+                               ///< at least radius; else the clearance at violation_time is at least this
   int queries = 0;
 };
 
@@ -32,8 +32,9 @@ struct TimeSpan {
 Certificate Certify(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
                     const ClearanceQuery& world, double radius, TimeSpan span = {});
 
-/// Metres that the clearance is proved never to fall below on the way, whether a radius is kept or not; 0 where it
-/// touches something. As near to the least clearance as `queries` allow, never above it. `peaks` as of Certify.
+/// Metres that the clearance is proved never to fall below on the way, whether a radius is kept or not; 0
+/// where it touches something. As near to the least clearance as `queries` allow, never above it. `peaks` as
+/// of Certify.
 double LeastClearanceBound(const PolynomialTrajectory& trajectory, const TrajectoryPeaks& peaks,
                            const ClearanceQuery& world, int queries = 4096);
 

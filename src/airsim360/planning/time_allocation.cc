@@ -215,17 +215,19 @@ std::vector<Vec3d> OnTheWay(Vec3d a, Vec3d b, size_t count, const TrajectoryLimi
   std::vector<Vec3d> points = {a};
   for (size_t i = 1; i <= count; ++i) {
     const double t = total * static_cast<double>(i) / static_cast<double>(count + 1);
-    points.push_back(a + (b - a) * (RestToRestWay(t, distance, limits.speed, limits.acceleration) / distance));
+    points.push_back(a +
+                     (b - a) * (RestToRestWay(t, distance, limits.speed, limits.acceleration) / distance));
   }
   points.push_back(b);
   return points;
 }
 
 /// The flight through exactly these waypoints.
-PolynomialTrajectory Fastest(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits, const AllocationOptions& options,
-                             int& evaluations) {
+PolynomialTrajectory Fastest(std::span<const Vec3d> waypoints, const TrajectoryLimits& limits,
+                             const AllocationOptions& options, int& evaluations) {
   std::vector<double> durations;
-  for (const double chord : Chords(waypoints)) durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
+  for (const double chord : Chords(waypoints))
+    durations.push_back(RestToRestTime(chord, limits.speed, limits.acceleration));
   // As fast as speed and acceleration allow, which is where the objective has its numbers.
   const TrajectoryLimits norms = {.speed = limits.speed, .acceleration = limits.acceleration};
   PolynomialTrajectory best = Fly(waypoints, durations, options.kind, norms);
@@ -248,7 +250,8 @@ PolynomialTrajectory Split(PolynomialTrajectory whole, Vec3d a, Vec3d b, const T
   }
   double least = std::numeric_limits<double>::infinity();
   for (const PolynomialTrajectory& flight : flights) least = std::min(least, flight.duration());
-  return *std::ranges::find_if(flights, [&](const auto& flight) { return flight.duration() <= kWorthASplit * least; });
+  return *std::ranges::find_if(flights,
+                               [&](const auto& flight) { return flight.duration() <= kWorthASplit * least; });
 }
 
 }  // namespace

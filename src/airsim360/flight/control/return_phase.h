@@ -5,8 +5,8 @@
 
 namespace airsim360 {
 
-/// AutopilotState::phase of a return from its place above home on, where it comes down; below that it climbs and
-/// flies there.
+/// AutopilotState::phase of a return from its place above home on, where it comes down; below that it climbs
+/// and flies there.
 inline constexpr int64_t kReturnDown = 2;
 
 }  // namespace airsim360
