@@ -7,8 +7,9 @@ namespace airsim360 {
 namespace {
 
 constexpr int kDirections = 256;
-constexpr double kLeastHits = 0.25;   // share of the directions that meet something, to be inside of it
-constexpr double kLeastBacks = 0.9;   // share of backs among what they meet
+// Of the upper directions, for solids often stand on the ground without a bottom of their own:
+constexpr double kLeastHits = 0.5;   // share that meets something, to be inside of it
+constexpr double kLeastBacks = 0.9;  // share of backs among what they meet
 
 // Directions spread evenly over the sphere: a Fibonacci lattice.
 Vec3f Direction(int i) {
@@ -39,7 +40,8 @@ EntityId EntityOf(const Scene& scene, SurfaceRef surface) {
 
 // What rays from a place meet.
 struct Surroundings {
-  int rays = 0, hits = 0, backs = 0;
+  int rays = 0, hits = 0;
+  int up_rays = 0, up_hits = 0, up_backs = 0;  // of them upward
 };
 
 Surroundings LookAround(const RayTracer& tracer, Vec3f p, int step) {
@@ -49,7 +51,10 @@ Surroundings LookAround(const RayTracer& tracer, Vec3f p, int step) {
     const auto hit = tracer.Intersect(p, direction);
     ++seen.rays;
     seen.hits += hit.has_value();
-    seen.backs += hit && Dot(FrontOf(tracer, hit->surface), direction) > 0;
+    if (direction.z <= 0) continue;
+    ++seen.up_rays;
+    seen.up_hits += hit.has_value();
+    seen.up_backs += hit && Dot(FrontOf(tracer, hit->surface), direction) > 0;
   }
   return seen;
 }
@@ -62,10 +67,10 @@ Whereabouts FindWhereabouts(const RayTracer& tracer, Vec3d p_W) {
   // A few rays tell of most places that nothing is wrong with them.
   constexpr int kFew = 16;
   const Surroundings few = LookAround(tracer, p, kDirections / kFew);
-  if (2 * few.backs < few.hits && !(closed && few.hits < few.rays)) return {};
+  if (2 * few.up_backs < few.up_hits && !(closed && few.hits < few.rays)) return {};
   const Surroundings all = LookAround(tracer, p, 1);
   if (closed && all.hits < all.rays) return {Whereabouts::Kind::kOutside};
-  if (all.hits < kLeastHits * all.rays || all.backs < kLeastBacks * all.hits) return {};
+  if (all.up_hits < kLeastHits * all.up_rays || all.up_backs < kLeastBacks * all.up_hits) return {};
   const auto nearest = tracer.Nearest(p, 1e4f);
   return {Whereabouts::Kind::kInside, nearest ? EntityOf(tracer.scene(), nearest->surface) : kNoEntity};
 }

@@ -10,7 +10,7 @@ namespace airsim360 {
 struct Whereabouts {
   enum class Kind {
     kOpen,
-    kInside,  ///< nearly all around there are backs of surfaces: within a solid, or below the ground
+    kInside,  ///< nearly all that is above are backs of surfaces: within a solid, or below the ground
     kOutside  ///< rays leave a scene that has no sky
   };
   Kind kind = Kind::kOpen;
