@@ -389,7 +389,7 @@ class Agent(unittest.TestCase):
 
     def test_no_number_ends_the_server(self):
         status, text = self.ask("POST", "/v1/episodes", AGENT_CALLS["/v1/episodes"])
-        self.assertEqual(status, 200 if status == 200 else 201, text)
+        self.assertEqual(status, 201, text)
         episode = "/v1/episodes/" + json.loads(text)["episode"]
         calls, refused, worst = 0, 0, 0
         hostile = [(name, body) for name, (body,) in hostile_calls({name: [body] for name, body in AGENT_CALLS.items()})
@@ -398,7 +398,7 @@ class Agent(unittest.TestCase):
             started = time.monotonic()
             path = name.split()[0].format(e=episode)
             status, text = self.ask("POST", path, body)
-            self.assertIn(status, (200, 201, 400, 409, 422), (name, body, text))
+            self.assertIn(status, (200, 201, 400, 409, 422, 503), (name, body, text))
             if path == "/v1/episodes" and status < 300:
                 self.ask("DELETE", "/v1/episodes/" + json.loads(text)["episode"])
             refused += status >= 400
