@@ -244,9 +244,6 @@ std::unordered_set<int64_t> NodesInside(const std::string& name, std::span<const
   if (inside.empty())
     throw InputError(cut.text + ": nothing of " + name + " lies there; its data reach over " +
                      DescribeBox({.west = all.lon0, .south = all.lat0, .east = all.lon1, .north = all.lat1}));
-  // No larger than the map itself.
-  cut.box = {.west = std::max(cut.box.west, all.lon0), .south = std::max(cut.box.south, all.lat0),
-             .east = std::min(cut.box.east, all.lon1), .north = std::min(cut.box.north, all.lat1)};
   return inside;
 }
 
