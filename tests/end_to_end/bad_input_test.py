@@ -20,7 +20,7 @@ class BadFlags(ProgramTest):
             (["worlds", "--jsn"], ["--jsn", "did you mean '--json'"]),
             (["render", "--world", "box_rom", "--out", out], ["box_rom", "did you mean 'box_room'"]),
             (["collect", *ROOM, "--tier", "fats", "--out", out], ["--tier", "did you mean 'fast'"]),
-            (["collect", *ROOM, "--format", "native,koko", "--out", out], ["koko", "did you mean 'coco'"]),
+            (["collect", *ROOM, "--format", "native,cocoo", "--out", out], ["cocoo", "did you mean 'coco'"]),
             (["render", *ROOM, "--projection", "rep", "--out", out], ["did you mean 'erp'"]),
             (["render", *ROOM, "--products", "rgb,flwo", "--out", out], ["--products", "flwo", "did you mean 'flow'"]),
             (["collect", *ROOM, "--products", "albeda", "--out", out], ["albeda", "did you mean 'albedo'"]),

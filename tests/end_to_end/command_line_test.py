@@ -33,7 +33,7 @@ class HelpTest(ProgramTest):
             (["render", "--wrold", "x"], ["render: unknown flag '--wrold'; did you mean '--world'?", "'airsim360 render --help'"]),
             (["render", "--resolution", "64x32"], ["did you mean '--size'?"]),
             (["plan", "--max-speed=3"], ["unknown flag '--max-speed'; did you mean '--vmax'?"]),
-            (["world", "export", "box_room", "--ouput", "x.glb"], ["world export: ", "did you mean '--out'?", "'airsim360 world export --help'"]),
+            (["world", "export", "box_room", "--output", "x.glb"], ["world export: ", "did you mean '--out'?", "'airsim360 world export --help'"]),
             (["collect", "--config", "x.yaml"], ["unknown flag '--config'; 'airsim360 collect --help'"]),
             (["world", "exprot"], ["did you mean 'export'?"]),
         ]:

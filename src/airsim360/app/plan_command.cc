@@ -254,6 +254,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   if (arguments.origin.empty() && std::ranges::count(FormatsToWrite(output), "qgc") > 0)
     throw InputError("--origin: the format qgc is in latitude and longitude: give those and the altitude of the world's "
                      "origin, for example 47.397742,8.545594,488 (where PX4's simulator starts)");
+  CheckSources(arguments.waypoints);
   ParseKind(arguments);
   if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
   CheckPositive("--clearance", arguments.clearance);

@@ -102,13 +102,16 @@ bool NeedsWorld(const WaypointArguments& a) {
   return !a.from.empty() || a.route == "random" || a.route == "road" || !a.entity.empty();
 }
 
-PlanWaypoints FindWaypoints(const WaypointArguments& arguments, std::shared_ptr<const RayTracer> tracer,
-                            uint64_t seed, double clearance) {
+void CheckSources(const WaypointArguments& arguments) {
   const int sources = !arguments.file.empty() + !arguments.from.empty() + !arguments.route.empty();
   if (sources != 1 || arguments.from.empty() != arguments.to.empty()) {
     throw InputError(
         "plan: give one of --waypoints FILE, --from x,y,z --to x,y,z, --route KIND or --dataset waypoint");
   }
+}
+
+PlanWaypoints FindWaypoints(const WaypointArguments& arguments, std::shared_ptr<const RayTracer> tracer,
+                            uint64_t seed, double clearance) {
   PlanWaypoints out;
   if (!arguments.file.empty()) return FromFile(arguments.file);
   if (!arguments.from.empty()) {

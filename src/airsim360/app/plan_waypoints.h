@@ -24,6 +24,9 @@ struct PlanWaypoints {
   std::vector<Vec3d> Positions() const;
 };
 
+/// InputError unless the flags name one source of waypoints, whole.
+void CheckSources(const WaypointArguments& arguments);
+
 /// True if a world is needed to find the waypoints.
 bool NeedsWorld(const WaypointArguments& arguments);
 

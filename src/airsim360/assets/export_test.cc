@@ -247,6 +247,7 @@ TEST(EncodeGlb, CopiesMadeInAnEditorAreThingsOfTheirOwnAndLongNamesComeBack) {
                  road = builder.AddEntity(long_name, builder.tree().At("ground/road"));
   for (float x : {0.0f, 1.0f}) builder.AddInstance({square, PlaceUpright({x, 0, 0}, 0, 1), lamp});
   builder.AddInstance({square, PlaceUpright({0, 5, 0}, 0, 1), road});
+  builder.AddSky();
   const Bytes bytes = EncodeGlb(*builder.Build());
   internal::GltfContainer container = internal::OpenGltfContainer("street.glb", bytes);
   nlohmann::json json = nlohmann::json::parse(container.json);

@@ -68,7 +68,6 @@ class PlyReader {
   Warnings warnings_;
   TextureStore textures_;
   ObjGeometry geometry_;
-  std::vector<Rgb> colors_;  // of vertices, or empty
   bool vertex_uvs_ = false, vertex_normals_ = false;
   std::vector<ObjCorner> face_;
   uint64_t triangles_ = 0;
@@ -133,13 +132,13 @@ void PlyReader::ReadVertices(const PlyElement& element) {
       geometry_.uvs.push_back(std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : Vec2f{});
     }
     if (!colors) continue;
-    const auto byte = [&](Use use) { return static_cast<uint8_t>(std::lround(v[static_cast<size_t>(use)] * 255)); };
-    colors_.push_back({byte(Use::kRed), byte(Use::kGreen), byte(Use::kBlue)});
+    const auto linear = [&](Use use) { return ToLinear(v[static_cast<size_t>(use)]); };
+    geometry_.colors.push_back(MakeVertexColor({linear(Use::kRed), linear(Use::kGreen), linear(Use::kBlue)}));
   }
 }
 
 MaterialId PlyReader::MaterialFor(int texture, Rgb color) {
-  // Eight steps a channel: as many surfaces at most.
+  // Colours of faces in eight steps a channel: as many surfaces at most.
   constexpr int kStep = 36;
   for (uint8_t& c : color) c = static_cast<uint8_t>((c + kStep / 2) / kStep * kStep + 3 * (c >= 255 - kStep / 2));
   const auto [it, is_new] = material_ids_.try_emplace({texture, color}, static_cast<MaterialId>(materials_.size()));
@@ -154,7 +153,6 @@ MaterialId PlyReader::MaterialFor(int texture, Rgb color) {
 
 void PlyReader::AddFace(const std::vector<double>& indices, const std::vector<double>& uvs, int texture, std::optional<Rgb> color) {
   face_.clear();
-  std::array<int, 3> sum{};
   for (size_t k = 0; k < indices.size(); ++k) {
     if (!(indices[k] >= 0 && indices[k] < static_cast<double>(geometry_.positions.size())))
       values_.Fail("there are only " + std::to_string(geometry_.positions.size()) + " vertices, not a number " + std::to_string(indices[k]));
@@ -168,18 +166,13 @@ void PlyReader::AddFace(const std::vector<double>& indices, const std::vector<do
     } else if (vertex_uvs_) {
       corner.uv = i;
     }
-    if (!colors_.empty()) {
-      for (size_t c = 0; c < 3; ++c) sum[c] += colors_[i][c];
-    }
     face_.push_back(corner);
   }
   if (face_.size() < 3) return;
   CountTriangles(face_.size() - 2);
-  if (!color && !colors_.empty()) {
-    const int n = static_cast<int>(face_.size());
-    color = {static_cast<uint8_t>(sum[0] / n), static_cast<uint8_t>(sum[1] / n), static_cast<uint8_t>(sum[2] / n)};
-  }
   const bool textured = texture >= 0 && static_cast<size_t>(texture) < header_.textures.size();
+  // Where vertices have colours those are the colour of the faces too.
+  if (!geometry_.colors.empty()) color = Rgb{255, 255, 255};
   const uint8_t usual = textured ? 255 : 231;
   geometry_.AddFace(face_, MaterialFor(textured ? texture : -1, color.value_or(Rgb{usual, usual, usual})));
 }

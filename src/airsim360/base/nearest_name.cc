@@ -79,9 +79,9 @@ bool BeginsWith(std::string_view whole, std::string_view start) {
 bool FewEdits(const Name& a, const Name& b) {
   const size_t longest = std::max(a.plain.size(), b.plain.size()),
                shortest = std::min(a.plain.size(), b.plain.size());
-  if (shortest < 2 || longest - shortest > longest / 3) return false;
+  if (shortest < 2 || longest - shortest > std::max<size_t>(longest / 3, 1)) return false;
   if (longest <= kShortestPart && a.plain[0] != b.plain[0]) return false;
-  return EditDistance(a.plain, b.plain) <= std::min<size_t>(longest / 3, 4);
+  return EditDistance(a.plain, b.plain) <= std::clamp<size_t>(longest / 3, 1, 4);
 }
 
 // A word of `word` that is, or means, the whole of `choice`, or a word of it.

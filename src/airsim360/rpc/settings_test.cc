@@ -163,7 +163,7 @@ TEST(Settings, UnknownKeysAreNoticedWithTheNearest) {
   ASSERT_EQ(settings.notices.size(), 1u);
   EXPECT_NE(settings.notices[0].find("settings.json:2: 'ClokSpeed'"), std::string::npos);
   EXPECT_NE(settings.notices[0].find("'ClockSpeed'"), std::string::npos);
-  for (const char* strange : {"External", "Plugins", "PawnPaths"}) {
+  for (const char* strange : {"Plugins", "PawnPaths"}) {
     const std::string notice = ParseSettings("{\"" + std::string(strange) + "\": {}}", "settings.json").notices.at(0);
     EXPECT_EQ(notice.find("did you mean"), std::string::npos) << notice;
   }

@@ -6,6 +6,7 @@
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/math/standard_atmosphere.h"
 #include "airsim360/sim/en_route.h"
+#include "airsim360/sim/people/people.h"
 
 namespace airsim360::internal {
 namespace {
@@ -129,19 +130,20 @@ void LieBroken(const StepContext& context, size_t i, Vehicle& vehicle, std::vect
        .text = CommandName(vehicle.command.command) + ": the drone has crashed; reset it first"});
 }
 
-// Whether a contact is more than standing, setting down and leaning.
-bool Collides(const ContactReport& report, const Vehicle& vehicle, int64_t t_ns) {
+// Whether a contact is more than standing, setting down and leaning. Nothing stands or leans on people.
+bool Collides(const SimModel& model, const ContactReport& report, const Vehicle& vehicle, int64_t t_ns) {
   if (!report.touching) return false;
   if (report.crashed) return true;
+  const bool lasts = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kContactGapNs;
+  if (model.people && IsPerson(*model.people, report.point.entity)) return !lasts || report.impact_speed > kNewImpact;
   if (report.point.normal_W.z > kSupportSlope)
     return report.impact_speed > (IsEnRoute(vehicle) ? kNewImpact : kTouchdownSpeed);
-  const bool lasts = vehicle.touched_ns >= 0 && t_ns - vehicle.touched_ns <= kContactGapNs;
   return report.impact_speed > (lasts ? kNewImpact : kLeanSpeed);
 }
 
-void NoteCollision(const ContactReport& report, int64_t t_ns, size_t i, Vehicle& vehicle,
+void NoteCollision(const SimModel& model, const ContactReport& report, int64_t t_ns, size_t i, Vehicle& vehicle,
                    std::vector<SimEvent>& events) {
-  const bool collides = Collides(report, vehicle, t_ns);
+  const bool collides = Collides(model, report, vehicle, t_ns);
   vehicle.touching = report.touching;
   if (report.touching) vehicle.touched_ns = t_ns;
   if (!collides) return;
@@ -178,7 +180,7 @@ void KeepSane(const DroneState& before, DroneState& now) {
   constexpr double kFastest = 1e4, kFastestTurn = 1e4;  // m/s, rad/s
   const Quaternion& q = now.q_WB;
   const bool sane = Norm(now.v_WB) <= kFastest && Norm(now.w_WB_B) <= kFastestTurn && IsWithinLimit(now.p_WB) &&
-                    std::isfinite(q.w + q.x + q.y + q.z) &&
+                    std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-3 &&
                     std::ranges::all_of(now.rotor_speeds, [](double speed) { return std::isfinite(speed); });
   if (sane) return;
   const double charge = now.charge;
@@ -258,7 +260,7 @@ void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& sur
   const ContactReport report =
       ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
                       NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
-  NoteCollision(report, context.t_ns + model.dt_ns, i, vehicle, events);
+  NoteCollision(model, report, context.t_ns + model.dt_ns, i, vehicle, events);
   KeepSane(before, vehicle.drone);
   KeepInWorld(context, i, vehicle, events);
   vehicle.a_WB = (vehicle.drone.v_WB - before.v_WB) / dt;
