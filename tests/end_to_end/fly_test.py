@@ -93,7 +93,7 @@ class FlyTest(ProgramTest):
         self.run_bad(2, *fly, "--script", "goto 20 5 8", says=["'20 5 8' is not a number", "'goto X,Y,Z[,SPEED]'"])
         self.run_bad(2, *fly, "--script", "goto 1,2", says=["found 2 numbers", "'goto X,Y,Z[,SPEED]'"])
         self.run_bad(2, *fly, "--controller", "pid", says=["pid", "px4"])
-        self.run_bad(2, *fly, "--drone", "a drone of cheese", says=["cheese"])
+        self.run_bad(2, *fly, "--drone", "a submarine", says=["submarine", "multirotor"])
         self.assertFalse(out.exists())
 
 

@@ -112,6 +112,8 @@ ordered_json Exporter::MaterialExtras(const Material& m) const {
   if (m.ground != GroundWear::kNone) extras[kExtraGround] = kGroundWearNames[static_cast<int>(m.ground)];
   if (m.blend_tiles) extras[kExtraBlendTiles] = true;
   if (!(m.units == Vec2f{})) extras[kExtraUnits] = {m.units.x, m.units.y};
+  const Vec3f gain = Max(m.base_color, {1, 1, 1});
+  if (!(gain == Vec3f{1, 1, 1})) extras[kExtraBaseGain] = ToJson(gain);
   if (m.macro_variation != 0) extras[kExtraMacroVariation] = m.macro_variation;
   if (m.interior) extras[kExtraInterior] = true;
   if (m.lamp) extras[kExtraLamp] = true;

@@ -69,6 +69,8 @@ void ReadExtras(const JsonRef& json, GltfMaterial& out) {
   m.blend_tiles = extras->BoolOr(kExtraBlendTiles, false);
   const std::vector<double> units = extras->NumbersOr(kExtraUnits, {0, 0});
   m.units = {static_cast<float>(std::clamp(units[0], 0.0, 1e4)), static_cast<float>(std::clamp(units[1], 0.0, 1e4))};
+  const std::vector<double> gain = extras->NumbersOr(kExtraBaseGain, {1, 1, 1});
+  for (int i = 0; i < 3; ++i) m.base_color[i] *= static_cast<float>(std::clamp(gain[static_cast<size_t>(i)], 0.0, 100.0));
   m.macro_variation = Unit(extras->NumberOr(kExtraMacroVariation, 0));
   m.interior = extras->BoolOr(kExtraInterior, false);
   m.lamp = extras->BoolOr(kExtraLamp, false);

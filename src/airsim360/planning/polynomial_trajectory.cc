@@ -164,12 +164,13 @@ std::vector<double> SampleTimes(double duration, double interval) {
   const Multiples multiple(interval);
   std::vector<double> times;
   times.reserve(whole + 2);
-  for (size_t i = 0; i <= whole; ++i) {
+  // A multiple within rounding of the end is the end.
+  const double slack = 1e-12 * duration;
+  for (size_t i = 0; i <= whole + 1; ++i) {
     const double t = multiple(i);
-    if (t <= duration) times.push_back(t);
+    if (t <= duration + slack) times.push_back(t);
   }
-  // The end counts as reached when it lies within rounding of the last multiple.
-  if (duration - times.back() > 1e-12 * duration) times.push_back(duration);
+  if (duration - times.back() > slack) times.push_back(duration);
   return times;
 }
 

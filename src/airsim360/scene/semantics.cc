@@ -239,6 +239,8 @@ constexpr Row kRows[] = {
     {"construction/building/part", true, 1, 11, 197, ""},
     {"construction/mast", true, 93, 17, -1, ""},
     {"ground/rail", false, -1, 10, 147, ""},
+    {"furniture/utility/camera", true, -1, 5, -1, ""},
+    {"furniture/vending/machine", true, -1, 4, -1, ""},
 };
 // clang-format on
 static_assert(std::size(kRows) < kFirstCustomId);
