@@ -76,4 +76,4 @@ truth = samples[test][1]
 right = np.average(guess == truth, weights=np.broadcast_to(weight, truth.shape))
 most = max(np.average(truth == c, weights=np.broadcast_to(weight, truth.shape)) for c in range(3))
 print(f"a frame that was not trained on: {right:.1%} of the sphere right; always the most frequent class: {most:.1%}")
-sys.exit(right < most)
+sys.exit(int(right < most))

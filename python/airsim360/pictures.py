@@ -61,7 +61,7 @@ def read_exr(path: Union[str, Path]) -> Dict[str, np.ndarray]:
     data = Path(path).read_bytes()
     try:
         return _read_exr(path, data)
-    except (struct.error, IndexError, UnicodeDecodeError) as damage:
+    except (struct.error, IndexError, KeyError) as damage:
         raise ValueError(f"{path}: damaged EXR file") from damage
 
 
@@ -127,7 +127,9 @@ _EXR_LINES = {0: 1, 2: 1, 3: 16}  # scan lines of a block by compression: none, 
 
 
 def _text(data, at):
-    end = data.index(b"\0", at)
+    end = data.find(b"\0", at)
+    if end < 0:
+        raise IndexError("a name without an end")
     return data[at:end].decode("latin-1"), end + 1
 
 
@@ -152,9 +154,11 @@ def _read_exr(path, data):
     if width <= 0 or height <= 0 or width * height > _MAX_PIXELS:
         raise ValueError(f"{path}: {width} x {height} pixels are not in 1 … {_MAX_PIXELS}")
     channels = _exr_channels(path, attributes["channels"])
+    lines = _EXR_LINES[compression]
+    if height > len(data) * lines:
+        raise ValueError(f"{path}: damaged EXR file: {height} lines in {len(data)} bytes")
     out = {name: np.empty((height, width), kind) for name, kind in channels}
     row_bytes = width * sum(kind.itemsize for _, kind in channels)
-    lines = _EXR_LINES[compression]
     offsets = struct.unpack_from(f"<{-(-height // lines)}Q", data, at + 1)
     for offset in offsets:
         y, size = struct.unpack_from("<iI", data, offset)

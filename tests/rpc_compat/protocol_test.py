@@ -92,7 +92,8 @@ class BadCalls(ServerTest):
             (("simGetImages", [{"camera_name": "0", "image_type": 99}], "", False), "image_type 99"),
             (("simSetPanoramaResolution", "panorama_original", 100, 100, ""), "twice as wide as high"),
             (("simSetSegmentationObjectID", "[", 1, True), "threw an exception"),
-            (("simSetWind", {"x_val": 1e9}), "wind"),
+            (("simSetWind", {"x_val": 1e9}), "x_val of argument 1: 1e+09 is not in"),
+            (("simSetWind", {"x_val": 1e6}), "wind"),
             (("setSafety", 0, 0.0, 0, 0.0, {}, 0.0, 0.0, 0.0, ""), "safety_eval_ptr_"),
         ]
         for call, text in cases:

@@ -18,18 +18,18 @@ struct FlagGroup {
 };
 
 constexpr auto kGroups = std::to_array<FlagGroup>({
-    {"World", " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes "},
+    {"World", " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes --bbox --centre "
+     "--scale --up --offset --ground "},
     {"Drone", " --drone --real --file --catalog --words --check --controller --sensors --wind "},
     {"Route",
      " --waypoints --route --plan --pose --script --from --to --avoid --clearance --area --height --spacing "
-     "--heading --center --entity --radius --turns --length --yaw --origin --poses "},
+     "--heading --center --entity --radius --turns --length --yaw --origin --poses --start "},
     {"Limits",
      " --vmax --amax --axis-vmax --axis-amax --climb --descent --dt --order --minimise --speed --realtime "
      "--lockstep "},
     {"Camera",
-     " --projection --size --fov --pano-frame --lens --width --cube --axes --depth-z --nearest --filter "
-     "--ppd "
-     "--wrap "},
+     " --projection --cameras --size --fov --pano-frame --lens --width --cube --axes --depth-z --nearest --filter "
+     "--ppd --wrap "},
     {"Quality", " --tier --samples --no-denoise --edge-samples --tone --exposure "},
     {"People", " --people --people-warmup --people-level --people-reserve --sockets --overlay "},
     {"Weather", " --weather --sun --time --place --hdri --environment "},

@@ -42,16 +42,24 @@ class Parser {
   void Parse(const std::vector<std::string>& words) {
     std::vector<const char*> arguments;
     for (const std::string& word : words) arguments.push_back(word.c_str());
-    program_.Run(static_cast<int>(arguments.size()), arguments.data());
+    try {
+      program_.Run(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const Parsed&) {
+    }
   }
   CLI::App& app() { return program_.app(); }
 
  private:
+  struct Parsed {};
+  // A command's own callback holds what its flags write to, so it stays; one before it ends the run.
   static void Silence(CLI::App& app) {
-    for (CLI::App* inner : app.get_subcommands([](CLI::App*) { return true; })) {
-      inner->callback({});
-      Silence(*inner);
-    }
+    const auto inner = app.get_subcommands([](CLI::App*) { return true; });
+    for (CLI::App* command : inner) Silence(*command);
+    if (!inner.empty()) return;
+    app.parse_complete_callback([&app] {
+      if (app.remaining_size() > 0) throw InputError("unknown: " + app.remaining().front());
+      throw Parsed();
+    });
   }
   Program program_;
 };

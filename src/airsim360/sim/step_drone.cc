@@ -17,8 +17,8 @@ using Kind = SimEvent::Kind;
 constexpr double kNewImpact = 0.3;
 // Standing on what faces up, or setting down on it as softly as this, is none: at most 45 degrees of slope, m/s.
 constexpr double kSupportSlope = 0.7, kTouchdownSpeed = 1;
-// Leaning on a surface is none, m/s.
-constexpr double kLeanSpeed = 0.02;
+// Leaning on a surface is none, m/s; being put into one is, metres.
+constexpr double kLeanSpeed = 0.02, kPutInto = 0.005;
 // A drone that lies on something need not touch it in every step: it is the same contact within this time.
 constexpr int64_t kContactGapNs = 100'000'000;
 // Drones farther away than this do not meet within a step, metres: closing at 500 m/s.
@@ -138,6 +138,7 @@ bool Collides(const SimModel& model, const ContactReport& report, const Vehicle&
   if (model.people && IsPerson(*model.people, report.point.entity)) return !lasts || report.impact_speed > kNewImpact;
   if (report.point.normal_W.z > kSupportSlope)
     return report.impact_speed > (IsEnRoute(vehicle) ? kNewImpact : kTouchdownSpeed);
+  if (!lasts && report.penetration > kPutInto) return true;
   return report.impact_speed > (lasts ? kNewImpact : kLeanSpeed);
 }
 
@@ -175,17 +176,18 @@ void KeepInWorld(const StepContext& context, size_t i, Vehicle& vehicle, std::ve
 }
 
 // Commands and winds without measure can take the equations beyond what numbers hold: then the drone is put back
-// to where it was, at rest.
-void KeepSane(const DroneState& before, DroneState& now) {
+// to where it was, at rest. Whether that was needed.
+bool KeepSane(const DroneState& before, DroneState& now) {
   constexpr double kFastest = 1e4, kFastestTurn = 1e4;  // m/s, rad/s
   const Quaternion& q = now.q_WB;
   const bool sane = Norm(now.v_WB) <= kFastest && Norm(now.w_WB_B) <= kFastestTurn && IsWithinLimit(now.p_WB) &&
                     std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-3 &&
                     std::ranges::all_of(now.rotor_speeds, [](double speed) { return std::isfinite(speed); });
-  if (sane) return;
+  if (sane) return false;
   const double charge = now.charge;
   now = {.p_WB = before.p_WB, .q_WB = before.q_WB, .v_WB = {}, .w_WB_B = {}};
   now.charge = std::isfinite(charge) ? charge : before.charge;
+  return true;
 }
 
 }  // namespace
@@ -261,10 +263,10 @@ void FlyDrone(const StepContext& context, size_t i, const DroneSurroundings& sur
       ResolveContacts(drone.model(), drone.setup().contact, contacts, before, dt,
                       NeighbourSpeed(context, i, drone, vehicle), vehicle.drone, vehicle.contact);
   NoteCollision(model, report, context.t_ns + model.dt_ns, i, vehicle, events);
-  KeepSane(before, vehicle.drone);
+  const bool mended = KeepSane(before, vehicle.drone);
   KeepInWorld(context, i, vehicle, events);
-  vehicle.a_WB = (vehicle.drone.v_WB - before.v_WB) / dt;
-  vehicle.alpha_WB_B = (vehicle.drone.w_WB_B - before.w_WB_B) / dt;
+  vehicle.a_WB = mended ? Vec3d{} : (vehicle.drone.v_WB - before.v_WB) / dt;
+  vehicle.alpha_WB_B = mended ? Vec3d{} : (vehicle.drone.w_WB_B - before.w_WB_B) / dt;
   CopyMotion(vehicle);
 }
 

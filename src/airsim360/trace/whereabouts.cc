@@ -1,6 +1,7 @@
 #include "airsim360/trace/whereabouts.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace airsim360 {
@@ -42,6 +43,8 @@ EntityId EntityOf(const Scene& scene, SurfaceRef surface) {
 struct Surroundings {
   int rays = 0, hits = 0;
   int up_rays = 0, up_hits = 0, up_backs = 0;  // of them upward
+  float nearest_back = std::numeric_limits<float>::infinity();
+  SurfaceRef back = {};  // the nearest of the upward backs: a wall or the top of what is around
 };
 
 Surroundings LookAround(const RayTracer& tracer, Vec3f p, int step) {
@@ -54,7 +57,11 @@ Surroundings LookAround(const RayTracer& tracer, Vec3f p, int step) {
     if (direction.z <= 0) continue;
     ++seen.up_rays;
     seen.up_hits += hit.has_value();
-    seen.up_backs += hit && Dot(FrontOf(tracer, hit->surface), direction) > 0;
+    if (!hit || Dot(FrontOf(tracer, hit->surface), direction) <= 0) continue;
+    ++seen.up_backs;
+    if (hit->distance >= seen.nearest_back) continue;
+    seen.nearest_back = hit->distance;
+    seen.back = hit->surface;
   }
   return seen;
 }
@@ -71,8 +78,7 @@ Whereabouts FindWhereabouts(const RayTracer& tracer, Vec3d p_W) {
   const Surroundings all = LookAround(tracer, p, 1);
   if (closed && all.hits < all.rays) return {Whereabouts::Kind::kOutside};
   if (all.up_hits < kLeastHits * all.up_rays || all.up_backs < kLeastBacks * all.up_hits) return {};
-  const auto nearest = tracer.Nearest(p, 1e4f);
-  return {Whereabouts::Kind::kInside, nearest ? EntityOf(tracer.scene(), nearest->surface) : kNoEntity};
+  return {Whereabouts::Kind::kInside, EntityOf(tracer.scene(), all.back)};
 }
 
 }  // namespace airsim360
