@@ -17,7 +17,10 @@ bool Reader::ReadQuantity(size_t i) {
       (tokens_[unit + 1].text == "the" || tokens_[unit + 1].text == "a" || tokens_[unit + 1].text == "my"))
     return false;
   Quantity q{i, unit, tokens_[i].value * word->value, word, tokens_[i].text + " " + tokens_[unit].text};
-  if (tokens_[i].negative) throw InputError("a negative number describes no drone: '-" + q.words + "'");
+  const bool minus = i > 0 && (tokens_[i - 1].text == "minus" || tokens_[i - 1].text == "negative") &&
+                     (i < 2 || tokens_[i - 2].kind != Token::Kind::kWord || SaysLittle(i - 2) || Claims(i - 2)) &&
+                     (i < 3 || !Is(i - 2, WordKind::kMassUnit));
+  if (tokens_[i].negative || minus) throw InputError("a negative number describes no drone: '-" + q.words + "'");
   used_[i] = used_[unit] = true;
   // "2 lb 3 oz", "1 h 30 min"
   const size_t next = unit + (Is(unit + 1, WordKind::kBreak) && tokens_[unit + 1].text == "and" ? 2 : 1);
@@ -106,7 +109,8 @@ void Reader::ReadDays(const Quantity& q) {
   const bool days = text.starts_with("day") || text.starts_with("week") || text.starts_with("month") ||
                     text.starts_with("year");
   const bool flown = PhraseHas(q, WordKind::kFlight) || PhraseHas(q, WordKind::kHover);
-  if (days && flown) throw InputError("'" + q.words + "': the flight time of a drone is 10 to 36000 s");
+  const bool age = q.last + 1 < tokens_.size() && tokens_[q.last + 1].text == "old";
+  if (days && flown && !age) throw InputError("'" + q.words + "': the flight time of a drone is 10 to 36000 s");
   NameElse(q, kNone);
 }
 
