@@ -89,7 +89,7 @@ void Reader::ReadNothing() {
       return std::any_of(words.begin(), words.end(), [&](const char* word) { return text == word; });
     };
     flies |= Is(i, WordKind::kFlight) || Is(i, WordKind::kHover) || Is(i, WordKind::kWind) ||
-             is({"fly", "flies", "flys", "flying", "flyer", "flier", "airborne", "fliegt", "vuele", "vole", "vola"});
+             is({"fly", "flies", "flys", "flying", "flyer", "flier", "airborne", "something", "anything", "fliegt", "vuele", "vole", "vola"});
     home |= is({"indoor", "indoors", "inside", "house", "home", "room", "kitchen", "child", "children", "kid", "nephew",
                 "niece", "son", "daughter", "grandson", "granddaughter", "toddler", "boy", "girl", "cheap"});
   }

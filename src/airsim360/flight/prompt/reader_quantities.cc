@@ -148,6 +148,11 @@ void Reader::ReadMass(const Quantity& q) {
   } else if (!is_label(noun) || says_empty ||
       (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
     noun = after != kNone ? after : NounBefore(q, false);
+  // "lifting two bags of 3 kg": the verb governs all of its clause.
+  for (size_t i = q.first; noun == kNone && i-- > 0 && !EndsPhrase(i) && q.first - i <= 7;) {
+    if (WordAt(i) && WordAt(i)->kind >= WordKind::kMassUnit && WordAt(i)->kind <= WordKind::kOtherUnit) break;
+    if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
+  }
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
                      tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
                      (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
