@@ -81,7 +81,7 @@ constexpr KnownModel kModels[] = {
     {"f550|dji f550|f550 flamewheel|flamewheel f550|flame wheel f550|dji flame wheel f550", "DJI Flame Wheel F550",
      "frame_kit", 6, X, 2, 550, 9.4, 5, 4, 0, 0, 0, 0, 0, kManual},
     {"f330|dji f330", "DJI Flame Wheel F330", "frame_kit", 4, X, 1.0, 330, 8, 4.5, 3, 0, 0, 0, 0, 0, kManual},
-    {"dji tello|ryze tello|tello|tello edu|ryze dji tello|robomaster tt", "Ryze Tello", "hobby", 4, X, 0.087, 0, 3, 0,
+    {"dji tello|ryze tello|tello|tello edu|ryze dji tello|robomaster tt", "Ryze Tello", "hobby", 4, X, 0.080, 0, 3, 0,
      1, 1.1, 4.18, 13, 0, 8, kSheet},
     {"dji fpv", "DJI FPV", "freestyle", 4, X, 0.795, 245, 5.3, 0, 6, 2, 44.4, 20, 16, 39, kSheet},
     {"dji avata|avata|dji avata 1", "DJI Avata", "cinematic", 4, X, 0.41, 120, 2.9, 0, 4, 2.42, 35.71, 18, 0, 27,

@@ -117,4 +117,14 @@ std::string_view Respelled(std::string_view text) {
   return best;
 }
 
+const Word* FindCompound(std::string_view text) {
+  for (const std::string_view head : {"drohne", "drohnen", "copter", "kopter", "gewicht", "akku", "batterie", "kamera",
+                                      "propeller", "propellern", "rotoren", "motoren", "tank", "zeit", "minuten"}) {
+    if (text.size() < head.size() + 3 || !text.ends_with(head)) continue;
+    if (head == "zeit") return FindWord("flugzeit", false);
+    return FindWord(head.ends_with("kopter") || head.ends_with("copter") ? "copter" : head, false);
+  }
+  return nullptr;
+}
+
 }  // namespace airsim360::internal

@@ -45,6 +45,7 @@ enum class WordKind {
   kBlades,  ///< "tri-blade": value
   kArm,
   kWheelbase,
+  kAcross,  ///< "in diameter": of the propellers where they are spoken of, else of the drone
   kFrame,
   kSizeNoun,  ///< "class", "size": with a bare number a wheelbase in mm
   kPitch,
@@ -94,5 +95,8 @@ const Word* FindWord(std::string_view key, bool joined);
 /// A listed word of at least six letters that `text` misspells (one letter wrong, missing, added or swapped; two
 /// from nine letters on) and that matters; empty when there is none.
 std::string_view Respelled(std::string_view text);
+
+/// The head of a German compound, which is its last part: "Landwirtschaftsdrohne" is a "drohne"; nullptr: none.
+const Word* FindCompound(std::string_view text);
 
 }  // namespace airsim360::internal

@@ -11,7 +11,7 @@ constexpr Word kWords[] = {
      "this|these|will|would|should|be|my|our|your|to be|say|total of|as|in total|one that|nominal|rated|up to|"
      "upto|at least|maximum|max|minimum|least|most|at most|no more than|not more than|no less than|more than|over|"
      "only|just|each|per|so|or so|ish|please|give me|build|design|make|want|need|there|are|in all|equal to|by|"
-     "do|does|doing|capable of|able to|using|made|type|style|kind|ratio|diameter|electric|together|than|"
+     "do|does|doing|capable of|able to|using|made|type|style|kind|ratio|electric|together|than|"
      "fly|flies|flys|flying|new|nice|like|similar to|something|someone|kindly|also|very|really|must|not|"
      "could|might|may|shall|looking|look|get|get me|got|other|another|one of those|both|own|basic|i d|i m|it s|"
      "along|plus or minus|overall|they|them|he|she|his|her|if possible|preferably|preferred|ideally|hoping|say that"},
@@ -48,7 +48,7 @@ constexpr Word kWords[] = {
     {kNumber, 90, "", "ninety"},
     {kMultiplier, 100, "", "hundred"},
     {kMultiplier, 1000, "", "thousand"},
-    {kHalf, 0.5, "", "half|half a|half an|a half|half of a"},
+    {kHalf, 0.5, "", "half|half a|half an|a half|half of a|one half"},
     {kHalf, 0.25, "", "quarter|a quarter of a|a quarter of an|quarter of a|quarter of an|a quarter|quarter of"},
     {kHalf, 0.75, "", "three quarters of a|three quarters of an|three quarter"},
     // Units.
@@ -90,8 +90,8 @@ constexpr Word kWords[] = {
     {kPercent, 0.01, "", "%|percent|per cent"},
     {kOtherUnit, 0, "",
      "mp|megapixel|megapixels|k|p|fps video|hz|khz|mhz|ghz|w|kw|watt|watts|a|amp|amps|n|newton|newtons|c|degree|"
-     "degrees|deg|usd|dollar|dollars|euro|euros|eur|bucks|gbp|axis|axes|people|persons|years|year|days|day|times a "
-     "day|hectare|hectares|acre|acres|pack|packs|tof|db|lumen|lumens|mm lens|x zoom|gb|tb|ms|rpm|bit|mp camera"},
+     "degrees|deg|usd|dollar|dollars|euro|euros|eur|bucks|gbp|axis|axes|people|persons|years|year|days|day|week|weeks|month|months|week|weeks|month|months|times a "
+     "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x zoom|gb|tb|ms|rpm|bit|mp camera"},
     // Comparing.
     {kAtMost, 0, "", "under|below|less than|sub|lighter than|smaller than|fewer than|<|shorter than"},
     {kFactor, 2, "", "twice|double|doubled|two times|twofold|doubling"},
@@ -110,7 +110,8 @@ constexpr Word kWords[] = {
     {kLonger, -1, "", "shorter"},
     {kFaster, 1, "", "faster|quicker"},
     {kFaster, -1, "", "slower"},
-    {kCorrection, 0, "", "rather|actually|ok|okay|i mean|make that|no wait|correction|or better|scratch that|er|well"},
+    {kCorrection, 0, "", "rather|actually|ok|okay|i mean|make that|no wait|correction|or better|scratch that|er|well|call it|make it|sorry|"
+                           "nope|let s say|lets say|i meant|change that to|or rather|no sorry|oops|wait|strike that|hmm"},
     {kNegation, 0, "", "not a|not an|no|never|isn t a|instead of a|instead of|rather than a|unlike a"},
 };
 

@@ -29,7 +29,11 @@ constexpr Word kWords[] = {
     {kNumber, 30, "", "dreissig|trente|treinta|trenta"},
     {kNumber, 40, "", "vierzig|quarante|cuarenta|quaranta"},
     {kNumber, 1.5, "", "anderthalb|eineinhalb"},
-    {kHalf, 0.5, "", "halbes|halbe|halben|ein halbes|eine halbe|demi|une demi|un demi|medio|media|mezzo|mezz|半"},
+    {kHalf, 0.5, "", "halbes|halbe|halben|ein halbes|eine halbe|demi|une demi|un demi|demie|medio|meia|halber|media|mezzo|mezz|半"},
+    {kHalf, 0.25, "", "quart|un quart d|un quart de|quart d|quart de|un cuarto de|cuarto de|un cuarto|cuarto|viertel|"
+                      "un quarto d|un quarto di|quarto d|quarto di|四分之一"},
+    {kHalf, 0.75, "", "trois quarts d|trois quarts de|tres cuartos de|tre quarti d|tre quarti di|dreiviertel|drei viertel"},
+    {kTimeUnit, 900, "", "viertelstunde"},
     {kMultiplier, 100, "", "hundert|cent|cien|百"},
     {kMultiplier, 1000, "", "tausend|mille|mil|千"},
     {kMassUnit, 1e-3, "", "gramm|grammes|gramos|grammi|克|グラム"},
@@ -71,7 +75,7 @@ constexpr Word kWords[] = {
     {kRotors, 8, "", "oktokopter|octocoptere|octocoptero|ottocottero|八旋翼|八轴|八軸|オクトコプター"},
     {kRotors, 3, "", "三旋翼|三轴|trikopter|tricoptere|tricoptero"},
     {kLayout, 0, "coaxial", "koaxial|koaxialer|coaxiale|共轴|同轴"},
-    {kRotorNoun, 0, "", "rotoren|rotores|rotori|旋翼|rotorblatter"},
+    {kRotorNoun, 0, "", "rotoren|rotores|rotori|rotorzahl|anzahl rotoren|rotoranzahl|旋翼|rotorblatter"},
     {kMotor, 0, "", "motoren|moteurs|moteur|motores|motori|motore|电机|马达"},
     {kPropeller, 0, "", "propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|プロペラ|luftschrauben"},
     {kWheelbase, 0, "", "achsabstand|radstand|diagonale|empattement|entraxe|轴距|对角线|distancia entre ejes|diagonales|"
@@ -84,7 +88,9 @@ constexpr Word kWords[] = {
      "en ordre de vol|al decollo|poids total"},
     {kEmpty, 0, "", "leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
     {kPayload, 0, "",
-     "nutzlast|zuladung|tragt|tragen|charge utile|emport|emporte|carga util|carga|transporta|carico utile|carico|"
+     "nutzlast|zuladung|tragt|tragen|charge utile|emport|emporte|carga util|carga|transporta|carico utile|carico|llevar|llevando|cargar|cargando|levantar|levanta|transportar|porter|"
+     "transporter|transporte|soulever|souleve|emporter|emportant|portare|sollevare|solleva|heben|hebt|tragend|schleppt|"
+     "schleppen|transportieren|trasportare|carregar|carrega|levar|leva|capacidad de carga|capacite d emport|traglast|"
      "载荷|载重|有效载荷|负载|挂载|任务载荷|最大载重|ペイロード|lleva|trasporta|transportiert|portant|porte"},
     {kBattery, 0, "", "akku|batterie|batteria|bateria|baterias|电池|锂电池|バッテリー|akkus|batteries"},
     {kHover, 0, "", "schwebezeit|schwebt|schweben|schwebeflug|vol stationnaire|stationnaire|vuelo estacionario|"
@@ -96,8 +102,8 @@ constexpr Word kWords[] = {
     {kThrustRatio, 0, "", "推重比|schub gewicht verhaltnis|rapport poussee poids|schub zu gewicht|relacion empuje peso"},
     {kWind, 0, "", "抗风|风速|viento|vent|vento"},
     {kLoad, 0, "camera", "kamera|appareil photo|camara|相机|摄像头|カメラ"},
-    {kLoad, 0, "", "激光雷达|云台|paket|colis|paquete|包裹|pacco"},
-    {kLoad, 0, "liquid", "药箱|药液|水箱|tanque|reservoir|wasser|agua"},
+    {kLoad, 0, "", "激光雷达|云台|paket|pakete|paketen|colis|paquete|paquetes|包裹|pacco|pacchi"},
+    {kLoad, 0, "liquid", "药箱|药液|水箱|tanque|deposito|cuve|behalter|serbatoio|reservoir|wasser|agua|acqua|eau"},
     {kNoMultirotor, 0, "a fixed wing", "固定翼|starrflugler|aile fixe|ala fija|ala fissa|segelflugzeug|flugzeug|avion|"
                                        "planeur|滑翔机"},
     {kNoMultirotor, 0, "a helicopter", "hubschrauber|helicoptere|helicoptero|直升机|elicottero"},

@@ -7,13 +7,13 @@ using enum WordKind;
 
 // Masses in kg are those of the makers' sheets, as remembered, without lenses, mounts and cables.
 constexpr Word kWords[] = {
-    {kLoad, 0, "camera", "camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
+    {kLoad, 0, "camera", "hasselblad camera|camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
     {kLoad, 0, "",
      "gimbal|gimbals|lidar|laser scanner|sensor|sensors|parcel|parcels|package|packages|box|cargo box|medicine|pizza|"
      "thermal camera|depth camera|stereo camera|multispectral camera|multispectral sensor|hyperspectral camera|"
      "zoom camera|cinema camera|360 camera|speaker|speakers|loudspeaker|loud speaker|megaphone|computer|"
      "companion computer|companion|onboard computer|deck|bait|seed|seeds|defibrillator|aed|magnetometer|radar|"
-     "winch|parachute|robot arm|manipulator|gripper|spotlight|searchlight|light|lights|instrument|instruments|"
+     "winch|parachute|robot arm|robotic arm|manipulator arm|gripper arm|canopy|banner|cake|bottle|soda|laptop|kit bag|first aid kit|medicines|drugs|vials|turkey|burger|sandwich|battery bank|flowers|hasselblad|manipulator|gripper|spotlight|searchlight|light|lights|instrument|instruments|"
      "equipment|gear|rig|camera rig|gopro rig|samples|sample|sampler|blood|vaccines|supplies|groceries|hook|"
      "sling load|slung load|fire extinguisher|hose|extinguishing balls|microphone|net|mortar|optics|pod|"
      "sensor head|sensor package|sensor suite|camera package|stuff|goods|food|books|bomb|lens|load|loads|lifebuoy|"

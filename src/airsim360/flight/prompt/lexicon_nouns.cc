@@ -65,19 +65,25 @@ constexpr Word kWords[] = {
     {kBrushless, 0, "", "brushless"},
     {kLithiumIon, 0, "", "li ion|liion|lithium ion|18650|21700|li ions|liion pack|li ion pack|18650s|21700s"},
     // Nouns that claim the number beside them.
-    {kRotorNoun, 0, "", "rotor|rotors|rotored"},
-    {kMotor, 0, "", "motor|motors|engine|engines|motored"},
+    {kRotorNoun, 0, "", "rotor|rotors|rotored|rotor count|number of rotors|no of rotors|num rotors|rotor number|rotors count|n rotors|thrusters"},
+    {kMotor, 0, "", "motor|motors|engine|engines|motored|motor count|number of motors|no of motors|num motors"},
     {kPropeller, 0, "",
      "propeller|propellers|prop|props|rotor diameter|propeller diameter|prop diameter|propellor|propellors|airscrew|"
-     "prop size|propeller size|rotor blades|rotors diameter|propped"},
+     "prop size|propeller size|rotor blades|rotors diameter|propped|diameter of the propellers|diameter of the rotors|"
+     "diameter of propellers|prop length|propeller length"},
+    {kPropeller, 2, "",
+     "rotor radius|propeller radius|prop radius|blade radius|radius of the rotors|radius of the propellers|rotors radius|"
+     "blade length|rotor blade length|radius of each rotor|radius of the props"},
     {kBlades, 0, "", "blade|blades|bladed"},
     {kBlades, 3, "", "triblade|tri blade|tri blades|tri bladed|triblades|three bladed"},
     {kBlades, 2, "", "bi blade|bi blades|two bladed|biblade|bi bladed"},
     {kBlades, 4, "", "quad blade|quad blades|four bladed|quadblade"},
     {kArm, 0, "", "arm|arms|arm length|booms|boom"},
     {kWheelbase, 0, "",
-     "wheelbase|diagonal|motor to motor|diagonally|motor to motor distance|wheel base|motor spacing|across|mtm|"
+     "wheelbase|diagonal|motor to motor|diagonally|motor to motor distance|wheel base|motor spacing|mtm|"
      "diagonal size|diagonal distance|diagonal wheelbase|shaft to shaft|hub to hub"},
+    {kAcross, 0, "", "across|diameter|in diameter|diam|dia|wide|tip to tip|span|from tip to tip|durchmesser|de diametre|"
+                     "de diametro|diametre|diametro|直径|von durchmesser|im durchmesser"},
     {kFrame, 0, "", "frame|frames|airframe|frame size"},
     {kSizeNoun, 0, "", "class|size|sized"},
     {kPitch, 0, "", "pitch"},
@@ -93,8 +99,10 @@ constexpr Word kWords[] = {
      "empty mass|weight without payload"},
     {kPayload, 0, "",
      "payload|payloads|carrying|carries|carry|lifting|lifts|lift|useful load|payload capacity|max payload|"
-     "maximum payload|hauling|haul|hauls|drops|payload of|cargo of|carrying capacity|holds|takes|lifts up|picks up"},
-    {kBattery, 0, "", "battery|batteries|lipo|lipos|lipo pack|battery pack|accumulator|lihv|li po|hv lipo|lithium"},
+     "maximum payload|hauling|haul|hauls|lugging|lug|lugs|hoist|hoists|bring|brings|bringing|tote|totes|ferry|ferries|"
+     "ferrying|picking up|pick up|hold|holding|bear|bears|loaded with|load of|load capacity|lifting capacity|lift capacity|"
+     "delivers|deliver|delivering|drops|payload of|cargo of|carrying capacity|holds|takes|lifts up|picks up"},
+    {kBattery, 0, "", "battery|batteries|pack|packs|capacity|battery capacity|pack capacity|lipo|lipos|lipo pack|battery pack|accumulator|lihv|li po|hv lipo|lithium"},
     {kHover, 0, "", "hover|hovering|hovering for|hovers for|hover for|hovering at|hovers|hover time|hovered|hover endurance|hovering time|hover flight|loiter"},
     {kFlight, 0, "",
      "time|flight|flights|flies for|fly for|flying for|stays up for|stay up for|airborne for|in the air for|aloft for|"
@@ -109,7 +117,7 @@ constexpr Word kWords[] = {
      "twr|t w|thrust to weight|thrust to weight ratio|thrust weight|thrust weight ratio|power to weight|"
      "power to weight ratio|t to w|thrust ratio|thrust to mass"},
     {kElse, 0, "",
-     "sensor size|inch sensor|sensor diagonal|screen|display|lens|focal|altitude|ceiling|range of|distance|radius|"
+     "sensor size|inch sensor|cmos|ccd|imager|image sensor|monitor|tv|lcd|oled|oled screen|barrel|filter|sensor diagonal|screen|display|lens|focal|altitude|ceiling|range of|distance|radius|"
      "height|tall|resolution|charge|charging|recharge|charges|setup|set up|assembly|assemble|warmup|limit|limits|"
      "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|thrust|"
      "part|level|ip|version|mark|gen|generation|field of view|fov|latency|zoom|deep|thick|cable|tether|per motor|"
@@ -137,9 +145,15 @@ constexpr Word kWords[] = {
      "afterburning|rocket|missile|cruise missile|rocket powered|scramjet|spaceship|spacecraft|satellite|jetpack|"
      "jet turbine|turbine powered"},
     {kNoMultirotor, 0, "a ground vehicle", "hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
+    {kNoMultirotor, 0, "beyond the speed of sound",
+     "supersonic|hypersonic|speed of sound|sound barrier|speed of light|light speed|faster than sound"},
+    {kNoMultirotor, 0, "an endless flight",
+     "infinite flight time|infinite flight|infinite endurance|infinite battery|infinite battery life|unlimited flight time|"
+     "unlimited endurance|unlimited flight|endless flight|endless flight time|flies forever|fly forever|hover forever|"
+     "hovers forever|never lands|perpetual flight|stays up forever|stay up forever|eternal flight"},
     {kVehicle, 0, "a vehicle",
      "boat|ship|car|rover|truck|bicycle|bike|motorcycle|train|tank vehicle|yacht|plane|planes|jet|bus|tractor|"
-     "tram|scooter|sailboat|bird|dog|kite|frisbee|elevator|tank|wing"},
+     "tram|scooter|sailboat|bird|kite|frisbee|elevator|wing"},
 };
 
 }  // namespace

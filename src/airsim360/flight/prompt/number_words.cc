@@ -49,7 +49,8 @@ class Joiner {
  private:
   bool StartsArticle() const {
     const bool article = in_[at_].text == "a" || in_[at_].text == "an" || in_[at_].text == "un" ||
-                         in_[at_].text == "ein";
+                         in_[at_].text == "ein" || in_[at_].text == "une" || in_[at_].text == "una" ||
+                         in_[at_].text == "eine" || in_[at_].text == "einer" || in_[at_].text == "einen";
     return article && at_ + 1 < in_.size() && IsLongUnit(in_[at_ + 1]) && !in_[at_ + 1].Is(WordKind::kCells) &&
            in_[at_ + 1].text != "second" && !IsNumber(Before());
   }
@@ -117,8 +118,9 @@ class Joiner {
 
   bool Join() {
     if (in_[at_].Is(WordKind::kHalf)) {
-      const bool unit = at_ + 1 < in_.size() && IsUnit(in_[at_ + 1]);
-      if (!unit) return false;
+      const bool dash = at_ + 1 < in_.size() && in_[at_ + 1].kind == Token::Kind::kDash;
+      const size_t unit = at_ + (dash ? 2 : 1);
+      if (unit >= in_.size() || !IsUnit(in_[unit])) return false;
       Push(in_[at_].text, in_[at_].word->value, 1);
       return true;
     }
@@ -190,6 +192,43 @@ size_t ReadNumber(std::string_view text, double& value) {
     throw InputError("the number '" + std::string(text.substr(0, 20)) + "' describes no drone");
   }
   return at;
+}
+
+size_t ReadThousands(std::string_view text, size_t length, double& value) {
+  const auto unit_at = [&](size_t at) {
+    while (at < text.size() && text[at] == ' ') ++at;
+    size_t end = at;
+    while (end < text.size() && text[end] >= 'a' && text[end] <= 'z') ++end;
+    return text.substr(at, end - at);
+  };
+  const auto is_small = [](std::string_view unit) {
+    const Word* word = FindWord(unit, false);
+    return word != nullptr && (word->kind == WordKind::kMassUnit || word->kind == WordKind::kCapacityUnit ||
+                               word->kind == WordKind::kLengthUnit) && word->value == 1e-3;
+  };
+  const std::string_view digits = text.substr(0, length);
+  const size_t whole = Digits(digits, 0);
+  if (whole == 0 || digits[0] == '0') return 0;
+  if (digits.find(',') != std::string_view::npos && digits.find('.') == std::string_view::npos && value >= 1000) {
+    const std::string_view unit = unit_at(length);
+    const Word* word = FindWord(unit, false);
+    if (word != nullptr && word->kind == WordKind::kMassUnit && word->value == 1) value /= 1000;
+    return 0;
+  }
+  if (whole > 2) return 0;
+  if (whole + 4 == length && digits[whole] == '.' && is_small(unit_at(length))) {
+    value = std::round(value * 1000);
+    return 0;
+  }
+  const bool apart = whole == length && length < text.size() && (text[length] == ' ' || text[length] == '\'');
+  if (!apart || Digits(text, length + 1) != 3) return 0;
+  const std::string_view unit = unit_at(length + 4);
+  // "6 500 mm" rather counts.
+  if (!is_small(unit) || (unit == "mm" && value > 2)) return 0;
+  double rest = 0;
+  std::from_chars(text.data() + length + 1, text.data() + length + 4, rest);
+  value = value * 1000 + rest;
+  return 4;
 }
 
 bool ReadPropellerCode(std::string_view text, double (&code)[3], size_t& length) {

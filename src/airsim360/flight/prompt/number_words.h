@@ -21,4 +21,9 @@ bool ReadPropellerFigures(std::string_view digits, double (&code)[3]);
 /// Puts number words ("two and a half", "half a"), ranges ("25-30", "4 to 5") and fractions together.
 std::vector<Token> JoinNumbers(std::vector<Token> tokens);
 
+/// How many more characters of `text` belong to the number of `length` characters that it begins with, for thousands
+/// set apart by a space, an apostrophe or a point before a small unit: "1 500 g", "22'000 mAh", "1.500 g". Makes
+/// `value` that number; "2,500 kg" is two and a half, for no drone has tonnes.
+size_t ReadThousands(std::string_view text, size_t length, double& value);
+
 }  // namespace airsim360::internal

@@ -67,6 +67,31 @@ TEST(Prompt, AWordThatCarriesNoFigureIsListedAndNeverARefusal) {
   EXPECT_TRUE(DroneFromPrompt("a quad of \xc3\xa9 kg").unused.empty());
 }
 
+TEST(Prompt, AQuantityFindsItsNounByGrammar) {
+  EXPECT_DOUBLE_EQ(*ParsePrompt("quad, 2 kg, props 33 cm across").propeller, 0.33);
+  EXPECT_DOUBLE_EQ(*ParsePrompt("hexa of 3 kg, rotor radius 0.165 m").propeller, 0.33);
+  EXPECT_DOUBLE_EQ(*ParsePrompt("a drone 60 cm across").arm, 0.3);
+  EXPECT_DOUBLE_EQ(*ParsePrompt("65mm whoop 1S 31mm props AUW 25 g").propeller, 0.031);
+  EXPECT_EQ(ParsePrompt("lifts a crate (about nine kilos)").payload, 9);
+  EXPECT_EQ(ParsePrompt("carries a half-kilo canopy").payload, 0.5);
+  EXPECT_EQ(ParsePrompt("lifting two bags of 3 kg").payload, 3);
+  EXPECT_FALSE(ParsePrompt("a 907 g drone, 1\" CMOS").propeller);
+  EXPECT_EQ(ParsePrompt("weight=3kg; rotors=6").rotors, 6);
+  EXPECT_EQ(ParsePrompt("weight (g): 1200").mass, 1.2);
+  EXPECT_EQ(ParsePrompt("1 500 g quad").mass, 1.5);
+  EXPECT_EQ(ParsePrompt("2kg500 quad").mass, 2.5);
+  EXPECT_DOUBLE_EQ(*ParsePrompt("quad, 2S 450").capacity_ah, 0.45);
+  EXPECT_DOUBLE_EQ(*ParsePrompt("4S 450 quad").arm, 0.225);
+  EXPECT_DOUBLE_EQ(*ParsePrompt("quad with 22-inch props? no, 18 inch").propeller, 18 * 0.0254);
+  EXPECT_NEAR(*ParsePrompt("Mavic Air 2 that weighs 100 g more than normal").mass, 0.67, 1e-12);
+}
+
+TEST(Prompt, SomethingThatFliesIsBuiltAndSaid) {
+  const DroneRequest r = ParsePrompt("something cheap that flies for my 9 year old nephew, indoors");
+  ASSERT_FALSE(r.decided.empty());
+  EXPECT_TRUE(Says(r.decided[0], {"nothing is said of its kind"}));
+}
+
 TEST(Prompt, AMisspeltWordThatMattersIsReadAndSaid) {
   const DroneRequest r = ParsePrompt("a hexcopterr with propelers of 12 inch");
   EXPECT_EQ(r.rotors, 6);
@@ -87,6 +112,11 @@ TEST(Prompt, WhatDescribesNoDroneIsRefusedWithTheReason) {
   EXPECT_TRUE(Says(ErrorOf("a 99999999999999999999999 kg quad"), {"describes no drone"}));
   for (const char* other : {"a fixed-wing UAV", "an RC helicopter", "a VTOL drone", "an underwater drone", "a blimp"})
     EXPECT_TRUE(Says(ErrorOf(other), {"not a multirotor"})) << other;
+  EXPECT_TRUE(Says(ErrorOf("a racing drone, top speed Mach 2"), {"'mach 2'", "speed"}));
+  EXPECT_TRUE(Says(ErrorOf("a drone with zero propellers"), {"4, 6 or 8"}));
+  EXPECT_TRUE(Says(ErrorOf("an eighteen rotor drone"), {"no more than 8"}));
+  EXPECT_TRUE(Says(ErrorOf("a quad that flies for 3 days"), {"'3 days'"}));
+  EXPECT_TRUE(Says(ErrorOf("a boat"), {"not a multirotor"}));
   // What a drone is for is no vehicle of its own.
   EXPECT_EQ(ParsePrompt("a 2 kg drone to film boats and cars").mass, 2);
 }

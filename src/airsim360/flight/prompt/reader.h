@@ -36,6 +36,8 @@ class Reader {
   // reader.cc
   void RefuseOthers() const;
   bool IsPurpose(size_t i) const;
+  bool IsHead(size_t i) const;
+  void ReadNothing();
   void ReadToken(size_t i);
   void ReadWord(size_t i);
   void ReadSign(size_t i);
@@ -60,6 +62,13 @@ class Reader {
   /// The token that names what a quantity is of, after it and before it in its phrase; nothing: npos.
   size_t NounAfter(const Quantity& q) const;
   size_t NounBefore(const Quantity& q, bool adjacent) const;
+  /// For a quantity in parentheses the noun before them, else kNone.
+  size_t Apposed(const Quantity& q) const;
+  /// The same in other units, in parentheses: "5 lb (2.27 kg)".
+  bool IsRestated(const Quantity& q) const;
+  bool IsTakenBack(const Quantity& q) const;
+  /// The noun of the propellers, drone or load that "in diameter" is said of; kNone: the drone.
+  size_t OwnerOfDiameter(const Quantity& q) const;
   bool PhraseHas(const Quantity& q, WordKind kind) const;
   bool Claims(size_t i) const;
   void Use(size_t i);
@@ -73,12 +82,18 @@ class Reader {
   void ReadSpeed(const Quantity& q);
   void ReadVolume(const Quantity& q);
   void ReadVoltage(const Quantity& q);
+  void ReadDays(const Quantity& q);
+  void Dispatch(const Quantity& q);
+  void Extend(Quantity& q);
   void ReadCode(size_t i);
   void ReadBareNumber(size_t i);
   bool ReadPartNumber(size_t i);
   bool ReadCount(size_t i);
   bool ReadComparison(size_t i, double factor, size_t last);
   bool ReadFactor(size_t i);
+  bool ReadDifference(const Quantity& q);
+  bool ReadLabelled(size_t i);
+  bool ReadCharge(size_t i);
   void NameElse(const Quantity& q, size_t noun);
   /// The token of `kind` among the words just before or after a bare number, else kNone.
   size_t Beside(size_t i, WordKind kind, bool after) const;

@@ -14,6 +14,19 @@ std::string Spoken(std::string name) {
   return name;
 }
 
+/// Whether a noun can have a figure in such a unit at all: masses have no length, speeds no mass.
+bool CanHave(WordKind noun, WordKind unit) {
+  const bool timed = noun == WordKind::kHover || noun == WordKind::kFlight || noun == WordKind::kSpeed ||
+                     noun == WordKind::kThrustRatio;
+  if (unit == WordKind::kLengthUnit) {
+    return !timed && noun != WordKind::kMass && noun != WordKind::kEmpty && noun != WordKind::kPayload &&
+           noun != WordKind::kWind;
+  }
+  if (unit != WordKind::kMassUnit) return true;
+  return !timed && noun != WordKind::kWheelbase && noun != WordKind::kAcross && noun != WordKind::kPitch &&
+         noun != WordKind::kArm;
+}
+
 constexpr size_t kPhrase = 7;  // tokens on either side that a noun is looked for
 
 }  // namespace
@@ -40,14 +53,19 @@ void Reader::SetRotors(double value, const std::string& words) {
                      "': three fixed rotors cannot hold a heading, for their torques do not cancel; say 4, 6 or 8, "
                      "or Y6 for three arms with two rotors each");
   }
-  if (value != 4 && value != 6 && value != 8)
-    throw InputError("'" + words + "': a drone here has 4, 6 or 8 rotors");
+  if (value != 4 && value != 6 && value != 8) {
+    throw InputError("'" + words + "': a drone here has 4, 6 or 8 rotors" +
+                     (value > 8 ? ", and the dynamics hold no more than 8" : ""));
+  }
   Set({"rotors", 4, 8, ""}, request_.rotors, value, words);
 }
 
 void Reader::CorrectWith(const char* name, Field& field, size_t i) {
   for (size_t k = i; k-- > 0 && i - k < 5;) {
-    if (Is(k, WordKind::kCorrection) && field) {
+    // "22 inch? no, 18 inch"
+    const bool no = tokens_[k].text == "no" && k > 0 &&
+                    (tokens_[k - 1].kind == Token::Kind::kComma || tokens_[k - 1].kind == Token::Kind::kDash);
+    if ((no || Is(k, WordKind::kCorrection)) && field) {
       Decide("'" + tokens_[k].text + "' takes back '" + request_.words[name] + "'");
       field.reset();
       request_.words.erase(name);
@@ -89,6 +107,14 @@ bool Reader::Claims(size_t i) const {
 size_t Reader::NounAfter(const Quantity& q) const {
   size_t found = kNone;
   for (size_t i = q.last + 1; i < tokens_.size() && i <= q.last + kPhrase; ++i) {
+    if (tokens_[i].text == "(" && i == q.last + 1) {  // "5 lb (2.27 kg) payload"
+      size_t close = i + 1;
+      while (close < tokens_.size() && close < i + 6 && tokens_[close].text != ")") ++close;
+      if (close < tokens_.size() && tokens_[close].text == ")" && Is(close - 1, q.unit->kind)) {
+        i = close;
+        continue;
+      }
+    }
     const Token::Kind kind = tokens_[i].kind;
     if (EndsPhrase(i) || kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode) break;
     // "of" joins only at once: "2 kg of bait", not "2 kg drone of ..."
@@ -101,6 +127,13 @@ size_t Reader::NounAfter(const Quantity& q) const {
                       !text.ends_with("payloads") && !text.ends_with("mass");
     if (verb && found != kNone) break;
     if (!Claims(i) || claimed_[i]) continue;
+    if (WordAt(i) && q.unit && !CanHave(WordAt(i)->kind, q.unit->kind)) break;
+    // "4 kg payload 1 kg": the noun is of the number after it, which has no other.
+    size_t own = i + 1;
+    while (own < tokens_.size() && SaysLittle(own)) ++own;
+    if (own + 1 < tokens_.size() && tokens_[own].kind == Token::Kind::kNumber && q.unit && Is(own + 1, q.unit->kind) &&
+        (own + 2 >= tokens_.size() || EndsPhrase(own + 2)))
+      break;
     found = i;
     // These say for certain; of other nouns the last is the head: "249 g camera drone".
     const Word* word = WordAt(i);
@@ -113,14 +146,79 @@ size_t Reader::NounAfter(const Quantity& q) const {
 
 size_t Reader::NounBefore(const Quantity& q, bool adjacent) const {
   for (size_t i = q.first; i-- > 0 && q.first - i <= kPhrase;) {
+    if (tokens_[i].text == ")" && i + 1 == q.first) {  // "AUW (with battery) 2 kg"
+      while (i > 0 && tokens_[i].text != "(") --i;
+      continue;
+    }
     const Token::Kind kind = tokens_[i].kind;
     if (EndsPhrase(i) || kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode) break;
     const Word* word = WordAt(i);
     if (word && word->kind >= WordKind::kMassUnit && word->kind <= WordKind::kOtherUnit && i > 0 &&
         tokens_[i - 1].kind == Token::Kind::kNumber)
       break;
-    if (Claims(i)) return claimed_[i] ? kNone : i;
+    if (Claims(i)) {
+      const bool able = !WordAt(i) || !q.unit || CanHave(WordAt(i)->kind, q.unit->kind);
+      return claimed_[i] || !able ? kNone : i;
+    }
     if (adjacent && !SaysLittle(i)) break;
+  }
+  return kNone;
+}
+
+size_t Reader::Apposed(const Quantity& q) const {
+  size_t open = q.first;
+  while (open-- > 0 && SaysLittle(open)) {
+  }
+  if (open == kNone || (tokens_[open].text != "(" && tokens_[open].text != "[")) return kNone;
+  size_t close = q.last + 1;
+  while (close < tokens_.size() && SaysLittle(close)) ++close;
+  if (close < tokens_.size() && tokens_[close].kind != Token::Kind::kComma) return kNone;
+  bool carried = false;
+  for (size_t i = 0; i < open; ++i) carried |= Is(i, WordKind::kPayload);
+  for (size_t i = open; i-- > 0 && open - i <= 10 && tokens_[i].kind != Token::Kind::kComma;) {
+    if (!Claims(i)) continue;
+    if (claimed_[i] || (WordAt(i) && !CanHave(WordAt(i)->kind, q.unit->kind))) return kNone;
+    // "a quad with a GoPro (900 g)": no GoPro is so heavy.
+    if (Is(i, WordKind::kLoad) && !carried && WordAt(i)->value > 0 && q.value > 2 * WordAt(i)->value) return kNone;
+    return i;
+  }
+  return kNone;
+}
+
+bool Reader::IsRestated(const Quantity& q) const {
+  if (q.first < 3 || tokens_[q.first - 1].text != "(" || !Is(q.first - 2, q.unit->kind)) return false;
+  size_t number = q.first - 3;
+  if (tokens_[number].kind == Token::Kind::kDash && number > 0) --number;
+  if (tokens_[number].kind != Token::Kind::kNumber) return false;
+  const double other = tokens_[number].value * tokens_[q.first - 2].word->value;
+  return std::abs(other - q.value) < 0.05 * q.value;
+}
+
+/// "not 10 inch but 12 inch", "instead of 3S".
+bool Reader::IsTakenBack(const Quantity& q) const {
+  size_t i = q.first;
+  while (i-- > 0 && (tokens_[i].text == "a" || tokens_[i].text == "an" || tokens_[i].text == "the")) {
+  }
+  return i != kNone && (tokens_[i].text == "not" || tokens_[i].text.starts_with("not a") ||
+                        tokens_[i].text.starts_with("instead of") || tokens_[i].text.starts_with("rather than"));
+}
+
+size_t Reader::OwnerOfDiameter(const Quantity& q) const {
+  const auto owns = [&](size_t i) {
+    const Word* word = WordAt(i);
+    if (word == nullptr) return tokens_[i].kind == Token::Kind::kModel;
+    return word->kind == WordKind::kPropeller || word->kind == WordKind::kRotorNoun ||
+           word->kind == WordKind::kBlades || word->kind == WordKind::kArm || word->kind == WordKind::kFrame ||
+           word->kind == WordKind::kDrone || word->kind == WordKind::kRotors || word->kind == WordKind::kLoad ||
+           word->kind == WordKind::kWheelbase;
+  };
+  for (size_t i = q.first; i-- > 0 && q.first - i <= kPhrase;) {
+    const bool each = i + 1 < tokens_.size() && tokens_[i + 1].text == "each";
+    if (tokens_[i].kind == Token::Kind::kComma && !each) break;
+    if (owns(i)) return i;
+  }
+  for (size_t i = q.last + 1; i < tokens_.size() && tokens_[i].kind != Token::Kind::kComma; ++i) {
+    if (owns(i)) return i;
   }
   return kNone;
 }

@@ -1,6 +1,7 @@
 // Numbers without a unit: counts, ratios, codes of parts, comparisons with a real drone.
 #include "airsim360/flight/prompt/reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/base/error.h"
@@ -55,18 +56,122 @@ bool Reader::ReadPartNumber(size_t i) {
     return true;
   }
   if (Beside(i, WordKind::kMotor, false) != kNone) return used_[i] = true;
-  if (i > 0 && Is(i - 1, WordKind::kCells) && used_[i - 1]) {
-    Decide("'" + token.text + "' is read as mAh");
-    Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, token.value / 1000, token.text);
-    return used_[i] = true;
+  return false;
+}
+
+/// "4S 1500", "2S 450 pack", "850 4S", "battery 5000": a number without unit beside cells or a battery is mAh.
+bool Reader::ReadCharge(size_t i) {
+  const double value = tokens_[i].value;
+  if (value < 100 || value > 99999 || request_.capacity_ah) return false;
+  for (const WordKind kind : {WordKind::kRotors, WordKind::kFrame, WordKind::kSizeNoun, WordKind::kDrone,
+                              WordKind::kWheelbase, WordKind::kPropeller, WordKind::kMotor}) {
+    if (Beside(i, kind, true) != kNone && value < 1000) return false;
+  }
+  size_t before = i;
+  while (before-- > 0 && (SaysLittle(before) || tokens_[before].text == "/" || Is(before, WordKind::kBattery) ||
+                          Is(before, WordKind::kLithiumIon))) {
+    if (Is(before, WordKind::kBattery)) break;
+  }
+  const bool cells_before = before != kNone && Is(before, WordKind::kCells) && used_[before];
+  const bool cells_after = i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kNumber &&
+                           Is(i + 2, WordKind::kCells);
+  const bool battery = Is(i + 1, WordKind::kBattery) || (before != kNone && Is(before, WordKind::kBattery));
+  if (!cells_before && !cells_after && !battery) return false;
+  Decide("'" + tokens_[i].text + "' is read as mAh");
+  Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, value / 1000, tokens_[i].text);
+  return used_[i] = true;
+}
+
+/// What the noun before a number says of it: "rotors=6", "cells: 4", "props: 14", "weight (g): 1200", "Mach 2".
+bool Reader::ReadLabelled(size_t i) {
+  const Token& token = tokens_[i];
+  const auto unit_in_parentheses = [&] {
+    return i > 3 && (tokens_[i - 1].text == ")" || tokens_[i - 1].text == "]") && WordAt(i - 2) &&
+           WordAt(i - 2)->kind >= WordKind::kMassUnit && WordAt(i - 2)->kind <= WordKind::kKvUnit &&
+           tokens_[i - 3].kind == Token::Kind::kComma;
+  };
+  if (unit_in_parentheses()) {
+    const Word* unit = WordAt(i - 2);
+    used_[i] = used_[i - 2] = true;
+    Dispatch({i, i, token.value * unit->value, unit, token.text + " " + tokens_[i - 2].text});
+    return true;
+  }
+  if (i > 0 && tokens_[i - 1].text == "mach") {
+    used_[i] = true;
+    ReadSpeed({i - 1, i, token.value * 340.3, nullptr, "mach " + token.text});
+    return true;
+  }
+  const auto label = [&](WordKind kind) {
+    const size_t noun = Beside(i, kind, false);
+    return noun != kNone && !claimed_[noun] ? noun : kNone;
+  };
+  const bool count = token.value == std::floor(token.value) && token.value < 41;
+  for (const WordKind kind : {WordKind::kRotorNoun, WordKind::kMotor}) {
+    const size_t noun = label(kind);
+    if (noun == kNone || !count || request_.rotors) continue;
+    Use(noun);
+    used_[i] = true;
+    SetRotors(token.value, tokens_[noun].text + " " + token.text);
+    return true;
+  }
+  if (const size_t noun = label(WordKind::kCells); noun != kNone && count && !used_[noun] && !request_.cells) {
+    Use(noun);
+    used_[i] = true;
+    Set({"cells", 1, 24, ""}, request_.cells, token.value, token.text + " cells");
+    return true;
+  }
+  for (const bool after : {false, true}) {
+    const size_t noun = after ? Beside(i, WordKind::kPropeller, true) : label(WordKind::kPropeller);
+    if (noun == kNone || token.value < 1.2 || token.value > 60 || request_.propeller || tokens_[i + 1 < tokens_.size() ? i + 1 : i].text == "x") continue;
+    if (after && (count && token.value < 9)) continue;
+    Use(noun);
+    used_[i] = true;
+    Decide("'" + token.text + "' is read as the diameter of the propellers in inches");
+    Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, token.value * 0.0254, token.text);
+    return true;
   }
   return false;
+}
+
+/// "100 g more than normal", "5 minutes longer": beside what is known of a real drone. True when it was read.
+bool Reader::ReadDifference(const Quantity& q) {
+  if (model_ == nullptr) return false;
+  size_t k = q.last + 1;
+  if (Is(q.first > 0 ? q.first - 1 : kNone, WordKind::kPayload)) return false;
+  if (k >= tokens_.size()) return false;
+  const auto begins = [&](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text.starts_with(word); });
+  };
+  const double sign = begins({"more", "extra", "additional", "heavier", "longer", "faster"})    ? 1
+                      : begins({"less", "lighter", "shorter", "slower", "fewer"}) ? -1 : 0;
+  const bool load = Is(k + 1, WordKind::kPayload) || Is(k + 1, WordKind::kLoad);
+  if (sign == 0 || load) return false;
+  const std::string words = q.words + " " + tokens_[k].text;
+  if (q.unit->kind == WordKind::kMassUnit) {
+    Set({"mass", 0.01, 400, "kg"}, request_.mass, model_->mass + sign * q.value, words);
+  } else if (q.unit->kind == WordKind::kTimeUnit && model_->flight > 0) {
+    Set({"flight_time", 10, 36000, "s"}, request_.flight_time, model_->flight * 60 + sign * q.value, words);
+  } else if (q.unit->kind == WordKind::kSpeedUnit && model_->speed > 0) {
+    Set({"speed", 0.5, 150, "m/s"}, request_.speed, model_->speed + sign * q.value, words);
+  } else {
+    return false;
+  }
+  used_[k] = true;
+  Decide("'" + words + "' is more or less than that of " + std::string(model_->title));
+  return true;
 }
 
 /// "six rotors", "4x 2212 motors", "three 12 inch propellers", "3-blade".
 bool Reader::ReadCount(size_t i) {
   const Token& token = tokens_[i];
-  if (token.value != std::floor(token.value) || token.value > 40 || token.value < 1) return false;
+  const bool whole = token.value == std::floor(token.value);
+  const bool none = token.value < 1 || (i + 1 < tokens_.size() && Is(i + 1, WordKind::kRotorNoun) &&
+                                        (!whole || token.value > 40));
+  if (none && (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) &&
+      token.value < 1000)
+    SetRotors(token.value, token.text + " " + tokens_[i + 1].text);
+  if (!whole || token.value > 40 || token.value < 1) return false;
+  bool other_words = false;
   for (size_t k = i + 1; k < tokens_.size() && k <= i + 5; ++k) {
     const Word* word = WordAt(k);
     const Token::Kind kind = tokens_[k].kind;
@@ -77,15 +182,24 @@ bool Reader::ReadCount(size_t i) {
     }
     if (word && (word->kind == WordKind::kRotorNoun || word->kind == WordKind::kMotor ||
                  word->kind == WordKind::kPropeller)) {
-      // "two spare propellers" are none of those that it flies with.
-      if (word->kind == WordKind::kPropeller && token.value < 3) return false;
+      // "two spare propellers" are none of those that it flies with, and "14 pole motors" are no count.
+      if (other_words && (token.value < 3 || token.value > 12)) return false;
       used_[i] = true;
+      // "two motors on each arm"
+      for (size_t n = k + 1; n < tokens_.size() && n < k + 5 && token.value == 2; ++n) {
+        if (tokens_[n].text == "each" || tokens_[n].text == "per" || Is(n, WordKind::kArm))
+          return SetLayout("coaxial", token.text + " " + tokens_[k].text), true;
+      }
+      for (size_t n = i; n-- > 0 && i - n < 5 && token.value == 2;) {
+        if (Is(n, WordKind::kArm)) return SetLayout("coaxial", token.text + " " + tokens_[k].text), true;
+      }
       const std::string words = token.text + " " + tokens_[k].text;
       if (!(request_.layout == RotorLayout::kCoaxial && word->kind != WordKind::kArm && token.value == 3))
         SetRotors(token.value, words);
       return true;
     }
     if (word && word->kind == WordKind::kArm) {
+      if (other_words && !tokens_[k].text.ends_with("s")) return false;  // "a 7 joint arm"
       used_[i] = anything_ = true;
       arm_count_ = token.value;
       request_.words["arms"] = token.text + " " + tokens_[k].text;
@@ -94,6 +208,7 @@ bool Reader::ReadCount(size_t i) {
     const bool size = kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode ||
                       (word && (word->kind == WordKind::kLengthUnit || word->kind == WordKind::kTimes ||
                                 word->kind == WordKind::kBrushless || word->kind == WordKind::kKvUnit));
+    other_words |= kind == Token::Kind::kUnknown;
     if (!size && kind != Token::Kind::kDash && kind != Token::Kind::kUnknown) break;
   }
   return false;
@@ -148,7 +263,7 @@ bool Reader::ReadFactor(size_t i) {
 
 void Reader::ReadBareNumber(size_t i) {
   const double value = tokens_[i].value;
-  if (ReadFactor(i) || ReadPartNumber(i)) return;
+  if (ReadFactor(i) || ReadPartNumber(i) || ReadCharge(i)) return;
   for (const bool after : {true, false}) {
     const size_t ratio = Beside(i, WordKind::kThrustRatio, after);
     if (ratio == kNone || claimed_[ratio]) continue;
@@ -158,7 +273,7 @@ void Reader::ReadBareNumber(size_t i) {
     return Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, value,
                "thrust to weight " + tokens_[i].text);
   }
-  if (ReadCount(i)) return;
+  if (ReadCount(i) || ReadLabelled(i)) return;
   if (const size_t kv = Beside(i, WordKind::kKvUnit, false); kv != kNone && !claimed_[kv]) {
     Use(kv);
     used_[i] = true;

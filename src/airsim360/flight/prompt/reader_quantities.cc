@@ -17,7 +17,10 @@ bool Reader::ReadQuantity(size_t i) {
       (tokens_[unit + 1].text == "the" || tokens_[unit + 1].text == "a" || tokens_[unit + 1].text == "my"))
     return false;
   Quantity q{i, unit, tokens_[i].value * word->value, word, tokens_[i].text + " " + tokens_[unit].text};
-  if (tokens_[i].negative) throw InputError("a negative number describes no drone: '-" + q.words + "'");
+  const bool minus = i > 0 && (tokens_[i - 1].text == "minus" || tokens_[i - 1].text == "negative") &&
+                     (i < 2 || tokens_[i - 2].kind != Token::Kind::kWord || SaysLittle(i - 2) || Claims(i - 2)) &&
+                     (i < 3 || !Is(i - 2, WordKind::kMassUnit));
+  if (tokens_[i].negative || minus) throw InputError("a negative number describes no drone: '-" + q.words + "'");
   used_[i] = used_[unit] = true;
   // "2 lb 3 oz", "1 h 30 min"
   const size_t next = unit + (Is(unit + 1, WordKind::kBreak) && tokens_[unit + 1].text == "and" ? 2 : 1);
@@ -29,8 +32,33 @@ bool Reader::ReadQuantity(size_t i) {
     q.words += " " + tokens_[next].text + " " + tokens_[next + 1].text;
     used_[next] = used_[next + 1] = true;
   }
+  Extend(q);
+  if (IsRestated(q)) return true;
+  if (IsTakenBack(q)) {
+    NameElse(q, kNone);
+    return true;
+  }
   if (tokens_[i].high > 0) Decide("of '" + q.words + "' the middle is taken");
-  switch (word->kind) {
+  if (!ReadDifference(q)) Dispatch(q);
+  return true;
+}
+
+/// "a kilo and a half", "une heure et demie".
+void Reader::Extend(Quantity& q) {
+  const size_t link = q.last + 1;
+  const bool half = Is(link, WordKind::kBreak) && Is(link + 1, WordKind::kHalf);
+  if (!half || (WordAt(link + 2) && WordAt(link + 2)->kind >= WordKind::kMassUnit &&
+                WordAt(link + 2)->kind <= WordKind::kOtherUnit))
+    return;
+  q.value += tokens_[link + 1].word->value * q.unit->value;
+  q.last = link + 1;
+  q.words += " " + tokens_[link].text + " " + tokens_[link + 1].text;
+  used_[link] = used_[link + 1] = true;
+}
+
+void Reader::Dispatch(const Quantity& q) {
+  const size_t i = q.first;
+  switch (q.unit->kind) {
     case WordKind::kMassUnit:
       ReadMass(q);
       break;
@@ -57,21 +85,33 @@ bool Reader::ReadQuantity(size_t i) {
       ReadVoltage(q);
       break;
     case WordKind::kKvUnit:
+      CorrectWith("motor_kv", request_.motor_kv, i);
       Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, q.value, q.words);
       break;
     case WordKind::kCells:
       if (tokens_[i].value != std::floor(tokens_[i].value)) {
         throw InputError("'" + q.words + "' is not a whole number");
       }
+      CorrectWith("cells", request_.cells, i);
       Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
       break;
     case WordKind::kPercent:
-      if (!ReadComparison(i, tokens_[i].value * 0.01, unit)) NameElse(q, kNone);
+      if (!ReadComparison(i, tokens_[i].value * 0.01, q.last)) NameElse(q, kNone);
       break;
     default:
-      NameElse(q, kNone);
+      ReadDays(q);
   }
-  return true;
+}
+
+/// Days of flight are more than any multirotor has; days of anything else are none of its figures.
+void Reader::ReadDays(const Quantity& q) {
+  const std::string& text = tokens_[q.last].text;
+  const bool days = text.starts_with("day") || text.starts_with("week") || text.starts_with("month") ||
+                    text.starts_with("year");
+  const bool flown = PhraseHas(q, WordKind::kFlight) || PhraseHas(q, WordKind::kHover);
+  const bool age = q.last + 1 < tokens_.size() && tokens_[q.last + 1].text == "old";
+  if (days && flown && !age) throw InputError("'" + q.words + "': the flight time of a drone is 10 to 36000 s");
+  NameElse(q, kNone);
 }
 
 /// A quantity that is none of the drone's own figures.
@@ -103,9 +143,16 @@ void Reader::ReadMass(const Quantity& q) {
     }
   }
   const bool says_empty = after != kNone && kind_of(after) == WordKind::kEmpty;
-  if (!is_label(noun) || says_empty ||
+  if (const size_t apposed = Apposed(q); apposed != kNone) {
+    noun = apposed;
+  } else if (!is_label(noun) || says_empty ||
       (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
     noun = after != kNone ? after : NounBefore(q, false);
+  // "lifting two bags of 3 kg": the verb governs all of its clause.
+  for (size_t i = q.first; noun == kNone && i-- > 0 && !EndsPhrase(i) && q.first - i <= 7;) {
+    if (WordAt(i) && WordAt(i)->kind >= WordKind::kMassUnit && WordAt(i)->kind <= WordKind::kOtherUnit) break;
+    if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
+  }
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
                      tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
                      (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
@@ -152,13 +199,29 @@ void Reader::ReadLength(const Quantity& q) {
     return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm ||
                           kind_of(n) == WordKind::kWheelbase || kind_of(n) == WordKind::kPitch ||
                           kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
-                          kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades);
+                          kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades ||
+                          kind_of(n) == WordKind::kAcross);
   };
-  if (!says(noun)) noun = says(before) ? before : kNone;
-  WordKind kind = noun == kNone ? WordKind::kFiller : kind_of(noun);
+  const size_t head = noun;
+  if (!says(noun)) noun = says(before) ? before : says(Apposed(q)) ? Apposed(q) : kNone;
+  double value = q.value;
+  const bool radius = noun != kNone && tokens_[noun].text == "radius";
+  if (noun != kNone && (kind_of(noun) == WordKind::kAcross || radius)) {
+    const size_t owner = OwnerOfDiameter(q);
+    if (owner != kNone && Is(owner, WordKind::kLoad)) return NameElse(q, noun);
+    const bool propellers = owner != kNone && (Is(owner, WordKind::kPropeller) || Is(owner, WordKind::kRotorNoun) ||
+                                               Is(owner, WordKind::kBlades));
+    if (propellers || !radius) Use(noun);
+    if (propellers) noun = owner;
+    if (propellers && radius) value *= 2;
+  }
+  WordKind kind = noun == kNone ? WordKind::kFiller : kind_of(noun) == WordKind::kAcross ? WordKind::kWheelbase
+                                                                                         : kind_of(noun);
+  if (kind == WordKind::kPropeller && WordAt(noun)->value > 0) value *= WordAt(noun)->value;
   // "5 inch sensor", "a 6 inch screen", "at 30 m": not of the drone.
-  const bool load_only = NounAfter(q) != kNone && kind_of(NounAfter(q)) == WordKind::kLoad && inches &&
-                         q.last + 1 == NounAfter(q) && tokens_[NounAfter(q)].text == "sensor";
+  // A figure of what is carried: "1 inch camera", "30 cm box".
+  const bool load_only = noun == kNone && head != kNone && kind_of(head) == WordKind::kLoad &&
+                         (!inches || q.value < 0.04 || tokens_[head].text == "sensor");
   const bool far = kind != WordKind::kPropeller && kind != WordKind::kWheelbase && kind != WordKind::kArm &&
                    kind != WordKind::kRotorNoun && kind != WordKind::kFrame && q.value > 3;
   if (kind == WordKind::kElse || load_only || far) return NameElse(q, noun);
@@ -169,14 +232,16 @@ void Reader::ReadLength(const Quantity& q) {
   const bool blades = kind == WordKind::kPropeller || kind == WordKind::kRotorNoun || kind == WordKind::kBlades;
   if (blades || (inches && kind != WordKind::kArm && kind != WordKind::kWheelbase)) {
     CorrectWith("propeller", request_.propeller, q.first);
-    return Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, q.value, q.words);
+    return Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, value, q.words);
   }
+  CorrectWith("arm", request_.arm, q.first);
   Set({"arm", 0.02, 3, "m"}, request_.arm, kind == WordKind::kArm ? q.value : q.value / 2, q.words);
 }
 
 void Reader::ReadTime(const Quantity& q) {
   if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
-  const bool hover = PhraseHas(q, WordKind::kHover);
+  const size_t apposed = Apposed(q);
+  const bool hover = PhraseHas(q, WordKind::kHover) || (apposed != kNone && Is(apposed, WordKind::kHover));
   const char* name = hover ? "hover_time" : "flight_time";
   const char* other = hover ? "flight_time" : "hover_time";
   Field& field = hover ? request_.hover_time : request_.flight_time;

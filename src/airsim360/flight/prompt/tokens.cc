@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "airsim360/base/error.h"
@@ -180,11 +181,40 @@ class Cutter {
     const bool dash = at_ > 0 && text_[at_ - 1] == '-';
     const bool spaced = at_ < 2 || text_[at_ - 2] == ' ' || text_[at_ - 2] == ',';
     token.negative = dash && spaced && (tokens_.size() < 2 || tokens_[tokens_.size() - 2].kind != Token::Kind::kNumber);
+    if (CutNumberAround(length, token)) return true;
+    length += ReadThousands(std::string_view(text_).substr(at_), length, token.value);
     // "4:1"
     const std::string_view rest = std::string_view(text_).substr(at_ + length);
     const bool to_one = rest.starts_with(":1") && !(rest.size() > 2 && IsDigit(rest[2]));
     Add(std::move(token), length + (to_one ? 2 : 0));
     return true;
+  }
+
+  /// A number written around its unit: "2kg500", "1m20", "1h30".
+  bool CutNumberAround(size_t length, Token& number) {
+    struct Around {
+      std::string_view unit;
+      size_t digits;
+      double parts;
+    };
+    for (const Around& around : {Around{"kg", 3, 1000}, {"kg", 1, 10}, {"m", 2, 100}, {"h", 2, 60}}) {
+      const std::string_view rest = std::string_view(text_).substr(at_ + length);
+      const size_t end = around.unit.size() + around.digits;
+      if (!rest.starts_with(around.unit) || rest.size() < end || number.value != std::floor(number.value)) continue;
+      const std::string_view tail = rest.substr(around.unit.size(), around.digits);
+      const bool ends = rest.size() == end || !(IsDigit(rest[end]) || IsLetter(rest[end]));
+      if (!ends || !std::all_of(tail.begin(), tail.end(), IsDigit)) continue;
+      double more = 0;
+      ReadNumber(tail, more);
+      number.value += more / around.parts;
+      Add(std::move(number), length);
+      Token unit;
+      unit.kind = Token::Kind::kWord;
+      unit.word = FindWord(around.unit, false);
+      Add(std::move(unit), end);
+      return true;
+    }
+    return false;
   }
 
   void CutWord(const std::string& text) {
@@ -202,6 +232,11 @@ class Cutter {
       return AddKind(Token::Kind::kUnknown, text.size());
     }
     Token token;
+    if (const Word* head = FindCompound(text)) {
+      token.kind = Token::Kind::kWord;
+      token.word = head;
+      return Add(std::move(token), text.size());
+    }
     const std::string_view respelled = Respelled(text);
     if (!respelled.empty()) {
       token.kind = Token::Kind::kWord;
