@@ -4,6 +4,8 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/drone_chat.h"
+#include "airsim360/app/drone_form.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/flight/catalog.h"
@@ -17,7 +19,8 @@ namespace fs = std::filesystem;
 
 struct DroneOptions {
   std::string prompt, out, file, real;
-  bool catalog = false, words = false, check = false;
+  DroneChat chat;
+  bool catalog = false, words = false, form = false, check = false;
 };
 
 nlohmann::ordered_json Json(Vec3d v) { return {v.x, v.y, v.z}; }
@@ -131,7 +134,11 @@ DroneDesign Chosen(const DroneOptions& options) {
   if (ways != 1) {
     throw InputError(
         "drone: give one of a description (\"a 250 g five-inch racing quad\"), --real NAME, --file FILE, "
-        "--catalog or --words");
+        "--catalog, --words or --form");
+  }
+  if (!options.chat.url.empty()) {
+    if (options.prompt.empty()) throw InputError("--llm needs a description, which the model reads");
+    return DesignDrone(AskForDrone(options.chat, options.prompt));
   }
   if (!options.prompt.empty()) return DroneFromPrompt(options.prompt);
   if (!options.file.empty()) return ReadDroneFile(options.file);
@@ -148,6 +155,7 @@ void RunDrone(const DroneOptions& options, const GlobalOptions& globals) {
     std::printf("%s", PromptHelp().c_str());
     return;
   }
+  if (options.form) return PrintJson(DroneFormSchema());
   if (options.catalog) return PrintCatalog(globals.json);
   const DroneDesign design = Chosen(options);
   if (!options.out.empty()) {
@@ -184,6 +192,14 @@ void AddDroneCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--file", options->file, "a drone's YAML file to read and report");
   command->add_flag("--catalog", options->catalog, "list the real drones that are known");
   command->add_flag("--words", options->words, "what descriptions may say, and the real drones that are known");
+  command->add_flag("--form", options->form, "the form that --llm has filled, as a JSON schema");
+  CLI::Option* llm = command->add_option(
+      "--llm", options->chat.url, "URL of an OpenAI-style chat server whose model reads the description");
+  command->add_option("--llm-model", options->chat.model, "name of the model, where the server has several")->needs(llm);
+  command
+      ->add_option("--llm-key-env", options->chat.key_environment,
+                   "name of the environment variable that holds the server's key")
+      ->needs(llm);
   command->add_flag("--check", options->check, "fly it: hover and the standard lemniscate, untuned");
   command->callback([options, &globals] { RunDrone(*options, globals); });
 }

@@ -20,7 +20,8 @@ struct FlagGroup {
 constexpr auto kGroups = std::to_array<FlagGroup>({
     {"World", " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes --bbox --centre "
      "--scale --up --offset --ground "},
-    {"Drone", " --drone --real --file --catalog --words --check --controller --sensors --wind "},
+    {"Drone", " --drone --real --file --catalog --words --form --llm --llm-model --llm-key-env --check --controller "
+     "--sensors --wind "},
     {"Route",
      " --waypoints --route --plan --pose --script --from --to --avoid --clearance --area --height --spacing "
      "--heading --center --entity --radius --turns --length --yaw --origin --poses --start "},
