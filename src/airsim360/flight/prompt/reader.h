@@ -33,11 +33,13 @@ class Reader {
  private:
   using Field = std::optional<double>;
 
-  // reader.cc
+  // reader_others.cc
   void RefuseOthers() const;
   bool IsPurpose(size_t i) const;
   bool IsHead(size_t i) const;
   void ReadNothing();
+
+  // reader.cc
   void ReadToken(size_t i);
   void ReadWord(size_t i);
   void ReadSign(size_t i);
