@@ -5,7 +5,7 @@ import json
 import shutil
 import unittest
 
-from program import ROOT, ProgramTest, tree
+from program import ROOT, ProgramTest, read_png, tree
 
 
 class WorldTest(ProgramTest):
@@ -57,9 +57,14 @@ class WorldTest(ProgramTest):
                 out = self.folder / f"{name}{number}"
                 self.run_ok("render", "--world", w, "--pose", pose, "--size", "512x256", "--tier", "fast", "--out", out)
                 pictures.append(tree(out))
-            for product in ("rgb", "range", "semantic", "entity"):
+            for product in ("range", "semantic", "entity"):
                 file = next(path for path in pictures[0] if path.startswith(product))
                 self.assertEqual(pictures[0][file], pictures[1][file], f"{product} at {pose}")
+            # Single leaves and blades take their shade from the number of their triangle, which an export does not keep.
+            rows = [b"".join(read_png(self.folder / f"{name}{number}" / "rgb/000000.png")[4]) for name in "ab"]
+            apart = [abs(a - b) for a, b in zip(*rows)]
+            self.assertLess(sum(apart) / len(apart), 0.6, pose)
+            self.assertLess(sum(d > 2 for d in apart) / len(apart), 0.08, pose)
 
     def test_models_take_scale_up_ground_and_offset(self):
         model = self.folder / "car.obj"

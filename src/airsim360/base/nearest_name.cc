@@ -75,12 +75,12 @@ bool BeginsWith(std::string_view whole, std::string_view start) {
   return start.size() >= kShortestPart && whole.starts_with(start);
 }
 
-// A letter in three may be wrong, in words of up to three letters one that is not the first.
+// A letter in three may be wrong; in words of up to three letters one that is not the first, or two change places.
 bool FewEdits(const Name& a, const Name& b) {
   const size_t longest = std::max(a.plain.size(), b.plain.size()),
                shortest = std::min(a.plain.size(), b.plain.size());
   if (shortest < 2 || longest - shortest > std::max<size_t>(longest / 3, 1)) return false;
-  if (longest <= kShortestPart && a.plain[0] != b.plain[0]) return false;
+  if (longest <= kShortestPart && a.plain[0] != b.plain[0] && !std::ranges::is_permutation(a.plain, b.plain)) return false;
   return EditDistance(a.plain, b.plain) <= std::clamp<size_t>(longest / 3, 1, 4);
 }
 
