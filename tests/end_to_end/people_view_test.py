@@ -1,11 +1,25 @@
 """Where cameras are: near people by default, inside of worlds, close enough together for flow."""
 import json
 import math
+import os
+import tempfile
 import unittest
 
 from program import ProgramTest, read_json, run, tree
 
 TOWN = ["--world", "downtown_west", "--people", "24", "--tier", "labels", "--size", "512x256"]
+
+
+# One cache for all of them: the town is built once.
+CACHE = tempfile.TemporaryDirectory()
+
+
+def setUpModule():
+    os.environ["AIRSIM360_CACHE"] = CACHE.name
+
+
+def tearDownModule():
+    CACHE.cleanup()
 
 
 def lines(path):
