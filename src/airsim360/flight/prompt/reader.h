@@ -79,6 +79,7 @@ class Reader {
   // reader_quantities.cc
   bool ReadQuantity(size_t i);
   void ReadMass(const Quantity& q);
+  size_t WeighedThing(const Quantity& q, size_t noun) const;
   void ReadLength(const Quantity& q);
   void ReadTime(const Quantity& q);
   void ReadSpeed(const Quantity& q);
