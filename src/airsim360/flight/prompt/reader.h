@@ -79,6 +79,8 @@ class Reader {
   // reader_quantities.cc
   bool ReadQuantity(size_t i);
   void ReadMass(const Quantity& q);
+  size_t NounOfMass(const Quantity& q) const;
+  void SetMassOf(size_t noun, const Quantity& q);
   size_t WeighedThing(const Quantity& q, size_t noun) const;
   void ReadLength(const Quantity& q);
   void ReadTime(const Quantity& q);

@@ -175,7 +175,8 @@ size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
   return kNone;
 }
 
-void Reader::ReadMass(const Quantity& q) {
+/// The noun that a mass is of, else kNone.
+size_t Reader::NounOfMass(const Quantity& q) const {
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
   const auto is_label = [&](size_t noun) {
     if (noun == kNone) return false;
@@ -194,7 +195,6 @@ void Reader::ReadMass(const Quantity& q) {
     if (owner != kNone && (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
                            (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
         !claimed_[owner] && !(owner + 1 < tokens_.size() && EndsPhrase(owner + 1))) {
-      used_[noun] = true;
       noun = owner;
       owned = true;
     }
@@ -211,6 +211,12 @@ void Reader::ReadMass(const Quantity& q) {
     if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
   }
   if (const size_t owner = WeighedThing(q, noun); owner != kNone) noun = owner;
+  return noun;
+}
+
+void Reader::ReadMass(const Quantity& q) {
+  const size_t noun = NounOfMass(q);
+  const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
                      tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
                      (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
@@ -230,7 +236,12 @@ void Reader::ReadMass(const Quantity& q) {
     loose_masses_.push_back({q, thing});
     return;
   }
-  const WordKind kind = kind_of(noun);
+  SetMassOf(noun, q);
+}
+
+void Reader::SetMassOf(size_t noun, const Quantity& q) {
+  const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  const WordKind kind = WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone;
   if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
       kind == WordKind::kFrame || kind == WordKind::kWind)
     return kind == WordKind::kElse ? NameElse(q, noun) : loose_masses_.push_back({q, false});
