@@ -1,11 +1,12 @@
-// Sentences with what they must lead to, for tests: {"text", "expect": "build" or "refuse", "figures": {...}}.
+// Sentences with what they must lead to, for tests: {"text", "expect": "build" or "refuse", "figures": {...}}; a figure
+// is a number, a pair of bounds, or {"min", "max"}.
 #pragma once
 
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "airsim360/base/error.h"
@@ -18,7 +19,7 @@ namespace airsim360 {
 struct ExamSentence {
   std::string text;
   bool build = true;
-  std::map<std::string, double> figures;
+  std::map<std::string, std::pair<double, double>> figures;  ///< from, to
 };
 
 inline std::vector<ExamSentence> ReadExam(const std::string& file) {
@@ -30,7 +31,9 @@ inline std::vector<ExamSentence> ReadExam(const std::string& file) {
     ExamSentence sentence{entry.at("text"), entry.at("expect") == "build", {}};
     const nlohmann::json figures = entry.value("figures", nlohmann::json::object());
     for (const auto& [name, value] : figures.items()) {
-      if (value.is_number()) sentence.figures[name] = value;
+      if (value.is_number()) sentence.figures[name] = {value, value};
+      if (value.is_array()) sentence.figures[name] = {value.at(0), value.at(1)};
+      if (value.is_object()) sentence.figures[name] = {value.value("min", 0.0), value.value("max", 1e9)};
     }
     sentences.push_back(std::move(sentence));
   }
@@ -69,8 +72,10 @@ inline std::string ExamProblem(const ExamSentence& sentence) {
   for (const std::string& problem : GateProblems(design.model)) problems += "gate: " + problem + "; ";
   for (const auto& [name, value] : sentence.figures) {
     const double is = ExamFigure(design, name);
-    if (!(std::abs(is - value) <= 0.02 * std::abs(value)))
-      problems += name + " is " + std::to_string(is) + ", said " + std::to_string(value) + "; ";
+    if (!(is >= 0.98 * value.first && is <= 1.02 * value.second)) {
+      problems += name + " is " + std::to_string(is) + ", said " + std::to_string(value.first) + " to " +
+                  std::to_string(value.second) + "; ";
+    }
   }
   return problems;
 }

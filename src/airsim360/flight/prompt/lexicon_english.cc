@@ -14,7 +14,8 @@ constexpr Word kWords[] = {
      "do|does|doing|capable of|able to|using|made|type|style|kind|ratio|electric|together|than|"
      "fly|flies|flys|flying|new|nice|like|similar to|something|someone|kindly|also|very|really|must|not|"
      "could|might|may|shall|looking|look|get|get me|got|other|another|one of those|both|own|basic|i d|i m|it s|"
-     "along|plus or minus|overall|they|them|he|she|his|her|if possible|preferably|preferred|ideally|hoping|say that"},
+     "along|plus or minus|overall|they|them|he|she|his|her|if possible|preferably|preferred|ideally|hoping|say that|altogether|all together|apiece|"
+     "tetherless|tether less|untethered"},
     {kBreak, 0, "", "with|whose|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
                     "through|if|because|having|featuring|including|incl|that has|which has|running|run|runs"},
     {kTo, 0, "", "to|or|until|through to|bis|jusqu|至|到|hasta"},
@@ -91,7 +92,7 @@ constexpr Word kWords[] = {
     {kOtherUnit, 0, "",
      "mp|megapixel|megapixels|k|p|fps video|hz|khz|mhz|ghz|w|kw|watt|watts|a|amp|amps|n|newton|newtons|c|degree|"
      "degrees|deg|usd|dollar|dollars|euro|euros|eur|bucks|gbp|axis|axes|people|persons|years|year|days|day|week|weeks|month|months|week|weeks|month|months|times a "
-     "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x zoom|gb|tb|ms|rpm|bit|mp camera"},
+     "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x zoom|gb|tb|ms|rpm|bit"},
     // Comparing.
     {kAtMost, 0, "", "under|below|less than|sub|lighter than|smaller than|fewer than|<|shorter than"},
     {kFactor, 2, "", "twice|double|doubled|two times|twofold|doubling"},

@@ -115,7 +115,7 @@ constexpr Word kWords[] = {
      "headwind|crosswind|storm"},
     {kThrustRatio, 0, "",
      "twr|t w|thrust to weight|thrust to weight ratio|thrust weight|thrust weight ratio|power to weight|"
-     "power to weight ratio|t to w|thrust ratio|thrust to mass"},
+     "power to weight ratio|t to w|thrust ratio|thrust to mass|thrust margin|thrust reserve"},
     {kElse, 0, "",
      "sensor size|inch sensor|cmos|ccd|imager|image sensor|monitor|tv|lcd|oled|oled screen|barrel|filter|sensor diagonal|screen|display|lens|focal|altitude|ceiling|range of|distance|radius|"
      "height|tall|resolution|charge|charging|recharge|charges|setup|set up|assembly|assemble|warmup|limit|limits|"

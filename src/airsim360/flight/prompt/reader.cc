@@ -53,6 +53,10 @@ DroneRequest Reader::Run() {
 }
 
 void Reader::ReadToken(size_t i) {
+  if (tokens_[i].kind == Token::Kind::kPropellerCode && Is(i + 1, WordKind::kMassUnit)) {  // "2x1.5 kg"
+    tokens_[i].kind = Token::Kind::kNumber;
+    tokens_[i].value = tokens_[i].code[0] * tokens_[i].code[1];
+  }
   if (tokens_[i].kind == Token::Kind::kPropellerCode) return ReadCode(i);
   if (Is(i, WordKind::kFactor)) {
     ReadFactor(i);
@@ -78,6 +82,9 @@ void Reader::ReadWord(size_t i) {
       return;
     case WordKind::kRotors:
       used_[i] = true;
+      if (i > 1 && (tokens_[i - 1].text == "or" || tokens_[i - 1].text == "/") && Is(i - 2, WordKind::kRotors)) {
+        return Decide("of '" + tokens_[i - 2].text + "' and '" + text + "' the first is taken");
+      }
       CorrectWith("rotors", request_.rotors, i);
       return SetRotors(word.value, text);
     case WordKind::kCoaxial:

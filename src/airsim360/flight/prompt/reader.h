@@ -76,9 +76,14 @@ class Reader {
   void Use(size_t i);
   bool IsAtMost(const Quantity& q) const;
 
+  // reader_masses.cc
+  void ReadMass(const Quantity& q);
+  size_t NounOfMass(const Quantity& q) const;
+  void SetMassOf(size_t noun, const Quantity& q);
+  size_t WeighedThing(const Quantity& q, size_t noun) const;
+
   // reader_quantities.cc
   bool ReadQuantity(size_t i);
-  void ReadMass(const Quantity& q);
   void ReadLength(const Quantity& q);
   void ReadTime(const Quantity& q);
   void ReadSpeed(const Quantity& q);

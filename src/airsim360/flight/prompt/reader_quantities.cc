@@ -6,6 +6,35 @@
 #include "airsim360/base/error.h"
 
 namespace airsim360::internal {
+namespace {
+
+bool IsCountOfThings(const Token& token) {
+  return token.kind == Token::Kind::kNumber && token.value >= 2 && token.value <= 12 &&
+         token.value == std::floor(token.value);
+}
+
+/// "two 6 kg balls", "2 x 1.5 kg", "two bags of 3 kg each": the things whose mass is said, else 1.
+double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
+  const size_t i = q.first;
+  const auto text = [&](size_t k) { return k < tokens.size() ? tokens[k].text : std::string(); };
+  if (q.unit->kind != WordKind::kMassUnit) return 1;
+  if (i > 1 && tokens[i - 1].Is(WordKind::kTimes) && IsCountOfThings(tokens[i - 2])) return tokens[i - 2].value;
+  const bool thing = q.last + 1 < tokens.size() && (tokens[q.last + 1].kind == Token::Kind::kUnknown ||
+                                                    tokens[q.last + 1].Is(WordKind::kLoad));
+  if (i > 0 && thing && IsCountOfThings(tokens[i - 1])) return tokens[i - 1].value;
+  const std::string after = text(q.last + 1);
+  if (after != "each" && after != "apiece") return 1;
+  for (size_t k = i; k-- > 0 && i - k <= 5 && tokens[k].kind != Token::Kind::kComma;) {
+    const bool part = tokens[k].Is(WordKind::kMotor) || tokens[k].Is(WordKind::kPropeller) ||
+                      tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
+    if (part) return 1;
+    if (IsCountOfThings(tokens[k])) return tokens[k].value;
+  }
+  return 1;
+}
+
+}  // namespace
+
 
 bool Reader::ReadQuantity(size_t i) {
   size_t unit = i + 1;
@@ -34,6 +63,7 @@ bool Reader::ReadQuantity(size_t i) {
   }
   Extend(q);
   if (IsRestated(q)) return true;
+  q.value *= ThingsOf(tokens_, q);
   if (IsTakenBack(q)) {
     NameElse(q, kNone);
     return true;
@@ -89,6 +119,8 @@ void Reader::Dispatch(const Quantity& q) {
       Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, q.value, q.words);
       break;
     case WordKind::kCells:
+      // "no less than 1500 s": no battery has so many cells, these are seconds.
+      if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
       if (tokens_[i].value != std::floor(tokens_[i].value)) {
         throw InputError("'" + q.words + "' is not a whole number");
       }
@@ -118,76 +150,6 @@ void Reader::ReadDays(const Quantity& q) {
 void Reader::NameElse(const Quantity& q, size_t noun) {
   for (size_t i = q.first; i <= q.last; ++i) used_[i] = false;
   if (noun != kNone) claimed_[noun] = true;
-}
-
-void Reader::ReadMass(const Quantity& q) {
-  const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
-  const auto is_label = [&](size_t noun) {
-    if (noun == kNone) return false;
-    const WordKind kind = kind_of(noun);
-    return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty ||
-           kind == WordKind::kBattery;
-  };
-  size_t noun = NounBefore(q, true);
-  const size_t after = NounAfter(q);
-  // "camera weighing 300 g", "battery of 400 g" say whose weight it is.
-  if (noun != kNone && kind_of(noun) == WordKind::kMass && after == kNone) {
-    size_t owner = noun;
-    while (owner-- > 0 && SaysLittle(owner)) {
-    }
-    if (owner != kNone && (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
-                           (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
-        !claimed_[owner] && !(owner + 1 < tokens_.size() && EndsPhrase(owner + 1))) {
-      used_[noun] = true;
-      noun = owner;
-    }
-  }
-  const bool says_empty = after != kNone && kind_of(after) == WordKind::kEmpty;
-  if (const size_t apposed = Apposed(q); apposed != kNone) {
-    noun = apposed;
-  } else if (!is_label(noun) || says_empty ||
-      (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
-    noun = after != kNone ? after : NounBefore(q, false);
-  // "lifting two bags of 3 kg": the verb governs all of its clause.
-  for (size_t i = q.first; noun == kNone && i-- > 0 && !EndsPhrase(i) && q.first - i <= 7;) {
-    if (WordAt(i) && WordAt(i)->kind >= WordKind::kMassUnit && WordAt(i)->kind <= WordKind::kOtherUnit) break;
-    if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
-  }
-  const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
-                     tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
-                     (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
-                     Is(q.first - 2, WordKind::kBreak);
-  const FieldRange payload{"payload", 0.0005, 1000, "kg"};
-  if (noun == kNone) {
-    loose_masses_.push_back({q, thing});
-    return;
-  }
-  const WordKind kind = kind_of(noun);
-  if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
-      kind == WordKind::kFrame || kind == WordKind::kWind)
-    return kind == WordKind::kElse ? NameElse(q, noun) : loose_masses_.push_back({q, false});
-  // A drone has other figures besides.
-  if (kind >= WordKind::kRotorNoun) Use(noun);
-  switch (kind) {
-    case WordKind::kPayload:
-    case WordKind::kLoad:
-      if (request_.payload && kind == WordKind::kLoad) {  // "2 kg payload, 400 g gimbal"
-        Decide("'" + q.words + "' is part of the payload '" + request_.words["payload"] + "'");
-        return;
-      }
-      CorrectWith("payload", request_.payload, q.first);
-      return Set(payload, request_.payload, q.value, q.words);
-    case WordKind::kBattery:
-      return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
-    case WordKind::kEmpty:
-      return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
-    default:
-      break;
-  }
-  // "under 250 g" is met just below, unless the mass itself is said.
-  if (IsAtMost(q)) return loose_masses_.push_back({q, false});
-  CorrectWith("mass", request_.mass, q.first);
-  Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
 }
 
 void Reader::ReadLength(const Quantity& q) {
@@ -239,9 +201,14 @@ void Reader::ReadLength(const Quantity& q) {
 }
 
 void Reader::ReadTime(const Quantity& q) {
-  if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
+  // "40 min. hover": the point is that of the unit.
+  const size_t beyond = q.last + 2;
+  const bool abbreviated = Is(beyond, WordKind::kHover) && tokens_[q.last + 1].text == "." &&
+                           (beyond + 1 >= tokens_.size() || tokens_[beyond + 1].kind != Token::Kind::kNumber);
+  const bool said_hover = abbreviated || PhraseHas(q, WordKind::kHover);
+  if (!said_hover && PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
   const size_t apposed = Apposed(q);
-  const bool hover = PhraseHas(q, WordKind::kHover) || (apposed != kNone && Is(apposed, WordKind::kHover));
+  const bool hover = said_hover || (apposed != kNone && Is(apposed, WordKind::kHover));
   const char* name = hover ? "hover_time" : "flight_time";
   const char* other = hover ? "flight_time" : "hover_time";
   Field& field = hover ? request_.hover_time : request_.flight_time;
@@ -252,7 +219,12 @@ void Reader::ReadTime(const Quantity& q) {
 
 void Reader::ReadSpeed(const Quantity& q) {
   if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
-  if (PhraseHas(q, WordKind::kWind)) {
+  // "the wind is bad, so a top speed of 18 m/s"
+  const size_t label = NounBefore(q, true);
+  const std::string& said = label == kNone ? q.words : tokens_[label].text;
+  const bool top = Is(label, WordKind::kSpeed) && (said.starts_with("top") || said.starts_with("max") ||
+                                                   said.starts_with("full") || said.starts_with("vmax"));
+  if (!top && PhraseHas(q, WordKind::kWind)) {
     if (request_.least_speed && *request_.least_speed >= q.value) return;
     request_.least_speed.reset();
     return Set({"least_speed", 0.1, 150, "m/s"}, request_.least_speed, q.value, q.words);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <regex>
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/number_words.h"
@@ -251,11 +252,30 @@ class Cutter {
   std::vector<Token> tokens_;
 };
 
+/// Tolerances are left out ("250+-5 g"), and symbols of papers spelt out ("l = 0.2 m").
+std::string WithoutSymbols(const std::string& plain) {
+  static const std::pair<std::regex, const char*> kRules[] = {
+      {std::regex(R"((\d)\s*\+/?-\s*[\d.]+\s*%?)"), "$1 "},
+      {std::regex(R"(\+/?-\s*[\d.]+\s*(%|[a-z]+))"), " "},
+      {std::regex(R"((\d)\+\s*(?=(min|h|g|kg|km)\w*\b))"), "$1 "},  // "35+ minutes"
+      {std::regex(R"(\bm_(p|pl|payload)\s*=)"), " payload "},
+      {std::regex(R"(\bm(_\w+)?\s*=)"), " mass "},
+      {std::regex(R"(\bd(_\w+)?\s*=)"), " propeller diameter "},
+      {std::regex(R"(\bl(_\w+)?\s*=)"), " arm length "},
+      {std::regex(R"(\bn(_\w+)?\s*=)"), " rotors "},
+      {std::regex(R"(\bt_h\w*\s*=)"), " hover time "},
+      {std::regex(R"(\bt_(f\w*|end\w*)\s*=)"), " flight time "},
+      {std::regex(R"(\bv(_?max|_top)?\s*=)"), " top speed "}};
+  std::string text = plain;
+  for (const auto& [pattern, words] : kRules) text = std::regex_replace(text, pattern, words);
+  return text;
+}
+
 }  // namespace
 
 std::vector<Token> Tokenize(std::string_view prompt) {
   if (prompt.size() > kLongestPrompt) throw InputError("the description is longer than 1000 bytes");
-  return JoinNumbers(Cutter(PlainText(prompt)).Run());
+  return JoinNumbers(Cutter(WithoutSymbols(PlainText(prompt))).Run());
 }
 
 }  // namespace airsim360::internal

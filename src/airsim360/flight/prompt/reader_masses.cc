@@ -1,0 +1,123 @@
+// Whose mass a number with a unit of mass is.
+#include "airsim360/flight/prompt/reader.h"
+
+namespace airsim360::internal {
+
+/// A thing whose own mass is said in a way of its own: "a RED Komodo at 1.8 kg", "Sony A7 + gimbal, 2 kg", "carries
+/// my doll, she weighs 30 g".
+size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
+  size_t before = q.first;
+  while (before-- > 0 && SaysLittle(before)) {
+  }
+  if (before == kNone || before == 0) return kNone;
+  if (noun == kNone && tokens_[before].text == "at" && Is(before - 1, WordKind::kLoad)) return before - 1;
+  if (noun == kNone && tokens_[before].text == ",") {
+    size_t loads = 0;
+    for (size_t k = before; k-- > 0 && tokens_[k].kind != Token::Kind::kComma;) loads += Is(k, WordKind::kLoad);
+    const double known = known_load_.value_or(0);
+    if (loads > 1 && Is(before - 1, WordKind::kLoad) && q.value > 0.8 * known && q.value < 5 * known)
+      return before - 1;
+  }
+  const std::string& who = tokens_[before - 1].text;
+  if (noun != before || !Is(before, WordKind::kMass) || (who != "he" && who != "she" && who != "they")) return kNone;
+  for (size_t k = before; k-- > 0;) {
+    if (Is(k, WordKind::kPayload) && !claimed_[k]) return k;
+  }
+  return kNone;
+}
+
+/// The noun that a mass is of, else kNone.
+size_t Reader::NounOfMass(const Quantity& q) const {
+  const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
+  const auto is_label = [&](size_t noun) {
+    if (noun == kNone) return false;
+    const WordKind kind = kind_of(noun);
+    return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty ||
+           kind == WordKind::kBattery;
+  };
+  size_t noun = NounBefore(q, true);
+  const size_t after = NounAfter(q);
+  bool owned = false;
+  // "camera weighing 300 g", "battery of 400 g" say whose weight it is.
+  if (noun != kNone && kind_of(noun) == WordKind::kMass && after == kNone) {
+    size_t owner = noun;
+    while (owner-- > 0 && SaysLittle(owner)) {
+    }
+    if (owner != kNone && (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
+                           (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
+        !claimed_[owner] && !(owner + 1 < tokens_.size() && EndsPhrase(owner + 1))) {
+      noun = owner;
+      owned = true;
+    }
+  }
+  const bool says_empty = after != kNone && kind_of(after) == WordKind::kEmpty;
+  if (const size_t apposed = Apposed(q); apposed != kNone) {
+    noun = apposed;
+  } else if ((!owned && !is_label(noun)) || says_empty ||
+      (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
+    noun = after != kNone ? after : NounBefore(q, false);
+  // "lifting two bags of 3 kg": the verb governs all of its clause.
+  for (size_t i = q.first; noun == kNone && i-- > 0 && !EndsPhrase(i) && q.first - i <= 7;) {
+    if (WordAt(i) && WordAt(i)->kind >= WordKind::kMassUnit && WordAt(i)->kind <= WordKind::kOtherUnit) break;
+    if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
+  }
+  if (const size_t owner = WeighedThing(q, noun); owner != kNone) noun = owner;
+  return noun;
+}
+
+void Reader::ReadMass(const Quantity& q) {
+  const size_t noun = NounOfMass(q);
+  const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
+  const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
+                     tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
+                     (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
+                     Is(q.first - 2, WordKind::kBreak);
+  const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  // "8 kilos of mix" are carried; "3 kg + 1 kg payload" are 4 kg in all.
+  const size_t next = q.last + 1;
+  const bool of_thing = noun == kNone && next + 1 < tokens_.size() && tokens_[next].text == "of" &&
+                        tokens_[next + 1].kind == Token::Kind::kUnknown;
+  if (of_thing && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
+  const bool added = (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
+                     next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
+                     tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
+                     Is(next + 3, WordKind::kPayload);
+  if (added) return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+  if (noun == kNone) {
+    loose_masses_.push_back({q, thing});
+    return;
+  }
+  SetMassOf(noun, q);
+}
+
+void Reader::SetMassOf(size_t noun, const Quantity& q) {
+  const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  const WordKind kind = WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone;
+  if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
+      kind == WordKind::kFrame || kind == WordKind::kWind)
+    return kind == WordKind::kElse ? NameElse(q, noun) : loose_masses_.push_back({q, false});
+  // A drone has other figures besides.
+  if (kind >= WordKind::kRotorNoun) Use(noun);
+  switch (kind) {
+    case WordKind::kPayload:
+    case WordKind::kLoad:
+      if (request_.payload && kind == WordKind::kLoad) {  // "2 kg payload, 400 g gimbal"
+        Decide("'" + q.words + "' is part of the payload '" + request_.words["payload"] + "'");
+        return;
+      }
+      CorrectWith("payload", request_.payload, q.first);
+      return Set(payload, request_.payload, q.value, q.words);
+    case WordKind::kBattery:
+      return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
+    case WordKind::kEmpty:
+      return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+    default:
+      break;
+  }
+  // "under 250 g" is met just below, unless the mass itself is said.
+  if (IsAtMost(q)) return loose_masses_.push_back({q, false});
+  CorrectWith("mass", request_.mass, q.first);
+  Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+}
+
+}  // namespace airsim360::internal
