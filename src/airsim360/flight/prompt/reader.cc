@@ -211,7 +211,7 @@ void Reader::FinishMasses() {
     const double value = bound ? 0.996 * q.value : q.value;
     if (bound && request_.mass && *request_.mass <= q.value * 1.005) continue;
     // What is beside the mass of a drone is carried.
-    const bool carried = loose.thing && !bound && !request_.payload;
+    const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
     if (carried) {
       Decide("'" + q.words + "' is read as payload");
       Set(payload, request_.payload, q.value, q.words);

@@ -81,6 +81,7 @@ class Reader {
   size_t NounOfMass(const Quantity& q) const;
   void SetMassOf(size_t noun, const Quantity& q);
   size_t WeighedThing(const Quantity& q, size_t noun) const;
+  bool IsOfLoad(const Quantity& q) const;
 
   // reader_quantities.cc
   bool ReadQuantity(size_t i);

@@ -1,6 +1,8 @@
 // Whose mass a number with a unit of mass is.
 #include "airsim360/flight/prompt/reader.h"
 
+#include <algorithm>
+
 namespace airsim360::internal {
 
 /// A thing whose own mass is said in a way of its own: "a RED Komodo at 1.8 kg", "Sony A7 + gimbal, 2 kg", "carries
@@ -77,7 +79,14 @@ void Reader::ReadMass(const Quantity& q) {
   const size_t next = q.last + 1;
   const bool of_thing = noun == kNone && next + 1 < tokens_.size() && tokens_[next].text == "of" &&
                         tokens_[next + 1].kind == Token::Kind::kUnknown;
-  if (of_thing && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
+  const auto follows = [&](size_t k, std::initializer_list<const char*> words) {
+    return k < tokens_.size() &&
+           std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text == word; });
+  };
+  // "5.5 kg on the hook", "65 lb of cargo"
+  const bool hung = (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
+                    (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"}));
+  if ((of_thing || hung) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   const bool added = (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
                      next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
                      tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
@@ -88,6 +97,29 @@ void Reader::ReadMass(const Quantity& q) {
     return;
   }
   SetMassOf(noun, q);
+}
+
+/// Whether a mass of which nothing more is said is of a thing carried: "carry a carton of eggs? 700 g", or, beside the
+/// larger mass of the drone, "magnetometer on a cable, 1.1 kg" and "RFID reader 150 g".
+bool Reader::IsOfLoad(const Quantity& q) const {
+  if (request_.payload || !q.unit || IsAtMost(q) || q.first < 2) return false;
+  size_t before = q.first - 1;
+  if (tokens_[before].text == "?") {
+    for (size_t k = before; k-- > 0 && tokens_[k].kind != Token::Kind::kComma;) {
+      if (Is(k, WordKind::kPayload) && !claimed_[k]) return true;
+    }
+  }
+  double whole = request_.mass.value_or(0);
+  for (const Loose& other : loose_masses_) whole = std::max(whole, other.quantity.value);
+  if (whole < 1.3 * q.value) return false;
+  if (tokens_[before].kind == Token::Kind::kUnknown) return true;
+  if (tokens_[before].kind != Token::Kind::kComma) return false;
+  bool load = false;
+  while (before-- > 0 && tokens_[before].kind != Token::Kind::kComma) {
+    if (Is(before, WordKind::kDrone) || Is(before, WordKind::kRotors)) return false;
+    load |= Is(before, WordKind::kLoad);
+  }
+  return load;
 }
 
 void Reader::SetMassOf(size_t noun, const Quantity& q) {
