@@ -65,7 +65,9 @@ void Reader::CorrectWith(const char* name, Field& field, size_t i) {
     // "22 inch? no, 18 inch"
     const bool no = tokens_[k].text == "no" && k > 0 &&
                     (tokens_[k - 1].kind == Token::Kind::kComma || tokens_[k - 1].kind == Token::Kind::kDash);
-    if ((no || Is(k, WordKind::kCorrection)) && field) {
+    // "four minutes there and four back, so 8 minutes"
+    const bool sum = tokens_[k].text == "so" && k + 1 == i && k > 0 && tokens_[k - 1].kind == Token::Kind::kComma;
+    if ((no || sum || Is(k, WordKind::kCorrection)) && field) {
       Decide("'" + tokens_[k].text + "' takes back '" + request_.words[name] + "'");
       field.reset();
       request_.words.erase(name);

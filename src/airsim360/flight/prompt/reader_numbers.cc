@@ -62,7 +62,7 @@ bool Reader::ReadPartNumber(size_t i) {
 /// "4S 1500", "2S 450 pack", "850 4S", "battery 5000": a number without unit beside cells or a battery is mAh.
 bool Reader::ReadCharge(size_t i) {
   const double value = tokens_[i].value;
-  if (value < 100 || value > 99999 || request_.capacity_ah) return false;
+  if (value < 100 || value > 99999) return false;
   for (const WordKind kind : {WordKind::kRotors, WordKind::kFrame, WordKind::kSizeNoun, WordKind::kDrone,
                               WordKind::kWheelbase, WordKind::kPropeller, WordKind::kMotor}) {
     if (Beside(i, kind, true) != kNone && value < 1000) return false;
@@ -77,6 +77,8 @@ bool Reader::ReadCharge(size_t i) {
                            Is(i + 2, WordKind::kCells);
   const bool battery = Is(i + 1, WordKind::kBattery) || (before != kNone && Is(before, WordKind::kBattery));
   if (!cells_before && !cells_after && !battery) return false;
+  CorrectWith("capacity_ah", request_.capacity_ah, i);
+  if (request_.capacity_ah) return false;
   Decide("'" + tokens_[i].text + "' is read as mAh");
   Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, value / 1000, tokens_[i].text);
   return used_[i] = true;
