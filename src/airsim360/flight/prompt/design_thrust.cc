@@ -13,6 +13,7 @@ namespace airsim360::internal {
 namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kFastestTip = 0.65 * 340.3;  // m/s; the gate ends at Mach 0.7
+constexpr double kFastestTipAsked = 0.69 * 340.3;  // for a thrust that was said
 constexpr double kLeastRatio = 1.5;           // thrust to weight that is not gone below unasked
 // Speed of a loaded motor over its speed without load, between hard and easy work.
 constexpr double kLeastLoaded = 0.5, kMostLoaded = 0.92;
@@ -47,11 +48,12 @@ void Designer::ChooseThrust() {
     }
   }
   // Tips stay subsonic.
-  const double most = std::pow(2 * kFastestTip / D_, 2) * k_f_ * n_ / (m_ * kGravity);
+  const double tip = said_.thrust_to_weight ? kFastestTipAsked : kFastestTip;
+  const double most = std::pow(2 * tip / D_, 2) * k_f_ * n_ / (m_ * kGravity);
   if (ratio_ > most) {
     if (said_.thrust_to_weight || most < kLeastRatio) {
-      Refuse(Text("%d propellers of %.0f mm at Mach 0.65 of their tips give %.2f times the weight of %.3g kg",
-                  n_, D_ * 1000, most, m_) +
+      Refuse(Text("%d propellers of %.0f mm at Mach %.2f of their tips give %.2f times the weight of %.3g kg",
+                  n_, D_ * 1000, tip / 340.3, most, m_) +
              (said_.thrust_to_weight ? ", not " + Words("thrust_to_weight") : ""));
     }
     SetThrust(most, "as much as tips at Mach 0.65 give");
