@@ -8,7 +8,7 @@ using enum WordKind;
 constexpr Word kWords[] = {
     {kDrone, 0, "",
      "drone|drones|multirotor|multirotors|multicopter|multi rotor|uav|uavs|uas|copter|copters|aircraft|mav|"
-     "micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|suas|rpas"},
+     "camera ship|cinema ship|micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|suas|rpas"},
     {kClass, 0, "generic", "generic|ordinary|normal|standard|plain"},
     {kClass, 0, "nano", "nano|palm|palm sized|pocket sized nano"},
     {kClass, 0, "whoop", "whoop|tiny whoop|tinywhoop|micro whoop|toy whoop"},
@@ -145,6 +145,8 @@ constexpr Word kWords[] = {
      "afterburning|rocket|missile|cruise missile|rocket powered|scramjet|spaceship|spacecraft|satellite|jetpack|"
      "jet turbine|turbine powered"},
     {kNoMultirotor, 0, "a ground vehicle", "hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
+    {kNoMultirotor, 0, "a place without air to fly in",
+     "on the moon|on mars|lunar|martian|in space|in outer space|under water|in vacuum|in a vacuum"},
     {kNoMultirotor, 0, "beyond the speed of sound",
      "supersonic|hypersonic|speed of sound|sound barrier|speed of light|light speed|faster than sound"},
     {kNoMultirotor, 0, "an endless flight",

@@ -78,7 +78,8 @@ void Reader::RefuseOthers() const {
     const bool drone_before = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<long>(i), [](const Token& t) {
       return t.kind == Token::Kind::kModel || t.Is(WordKind::kDrone) || t.Is(WordKind::kRotors);
     });
-    const bool always = strong && tokens_[i].word->meaning == "a VTOL with wings";
+    const bool always = strong && (tokens_[i].word->meaning == "a VTOL with wings" ||
+                                    tokens_[i].word->meaning == "a place without air to fly in");
     if (negated || (strong && !always && drone_before && IsPurpose(i)) || (vehicle && (head || IsPurpose(i) || !IsHead(i))))
       continue;
     throw InputError("'" + tokens_[i].text + "' is " + std::string(tokens_[i].word->meaning) +

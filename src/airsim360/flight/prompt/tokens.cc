@@ -265,7 +265,13 @@ std::string WithoutSymbols(const std::string& plain) {
       {std::regex(R"(\bn(_\w+)?\s*=)"), " rotors "},
       {std::regex(R"(\bt_h\w*\s*=)"), " hover time "},
       {std::regex(R"(\bt_(f\w*|end\w*)\s*=)"), " flight time "},
-      {std::regex(R"(\bv(_?max|_top)?\s*=)"), " top speed "}};
+      {std::regex(R"(\bv(_?max|_top)?\s*=)"), " top speed "},
+      {std::regex(R"(\brotors?\s*=(.*)\bdiameter\s*=)"), " rotors =$1 propeller diameter "},
+      {std::regex(R"(\bsub(\d{3})\b(?!\s*-?(g|mm)))"), "under $1 g"},
+      {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
+      {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"), "$1 $2"},
+      {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
+      {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? (on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "}};
   std::string text = plain;
   for (const auto& [pattern, words] : kRules) text = std::regex_replace(text, pattern, words);
   return text;
