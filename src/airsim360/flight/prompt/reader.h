@@ -55,6 +55,7 @@ class Reader {
   void Set(const FieldRange& range, Field& field, double value, const std::string& words);
   void SetRotors(double value, const std::string& words);
   void CorrectWith(const char* name, Field& field, size_t i);
+  void SumUp(const char* name, Field& field, const Quantity& q);
   [[noreturn]] void Contradiction(const char* name, const std::string& words) const;
   void Decide(const std::string& sentence);
   const Word* WordAt(size_t i) const;

@@ -75,6 +75,18 @@ void Reader::CorrectWith(const char* name, Field& field, size_t i) {
   }
 }
 
+/// "2 x 16000 mAh in parallel (32 Ah in all)": a sum replaces what it is of.
+void Reader::SumUp(const char* name, Field& field, const Quantity& q) {
+  const size_t next = q.last + 1;
+  if (!field || next >= tokens_.size() || q.value <= *field) return;
+  const std::string& text = tokens_[next].text;
+  if (text != "in all" && text != "altogether" && text != "all together" && text != "in total" && text != "total")
+    return;
+  Decide("'" + q.words + "' is the sum of '" + request_.words[name] + "'");
+  field.reset();
+  request_.words.erase(name);
+}
+
 void Reader::Contradiction(const char* name, const std::string& words) const {
   throw InputError("'" + words + "' contradicts '" + request_.words.at(name) + "': both say the " + Spoken(name));
 }
@@ -174,6 +186,7 @@ size_t Reader::Apposed(const Quantity& q) const {
   if (open == kNone || (tokens_[open].text != "(" && tokens_[open].text != "[")) return kNone;
   size_t close = q.last + 1;
   while (close < tokens_.size() && SaysLittle(close)) ++close;
+  if (Is(close, WordKind::kBreak) && tokens_[close].text == "with" && Is(close + 1, WordKind::kLoad)) close += 2;
   if (close < tokens_.size() && tokens_[close].kind != Token::Kind::kComma) return kNone;
   bool carried = false;
   for (size_t i = 0; i < open; ++i) carried |= Is(i, WordKind::kPayload);

@@ -103,6 +103,7 @@ void Reader::Dispatch(const Quantity& q) {
       break;
     case WordKind::kCapacityUnit:
       CorrectWith("capacity_ah", request_.capacity_ah, i);
+      SumUp("capacity_ah", request_.capacity_ah, q);
       Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, q.value, q.words);
       break;
     case WordKind::kEnergyUnit:
@@ -214,6 +215,7 @@ void Reader::ReadTime(const Quantity& q) {
   Field& field = hover ? request_.hover_time : request_.flight_time;
   CorrectWith(other, hover ? request_.flight_time : request_.hover_time, q.first);
   CorrectWith(name, field, q.first);
+  SumUp(name, field, q);
   Set({name, 10, 36000, "s"}, field, q.value, q.words);
 }
 
