@@ -137,7 +137,7 @@ constexpr Word kWords[] = {
      "helicopter|helicopters|heli|single rotor|tail rotor|collective pitch|autogyro|gyrocopter|swashplate|chinook|"
      "tandem rotor helicopter|main rotor|gyroplane|flybar|rotorcraft helicopter|black hornet"},
     {kNoMultirotor, 0, "a water craft",
-     "submarine|submarines|underwater|rov|submersible|auv|torpedo|torpedoes|diving drone|sub sea|subsea"},
+     "submarine|submarines|underwater|under water|rov|submersible|auv|torpedo|torpedoes|diving drone|sub sea|subsea"},
     {kNoMultirotor, 0, "lighter than air",
      "blimp|airship|zeppelin|balloon|hot air balloon|weather balloon|dirigible|aerostat|helium"},
     {kNoMultirotor, 0, "a jet or rocket",
@@ -146,7 +146,7 @@ constexpr Word kWords[] = {
      "jet turbine|turbine powered"},
     {kNoMultirotor, 0, "a ground vehicle", "hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
     {kNoMultirotor, 0, "a place without air to fly in",
-     "on the moon|on mars|lunar|martian|in space|in outer space|under water|in vacuum|in a vacuum"},
+     "on the moon|on mars|lunar surface|martian|outer space|in outer space|in vacuum|in a vacuum"},
     {kNoMultirotor, 0, "beyond the speed of sound",
      "supersonic|hypersonic|speed of sound|sound barrier|speed of light|light speed|faster than sound"},
     {kNoMultirotor, 0, "an endless flight",

@@ -83,9 +83,12 @@ void Reader::ReadMass(const Quantity& q) {
     return k < tokens_.size() &&
            std::any_of(words.begin(), words.end(), [&](const char* word) { return tokens_[k].text == word; });
   };
-  // "5.5 kg on the hook", "65 lb of cargo"
+  // "5.5 kg on the hook", "65 lb of cargo", "cargo 3 kg", "3 kg cargo, ..."
+  const bool ends = next + 1 >= tokens_.size() || tokens_[next + 1].kind == Token::Kind::kComma;
   const bool hung = (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
-                    (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"}));
+                    (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) ||
+                    (ends && follows(next, {"cargo", "freight"})) ||
+                    (q.first > 0 && follows(q.first - 1, {"cargo", "freight"}));
   if ((of_thing || hung) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   const bool added = (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
                      next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
@@ -114,12 +117,11 @@ bool Reader::IsOfLoad(const Quantity& q) const {
   if (whole < 1.3 * q.value) return false;
   if (tokens_[before].kind == Token::Kind::kUnknown) return true;
   if (tokens_[before].kind != Token::Kind::kComma) return false;
-  bool load = false;
   while (before-- > 0 && tokens_[before].kind != Token::Kind::kComma) {
     if (Is(before, WordKind::kDrone) || Is(before, WordKind::kRotors)) return false;
-    load |= Is(before, WordKind::kLoad);
+    if (Is(before, WordKind::kLoad)) return true;
   }
-  return load;
+  return false;
 }
 
 void Reader::SetMassOf(size_t noun, const Quantity& q) {

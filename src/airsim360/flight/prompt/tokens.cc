@@ -269,6 +269,8 @@ std::string WithoutSymbols(const std::string& plain) {
       {std::regex(R"(\brotors?\s*=(.*)\bdiameter\s*=)"), " rotors =$1 propeller diameter "},
       {std::regex(R"(\bsub(\d{3})\b(?!\s*-?(g|mm)))"), "under $1 g"},
       {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
+      {std::regex(R"(\b(propellers?|props?) ((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?))"), "$1 $2x$5"},
+      {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
       {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"), "$1 $2"},
       {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
       {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? (on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "}};
