@@ -8,7 +8,8 @@ using enum WordKind;
 constexpr Word kWords[] = {
     {kDrone, 0, "",
      "drone|drones|multirotor|multirotors|multicopter|multi rotor|uav|uavs|uas|copter|copters|aircraft|mav|"
-     "camera ship|cinema ship|micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|suas|rpas"},
+     "camera ship|cinema ship|micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|"
+     "suas|rpas"},
     {kClass, 0, "generic", "generic|ordinary|normal|standard|plain"},
     {kClass, 0, "nano", "nano|palm|palm sized|pocket sized nano"},
     {kClass, 0, "whoop", "whoop|tiny whoop|tinywhoop|micro whoop|toy whoop"},

@@ -175,6 +175,22 @@ TEST(Prompt, EveryParameterHasItsLaw) {
   }
 }
 
+TEST(Prompt, OfTwoMassesTheOneOfANamedThingIsCarried) {
+  for (const char* prompt : {"hexa with a sonar pod, 1.5 kg, MTOW 9 kg", "9 kg hexa, RFID reader 1.5 kg on board",
+                             "hexa, all-up 9 kg, 1.5 kg on the hook", "hexa, total 9 kg, cargo 1.5 kg"}) {
+    const DroneDesign design = DroneFromPrompt(prompt);
+    EXPECT_NEAR(design.model.mass, 9, 0.1) << prompt;
+    EXPECT_NEAR(design.parts.payload, 1.5, 0.01) << prompt;
+  }
+  EXPECT_THROW(DroneFromPrompt("a 2 kg quad, 3 kg"), InputError);
+}
+
+TEST(Prompt, WhereThereIsNoAirNothingIsBuilt) {
+  for (const char* prompt : {"a quad on the Moon, 3 kg", "a quad hovering in space", "2 kg hexa for flights on Mars"})
+    EXPECT_THROW(DroneFromPrompt(prompt), InputError) << prompt;
+  EXPECT_NO_THROW(DroneFromPrompt("a 500 g quad flying in space constrained rooms"));
+}
+
 TEST(Design, PartsAddUpToTheMassAndSaidFiguresAreKept) {
   for (const char* prompt :
        {"a 250 g five-inch racing quad", "a 12 kg delivery octocopter with a 4 kg parcel",

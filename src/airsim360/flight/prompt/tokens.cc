@@ -273,7 +273,8 @@ std::string WithoutSymbols(const std::string& plain) {
       {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
       {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"), "$1 $2"},
       {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
-      {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? (on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "}};
+      {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? )"
+                  R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "}};
   std::string text = plain;
   for (const auto& [pattern, words] : kRules) text = std::regex_replace(text, pattern, words);
   return text;
