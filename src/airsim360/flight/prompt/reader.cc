@@ -205,11 +205,16 @@ void Reader::FinishMasses() {
     request_.battery_mass.reset();
     request_.words.erase("battery_mass");
   }
+  std::stable_partition(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return !loose.part; });
   for (const Loose& loose : loose_masses_) {
     const Quantity& q = loose.quantity;
     const bool bound = q.unit && IsAtMost(q);
     const double value = bound ? 0.996 * q.value : q.value;
     if (bound && request_.mass && *request_.mass <= q.value * 1.005) continue;
+    if (loose.part && request_.mass && *request_.mass > 1.3 * q.value) {
+      Decide("'" + q.words + "' is of a part and left to the design");
+      continue;
+    }
     // What is beside the mass of a drone is carried.
     const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
     if (carried) {

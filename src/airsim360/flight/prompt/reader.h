@@ -117,6 +117,7 @@ class Reader {
   struct Loose {
     Quantity quantity;
     bool thing = false;  ///< "a 300 g sandwich"
+    bool part = false;   ///< "a 300 g frame"
   };
   std::vector<Loose> loose_masses_;
   std::optional<double> arm_count_, liquid_, known_load_;

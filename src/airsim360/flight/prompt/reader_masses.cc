@@ -129,7 +129,8 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   const WordKind kind = WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone;
   if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
       kind == WordKind::kFrame || kind == WordKind::kWind)
-    return kind == WordKind::kElse ? NameElse(q, noun) : loose_masses_.push_back({q, false});
+    return kind == WordKind::kElse ? NameElse(q, noun)
+                                     : loose_masses_.push_back({q, false, kind != WordKind::kWind});
   // A drone has other figures besides.
   if (kind >= WordKind::kRotorNoun) Use(noun);
   switch (kind) {
