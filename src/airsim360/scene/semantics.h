@@ -39,8 +39,8 @@ class SemanticTree {
   /// Category of an id; InputError if unknown.
   const Category& operator[](CategoryId id) const;
   /// Adds a path (and missing ancestors) unless present; returns its id. Custom ids depend on the path alone,
-  /// so that they agree between worlds. External ids are inherited from the nearest ancestor that has one.
-  /// InputError for a malformed path: parts of [a-z0-9_] joined by '/', at most 8 parts and 200 characters.
+  /// but where another path has that id it is the next free one. External ids are those of the nearest ancestor
+  /// that has one. InputError if ids run out; for paths not of [a-z0-9_]/…, at most 8 parts, 200 characters.
   CategoryId Add(std::string_view path, bool thing = true);
   /// All categories, by id.
   const std::map<CategoryId, Category>& categories() const { return categories_; }
