@@ -10,6 +10,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/sensors/surface_label.h"
 #include "airsim360/trace/whereabouts.h"
 
 namespace airsim360 {
@@ -64,7 +65,7 @@ void CheckCameraPlaces(const RayTracer& tracer, const DatasetSpec& spec, const F
   if (inside == 0) return;
   const std::string more = inside > 1 ? ", and " + std::to_string(inside - 1) + " more" : "";
   LogWarning(CameraText(flight, first / views.size(), place(first)) + " is inside " +
-             NameOf(tracer.scene(), found[first].entity) + more + ": pictures show it from within");
+             NameOf(tracer.scene(), LabelOf(tracer, found[first].surface).entity) + more + ": pictures show it from within");
 }
 
 void CheckFlowSteps(const RayTracer& tracer, const DatasetSpec& spec, const Flight& flight) {

@@ -11,6 +11,7 @@
 #include "airsim360/assets/ply_parts.h"
 #include "airsim360/assets/texture_store.h"
 #include "airsim360/base/error.h"
+#include "airsim360/image/color.h"
 
 namespace airsim360::internal {
 namespace {
@@ -34,9 +35,7 @@ double ColorShare(double value, PlyType type) {
   return std::isfinite(value) ? std::clamp(value / full, 0.0, 1.0) : 0;
 }
 
-float ToLinear(double srgb) {
-  return static_cast<float>(srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4));
-}
+float ToLinear(double srgb) { return static_cast<float>(SrgbDecode(srgb)); }
 
 class PlyReader {
  public:

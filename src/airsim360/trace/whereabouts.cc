@@ -29,16 +29,6 @@ Vec3f FrontOf(const RayTracer& tracer, SurfaceRef surface) {
   return Cross(b - a, c - a) * (place.A.determinant() < 0 ? -1.0f : 1.0f);
 }
 
-// The entity of a triangle: that of its part, else of its instance.
-EntityId EntityOf(const Scene& scene, SurfaceRef surface) {
-  const Instance& instance = scene.instances[surface.instance];
-  for (const MeshPart& part : scene.meshes[instance.mesh].parts) {
-    const bool holds = surface.triangle >= part.first_triangle && surface.triangle - part.first_triangle < part.triangle_count;
-    if (holds && part.entity != kNoEntity) return part.entity;
-  }
-  return instance.entity;
-}
-
 // What rays from a place meet.
 struct Surroundings {
   int rays = 0, hits = 0;
@@ -78,7 +68,7 @@ Whereabouts FindWhereabouts(const RayTracer& tracer, Vec3d p_W) {
   const Surroundings all = LookAround(tracer, p, 1);
   if (closed && all.hits < all.rays) return {Whereabouts::Kind::kOutside};
   if (all.up_hits < kLeastHits * all.up_rays || all.up_backs < kLeastBacks * all.up_hits) return {};
-  return {Whereabouts::Kind::kInside, EntityOf(tracer.scene(), all.back)};
+  return {Whereabouts::Kind::kInside, all.back};
 }
 
 }  // namespace airsim360

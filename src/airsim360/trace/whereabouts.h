@@ -14,10 +14,10 @@ struct Whereabouts {
     kOutside  ///< rays leave a scene that has no sky
   };
   Kind kind = Kind::kOpen;
-  EntityId entity = kNoEntity;  ///< kInside: whose surface is nearest
+  SurfaceRef surface = {};  ///< kInside: the nearest back that is seen upward, of what is around
 };
 
-/// Tells from rays in 256 directions which sides of surfaces they meet, and from the nearest surface. The front of a triangle
+/// Tells from rays in 256 directions which sides of surfaces they meet. The front of a triangle
 /// is where its vertices run counter-clockwise; models that are wound at random are `kOpen`.
 Whereabouts FindWhereabouts(const RayTracer& tracer, Vec3d p_W);
 
