@@ -27,7 +27,7 @@
 #include "airsim360/render/cpu/test_room.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/sensors/rig.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "ray_recorder.h"
 #include "scenes.h"
 

@@ -24,7 +24,7 @@
 #include "airsim360/people/crowd/test_doors.h"
 #include "airsim360/people/crowd/test_ring.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "blocks.h"
 
 namespace {

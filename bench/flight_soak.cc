@@ -15,7 +15,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/flight/catalog.h"
 #include "airsim360/sim/recording.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace {
 

@@ -16,8 +16,8 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/fly_route.h"
-#include "airsim360/sim/survey.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/routes/survey.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace {
 

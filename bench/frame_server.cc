@@ -17,7 +17,7 @@
 #include "airsim360/image/codecs.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/render/shading/sky.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "blocks.h"
 
 namespace {

@@ -18,7 +18,7 @@
 #include "airsim360/image/color.h"
 #include "airsim360/projection/camera.h"
 #include "airsim360/render/renderer.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "airsim360/render/renderer.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 int main(int argc, char** argv) {
   using namespace airsim360;

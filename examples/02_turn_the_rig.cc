@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "airsim360/render/renderer.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 int main() {
   using namespace airsim360;

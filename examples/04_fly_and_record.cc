@@ -5,7 +5,7 @@
 
 #include "airsim360/flight/catalog.h"
 #include "airsim360/sim/sim_loop.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 int main() {
   using namespace airsim360;

@@ -10,7 +10,7 @@
 #include "airsim360/planning/time_allocation.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/sim/trajectory_reference.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 int main() {
   using namespace airsim360;

@@ -10,8 +10,8 @@
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/sim/fly_route.h"
-#include "airsim360/sim/survey.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/routes/survey.h"
+#include "airsim360/opening/world_loader.h"
 
 int main(int argc, char** argv) {
   using namespace airsim360;

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/tasks/agent_server.h"
 
 namespace {

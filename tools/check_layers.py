@@ -13,7 +13,7 @@ OWNERS = {  # third-party header prefix -> modules whose .cc files may include i
     "tbb/": {"base"},
     "yaml-cpp/": {"base", "assets", "people"},
     "openssl/": {"base"},
-    "nlohmann/": {"assets", "dataset", "sim", "tasks", "app"},
+    "nlohmann/": {"assets", "dataset", "opening", "sim", "tasks", "app"},
     "boost/": {"tasks", "worlds"},
     "draco/": {"assets"},
     "meshoptimizer": {"assets"},

@@ -4,7 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/planning/point_to_point.h"
-#include "airsim360/sim/world_clearance.h"
+#include "airsim360/routes/world_clearance.h"
 #include "handles.h"
 
 namespace airsim360::python {

@@ -6,7 +6,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/sensors/surface_label.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/worlds/worlds.h"
 #include "handles.h"
 

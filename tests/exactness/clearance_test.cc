@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {

@@ -10,7 +10,7 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/tasks/agent_server.h"
 #include "airsim360/worlds/worlds.h"
 

@@ -22,8 +22,8 @@
 #include "airsim360/dataset/video.h"
 #include "airsim360/planning/export_text.h"
 #include "airsim360/sim/people_survey.h"
-#include "airsim360/sim/route_file.h"
-#include "airsim360/sim/survey.h"
+#include "airsim360/routes/route_file.h"
+#include "airsim360/routes/survey.h"
 #include "airsim360/sim/visit_poses.h"
 
 namespace airsim360 {

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "airsim360/sim/world_environment.h"
+#include "airsim360/opening/world_environment.h"
 
 namespace airsim360 {
 

@@ -23,7 +23,7 @@
 #include "airsim360/flight/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/planning/time_allocation.h"
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 #include "airsim360/sim/trajectory_reference.h"
 
 namespace airsim360 {

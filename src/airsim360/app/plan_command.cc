@@ -20,8 +20,8 @@
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/knots.h"
 #include "airsim360/planning/point_to_point.h"
-#include "airsim360/sim/world_clearance.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/routes/world_clearance.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

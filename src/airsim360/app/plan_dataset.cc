@@ -6,7 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/waypoint_set.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

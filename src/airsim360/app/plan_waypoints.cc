@@ -10,9 +10,9 @@
 #include "airsim360/base/nearest_name.h"
 #include "airsim360/planning/area_routes.h"
 #include "airsim360/planning/random_route.h"
-#include "airsim360/sim/road_route.h"
-#include "airsim360/sim/route_file.h"
-#include "airsim360/sim/world_clearance.h"
+#include "airsim360/routes/road_route.h"
+#include "airsim360/routes/route_file.h"
+#include "airsim360/routes/world_clearance.h"
 
 namespace airsim360 {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {

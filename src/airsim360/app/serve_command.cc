@@ -12,8 +12,8 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/server.h"
-#include "airsim360/sim/world_environment.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_environment.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/worlds/props.h"
 
 namespace airsim360 {

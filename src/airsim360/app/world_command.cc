@@ -14,7 +14,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/scene/entity_table.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/worlds/osm_world.h"
 
 namespace airsim360 {

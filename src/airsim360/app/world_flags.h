@@ -5,7 +5,7 @@
 #include <string>
 
 #include "airsim360/app/commands.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 

@@ -6,7 +6,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/base/log.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/worlds/world_floor.h"
 #include "airsim360/worlds/world_survey.h"
 #include "airsim360/worlds/worlds.h"

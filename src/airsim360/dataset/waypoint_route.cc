@@ -4,7 +4,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/waypoint_set.h"
 #include "airsim360/planning/arc_length.h"
-#include "airsim360/sim/world_clearance.h"
+#include "airsim360/routes/world_clearance.h"
 
 namespace airsim360 {
 

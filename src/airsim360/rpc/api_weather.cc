@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "airsim360/rpc/api.h"
-#include "airsim360/sim/world_environment.h"
+#include "airsim360/opening/world_environment.h"
 
 namespace airsim360 {
 namespace {

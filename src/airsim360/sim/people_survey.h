@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 #include "airsim360/sim/step.h"
 
 namespace airsim360 {

@@ -11,7 +11,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 namespace airsim360 {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "airsim360/flight/control/reference.h"
 #include "airsim360/planning/polynomial_trajectory.h"
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 
 namespace airsim360 {
 

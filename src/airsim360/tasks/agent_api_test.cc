@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "airsim360/image/codecs.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/tasks/agent_answers.h"
 
 namespace airsim360 {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "airsim360/base/error.h"
-#include "airsim360/sim/roadmap.h"
+#include "airsim360/routes/roadmap.h"
 #include "airsim360/tasks/agent_action.h"
 
 namespace airsim360 {

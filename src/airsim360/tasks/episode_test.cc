@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

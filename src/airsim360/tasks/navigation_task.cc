@@ -7,7 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
-#include "airsim360/sim/roadmap.h"
+#include "airsim360/routes/roadmap.h"
 
 namespace airsim360 {
 namespace {

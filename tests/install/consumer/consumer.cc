@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "airsim360/render/renderer.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 int main() {
   using namespace airsim360;

@@ -6,7 +6,7 @@
 #include "airsim360/dataset/people/human_set.h"
 #include "airsim360/people/navigation/test_ground.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

@@ -15,7 +15,7 @@
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

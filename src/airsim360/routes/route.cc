@@ -1,4 +1,4 @@
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 namespace airsim360 {
 namespace {

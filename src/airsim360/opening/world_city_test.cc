@@ -1,4 +1,4 @@
-#include "airsim360/sim/world_city.h"
+#include "airsim360/opening/world_city.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Route files other than CSV (route_test.cc has those).
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "airsim360/sim/road_route.h"
+#include "airsim360/routes/road_route.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/sim/world_clearance.h"
+#include "airsim360/routes/world_clearance.h"
 
 namespace airsim360 {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "airsim360/math/geodesy.h"
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 
 namespace airsim360 {
 

@@ -5,7 +5,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/sim/roadmap.h"
+#include "airsim360/routes/roadmap.h"
 
 namespace airsim360 {
 namespace {

@@ -1,4 +1,4 @@
-#include "airsim360/sim/world_clearance.h"
+#include "airsim360/routes/world_clearance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/sim/roadmap.h"
+#include "airsim360/routes/roadmap.h"
 
 namespace airsim360 {
 namespace {

@@ -1,4 +1,4 @@
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 #include <algorithm>
 #include <array>

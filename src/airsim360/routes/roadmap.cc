@@ -1,4 +1,4 @@
-#include "airsim360/sim/roadmap.h"
+#include "airsim360/routes/roadmap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "airsim360/sim/world_clearance.h"
+#include "airsim360/routes/world_clearance.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/planning/point_to_point.h"
-#include "airsim360/sim/road_route.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/routes/road_route.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

@@ -1,5 +1,5 @@
 // GeoTIFF heights by way of GDAL: against the heights written into the files.
-#include "airsim360/sim/height_file.h"
+#include "airsim360/opening/height_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

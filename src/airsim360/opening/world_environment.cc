@@ -1,4 +1,4 @@
-#include "airsim360/sim/world_environment.h"
+#include "airsim360/opening/world_environment.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
 #include "airsim360/scene/scene_archive.h"
-#include "airsim360/sim/height_file.h"
-#include "airsim360/sim/world_environment.h"
+#include "airsim360/opening/height_file.h"
+#include "airsim360/opening/world_environment.h"
 #include "airsim360/worlds/city_facades.h"
 #include "airsim360/worlds/osm_world.h"
 #include "airsim360/worlds/worlds.h"

@@ -8,7 +8,7 @@
 
 #include "airsim360/assets/placement.h"
 #include "airsim360/scene/scene.h"
-#include "airsim360/sim/world_city.h"
+#include "airsim360/opening/world_city.h"
 #include "airsim360/worlds/osm_world.h"
 
 namespace airsim360 {

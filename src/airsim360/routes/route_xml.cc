@@ -6,7 +6,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 namespace airsim360 {
 namespace {

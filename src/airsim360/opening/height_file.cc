@@ -1,4 +1,4 @@
-#include "airsim360/sim/height_file.h"
+#include "airsim360/opening/height_file.h"
 
 #include <algorithm>
 #include <array>

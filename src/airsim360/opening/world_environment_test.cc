@@ -1,4 +1,4 @@
-#include "airsim360/sim/world_environment.h"
+#include "airsim360/opening/world_environment.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/sim/world_loader.h"
+#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

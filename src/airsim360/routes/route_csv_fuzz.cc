@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "airsim360/base/error.h"
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace airsim360;

@@ -6,7 +6,7 @@
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/math/coordinate_limit.h"
-#include "airsim360/sim/route_file.h"
+#include "airsim360/routes/route_file.h"
 
 namespace airsim360 {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "airsim360/sim/route.h"
+#include "airsim360/routes/route.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
