@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/opening/world_loader.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/sensors/rig.h"
-#include "airsim360/opening/world_loader.h"
 #include "ray_recorder.h"
 #include "scenes.h"
 

@@ -19,12 +19,12 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/state_hash.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/people/crowd/agent.h"
 #include "airsim360/people/crowd/crowd.h"
 #include "airsim360/people/crowd/test_doors.h"
 #include "airsim360/people/crowd/test_ring.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/opening/world_loader.h"
 #include "blocks.h"
 
 namespace {

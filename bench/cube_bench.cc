@@ -20,8 +20,8 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/render/renderer.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/render/renderer.h"
 
 namespace {
 

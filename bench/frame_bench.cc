@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/opening/world_loader.h"
+#include "airsim360/routes/survey.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/fly_route.h"
-#include "airsim360/routes/survey.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace {
 

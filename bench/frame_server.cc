@@ -15,9 +15,9 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/render/renderer.h"
-#include "airsim360/render/shading/sky.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/render/renderer.h"
+#include "airsim360/render/sky/sky.h"
 
 namespace {
 

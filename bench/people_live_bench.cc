@@ -11,8 +11,8 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/sim/people/populate.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/sim/people/populate.h"
 #include "blocks.h"
 
 namespace {

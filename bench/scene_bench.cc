@@ -21,8 +21,8 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/render/renderer.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/render/renderer.h"
 
 namespace {
 

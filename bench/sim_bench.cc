@@ -11,9 +11,9 @@
 #include <string>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/flight/catalog.h"
-#include "airsim360/sim/capture.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/sim/capture.h"
 
 namespace {
 

@@ -16,9 +16,9 @@
 #include "airsim360/eval/image_metrics.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/color.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/projection/camera.h"
 #include "airsim360/render/renderer.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "airsim360/render/renderer.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/render/renderer.h"
 
 int main(int argc, char** argv) {
   using namespace airsim360;

@@ -3,8 +3,8 @@
 #include <memory>
 #include <numbers>
 
-#include "airsim360/render/renderer.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/render/renderer.h"
 
 int main() {
   using namespace airsim360;

@@ -11,8 +11,8 @@
 #include "airsim360/base/file.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/render/renderer.h"
-#include "airsim360/worlds/mesh_builder.h"
-#include "airsim360/worlds/surfaces.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
+#include "airsim360/worlds/texture/surfaces.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "airsim360/flight/catalog.h"
-#include "airsim360/sim/sim_loop.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/sim/sim_loop.h"
 
 int main() {
   using namespace airsim360;

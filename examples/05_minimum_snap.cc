@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/planning/time_allocation.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/sim/trajectory_reference.h"
-#include "airsim360/opening/world_loader.h"
 
 int main() {
   using namespace airsim360;

@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/rpc/server.h"
 #include "airsim360/rpc/wire_convert.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace {
 

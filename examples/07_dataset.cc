@@ -9,9 +9,9 @@
 #include "airsim360/dataset/collector.h"
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/sim/fly_route.h"
-#include "airsim360/routes/survey.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/routes/survey.h"
+#include "airsim360/sim/fly_route.h"
 
 int main(int argc, char** argv) {
   using namespace airsim360;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that every #include between modules follows the layer table of docs/architecture.md.
+"""Checks that every #include between modules follows the layer table of docs/architecture.md, and between the
+folders of a module its second table.
 
 Usage: check_layers.py [ROOT]. Prints one line per violation and exits 1 if there is any.
 Also refuses third-party headers outside the modules that own them, and in headers that another module includes.
@@ -52,6 +53,45 @@ def read_table(root):
     return allowed
 
 
+def read_folders(root):
+    """Folder -> set of folders of its module that it may include, from the second table."""
+    allowed = {}
+    for line in (root / "docs/architecture.md").read_text().splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if len(cells) == 3 and re.fullmatch(r"[a-z_/]+", cells[0]) and re.fullmatch(r"—|[a-z_/ ]+", cells[2]):
+            if cells[0] != "folder":
+                allowed[cells[0]] = set(cells[2].split()) - {"—"}
+    return allowed
+
+
+def check_folders(root):
+    """Includes between folders of one module follow the second table, and that table has no cycle."""
+    allowed, errors, done = read_folders(root), [], set()
+
+    def visit(folder, path):
+        if folder in path:
+            errors.append("folders include each other: " + " -> ".join([*path[path.index(folder):], folder]))
+        elif folder not in done:
+            for other in sorted(allowed.get(folder, ())):
+                visit(other, [*path, folder])
+            done.add(folder)
+
+    for folder in allowed:
+        visit(folder, [])
+    source = root / "src/airsim360"
+    for path in sorted(source.rglob("*")):
+        if path.suffix not in {".h", ".cc"} or path.stem.startswith("test_") or path.stem.endswith(("_test", "_fuzz", "_bench")):
+            continue
+        folder = str(path.parent.relative_to(source))
+        for number, target in includes_of(path):
+            other = str(pathlib.PurePath(target).parent).removeprefix("airsim360/")
+            if not target.startswith("airsim360/") or other == folder or other.split("/")[0] != folder.split("/")[0]:
+                continue
+            if other not in allowed.get(folder, ()):
+                errors.append(f"{path.relative_to(root)}:{number}: {folder} must not include {other}")
+    return errors
+
+
 def includes_of(path):
     """(line number, included name) of every #include."""
     for number, line in enumerate(path.read_text().splitlines(), 1):
@@ -100,7 +140,7 @@ def check(root):
 
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    errors = check(root)
+    errors = check(root) + check_folders(root)
     print("\n".join(errors) if errors else "layers: every include follows docs/architecture.md")
     return 1 if errors else 0
 

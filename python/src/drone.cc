@@ -1,7 +1,7 @@
 // Drones: by name, from words, from a file.
 #include "airsim360/base/error.h"
-#include "airsim360/flight/catalog.h"
-#include "airsim360/flight/fleet.h"
+#include "airsim360/flight/drones/catalog.h"
+#include "airsim360/flight/drones/fleet.h"
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/flight/prompt/gate.h"
 #include "handles.h"

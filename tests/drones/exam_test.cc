@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "airsim360/flight/flight_check.h"
+#include "airsim360/flight/control/flight_check.h"
 
 namespace airsim360 {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "airsim360/assets/import.h"
-#include "airsim360/worlds/props.h"
+#include "airsim360/worlds/props/props.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

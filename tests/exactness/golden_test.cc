@@ -13,7 +13,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/kernel_isa.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {

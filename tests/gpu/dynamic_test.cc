@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "airsim360/base/error.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "gpu_fixture.h"
 
 namespace airsim360 {

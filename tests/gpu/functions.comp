@@ -3,17 +3,17 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_scalar_block_layout : require
-#include "airsim360/render/shading/shading_glsl.h"
-#include "airsim360/render/shading/shading_shared.h"
+#include "airsim360/render/shared/shading_glsl.h"
+#include "airsim360/render/shared/shading_shared.h"
 // A name of the header that GLSL keeps for itself.
 #define in in_
-#include "airsim360/render/shading/shading_bsdf.h"
+#include "airsim360/render/shared/shading_bsdf.h"
 #undef in
-#include "airsim360/render/shading/shading_air.h"
-#include "airsim360/render/shading/shading_tone.h"
-#include "airsim360/render/shading/shading_interior.h"
-#include "airsim360/render/shading/shading_weather.h"
-#include "airsim360/render/shading/shading_ground.h"
+#include "airsim360/render/shared/shading_air.h"
+#include "airsim360/render/shared/shading_tone.h"
+#include "airsim360/render/shared/shading_interior.h"
+#include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_ground.h"
 
 layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Floats { float v[]; };

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/worlds/worlds.h"
 #include "gpu_fixture.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/vulkan/gpu_memory.h"
 #include "airsim360/render/vulkan/gpu_shaders.h"
 #include "gpu_fixture.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/render/cpu/test_colors.h"
+#include "airsim360/render/frame/test_colors.h"
 #include "color_compare.h"
 
 namespace airsim360 {

@@ -10,8 +10,8 @@
 
 #include "airsim360/image/color.h"
 #include "airsim360/render/renderer.h"
-#include "airsim360/worlds/mesh_builder.h"
-#include "airsim360/worlds/surfaces.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
+#include "airsim360/worlds/texture/surfaces.h"
 
 namespace airsim360 {
 namespace {

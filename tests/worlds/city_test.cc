@@ -11,13 +11,13 @@
 
 #include "airsim360/render/renderer.h"
 #include "airsim360/trace/ray_tracer.h"
+#include "airsim360/worlds/building/massing.h"
 #include "airsim360/worlds/built_in.h"
-#include "airsim360/worlds/massing.h"
-#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/new_york_city/manhattan.h"
-#include "airsim360/worlds/test_real_towns.h"
-#include "airsim360/worlds/world_floor.h"
-#include "airsim360/worlds/world_survey.h"
+#include "airsim360/worlds/osm/test_real_towns.h"
+#include "airsim360/worlds/survey/world_floor.h"
+#include "airsim360/worlds/survey/world_survey.h"
 
 namespace airsim360 {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/math/coordinate_limit.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "airsim360/app/commands.h"
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 #include "airsim360/flight/drone_model.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/renderer.h"

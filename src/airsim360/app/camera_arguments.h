@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 

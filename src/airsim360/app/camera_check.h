@@ -1,7 +1,7 @@
 // What is said of cameras before anything is rendered.
 #pragma once
 
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 #include "airsim360/sim/fly_route.h"
 #include "airsim360/trace/ray_tracer.h"
 

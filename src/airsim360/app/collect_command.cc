@@ -21,9 +21,9 @@
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/video.h"
 #include "airsim360/planning/export_text.h"
-#include "airsim360/sim/people_survey.h"
 #include "airsim360/routes/route_file.h"
 #include "airsim360/routes/survey.h"
+#include "airsim360/sim/people_survey.h"
 #include "airsim360/sim/visit_poses.h"
 
 namespace airsim360 {

@@ -14,8 +14,8 @@
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/index.h"
 #include "airsim360/dataset/people/human_set.h"
-#include "airsim360/sim/drone_bodies.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/sim/drone_bodies.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

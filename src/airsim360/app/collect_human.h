@@ -7,7 +7,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 

@@ -6,7 +6,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/dataset/version.h"
+#include "airsim360/dataset/record/version.h"
 #include "airsim360/render/vulkan/gpu.h"
 #include "airsim360/video/video_writer.h"
 

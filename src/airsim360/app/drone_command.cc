@@ -8,8 +8,8 @@
 #include "airsim360/app/drone_form.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/flight/catalog.h"
-#include "airsim360/flight/flight_check.h"
+#include "airsim360/flight/control/flight_check.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/flight/prompt/gate.h"
 

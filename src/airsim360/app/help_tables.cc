@@ -3,8 +3,8 @@
 
 #include "airsim360/app/help.h"
 #include "airsim360/app/plan_output.h"
-#include "airsim360/dataset/spec.h"
-#include "airsim360/flight/catalog.h"
+#include "airsim360/dataset/record/spec.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/scene/environment.h"
 #include "airsim360/worlds/worlds.h"
 

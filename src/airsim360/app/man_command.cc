@@ -10,7 +10,7 @@
 #include "airsim360/app/help.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/dataset/version.h"
+#include "airsim360/dataset/record/version.h"
 
 namespace airsim360 {
 namespace {

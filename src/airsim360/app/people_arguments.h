@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 #include "airsim360/sim/people/populate.h"
 
 namespace airsim360 {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 

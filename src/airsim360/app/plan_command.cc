@@ -15,13 +15,13 @@
 #include "airsim360/app/plan_waypoints.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
-#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/base/log.h"
+#include "airsim360/math/coordinate_limit.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/knots.h"
 #include "airsim360/planning/point_to_point.h"
 #include "airsim360/routes/world_clearance.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

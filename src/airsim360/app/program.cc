@@ -11,7 +11,7 @@
 #include "airsim360/app/help.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/nearest_name.h"
-#include "airsim360/dataset/version.h"
+#include "airsim360/dataset/record/version.h"
 #include "airsim360/render/vulkan/choose_renderer.h"
 
 namespace airsim360 {

@@ -11,10 +11,10 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/rpc/server.h"
 #include "airsim360/opening/world_environment.h"
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/worlds/props.h"
+#include "airsim360/rpc/server.h"
+#include "airsim360/worlds/props/props.h"
 
 namespace airsim360 {
 namespace {

@@ -7,9 +7,9 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/index.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sim/drone_bodies.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 

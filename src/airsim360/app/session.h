@@ -7,10 +7,10 @@
 
 #include "airsim360/app/commands.h"
 #include "airsim360/dataset/collector.h"
+#include "airsim360/opening/world_environment.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/step.h"
-#include "airsim360/opening/world_environment.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {

@@ -13,9 +13,9 @@
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/scene/entity_table.h"
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/worlds/osm_world.h"
+#include "airsim360/scene/entity_table.h"
+#include "airsim360/worlds/osm/osm_world.h"
 
 namespace airsim360 {
 namespace {

@@ -17,7 +17,7 @@
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/color.h"
 #include "airsim360/image/draw.h"
-#include "airsim360/worlds/world_survey.h"
+#include "airsim360/worlds/survey/world_survey.h"
 
 namespace airsim360 {
 namespace {

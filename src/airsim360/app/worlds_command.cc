@@ -7,8 +7,8 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/base/log.h"
 #include "airsim360/opening/world_loader.h"
-#include "airsim360/worlds/world_floor.h"
-#include "airsim360/worlds/world_survey.h"
+#include "airsim360/worlds/survey/world_floor.h"
+#include "airsim360/worlds/survey/world_survey.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

@@ -4,8 +4,8 @@
 
 #include "airsim360/dataset/people/people_export.h"
 #include "airsim360/dataset/pose_export.h"
+#include "airsim360/dataset/record/version.h"
 #include "airsim360/dataset/summaries.h"
-#include "airsim360/dataset/version.h"
 #include "airsim360/dataset/video.h"
 
 namespace airsim360 {

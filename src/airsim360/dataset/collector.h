@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 #include "airsim360/sim/fly_route.h"
 #include "airsim360/sim/people/people.h"
 

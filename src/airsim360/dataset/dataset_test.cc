@@ -11,8 +11,8 @@
 #include "airsim360/dataset/encode_extra.h"
 #include "airsim360/dataset/folder.h"
 #include "airsim360/dataset/index.h"
+#include "airsim360/dataset/record/version.h"
 #include "airsim360/dataset/verify.h"
-#include "airsim360/dataset/version.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/scene/parts.h"
 

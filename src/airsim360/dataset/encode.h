@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "airsim360/base/file.h"
-#include "airsim360/dataset/record.h"
+#include "airsim360/dataset/record/record.h"
 #include "airsim360/sim/people/labels.h"
 
 namespace airsim360 {

@@ -10,7 +10,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 

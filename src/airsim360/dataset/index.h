@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/dataset/record.h"
+#include "airsim360/dataset/record/record.h"
 
 namespace airsim360 {
 

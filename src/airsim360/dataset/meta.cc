@@ -1,9 +1,9 @@
 // meta.json: what a dataset is, for people and programs.
 #include <nlohmann/json.hpp>
 
-#include "airsim360/dataset/intrinsics.h"
-#include "airsim360/dataset/spec.h"
-#include "airsim360/dataset/version.h"
+#include "airsim360/dataset/record/intrinsics.h"
+#include "airsim360/dataset/record/spec.h"
+#include "airsim360/dataset/record/version.h"
 #include "airsim360/scene/category_colors.h"
 
 namespace airsim360 {

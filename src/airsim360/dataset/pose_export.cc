@@ -4,8 +4,8 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "airsim360/dataset/intrinsics.h"
 #include "airsim360/dataset/people/json_lines.h"
+#include "airsim360/dataset/record/intrinsics.h"
 
 namespace airsim360 {
 namespace {

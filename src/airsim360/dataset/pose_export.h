@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "airsim360/dataset/people/people_export.h"
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "airsim360/worlds/osm_world.h"
+#include "airsim360/worlds/osm/osm_world.h"
 
 namespace airsim360 {
 

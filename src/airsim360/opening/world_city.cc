@@ -4,7 +4,7 @@
 
 #include "airsim360/assets/import.h"
 #include "airsim360/base/error.h"
-#include "airsim360/worlds/massing.h"
+#include "airsim360/worlds/building/massing.h"
 
 namespace airsim360 {
 namespace {

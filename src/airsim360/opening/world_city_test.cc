@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "airsim360/base/error.h"
-#include "airsim360/worlds/placed_models.h"
+#include "airsim360/worlds/props/placed_models.h"
 
 namespace airsim360 {
 namespace {

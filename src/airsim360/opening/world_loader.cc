@@ -11,11 +11,11 @@
 #include "airsim360/base/config.h"
 #include "airsim360/base/disk_cache.h"
 #include "airsim360/base/error.h"
-#include "airsim360/scene/scene_archive.h"
 #include "airsim360/opening/height_file.h"
 #include "airsim360/opening/world_environment.h"
-#include "airsim360/worlds/city_facades.h"
-#include "airsim360/worlds/osm_world.h"
+#include "airsim360/scene/scene_archive.h"
+#include "airsim360/worlds/osm/city_facades.h"
+#include "airsim360/worlds/osm/osm_world.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "airsim360/assets/placement.h"
-#include "airsim360/scene/scene.h"
 #include "airsim360/opening/world_city.h"
-#include "airsim360/worlds/osm_world.h"
+#include "airsim360/scene/scene.h"
+#include "airsim360/worlds/osm/osm_world.h"
 
 namespace airsim360 {
 

@@ -7,7 +7,7 @@ file(MAKE_DIRECTORY ${spirv_dir})
 file(GLOB shaders CONFIGURE_DEPENDS ${shader_dir}/*.rgen ${shader_dir}/*.rchit ${shader_dir}/*.rahit ${shader_dir}/*.rmiss
      ${shader_dir}/*.comp)
 file(GLOB shader_parts CONFIGURE_DEPENDS ${shader_dir}/*.glsl ${shader_dir}/*.h
-     ${CMAKE_CURRENT_SOURCE_DIR}/src/airsim360/render/shading/*.h)
+     ${CMAKE_CURRENT_SOURCE_DIR}/src/airsim360/render/shared/*.h)
 set(spirv "")
 foreach(shader ${shaders})
   get_filename_component(shader_name ${shader} NAME)

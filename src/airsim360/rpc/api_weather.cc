@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "airsim360/rpc/api.h"
 #include "airsim360/opening/world_environment.h"
+#include "airsim360/rpc/api.h"
 
 namespace airsim360 {
 namespace {

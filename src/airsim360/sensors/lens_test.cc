@@ -9,7 +9,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/color.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/sensors/rig.h"
 
 namespace airsim360 {

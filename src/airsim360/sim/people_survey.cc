@@ -9,8 +9,8 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/sim/people/people.h"
 #include "airsim360/routes/roadmap.h"
+#include "airsim360/sim/people/people.h"
 #include "airsim360/trace/whereabouts.h"
 
 namespace airsim360 {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "airsim360/people/crowd/crowd.h"
-#include "airsim360/sensors/sensor_set.h"
 #include "airsim360/routes/route.h"
+#include "airsim360/sensors/sensor_set.h"
 #include "airsim360/sim/sim_drone.h"
 #include "airsim360/sim/world_wind.h"
 #include "airsim360/trace/ray_tracer.h"

@@ -7,9 +7,9 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/sim/fly_route.h"
 #include "airsim360/routes/survey.h"
-#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/sim/fly_route.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/step.h"
 #include "airsim360/worlds/worlds.h"

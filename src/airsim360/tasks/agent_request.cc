@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/tasks/json_fields.h"
 
 namespace airsim360 {

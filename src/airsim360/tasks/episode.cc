@@ -6,7 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/eval/navigation_metrics.h"
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 
 namespace airsim360 {
 namespace {

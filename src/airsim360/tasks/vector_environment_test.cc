@@ -8,7 +8,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {

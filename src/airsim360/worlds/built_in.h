@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "airsim360/scene/scene.h"
-#include "airsim360/worlds/placer.h"
 #include "airsim360/worlds/worlds.h"
+
+namespace airsim360 {
+struct Placement;
+}
 
 namespace airsim360::internal {
 

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "airsim360/render/renderer.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/render/renderer.h"
 
 int main() {
   using namespace airsim360;

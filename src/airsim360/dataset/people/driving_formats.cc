@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <map>
 
-#include "airsim360/base/hash.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
 #include "airsim360/dataset/people/json_lines.h"
 #include "airsim360/dataset/people/people_export.h"
 #include "airsim360/dataset/people/person_record.h"

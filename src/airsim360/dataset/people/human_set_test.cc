@@ -4,9 +4,9 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/dataset/people/human_set.h"
+#include "airsim360/opening/world_loader.h"
 #include "airsim360/people/navigation/test_ground.h"
 #include "airsim360/sim/people/populate.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {

@@ -14,8 +14,8 @@
 #include "airsim360/dataset/people/person_record.h"
 #include "airsim360/dataset/verify.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/sim/people/populate.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/sim/people/populate.h"
 
 namespace airsim360 {
 namespace {

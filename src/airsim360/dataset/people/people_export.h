@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/dataset/spec.h"
+#include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 

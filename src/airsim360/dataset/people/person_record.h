@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/dataset/record.h"
+#include "airsim360/dataset/record/record.h"
 #include "airsim360/image/image.h"
 #include "airsim360/sim/people/labels.h"
 

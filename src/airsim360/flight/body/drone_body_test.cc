@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/design.h"
 
 namespace airsim360 {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "airsim360/flight/catalog.h"
 #include "airsim360/flight/control/attitude.h"
-#include "airsim360/flight/flight_check.h"
+#include "airsim360/flight/control/flight_check.h"
+#include "airsim360/flight/drones/catalog.h"
 
 namespace airsim360 {
 namespace {

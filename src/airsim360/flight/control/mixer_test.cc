@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
-#include "airsim360/flight/catalog.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/design.h"
 
 namespace airsim360 {

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "airsim360/base/error.h"
-#include "airsim360/flight/catalog.h"
-#include "airsim360/flight/fleet.h"
+#include "airsim360/flight/drones/catalog.h"
+#include "airsim360/flight/drones/fleet.h"
 
 namespace airsim360 {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "airsim360/flight/catalog.h"
-#include "airsim360/flight/flight_check.h"
+#include "airsim360/flight/control/flight_check.h"
+#include "airsim360/flight/drones/catalog.h"
 #include "airsim360/flight/prompt/design.h"
 #include "airsim360/flight/prompt/gate.h"
 #include "airsim360/flight/prompt/sample_prompts.h"

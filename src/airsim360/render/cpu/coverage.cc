@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/render/cpu/antialias.h"
+#include "airsim360/render/frame/antialias.h"
 
 namespace airsim360::internal {
 namespace {

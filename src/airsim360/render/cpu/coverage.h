@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "airsim360/render/cpu/camera_rays.h"
-#include "airsim360/render/cpu/packet_tracer.h"
+#include "airsim360/render/frame/camera_rays.h"
+#include "airsim360/render/frame/packet_tracer.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360::internal {

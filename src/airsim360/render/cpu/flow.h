@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "airsim360/render/cpu/camera_rays.h"
-#include "airsim360/render/cpu/tile_pixels.h"
+#include "airsim360/render/frame/camera_rays.h"
+#include "airsim360/render/frame/tile_pixels.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360::internal {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/relightable.h"
 #include "airsim360/render/renderer.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {

@@ -5,7 +5,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shader_impl.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal {
 namespace {

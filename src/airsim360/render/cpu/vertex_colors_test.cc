@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "airsim360/render/cpu/test_colors.h"
+#include "airsim360/render/frame/test_colors.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {

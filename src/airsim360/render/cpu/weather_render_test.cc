@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {

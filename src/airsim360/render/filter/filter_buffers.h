@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "airsim360/base/table_vector.h"
-#include "airsim360/render/cpu/camera_rays.h"
 #include "airsim360/render/filter/denoiser.h"
 #include "airsim360/render/filter/filter_planes.h"
+#include "airsim360/render/frame/camera_rays.h"
 
 namespace airsim360::internal {
 

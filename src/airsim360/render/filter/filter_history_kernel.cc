@@ -1,7 +1,7 @@
 // Kernel: light of the last frame where the same point is seen again, and what is kept for the next.
 #include "airsim360/render/filter/filter_kernels.h"
 #include "airsim360/render/filter/filter_simd.h"
-#include "airsim360/render/shading/lane_gather.h"
+#include "airsim360/render/shared/lane_gather.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

@@ -8,7 +8,7 @@
 #include <initializer_list>
 
 #include "airsim360/render/filter/filter_planes.h"
-#include "airsim360/render/shading/shading_simd.h"
+#include "airsim360/render/shared/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 

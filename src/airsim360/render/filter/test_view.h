@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "airsim360/base/random.h"
-#include "airsim360/render/cpu/test_room.h"
 #include "airsim360/render/filter/denoiser.h"
+#include "airsim360/render/frame/test_room.h"
 
 namespace airsim360::internal {
 

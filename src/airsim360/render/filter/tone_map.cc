@@ -6,7 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360 {
 

@@ -7,7 +7,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/image/color.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 
 namespace airsim360 {
 namespace {

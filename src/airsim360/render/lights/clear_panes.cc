@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {

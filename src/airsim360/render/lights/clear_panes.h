@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/surface/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

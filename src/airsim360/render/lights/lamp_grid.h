@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "airsim360/render/lights/light_table.h"
-#include "airsim360/render/shading/shading_data.h"
+#include "airsim360/render/shared/shading_data.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

@@ -1,6 +1,6 @@
 // Kernel: light of the lamps around each surface, all lamps of its cell at once.
-#include "airsim360/render/shading/shading_kernels.h"
-#include "airsim360/render/shading/shading_simd.h"
+#include "airsim360/render/shared/shading_kernels.h"
+#include "airsim360/render/shared/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

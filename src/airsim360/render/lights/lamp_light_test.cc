@@ -8,7 +8,7 @@
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/secondary_rays.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "airsim360/render/lights/light_tree.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/surface/surface_tables.h"
 #include "airsim360/scene/environment.h"
 #include "airsim360/scene/scene.h"
 

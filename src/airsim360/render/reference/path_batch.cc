@@ -5,7 +5,7 @@
 
 #include "airsim360/render/reference/path_rays.h"
 #include "airsim360/render/shading/secondary_rays.h"
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {

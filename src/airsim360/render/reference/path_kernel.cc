@@ -1,6 +1,6 @@
 // Kernel: what surfaces do with the paths of tier `reference`.
 #include "airsim360/render/reference/path_kernels.h"
-#include "airsim360/render/shading/shading_simd.h"
+#include "airsim360/render/shared/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

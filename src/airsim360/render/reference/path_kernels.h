@@ -2,7 +2,7 @@
 #pragma once
 
 #include "airsim360/base/kernel_isa.h"
-#include "airsim360/render/shading/shading_data.h"
+#include "airsim360/render/shared/shading_data.h"
 
 namespace airsim360::internal {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/frame/camera_rays.h"
 #include "airsim360/render/shading/shader.h"
 
 namespace airsim360::internal {

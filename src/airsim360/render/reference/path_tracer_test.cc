@@ -7,11 +7,11 @@
 #include <cstring>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/render/cpu/test_room.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/reference/path_lights.h"
 #include "airsim360/render/reference/statistics.h"
-#include "airsim360/render/shading/shading_scalar.h"
-#include "airsim360/render/shading/sky.h"
+#include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/render/sky/sky.h"
 
 namespace airsim360 {
 namespace {

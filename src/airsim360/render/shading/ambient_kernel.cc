@@ -1,6 +1,6 @@
 // Kernel: rays that look for ambient light, what they bring, and scattered reflections (tier `high`).
-#include "airsim360/render/shading/shading_ambient.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_ambient.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

@@ -1,6 +1,6 @@
 // Kernel: from surfaces and their visibility of the sun to radiance; the sky itself; display colours.
-#include "airsim360/render/shading/shading_ambient.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_ambient.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/shading/probe_rays.h"
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {

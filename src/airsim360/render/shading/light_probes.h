@@ -7,9 +7,9 @@
 
 #include "airsim360/base/table_vector.h"
 #include "airsim360/render/shading/probe_rays.h"
-#include "airsim360/render/shading/shading_data.h"
-#include "airsim360/render/shading/sky.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/shared/shading_data.h"
+#include "airsim360/render/sky/sky.h"
+#include "airsim360/render/surface/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

@@ -1,6 +1,6 @@
 // Kernel: rain and snow in the air before the picture.
-#include "airsim360/render/shading/shading_kernels.h"
-#include "airsim360/render/shading/shading_simd.h"
+#include "airsim360/render/shared/shading_kernels.h"
+#include "airsim360/render/shared/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

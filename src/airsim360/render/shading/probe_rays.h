@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "airsim360/render/shading/sky.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/sky/sky.h"
+#include "airsim360/render/surface/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

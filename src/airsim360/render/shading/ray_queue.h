@@ -1,7 +1,7 @@
 // Collecting single rays into packets.
 #pragma once
 
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

@@ -4,13 +4,13 @@
 #include <cstdint>
 
 #include "airsim360/math/vector.h"
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 
 #define SHARED inline
 #define word uint32_t
-#include "airsim360/render/shading/shading_points.h"
+#include "airsim360/render/shared/shading_points.h"
 #undef SHARED
 #undef word
 

@@ -5,7 +5,7 @@
 
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shading/ray_queue.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal {
 

@@ -4,8 +4,8 @@
 #include <bit>
 
 #include "airsim360/render/shading/ray_queue.h"
-#include "airsim360/render/shading/shading_data.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/shared/shading_data.h"
+#include "airsim360/render/surface/surface_tables.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

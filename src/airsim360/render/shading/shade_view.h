@@ -2,9 +2,9 @@
 #pragma once
 
 #include "airsim360/render/shading/light_probes.h"
-#include "airsim360/render/shading/shading_data.h"
-#include "airsim360/render/shading/sky.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/shared/shading_data.h"
+#include "airsim360/render/sky/sky.h"
+#include "airsim360/render/surface/surface_tables.h"
 
 namespace airsim360::internal {
 

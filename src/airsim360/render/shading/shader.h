@@ -7,7 +7,7 @@
 #include "airsim360/image/image.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/renderer.h"
-#include "airsim360/render/shading/sun_pixels.h"
+#include "airsim360/render/sky/sun_pixels.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {

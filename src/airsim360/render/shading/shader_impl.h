@@ -9,9 +9,9 @@
 #include "airsim360/render/lights/light_table.h"
 #include "airsim360/render/shading/light_probes.h"
 #include "airsim360/render/shading/shader.h"
-#include "airsim360/render/shading/shading_kernels.h"
-#include "airsim360/render/shading/sky.h"
-#include "airsim360/render/shading/surface_tables.h"
+#include "airsim360/render/shared/shading_kernels.h"
+#include "airsim360/render/sky/sky.h"
+#include "airsim360/render/surface/surface_tables.h"
 
 namespace airsim360 {
 

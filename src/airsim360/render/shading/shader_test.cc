@@ -8,7 +8,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/render/shading/shade_view.h"
-#include "airsim360/render/shading/shading_kernels.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360 {
 namespace {

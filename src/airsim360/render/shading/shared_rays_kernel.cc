@@ -1,6 +1,6 @@
 #include "airsim360/render/shading/shared_rays_kernel.h"
 
-#include "airsim360/render/shading/shading_simd.h"
+#include "airsim360/render/shared/shading_simd.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 
 #define SHARED KERNEL
 #define word uint32_t
-#include "airsim360/render/shading/shading_points.h"
+#include "airsim360/render/shared/shading_points.h"
 #undef SHARED
 #undef word
 

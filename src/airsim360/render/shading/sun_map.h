@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "airsim360/base/table_vector.h"
-#include "airsim360/render/shading/shading_data.h"
+#include "airsim360/render/shared/shading_data.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360::internal {

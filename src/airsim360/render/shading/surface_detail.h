@@ -2,8 +2,8 @@
 // use and wear of grounds, rooms behind panes, waves, and the weather that lies on everything.
 #pragma once
 
-#include "airsim360/render/shading/shading_ambient.h"
 #include "airsim360/render/shading/surface_fetch.h"
+#include "airsim360/render/shared/shading_ambient.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 

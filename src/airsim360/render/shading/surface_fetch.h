@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "airsim360/render/shading/lane_gather.h"
-#include "airsim360/render/shading/shading_texture.h"
+#include "airsim360/render/shared/lane_gather.h"
+#include "airsim360/render/shared/shading_texture.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 

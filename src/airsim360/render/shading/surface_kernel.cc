@@ -1,6 +1,6 @@
 // Kernel: from hits to surfaces (geometry, material, textures), all lanes at once.
-#include "airsim360/render/shading/shading_kernels.h"
 #include "airsim360/render/shading/surface_detail.h"
+#include "airsim360/render/shared/shading_kernels.h"
 
 namespace airsim360::internal::AIRSIM360_ISA {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/render/shading/shade_view.h"
-#include "airsim360/render/shading/shading_kernels.h"
-#include "airsim360/render/shading/shading_scalar.h"
+#include "airsim360/render/shared/shading_kernels.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360 {
 namespace {

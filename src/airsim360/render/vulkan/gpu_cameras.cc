@@ -6,8 +6,8 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
-#include "airsim360/render/cpu/antialias.h"
-#include "airsim360/render/cpu/high_frame.h"
+#include "airsim360/render/frame/antialias.h"
+#include "airsim360/render/high/high_frame.h"
 #include "airsim360/render/reference/path_tracer.h"
 
 namespace airsim360::internal {

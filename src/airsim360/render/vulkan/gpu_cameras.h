@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "airsim360/render/cpu/camera_rays.h"
+#include "airsim360/render/frame/camera_rays.h"
 #include "airsim360/render/vulkan/gpu_memory.h"
 #include "airsim360/render/vulkan/gpu_records.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
-#include "airsim360/render/shading/bent_normals.h"
+#include "airsim360/render/surface/bent_normals.h"
 
 namespace airsim360::internal {
 namespace {

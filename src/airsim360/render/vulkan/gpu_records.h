@@ -12,10 +12,10 @@ using uint = uint32_t;
 struct uvec2 {
   uint32_t x, y;
 };
-#include "airsim360/render/vulkan/shaders/records.h"
-#include "airsim360/render/vulkan/shaders/shade_records.h"
 #include "airsim360/render/vulkan/shaders/high_records.h"
 #include "airsim360/render/vulkan/shaders/path_records.h"
+#include "airsim360/render/vulkan/shaders/records.h"
+#include "airsim360/render/vulkan/shaders/shade_records.h"
 #undef ADDRESS
 
 inline constexpr uint32_t kGpuHasUvs = 1, kGpuSorted = 2, kGpuHasEntities = 4, kGpuHasColors = 8;

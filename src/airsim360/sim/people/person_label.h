@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "airsim360/math/transform.h"
 #include "airsim360/people/annotation/sphere_box.h"
 #include "airsim360/people/person_state.h"
 #include "airsim360/people/skeleton.h"
-#include "airsim360/math/transform.h"
 #include "airsim360/scene/mesh.h"
 
 namespace airsim360 {

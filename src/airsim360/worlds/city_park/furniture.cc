@@ -5,8 +5,8 @@
 #include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
 #include "airsim360/worlds/city_park/road_parts.h"
-#include "airsim360/worlds/district.h"
-#include "airsim360/worlds/market_stall.h"
+#include "airsim360/worlds/town/district.h"
+#include "airsim360/worlds/town/market_stall.h"
 
 namespace airsim360::internal::park {
 namespace {

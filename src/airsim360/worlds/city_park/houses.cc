@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "airsim360/worlds/city_park/park.h"
-#include "airsim360/worlds/district.h"
-#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
+#include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal::park {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "airsim360/worlds/city_park/road_parts.h"
-#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
 
 namespace airsim360::internal::park {
 namespace {

@@ -8,7 +8,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/color.h"
 #include "airsim360/worlds/city_park/noise.h"
-#include "airsim360/worlds/texture_synth.h"
+#include "airsim360/worlds/texture/texture_synth.h"
 
 namespace airsim360::internal::park {
 namespace {

@@ -8,8 +8,8 @@
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/city_park/layout.h"
 #include "airsim360/worlds/city_park/materials.h"
-#include "airsim360/worlds/placer.h"
-#include "airsim360/worlds/surfaces.h"
+#include "airsim360/worlds/props/placer.h"
+#include "airsim360/worlds/texture/surfaces.h"
 
 namespace airsim360::internal::park {
 

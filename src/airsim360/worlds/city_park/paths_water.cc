@@ -5,7 +5,7 @@
 
 #include "airsim360/worlds/city_park/noise.h"
 #include "airsim360/worlds/city_park/park.h"
-#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
 
 namespace airsim360::internal::park {
 namespace {

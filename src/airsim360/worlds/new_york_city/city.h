@@ -1,8 +1,8 @@
 // The parts of new_york_city that its builder puts together.
 #pragma once
 
-#include "airsim360/worlds/district.h"
 #include "airsim360/worlds/new_york_city/manhattan.h"
+#include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 
@@ -10,10 +10,6 @@ namespace airsim360::internal {
 struct Density {
   double traffic = 1, trees = 1, furniture = 1;
 };
-
-/// A prop as an entity with a name of its own.
-EntityId PlaceNamed(District& district, std::string name, std::string_view kind, Vec3f p, float yaw,
-                    uint32_t variant = 0, float scale = 1, Vec3f tint = {1, 1, 1});
 
 /// Planted islands in the middle of the boulevards.
 void LayMedians(District& district, const std::vector<StreetStretch>& streets);

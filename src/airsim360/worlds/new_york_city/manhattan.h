@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/worlds/massing.h"
+#include "airsim360/worlds/building/massing.h"
 
 namespace airsim360::internal {
 

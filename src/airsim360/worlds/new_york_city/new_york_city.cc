@@ -1,8 +1,8 @@
 // new_york_city: a crossing of avenues and streets in Midtown, with a park, people-free.
-#include "airsim360/worlds/buildings.h"
 #include "airsim360/worlds/built_in.h"
 #include "airsim360/worlds/new_york_city/city.h"
-#include "airsim360/worlds/placed_models.h"
+#include "airsim360/worlds/props/placed_models.h"
+#include "airsim360/worlds/town/buildings.h"
 
 namespace airsim360::internal {
 

@@ -55,14 +55,6 @@ void RaiseRoofBoard(District& d, const Lot& lot, const WallLine& wall, std::stri
 
 }  // namespace
 
-EntityId PlaceNamed(District& d, std::string name, std::string_view kind, Vec3f p, float yaw,
-                    uint32_t variant, float scale, Vec3f tint) {
-  const EntityId entity =
-      d.builder.AddEntity(std::move(name), d.builder.tree().At(FindPropKind(kind).category));
-  d.placer.shelf().PlaceAs(entity, kind, PlaceUpright(p, yaw, scale), variant, tint);
-  return entity;
-}
-
 void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed) {
   RngStream rng(seed, "murals");
   for (BuildingPlan& plan : city.buildings) {

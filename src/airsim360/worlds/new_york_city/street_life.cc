@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/facade.h"
+#include "airsim360/worlds/building/facade.h"
 #include "airsim360/worlds/new_york_city/city.h"
 
 namespace airsim360::internal {

@@ -13,7 +13,7 @@
 
 #include "airsim360/math/geodesy.h"
 #include "airsim360/math/vector.h"
-#include "airsim360/worlds/map_cut.h"
+#include "airsim360/worlds/osm/map_cut.h"
 
 namespace airsim360::internal {
 

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/district.h"
 #include "airsim360/worlds/osm/osm_streets.h"
+#include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 

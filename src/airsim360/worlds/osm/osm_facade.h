@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/facade.h"
-#include "airsim360/worlds/facade_bays.h"
+#include "airsim360/worlds/building/facade.h"
+#include "airsim360/worlds/building/facade_bays.h"
 #include "airsim360/worlds/osm/osm_data.h"
 
 namespace airsim360::internal {

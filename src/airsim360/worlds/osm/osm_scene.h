@@ -8,14 +8,14 @@
 #include <tuple>
 #include <vector>
 
+#include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/osm/line_index.h"
 #include "airsim360/worlds/osm/osm_buildings.h"
 #include "airsim360/worlds/osm/osm_relief.h"
-#include "airsim360/worlds/osm_world.h"
-#include "airsim360/worlds/mesh_builder.h"
-#include "airsim360/worlds/placer.h"
-#include "airsim360/worlds/props.h"
-#include "airsim360/worlds/surfaces.h"
+#include "airsim360/worlds/osm/osm_world.h"
+#include "airsim360/worlds/props/placer.h"
+#include "airsim360/worlds/props/props.h"
+#include "airsim360/worlds/texture/surfaces.h"
 
 namespace airsim360::internal {
 

@@ -9,7 +9,7 @@
 
 #include "airsim360/base/file.h"
 #include "airsim360/math/vector.h"
-#include "airsim360/worlds/osm_world.h"
+#include "airsim360/worlds/osm/osm_world.h"
 
 namespace airsim360::internal {
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "airsim360/worlds/osm/osm_areas.h"
+#include "airsim360/worlds/osm/test_real_towns.h"
 #include "airsim360/worlds/osm/town_map.h"
-#include "airsim360/worlds/test_real_towns.h"
 
 namespace airsim360::internal {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "airsim360/base/random.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
-#include "airsim360/worlds/sign_lettering.h"
+#include "airsim360/worlds/texture/sign_lettering.h"
 
 namespace airsim360::internal {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "airsim360/worlds/props.h"
+#include "airsim360/worlds/props/props.h"
 
 namespace airsim360::internal {
 

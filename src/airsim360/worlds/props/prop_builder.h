@@ -7,7 +7,7 @@
 #include <string>
 
 #include "airsim360/scene/model_source.h"
-#include "airsim360/worlds/mesh_builder.h"
+#include "airsim360/worlds/kit/mesh_builder.h"
 
 namespace airsim360::internal {
 

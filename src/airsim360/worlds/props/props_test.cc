@@ -1,4 +1,4 @@
-#include "airsim360/worlds/props.h"
+#include "airsim360/worlds/props/props.h"
 
 #include <gtest/gtest.h>
 

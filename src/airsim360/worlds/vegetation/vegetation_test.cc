@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "airsim360/worlds/props.h"
+#include "airsim360/worlds/props/props.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
 
 namespace airsim360::internal {

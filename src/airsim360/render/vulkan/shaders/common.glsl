@@ -33,11 +33,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Frames { Gpu
 layout(push_constant, scalar) uniform Push { Frames frame; int pass; int paths; } push;
 
 // The source that all back ends share; more in shade.glsl.
-#include "airsim360/render/shading/shading_glsl.h"
-#include "airsim360/render/shading/shading_shared.h"
+#include "airsim360/render/shared/shading_glsl.h"
+#include "airsim360/render/shared/shading_shared.h"
 #define word uint
 #define reverse_bits bitfieldReverse
-#include "airsim360/render/shading/shading_points.h"
+#include "airsim360/render/shared/shading_points.h"
 
 const uint kMiss = 0xffffffffu;
 const uint kHasUvs = 1, kSorted = 2, kHasEntities = 4, kHasColors = 8;

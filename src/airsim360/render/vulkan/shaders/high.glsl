@@ -1,4 +1,4 @@
-// Tier `high`: what its passes keep of a frame, plane after plane of one number a canonical pixel (render/cpu/high_buffers.h,
+// Tier `high`: what its passes keep of a frame, plane after plane of one number a canonical pixel (render/high/high_buffers.h,
 // render/filter/filter_planes.h), and its even random points (render/shading/sampling.h).
 
 const uint kRange = 0, kId = 1, kShadingNormal = 2, kLight = 5, kData = 11, kSamples = 13, kWindow = 14, kOwn = 15, kLoose = 16,

@@ -1,5 +1,5 @@
 // Lights of tier `reference`: the sun's disc, the sky, lamps (render/reference/path_lights.cc, render/lights/light_tree.cc,
-// render/shading/sky_sampler.cc for one lane).
+// render/sky/sky_sampler.cc for one lane).
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightNodes;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PathLamps;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LampParts;

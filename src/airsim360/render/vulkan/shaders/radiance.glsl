@@ -1,5 +1,5 @@
 // Tier `fast`: the radiance along one ray. Sun, probes, lamps and sky; mirrors and clear panes send their ray on, once.
-// With HIGH: the terms of it for tier `high` (render/shading/high_shading.cc).
+// With HIGH: the terms of it for tier `high` (render/high/high_shading.cc).
 //
 // All rays are traced at one place of the shader, a step of the loop each: compilers copy what follows a trace for every place
 // that traces.

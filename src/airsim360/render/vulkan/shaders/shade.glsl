@@ -19,13 +19,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { Gpu
 
 // A name of the header that GLSL keeps for itself.
 #define in in_
-#include "airsim360/render/shading/shading_bsdf.h"
+#include "airsim360/render/shared/shading_bsdf.h"
 #undef in
-#include "airsim360/render/shading/shading_air.h"
-#include "airsim360/render/shading/shading_tone.h"
-#include "airsim360/render/shading/shading_interior.h"
-#include "airsim360/render/shading/shading_weather.h"
-#include "airsim360/render/shading/shading_ground.h"
+#include "airsim360/render/shared/shading_air.h"
+#include "airsim360/render/shared/shading_tone.h"
+#include "airsim360/render/shared/shading_interior.h"
+#include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_ground.h"
 
 const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;
 const uint kMirroredUv = 0x80000000u;

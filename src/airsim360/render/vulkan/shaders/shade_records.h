@@ -1,4 +1,4 @@
-// The shading tables of render/shading/shading_data.h as shaders read them. Included as records.h is.
+// The shading tables of render/shared/shading_data.h as shaders read them. Included as records.h is.
 
 struct GpuTriangle {
   uint normals[3];

@@ -1,4 +1,4 @@
-// Light from tables: sky, probes, air, shadows of clouds (render/shading/shading_ambient.h, shading_air_view.h).
+// Light from tables: sky, probes, air, shadows of clouds (render/shared/shading_ambient.h, shading_air_view.h).
 
 vec3 SampleSky(GpuSky table, vec3 d, bool full_sphere) {
   float column = atan2_approx(d.y, d.x) * (table.width / (2.0 * SHADE_PI)) - 0.5;

@@ -1,4 +1,4 @@
-// Filtered look-ups of textures: render/shading/shading_texture.h for one lane.
+// Filtered look-ups of textures: render/shared/shading_texture.h for one lane.
 
 float FoldCoordinate(float x, uint wrap) {
   if (wrap == 0) return x - floor(x);

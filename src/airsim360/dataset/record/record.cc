@@ -1,0 +1,66 @@
+#include "airsim360/dataset/record/record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "airsim360/dataset/record/intrinsics.h"
+
+namespace airsim360 {
+namespace {
+
+nlohmann::ordered_json Array(Vec3d v) { return {v.x, v.y, v.z}; }
+
+nlohmann::ordered_json PoseJson(const RigidTransform& X) {
+  const Quaternion q = ToQuaternion(X.R);
+  return {{"p", Array(X.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}};
+}
+
+// Pose, next pose and intrinsics of one camera of a rig.
+nlohmann::ordered_json CameraJson(const ViewRecord& record, const View& view) {
+  nlohmann::ordered_json json = {{"X_WC", PoseJson(record.X_WC)}};
+  if (record.X_WC_next) json["X_WC_next"] = PoseJson(*record.X_WC_next);
+  if (const auto K = IntrinsicsJson(view.camera); !K.is_null()) json["K"] = K;
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json IntrinsicsJson(const Camera& camera) {
+  const auto json = [](const char* model, const auto& c, const std::vector<double>& distortion) {
+    return nlohmann::ordered_json{{"model", model}, {"width", c.width}, {"height", c.height}, {"fx", c.fx},
+                                  {"fy", c.fy},     {"cx", c.cx},       {"cy", c.cy},         {"distortion", distortion}};
+  };
+  if (const auto* pinhole = std::get_if<Pinhole>(&camera)) return json("PINHOLE", *pinhole, {});
+  if (const auto* fisheye = std::get_if<Fisheye>(&camera))
+    return json("OPENCV_FISHEYE", *fisheye, {fisheye->k.begin(), fisheye->k.end()});
+  return nullptr;
+}
+
+std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
+  nlohmann::ordered_json sha256;
+  for (const FileRecord& file : frame.files) sha256[file.key] = file.sha256;
+  nlohmann::ordered_json json = {{"index", frame.index},
+                                 {"stem", Stem(frame.index)},
+                                 {"t_ns", frame.t_ns},
+                                 {"world", spec.world},
+                                 {"X_WC", PoseJson(frame.X_WC)},
+                                 {"v_WB", Array(frame.body.v_WB)},
+                                 {"w_WB_B", Array(frame.body.w_WB_B)},
+                                 {"pano_frame", spec.pano_frame == PanoFrame::kLevel ? "level" : "body"},
+                                 {"seed", spec.seed},
+                                 {"range_min", frame.range_min},
+                                 {"range_median", frame.range_median}};
+  if (!frame.views.empty() && frame.views[0].X_WC_next) json["X_WC_next"] = PoseJson(*frame.views[0].X_WC_next);
+  const std::vector<View> views = Views(spec);
+  if (spec.cameras.empty()) {
+    if (const auto K = IntrinsicsJson(views[0].camera); !K.is_null()) json["K"] = K;
+  } else {
+    json["X_WB"] = PoseJson(frame.body.X_WB);
+    for (size_t v = 0; v < frame.views.size(); ++v) {
+      if (!json["cameras"].contains(views[v].name)) json["cameras"][views[v].name] = CameraJson(frame.views[v], views[v]);
+    }
+  }
+  json["sha256"] = sha256;
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace airsim360

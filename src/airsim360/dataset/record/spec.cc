@@ -1,0 +1,110 @@
+#include "airsim360/dataset/record/spec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace airsim360 {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+}  // namespace
+
+namespace {
+
+// The views of one camera; its name and place are the caller's.
+std::vector<View> ViewsOf(const RigCamera& spec) {
+  const int w = spec.width, h = spec.height;
+  const double fov = spec.fov_deg * kRadians;
+  switch (spec.projection) {
+    case Projection::kErp:
+      return {{"", Equirectangular{w, h}, spec.projection}};
+    case Projection::kPinhole: {
+      const double f = 0.5 * w / std::tan(0.5 * fov);
+      const Pinhole camera{.width = w, .height = h, .fx = f, .fy = f, .cx = 0.5 * w, .cy = 0.5 * h};
+      return {{"", camera, spec.projection}};
+    }
+    case Projection::kFisheye:
+      return {{"", Fisheye::Equidistant(w, h, fov), spec.projection}};
+    case Projection::kCube:
+      break;
+  }
+  std::vector<View> faces;
+  for (int face = 0; face < 6; ++face) {
+    faces.push_back({std::string("_") + kCubeFaceNames[face], CubeFace{static_cast<CubeFaceName>(face), w},
+                     spec.projection});
+  }
+  return faces;
+}
+
+}  // namespace
+
+std::vector<View> Views(const DatasetSpec& spec) {
+  if (spec.cameras.empty()) {
+    return ViewsOf({.name = "",
+                    .projection = spec.projection,
+                    .width = spec.width,
+                    .height = spec.height,
+                    .fov_deg = spec.fov_deg,
+                    .p_B = {}});
+  }
+  std::vector<View> views;
+  for (const RigCamera& camera : spec.cameras) {
+    const RigidTransform X_BM =
+        BodyPose(camera.p_B, camera.yaw_deg * kRadians, camera.pitch_deg * kRadians, camera.roll_deg * kRadians);
+    for (View& view : ViewsOf(camera)) {
+      view.suffix = "_" + camera.name + view.suffix;
+      view.X_BC = X_BM * CameraInBody();
+      view.name = camera.name;
+      views.push_back(std::move(view));
+    }
+  }
+  return views;
+}
+
+bool IsPanoramic(const DatasetSpec& spec) {
+  return std::ranges::all_of(Views(spec), [](const View& view) { return view.projection == Projection::kErp; });
+}
+
+Products ProductsOf(const DatasetSpec& spec) {
+  return {.rgb = spec.tier != Tier::kLabels,
+          .range = true,
+          .semantic = true,
+          .entity = true,
+          .normal = spec.normal,
+          .position = spec.position,
+          .albedo = spec.albedo,
+          .material = spec.material || spec.part,
+          .coverage = spec.coverage,
+          .flow = spec.flow,
+          .radiance = spec.radiance && spec.tier != Tier::kLabels};
+}
+
+std::string Stem(int64_t index) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%06lld", static_cast<long long>(index));
+  return text;
+}
+
+std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
+  std::vector<ProductFolder> folders;
+  if (spec.tier != Tier::kLabels)
+    folders.push_back({"rgb", spec.rgb_format == RgbFormat::kJpeg ? ".jpg" : ".png"});
+  folders.push_back({"range", ".exr"});
+  folders.push_back({"semantic", ".png"});
+  folders.push_back({"entity", ".png"});
+  for (const OptionalProduct& product : kOptionalProducts) {
+    if (spec.*product.wanted) folders.push_back({product.name, product.extension});
+  }
+  if (spec.radiance && spec.tier != Tier::kLabels) folders.push_back({"radiance", ".exr"});
+  return folders;
+}
+
+bool NeedsWideSemantics(const Scene& scene) {
+  return std::any_of(scene.entities.begin(), scene.entities.end(),
+                     [](const Entity& entity) { return entity.category > 255; });
+}
+
+}  // namespace airsim360

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+
+#include "airsim360/render/high/high_rays.h"
+#include "airsim360/render/shading/sampling.h"
+#include "airsim360/render/shading/shared_rays_kernel.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kFoliage = 1;  // SurfaceKind
+constexpr int kAtOnce = 4;     // rays of a pixel that are traced before their light is looked up
+
+// The ambient rays of one tile.
+class AmbientTile {
+ public:
+  AmbientTile(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
+              const RaySet& rays, const SurfaceSet& s, HighTile& tile)
+      : shader_(shader),
+        sun_map_(sun_map),
+        sampling_(sampling),
+        rays_(rays),
+        s_(s),
+        tile_(tile),
+        slots_(shader.tracer->slots()),
+        first_slots_(shader.tracer->first_slots()) {
+    for (Way& way : way_) {
+      for (int i = 0; i < 16; ++i) {
+        way.packet.mask[i] = kMaskSolid;  // clear panes let light pass
+        way.hits.shines[i] = 1;
+      }
+    }
+  }
+
+  // All rays of up to sixteen surfaces of one phase.
+  void GatherPhase(int phase, const int* surfaces, int count) {
+    any_leaf_ = false;
+    for (int i = 0; i < 16; ++i) {
+      index_[i] = surfaces[i < count ? i : 0];
+      valid_[i] = i < count ? -1 : 0;
+      leaf_[i] = s_.kind[index_[i]] == kFoliage && s_.transmission[index_[i]] > 0;
+      any_leaf_ |= leaf_[i];
+    }
+    shader_.kernels.gather_origins(rays_, s_, index_, origins_);
+    // A whole number of rays, right on average over the phases.
+    const uint32_t place = sampling_.tile * 16 + static_cast<uint32_t>(phase);
+    const uint32_t first = first_ray(place, sampling_.ambient_rays, sampling_.seed);
+    const int samples = static_cast<int>(first_ray(place + 1, sampling_.ambient_rays, sampling_.seed) - first);
+    const int first_side = std::popcount(place);
+    std::fill(std::begin(sum_r_), std::end(sum_r_), 0.0f);
+    std::fill(std::begin(sum_g_), std::end(sum_g_), 0.0f);
+    std::fill(std::begin(sum_b_), std::end(sum_b_), 0.0f);
+    for (int begin = 0; begin < samples; begin += kAtOnce) {
+      const int end = std::min(samples, begin + kAtOnce);
+      for (int k = begin; k < end; ++k) {
+        // Leaves look to both sides in turn; whose turn it is first must not go with the ray's number.
+        const bool behind = ((k + first_side) & 1) != 0;
+        Trace(SharedPoint(first + static_cast<uint32_t>(k)), behind, way_[k - begin]);
+      }
+      for (int k = begin; k < end; ++k) {
+        // Each side stands for the rays that were not sent to the other, too.
+        const int alike = (samples + 1 - (k & 1)) / 2;
+        AddLight(way_[k - begin], samples == 1 ? 2.0f : static_cast<float>(samples) / static_cast<float>(alike));
+      }
+    }
+    constexpr float kPi = 3.14159265f;
+    const float scale = kPi / static_cast<float>(samples);
+    for (int i = 0; i < count; ++i) {
+      const uint32_t slot = rays_.slot[index_[i]];
+      tile_.light_samples[slot] = static_cast<uint8_t>(std::min(samples, 255));
+      tile_.light_r[slot] = sum_r_[i] * scale, tile_.light_g[slot] = sum_g_[i] * scale,
+      tile_.light_b[slot] = sum_b_[i] * scale;
+    }
+  }
+
+ private:
+  // A point of the sphere; the phases ask for one after the other.
+  Vec3f SharedPoint(uint32_t index) {
+    static const auto share = AIRSIM360_SELECT_KERNEL(SharedSphere);
+    if (index - first_point_ >= 16u) share(first_point_ = index, sampling_.seed, x_, y_, z_);
+    const uint32_t i = index - first_point_;
+    return {x_[i], y_[i], z_[i]};
+  }
+
+  // Sixteen rays and what they met.
+  struct Way {
+    RayHit16 packet{};
+    AmbientHits hits{};
+    alignas(64) int sent[16];
+    bool behind;
+  };
+
+  // Light comes later: what it needs of the surfaces met is on its way to the cache meanwhile.
+  void Trace(Vec3f sphere, bool behind, Way& way) {
+    RayHit16& packet = way.packet;
+    way.behind = behind;
+    for (int i = 0; i < 16; ++i) side_[i] = behind && leaf_[i] ? -1.0f : 1.0f;
+    shader_.kernels.ambient_rays(origins_, side_, &sphere.x, packet);
+    for (int i = 0; i < 16; ++i) packet.t_far[i] = INFINITY;
+    for (int i = 0; i < 16; ++i) way.sent[i] = valid_[i];
+    for (int i = 0; i < 16 && any_leaf_; ++i) {
+      if (leaf_[i] && OnOtherSide(i, sphere)) way.sent[i] = 0;
+    }
+    shader_.tracer->Intersect16(way.sent, packet, false);
+    for (int i = 0; i < 16; ++i) {
+      way.hits.instance[i] = kMiss;
+      if (way.sent[i] == 0 || packet.geometry[i] == kMiss) continue;
+      const SurfaceRef ref = Resolve(packet, i);
+      way.hits.instance[i] = ref.instance, way.hits.triangle[i] = ref.triangle;
+      const InstanceRecord& instance = shader_.view.instances[ref.instance];
+      __builtin_prefetch(&shader_.view.triangles[instance.first_triangle + ref.triangle]);
+      if (shader_.view.lamps.lamps != nullptr) AddLamps(i, ref, way);
+    }
+  }
+
+  // Whether the two normals disagree about the side of a ray: leaves scatter nothing there, as in `reference`.
+  bool OnOtherSide(int i, Vec3f sphere) const {
+    const Vec3f n{origins_.nx[i], origins_.ny[i], origins_.nz[i]},
+        g{origins_.gx[i], origins_.gy[i], origins_.gz[i]};
+    return Dot(n * side_[i] + sphere, g) * side_[i] < 0;
+  }
+
+  // RayTracer::Resolve without a call.
+  SurfaceRef Resolve(const RayHit16& packet, int i) const {
+    const uint32_t geometry = packet.geometry[i], instance = packet.instance[i], primitive = packet.primitive[i];
+    const HitSlot& slot =
+        slots_[instance == kMiss ? first_slots_[geometry] : first_slots_[instance] + geometry];
+    return {slot.instance, slot.triangles == nullptr ? primitive : slot.triangles[primitive]};
+  }
+
+  // Light of lamps on what was met.
+  void AddLamps(int i, const SurfaceRef& ref, Way& way) {
+    const RayHit16& packet = way.packet;
+    const uint32_t lamp = shader_.lights.LampOf(ref.instance, ref.triangle);
+    way.hits.shines[i] = lamp != LightTable::kNoLamp && shader_.lamps->Holds(lamp) ? 0.0f : 1.0f;
+    const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
+    const Vec3f p =
+        Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
+    // By the side that the ray came from: the grid's means are too coarse for normals to matter more.
+    const Vec3f light = shader_.lamps->NearIrradiance(p, -d);
+    way.hits.lamp_r[i] = light.x, way.hits.lamp_g[i] = light.y, way.hits.lamp_b[i] = light.z;
+  }
+
+  void AddLight(const Way& way, float leaf_share) {
+    shader_.kernels.shade_ambient(shader_.view, sun_map_, way.packet, way.hits, r_, g_, b_);
+    constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
+    for (int i = 0; i < 16 && any_leaf_; ++i) {
+      if (!leaf_[i]) continue;
+      Vec3f weight = Vec3f{1, 1, 1} * (way.sent[i] != 0 ? leaf_share : 0.0f);
+      if (way.behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
+      r_[i] *= weight.x, g_[i] *= weight.y, b_[i] *= weight.z;
+    }
+    for (int i = 0; i < 16; ++i) sum_r_[i] += r_[i];
+    for (int i = 0; i < 16; ++i) sum_g_[i] += g_[i];
+    for (int i = 0; i < 16; ++i) sum_b_[i] += b_[i];
+  }
+
+  const Shader::Impl& shader_;
+  const SunMapView& sun_map_;
+  const TileSampling& sampling_;
+  const RaySet& rays_;
+  const SurfaceSet& s_;
+  HighTile& tile_;
+  Way way_[kAtOnce];
+  alignas(64) int valid_[16];
+  alignas(64) float side_[16], r_[16], g_[16], b_[16], sum_r_[16], sum_g_[16], sum_b_[16];
+  alignas(64) float x_[16], y_[16], z_[16];  // of the points from first_point_ on
+  uint32_t first_point_ = ~0u - 16;          // none
+  AmbientOrigins origins_;
+  int index_[16];
+  bool leaf_[16], any_leaf_;
+  std::span<const HitSlot> slots_;
+  std::span<const uint32_t> first_slots_;
+};
+
+}  // namespace
+
+void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
+                   const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, HighTile& tile) {
+  constexpr float kVisible = 1e-3f;  // radiance per irradiance that matters
+  int16_t of_slot[256];
+  std::fill(std::begin(of_slot), std::end(of_slot), int16_t{-1});
+  for (int i = 0; i < rays.count; ++i) {
+    const uint32_t slot = rays.slot[i];
+    tile.light_r[slot] = tile.light_g[slot] = tile.light_b[slot] = 0;
+    tile.light_samples[slot] = 0;
+    if (terms.ambient_r[i] + terms.ambient_g[i] + terms.ambient_b[i] > kVisible)
+      of_slot[slot] = static_cast<int16_t>(i);
+  }
+  AmbientTile ambient(shader, sun_map, sampling, rays, s, tile);
+  for (int phase = 0; phase < 16; ++phase) {
+    int surfaces[16], count = 0;
+    for (const uint8_t slot : sampling.layout->members[phase]) {
+      if (of_slot[slot] >= 0) surfaces[count++] = of_slot[slot];
+    }
+    if (count > 0) ambient.GatherPhase(phase, surfaces, count);
+  }
+}
+
+}  // namespace airsim360::internal

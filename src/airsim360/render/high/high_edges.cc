@@ -1,0 +1,219 @@
+#include "airsim360/render/high/high_edges.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kSymmetries = 8;
+// Exposed luminance that a sample may have, nearly white: more would make pixels of a few samples sparkle.
+constexpr float kNearWhite = 3;
+
+float Luminance(Rgb32f c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+// One tile's edge pixels and their rays on the way through tracing (16) and shading (256 at a time).
+class EdgeTile {
+ public:
+  EdgeTile(const HighEdgeTask& task, const TileKernels& kernels, HighBuffers& buffers, int column, int row)
+      : task_(task), kernels_(kernels), buffers_(buffers), column_(column), row_(row) {
+    hits_.origin = task.origin;
+    hits_.cone_angle = static_cast<float>(task.rays->cone_angle() / std::sqrt(task.samples));
+    kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
+  }
+
+  void AddPixel(int x, int y) {
+    x_[pixel_count_] = static_cast<uint8_t>(x), y_[pixel_count_] = static_cast<uint8_t>(y);
+    AddColor(pixel_count_, Radiance(pixel_count_));
+    ++pixel_count_;
+  }
+  int pixel_count() const { return pixel_count_; }
+  int ray_count() const { return ray_count_; }
+  int x(int pixel) const { return column_ + x_[pixel]; }
+  int y(int pixel) const { return row_ + y_[pixel]; }
+
+  void AddRay(int pixel, Vec3d direction, uint32_t key) {
+    packet_.direction_x[lanes_] = static_cast<float>(direction.x);
+    packet_.direction_y[lanes_] = static_cast<float>(direction.y);
+    packet_.direction_z[lanes_] = static_cast<float>(direction.z);
+    hits_.sample_key[hits_.count + lanes_] = key;
+    owner_[hits_.count + lanes_] = pixel;
+    ++ray_count_;
+    if (++lanes_ == 16) Trace();
+  }
+  void Finish() {
+    if (lanes_ > 0) Trace();
+    if (hits_.count > 0) Shade();
+  }
+
+  void StoreMeans() {
+    for (int i = 0; i < pixel_count_; ++i) {
+      const float scale = 1 / static_cast<float>(count_[i]);
+      Radiance(i) = {r_[i] * scale, g_[i] * scale, b_[i] * scale};
+    }
+  }
+
+ private:
+  Rgb32f& Radiance(int pixel) const {
+    const int column = x(pixel) - task_.rays->column_shift();
+    return (*task_.radiance)(column < 0 ? column + buffers_.range.width() : column, y(pixel));
+  }
+
+  void AddColor(int pixel, Rgb32f c) {
+    const float exposed = Luminance(c) * task_.exposure, w = kNearWhite / std::max(exposed, kNearWhite);
+    r_[pixel] += c.r * w, g_[pixel] += c.g * w, b_[pixel] += c.b * w;
+    ++count_[pixel];
+  }
+
+  void Trace() {
+    alignas(64) int valid[16];
+    TraceLanes(*task_.tracer, task_.labels.sky_entity != kNoEntity, lanes_, valid, packet_);
+    const int p = hits_.count / 16;
+    kernels_.append_hits(task_.labels, packet_, valid, p, hits_);
+    kernels_.resolve(task_.labels, packet_, valid, p, true, labels_);
+    hits_.count += lanes_;
+    lanes_ = 0;
+    if (hits_.count > HitBatch::kCapacity - 16) Shade();
+  }
+
+  // The pixel around whose surface is most like what sample i met, and how unlike that is; -1 = none.
+  int64_t MostAlike(int i, float& best_cost) const {
+    const int cx = x(owner_[i]), cy = y(owner_[i]), width = buffers_.range.width();
+    const bool wraps = task_.rays->field().separable;
+    const Vec3f n{labels_.normal_x[i], labels_.normal_y[i], labels_.normal_z[i]};
+    const float range = labels_.range[i];
+    int64_t best = -1;
+    best_cost = INFINITY;
+    for (int v = std::max(0, cy - 1); v <= std::min(buffers_.range.height() - 1, cy + 1); ++v) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        int u = cx + dx;
+        if (!wraps && (u < 0 || u >= width)) continue;
+        u = u < 0 ? u + width : u >= width ? u - width : u;
+        if (buffers_.range(u, v) == 0) continue;
+        const float cost = (buffers_.entity(u, v) == labels_.entity[i] ? 0.0f : 1.0f) + 1 -
+                           Dot(n, buffers_.normal(u, v)) +
+                           std::fabs(buffers_.range(u, v) - range) / (range + 1e-6f) +
+                           (buffers_.light_samples(u, v) == 0 ? 0.5f : 0.0f) +
+                           1e-3f * static_cast<float>(dx * dx + (v - cy) * (v - cy));
+        if (cost < best_cost) best_cost = cost, best = int64_t{v} * width + u;
+      }
+    }
+    return best;
+  }
+
+  // Light of the pixels around; the sun too, where the surface is the same, for there it is known better than
+  // by one ray.
+  void Shade() {
+    constexpr float kSameSurface = 0.1f;
+    Rgb32f around[HitBatch::kCapacity];
+    alignas(64) float sun_known[HitBatch::kCapacity];
+    for (int i = 0; i < hits_.count; ++i) {
+      sun_known[i] = -1;
+      if (hits_.instance[i] == kMiss) continue;
+      float cost;
+      const int64_t pixel = MostAlike(i, cost);
+      if (pixel < 0) continue;
+      around[i] = buffers_.light.pixels()[static_cast<size_t>(pixel)];
+      if (cost < kSameSurface) sun_known[i] = buffers_.Sun(pixel);
+    }
+    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, terms_, shaded_);
+    const LightTerms& t = terms_;
+    for (int i = 0; i < hits_.count; ++i) {
+      const float sun = shaded_.sun_seen[i];
+      AddColor(owner_[i], {t.ambient_r[i] * around[i].r + t.sun_r[i] * sun + t.rest_r[i],
+                           t.ambient_g[i] * around[i].g + t.sun_g[i] * sun + t.rest_g[i],
+                           t.ambient_b[i] * around[i].b + t.sun_b[i] * sun + t.rest_b[i]});
+    }
+    hits_.count = 0;
+  }
+
+  const HighEdgeTask& task_;
+  const TileKernels& kernels_;
+  HighBuffers& buffers_;
+  int column_, row_;
+  int pixel_count_ = 0, lanes_ = 0, ray_count_ = 0;
+  uint8_t x_[kTilePixels], y_[kTilePixels];
+  float r_[kTilePixels] = {}, g_[kTilePixels] = {}, b_[kTilePixels] = {};
+  int count_[kTilePixels] = {};
+  RayHit16 packet_;
+  HitBatch hits_;
+  LabelTile labels_;
+  LightTerms terms_;
+  HighTile shaded_;
+  int owner_[HitBatch::kCapacity];  // pixel of each ray
+};
+
+int RefineTile(const HighEdgeTask& task, const TileKernels& kernels, const std::vector<PixelOffset>& offsets,
+               HighBuffers& buffers, int column, int row) {
+  const RayField& field = task.rays->field();
+  bool any = false;
+  const int columns = std::min(kTileSize, field.width - column),
+            rows = std::min(kTileSize, field.height - row);
+  for (int y = 0; y < rows; ++y) {
+    const uint8_t* edges = &buffers.edges(column, row + y);
+    for (int x = 0; x < columns; ++x) any |= edges[x] != 0;
+  }
+  if (!any) return 0;
+
+  // Edge pixels, block by block so that neighbours stay together.
+  const FlushDenormals flush;
+  EdgeTile tile(task, kernels, buffers, column, row);
+  for (int i = 0; i < kTilePixels; ++i) {
+    const int x = ((i >> 4) & 3) * 4 + (i & 3), y = (i >> 6) * 4 + ((i >> 2) & 3);
+    if (x >= columns || y >= rows) continue;
+    if (buffers.edges(column + x, row + y) != 0) tile.AddPixel(x, y);
+  }
+
+  // Everything random depends on the canonical pixel alone.
+  for (int i = 0; i < tile.pixel_count(); ++i) {
+    const uint64_t key = MixBits(static_cast<uint64_t>(tile.y(i)) * static_cast<uint64_t>(field.width) +
+                                 static_cast<uint64_t>(tile.x(i)) + (task.seed << 40));
+    const PixelOffset* of_pixel = &offsets[(key & (kSymmetries - 1)) * static_cast<size_t>(task.samples - 1)];
+    for (int s = 1; s < task.samples; ++s) {
+      Vec3d direction;
+      if (!task.rays->Direction(tile.x(i), tile.y(i), of_pixel[s - 1], direction)) continue;
+      tile.AddRay(i, direction, static_cast<uint32_t>(MixBits(key + static_cast<uint64_t>(s))) | 1u);
+    }
+  }
+  tile.Finish();
+  tile.StoreMeans();
+  return tile.ray_count();
+}
+
+}  // namespace
+
+std::vector<PixelOffset> MakeEdgeOffsets(const CameraRays& rays, int samples) {
+  // R2 low-discrepancy sequence (Roberts 2018) shifted so that sample 0 is the centre; its eight mirror
+  // images and rotations keep the centre and break up patterns between pixels.
+  constexpr double kPlastic = 1.32471795724474602596;
+  std::vector<PixelOffset> offsets;
+  for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
+    for (int s = 1; s < samples; ++s) {
+      double dx = 0.5 + s / kPlastic, dy = 0.5 + s / (kPlastic * kPlastic);
+      dx -= std::floor(dx) + 0.5;
+      dy -= std::floor(dy) + 0.5;
+      if (symmetry & 1) dx = -dx;
+      if (symmetry & 2) dy = -dy;
+      if (symmetry & 4) std::swap(dx, dy);
+      offsets.push_back(rays.MakeOffset(dx, dy));
+    }
+  }
+  return offsets;
+}
+
+int64_t RefineEdges(const HighEdgeTask& task, const std::vector<PixelOffset>& offsets, HighBuffers& buffers) {
+  const TileKernels kernels;
+  const int across = buffers.across();
+  std::atomic<int64_t> ray_count = 0;
+  ParallelFor(int64_t{across} * buffers.down(), [&](int64_t tile) {
+    ray_count += RefineTile(task, kernels, offsets, buffers, static_cast<int>(tile % across) * kTileSize,
+                            static_cast<int>(tile / across) * kTileSize);
+  });
+  return ray_count;
+}
+
+}  // namespace airsim360::internal

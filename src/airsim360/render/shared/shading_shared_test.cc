@@ -1,0 +1,285 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#define AIRSIM360_ISA isa_test
+#include "airsim360/base/random.h"
+#include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/render/shared/shading_simd.h"
+
+namespace airsim360 {
+namespace {
+
+namespace scalar = internal::scalar;
+namespace wide = internal::isa_test;
+constexpr double kPi = 3.14159265358979;
+
+Vec3f RandomUp(RngStream& random) {
+  const double z = random.Uniform(0.05, 1.0), a = random.Uniform(0, 2 * kPi), s = std::sqrt(1 - z * z);
+  return {static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)), static_cast<float>(z)};
+}
+
+Vec3f Specular(Vec3f f0, float alpha, Vec3f l, Vec3f v) {
+  const Vec3f h = Normalized(l + v);
+  return scalar::specular_brdf(f0, alpha, l.z, v.z, h.z, Dot(v, h));
+}
+
+// Midpoint rule over the hemisphere, uniform in cos theta.
+template <class F>
+double Hemisphere(F f, int n = 256) {
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double z = (i + 0.5) / n, a = (j + 0.5) / n * 2 * kPi, s = std::sqrt(1 - z * z);
+      sum += f(Vec3f{static_cast<float>(s * std::cos(a)), static_cast<float>(s * std::sin(a)),
+                     static_cast<float>(z)}) *
+             2 * kPi / (n * n);
+    }
+  }
+  return sum;
+}
+
+TEST(ShadingShared, WhiteLambertInUniformLightIsWhite) {
+  const double out = Hemisphere([](Vec3f l) { return scalar::diffuse({1, 1, 1}, {l.z, l.z, l.z}).x; });
+  EXPECT_NEAR(out, 1, 0.001);
+}
+
+TEST(ShadingShared, WhiteMirrorlikeSurfacesNeverReflectMoreThanArrives) {
+  for (float roughness : {0.2f, 0.4f, 0.7f, 1.0f}) {
+    for (float z : {0.1f, 0.5f, 1.0f}) {
+      const Vec3f v{std::sqrt(1 - z * z), 0, z};
+      const double out = Hemisphere(
+          [&](Vec3f l) {
+            return Specular({1, 1, 1}, roughness * roughness, l, v).x * l.z;
+          },
+          512);
+      EXPECT_LE(out, 1.005) << roughness << ' ' << z;
+      EXPECT_GT(out, 0.25) << roughness << ' ' << z;
+    }
+  }
+}
+
+TEST(ShadingShared, EnvironmentBrdfAgreesWithTheIntegralOfTheSpecularBrdf) {
+  for (float roughness : {0.3f, 0.6f, 0.9f}) {
+    for (float z : {0.3f, 0.6f, 0.95f}) {
+      const Vec3f v{std::sqrt(1 - z * z), 0, z};
+      const double truth = Hemisphere(
+          [&](Vec3f l) {
+            return Specular({0.5f, 0.5f, 0.5f}, roughness * roughness, l, v).x * l.z;
+          },
+          512);
+      EXPECT_NEAR(scalar::environment_brdf({0.5f, 0.5f, 0.5f}, roughness, z).x, truth, 0.08)
+          << roughness << ' ' << z;
+    }
+  }
+}
+
+TEST(ShadingShared, SpecularReflectionIsReciprocal) {
+  RngStream random(1, "reciprocity");
+  for (int i = 0; i < 100000; ++i) {
+    const Vec3f a = RandomUp(random), b = RandomUp(random);
+    const auto alpha = static_cast<float>(random.Uniform(0.05, 1));
+    const float ab = Specular({0.04f, 0.5f, 0.9f}, alpha, a, b).y,
+                ba = Specular({0.04f, 0.5f, 0.9f}, alpha, b, a).y;
+    ASSERT_NEAR(ab, ba, 1e-5f * (1 + ab));
+  }
+}
+
+TEST(ShadingShared, FresnelHasItsLimits) {
+  EXPECT_NEAR(scalar::fresnel_dielectric(1.5f, 1), 0.04f, 1e-6f);
+  EXPECT_NEAR(scalar::fresnel_dielectric(1.33f, 1), 0.02006f, 1e-4f);
+  EXPECT_NEAR(scalar::fresnel_dielectric(1.5f, 1e-4f), 1, 2e-3f);
+  EXPECT_NEAR(scalar::fresnel_schlick(0.04f, 1), 0.04f, 1e-7f);
+  EXPECT_NEAR(scalar::fresnel_schlick(0.04f, 0), 1, 1e-7f);
+}
+
+TEST(ShadingShared, LeavesDoNotGiveBackMoreThanTheyGet) {
+  const Vec3f lit = scalar::leaf_diffuse({0.5f, 0.5f, 0.5f}, 0.8f, -1);
+  EXPECT_LT(lit.y * kPi, 0.5f);
+  EXPECT_GT(lit.y, 0);
+  EXPECT_FLOAT_EQ(scalar::leaf_diffuse({0.5f, 0.5f, 0.5f}, 0, -1).y, 0);
+}
+
+TEST(ShadingShared, ToneCurveGrowsWithLightAndKeepsGreyGrey) {
+  float last = -1;
+  for (double x = 1e-4; x < 1e4; x *= 1.02) {
+    const auto v = static_cast<float>(x);
+    const Vec3f c = scalar::tone_curve({v, v, v});
+    EXPECT_GE(c.y, last) << x;
+    EXPECT_NEAR(c.x, c.y, 1e-5f);
+    EXPECT_LE(c.y, 1);
+    last = c.y;
+  }
+  EXPECT_GT(last, 0.99f);
+  EXPECT_LT(scalar::tone_curve({1e-4f, 1e-4f, 1e-4f}).y, 1e-3f);
+}
+
+TEST(ShadingShared, AgxGrowsWithLightKeepsGreyGreyAndMiddleGreyInPlace) {
+  float last = -1;
+  for (double x = 1e-5; x < 1e3; x *= 1.02) {
+    const auto v = static_cast<float>(x);
+    const Vec3f c = scalar::agx_curve({v, v, v});
+    EXPECT_GE(c.y, last) << x;
+    EXPECT_NEAR(c.x, c.y, 2e-4f) << x;
+    EXPECT_NEAR(c.z, c.y, 2e-4f) << x;
+    last = c.y;
+  }
+  EXPECT_NEAR(last, 1, 1e-3f);
+  EXPECT_NEAR(scalar::agx_curve({0.18f, 0.18f, 0.18f}).y, 0.18f, 1e-3f);
+  EXPECT_LT(scalar::agx_curve({1e-6f, 1e-6f, 1e-6f}).y, 1e-5f);
+}
+
+TEST(ShadingShared, AgxContrastHasItsSlopeAtMiddleGreyAndEndsInTheCorners) {
+  EXPECT_NEAR((scalar::agx_contrast(0.607f) - scalar::agx_contrast(0.605f)) / 0.002f, 2.4f, 0.01f);
+  EXPECT_NEAR(scalar::agx_contrast(0), 0, 1e-4f);
+  EXPECT_NEAR(scalar::agx_contrast(1), 1, 1e-4f);
+}
+
+TEST(ShadingShared, AgxFadesBrightColoursToWhite) {
+  // Pure red keeps its hue in the middle and loses saturation towards the top.
+  const auto saturation = [](float v) {
+    const Vec3f c = scalar::agx_curve({v, 0.02f * v, 0.02f * v});
+    EXPECT_GE(c.x, c.y);
+    return (c.x - c.y) / c.x;
+  };
+  EXPECT_GT(saturation(0.3f), 0.7f);
+  EXPECT_LT(saturation(300), 0.1f);
+}
+
+TEST(ShadingShared, TheLinearCurveIsInvertible) {
+  const Vec3f c = scalar::linear_curve({0.25f, 1.5f, -1});
+  EXPECT_EQ(c, (Vec3f{0.25f, 1, 0}));
+}
+
+TEST(ShadingShared, OwnTranscendentalsAgreeWithTheLibrary) {
+  for (double x = -30; x < 30; x += 0.01) {
+    const auto f = static_cast<float>(x);
+    EXPECT_NEAR(scalar::exp_approx(f) / std::exp(static_cast<double>(f)), 1, 4e-6) << x;
+    EXPECT_NEAR(scalar::sin_approx(f), std::sin(static_cast<double>(f)), 5e-6) << x;
+    EXPECT_NEAR(scalar::log2_approx(std::exp(f)), std::log2(static_cast<double>(std::exp(f))), 6e-6) << x;
+    EXPECT_NEAR(scalar::atan2_approx(std::sin(f), std::cos(f)), std::atan2(std::sin(f), std::cos(f)), 3e-6)
+        << x;
+  }
+  for (double x = -1; x <= 1; x += 0.001)
+    EXPECT_NEAR(scalar::asin_approx(static_cast<float>(x)), std::asin(x), 4e-4) << x;
+  for (int i = 0; i <= 255; ++i) {
+    const double s = i / 255.0, linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    EXPECT_NEAR(scalar::srgb_decode_approx(static_cast<float>(s)), linear, 0.001);
+    EXPECT_NEAR(scalar::srgb_encode(static_cast<float>(linear)), s, 7e-5);
+  }
+}
+
+TEST(ShadingShared, WaterIsFlatFarAwayAndLosesItsSlopeToRoughness) {
+  float lost = 0;
+  EXPECT_NEAR(scalar::water_normal(3, 4, 100, lost).z, 1, 1e-6f);
+  EXPECT_NEAR(lost, 7 * 0.000145f, 1e-6f);
+  EXPECT_LT(scalar::water_normal(3, 4, 0, lost).z, 0.99999f);
+  EXPECT_NEAR(lost, 0, 1e-7f);
+}
+
+// Calls a function with lanes of the same arguments that the scalar one gets.
+template <class Wide, class Scalar>
+void ExpectSame(const char* name, Wide wide_function, Scalar scalar_function, double low, double high) {
+  RngStream random(2, name);
+  for (int round = 0; round < 500; ++round) {
+    alignas(64) float a[wide::kLanes], b[wide::kLanes], c[wide::kLanes], out[wide::kLanes];
+    for (int i = 0; i < wide::kLanes; ++i) {
+      a[i] = static_cast<float>(random.Uniform(low, high));
+      b[i] = static_cast<float>(random.Uniform(low, high));
+      c[i] = static_cast<float>(random.Uniform(low, high));
+    }
+    wide::store(out, wide_function(wide::load(a), wide::load(b), wide::load(c)));
+    for (int i = 0; i < wide::kLanes; ++i) {
+      const float expected = scalar_function(a[i], b[i], c[i]);
+      ASSERT_NEAR(out[i], expected, 1e-6f * (1e-3f + std::fabs(expected)))
+          << name << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
+    }
+  }
+}
+
+TEST(ShadingShared, ScalarAndSimdAgree) {
+#define SAME(low, high, expression)                  \
+  ExpectSame(                                        \
+      #expression,                                   \
+      [](wide::real a, wide::real b, wide::real c) { \
+        using namespace wide;                        \
+        (void)a, (void)b, (void)c;                   \
+        return expression;                           \
+      },                                             \
+      [](float a, float b, float c) {                \
+        using namespace scalar;                      \
+        (void)a, (void)b, (void)c;                   \
+        return expression;                           \
+      },                                             \
+      low, high)
+  SAME(-20, 20, exp_approx(a) + sin_approx(b * 50.0f) + atan2_approx(b, c));
+  SAME(0.001, 50, log2_approx(a) + pow_approx(b, c * 0.1f) + pow_display(c, b * 0.03f));
+  SAME(0.001, 1, srgb_encode(a) + srgb_decode_approx(b) + asin_approx(c));
+  SAME(0, 4, luminance(tone_curve(make3(a, b, c))));
+  SAME(0, 20, luminance(agx_curve(make3(a, b, c))) + linear_curve(make3(a, b, c)).x);
+  SAME(0.02, 1, luminance(specular_brdf(make3(a, b, c), a, b, c, a, b)));
+  SAME(0.02, 1, luminance(environment_brdf(make3(a, b, c), b, c)));
+  SAME(0.02, 1, fresnel_dielectric(a + 1.0f, b) + fresnel_schlick(b, c));
+  SAME(-1, 1, leaf_diffuse(make3(a, b, c), b, c).x);
+  SAME(-1, 1, dot3(octahedral_decode(a, b), make3(a, b, c)));
+  SAME(-1, 1, layer_path(a * 100.0f, b, c * 1000.0f, 160.0f) + forward_phase(0.76f, a));
+  SAME(-1, 1,
+       drops_cover(a * 9.0f, b, c, make3(a, b, c), 6.0f, 0.003f, 0.4f, 0.5f, 0.2f, 0.01f, 0.9f, 5.0f, 3.0f));
+  SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
+  SAME(0, 1, hash_cell(a * 1000.0f, b * 1000.0f) + wet_albedo(c));
+  SAME(-1, 1, snow_cover(a, b, c, a) + puddle_cover(b, c));
+#undef SAME
+}
+
+TEST(ShadingShared, CompilesAsGlsl) {
+  if (std::system("command -v glslangValidator > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "glslangValidator is not installed";
+  // A compute shader that uses the functions, pasted together from our headers.
+  const auto read = [](const std::string& name) {
+    std::ifstream file("src/airsim360/render/shading/" + name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  };
+  const std::string shared = read("shading_shared.h") + read("shading_air.h");
+  if (shared.empty()) GTEST_SKIP() << "not run from the repository's root";
+  const std::string stem =
+      (std::filesystem::temp_directory_path() / ("airsim360_glsl_" + std::to_string(getpid()))).string();
+  {
+    std::ofstream out(stem + ".comp");
+    out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
+        << read("shading_glsl.h") << shared << read("shading_tone.h") << read("shading_interior.h")
+        << read("shading_weather.h") << read("shading_ground.h")
+        << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
+           "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
+           "leaf_diffuse(n, v[0], v[1]);\n"
+           "  v[0] = srgb_encode(luminance(tone_curve(c) + agx_curve(c))) + asin_approx(v[3]) + "
+           "fresnel_dielectric(1.5, v[4]) + lost +\n"
+           "  layer_path(v[0], v[1], v[2], 160.0) + around_horizon(n, n, n, n, n, n, n, c).x + "
+           "shadow_column(v[0], v[1], "
+           "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
+           "5.0, 1.0) + forward_phase(0.7, v[1]);\n"
+           "  vec3 day, lamp; float front, a, b;\n"
+           "  interior_room(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], day, lamp, front, a, b);\n"
+           "  float sx, sy, tar, polish, gain; drop_rings(v[0], v[1], v[2], sx, sy);\n"
+           "  asphalt_wear(v[0], v[1], v[2], v[3], n, c, day, v[4], v[5], gain, tar, polish);\n"
+           "  v[1] = lawn_life(day, a, b, n, c, lamp, v[2], v[3]).x + puddle_cover(v[0], v[1]) + sx + gain + "
+           "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]); }\n";
+  }
+  const int status = std::system(
+      ("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());
+  std::ifstream log(stem + ".log");
+  std::ostringstream message;
+  message << log.rdbuf();
+  EXPECT_EQ(status, 0) << message.str();
+  for (const char* end : {".comp", ".spv", ".log"}) std::filesystem::remove(stem + end);
+}
+
+}  // namespace
+}  // namespace airsim360

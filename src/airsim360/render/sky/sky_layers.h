@@ -1,0 +1,43 @@
+// What the atmosphere and its fair-weather clouds leave out: the night sky and the closed cloud deck.
+#pragma once
+
+#include "airsim360/math/vector.h"
+#include "airsim360/render/sky/sky_table.h"
+
+namespace airsim360::internal {
+
+/// Share of the sun's irradiance that the moon gives outside the atmosphere, by the lit share of its disc:
+/// magnitudes -26.74 and -12.74; a half moon gives a twelfth of a full one (Allen, Astrophysical Quantities).
+float MoonShare(double phase);
+
+/// Radiance of the moonless night sky: airglow, zodiacal light and faint stars (22 mag/arcsec^2 at the
+/// zenith, 1.7e-4 cd/m^2, brighter towards the horizon after van Rhijn), and with `lamps` the glow of a town
+/// (19.5 mag/arcsec^2).
+Vec3f NightGlow(Vec3f direction, bool lamps);
+
+/// Adds the stars of the upper hemisphere down to magnitude 6.5: about 4,500 at invented places, their number
+/// growing as 10^(0.5 m), each with the illuminance of its magnitude (2.54e-6 lx for 0).
+void AddStars(SkyTable& table);
+
+/// A closed deck of stratus: the CIE overcast sky (1 : 3 from horizon to zenith) with a soft structure.
+/// Immutable.
+class CloudDeck {
+ public:
+  /// `cover` as Environment::cloud_cover: nothing below 0.7, broken up to 1. `illuminance` is what a closed
+  /// deck gives level ground, in units.
+  CloudDeck(double cover, float illuminance);
+  /// The deck before `behind`.
+  Vec3f Over(Vec3f direction, Vec3f behind) const;
+  bool closed() const { return closed_ >= 1; }
+  /// Share of the sun's direct light that is left below it.
+  float SunLeft() const;
+
+ private:
+  float closed_, zenith_ = 0;
+};
+
+/// Illuminance of level ground under a thick overcast sky, in units: 300 + 21000 sin(elevation) lux
+/// (Krochmann 1963), below the horizon in proportion to `clear`, that of a clear sky.
+float OvercastIlluminance(float sun_z, float clear);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,186 @@
+// The light of the physical sky against published values, and the sky as a light to be sampled.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "airsim360/base/random.h"
+#include "airsim360/render/sky/atmosphere.h"
+#include "airsim360/render/sky/sky.h"
+#include "airsim360/render/sky/sky_layers.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+
+double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+Vec3f Direction(double azimuth, double elevation) {
+  return DirectionOf(static_cast<float>(azimuth), static_cast<float>(elevation));
+}
+
+// Horizontal illuminance of the clear sky without the sun, units.
+double ClearDiffuse(const Atmosphere& atmosphere) {
+  constexpr int kUp = 40, kAround = 64;
+  double sum = 0;
+  for (int k = 0; k < kUp * kAround; ++k) {
+    const double z = std::sqrt((k / kAround + 0.5) / kUp);
+    sum += Luminance(atmosphere.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) *
+           kPi / (kUp * kAround);
+  }
+  return sum;
+}
+
+// IES clear sky (RP-21, "Calculation of Daylight Availability", 1984): direct normal 127.5 exp(-0.21 / sin h)
+// klx, horizontal diffuse 0.8 + 15.5 sqrt(sin h) klx.
+TEST(SkyLight, ClearSkyIlluminanceIsWithinFifteenPerCentOfTheIesModel) {
+  for (const double degrees : {20.0, 30.0, 40.0, 50.0, 60.0, 70.0}) {
+    const double s = std::sin(degrees * kPi / 180);
+    const Atmosphere atmosphere(Direction(0, degrees * kPi / 180), 2.5);
+    const double direct = Luminance(atmosphere.SunIrradiance()) * s * kLuxPerUnit / 1000,
+                 diffuse = ClearDiffuse(atmosphere) * kLuxPerUnit / 1000;
+    const double direct_ies = 127.5 * std::exp(-0.21 / s) * s, diffuse_ies = 0.8 + 15.5 * std::sqrt(s);
+    EXPECT_NEAR((direct + diffuse) / (direct_ies + diffuse_ies), 1, 0.15) << degrees;
+    EXPECT_NEAR(diffuse / diffuse_ies, 1, 0.15) << degrees;
+    RecordProperty("global_klx_" + std::to_string(static_cast<int>(degrees)),
+                   std::to_string(direct + diffuse));
+    RecordProperty("sun_to_sky_" + std::to_string(static_cast<int>(degrees)),
+                   std::to_string(direct / diffuse));
+  }
+}
+
+// Illuminance of level ground, Explanatory Supplement to the Astronomical Almanac (Seidelmann 1992): about
+// 760 lx with the sun on the horizon, 3.4 lx at -6 degrees. Air and refraction make a factor of two.
+TEST(SkyLight, TwilightFallsAsTheAlmanacSays) {
+  const auto lux = [](double degrees) {
+    return ClearDiffuse(Atmosphere(Direction(0, degrees * kPi / 180), 2.5)) * kLuxPerUnit;
+  };
+  EXPECT_GT(lux(-0.3), 300);
+  EXPECT_LT(lux(-0.3), 1100);
+  EXPECT_GT(lux(-6), 1.2);
+  EXPECT_LT(lux(-6), 7);
+  double before = 1e9;
+  for (double degrees = 4; degrees > -12; degrees -= 1) {
+    const double now = lux(degrees);
+    EXPECT_LT(now, before) << degrees;
+    before = now;
+  }
+}
+
+TEST(SkyLight, DuskIsRedOverTheSunAndBlueAtTheZenith) {
+  const Atmosphere dusk(Direction(0, -3 * kPi / 180), 2.5);
+  const Vec3f low = dusk.Radiance(Direction(0, 0.03)), zenith = dusk.Radiance({0, 0, 1}),
+              behind = dusk.Radiance(Direction(kPi, 0.3));
+  EXPECT_GT(low.x, 1.5f * low.z);
+  EXPECT_GT(zenith.z, 1.3f * zenith.x);
+  // The glow is brightest some degrees up, where less air hides it.
+  EXPECT_GT(Luminance(dusk.Radiance(Direction(0, 0.1))), 5 * Luminance(zenith));
+  EXPECT_GT(Luminance(low), 2 * Luminance(behind));
+}
+
+TEST(SkyLight, OvercastHasTheGradationOfTheCieSkyAndGivesTheIlluminanceAsked) {
+  const CloudDeck deck(1, 2.0f);
+  double level = 0, raised = 0, horizon = 0;
+  constexpr int kUp = 100, kAround = 100;
+  for (int k = 0; k < kUp * kAround; ++k) {
+    const double z = std::sqrt((k / kAround + 0.5) / kUp);
+    level += Luminance(deck.Over(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)), {})) *
+             kPi / (kUp * kAround);
+  }
+  // Around the sky at 30 degrees, where the gradation is twice the horizon's.
+  for (int k = 0; k < 400; ++k) {
+    raised += Luminance(deck.Over(Direction(k * 2.39996, kPi / 6), {})) / 400;
+    horizon += Luminance(deck.Over(Direction(k * 2.39996, 0.001), {})) / 400;
+  }
+  EXPECT_NEAR(level / 2.0, 1, 0.02);
+  EXPECT_NEAR(raised / horizon, 2, 0.2);
+}
+
+// Krochmann (1963): 300 + 21000 sin(h) lux.
+TEST(SkyLight, ClosedCloudsGiveTheIlluminanceOfAnOvercastDay) {
+  Environment environment;
+  environment.cloud_cover = 1;
+  const Sky sky(environment);
+  const double lux = sky.GroundIlluminance() * kLuxPerUnit;
+  EXPECT_NEAR(lux / (300 + 21000 * std::sin(48 * kPi / 180)), 1, 0.15);
+  EXPECT_EQ(Luminance(sky.sun_irradiance()), 0);
+}
+
+TEST(SkyLight, NightIsDarkButNotBlackAndTheFullMoonGivesAFractionOfALux) {
+  Environment night;
+  night.sun_elevation_deg = -30, night.cloud_cover = 0, night.cirrus_cover = 0, night.lamps = Lamps::kOff;
+  const Sky moonlit(night);
+  const double lux = moonlit.GroundIlluminance() * kLuxPerUnit;
+  EXPECT_GT(lux, 0.05);  // under a full moon: 0.05 to 0.3 lx (Kyba, Mohar, Posch 2017)
+  EXPECT_LT(lux, 0.3);
+  EXPECT_GT(Dot(moonlit.to_sun(), Direction((90 - 130) * kPi / 180, 38 * kPi / 180)), 0.9999f);
+  night.moon_phase = 0;
+  const double dark = Sky(night).GroundIlluminance() * kLuxPerUnit;
+  EXPECT_GT(dark, 3e-4);  // starlight and airglow: about 1 mlx
+  EXPECT_LT(dark, 3e-3);
+}
+
+TEST(SkyLight, StarsBringTheirOwnIlluminance) {
+  SkyTable table = MakeTable(2048, 512, false);
+  AddStars(table);
+  double light = 0;
+  int bright = 0;
+  for (int y = 0; y < table.height; ++y) {
+    for (int x = 0; x < table.width; ++x) {
+      const double l = Luminance(table.Texel(x, y));
+      light += l * RowSolidAngle(table, y);
+      bright += l > 0;
+    }
+  }
+  // With N ~ 10^(0.5 m) the sum of 2.54e-6 lx 10^(-0.4 m) over 4500 stars to 6.5 is 1.4e-4 lx in the mean
+  // (integral of u^-0.8); a few of the brightest make most of its scatter.
+  EXPECT_GT(light * kLuxPerUnit, 5e-5);
+  EXPECT_LT(light * kLuxPerUnit, 6e-4);
+  EXPECT_GT(bright, 4500);
+  EXPECT_LT(bright, 90000);
+}
+
+TEST(SkyLight, SamplesFollowTheirDensity) {
+  // Chi-square over 16 x 16 bins of equal solid angle; the bins' shares from the density itself.
+  const Sky sky{Environment{}};
+  constexpr int kAcross = 16, kUp = 16, kSamples = 200000;
+  std::vector<double> expected(kAcross * kUp), seen(kAcross * kUp);
+  constexpr int kFine = 64;
+  for (int k = 0; k < kAcross * kUp * kFine * kFine; ++k) {
+    const int x = k % (kAcross * kFine), y = k / (kAcross * kFine);
+    const double z = -1 + 2 * (y + 0.5) / (kUp * kFine);
+    expected[y / kFine * kAcross + x / kFine] +=
+        sky.Pdf(Direction((x + 0.5) / (kAcross * kFine) * 2 * kPi, std::asin(z))) * 4 * kPi /
+        (kAcross * kUp * kFine * kFine);
+  }
+  double all = 0;
+  for (const double share : expected) all += share;
+  EXPECT_NEAR(all, 1, 1e-3);
+  RngStream random(1, "sky samples");
+  double weighted = 0;
+  for (int k = 0; k < kSamples; ++k) {
+    const SkySample s =
+        sky.Sample({static_cast<float>(random.Uniform()), static_cast<float>(random.Uniform())});
+    ASSERT_GT(s.pdf, 0);
+    ASSERT_NEAR(Norm(s.direction), 1, 1e-5);
+    double azimuth = std::atan2(s.direction.y, s.direction.x);
+    if (azimuth < 0) azimuth += 2 * kPi;
+    const int x = std::min(static_cast<int>(azimuth / (2 * kPi) * kAcross), kAcross - 1),
+              y = std::min(static_cast<int>((s.direction.z + 1) / 2 * kUp), kUp - 1);
+    seen[y * kAcross + x] += 1;
+    weighted += std::max(0.0f, s.direction.z) * Luminance(s.radiance) / s.pdf / kSamples;
+  }
+  double chi2 = 0;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const double e = expected[i] / all * kSamples;
+    chi2 += (seen[i] - e) * (seen[i] - e) / e;
+  }
+  // 255 degrees of freedom: 99.9 per cent stay below 330.
+  EXPECT_LT(chi2, 330);
+  // The estimator of irradiance agrees with the coefficients.
+  EXPECT_NEAR(weighted / Luminance(sky.Irradiance({0, 0, 1})), 1, 0.02);
+}
+
+}  // namespace
+}  // namespace airsim360::internal

@@ -1,0 +1,157 @@
+#include "airsim360/worlds/props/props.h"
+
+#include <algorithm>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/hash.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+#include "airsim360/worlds/props/families.h"
+#include "airsim360/worlds/props/prop_builder.h"
+
+namespace airsim360 {
+namespace {
+
+// Equal for textures that look the same: name, pixels of the finest level (the others follow from it) and
+// settings.
+std::string TextureKey(const Texture& t) {
+  std::string key = t.name + (t.srgb ? " srgb " : " linear ") + std::to_string(static_cast<int>(t.wrap_u)) +
+                    std::to_string(static_cast<int>(t.wrap_v));
+  if (!t.levels.empty())
+    key += std::to_string(t.levels[0].width()) + " " + Sha256Hex(std::as_bytes(t.levels[0].pixels()));
+  return key;
+}
+
+constexpr float kWhitest = 0.9f;  // albedo
+
+// Turns, scales and paints a library model as its row asks.
+void Adapt(Model& model, const LibraryModel& row) {
+  const float height = model.mesh.Bounds().max.z;
+  const float scale = row.height > 0 && height > 0 ? row.height / height : 1.0f;
+  const AffineTransform X = PlaceUpright({}, row.turn_deg * std::numbers::pi_v<float> / 180, scale);
+  for (Vec3f& p : model.mesh.positions) p = X * p;
+  for (Vec3f& n : model.mesh.normals) n = Normalized(X.A * n);
+  for (Material& m : model.materials) {
+    // Panes that their author made blue or violet become neutral: here the sky gives them their colour.
+    const Vec3f c = m.base_color;
+    if (m.kind == SurfaceKind::kGlass && c.z > 1.5f * std::max(c.x, c.y)) m.base_color = {c.x, c.x, c.x};
+    if (!row.paint.empty() && m.name == row.paint) {
+      m.base_color = row.color;
+      m.clear_coat = 1;
+      m.clear_coat_roughness = 0.04f;
+      m.roughness = std::max(m.roughness, 0.45f);
+    }
+  }
+}
+
+}  // namespace
+
+const std::vector<PropKind>& PropKinds() {
+  static const std::vector<PropKind> kinds = [] {
+    using namespace internal;
+    std::vector<PropKind> all;
+    for (auto family : {BarrierKinds, BusKinds,     CarKinds,          CycleKinds,    FountainKinds,
+                        LampKinds,    RockKinds,    RooftopKinds,      SeatingKinds,  ShadeKinds,
+                        SignageKinds, StreetKinds,  TrafficLightKinds, UtilityKinds,  VendingKinds,
+                        WasteKinds,   PlanterKinds, GroundPlantKinds,  ShrubKinds,    BroadleafKinds,
+                        ConiferKinds, ParkKinds,    BillboardKinds,    LandmarkKinds, NewYorkKinds}) {
+      std::vector<PropKind> rows = family();
+      std::move(rows.begin(), rows.end(), std::back_inserter(all));
+    }
+    std::sort(all.begin(), all.end(), [](const PropKind& a, const PropKind& b) { return a.name < b.name; });
+    return all;
+  }();
+  return kinds;
+}
+
+const PropKind& FindPropKind(std::string_view name) {
+  const auto& kinds = PropKinds();
+  const auto it = std::lower_bound(kinds.begin(), kinds.end(), name,
+                                   [](const PropKind& k, std::string_view n) { return k.name < n; });
+  if (it != kinds.end() && it->name == name) return *it;
+  std::vector<std::string> names;
+  for (const PropKind& kind : kinds) names.emplace_back(kind.name);
+  throw InputError(UnknownChoiceMessage("prop", name, names));
+}
+
+Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
+  variant %= static_cast<uint32_t>(kind.variants);
+  if (models && variant < kind.library.size() && !kind.library[variant].name.empty()) {
+    if (std::optional<Model> model = models->Load(kind.library[variant].name)) {
+      Adapt(*model, kind.library[variant]);
+      return *std::move(model);
+    }
+  }
+  return kind.make(variant, MixBits(seed ^ HashName(kind.name)) + variant);
+}
+
+PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed)
+    : builder_(builder), models_(models), seed_(seed) {}
+
+EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale,
+                          Vec3f tint) {
+  const PropKind& found = FindPropKind(kind);
+  const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
+  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint});
+  return entity;
+}
+
+void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant,
+                        Vec3f tint) {
+  builder_.AddInstance({Get(FindPropKind(kind), variant), X_WM, entity, tint});
+}
+
+MeshId PropShelf::Get(const PropKind& kind, uint32_t variant) {
+  auto& meshes = meshes_[kind.name];
+  if (meshes.empty()) {
+    // Make in parallel, add in order.
+    std::vector<Model> models(static_cast<size_t>(kind.variants));
+    ParallelFor(kind.variants, [&](int64_t i) {
+      models[static_cast<size_t>(i)] = MakeProp(kind, static_cast<uint32_t>(i), seed_, models_);
+    });
+    for (Model& model : models) meshes.push_back(Add(std::move(model)));
+  }
+  return meshes[variant % meshes.size()];
+}
+
+MeshId PropShelf::Add(Model model) {
+  // Indices of the model become ids of the scene.
+  std::vector<TextureId> texture_ids;
+  for (Texture& texture : model.textures) texture_ids.push_back(AddTexture(std::move(texture)));
+  if (model.materials.empty()) model.materials.emplace_back();
+  std::vector<MaterialId> material_ids;
+  for (Material& material : model.materials) {
+    // No paint is whiter than snow, and a filtered white texture must not round to more than 1.
+    const Vec3f c = material.base_color;
+    if (material.kind == SurfaceKind::kStandard) material.base_color = c * std::min(1.0f, kWhitest / std::max({c.x, c.y, c.z, kWhitest}));
+    for (TextureId* id : {&material.base_color_texture, &material.metallic_roughness_texture,
+                          &material.normal_texture, &material.emission_texture}) {
+      if (*id != kNoTexture) *id = texture_ids.at(static_cast<size_t>(*id));
+    }
+    material_ids.push_back(AddMaterial(material));
+  }
+  if (model.mesh.parts.empty())
+    model.mesh.parts.push_back({0, static_cast<uint32_t>(model.mesh.triangles.size()), 0, kNoEntity});
+  for (MeshPart& part : model.mesh.parts) part.material = material_ids.at(part.material);
+  if (!model.attribution.empty()) builder_.AddAttribution(std::move(model.attribution));
+  return builder_.AddMesh(std::move(model.mesh));
+}
+
+TextureId PropShelf::AddTexture(Texture texture) {
+  const auto [it, fresh] = textures_.try_emplace(TextureKey(texture), kNoTexture);
+  if (fresh) it->second = builder_.AddTexture(std::move(texture));
+  return it->second;
+}
+
+MaterialId PropShelf::AddMaterial(const Material& material) {
+  const auto [first, last] = materials_.equal_range(material.name);
+  for (auto it = first; it != last; ++it) {
+    if (internal::SameMaterial(builder_.material(it->second), material)) return it->second;
+  }
+  return materials_.emplace(material.name, builder_.AddMaterial(material))->second;
+}
+
+}  // namespace airsim360

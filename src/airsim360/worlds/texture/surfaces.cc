@@ -1,0 +1,259 @@
+#include "airsim360/worlds/texture/surfaces.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/worlds/texture/recipe_shapes.h"
+#include "airsim360/worlds/texture/surface_recipes.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::Recipe;
+
+// One material: the texture's mean luminance is replaced by that of `color`, hue multiplied.
+struct Row {
+  Surface surface;
+  const char* name;
+  Recipe recipe;
+  Vec3f color;             // albedo (linear); with a texture: multiplies it
+  float roughness = 0.8f;  // of untextured ones
+  float macro = 0;
+  float metallic = 0;
+  SurfaceKind kind = SurfaceKind::kStandard;
+  GroundWear ground = GroundWear::kNone;
+};
+
+constexpr Vec3f Gray(float y) { return {y, y, y}; }
+constexpr SurfaceKind kPane = SurfaceKind::kGlass;
+
+using S = Surface;
+using R = Recipe;
+using G = GroundWear;
+constexpr SurfaceKind kSolid = SurfaceKind::kStandard;
+constexpr Row kRows[] = {
+    {S::kAsphalt, "asphalt", R::kAsphalt, Gray(0.88f), 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kAsphaltPatch, "asphalt patch", R::kAsphaltFresh, Gray(1.15f), 0.8f, 0.05f},
+    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {1.06f, 1.04f, 1.00f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kTar, "tar", R::kNone, Gray(0.035f), 0.5f},
+    {S::kGutter, "gutter", R::kConcrete, Gray(0.62f), 0.7f, 0.1f},
+    {S::kKerb, "kerb stone", R::kConcrete, {0.86f, 0.85f, 0.83f}, 0.7f, 0.06f},
+    {S::kSlabs, "slabs", R::kSlabs, {0.80f, 0.79f, 0.76f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kTactile, "tactile slabs", R::kSlabs, {1.35f, 1.0f, 0.35f}, 0.7f},
+    {S::kPlazaBrick,
+     "plaza brick",
+     R::kPavingBrick,
+     {0.88f, 0.90f, 0.95f},
+     0.7f,
+     0.10f,
+     0,
+     kSolid,
+     G::kPaving},
+    {S::kPlazaBrickDark,
+     "plaza brick dark",
+     R::kPavingBrick,
+     {0.68f, 0.70f, 0.76f},
+     0.7f,
+     0.10f,
+     0,
+     kSolid,
+     G::kPaving},
+    {S::kPlazaStone, "plaza stone", R::kStoneSetts, Gray(1.0f), 0.6f, 0.06f, 0, kSolid, G::kPaving},
+    {S::kPath, "park path", R::kGravelPath, Gray(1.0f), 0.85f, 0.10f, 0, kSolid, G::kGravel},
+    {S::kLawn, "lawn", R::kGrass, {1.0f, 1.0f, 1.0f}, 0.8f, 0.14f, 0, kSolid, G::kLawn},
+    {S::kSoil, "soil", R::kSoil, Gray(1.0f), 0.9f, 0.10f, 0, kSolid, G::kSoil},
+    {S::kWater, "water", R::kNone, {0.020f, 0.036f, 0.034f}, 0.08f, 0, 0, SurfaceKind::kWater},
+    {S::kPaintWhite, "road paint white", R::kPaintWorn, Gray(1.05f), 0.65f},
+    {S::kPaintYellow, "road paint yellow", R::kPaintWorn, {1.12f, 0.70f, 0.09f}, 0.65f},
+    {S::kBikeLane, "bike lane", R::kAsphalt, {0.55f, 1.45f, 0.75f}, 0.75f, 0.08f},
+    {S::kIron, "cast iron", R::kNone, Gray(0.075f), 0.5f, 0, 0.6f},
+    {S::kBrickRed, "brick red", R::kBrickRed, Gray(1.0f), 0.7f, 0.06f},
+    {S::kBrickBrown, "brick brown", R::kBrickRed, {0.74f, 0.80f, 0.84f}, 0.7f, 0.06f},
+    {S::kBrickYellow, "brick yellow", R::kBrickStock, Gray(1.05f), 0.7f, 0.06f},
+    {S::kBrickWhite, "brick painted", R::kBrickPainted, {1.0f, 0.97f, 0.90f}, 0.7f, 0.06f},
+    {S::kLimestone, "limestone", R::kAshlar, {1.02f, 0.92f, 0.76f}, 0.7f, 0.06f},
+    {S::kSandstone, "sandstone", R::kAshlar, {0.86f, 0.66f, 0.46f}, 0.7f, 0.06f},
+    {S::kGranite, "granite", R::kAshlar, {0.50f, 0.49f, 0.48f}, 0.5f, 0.04f},
+    {S::kStuccoOchre, "stucco ochre", R::kPlaster, {1.12f, 0.76f, 0.38f}, 0.8f, 0.06f},
+    {S::kStuccoWhite, "stucco white", R::kPlaster, {1.16f, 1.10f, 0.98f}, 0.8f, 0.06f},
+    {S::kStuccoRose, "stucco rose", R::kPlaster, {1.08f, 0.70f, 0.58f}, 0.8f, 0.06f},
+    {S::kStuccoBlue, "stucco blue", R::kPlaster, {0.66f, 0.82f, 0.95f}, 0.8f, 0.06f},
+    {S::kConcrete, "facade concrete", R::kConcrete, {0.92f, 0.90f, 0.86f}, 0.7f, 0.07f},
+    {S::kConcreteWarm, "facade concrete warm", R::kConcrete, {0.86f, 0.76f, 0.62f}, 0.7f, 0.07f},
+    {S::kPanelWhite, "panel white", R::kPlaster, {1.10f, 1.09f, 1.06f}, 0.5f, 0.03f},
+    {S::kPanelDark, "panel dark", R::kNone, {0.07f, 0.075f, 0.085f}, 0.45f, 0.03f},
+    {S::kTrimStone, "trim stone", R::kConcrete, {1.08f, 1.0f, 0.86f}, 0.7f, 0.05f},
+    {S::kTrimWhite, "trim white", R::kPlaster, {1.36f, 1.34f, 1.28f}, 0.7f, 0.04f},
+    {S::kTrimDark, "trim dark", R::kNone, {0.085f, 0.080f, 0.078f}, 0.6f},
+    {S::kFrameWhite, "frame white", R::kNone, Gray(0.66f), 0.5f},
+    {S::kFrameDark, "frame dark", R::kNone, Gray(0.045f), 0.45f},
+    {S::kFrameGreen, "frame green", R::kNone, {0.045f, 0.095f, 0.065f}, 0.5f},
+    {S::kFrameWood, "frame wood", R::kPlanks, {0.42f, 0.32f, 0.24f}, 0.6f},
+    {S::kShutterGreen, "shutter green", R::kNone, {0.06f, 0.14f, 0.09f}, 0.6f},
+    {S::kShutterBlue, "shutter blue", R::kNone, {0.12f, 0.19f, 0.28f}, 0.6f},
+    {S::kGlassDark, "glass dark", R::kNone, {0.035f, 0.042f, 0.046f}, 0.05f, 0, 0, kPane},
+    {S::kGlassBlue, "glass blue", R::kNone, {0.030f, 0.060f, 0.085f}, 0.05f, 0, 0, kPane},
+    {S::kGlassBlind, "glass with blind", R::kNone, {0.40f, 0.385f, 0.35f}, 0.05f, 0, 0, kPane},
+    {S::kGlassCurtain, "glass with curtain", R::kNone, {0.26f, 0.19f, 0.13f}, 0.05f, 0, 0, kPane},
+    {S::kGlassLit, "glass lit", R::kNone, {0.34f, 0.26f, 0.15f}, 0.05f, 0, 0, kPane},
+    {S::kShopInside0, "shop window 0", R::kShop0, Gray(1), 0.05f, 0, 0, kPane},
+    {S::kShopInside1, "shop window 1", R::kShop1, Gray(1), 0.05f, 0, 0, kPane},
+    {S::kShopInside2, "shop window 2", R::kShop2, Gray(1), 0.05f, 0, 0, kPane},
+    {S::kSigns, "shop signs", R::kSigns, Gray(1), 0.5f},
+    {S::kDoorRed, "door red", R::kNone, {0.30f, 0.035f, 0.03f}, 0.4f},
+    {S::kDoorGreen, "door green", R::kNone, {0.03f, 0.11f, 0.07f}, 0.4f},
+    {S::kDoorWood, "door wood", R::kPlanks, {0.5f, 0.36f, 0.24f}, 0.55f},
+    {S::kAwningRed, "awning red", R::kStripes, {1.30f, 0.22f, 0.17f}, 0.85f},
+    {S::kAwningGreen, "awning green", R::kStripes, {0.36f, 0.80f, 0.44f}, 0.85f},
+    {S::kAwningBlue, "awning blue", R::kStripes, {0.34f, 0.52f, 1.05f}, 0.85f},
+    {S::kAwningYellow, "awning yellow", R::kStripes, {1.20f, 0.87f, 0.31f}, 0.85f},
+    {S::kRoofGravel, "roof gravel", R::kRoofGravel, Gray(1.1f), 0.85f, 0.14f, 0, kSolid, G::kRoof},
+    {S::kRoofBitumen, "roof bitumen", R::kBitumen, Gray(0.95f), 0.8f, 0.16f, 0, kSolid, G::kRoofRolls},
+    {S::kRoofTile, "roof tile", R::kRoofTile, Gray(1), 0.8f, 0.1f},
+    {S::kRoofSlate, "roof slate", R::kSlate, Gray(1.15f), 0.7f, 0.08f},
+    {S::kCoping, "coping", R::kConcrete, {0.82f, 0.80f, 0.77f}, 0.7f},
+    {S::kMetal, "galvanised metal", R::kGalvanised, Gray(1.0f), 0.4f, 0.04f, 0.85f},
+    {S::kFarWalls0, "far walls brick", R::kFarWalls, {0.74f, 0.46f, 0.34f}, 0.8f, 0.06f},
+    {S::kFarWalls1, "far walls stone", R::kFarWalls, {1.05f, 0.95f, 0.80f}, 0.8f, 0.06f},
+    {S::kFarWalls2, "far walls concrete", R::kFarWalls, {0.80f, 0.82f, 0.85f}, 0.8f, 0.06f},
+    {S::kFarRoof, "far roof", R::kRoofGravel, Gray(0.9f), 0.85f, 0.2f},
+    {S::kMountain, "mountain", R::kRock, Gray(1), 0.9f},
+    {S::kMountainFar, "mountain far", R::kRock, {0.9f, 0.95f, 1.1f}, 0.9f},
+    {S::kPlain, "plain", R::kFields, Gray(1), 0.9f},
+    {S::kBusLane, "bus lane", R::kAsphalt, {1.75f, 0.52f, 0.50f}, 0.75f, 0.10f},
+    {S::kDirt, "dirt", R::kSoil, {0.94f, 0.92f, 0.90f}, 0.9f, 0.12f, 0, kSolid, G::kSoil},
+    {S::kBrownstone, "brownstone", R::kAshlar, {0.44f, 0.29f, 0.21f}, 0.75f, 0.06f},
+    {S::kBrownstoneTrim, "brownstone trim", R::kConcrete, {0.42f, 0.27f, 0.19f}, 0.75f, 0.05f},
+    {S::kBronze, "bronze spandrel", R::kNone, {0.13f, 0.105f, 0.075f}, 0.5f, 0.03f},
+    {S::kGlassBlack, "glass black", R::kNone, {0.012f, 0.014f, 0.017f}, 0.04f, 0, 0, kPane},
+    {S::kGlassRedCurtain, "glass with red curtain", R::kNone, {0.42f, 0.012f, 0.015f}, 0.05f, 0, 0, kPane},
+    {S::kIronBlack, "iron black", R::kNone, {0.022f, 0.022f, 0.024f}, 0.55f},
+    {S::kCarriageway, "carriageway", R::kAsphalt, Gray(0.86f), 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kCarriagewayOld,
+     "carriageway old",
+     R::kAsphalt,
+     {1.04f, 1.02f, 0.98f},
+     0.8f,
+     0.14f,
+     0,
+     kSolid,
+     G::kCarriageway},
+    {S::kCarriagewayFresh, "carriageway fresh", R::kAsphaltFresh, Gray(1.45f), 0.8f, 0.10f, 0, kSolid, G::kCarriageway},
+    {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.36f, 1.33f, 1.27f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.40f, 1.37f, 1.30f}, 0.8f, 0.10f},
+    {S::kFarWalls3, "far walls brown", R::kFarWalls, {0.54f, 0.39f, 0.31f}, 0.8f, 0.06f},
+    {S::kFarPiers0, "far piers stone", R::kFarPiers, {1.06f, 0.94f, 0.78f}, 0.8f, 0.06f},
+    {S::kFarPiers1, "far piers brick", R::kFarPiers, {0.78f, 0.52f, 0.40f}, 0.8f, 0.06f},
+    {S::kFarRibbons0, "far ribbons white", R::kFarRibbons, {1.12f, 1.11f, 1.07f}, 0.8f, 0.06f},
+    {S::kFarRibbons1, "far ribbons grey", R::kFarRibbons, {0.52f, 0.57f, 0.62f}, 0.6f, 0.06f},
+};
+static_assert(std::size(kRows) == static_cast<size_t>(S::kCount));
+
+struct TextureIds {
+  TextureId color = kNoTexture, normal = kNoTexture, roughness = kNoTexture;
+  float tile = 1;
+};
+
+bool IsPicture(Recipe recipe) { return recipe >= R::kShop0 && recipe <= R::kSigns; }
+
+// Textures without a lattice are mixed from patches of themselves; bricks and slabs are tinted one by one.
+bool IsShapeless(Recipe recipe) {
+  return recipe == R::kAsphalt || recipe == R::kAsphaltFresh || recipe == R::kBitumen ||
+         recipe == R::kConcrete || recipe == R::kGravelPath || recipe == R::kGrass || recipe == R::kSoil ||
+         recipe == R::kPlaster || recipe == R::kRoofGravel;
+}
+
+Vec2f UnitsOf(Recipe recipe) {
+  using internal::Lattice;
+  const auto units = [](Lattice l) {
+    return Vec2f{static_cast<float>(l.columns), static_cast<float>(l.rows)};
+  };
+  switch (recipe) {
+    case R::kSlabs:
+      return units(internal::kSlabUnits);
+    case R::kBrickRed:
+    case R::kBrickStock:
+      return units(internal::kBrickUnits);
+    case R::kAshlar:
+      return units(internal::kAshlarUnits);
+    case R::kStoneSetts:
+      return units(internal::kSettUnits);
+    case R::kSlate:
+      return units(internal::kSlateUnits);
+    case R::kFarWalls:
+    case R::kFarPiers:
+    case R::kFarRibbons:
+      return {1, 0.1f};  // each far building a tone of its own
+    default:
+      return {};
+  }
+}
+
+std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
+  // Generated in parallel, added in order.
+  constexpr auto kCount = static_cast<size_t>(R::kCount);
+  std::vector<std::optional<TextureSet>> sets(kCount);
+  std::vector<TextureIds> ids(kCount);
+  ParallelFor(static_cast<int64_t>(kCount), [&](int64_t i) {
+    const auto recipe = static_cast<Recipe>(i);
+    const TextureRecipe made = internal::MakeRecipe(recipe);
+    ids[static_cast<size_t>(i)].tile = made.tile;
+    sets[static_cast<size_t>(i)] = SynthesizeTextures(made, internal::SizeOf(recipe));
+  });
+  for (size_t i = 0; i < kCount; ++i) {
+    ids[i].color = builder.AddTexture(std::move(sets[i]->color));
+    if (IsPicture(static_cast<Recipe>(i))) continue;
+    ids[i].normal = builder.AddTexture(std::move(sets[i]->normal));
+    ids[i].roughness = builder.AddTexture(std::move(sets[i]->roughness));
+  }
+  return ids;
+}
+
+}  // namespace
+
+Surfaces AddSurfaces(SceneBuilder& builder) {
+  const std::vector<TextureIds> textures = AddTextures(builder);
+  Surfaces surfaces;
+  for (const Row& row : kRows) {
+    Material material;
+    material.name = row.name;
+    material.kind = row.kind;
+    material.base_color = row.color;
+    material.roughness = row.roughness;
+    material.metallic = row.metallic;
+    material.macro_variation = row.macro;
+    material.ground = row.ground;
+    material.blend_tiles = IsShapeless(row.recipe);
+    material.units = UnitsOf(row.recipe);
+    // Dark panes show the room behind them; blinds and curtains hide it.
+    material.interior = row.surface == S::kGlassDark || row.surface == S::kGlassBlue ||
+                        row.surface == S::kGlassLit || (row.recipe >= R::kShop0 && row.recipe <= R::kShop2);
+    if (row.recipe != R::kNone) {
+      const TextureIds& ids = textures[static_cast<size_t>(row.recipe)];
+      material.base_color_texture = ids.color;
+      material.normal_texture = ids.normal;
+      material.metallic_roughness_texture = ids.roughness;
+      if (ids.roughness != kNoTexture) material.roughness = 1;
+      material.uv_scale = {1 / ids.tile, 1 / ids.tile};
+      // Shops and their signs shine in the evening.
+      if (IsPicture(row.recipe)) {
+        material.emission = Vec3f{1.0f, 0.88f, 0.70f} * ((row.recipe == R::kSigns ? 60 : 350) * kNit);
+        material.emission_texture = ids.color;
+        material.lamp = true;
+      }
+    }
+    // Somebody is at home behind these: warm light, through a curtain less of it.
+    if (row.surface == S::kGlassLit || row.surface == S::kGlassCurtain) {
+      material.emission = row.surface == S::kGlassLit ? Vec3f{72, 52, 30} * kNit : Vec3f{20, 13, 6.5f} * kNit;
+      material.lamp = true;
+    }
+    surfaces.materials_[static_cast<size_t>(row.surface)] = builder.AddMaterial(std::move(material));
+  }
+  return surfaces;
+}
+
+}  // namespace airsim360

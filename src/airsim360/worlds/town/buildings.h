@@ -1,0 +1,15 @@
+// All buildings of a plan: walls, roofs and what stands on them.
+#pragma once
+
+#include <vector>
+
+#include "airsim360/worlds/town/district.h"
+
+namespace airsim360::internal {
+
+/// Buildings block by block, one merged mesh each; a plan with a `base` belongs to the entity of the one
+/// before it. Every roof is an entity of its own.
+void BuildBuildings(District& district, const std::vector<BuildingPlan>& buildings,
+                    bool fire_escapes = false);
+
+}  // namespace airsim360::internal
