@@ -8,17 +8,26 @@
 """
 from __future__ import annotations
 
-import difflib
 import json
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Literal, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
+import numpy.typing as npt
 
+from ._words import did_you_mean
 from .pictures import read_exr, read_png
 
+if TYPE_CHECKING:
+    from .records import Category, EntityRecord, FrameRecord, Meta, PersonRecord, Pose
+
 __all__ = ["Dataset", "Frame", "Samples"]
+
+_Array = npt.NDArray[Any]
+_F64 = npt.NDArray[np.float64]
+_F32 = npt.NDArray[np.float32]
+_Channels = Dict[str, _Array]
 
 # Folders of pictures and how `collect` is asked for them.
 _PRODUCTS = {"rgb": "any tier but labels", "range": "", "semantic": "", "entity": "", "normal": "--products normal",
@@ -32,30 +41,23 @@ _CUBE_FACES = {"+x": ((1, 0, 0), (0, 0, -1)), "-x": ((-1, 0, 0), (0, 0, 1)), "+y
 _EXR_COLOR = {"rgb": "RGB", "radiance": "RGB", "position": "XYZ"}
 
 
-def _nearest(word: str, choices: Sequence[str]) -> str:
-    near = difflib.get_close_matches(word, choices, 1)
-    return f"; did you mean {near[0]!r}?" if near else ""
-
-
 def _product(name: str) -> str:
     if name not in _PRODUCTS:
-        raise ValueError(f"no product is called {name!r}{_nearest(name, list(_PRODUCTS))} (products: {', '.join(_PRODUCTS)})")
+        raise ValueError(f"no product is called {name!r}{did_you_mean(name, _PRODUCTS)} (products: {', '.join(_PRODUCTS)})")
     return name
 
 
 class Frame:
     """One frame of a dataset: its pictures as attributes, read from disk at each use, and where it was taken.
 
-    rgb (H, W, 3) uint8 sRGB · range (H, W) float32, metres along the ray, 0 = sky · semantic (H, W) category ids ·
-    entity (H, W) uint32 entity ids · normal (H, W, 3) float32, unit in W, 0 = sky · position (H, W, 3) float32, metres
-    in W · albedo (H, W, 3) uint8 · material (H, W) uint16 · part (H, W) uint8 · sky (H, W) bool · flow (H, W, 2) float32,
-    pixels to the next frame · radiance (H, W, 3) float32, linear light. A product that the dataset lacks is a ValueError
-    that names the flag which writes it. Where a frame has several views (the faces of a cube, several cameras) use
+    H rows from top to bottom, W columns from left to right. A product that the dataset lacks is a ValueError that names
+    the flag which writes it. Where a frame has several views (the faces of a cube, several cameras) use
     read(product, view).
     """
 
-    def __init__(self, dataset: "Dataset", record: Dict[str, Any]):
-        self.dataset, self.record = dataset, record
+    def __init__(self, dataset: "Dataset", record: FrameRecord) -> None:
+        self.dataset = dataset
+        self.record = record
 
     def __repr__(self) -> str:
         x, y, z = self.p
@@ -82,22 +84,22 @@ class Frame:
         return self.t_ns * 1e-9
 
     @property
-    def p(self) -> np.ndarray:
+    def p(self) -> _F64:
         """(3,) place of the camera in W, metres."""
         return np.array(self.record["X_WC"]["p"])
 
     @property
-    def q_wxyz(self) -> np.ndarray:
+    def q_wxyz(self) -> _F64:
         """(4,) rotation of the camera in W as w, x, y, z."""
         return np.array(self.record["X_WC"]["q_wxyz"])
 
     @property
-    def pose(self) -> np.ndarray:
+    def pose(self) -> _F64:
         """(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward."""
         return _pose(self.record["X_WC"])
 
     @property
-    def velocity(self) -> np.ndarray:
+    def velocity(self) -> _F64:
         """(3,) of the body in W, m/s."""
         return np.array(self.record["v_WB"])
 
@@ -112,11 +114,85 @@ class Frame:
         return list(dict.fromkeys(view for _, view in self._keys))
 
     @property
-    def people(self) -> List[Dict[str, Any]]:
+    def people(self) -> List[PersonRecord]:
         """The persons of people.jsonl in this frame (docs/people_labels.md); [] without people."""
         return self.dataset._people.get(self.index, [])
 
-    def read(self, product: str, view: str = "") -> Union[np.ndarray, Dict[str, np.ndarray]]:
+    @property
+    def rgb(self) -> npt.NDArray[np.uint8]:
+        """(H, W, 3) uint8, sRGB."""
+        return self.read("rgb")
+
+    @property
+    def range(self) -> _F32:
+        """(H, W) float32, metres along the ray, 0 = sky."""
+        return self.read("range")
+
+    @property
+    def semantic(self) -> _Array:
+        """(H, W) uint8 (uint16 with custom categories), category ids."""
+        return self.read("semantic")
+
+    @property
+    def entity(self) -> npt.NDArray[np.uint32]:
+        """(H, W) uint32, entity ids."""
+        return self.read("entity")
+
+    @property
+    def normal(self) -> _F32:
+        """(H, W, 3) float32, unit normal in W towards the camera, 0 = sky."""
+        return self.read("normal")
+
+    @property
+    def position(self) -> _F32:
+        """(H, W, 3) float32, point hit, metres in W."""
+        return self.read("position")
+
+    @property
+    def albedo(self) -> npt.NDArray[np.uint8]:
+        """(H, W, 3) uint8, sRGB colour of the surface without any light."""
+        return self.read("albedo")
+
+    @property
+    def material(self) -> npt.NDArray[np.uint16]:
+        """(H, W) uint16, key of materials.json, 0 = sky."""
+        return self.read("material")
+
+    @property
+    def part(self) -> npt.NDArray[np.uint8]:
+        """(H, W) uint8, index into airsim360.PARTS."""
+        return self.read("part")
+
+    @property
+    def sky(self) -> npt.NDArray[np.bool_]:
+        """(H, W) bool: the ray meets the sky."""
+        return self.read("sky")
+
+    @property
+    def flow(self) -> _F32:
+        """(H, W, 2) float32, pixels to where the point is in the next frame; read("flow") has more channels."""
+        stored = self.read("flow")
+        return np.stack([stored["dx"], stored["dy"]], -1)
+
+    @property
+    def coverage(self) -> _Channels:
+        """Channels of a file of coverage (docs/datasets.md), by name."""
+        return self.read("coverage")
+
+    @property
+    def radiance(self) -> _F32:
+        """(H, W, 3) float32, linear light."""
+        return self.read("radiance")
+
+    @overload
+    def read(self, product: Literal["rgb", "range", "semantic", "entity", "normal", "position", "albedo", "material", "part",
+                                    "sky", "radiance"], view: str = "") -> _Array: ...
+    @overload
+    def read(self, product: Literal["flow", "coverage"], view: str = "") -> _Channels: ...
+    @overload
+    def read(self, product: str, view: str = "") -> Union[_Array, _Channels]: ...
+
+    def read(self, product: str, view: str = "") -> Union[_Array, _Channels]:
         """A picture as stored, of one view; flow and coverage: a dictionary of their channels."""
         path = self.path(_product(product), view)
         if path.suffix == ".exr":
@@ -149,19 +225,19 @@ class Frame:
                 return path
         raise FileNotFoundError(f"{self.dataset.folder / product / name}.*: missing (airsim360 verify tells what else is)")
 
-    def arrays(self, *products: str) -> Dict[str, np.ndarray]:
+    def arrays(self, *products: str) -> _Channels:
         """Pictures by product, for instance for a network; all that are stored if none is named."""
-        return {name: getattr(self, name) if name != "coverage" else self.read(name)
+        return {name: getattr(self, name)
                 for name in (products or self.products) if _product(name)}
 
-    def rays(self, view: str = "") -> np.ndarray:
+    def rays(self, view: str = "") -> _F64:
         """(H, W, 3) float64 unit rays in C through the pixel centres: panoramas, cube faces and pinholes."""
         if view in _CUBE_FACES:
             forward, right = (np.array(axis, float) for axis in _CUBE_FACES[view])
             size = self.dataset.meta["size"][0]
             grid = 2 * (np.arange(size) + 0.5) / size - 1
-            ray = forward + grid[None, :, None] * right + grid[:, None, None] * np.cross(forward, right)
-            return ray / np.linalg.norm(ray, axis=-1, keepdims=True)
+            ray: _F64 = forward + grid[None, :, None] * right + grid[:, None, None] * np.cross(forward, right)
+            return _unit(ray)
         width, height = self.dataset.meta["size"]
         projection = self.dataset.meta["parameters"]["projection"]
         if projection == "erp":
@@ -174,11 +250,11 @@ class Frame:
             x = (np.arange(width) + 0.5 - K[0, 2]) / K[0, 0]
             y = (np.arange(height) + 0.5 - K[1, 2]) / K[1, 1]
             ray = np.stack([*np.meshgrid(x, y), np.ones((height, width))], -1)
-            return ray / np.linalg.norm(ray, axis=-1, keepdims=True)
+            return _unit(ray)
         raise ValueError(f"rays: {projection} pictures: name a view of a cube, or use panoramas and pinholes")
 
     @property
-    def K(self) -> np.ndarray:
+    def K(self) -> _F64:
         """(3, 3) intrinsics of a pinhole picture in pixels: x = (K p_C)_x / z, pixel centres at + 0.5."""
         parameters = self.dataset.meta["parameters"]
         if parameters["projection"] != "pinhole":
@@ -187,19 +263,15 @@ class Frame:
         f = width / 2 / np.tan(np.radians(parameters["fov_deg"]) / 2)
         return np.array([[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]])
 
-    def points(self, view: str = "") -> np.ndarray:
+    def points(self, view: str = "") -> _F64:
         """(H, W, 3) float64 surface points in W, metres; NaN where nothing is hit (sky)."""
         distance = self.read("range", view)[..., None].astype(float)
         pose = self.pose
         return np.where(distance > 0, self.rays(view) * distance @ pose[:3, :3].T + pose[:3, 3], np.nan)
 
-    def __getattr__(self, name: str) -> np.ndarray:
-        if name.startswith("_") or name not in _PRODUCTS:
-            raise AttributeError(f"a frame has no {name!r}{_nearest(name, list(_PRODUCTS))}")
-        stored = self.read(name)
-        if name == "flow":
-            return np.stack([stored["dx"], stored["dy"]], -1)
-        return stored
+    if not TYPE_CHECKING:  # checkers are to find unknown names themselves
+        def __getattr__(self, name):
+            raise AttributeError(f"a frame has no {name!r}{'' if name.startswith('_') else did_you_mean(name, _PRODUCTS)}")
 
     @cached_property
     def _keys(self) -> List[Tuple[str, str]]:
@@ -212,18 +284,18 @@ class Frame:
         return keys
 
 
-class Dataset(Sequence):
+class Dataset(Sequence[Frame]):
     """The frames of a folder that `airsim360 collect`, `render` or `fly` wrote: len(), [i], slices, iteration.
 
     folder: ValueError where it holds no dataset or an unfinished one. Frames read their pictures when asked, so a
     Dataset is small and can be pickled to the workers of a loader.
     """
 
-    def __init__(self, folder: Union[str, Path]):
+    def __init__(self, folder: Union[str, Path]) -> None:
         self.folder = Path(folder)
         if not (self.folder / "meta.json").is_file():
             raise ValueError(f"{self.folder}: not a dataset: it has no meta.json")
-        self.meta: Dict[str, Any] = json.loads((self.folder / "meta.json").read_text())
+        self.meta: Meta = json.loads((self.folder / "meta.json").read_text())
         if not (self.folder / "frames.jsonl").is_file():
             raise ValueError(f"{self.folder}: unfinished: run the command that began it again, it goes on from there")
         self._frames = [Frame(self, record) for record in _lines(self.folder / "frames.jsonl")]
@@ -236,7 +308,7 @@ class Dataset(Sequence):
     @overload
     def __getitem__(self, i: slice) -> List[Frame]: ...
 
-    def __getitem__(self, i):
+    def __getitem__(self, i: Union[int, slice]) -> Union[Frame, List[Frame]]:
         return self._frames[i]
 
     def __iter__(self) -> Iterator[Frame]:
@@ -253,50 +325,56 @@ class Dataset(Sequence):
         return self._frames[0].products if self._frames else []
 
     @cached_property
-    def categories(self) -> Dict[int, Dict[str, Any]]:
+    def categories(self) -> Dict[int, Category]:
         """Category id → path, parent, kind ("thing" or "stuff"), ids in ADE20K, Cityscapes and COCO."""
         return {category["id"]: category for category in self.meta["categories"]}
 
     @cached_property
-    def entities(self) -> Dict[int, Dict[str, Any]]:
+    def entities(self) -> Dict[int, EntityRecord]:
         """Entity id → name, category, category_path, kind, first_frame."""
         stored = json.loads((self.folder / "entities.json").read_text())
         return {int(number): entity for number, entity in stored.items()}
 
-    def samples(self, *products: str, transform: Optional[Callable[[Dict[str, np.ndarray]], Any]] = None) -> "Samples":
+    def samples(self, *products: str, transform: Optional[Callable[[Dict[str, _Array]], Any]] = None) -> "Samples":
         """Frames as dictionaries of arrays, in types that torch has, for torch.utils.data.DataLoader."""
         return Samples(self, products or ("rgb", "semantic"), transform)
 
     @cached_property
-    def _people(self) -> Dict[int, List[Dict[str, Any]]]:
+    def _people(self) -> Dict[int, List[PersonRecord]]:
         path = self.folder / "people.jsonl"
         return {line["index"]: line["persons"] for line in _lines(path)} if path.is_file() else {}
 
 
-class Samples(Sequence):
+class Samples(Sequence[Any]):
     """A map-style dataset: samples[i] is {product: array} of frame i, or what `transform` makes of it.
 
     Unsigned integers of more than 8 bits become int64, which torch's losses take as class ids.
     """
 
-    def __init__(self, dataset: Dataset, products: Sequence[str], transform: Optional[Callable[[Dict[str, np.ndarray]], Any]] = None):
+    def __init__(self, dataset: Dataset, products: Sequence[str],
+                 transform: Optional[Callable[[Dict[str, _Array]], Any]] = None) -> None:
         self.dataset, self.products, self.transform = dataset, [_product(name) for name in products], transform
 
     def __len__(self) -> int:
         return len(self.dataset)
 
-    def __getitem__(self, i: int) -> Any:
+    def __getitem__(self, i: Any) -> Any:
         sample = {name: array.astype(np.int64) if array.dtype in (np.uint16, np.uint32) or name == "semantic" else array
                   for name, array in self.dataset[i].arrays(*self.products).items()}
         return self.transform(sample) if self.transform else sample
 
 
-def _lines(path: Path) -> List[Dict[str, Any]]:
+def _lines(path: Path) -> List[Any]:
     with open(path, encoding="utf-8") as lines:
         return [json.loads(line) for line in lines]
 
 
-def _pose(X: Dict[str, Sequence[float]]) -> np.ndarray:
+def _unit(rays: _F64) -> _F64:
+    length: _F64 = np.linalg.norm(rays, axis=-1, keepdims=True)
+    return rays / length
+
+
+def _pose(X: Pose) -> _F64:
     w, x, y, z = X["q_wxyz"]
     pose = np.eye(4)
     pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -306,7 +384,7 @@ def _pose(X: Dict[str, Sequence[float]]) -> np.ndarray:
     return pose
 
 
-def _read_picture(path: Path, rgb8: bool) -> np.ndarray:
+def _read_picture(path: Path, rgb8: bool) -> _Array:
     """PNG, or JPEG by whichever decoder is there. rgb8: 8-bit colour, which the compiled module reads some ten times faster."""
     if rgb8:
         try:

@@ -11,17 +11,21 @@ from __future__ import annotations
 import struct
 import zlib
 from pathlib import Path
-from typing import Dict, Union
+from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 __all__ = ["read_exr", "read_png"]
 
 # Pictures of more pixels are refused before memory is taken, as by the C++ decoders.
 _MAX_PIXELS = 1 << 28
 
+_Array = npt.NDArray[Any]
+_Bytes = npt.NDArray[np.uint8]
 
-def read_png(path: Union[str, Path]) -> np.ndarray:
+
+def read_png(path: Union[str, Path]) -> _Array:
     """A PNG of 8 or 16 bits a sample, not interlaced, exactly as stored.
 
     Returns (H, W) uint8 or uint16 for grey and palette pictures (the palette's indices, not its colours), (H, W, C)
@@ -30,7 +34,8 @@ def read_png(path: Union[str, Path]) -> np.ndarray:
     data = Path(path).read_bytes()
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError(f"{path}: not a PNG file")
-    header, packed = None, []
+    header: Optional[Tuple[int, ...]] = None
+    packed: List[bytes] = []
     for kind, chunk in _png_chunks(path, data):
         if kind == b"IHDR":
             header = struct.unpack(">IIBBBBB", chunk)
@@ -53,7 +58,7 @@ def read_png(path: Union[str, Path]) -> np.ndarray:
     return plain[..., 0] if channels == 1 else plain
 
 
-def read_exr(path: Union[str, Path]) -> Dict[str, np.ndarray]:
+def read_exr(path: Union[str, Path]) -> Dict[str, _Array]:
     """Every channel of a scan line OpenEXR file by its name: (H, W) float32, float16 or uint32.
 
     Compression none, ZIPS or ZIP, as AirSim360 writes. ValueError names the file where it is something else or damaged.
@@ -65,7 +70,7 @@ def read_exr(path: Union[str, Path]) -> Dict[str, np.ndarray]:
         raise ValueError(f"{path}: damaged EXR file") from damage
 
 
-def _png_chunks(path, data):
+def _png_chunks(path: Union[str, Path], data: bytes) -> Iterator[Tuple[bytes, bytes]]:
     at = 8
     while at + 12 <= len(data):
         size, kind = struct.unpack_from(">I4s", data, at)
@@ -79,7 +84,7 @@ def _png_chunks(path, data):
     raise ValueError(f"{path}: damaged PNG: it ends early")
 
 
-def _inflate(path, packed, size) -> np.ndarray:
+def _inflate(path: Union[str, Path], packed: bytes, size: int) -> _Bytes:
     """`size` bytes from a zlib stream; never more memory than that."""
     stream = zlib.decompressobj()
     try:
@@ -91,7 +96,7 @@ def _inflate(path, packed, size) -> np.ndarray:
     return np.frombuffer(plain, np.uint8)
 
 
-def _unfilter(path, filters, rows) -> np.ndarray:
+def _unfilter(path: Union[str, Path], filters: _Bytes, rows: _Bytes) -> _Bytes:
     """Undoes the row filters of (H, W, bytes of a pixel).
 
     A pixel needs its left, upper and upper left neighbours, so all pixels of one anti-diagonal x + y are found at once.
@@ -119,27 +124,29 @@ def _unfilter(path, filters, rows) -> np.ndarray:
         paeth = np.where((near[0] <= near[1]) & (near[0] <= near[2]), left, np.where(near[1] <= near[2], up, corner))
         guess = np.where(k == 4, paeth, np.where(k == 3, (left + up) >> 1, np.where(k == 2, up, np.where(k == 1, left, 0))))
         diagonals[d + 2, first + 1:last + 1] = (filtered[d, first:last] + guess) & 255
-    return diagonals[2:, 1:].reshape(-1, n)[place].astype(np.uint8).reshape(height, width, n)
+    out: _Bytes = diagonals[2:, 1:].reshape(-1, n)[place].astype(np.uint8).reshape(height, width, n)
+    return out
 
 
-_EXR_TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
+_EXR_TYPES: Dict[int, np.dtype[Any]] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 _EXR_LINES = {0: 1, 2: 1, 3: 16}  # scan lines of a block by compression: none, ZIPS, ZIP
 
 
-def _text(data, at):
+def _text(data: bytes, at: int) -> Tuple[str, int]:
     end = data.find(b"\0", at)
     if end < 0:
         raise IndexError("a name without an end")
     return data[at:end].decode("latin-1"), end + 1
 
 
-def _read_exr(path, data):
+def _read_exr(path: Union[str, Path], data: bytes) -> Dict[str, _Array]:
     magic, version = struct.unpack_from("<II", data)
     if magic != 20000630:
         raise ValueError(f"{path}: not an OpenEXR file")
     if version & 0x1A00:
         raise ValueError(f"{path}: tiled, deep and multi-part OpenEXR files are not read")
-    attributes, at = {}, 8
+    attributes: Dict[str, bytes] = {}
+    at = 8
     while data[at]:
         name, at = _text(data, at)
         _, at = _text(data, at)
@@ -174,8 +181,9 @@ def _read_exr(path, data):
     return out
 
 
-def _exr_channels(path, text):
-    channels, at = [], 0
+def _exr_channels(path: Union[str, Path], text: bytes) -> List[Tuple[str, np.dtype[Any]]]:
+    channels: List[Tuple[str, np.dtype[Any]]] = []
+    at = 0
     while text[at]:
         name, at = _text(text, at)
         kind, _, x_sampling, y_sampling = struct.unpack_from("<iIii", text, at)
@@ -186,7 +194,7 @@ def _exr_channels(path, text):
     return channels
 
 
-def _exr_block(path, packed, size):
+def _exr_block(path: Union[str, Path], packed: bytes, size: int) -> _Bytes:
     if len(packed) == size:  # stored as it is where compression gains nothing
         return np.frombuffer(packed, np.uint8)
     coded = _inflate(path, packed, size)

@@ -4,10 +4,13 @@ The stock `airsim` package imports `msgpackrpc`, whose original needs tornado < 
 msgpack (Debian: python3-msgpack). One thread reads answers, in whatever order they come; calls may be made from any
 thread.
 """
+from __future__ import annotations
+
 import itertools
 import socket
 import struct
 import threading
+from typing import Any, Callable, Dict, List, Optional
 
 from . import error
 from .server import Server
@@ -19,7 +22,7 @@ _CHUNK = 1 << 20  # bytes that are read at once
 _NEAR = 1 << 17  # bytes on their way from this machine: so many stay in the processor's caches
 
 
-def _open(host, port, timeout):
+def _open(host: str, port: int, timeout: Optional[float]) -> socket.socket:
     """A connected socket."""
     found = socket.getaddrinfo(host, port, 0, socket.SOCK_STREAM)
     for number, (family, kind, protocol, _, place) in enumerate(found):
@@ -40,32 +43,35 @@ def _open(host, port, timeout):
 class Address:
     """Host and port of a server."""
 
-    def __init__(self, host, port):
+    def __init__(self, host: str, port: int) -> None:
         self._host, self._port = host, port
 
     @property
-    def host(self):
+    def host(self) -> str:
+        """Name or number of the machine."""
         return self._host
 
     @property
-    def port(self):
+    def port(self) -> int:
+        """Its port."""
         return self._port
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Address({self._host!r}, {self._port})"
 
 
 class Future:
     """An answer that may not be there yet."""
 
-    def __init__(self, timeout=None):
+    def __init__(self, timeout: Optional[float] = None) -> None:
         self._done = threading.Event()
         self._timeout = timeout
-        self._result = self._error = None
-        self._callbacks = []
+        self._result: Any = None
+        self._error: Any = None
+        self._callbacks: List[Callable[[Future], object]] = []
         self._lock = threading.Lock()
 
-    def _set(self, result, failure):
+    def _set(self, result: Any, failure: Any) -> None:
         with self._lock:
             self._result, self._error = result, failure
             self._done.set()
@@ -73,13 +79,13 @@ class Future:
         for callback in callbacks:
             callback(self)
 
-    def join(self, timeout=None):
+    def join(self, timeout: Optional[float] = None) -> Future:
         """Waits for the answer; errors of the server are not raised here."""
         if not self._done.wait(self._timeout if timeout is None else timeout):
             self._set(None, error.TimeoutError("Request timed out"))
         return self
 
-    def get(self):
+    def get(self) -> Any:
         """Waits and returns the result; raises RPCError, TimeoutError or TransportError."""
         self.join()
         if self._error is None:
@@ -89,14 +95,17 @@ class Future:
         raise error.RPCError(self._error)
 
     @property
-    def result(self):
+    def result(self) -> Any:
+        """What the server has answered; None before that."""
         return self._result
 
     @property
-    def error(self):
+    def error(self) -> Any:
+        """What went wrong: a text of the server or an exception; None if nothing has."""
         return self._error
 
-    def attach_callback(self, callback):
+    def attach_callback(self, callback: Callable[[Future], object]) -> None:
+        """Calls callback(self) when the answer is there, at once if it is."""
         with self._lock:
             if not self._done.is_set():
                 self._callbacks.append(callback)
@@ -107,52 +116,56 @@ class Future:
 class Client:
     """Calls functions of one server. Connects at the first call, and again after the connection was lost."""
 
-    def __init__(self, address, timeout=10, pack_encoding="utf-8", unpack_encoding="utf-8", reconnect_limit=5,
-                 connect_timeout=10):
+    def __init__(self, address: Address, timeout: Optional[float] = 10, pack_encoding: str = "utf-8",
+                 unpack_encoding: str = "utf-8", reconnect_limit: int = 5, connect_timeout: Optional[float] = 10) -> None:
         del pack_encoding, unpack_encoding  # always UTF-8
         self._address, self._timeout = address, timeout
         self._connect_timeout, self._tries = connect_timeout, max(1, reconnect_limit)
         self._ids = itertools.count()
         self._lock = threading.Lock()
-        self._socket = None
-        self._waiting = {}
+        self._socket: Optional[socket.socket] = None
+        self._waiting: Dict[int, Future] = {}
 
     @property
-    def address(self):
+    def address(self) -> Address:
+        """Of the server."""
         return self._address
 
-    def call(self, method, *args):
+    def call(self, method: str, *args: Any) -> Any:
+        """Result of a function of the server; RPCError, TimeoutError, TransportError."""
         return self.call_async(method, *args).get()
 
-    def call_async(self, method, *args):
+    def call_async(self, method: str, *args: Any) -> Future:
+        """The same as a Future, at once."""
         future = Future(self._timeout)
         with self._lock:
-            self._connect()
+            connected = self._connect()
             number = next(self._ids) & 0xFFFFFFFF
             message = pack([REQUEST, number, method, args])
             self._waiting[number] = future
             try:
-                self._socket.sendall(message)
+                connected.sendall(message)
             except OSError as problem:
                 self._waiting.pop(number, None)
-                self._drop(self._socket)
+                self._drop(connected)
                 raise error.TransportError(str(problem)) from problem
         return future
 
-    def notify(self, method, *args):
+    def notify(self, method: str, *args: Any) -> None:
+        """Calls a function without an answer."""
         with self._lock:
-            self._connect()
-            self._socket.sendall(pack([NOTIFY, method, args]))
+            self._connect().sendall(pack([NOTIFY, method, args]))
 
-    def close(self):
+    def close(self) -> None:
+        """Ends the connection; the next call makes a new one."""
         with self._lock:
             if self._socket is not None:
                 self._drop(self._socket)
 
-    def _connect(self):
+    def _connect(self) -> socket.socket:
         if self._socket is not None:
-            return
-        problem = None
+            return self._socket
+        problem: Optional[OSError] = None
         for _ in range(self._tries):
             try:
                 connected = _open(self._address.host, self._address.port, self._connect_timeout)
@@ -165,8 +178,9 @@ class Client:
         connected.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._socket = connected
         threading.Thread(target=self._read, args=(connected,), daemon=True).start()
+        return connected
 
-    def _drop(self, connected):
+    def _drop(self, connected: socket.socket) -> None:
         if self._socket is connected:
             self._socket = None
         try:
@@ -174,7 +188,7 @@ class Client:
         except OSError:
             pass
 
-    def _read(self, connected):
+    def _read(self, connected: socket.socket) -> None:
         messages, chunk = unpacker(), memoryview(bytearray(_CHUNK))
         failure = error.TransportError("Connection closed by the server")
         try:

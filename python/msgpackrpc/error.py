@@ -1,5 +1,7 @@
 """Errors with the names of msgpack-rpc-python."""
 
+__all__ = ["RPCError", "TimeoutError", "TransportError"]
+
 
 class RPCError(Exception):
     """An error that the server has answered with."""

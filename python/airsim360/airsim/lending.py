@@ -2,6 +2,8 @@
 
 Where it cannot be had (another machine or server, another user, another system) pictures come through the socket.
 """
+from __future__ import annotations
+
 import collections
 import ctypes
 import mmap
@@ -10,13 +12,17 @@ import socket
 import struct
 import threading
 import weakref
+from typing import Any, Callable, Deque, List, Optional, Tuple
 
 import numpy as np
+import numpy.typing as npt
 
 try:
     import fcntl
 except ImportError:  # clients run on other systems too
-    fcntl = None
+    pass
+
+_Place = Tuple[int, int]  # offset, size
 
 _BYTES = 128 << 20  # of address space; only what pictures fill is taken of the machine's memory
 _FIRST = 1 << 20  # bytes offered before it is known how large the pictures are
@@ -25,15 +31,15 @@ _FIRST = 1 << 20  # bytes offered before it is known how large the pictures are
 class Region:
     """A part of the memory, free again when the last view of it is gone."""
 
-    def __init__(self, offset, size, bytes_, give_back):
+    def __init__(self, offset: int, size: int, bytes_: Any, give_back: Callable[[_Place], None]) -> None:
         self.offset, self.size = offset, size
         self._bytes = bytes_
         self.free = weakref.finalize(bytes_, give_back, (offset, size))
         self.free.atexit = False
 
-    def view(self, offset, size, dtype):
+    def view(self, offset: int, size: int, dtype: npt.DTypeLike) -> npt.NDArray[Any]:
         """What the server has written at `offset` of the memory: a read-only array of one dimension."""
-        place = np.frombuffer(self._bytes, dtype, size // np.dtype(dtype).itemsize, offset - self.offset)
+        place: npt.NDArray[Any] = np.frombuffer(self._bytes, dtype, size // np.dtype(dtype).itemsize, offset - self.offset)
         place.flags.writeable = False
         return place
 
@@ -41,7 +47,7 @@ class Region:
 class Lending:
     """Memory lent to the server that listens on `port` of this machine. OSError where that cannot be."""
 
-    def __init__(self, port):
+    def __init__(self, port: int) -> None:
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         weakref.finalize(self, self._socket.close)  # ends the loan
         self._socket.settimeout(2)
@@ -60,14 +66,14 @@ class Lending:
         token = self._socket.recv(8, socket.MSG_WAITALL)
         if len(token) != 8:
             raise ConnectionError("the server takes no memory")
-        self.token = struct.unpack("=Q", token)[0]
+        self.token: int = struct.unpack("=Q", token)[0]
         self.wanted = _FIRST  # what the pictures of the last call needed
         self._lock = threading.Lock()
         self._free = [(0, _BYTES)]  # offset, size: in order, apart
-        self._returned = collections.deque()  # finalizers may run anywhere, also while the lock is held
-        self._lost = []
+        self._returned: Deque[_Place] = collections.deque()  # finalizers may run anywhere, also while the lock is held
+        self._lost: List[Region] = []
 
-    def take(self):
+    def take(self) -> Optional[Region]:
         """A region for the next call; None if there is none."""
         size = -(-self.wanted // 4096) * 4096  # the server wants multiples of 64
         with self._lock:
@@ -80,11 +86,11 @@ class Lending:
                     return Region(offset, size, memory, self._returned.append)
         return None
 
-    def lose(self, region):
+    def lose(self, region: Region) -> None:
         """Nobody knows when the server has done with it: it is never used again."""
         self._lost.append(region)
 
-    def _give_back(self, offset, size):
+    def _give_back(self, offset: int, size: int) -> None:
         pieces = sorted(self._free + [(offset, size)])
         self._free = [pieces[0]]
         for offset, size in pieces[1:]:
@@ -95,11 +101,11 @@ class Lending:
                 self._free.append((offset, size))
 
 
-def lend(host, port):
+def lend(host: str, port: int) -> Optional[Lending]:
     """A Lending, or None."""
     if host not in ("127.0.0.1", "localhost"):
         return None
     try:
         return Lending(port)
-    except (OSError, AttributeError):  # not Linux: there is no memfd
+    except (OSError, AttributeError, NameError):  # not Linux: there is no memfd, perhaps no fcntl
         return None

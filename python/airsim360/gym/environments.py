@@ -1,64 +1,85 @@
 """Env and VectorEnv over the native vector environment."""
 from __future__ import annotations
 
-import difflib
-from typing import Any, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Optional, Sequence, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 import airsim360
 
+from .._words import did_you_mean
 from . import spaces
 
-try:
+if TYPE_CHECKING:
+    from types import TracebackType
+    from ..records import EpisodeInfo, ResetOptions, VectorInfo
+
+__all__ = ["Env", "VectorEnv", "make", "make_vec"]
+
+_Array = npt.NDArray[Any]
+Observation = Dict[str, _Array]
+
+
+class _StandIn:
+    """What of Gymnasium's base classes is used by wrappers and training code."""
+
+    _np_random: Optional[np.random.Generator] = None
+
+    @property
+    def np_random(self) -> np.random.Generator:
+        """Random numbers for code around the environment; its own episodes come from reset's seed alone."""
+        if self._np_random is None:
+            self._np_random = np.random.default_rng()
+        return self._np_random
+
+    @np_random.setter
+    def np_random(self, value: np.random.Generator) -> None:
+        self._np_random = value
+
+    def has_wrapper_attr(self, name: str) -> bool:
+        """Whether it has an attribute of that name."""
+        return hasattr(self, name)
+
+    def get_wrapper_attr(self, name: str) -> Any:
+        """The attribute of that name; AttributeError without one."""
+        return getattr(self, name)
+
+    def set_wrapper_attr(self, name: str, value: Any, *, force: bool = True) -> bool:
+        """Sets an attribute; without force only one that is there. Returns whether it was set."""
+        if not force and not hasattr(self, name):
+            return False
+        setattr(self, name, value)
+        return True
+
+    def __enter__(self) -> _StandIn:
+        return self
+
+    def __exit__(self, kind: Optional[type[BaseException]], value: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Nothing to be closed."""
+
+
+if TYPE_CHECKING or not spaces.HAS_GYMNASIUM:
+    _EnvBase = _StandIn
+    _VectorBase = _StandIn
+else:
     import gymnasium
     _EnvBase, _VectorBase = gymnasium.Env, gymnasium.vector.VectorEnv
-except ImportError:
-    class _EnvBase:
-        """What of Gymnasium's base classes is used by wrappers and training code."""
-
-        _np_random: Optional[np.random.Generator] = None
-
-        @property
-        def np_random(self) -> np.random.Generator:
-            """Random numbers for code around the environment; its own episodes come from reset's seed alone."""
-            if self._np_random is None:
-                self._np_random = np.random.default_rng()
-            return self._np_random
-
-        @np_random.setter
-        def np_random(self, value: np.random.Generator) -> None:
-            self._np_random = value
-
-        def has_wrapper_attr(self, name: str) -> bool:
-            return hasattr(self, name)
-
-        def get_wrapper_attr(self, name: str) -> Any:
-            return getattr(self, name)
-
-        def set_wrapper_attr(self, name: str, value: Any, *, force: bool = True) -> bool:
-            if not force and not hasattr(self, name):
-                return False
-            setattr(self, name, value)
-            return True
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            self.close()
-
-    _VectorBase = _EnvBase
 
 # Options of the native environment; those of a task are airsim360.VectorEnvironment.TASK_OPTIONS.
 _NATIVE_OPTIONS = ("drone", "action", "width", "height", "tier", "period", "max_speed", "max_turn", "max_rate", "level")
 
-_IMAGES = {"rgb": (0, 255, np.uint8), "range": (0, np.inf, np.float32),
-           "semantic": (0, 2**16 - 1, np.uint16), "entity": (0, 2**32 - 1, np.uint32)}
+_IMAGES: Dict[str, Tuple[float, float, npt.DTypeLike]] = {
+    "rgb": (0, 255, np.uint8), "range": (0, np.inf, np.float32),
+    "semantic": (0, 2**16 - 1, np.uint16), "entity": (0, 2**32 - 1, np.uint32)}
 _STATE_SIZE = 17
 
 
-def _metadata():
+def _metadata() -> Dict[str, Any]:
     """Gymnasium's word for what auto_reset does here, where it has one."""
     try:
         from gymnasium.vector import AutoresetMode
@@ -70,19 +91,30 @@ def _metadata():
 class _Base:
     """What both have: the native environment, its spaces and observations."""
 
-    def _open(self, task, world, count, seed, copy, observations, options, auto_reset):
+    native: airsim360.VectorEnvironment
+    """The environment in C++, for what is not in Gymnasium's API: pose_of, goal_of, hash."""
+    world: airsim360.World
+    """Where it takes place."""
+    task: str
+    """reach, avoid or search."""
+    _np_random: Optional[np.random.Generator]
+
+    def _open(self, task: Any, world: Union[str, airsim360.World], count: int, seed: Optional[int], copy: bool,
+              observations: Iterable[Any], options: Dict[str, Any], auto_reset: bool) -> None:
         world = airsim360.World(world) if isinstance(world, str) else world
         known = (*_NATIVE_OPTIONS, *airsim360.VectorEnvironment.TASK_OPTIONS)
         for name in options:
             if name not in known:
-                near = difflib.get_close_matches(name, known, 1)
-                raise ValueError(f"unknown option {name!r}{f'; did you mean {near[0]!r}?' if near else ''} (options: {', '.join(known)})")
+                raise ValueError(f"unknown option {name!r}{did_you_mean(name, known)} (options: {', '.join(known)})")
         native = {name: options.pop(name) for name in _NATIVE_OPTIONS if name in options}
-        self.native = airsim360.VectorEnvironment(world, task, options, count=count, seed=seed or 0,
+        task_options: Any = options  # their names are checked above, their values there
+        self.native = airsim360.VectorEnvironment(world, task, task_options, count=count, seed=seed or 0,
                                                   observations=list(observations), auto_reset=auto_reset, **native)
         self.world, self.task, self._copy = world, task, copy
         # Views stay valid: each step writes into the same memory.
-        self._views = {name: view for name in _IMAGES if (view := getattr(self.native, name)) is not None}
+        pictures = {"rgb": self.native.rgb, "range": self.native.range, "semantic": self.native.semantic,
+                    "entity": self.native.entity}
+        self._views: Observation = {name: view for name, view in pictures.items() if view is not None}
         self._views["state"] = self.native.state
         boxes = {name: spaces.Box(_IMAGES[name][0], _IMAGES[name][1], view.shape[1:], _IMAGES[name][2])
                  for name, view in self._views.items() if name != "state"}
@@ -90,30 +122,33 @@ class _Base:
         self._one_observation = spaces.Dict(boxes)
         self._one_action = spaces.Box(-1.0, 1.0, (self.native.action_size,), np.float32)
 
-    def _begin(self, seed, options):
+    def _begin(self, seed: Optional[int], options: Optional[ResetOptions]) -> None:
         if seed is not None:
             self._np_random = np.random.default_rng(seed)
         self.native.reset(seed, options)
 
-    def _observe(self, row=None):
+    def _observe(self, row: Optional[int] = None) -> Observation:
         views = self._views if row is None else {name: view[row] for name, view in self._views.items()}
         if self._copy:
             return {name: np.array(view) for name, view in views.items()}
         return dict(views)
 
     @property
-    def unwrapped(self):
+    def unwrapped(self) -> _Base:
+        """Itself."""
         return self
 
-    def close(self, **kwargs):
+    def close(self, **kwargs: Any) -> None:
         """Nothing to be closed: memory goes with the object and its views."""
 
 
 class VectorEnv(_Base, _VectorBase):
     """`num_envs` copies of a task, all in one call. Where one has ended the next step begins its next episode.
 
-    options: drone, action ("velocity", "rates", "rotors"), width, height, tier, period, max_speed, max_turn, max_rate,
-    level, and those of the task (docs/python.md); ValueError names the nearest for an unknown one.
+    task: reach, avoid or search. world: a World, or what World() takes. observations: pictures besides "state", of rgb,
+    range, semantic, entity. copy: observations are copies; without it views that the next step writes over. options:
+    drone, action ("velocity", "rates", "rotors"), width, height, tier, period, max_speed, max_turn, max_rate, level
+    (VectorEnvironment), and those of the task (records.TaskOptions); ValueError names the nearest for an unknown one.
     """
 
     metadata = _metadata()
@@ -121,8 +156,8 @@ class VectorEnv(_Base, _VectorBase):
     spec = None
     closed = False
 
-    def __init__(self, task: str = "reach", world: Any = "box_room", num_envs: int = 8, seed: Optional[int] = None,
-                 observations: Sequence[str] = ("rgb", "range"), copy: bool = False, **options: Any):
+    def __init__(self, task: str = "reach", world: Union[str, airsim360.World] = "box_room", num_envs: int = 8, seed: Optional[int] = None,
+                 observations: Sequence[str] = ("rgb", "range"), copy: bool = False, **options: Any) -> None:
         self._open(task, world, num_envs, seed, copy, observations, options, auto_reset=True)
         self.num_envs = num_envs
         self.single_observation_space, self.single_action_space = self._one_observation, self._one_action
@@ -130,7 +165,7 @@ class VectorEnv(_Base, _VectorBase):
         self.action_space = spaces.batch_space(self._one_action, num_envs)
         self._seed = seed
 
-    def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
+    def reset(self, *, seed: Optional[int] = None, options: Optional[ResetOptions] = None) -> Tuple[Observation, VectorInfo]:
         """All begin: with the first episodes of `seed`, or with the next ones. Returns observations and info.
 
         options: "goal" and "start" (metres in W) and "yaw" (radians) of these episodes instead of drawn ones, for all
@@ -139,36 +174,37 @@ class VectorEnv(_Base, _VectorBase):
         self._begin(seed, options)
         return self._observe(), self._info()
 
-    def step(self, actions):
+    def step(self, actions: npt.ArrayLike) -> Tuple[Observation, npt.NDArray[np.float32], npt.NDArray[np.bool_],
+                                                     npt.NDArray[np.bool_], VectorInfo]:
         """actions: (num_envs, n) in -1 … 1. Returns observations, rewards, terminated, truncated, info."""
         native = self.native
         native.step(np.asarray(actions, np.float32))
         return (self._observe(), np.array(native.reward), np.array(native.terminated), np.array(native.truncated),
                 self._info())
 
-    def render(self):
-        """Pictures of all, (num_envs, H, W, 3) uint8."""
+    def render(self) -> Optional[npt.NDArray[np.uint8]]:
+        """Pictures of all, (num_envs, H, W, 3) uint8; None without "rgb"."""
         return self._views.get("rgb")
 
-    def _info(self):
+    def _info(self) -> VectorInfo:
         native = self.native
         return {"success": np.array(native.reached), "crashed": np.array(native.crashed),
                 "distance": np.array(native.distance), "episode_step": np.array(native.steps)}
 
 
 class Env(_Base, _EnvBase):
-    """One drone with one task; options as VectorEnv. A step after the end is a ValueError: reset first."""
+    """One drone with one task; arguments as VectorEnv, but that observations are copies. A step after the end is a ValueError: reset first."""
 
     metadata = _metadata()
     render_mode = "rgb_array"
     spec = None
 
-    def __init__(self, task: str = "reach", world: Any = "box_room", seed: Optional[int] = None,
-                 observations: Sequence[str] = ("rgb", "range"), copy: bool = True, **options: Any):
+    def __init__(self, task: str = "reach", world: Union[str, airsim360.World] = "box_room", seed: Optional[int] = None,
+                 observations: Sequence[str] = ("rgb", "range"), copy: bool = True, **options: Any) -> None:
         self._open(task, world, 1, seed, copy, observations, options, auto_reset=False)
         self.observation_space, self.action_space = self._one_observation, self._one_action
 
-    def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
+    def reset(self, *, seed: Optional[int] = None, options: Optional[ResetOptions] = None) -> Tuple[Observation, EpisodeInfo]:
         """Begins the first episode of `seed`, or the next one. Returns observation and info.
 
         options: as VectorEnv.reset.
@@ -176,28 +212,28 @@ class Env(_Base, _EnvBase):
         self._begin(seed, options)
         return self._observe(0), self._info()
 
-    def step(self, action):
+    def step(self, action: npt.ArrayLike) -> Tuple[Observation, float, bool, bool, EpisodeInfo]:
         """Returns observation, reward, terminated, truncated, info."""
         native = self.native
         native.step(np.asarray(action, np.float32).reshape(1, -1))
         return (self._observe(0), float(native.reward[0]), bool(native.terminated[0]), bool(native.truncated[0]),
                 self._info())
 
-    def render(self):
+    def render(self) -> Optional[npt.NDArray[np.uint8]]:
         """(H, W, 3) uint8, or None without "rgb"."""
         return self._views["rgb"][0].copy() if "rgb" in self._views else None
 
-    def _info(self):
+    def _info(self) -> EpisodeInfo:
         native = self.native
         return {"success": bool(native.reached[0]), "crashed": bool(native.crashed[0]),
                 "distance": float(native.distance[0]), "episode_step": int(native.steps[0])}
 
 
 def make(task: str = "reach", **options: Any) -> Env:
-    """One environment."""
+    """One environment: Env(task, **options)."""
     return Env(task, **options)
 
 
 def make_vec(task: str = "reach", num_envs: int = 8, **options: Any) -> VectorEnv:
-    """A vector of environments."""
+    """A vector of environments: VectorEnv(task, num_envs=num_envs, **options)."""
     return VectorEnv(task, num_envs=num_envs, **options)
