@@ -15,6 +15,7 @@ import airsim360.airsim as airsim
 program = os.environ.get("AIRSIM360", str(pathlib.Path(__file__).resolve().parents[1] / "build/bin/airsim360"))
 server = subprocess.Popen([program, "serve", "--world", "box_room", "--port", "0"], stdout=subprocess.PIPE, text=True)
 try:
+    assert server.stdout is not None
     port = int(server.stdout.readline().rsplit(":", 1)[1])
 
     client = airsim.MultirotorClient(port=port)

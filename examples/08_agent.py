@@ -9,12 +9,13 @@ import pathlib
 import subprocess
 import sys
 import urllib.request
+from typing import Any
 
 program = os.environ.get("AIRSIM360", str(pathlib.Path(__file__).resolve().parents[1] / "build/bin/airsim360"))
 server = subprocess.Popen([program, "agent", "--world", "box_room", "--port", "0"], stdout=subprocess.PIPE, text=True)
 
 
-def request(method, path, body):
+def request(method: str, path: str, body: dict[str, Any]) -> Any:
     """The JSON that the server answers with."""
     call = urllib.request.Request(f"http://127.0.0.1:{port}{path}", json.dumps(body).encode(),
                                   {"Content-Type": "application/json"}, method=method)
@@ -23,6 +24,7 @@ def request(method, path, body):
 
 
 try:
+    assert server.stdout is not None
     port = int(server.stdout.readline().rsplit(":", 1)[1])
 
     # An episode: from one corner to the other, around the box.
@@ -43,7 +45,7 @@ try:
         free = seen["range_grid"]["range"][row][column]
         room = 100.0 if free is None else free - 0.7
         print(f"step {i}: {distance:.2f} m to go, {room:.2f} m free ahead")
-        action = "stop"
+        action: Any = "stop"
         if distance > 0.8:
             action = {"type": "relative_goal", "azimuth_deg": azimuth if room > 0.3 else azimuth - 60,
                       "elevation_deg": elevation, "distance": min(distance, max(room, 0.5))}

@@ -9,8 +9,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 import airsim360
 
@@ -33,7 +35,7 @@ height = frames.meta["size"][1]
 weight = np.cos(np.pi * (0.5 - (np.arange(height) + 0.5) / height)).astype(np.float32)[:, None]
 
 
-def prepare(sample):
+def prepare(sample: dict[str, npt.NDArray[Any]]) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.int64]]:
     """Colour and elevation of every pixel, (H, W, 4) float32, and its class (H, W)."""
     rgb = sample["rgb"].astype(np.float32) / 255
     elevation = np.broadcast_to(np.linspace(1, -1, rgb.shape[0], dtype=np.float32)[:, None, None], (*rgb.shape[:2], 1))
@@ -61,7 +63,7 @@ try:
     print("trained with PyTorch", torch.__version__)
 except ImportError:
     # Least squares on the same features and their products.
-    def features(pixels):
+    def features(pixels: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
         flat = pixels.reshape(-1, 4)
         pairs = [flat[:, i] * flat[:, j] for i in range(4) for j in range(i, 4)]
         return np.column_stack([np.ones(len(flat)), flat, *pairs])

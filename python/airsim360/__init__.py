@@ -55,12 +55,7 @@ threads.
 Datasets, `read_png`, `read_exr` and `airsim` work without the compiled module; it is loaded when first needed.
 """
 import importlib as _importlib
-import pathlib as _pathlib
 import sys as _sys
-from typing import TYPE_CHECKING as _TYPE_CHECKING, Any as _Any, List as _List
-
-if _TYPE_CHECKING:
-    from types import ModuleType as _ModuleType
 
 __version__ = "0.1.0"
 __all__ = ["Capture", "CudaCapture", "Dataset", "Drone", "DroneState", "Frame", "GeoFrame", "Lidar", "LidarScan", "PARTS",
@@ -73,19 +68,20 @@ _SUBMODULES = ("airsim", "dataset", "gym", "metrics", "pictures", "records")
 _PURE = {"Dataset": "dataset", "Frame": "dataset", "Samples": "dataset", "read_exr": "pictures", "read_png": "pictures"}
 
 
-def _load_native() -> "_ModuleType":
+def _load_native() -> object:
     """The compiled module. ImportError says what is missing: the module, or something that it needs."""
     try:
         return _importlib.import_module(f"{__name__}._native")
     except ImportError as failure:
-        built = sorted(path.name for path in _pathlib.Path(__file__).parent.glob("_native*.so"))
+        import pathlib
+        built = sorted(path.name for path in pathlib.Path(__file__).parent.glob("_native*.so"))
         why = (f"{built[0]} is there but this Python ({_sys.version.split()[0]}, {_sys.executable}) cannot load it: {failure}. "
                "It is for Debian's /usr/bin/python3 with python3-numpy" if built else
                "it is not built: run `make build` and set PYTHONPATH=build/python, or install the wheel (`make wheel`)")
         raise ImportError(f"airsim360's compiled module: {why}") from failure
 
 
-def __getattr__(name: str) -> _Any:
+def __getattr__(name: str) -> object:
     # The compiled module is loaded when first needed: datasets and the AirSim client work without it.
     if name == "_native":
         return _load_native()
@@ -101,5 +97,5 @@ def __getattr__(name: str) -> _Any:
     return value
 
 
-def __dir__() -> _List[str]:
+def __dir__() -> list[str]:
     return sorted(__all__)

@@ -102,7 +102,8 @@ class MsgpackMixin:
         MsgpackMixin.__init__(made)
         for name, value in encoded.items():
             kind: Any = cls.fields.get(name)
-            setattr(made, name, kind.from_msgpack(value) if isinstance(value, dict) and isinstance(kind, type) else value)
+            structure = isinstance(value, dict) and isinstance(kind, type) and issubclass(kind, MsgpackMixin)
+            setattr(made, name, kind.from_msgpack(value) if structure else value)
         return made
 
     def __eq__(self, other: object) -> bool:
