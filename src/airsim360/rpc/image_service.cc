@@ -38,9 +38,8 @@ RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const Came
   return snapshot.state.vehicles[vehicle].motion.X_WB * camera.X_BA;
 }
 
-ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tracer,
-                           const ImageOptions& options)
-    : session_(session), tracer_(std::move(tracer)), options_(options), ray_tracers_(tracer_) {
+ImageService::ImageService(Session& session, Stage& stage, Tier tier)
+    : session_(session), stage_(stage), tier_(tier), ray_tracers_(stage.tracer()) {
   const SnapshotPointer snapshot = session_.snapshot();
   MakeRendererFor(*snapshot->world);
   thread_ = std::thread([this] { Run(); });
@@ -101,7 +100,7 @@ void ImageService::GiveBackMemory() {
     // Renderers keep images of the last size: a tiny picture takes their place.
     frame_ = {};
     frame_pixels_ = 0;
-    renderer_->Render({.camera = Equirectangular{16, 8}, .tier = options_.tier}, frame_);
+    renderer_->Render({.camera = Equirectangular{16, 8}, .tier = tier_}, frame_);
   }
   pool_.Rest();
   ::malloc_trim(0);
@@ -117,7 +116,7 @@ void ImageService::FollowEnvironment(const WorldView& world) {
 
 void ImageService::MakeRendererFor(const WorldView& world) {
   renderer_.reset();  // a GPU need not hold two
-  renderer_ = MakeRenderer(tracer_, {.tier = options_.tier, .environment = world.environment}, options_.device);
+  renderer_ = stage_.NewRenderer(tier_, world.environment);
   environment_version_ = world.environment_version;
 }
 
@@ -146,7 +145,7 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
   FollowEnvironment(*snapshot.world);
   RenderRequest request{.camera = shot.camera, .X_WC = shot.X_WA * CameraInBody()};
   // Without colours there is no shading to be paid for.
-  request.tier = shot.products.rgb ? options_.tier : Tier::kLabels;
+  request.tier = shot.products.rgb ? tier_ : Tier::kLabels;
   request.products = shot.products;
   request.state = StateOf(snapshot, shot.self);
   if (shot.products.flow) {

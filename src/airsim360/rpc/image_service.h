@@ -9,17 +9,11 @@
 #include <mutex>
 #include <thread>
 
-#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/rpc/image_products.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/shared_memory.h"
 
 namespace airsim360 {
-
-struct ImageOptions {
-  Tier tier = Tier::kFast;
-  DeviceChoice device = {.device = "cpu"};
-};
 
 /// Everything but Post and Trigger belongs to jobs, which run in the service's thread.
 class ImageService {
@@ -27,7 +21,7 @@ class ImageService {
   using Job = std::function<void(ImageService&)>;
 
   /// The renderer is made at once.
-  ImageService(Session& session, std::shared_ptr<const RayTracer> tracer, const ImageOptions& options);
+  ImageService(Session& session, Stage& stage, Tier tier);
   ~ImageService();
   ImageService(const ImageService&) = delete;
   ImageService& operator=(const ImageService&) = delete;
@@ -82,8 +76,8 @@ class ImageService {
                                 const Snapshot& snapshot, const Shot& shot, Vec3d origin_W, LentRegion* region);
 
   Session& session_;
-  std::shared_ptr<const RayTracer> tracer_;
-  ImageOptions options_;
+  Stage& stage_;
+  Tier tier_;
   std::unique_ptr<Renderer> renderer_;
   DynamicTracer ray_tracers_;
   uint64_t environment_version_ = 0;

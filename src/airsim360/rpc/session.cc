@@ -28,13 +28,6 @@ uint64_t WallClockNs() {
                                    .count());
 }
 
-std::vector<DroneBodyRef> AllBodies(const SceneExtras& extras) {
-  std::vector<DroneBodyRef> bodies = extras.drones;
-  for (const SpawnStock& stock : extras.stock)
-    bodies.insert(bodies.end(), stock.copies.begin(), stock.copies.end());
-  return bodies;
-}
-
 }  // namespace
 
 std::string NoVehicleText(const std::string& name) {
@@ -51,26 +44,26 @@ size_t Snapshot::Find(const std::string& name) const {
   throw std::runtime_error(NoVehicleText(name));
 }
 
-Session::Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options)
+Session::Session(Stage& stage, SceneExtras extras, const SessionOptions& options)
     : options_(options),
-      objects_(std::shared_ptr<const Scene>(tracer, &tracer->scene())),
+      objects_(stage.shared_scene()),
       earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
                       options.settings.origin.altitude}),
       extras_(std::move(extras)),
-      base_tracer_(WithoutBodies(tracer, AllBodies(extras_), options.people.get())),
-      dynamic_tracer_(tracer),
+      base_tracer_(stage.solid()),
+      dynamic_tracer_(stage.tracer()),
       origin_W_(FindOrigin(*base_tracer_)),
       pacer_(options.lockstep, options.settings.clock_speed),
       recorder_(options.settings.recording) {
   auto world = std::make_shared<WorldView>();
   world->segmentation = InitialSegmentation(objects_.scene(), options_.settings.segmentation_init);
   // What is held ready is not there yet.
-  for (const DroneBodyRef& body : AllBodies(extras_))
+  for (const DroneBodyRef& body : stage.bodies())
     world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
   world->external_cameras = MakeExternalCameras(options_.settings);
-  world->environment = world->base_environment = options_.environment;
+  world->environment = world->base_environment = stage.environment();
   world_ = std::move(world);
-  BuildVehicles();
+  BuildVehicles(stage);
   // Lockstep runs are the same every time: their clock starts at zero.
   auto first = std::make_shared<Snapshot>();
   first->epoch_ns = options_.lockstep ? 0 : WallClockNs();
@@ -152,14 +145,12 @@ void Session::MakeRoomAt(size_t index) {
   world().detection = std::move(detection);
 }
 
-void Session::BuildVehicles() {
-  auto model = std::make_shared<SimModel>();
-  model->tracer = base_tracer_;
-  model->dt_ns = kPhysicsStepNs;
+void Session::BuildVehicles(Stage& stage) {
+  auto model = std::make_shared<SimModel>(stage.Model(kPhysicsStepNs));
   model->world.frame = earth_;
-  model->world.seed = options_.seed;
-  model->wind.mean_W = NedFromWorld(airsim::FromVector(options_.settings.wind));
-  model->people = options_.people;
+  // The wind of the settings is that of simSetWind; a wind file says more.
+  if (const Vec3d wind_W = NedFromWorld(airsim::FromVector(options_.settings.wind)); Norm(wind_W) > 0)
+    model->wind.mean_W = wind_W;
   model_ = model;
   state_.wind_W = model->wind.mean_W;
   if (model->people) state_.people = model->people->start;

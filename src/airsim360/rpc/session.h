@@ -14,7 +14,7 @@
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/rpc/vehicle_control.h"
-#include "airsim360/sim/drone_bodies.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -22,9 +22,6 @@ namespace airsim360 {
 struct SessionOptions {
   AirSimSettings settings;
   bool lockstep = false;  ///< time passes only in simContinueForTime and simContinueForFrames
-  uint64_t seed = 0;
-  Environment environment;
-  std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene; null = nobody
 };
 
 /// What runs in the session's thread.
@@ -33,8 +30,8 @@ class Session {
   /// Changes the session and returns what is to be done once the change can be seen: answering, mostly.
   using Job = std::function<std::function<void()>(Session&)>;
 
-  /// `tracer` sees the scene with everything of `extras`.
-  Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options);
+  /// `extras`: the bodies of `stage`.
+  Session(Stage& stage, SceneExtras extras, const SessionOptions& options);
   /// Ends every move with False and joins the thread.
   ~Session();
   Session(const Session&) = delete;
@@ -86,7 +83,7 @@ class Session {
   void StepOnce();
   void Publish();
   bool Stopping();
-  void BuildVehicles();
+  void BuildVehicles(Stage& stage);
   void RebuildModel();
   void AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB);
   void MakeRoomAt(size_t index);

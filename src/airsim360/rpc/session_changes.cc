@@ -29,7 +29,7 @@ void Session::ObjectsMoved() {
     drones.insert(body.entity);
     scene_state->moved.push_back({body.instance, {}, true});
   }
-  if (options_.people) HidePeople(options_.people->refs, *scene_state);
+  if (model_->people) HidePeople(model_->people->refs, *scene_state);
   for (const auto& [entity, place] : world().places) {
     if (!drones.contains(entity)) objects_.Move(entity, place, scene_state->moved);
   }

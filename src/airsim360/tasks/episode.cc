@@ -84,7 +84,7 @@ void Episode::ChoosePlaces() {
 }
 
 void Episode::BuildModel() {
-  SimModel model{.tracer = world_->tracer()};
+  SimModel model = world_->stage().Model();
   model.world.seed = spec_.seed;
   DroneSetup setup{.name = "agent", .model = CatalogModel(spec_.drone)};
   // What an agent is told is exact: no sensor of the drone needs to be stepped.
@@ -93,7 +93,7 @@ void Episode::BuildModel() {
   setup.airborne = true;
   const SimDrone drone(setup, model.dt_ns);
   const auto needed = static_cast<float>(drone.radius());
-  if (world_->tracer()->Clearance(VecCast<float>(start_W_), needed) < needed) {
+  if (model.tracer->Clearance(VecCast<float>(start_W_), needed) < needed) {
     const auto& places = world_->places();
     const Vec3d free = *std::ranges::min_element(places, {}, [&](Vec3d p) { return Norm(p - start_W_); });
     char text[160];
@@ -140,6 +140,10 @@ void Episode::StepOnce(std::vector<SimCommand>& commands) {
   if (spec_.end_on_collision && vehicle().collision.count > 0) end_ = EpisodeEnd::kCollision;
   if (spec_.success == SuccessRule::kReach && distance_to_goal() <= radius_) end_ = EpisodeEnd::kReached;
   if (end_ == EpisodeEnd::kRunning && seconds() >= spec_.max_seconds) end_ = EpisodeEnd::kMaxSeconds;
+}
+
+std::shared_ptr<const SceneState> Episode::moved() const {
+  return model_->people ? SceneStateOf(*model_, state_, 0) : nullptr;
 }
 
 bool Episode::Arrived(const ActionPlan& plan) const {

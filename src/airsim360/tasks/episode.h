@@ -69,6 +69,8 @@ class Episode {
   const EpisodeSpec& spec() const { return spec_; }
   const Vehicle& vehicle() const { return state_.vehicles[0]; }
   const SimState& state() const { return state_; }
+  /// The people as they stand now, for pictures; null: nobody.
+  std::shared_ptr<const SceneState> moved() const;
   Vec3d start() const { return start_W_; }
   Vec3d goal() const { return goal_W_; }
   double success_radius() const { return radius_; }

@@ -11,6 +11,7 @@
 
 #include "airsim360/render/renderer.h"
 #include "airsim360/sensors/rig.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/tasks/navigation_task.h"
 
 namespace airsim360 {
@@ -59,7 +60,7 @@ struct StateColumns {
 class VectorEnvironment {
  public:
   /// InputError naming the option that makes no sense. Begins with Reset(options.seed).
-  VectorEnvironment(std::shared_ptr<const RayTracer> tracer, const NavigationTask& task,
+  VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task,
                     const VectorEnvironmentOptions& options);
   ~VectorEnvironment();
 
@@ -119,6 +120,7 @@ class VectorEnvironment {
   void ForAll(const Body& body);
 
   VectorEnvironmentOptions options_;
+  std::shared_ptr<Stage> stage_;
   NavigationWorld world_;
   std::shared_ptr<const SimModel> model_;
   std::vector<Lane> lanes_;

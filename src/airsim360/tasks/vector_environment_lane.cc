@@ -26,6 +26,7 @@ void VectorEnvironment::Begin(size_t i, const NavigationEpisode& episode) {
   lane.episode = episode;
   lane.ended = false;
   lane.state = {};
+  if (model_->people) lane.state.people = model_->people->start;
   lane.state.vehicles.push_back(DroneAt(*model_, lane.state, 0, lane.episode.X_WB, true));
   reward_[i] = 0;
   steps_[i] = 0;
@@ -100,6 +101,7 @@ TargetSight VectorEnvironment::Look(size_t i, Slot& slot) {
                   .entity = options_.entity || search};
   const bool anything = options_.rgb || rig.products.range || rig.products.semantic || rig.products.entity;
   if (!anything) return {};
+  if (model_->people) rig.state = SceneStateOf(*model_, lane.state, 0);
   CaptureRig(rig, lane.state.vehicles[0].motion, lane.state.t_ns, *slot.renderer, slot.capture);
   const Frame& frame = slot.capture.frame;
   CopyRow(frame.rgb, i, rgb_);

@@ -44,7 +44,7 @@ constexpr Word kWords[] = {
     {kLengthUnit, 1e-2, "", "zentimeter|centimetros|centimetri|厘米|公分|センチ"},
     {kLengthUnit, 1, "", "metros|metri|米"},
     {kTimeUnit, 60, "", "minuten|minutos|minuti|minuto|分钟|分鐘|分"},
-    {kTimeUnit, 3600, "", "stunden|stunde|std|heure|heures|hora|horas|ora|ore|小时|小時|時間"},
+    {kTimeUnit, 3600, "", "stunden|stunde|std|heure|heures|hora|horas|ora|ore|小时|小時|時間|个小时|個小時|个钟头|个钟"},
     {kSpeedUnit, 1, "", "米每秒|米秒|米/秒"},
     {kSpeedUnit, 1 / 3.6, "", "公里每小时|公里小时|千米每小时|公里/小时|时速公里|stundenkilometer"},
     {kCapacityUnit, 1e-3, "", "毫安时|毫安"},
@@ -99,7 +99,9 @@ constexpr Word kWords[] = {
                      "续航|续航时间|飞行时间|飞行|留空|航时|fliegt|飛行時間|duree de vol|autonomia de vuelo"},
     {kSpeed, 0, "", "geschwindigkeit|hochstgeschwindigkeit|vitesse|vitesse maximale|vitesse max|velocidad|"
                     "velocidad maxima|velocita|最大速度|速度|最高速度|时速|最大飞行速度|最高時速|spitze"},
-    {kThrustRatio, 0, "", "推重比|schub gewicht verhaltnis|rapport poussee poids|schub zu gewicht|relacion empuje peso"},
+    {kThrustRatio, 0, "", "推重比|schub gewicht verhaltnis|rapport poussee poids|schub zu gewicht|relacion empuje peso|ratio poussee poids|poussee poids|"
+                           "rapport poussee sur poids|schub gewichts verhaltnis|schub gewicht|empuje peso|relacion de empuje peso|"
+                           "rapporto spinta peso|spinta peso|推力重量比|推力比|推重"},
     {kWind, 0, "", "抗风|风速|viento|vent|vento"},
     {kLoad, 0, "camera", "kamera|appareil photo|camara|相机|摄像头|カメラ"},
     {kLoad, 0, "", "激光雷达|云台|paket|pakete|paketen|colis|paquete|paquetes|包裹|pacco|pacchi"},

@@ -9,7 +9,7 @@ constexpr Word kWords[] = {
     {kDrone, 0, "",
      "drone|drones|multirotor|multirotors|multicopter|multi rotor|uav|uavs|uas|copter|copters|aircraft|mav|"
      "camera ship|cinema ship|micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|"
-     "suas|rpas"},
+     "suas|rpas|machine|vehicle|hexa machine|quad machine"},
     {kClass, 0, "generic", "generic|ordinary|normal|standard|plain"},
     {kClass, 0, "nano", "nano|palm|palm sized|pocket sized nano"},
     {kClass, 0, "whoop", "whoop|tiny whoop|tinywhoop|micro whoop|toy whoop"},
@@ -48,9 +48,10 @@ constexpr Word kWords[] = {
     {kRotors, 6, "", "hexa|hex|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
     {kRotors, 8, "", "octo|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
                      "eight rotor|oktokopter"},
-    {kRotors, 3, "", "tricopter|trirotor|tri copter|tri rotor|tricopters"},
+    {kRotors, 3, "", "tricopter|trirotor|tri copter|tri rotor|tricopters|tri|three rotor"},
     {kRotors, 2, "", "bicopter|bi copter|dualcopter|twin rotor"},
-    {kRotors, 5, "", "pentacopter"},
+    {kRotors, 5, "", "pentacopter|penta|five rotor"},
+    {kRotors, 7, "", "heptacopter|septacopter|seven rotor"},
     {kRotors, 10, "", "decacopter"},
     {kRotors, 12, "", "dodecacopter|dodecarotor"},
     {kCoaxial, 8, "", "x8|octo x8|quad x8|octoquad|octo quad|x8 coaxial|coaxial x8|coax x8"},
@@ -82,7 +83,10 @@ constexpr Word kWords[] = {
     {kArm, 0, "", "arm|arms|arm length|booms|boom"},
     {kWheelbase, 0, "",
      "wheelbase|diagonal|motor to motor|diagonally|motor to motor distance|wheel base|motor spacing|mtm|"
-     "diagonal size|diagonal distance|diagonal wheelbase|shaft to shaft|hub to hub"},
+     "diagonal size|diagonal distance|diagonal wheelbase|shaft to shaft|hub to hub|rotor to rotor|rotor to rotor diagonal|"
+     "prop to prop|propeller to propeller|axle to axle|axis to axis|center to center|centre to centre|corner to corner|"
+     "motor shaft to motor shaft|motor centre to motor centre|motor center to motor center|motors apart|m2m|m to m|"
+     "motor to motor diagonal|diag|across the motors|between the motors|between motors"},
     {kAcross, 0, "", "across|diameter|in diameter|diam|dia|wide|tip to tip|span|from tip to tip|durchmesser|de diametre|"
                      "de diametro|diametre|diametro|直径|von durchmesser|im durchmesser"},
     {kFrame, 0, "", "frame|frames|airframe|frame size"},
