@@ -85,8 +85,6 @@ def __getattr__(name: str) -> object:
     # The compiled module is loaded when first needed: datasets and the AirSim client work without it.
     if name == "_native":
         return _load_native()
-    if name == "metrics":
-        _load_native()  # says what is missing
     if name in _SUBMODULES:
         return _importlib.import_module(f"{__name__}.{name}")
     if name not in __all__:

@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import metrics as metrics
-from .records import (BarometerReading, Certificate, Collision, Entity, Event, GnssReading, Gpu, ImuReading, Limits,
-                      MagnetometerReading, Person, Replay, ResetOptions, Rotor, TaskOptions, TrajectorySamples, WorldInfo)
+from .records import (Certificate, Collision, Entity, Event, Gpu, Limits, Person, Replay, ResetOptions, Rotor, TaskOptions,
+                      TrajectorySamples, WorldInfo)
 
 _F64 = npt.NDArray[np.float64]
 _F32 = npt.NDArray[np.float32]
@@ -23,7 +23,6 @@ _DroneRef = int | str  # number from 0, or name
 _Yaw = float | Literal["forward"] | None
 _Tier = Literal["labels", "fast", "high", "reference"]
 _Product = Literal["rgb", "range", "semantic", "entity", "normal", "position", "albedo", "material", "part", "flow", "radiance"]
-_Reading = ImuReading | GnssReading | BarometerReading | MagnetometerReading
 
 PARTS: tuple[str, ...]
 """What the numbers of Capture.part mean: PARTS[1] is "window". PARTS[0] is "", the body itself."""
@@ -75,8 +74,8 @@ class Rig:
         high or reference. products: pictures that are made. projection: erp, pinhole or fisheye (fov: radians, across the
         width or the shorter side). position (3,) metres, yaw, pitch, roll radians: the mount in B. level: the horizon
         stays level. lens: real360 distorts and fades as a real camera of two fisheyes. exposure_ev: stops. samples: light
-        samples of a pixel in the tiers high and reference, 0 = the tier's own. seed: of those samples. flow_dt: seconds that optical flow leads on by,
-        above 0, at most 10. edge_samples: colour samples of a pixel on an edge, 1 to 64; 1 is the fastest (None: 2 in
+        samples of a pixel in the tiers high and reference, 0 = the tier's own. seed: of those samples and noise. flow_dt:
+        seconds that optical flow leads on by, above 0, at most 10. edge_samples: colour samples of a pixel on an edge, 1 to 64; 1 is the fastest (None: 2 in
         tier fast, 8 in high). ValueError names the nearest choice."""
     @property
     def width(self) -> int:
@@ -191,8 +190,8 @@ class VideoWriter:
     def __init__(self, path: str, width: int = 0, height: int = 0, fps: float = 30.0, spherical: bool = True,
                  encoder: Literal["auto", "libx264", "libx265", "h264_nvenc", "hevc_nvenc", "h264_vaapi", "hevc_vaapi"] = "auto",
                  quality: int = 18) -> None:
-        """width, height: pixels, 0 = of the first picture. fps: pictures a second. spherical: say that the picture is a whole panorama.
-        encoder: libx264 gives the same bytes everywhere. quality: 0 (best) ... 51. ValueError for wrong options,
+        """width, height: pixels, 0 = of the first picture. fps: pictures a second. spherical: say that
+        the picture is a whole panorama. encoder: libx264 gives the same bytes everywhere. quality: 0 (best) ... 51. ValueError for wrong options,
         RuntimeError where ffmpeg fails."""
     @property
     def encoder(self) -> str:
@@ -266,20 +265,30 @@ class LidarScan:
         """Time of the scan, nanoseconds."""
     def __len__(self) -> int: ...
 
-def _read_rgb(path: str) -> _U8:
-    """A PNG, JPEG or WebP file as (H, W, 3) uint8 sRGB. ValueError names the file where it is none."""
-
 class World:
     """A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml."""
 
     def __init__(self, name: str, seed: int = 0, models: bool = True, *, labels: str = "",
-                 device: Literal["auto", "cpu", "vulkan"] = "auto", gpu: int = -1) -> None:
+                 device: Literal["auto", "cpu", "vulkan"] = "auto", gpu: int = -1, weather: str = "", sun: str = "",
+                 time: str = "", place: str = "", hdri: str = "", environment: str = "", bbox: str = "", centre: str = "",
+                 radius: float = 0.0, people: int | str = 0, wind: str = "") -> None:
         """name: one of worlds(), or a path. seed: of what is made at random. models: furniture from model files where they
-        are installed.
-        labels: a label file, categories by patterns of names (docs/importing.md). device: what draws the pictures of it
-        and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError says why where
-        there is none). gpu: number of one among several, as gpus() lists them. ValueError names the nearest world where
-        there is none of that name."""
+        are installed. labels: a label file, categories by patterns of names (docs/importing.md).
+
+        device: what draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or
+        "vulkan" (RuntimeError says why where there is none). gpu: number of one among several, as gpus() lists them.
+
+        The light instead of the world's own, as the flags of those names of `airsim360 render`: weather: a preset. sun:
+        "AZ,EL", compass and elevation in degrees. time: "YYYY-MM-DDTHH:MM[+ZZ:ZZ]" with place: "LAT,LON" in degrees. hdri:
+        a sky picture (.hdr, .exr). environment: single values, "cloud_cover=0.6,visibility_m=800".
+
+        A piece of a map: bbox: "SOUTH,WEST,NORTH,EAST" in degrees, or centre: "LAT,LON" with radius: 10 ... 30000 metres to
+        each side.
+
+        people: a number, 0 ... 10000, or the path of a people .yaml; they live in simulations of it, and captures of the
+        world show them where they begin. wind: a wind file, for simulations (docs/simulation.md).
+
+        ValueError names the nearest choice, for instance the nearest world where there is none of that name."""
     @property
     def name(self) -> str:
         """Name or path that it was opened by."""
@@ -324,8 +333,8 @@ class Drone:
     def __init__(self, model: str = "hummingbird", name: str = "", position: _Vector | None = None, yaw: float = 0.0,
                  airborne: bool = False, controller: Literal["simple_flight", "px4", "se3", "indi"] = "indi",
                  sensors: str = "") -> None:
-        """model: a name of drone_catalog(), a .yaml file, or words ("a 250 g five-inch racing quad"). name: "" = drone0, drone1 and so on.
-        position (3,) metres of W: where it hovers (airborne) or above where it stands; None: the world's spawn. yaw:
+        """model: a name of drone_catalog(), a .yaml file, or words ("a 250 g five-inch racing quad"). name: ""
+        = drone0, drone1 and so on. position (3,) metres of W: where it hovers (airborne) or above where it stands; None: the world's spawn. yaw:
         radians. controller: who flies it. sensors: a sensor file (docs/sensors.md). ValueError names what was not
         understood."""
     @staticmethod
@@ -507,10 +516,10 @@ class Simulation:
     """
 
     def __init__(self, world: World, drones: int | str | Drone | Sequence[str | Drone] = 1, people: int = 0,
-                 seed: int = 0, dt: float = 0.001, wind: _Vector = (0.0, 0.0, 0.0)) -> None:
+                 seed: int = 0, dt: float = 0.001, wind: _Vector | None = None) -> None:
         """drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. people: how many
-        walk about, 0 … 10000. seed: of people, wind and sensors. dt: seconds, 0.00001 … 0.1. wind: (3,) m/s in W. The
-        world says what draws the pictures."""
+        walk about, 0 … 10000. seed: of people, wind and sensors. dt: seconds, 0.00001 … 0.1. wind: (3,) m/s in W; None:
+        that of the world. The world says what draws the pictures."""
     @property
     def t(self) -> float:
         """Seconds since the start."""
@@ -577,7 +586,7 @@ class Simulation:
     def takeoff(self, height: float = 2.0, speed: float = 1.0, drone: _DroneRef = 0) -> None:
         """Arms and climbs `height` metres above where it stands, at `speed` m/s."""
     def land(self, speed: float = 0.7, drone: _DroneRef = 0) -> None:
-        """Descends at `speed` m/s until it stands, then disarms."""
+        """Descends at `speed` m/s until the ground stops it, then disarms."""
     def hover(self, yaw: _Yaw = None, yaw_rate: float | None = None, drone: _DroneRef = 0) -> None:
         """Stops and stays."""
     def return_home(self, height: float = 5.0, speed: float = 0.0, land: bool = True, drone: _DroneRef = 0) -> None:
@@ -613,8 +622,8 @@ class Simulation:
         """(3,) mean velocity of the air, m/s in W."""
     def reset_drone(self, position: _Vector | None = None, yaw: float = 0.0, airborne: bool | None = None,
                     drone: _DroneRef = 0) -> None:
-        """Puts a drone where it started, or at `position` (3,) of W with heading `yaw`, as new. airborne: hovering or standing; None: as it
-        started."""
+        """Puts a drone where it started, or at `position` (3,) of W with heading `yaw`, as new. airborne:
+        hovering or standing; None: as it started."""
 
 class VectorEnvironment:
     """Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step writes into them."""
@@ -628,8 +637,8 @@ class VectorEnvironment:
                  observations: Sequence[Literal["rgb", "range", "semantic", "entity"]] = ["rgb", "range"],
                  period: float = 0.1, max_speed: float = 3.0, max_turn: float = 1.5, max_rate: float = 6.0,
                  level: bool = False, auto_reset: bool = True, seed: int = 0) -> None:
-        """count: environments. action: what a step commands (docs/python.md). width, height: pixels of the panoramas (height 0: half the
-        width). period: seconds of a step. max_speed (m/s), max_turn, max_rate (rad/s): what an action of 1 means. level:
+        """count: environments. action: what a step commands (docs/python.md). width, height: pixels of the
+        panoramas (height 0: half the width). period: seconds of a step. max_speed (m/s), max_turn, max_rate (rad/s): what an action of 1 means. level:
         panoramas keep the horizon level. auto_reset: one that has ended begins anew in the next step. ValueError names
         the nearest for an unknown task option."""
     @property
@@ -691,3 +700,6 @@ class VectorEnvironment:
         """(3,) goal in W."""
     def hash(self) -> int:
         """64 bits over every number of all simulations."""
+
+def _read_rgb(path: str) -> _U8:
+    """A PNG, JPEG or WebP file as (H, W, 3) uint8 sRGB. ValueError names the file where it is none."""

@@ -203,8 +203,8 @@ on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high).)")
              return Text("Rig(%dx%d, tier %s, %s)", Width(r.rig.camera), Height(r.rig.camera),
                          kTierNames[static_cast<int>(r.rig.tier)], Joined(ProductsOf(r)).c_str());
            })
-      .def_property_readonly("width", [](const Rig& r) { return Width(r.rig.camera); })
-      .def_property_readonly("height", [](const Rig& r) { return Height(r.rig.camera); });
+      .def_property_readonly("width", [](const Rig& r) { return Width(r.rig.camera); }, "Pixels.")
+      .def_property_readonly("height", [](const Rig& r) { return Height(r.rig.camera); }, "Pixels.");
 
   py::class_<Capture, std::shared_ptr<Capture>>(
       m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
@@ -255,8 +255,8 @@ Pictures are views of this object's memory (no copies); one that the rig was not
           "p", [](const Capture& c) { return FromVec3(c.X_WC.p); }, "(3,) place of the camera in W, metres.")
       .def_readonly("t_ns", &Capture::t_ns, "Time of the trigger, nanoseconds.")
       .def_property_readonly(
-          "render_ms", [](const Capture& c) { return c.stats.render_ms; }, "Rays and shading alone.")
-      .def_property_readonly("rays", [](const Capture& c) { return c.stats.rays; });
+          "render_ms", [](const Capture& c) { return c.stats.render_ms; }, "Milliseconds of rays and shading alone.")
+      .def_property_readonly("rays", [](const Capture& c) { return c.stats.rays; }, "Rays that were cast.");
 
   py::class_<CudaCapture, Capture, std::shared_ptr<CudaCapture>>(m, "CudaCapture", R"(A capture whose pictures stay in memory of the GPU.
 

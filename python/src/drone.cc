@@ -97,8 +97,8 @@ indi. sensors: a sensor file. ValueError names what was not understood.)")
            [](const Drone& d) {
              return Text("Drone(%s: %.4g kg, %zu rotors)", d.model.name.c_str(), d.model.mass, d.model.rotors.size());
            })
-      .def_property_readonly("model", [](const Drone& d) { return d.model.name; })
-      .def_readonly("name", &Drone::name)
+      .def_property_readonly("model", [](const Drone& d) { return d.model.name; }, "Name of its kind.")
+      .def_readonly("name", &Drone::name, "What it is called in a simulation; empty: by its number.")
       .def_property_readonly(
           "mass", [](const Drone& d) { return d.model.mass; }, "kg")
       .def_property_readonly("inertia", &Inertia, "(3, 3) kg m^2 about the centre of mass, in B.")
@@ -106,9 +106,9 @@ indi. sensors: a sensor file. ValueError names what was not understood.)")
       .def_property_readonly(
           "max_thrust", [](const Drone& d) { return FiguresOf(d.model).max_thrust; }, "N, all rotors")
       .def_property_readonly(
-          "hover_speed", [](const Drone& d) { return HoverSpeed(d.model); }, "rad/s")
+          "hover_speed", [](const Drone& d) { return HoverSpeed(d.model); }, "rad/s of a rotor, all alike, that carry the weight.")
       .def_property_readonly(
-          "half_size", [](const Drone& d) { return FromVec3(d.model.half_size_B); }, "(3,) metres")
+          "half_size", [](const Drone& d) { return FromVec3(d.model.half_size_B); }, "(3,) metres: half of length, width and height, in B.")
       .def_readonly("laws", &Drone::laws, "Parameter -> where its figure comes from.")
       .def_readonly("yaml", &Drone::yaml, "The drone as a file that Drone(path) reads.");
   m.def(

@@ -81,8 +81,8 @@ yaw, pitch, roll: the mount in B. Radians. The default is AirSim's lidar.)")
              return Text("Lidar(%dx%d shots, %g ... %g m)", static_cast<int>(l.spec.channels), static_cast<int>(l.spec.columns),
                          l.spec.min_range, l.spec.max_range);
            })
-      .def_property_readonly("channels", [](const Lidar& l) { return l.spec.channels; })
-      .def_property_readonly("columns", [](const Lidar& l) { return l.spec.columns; });
+      .def_property_readonly("channels", [](const Lidar& l) { return l.spec.channels; }, "Beams above each other.")
+      .def_property_readonly("columns", [](const Lidar& l) { return l.spec.columns; }, "Shots of each beam in one turn.");
 
   py::class_<LidarScan, std::shared_ptr<LidarScan>>(
       m, "LidarScan", R"(One turn of a lidar, which ends at t_ns: points in the order of their shots, without those that met nothing.

@@ -236,12 +236,12 @@ void BindPlanning(py::module_& m) {
            })
       .def_property_readonly("times", &Times, "(segments + 1,) seconds at which the waypoints are passed.")
       .def_property_readonly(
-          "waypoints", [](const Plan& p) { return FromPoints(p.waypoints); }, "(segments + 1, 3)")
+          "waypoints", [](const Plan& p) { return FromPoints(p.waypoints); }, "(segments + 1, 3) metres in W")
       .def_property_readonly(
           "coefficients", &Coefficients,
           "(segments, 3, order + 1): ascending powers of the segment's local time. A view, do not write.")
-      .def_property_readonly("order", [](const Plan& p) { return p.trajectory->degree(); })
-      .def_property_readonly("duration", [](const Plan& p) { return p.trajectory->duration(); })
+      .def_property_readonly("order", [](const Plan& p) { return p.trajectory->degree(); }, "Degree of the polynomials.")
+      .def_property_readonly("duration", [](const Plan& p) { return p.trajectory->duration(); }, "Seconds.")
       .def_readonly("cost_snap", &Plan::cost_snap, "Integral of squared snap over all axes, m^2/s^7.")
       .def_property_readonly(
           "max_speed", [](const Plan& p) { return p.peaks.speed.value; }, "m/s, certified upper bound")

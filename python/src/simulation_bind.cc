@@ -65,9 +65,9 @@ void BindSimulation(py::module_& m) {
   py::class_<Snapshot>(
       m, "Snapshot",
       "Everything that changes in a simulation, at one instant. Simulation.restore goes back to it exactly.")
-      .def_property_readonly("t", [](const Snapshot& s) { return static_cast<double>(s.state->t_ns) * 1e-9; })
+      .def_property_readonly("t", [](const Snapshot& s) { return static_cast<double>(s.state->t_ns) * 1e-9; }, "Simulated time, seconds.")
       .def("__repr__", [](const Snapshot& s) { return Text("Snapshot(t = %.3f s)", Seconds(s.state->t_ns)); })
-      .def_property_readonly("step", [](const Snapshot& s) { return s.state->step; })
+      .def_property_readonly("step", [](const Snapshot& s) { return s.state->step; }, "Steps since the start.")
       .def_property_readonly(
           "hash", [](const Snapshot& s) { return HashState(*s.state); },
           "64 bits over every number of the state.")
@@ -79,17 +79,17 @@ void BindSimulation(py::module_& m) {
                                std::to_string(s.state->vehicles.size()));
             return StateView{s.model, s.state, i};
           },
-          py::arg("drone") = 0);
+          py::arg("drone") = 0, "DroneState of a drone by number, then.");
 
   py::class_<Recording, std::shared_ptr<Recording>>(m, "Recording",
                                                     "The commands of a run with hashes of its states.")
       .def("__repr__",
            [](const Recording& r) { return Text("Recording(%lld steps: '%s')", static_cast<long long>(r.steps), r.note.c_str()); })
-      .def_readonly("note", &Recording::note)
-      .def_readonly("steps", &Recording::steps)
+      .def_readonly("note", &Recording::note, "What start_recording was told.")
+      .def_readonly("steps", &Recording::steps, "Steps that it holds.")
       .def(
           "write", [](const Recording& r, const std::string& path) { WriteRecording(path, r); },
-          py::arg("path"))
+          py::arg("path"), "Writes it to a file.")
       .def_static(
           "read", [](const std::string& path) { return std::make_shared<Recording>(ReadRecording(path)); },
           py::arg("path"), "ValueError for anything but a recording.");
@@ -198,7 +198,7 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
       .def_property_readonly(
           "t", [](Simulation& s) { return static_cast<double>(s.loop().t_ns()) * 1e-9; },
           "Seconds since the start.")
-      .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); })
+      .def_property_readonly("t_ns", [](Simulation& s) { return s.loop().t_ns(); }, "Nanoseconds since the start.")
       .def_property_readonly(
           "geo_frame", [](const Simulation& s) { return s.model()->world.frame; },
           "GeoFrame: where W lies on the Earth, for satellite receivers.")
@@ -208,8 +208,8 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
                          s.names().empty() ? "none" : Joined(s.names()).c_str(), Seconds(s.loop().t_ns()),
                          Seconds(s.model()->dt_ns));
            })
-      .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; })
-      .def_property_readonly("world", &Simulation::world)
+      .def_property_readonly("dt", [](Simulation& s) { return static_cast<double>(s.model()->dt_ns) * 1e-9; }, "Seconds of a step.")
+      .def_property_readonly("world", &Simulation::world, "The world that it takes place in.")
       .def_property_readonly(
           "entities", [](const Simulation& s) { return EntitiesOf(s.scene(), s.world()->labels().get()); },
           "As World.entities, with the bodies of drones (if there are several) and people.")

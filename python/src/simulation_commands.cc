@@ -98,19 +98,20 @@ void BindHandCommands(py::class_<Simulation>& sim) {
 void BindCommands(py::class_<Simulation>& sim) {
   using O = const py::object&;
   sim.def(
-         "arm", [](Simulation& s, O drone) { s.Post(drone, ArmCommand{}, 0); }, Drone0())
+         "arm", [](Simulation& s, O drone) { s.Post(drone, ArmCommand{}, 0); }, Drone0(), "Lets the rotors turn.")
       .def(
-          "disarm", [](Simulation& s, O drone) { s.Post(drone, DisarmCommand{}, 0); }, Drone0())
+          "disarm", [](Simulation& s, O drone) { s.Post(drone, DisarmCommand{}, 0); }, Drone0(),
+          "Stops the rotors, in the air too.")
       .def(
           "takeoff",
           [](Simulation& s, double height, double speed, O drone) {
             s.Post(drone, TakeoffCommand{height, speed}, 0);
           },
           py::arg("height") = 2.0, py::arg("speed") = 1.0, Drone0(),
-          "Arms and climbs `height` metres above where it stands.")
+          "Arms and climbs `height` metres above where it stands, at `speed` m/s.")
       .def(
           "land", [](Simulation& s, double speed, O drone) { s.Post(drone, LandCommand{speed}, 0); },
-          py::arg("speed") = 0.7, Drone0())
+          py::arg("speed") = 0.7, Drone0(), "Descends at `speed` m/s until the ground stops it, then disarms.")
       .def(
           "hover",
           [](Simulation& s, O yaw, O rate, O drone) { s.Post(drone, HoverCommand{ToYaw(yaw, rate)}, 0); },
@@ -120,7 +121,9 @@ void BindCommands(py::class_<Simulation>& sim) {
           [](Simulation& s, double height, double speed, bool land, O drone) {
             s.Post(drone, ReturnCommand{height, speed, land}, 0);
           },
-          py::arg("height") = 5.0, py::arg("speed") = 0.0, py::arg("land") = true, Drone0())
+          py::arg("height") = 5.0, py::arg("speed") = 0.0, py::arg("land") = true, Drone0(),
+          "Climbs to at least `height` metres above where it was armed, flies there at `speed` m/s (0 = what the drone is made for), "
+          "and lands if `land`.")
       .def(
           "fly_velocity",
           [](Simulation& s, O v, bool body, O altitude, O yaw, O rate, O drone, double timeout) {
@@ -140,7 +143,7 @@ void BindCommands(py::class_<Simulation>& sim) {
             s.Post(drone, PositionCommand{ToVec3(p, "position"), speed, ToYaw(yaw, rate)}, timeout);
           },
           py::arg("position"), py::arg("speed") = 0.0, NoYaw(), NoRate(), Drone0(), NoTimeout(),
-          "position: (3,) of W. speed: m/s, 0 = what the drone is made for.")
+          "position: (3,) metres of W. speed: m/s, 0 = what the drone is made for.")
       .def(
           "fly_path",
           [](Simulation& s, O points, double speed, double lookahead, O yaw, O rate, O drone,

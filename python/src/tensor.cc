@@ -181,7 +181,7 @@ Nothing is copied; the memory stays alive for as long as any consumer has it. co
         py::tuple shape(t.shape.size());
         for (size_t i = 0; i < t.shape.size(); ++i) shape[i] = t.shape[i];
         return shape;
-      });
+      }, "(H, W) or (H, W, channels).");
 }
 
 }  // namespace airsim360::python

@@ -215,8 +215,8 @@ ValueError names the nearest world where there is none of that name.)")
                          static_cast<size_t>(counts.entities), static_cast<size_t>(counts.instanced_triangles),
                          w.stage()->device().device.c_str());
            })
-      .def_property_readonly("device", [](const World& w) { return w.stage()->device().device; })
-      .def_property_readonly("name", &World::name)
+      .def_property_readonly("device", [](const World& w) { return w.stage()->device().device; }, "What draws its pictures: cpu or vulkan.")
+      .def_property_readonly("name", &World::name, "Name or path that it was opened by.")
       .def_property_readonly(
           "entities", [](World& w) { return EntitiesOf(w.scene(), w.labels().get()); },
           "Entities by id (ids begin at 1): dictionaries with id, name, category, category_path, kind, "
@@ -261,7 +261,8 @@ ValueError names the nearest world where there is none of that name.)")
           },
           "(3,) a good first viewpoint in W, metres.")
       .def_property_readonly("triangles",
-                             [](const World& w) { return w.scene().Count().instanced_triangles; })
+                             [](const World& w) { return w.scene().Count().instanced_triangles; },
+                             "Triangles, those of every copy of a mesh counted.")
       .def("raycast", &Raycast, py::arg("origins"), py::arg("directions"),
            "Nearest surfaces along rays: origins and directions (N, 3) in W -> range (N,) float32 metres (0 "
            "= nothing), "

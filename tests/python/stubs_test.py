@@ -173,6 +173,15 @@ class PublicNames(unittest.TestCase):
                 if isinstance(thing, (type, types.FunctionType, types.BuiltinFunctionType, types.ModuleType)):
                     self.assertTrue(thing.__doc__, f"{module.__name__}.{name}")
 
+    def test_every_member_of_the_compiled_module_has_a_docstring(self):
+        native = importlib.import_module("airsim360._native")
+        for kind in (k for k in vars(native).values() if isinstance(k, type)):
+            for name, member in vars(kind).items():
+                if name.startswith("_") or name == "TASK_OPTIONS":  # static: pybind11 shows no text for it
+                    continue
+                text = member.__doc__ if isinstance(member, property) else "".join((getattr(kind, name).__doc__ or "").splitlines()[1:])
+                self.assertTrue(text and text.strip(), f"{kind.__name__}.{name}")
+
 
 # The stub of the compiled module against what pybind11 says.
 
