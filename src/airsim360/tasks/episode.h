@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/sim/step.h"
+#include "airsim360/sim/sim_loop.h"
 #include "airsim360/tasks/agent_action.h"
 #include "airsim360/tasks/agent_world.h"
 
@@ -67,8 +67,8 @@ class Episode {
 
   AgentWorld& world() { return *world_; }
   const EpisodeSpec& spec() const { return spec_; }
-  const Vehicle& vehicle() const { return state_.vehicles[0]; }
-  const SimState& state() const { return state_; }
+  const Vehicle& vehicle() const { return state().vehicles[0]; }
+  const SimState& state() const { return loop_->state(); }
   /// The people as they stand now, for pictures; null: nobody.
   std::shared_ptr<const SceneState> moved() const;
   Vec3d start() const { return start_W_; }
@@ -76,7 +76,7 @@ class Episode {
   double success_radius() const { return radius_; }
   double distance_to_goal() const { return Norm(goal_W_ - vehicle().motion.X_WB.p); }
   int64_t steps() const { return steps_; }
-  double seconds() const { return 1e-9 * static_cast<double>(state_.t_ns); }
+  double seconds() const { return 1e-9 * static_cast<double>(state().t_ns); }
   EpisodeEnd end() const { return end_; }
   EpisodeScore Score() const;
   /// Places every kPathPeriodNs, the first at the start.
@@ -87,7 +87,9 @@ class Episode {
   void Check() const;
   void ChoosePlaces();
   void BuildModel();
-  void StepOnce(std::vector<SimCommand>& commands);
+  /// Flies on until `until_ns`, the end of the episode, or the target of `plan` (null: none) is reached.
+  bool Fly(int64_t until_ns, const ActionPlan* plan);
+  void Note(std::span<const SimEvent> happened);
   bool Arrived(const ActionPlan& plan) const;
   AgentPose Setpoint() const;
 
@@ -95,8 +97,7 @@ class Episode {
   EpisodeSpec spec_;
   double radius_ = 1;
   Vec3d start_W_, goal_W_;
-  std::shared_ptr<const SimModel> model_;
-  SimState state_;
+  std::unique_ptr<SimLoop> loop_;
   EpisodeEnd end_ = EpisodeEnd::kRunning;
   int64_t steps_ = 0;
   std::optional<AgentPose> setpoint_;  ///< where the last action led, if the drone came to rest there
