@@ -22,11 +22,10 @@ namespace {
 void CheckDegrees(const char* name, double value, double most) {
   if (std::abs(value) <= most) return;
   char text[160];
-  const int length = std::snprintf(text, sizeof text, "%s: %.10g is not in %.0f … %.0f degrees", name, value, -most, most);
-  // Nothing is near to what is no number.
-  if (!std::isnan(value))
-    std::snprintf(text + length, sizeof text - static_cast<size_t>(length), "; the nearest is %.0f", value < 0 ? -most : most);
-  throw std::invalid_argument(text);
+  std::snprintf(text, sizeof text, "%s: %.10g is not in %.0f … %.0f degrees", name, value, -most, most);
+  if (std::isnan(value)) throw std::invalid_argument(text);  // nothing is near to what is no number
+  const std::string nearest = std::to_string(std::lround(std::copysign(most, value)));
+  throw std::invalid_argument(text + ("; the nearest is " + nearest));
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ inline constexpr uint64_t kMostReplyBytes = uint64_t{320} << 20;
 /// before memory is taken for it.
 void CheckReplyBytes(uint64_t bytes, std::string_view help);
 
-/// std::invalid_argument "latitude: 123 is not in -90 … 90 degrees; the nearest is 90" for a place that is not on the Earth.
-/// A longitude may go round once more, -360 … 360, as some clients count from 0 and some from -180.
+/// std::invalid_argument "latitude: 123 is not in -90 … 90 degrees; the nearest is 90" for a place that is
+/// not on the Earth. Longitudes of -360 … 360 are taken, as some clients count from 0 and some from -180.
 void CheckPlaceOnEarth(double latitude, double longitude);
 
 /// Fastest state of a vehicle that may be set, m/s and rad/s.
