@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace airsim360 {
 
@@ -18,13 +17,12 @@ inline constexpr CategoryId kFirstCustomId = 256;  ///< built-in ids are below
 /// One node of the tree, leaf or inner. External ids are -1 where there is no counterpart.
 struct Category {
   CategoryId id = kVoid;
-  std::string path;              ///< "vegetation/tree/conifer/pine"
-  CategoryId parent = kVoid;     ///< kVoid for roots
-  bool thing = true;             ///< countable thing (COCO sense), else stuff
-  int ade20k = -1;               ///< SceneParse-150, 0-based
-  int cityscapes = -1;           ///< label id 0..33
-  int coco = -1;                 ///< COCO panoptic category id
-  std::vector<std::string> raw;  ///< the paper's own spellings
+  std::string path = {};      ///< "vegetation/tree/conifer/pine"
+  CategoryId parent = kVoid;  ///< kVoid for roots
+  bool thing = true;          ///< countable thing (COCO sense), else stuff
+  int ade20k = -1;            ///< SceneParse-150, 0-based
+  int cityscapes = -1;        ///< label id 0..33
+  int coco = -1;              ///< COCO panoptic category id
 };
 
 /// Built-in categories plus the custom ones of a world. Value type.
