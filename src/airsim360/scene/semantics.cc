@@ -287,6 +287,39 @@ const Category& SemanticTree::operator[](CategoryId id) const {
   return it->second;
 }
 
+// The id depends on the path alone, unless another path has it (1 in 65,000 pairs, so some of a few hundred
+// paths): then it is the next free one.
+CategoryId SemanticTree::FreeId(std::string_view path) const {
+  constexpr uint64_t kIds = 65536 - kFirstCustomId;
+  const uint64_t place = HashName(path) % kIds;
+  for (uint64_t k = 0; k < kIds; ++k) {
+    const auto id = static_cast<CategoryId>(kFirstCustomId + (place + k) % kIds);
+    if (!categories_.contains(id)) return id;
+  }
+  throw InputError("category path '" + std::string(path) + "': all " + std::to_string(kIds) +
+                   " ids of custom categories are taken");
+}
+
+std::map<CategoryId, CategoryId> SemanticTree::SettleIds() {
+  // All custom categories leave, then come back in order of path.
+  std::vector<Category> custom;
+  for (const auto& [path, id] : ids_)
+    if (id >= kFirstCustomId) custom.push_back(std::move(categories_[id]));
+  std::erase_if(categories_, [](const auto& entry) { return entry.first >= kFirstCustomId; });
+  std::map<CategoryId, CategoryId> changed;
+  for (Category& category : custom) {
+    const CategoryId id = FreeId(category.path);
+    if (id != category.id) changed[category.id] = id;
+    category.id = id;
+    // An ancestor is before all below it: its id is the new one.
+    const size_t slash = category.path.rfind('/');
+    if (slash != std::string::npos) category.parent = ids_.at(category.path.substr(0, slash));
+    ids_.at(category.path) = id;
+    categories_[id] = std::move(category);
+  }
+  return changed;
+}
+
 CategoryId SemanticTree::Add(std::string_view path, bool thing) {
   if (const auto id = Find(path)) return *id;
   if (!IsValidPath(path)) {
@@ -296,17 +329,7 @@ CategoryId SemanticTree::Add(std::string_view path, bool thing) {
   const size_t slash = path.rfind('/');
   const CategoryId parent = slash == std::string_view::npos ? kVoid : Add(path.substr(0, slash), thing);
 
-  // The id depends on the path alone, unless an earlier path has it (1 in 65,000 pairs): then it is the next free one.
-  constexpr uint64_t kIds = 65536 - kFirstCustomId;
-  uint64_t place = HashName(path) % kIds;
-  for (uint64_t tried = 0; categories_.contains(static_cast<CategoryId>(kFirstCustomId + place)); ++tried) {
-    if (tried == kIds) {
-      throw InputError("category path '" + std::string(path) + "': all " + std::to_string(kIds) +
-                       " ids of custom categories are taken");
-    }
-    place = (place + 1) % kIds;
-  }
-  const auto id = static_cast<CategoryId>(kFirstCustomId + place);
+  const CategoryId id = FreeId(path);
   Category category{id, std::string(path), parent, thing};
   for (CategoryId up = parent; up != kVoid; up = categories_[up].parent) {
     if (category.ade20k < 0) category.ade20k = categories_[up].ade20k;

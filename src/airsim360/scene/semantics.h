@@ -36,14 +36,19 @@ class SemanticTree {
   CategoryId At(std::string_view path) const;
   /// Category of an id; InputError if unknown.
   const Category& operator[](CategoryId id) const;
-  /// Adds a path (and missing ancestors) unless present; returns its id. Custom ids depend on the path alone,
-  /// but where another path has that id it is the next free one. External ids are those of the nearest ancestor
-  /// that has one. InputError if ids run out; for paths not of [a-z0-9_]/…, at most 8 parts, 200 characters.
+  /// Adds a path (and missing ancestors) unless present; returns its id: a hash of the path, or the next free
+  /// id where an earlier path has that one. External ids are those of the nearest ancestor that has one.
+  /// InputError if ids run out; for paths not of [a-z0-9_]/…, at most 8 parts, 200 characters.
   CategoryId Add(std::string_view path, bool thing = true);
+  /// Gives custom categories the ids that they have if added in order of path: they follow from the set of paths
+  /// then, not from who came first. Returns the new ids of those that changed, by the old ones.
+  std::map<CategoryId, CategoryId> SettleIds();
   /// All categories, by id.
   const std::map<CategoryId, Category>& categories() const { return categories_; }
 
  private:
+  CategoryId FreeId(std::string_view path) const;
+
   std::map<CategoryId, Category> categories_;
   std::map<std::string, CategoryId, std::less<>> ids_;
 };
