@@ -208,7 +208,12 @@ EpisodeScore Episode::Score() const {
   score.success = ended_well && score.navigation_error <= radius_;
   score.path_length = length_ + Norm(vehicle().motion.X_WB.p - last_p_W_);
   std::vector<Vec3d> reference = spec_.reference_path;
-  if (reference.empty()) reference = {start_W_, goal_W_};
+  if (reference.empty()) {
+    const double radius = model_->drones[0]->radius();
+    const ShortestWay& way = shortest_way_.Find(model_->tracer, start_W_, goal_W_, radius);
+    reference = way.points;
+    score.shortest_is_straight = !way.found;
+  }
   score.shortest_length = PathLength(reference);
   score.spl = SuccessByLength(score.success, score.shortest_length, score.path_length);
   // Both by way, not by time: an agent that thinks in mid-air loses nothing.

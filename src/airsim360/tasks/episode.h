@@ -11,6 +11,7 @@
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/tasks/agent_action.h"
 #include "airsim360/tasks/agent_world.h"
+#include "airsim360/tasks/shortest_way.h"
 
 namespace airsim360 {
 
@@ -24,7 +25,7 @@ struct EpisodeSpec {
   std::optional<Vec3d> goal;          ///< in W; none: a free place by the seed
   std::optional<Vec3d> start;         ///< in W; none: the world's first free place
   double start_yaw = 0;               ///< rad
-  std::vector<Vec3d> reference_path;  ///< of a demonstration; empty: the straight line
+  std::vector<Vec3d> reference_path;  ///< of a demonstration; empty: FindShortestWay of the drone
   uint64_t seed = 0;                  ///< of the goal, gusts and sensors
   std::string drone = "hummingbird";  ///< DroneCatalog
   SuccessRule success = SuccessRule::kStop;
@@ -46,7 +47,8 @@ struct EpisodeScore {
   bool oracle_success = false;     ///< some place of the path was within the radius
   double navigation_error = 0;     ///< metres from the last place to the goal
   double path_length = 0;          ///< metres flown
-  double shortest_length = 0;      ///< of the reference path, or straight to the goal
+  double shortest_length = 0;      ///< of the reference path, or of the shortest free way
+  bool shortest_is_straight = false;  ///< no free way was found: all goes by the straight line to the goal
   double ndtw = 0;                 ///< NormalizedTimeWarping to the reference, by the radius of success
   double spl = 0;                  ///< success * shortest / max(path, shortest)
 };
@@ -107,6 +109,7 @@ class Episode {
   double length_ = 0;
   Vec3d last_p_W_;
   std::vector<Vec3d> path_;
+  mutable ShortestWayCache shortest_way_;  ///< looked for when the first score is asked for
 };
 
 }  // namespace airsim360
