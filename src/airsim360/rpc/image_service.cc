@@ -48,23 +48,11 @@ ImageService::ImageService(Session& session, Stage& stage, Tier tier)
 ImageService::~ImageService() { Stop(); }
 
 void ImageService::Stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_) return;
-    stopping_ = true;
-  }
-  wake_.notify_all();
-  thread_.join();
+  jobs_.Stop();
+  if (thread_.joinable()) thread_.join();
 }
 
-void ImageService::Post(Job job) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_) return;
-    jobs_.push_back(std::move(job));
-  }
-  wake_.notify_one();
-}
+void ImageService::Post(Job job) { jobs_.Post(std::move(job)); }
 
 void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot) {
   const std::lock_guard lock(mutex_);
@@ -73,23 +61,14 @@ void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot)
 
 void ImageService::Run() {
   constexpr std::chrono::seconds kPause{1};  // without a job: nobody is in a hurry
-  const auto called = [&] { return stopping_ || !jobs_.empty(); };
-  std::unique_lock lock(mutex_);
-  while (true) {
-    if (holds_memory_ && !wake_.wait_for(lock, kPause, called)) {
-      lock.unlock();
+  while (!jobs_.stopped()) {
+    const std::optional<Job> job = holds_memory_ ? jobs_.NextWithin(kPause) : jobs_.Next();
+    if (job) {
+      (*job)(*this);
+      holds_memory_ = true;
+    } else if (holds_memory_ && !jobs_.stopped()) {
       GiveBackMemory();
-      lock.lock();
     }
-    wake_.wait(lock, called);
-    if (stopping_) return;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    lock.unlock();
-    job(*this);
-    job = {};
-    holds_memory_ = true;
-    lock.lock();
   }
 }
 

@@ -1,14 +1,13 @@
 // Pictures for clients: one thread that renders snapshots, so that nothing else ever waits for a picture.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
 
+#include "airsim360/base/work_queue.h"
 #include "airsim360/rpc/image_products.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/shared_memory.h"
@@ -88,10 +87,8 @@ class ImageService {
   bool holds_memory_ = false;  // a job has run since the last GiveBackMemory
 
   std::mutex mutex_;  // of what follows
-  std::condition_variable wake_;
-  std::deque<Job> jobs_;
   std::map<std::string, SnapshotPointer> triggered_;
-  bool stopping_ = false;
+  WorkQueue<Job> jobs_;
   std::thread thread_;
 };
 

@@ -82,6 +82,7 @@ Answer ScoreOf(const Episode& episode) {
           {"navigation_error", score.navigation_error},
           {"path_length", score.path_length},
           {"shortest_length", score.shortest_length},
+          {"shortest_is_straight", score.shortest_is_straight},
           {"spl", score.spl},
           {"ndtw", score.ndtw}};
 }

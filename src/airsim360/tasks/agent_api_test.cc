@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 // One room for all tests.
-std::shared_ptr<AgentWorld> Open(const std::string& name, uint64_t) {
+std::shared_ptr<AgentWorld> Open(const std::string&, uint64_t) {
   static const auto room = std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}}));
   return room;
 }

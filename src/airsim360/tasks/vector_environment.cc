@@ -137,7 +137,7 @@ void VectorEnvironment::Step(std::span<const float> actions) {
 
 uint64_t VectorEnvironment::Hash() const {
   StateHasher hasher;
-  for (const Lane& lane : lanes_) hasher.Add(HashState(lane.state));
+  for (const Lane& lane : lanes_) hasher.Add(HashState(lane.loop->state()));
   return hasher.hash();
 }
 

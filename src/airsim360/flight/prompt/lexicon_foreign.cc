@@ -77,18 +77,18 @@ constexpr Word kWords[] = {
     {kLayout, 0, "coaxial", "koaxial|koaxialer|coaxiale|共轴|同轴"},
     {kRotorNoun, 0, "", "rotoren|rotores|rotori|rotorzahl|anzahl rotoren|rotoranzahl|旋翼|rotorblatter"},
     {kMotor, 0, "", "motoren|moteurs|moteur|motores|motori|motore|电机|马达"},
-    {kPropeller, 0, "", "propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|プロペラ|luftschrauben"},
+    {kPropeller, 0, "", "propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|桨径|螺旋桨直径|桨直径|桨叶直径|旋翼直径|プロペラ|luftschrauben"},
     {kWheelbase, 0, "", "achsabstand|radstand|diagonale|empattement|entraxe|轴距|对角线|distancia entre ejes|diagonales|"
                         "motorabstand|interasse|batalla"},
     {kMass, 0, "",
      "abfluggewicht|startgewicht|startmasse|abflugmasse|gewicht|gesamtgewicht|masse|wiegt|wiegen|schwer|masse totale|"
      "masse au decollage|poids au decollage|poids|pese|pesant|peso maximo al despegue|peso al despegue|"
      "peso de despegue|peso|pesa|masa|al despegue|au decollage|despegue|decollage|pesa en total|peso total|"
-     "peso al decollo|peso massimo al decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|"
+     "peso al decollo|peso massimo al decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|整机重量|整机|含电池|带电池|"
      "en ordre de vol|al decollo|poids total"},
     {kEmpty, 0, "", "leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
     {kPayload, 0, "",
-     "nutzlast|zuladung|tragt|tragen|charge utile|emport|emporte|carga util|carga|transporta|carico utile|carico|llevar|llevando|cargar|cargando|levantar|levanta|transportar|porter|"
+     "charge de|charge max|charge maximale|charge max de|nutzlast|zuladung|tragt|tragen|charge utile|emport|emporte|carga util|carga|transporta|carico utile|carico|llevar|llevando|cargar|cargando|levantar|levanta|transportar|porter|"
      "transporter|transporte|soulever|souleve|emporter|emportant|portare|sollevare|solleva|heben|hebt|tragend|schleppt|"
      "schleppen|transportieren|trasportare|carregar|carrega|levar|leva|capacidad de carga|capacite d emport|traglast|"
      "载荷|载重|有效载荷|负载|挂载|任务载荷|最大载重|ペイロード|lleva|trasporta|transportiert|portant|porte"},

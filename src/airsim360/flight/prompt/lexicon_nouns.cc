@@ -100,8 +100,17 @@ constexpr Word kWords[] = {
      "fully loaded|including battery|with battery|wet weight|weight including battery|launch weight|heavy|"
      "all up at|auw of"},
     {kEmpty, 0, "",
-     "empty|empty weight|dry weight|dry|without payload|without load|unladen|operating empty weight|bare weight|"
+     "empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
+     "w o load|without the payload|without any payload|without cargo|no payload|unloaded|"
      "empty mass|weight without payload"},
+    {kBare, 0, "",
+     "without battery|without the battery|without batteries|without a battery|without batt|without lipo|without lipos|"
+     "without the lipo|without pack|without the pack|w o battery|w o batteries|w o batt|w o lipo|w o pack|no battery|"
+     "no batt|no lipo|no batteries|minus battery|minus the battery|less battery|battery excluded|excl battery|"
+     "excluding battery|excluding batteries|excluding the battery|excl batteries|excl lipo|excluding lipo|"
+     "not counting the battery|before battery|before the battery|battery not included|not including battery|"
+     "not including the battery|dry weight|dry mass|dry|dry weight no batt|sans batterie|sans la batterie|sans lipo|"
+     "ohne akku|ohne akkus|ohne batterie|ohne lipo|sin bateria|sin la bateria|senza batteria|不含电池|无电池|不带电池"},
     {kPayload, 0, "",
      "payload|payloads|carrying|carries|carry|lifting|lifts|lift|useful load|payload capacity|max payload|"
      "maximum payload|hauling|haul|hauls|lugging|lug|lugs|hoist|hoists|bring|brings|bringing|tote|totes|ferry|ferries|"
@@ -121,10 +130,20 @@ constexpr Word kWords[] = {
     {kThrustRatio, 0, "",
      "twr|t w|thrust to weight|thrust to weight ratio|thrust weight|thrust weight ratio|power to weight|"
      "power to weight ratio|t to w|thrust ratio|thrust to mass|thrust margin|thrust reserve"},
+    {kThrust, 0, "",
+     "thrust|max thrust|maximum thrust|total thrust|max total thrust|maximum total thrust|total max thrust|"
+     "static thrust|combined thrust|peak thrust|full thrust|pull|pulls|pulling|schub|gesamtschub|standschub|poussee|"
+     "poussee totale|empuje|empuje total|spinta|spinta totale|推力|总推力|最大推力|拉力|总拉力|最大拉力"},
+    {kThing, 0, "",
+     "gsd|ground sampling distance|ground sample distance|pixel size|doorway|doorways|door|gap|gaps|tunnel|manhole|"
+     "hatch|opening|backpack|suitcase|case|shelf|drawer|trunk|rucksack|mast|pole|stand off|standoff|standoffs|"
+     "spacing|line spacing|track spacing|hole|holes|mounting|stack|screws|tube|tubes|pipe|pipes|plate|plates|"
+     "thickness|tow line|towline|string|gate|gates|hoop|hoops|window|windows|corridor|corridors|room|arena|"
+     "volume|stand"},
     {kElse, 0, "",
      "sensor size|inch sensor|cmos|ccd|imager|image sensor|monitor|tv|lcd|oled|oled screen|barrel|filter|sensor diagonal|screen|display|lens|focal|altitude|ceiling|range of|distance|radius|"
      "height|tall|resolution|charge|charging|recharge|charges|setup|set up|assembly|assemble|warmup|limit|limits|"
-     "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|thrust|"
+     "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|"
      "part|level|ip|version|mark|gen|generation|field of view|fov|latency|zoom|deep|thick|cable|tether|per motor|"
      "each motor|landing gear|legs|antenna|goggles|goggle|price|cost|budget|row|swath|temperature|wing loading|"
      "controller|transmitter|remote|above ground|agl|high|swath width|width"},
@@ -149,7 +168,7 @@ constexpr Word kWords[] = {
      "jet fighter|fighter jet|turbofan|turbofans|turbojet|jet engine|jet engines|jet powered|afterburner|afterburners|"
      "afterburning|rocket|missile|cruise missile|rocket powered|scramjet|spaceship|spacecraft|satellite|jetpack|"
      "jet turbine|turbine powered"},
-    {kNoMultirotor, 0, "a ground vehicle", "hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
+    {kNoMultirotor, 0, "a ground vehicle", "ground vehicle|road vehicle|wheeled vehicle|surface vehicle|hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
     {kNoMultirotor, 0, "a place without air to fly in",
      "on the moon|on mars|lunar surface|martian|outer space|in outer space|in vacuum|in a vacuum"},
     {kNoMultirotor, 0, "beyond the speed of sound",

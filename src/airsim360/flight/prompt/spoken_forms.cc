@@ -40,6 +40,10 @@ const Rule kPhrases[] = {
     {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
     {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? )"
                 R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "},
+    // "Without the GoPro", "minus camera and gimbal"
+    {std::regex(R"((without|w/o|minus|excluding|excl\.?|not counting|not including|less)( the| any| a| its)? )"
+                R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|action cam)s?)"
+                R"(( (and|or|&) (the )?(camera|gimbal|lens|mount|sensor))?\b)"), " without payload "},
     // Still air is no wind to withstand.
     {std::regex(R"(\b(in |with |at |under )?(no|zero|without( any)?|w/o|next to no) (wind|gusts|breeze)\b)"), " "},
     {std::regex(R"(\b(in |at |during )?(straight and )?level flight\b)"), " "},
