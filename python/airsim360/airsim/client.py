@@ -162,7 +162,7 @@ def _define(cls, table, suffix, body):
         scope = {**globals(), "_result": result}
         exec(source, scope)  # pylint: disable=exec-used  # a table of this file
         method = scope[name + suffix]
-        method.__doc__ = f"Sends {name}; see docs/rpc.md."
+        method.__doc__ = f"Sends {name}; see docs/reference/airsim_functions.md."
         method.__qualname__, method.__module__ = f"{cls.__name__}.{name}{suffix}", __name__
         setattr(cls, name + suffix, method)
 

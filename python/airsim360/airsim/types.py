@@ -1,4 +1,4 @@
-"""AirSim's structures and enumerations. NED, metres, radians; see docs/rpc.md.
+"""AirSim's structures and enumerations. NED, metres, radians; see docs/reference/airsim_functions.md.
 
 `fields` of a structure names its keys on the wire with their defaults; a default that is a structure is made anew for
 each object.

@@ -113,7 +113,7 @@ class VectorEnv(_Base, _VectorBase):
     """`num_envs` copies of a task, all in one call. Where one has ended the next step begins its next episode.
 
     options: drone, action ("velocity", "rates", "rotors"), width, height, tier, period, max_speed, max_turn, max_rate,
-    level, and those of the task (docs/python.md); ValueError names the nearest for an unknown one.
+    level, and those of the task (docs/guide/gym.md); ValueError names the nearest for an unknown one.
     """
 
     metadata = _metadata()

@@ -303,8 +303,8 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(0.01, 100.0));
   command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
       ->check(CLI::Range(0.01, 100.0));
-  command->add_option("--sensors", arguments->sensors, "sensor file (docs/sensors.md)");
-  command->add_option("--wind", arguments->wind, "wind file (docs/simulation.md)");
+  command->add_option("--sensors", arguments->sensors, "sensor file (docs/reference/sensors.md)");
+  command->add_option("--wind", arguments->wind, "wind file (docs/guide/flying.md)");
   command
       ->add_option("--speed", arguments->speed,
                    "simulated seconds a second, 0 = as fast as possible (default)")

@@ -28,7 +28,7 @@ struct ServerOptions {
   std::vector<SpawnAsset> assets = ShapeAssets();     ///< what simSpawnObject can make
 };
 
-/// Serves from its construction to its end. See docs/rpc.md for what each function does.
+/// Serves from its construction to its end. See docs/reference/airsim_functions.md for what each function does.
 class AirSimServer {
  public:
   /// RuntimeError if the port cannot be had.
