@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo people test bench bench-gpu wheel fuzz install-packages clean
+.PHONY: build demo people test bench bench-gpu wheel fuzz docs install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -33,6 +33,10 @@ bench-gpu: install-packages
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: build
 	@tools/fuzz.sh $(BUILD) $(JOBS) $(or $(SECONDS),300)
+
+# site/index.html, by Debian's mkdocs-material
+docs:
+	@tools/docs.sh
 
 install-packages:
 	@tools/install_packages.sh
