@@ -79,7 +79,7 @@ def check_paths(root, name, text, files):
     modules = {file.split("/")[2] for file in files if file.startswith("src/airsim360/") and file.count("/") > 2}
     errors = []
     for token in sorted(set(path_tokens(text))):
-        if re.search(r"[<>{}$…\[\]]", token) or token.startswith(("/", "-", "http")):
+        if re.search(r"[<>{}$…\[\]]|NAME|snake_case", token) or token.startswith(("/", "-", "http")):
             continue
         if token.split("/")[0] in folders and "/" in token:
             if not any(root.glob(token.rstrip("/"))):
