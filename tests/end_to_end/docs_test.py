@@ -75,7 +75,7 @@ def run_page(page):
                 os.symlink(ROOT / name, os.path.join(folder, name))
             os.symlink(BUILD, os.path.join(folder, "build"))
             environment = {"PATH": f"{BUILD / 'bin'}:/usr/bin:/bin", "HOME": folder, "PYTHONPATH": str(BUILD / "python"),
-                           "PYTHONDONTWRITEBYTECODE": "1", "LANG": "C.UTF-8",
+                           "PYTHONDONTWRITEBYTECODE": "1", "LANG": "C.UTF-8", "AIRSIM360": str(PROGRAM),
                            "AIRSIM360_CACHE": CACHE.name}
             done = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True, timeout=1500)
             self.assertEqual(done.returncode, 0, f"{name_of(page)}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
