@@ -102,7 +102,8 @@ int main(int argc, char** argv) {
   using namespace airsim360;
   const std::string name = argc > 1 ? argv[1] : "downtown_west";
   const int64_t routes = argc > 2 ? std::atoll(argv[2]) : 200;
-  const WaypointSpace space(LoadWorld({.world = name}), 0.5);
+  Stage stage({.world = {.world = name}});
+  const WaypointSpace space(stage, 0.5);
   const ThreadLimit limit(1);
   for (const WaypointWorld& world : WaypointWorlds()) {
     if (world.name == name) MeasureRoutes(space, world, routes);

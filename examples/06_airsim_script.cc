@@ -65,7 +65,7 @@ int main() {
   // A clock four times as fast as the wall's; any free port.
   ServerOptions options{.port = 0};
   options.settings.clock_speed = 4;
-  const AirSimServer server(LoadWorld({.world = "box_room"}), options);
+  const AirSimServer server(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}}), options);
   Client client(server.port());
   const std::string drone;  // the first one
   client.Call("enableApiControl", true, drone);

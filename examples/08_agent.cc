@@ -42,7 +42,7 @@ int main() {
 
   // The server of `airsim360 agent --world box_room`, in this process.
   AgentApi api({.world = "box_room", .open = [](const std::string& name, uint64_t seed) {
-                  return std::make_shared<AgentWorld>(name, LoadWorld({.world = name, .seed = seed}));
+                  return std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = name, .seed = seed}}));
                 }});
   const AgentServer server(api, {.port = 0});
 

@@ -13,9 +13,9 @@
 #include "airsim360/planning/polynomial_trajectory.h"
 #include "airsim360/planning/trajectory_limits.h"
 #include "airsim360/render/cuda/cuda_renderer.h"
-#include "airsim360/render/vulkan/choose_renderer.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/sim_loop.h"
+#include "airsim360/stage/stage.h"
 #include "convert.h"
 
 namespace airsim360::python {
@@ -31,53 +31,29 @@ struct Lidar {
   RigidTransform X_BS;
 };
 
-/// Renderers of a scene, made when first asked for.
-class Renderers {
- public:
-  explicit Renderers(DeviceChoice device) : device_(std::move(device)) {}
-  const DeviceChoice& device() const { return device_; }
-  /// RuntimeError where the device cannot be had.
-  Renderer& For(Tier tier, const std::shared_ptr<const RayTracer>& tracer) {
-    // One renderer on a GPU draws all tiers: the scene need not be there twice.
-    std::unique_ptr<Renderer>& renderer = made_[device_.device == "cpu" ? tier : Tier::kLabels];
-    if (!renderer) renderer = MakeRenderer(tracer, {.tier = tier}, device_);
-    return *renderer;
-  }
-
- private:
-  DeviceChoice device_;
-  std::map<Tier, std::unique_ptr<Renderer>> made_;
-};
-
 struct Rig;
 
-/// A world with its tracer and renderers, made when first asked for.
+/// A stage, and the categories that were given since.
 class World {
  public:
-  /// InputError for another `device` than auto, cpu or vulkan.
-  World(const std::string& name, uint64_t seed, bool models, const std::string& labels, const std::string& device, int gpu);
-  const Scene& scene() const { return *scene_; }
-  const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
-  const std::string& name() const { return name_; }
+  /// InputError for what makes no sense.
+  explicit World(const StageOptions& options) : stage_(std::make_shared<Stage>(options)) {}
+  const std::shared_ptr<Stage>& stage() const { return stage_; }
+  const Scene& scene() const { return stage_->scene(); }
+  const std::string& name() const { return stage_->name(); }
   /// Categories given since the world was loaded; null = none.
   std::shared_ptr<const EntityLabels> labels();
   /// From the next capture on; returns how many entities match. InputError for a malformed category path.
   size_t Relabel(const std::vector<LabelPattern>& patterns, std::vector<std::string>& unused);
-  const DeviceChoice& device() const { return renderers_.device(); }
   /// Both without the GIL.
-  std::shared_ptr<const RayTracer> tracer();
   std::shared_ptr<Capture> Render(const Rig& rig, const Kinematics& body);
   std::shared_ptr<LidarScan> Scan(const Lidar& lidar, const Kinematics& body);
 
  private:
-  std::string name_;
-  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<Stage> stage_;
   std::mutex labels_mutex_;  // of labels_; held for a moment only
   std::shared_ptr<const EntityLabels> labels_;
-  std::mutex mutex_;  // of what follows; never waited for with the GIL held
-  std::shared_ptr<const RayTracer> tracer_;
-  Renderers renderers_;
-  std::shared_ptr<const RayTracer> TracerLocked();
+  std::mutex render_mutex_;  // of the stage's renderers; never waited for with the GIL held
 };
 
 /// Entities of a scene by id, as dictionaries.

@@ -19,7 +19,7 @@ struct Surroundings {
 };
 
 Surroundings MapAround(World& world, const std::vector<Vec3d>& points, bool with_map) {
-  const auto tracer = world.tracer();
+  const auto tracer = world.stage()->solid();
   const Box3d space = FlightBox(*tracer);
   std::shared_ptr<const ClearanceField> map;
   Box3d box{points.front(), points.front()};
@@ -85,7 +85,7 @@ Plan Solve(const PlanArguments& a) {
   std::optional<AllocatedTrajectory> flight;
   if (a.avoid) {
     for (size_t i = 0; i < a.points.size(); ++i)
-      CheckAboveGround(*a.world->tracer(), a.points[i], "waypoint " + std::to_string(i + 1));
+      CheckAboveGround(*a.world->stage()->solid(), a.points[i], "waypoint " + std::to_string(i + 1));
     const Surroundings around = MapAround(*a.world, a.points, true);
     CertifiedFlight free = FlyFree(a.points, *around.bounded, options);
     plan.certificate = free.certificate;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/trajectory_reference.h"
 
 namespace airsim360::python {
@@ -43,16 +42,13 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
 
 Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
                        double dt, const py::object& wind)
-    : world_(std::move(world)), renderers_(world_->device()) {
+    : world_(std::move(world)) {
   if (people < 0 || people > 10000)
     throw InputError("people: " + std::to_string(people) + " is not in 0 ... 10000");
   if (!(dt >= 1e-5 && dt <= 0.1))
     throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
   const std::vector<Drone> list = ToDrones(drones);
-  auto model = std::make_shared<SimModel>();
-  model->dt_ns = std::llround(dt * 1e9);
-  model->world.seed = seed;
-  model->wind.mean_W = ToVec3(wind, "wind");
+  const std::optional<Vec3d> mean_wind = wind.is_none() ? std::nullopt : std::optional(ToVec3(wind, "wind"));
   std::vector<DroneSetup> setups;
   for (size_t i = 0; i < list.size(); ++i) {
     const Drone& drone = list[i];
@@ -68,44 +64,34 @@ Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, i
     setups.push_back(std::move(setup));
   }
   const py::gil_scoped_release release;
-  Build(std::move(model), std::move(setups), static_cast<size_t>(people));
+  PeopleRequest crowd{.seed = seed};
+  if (people > 0) crowd.count = static_cast<size_t>(people);
+  Build(std::move(setups), crowd, seed, dt, mean_wind);
 }
 
-void Simulation::Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups, size_t people) {
-  base_ = world_->tracer();
-  model->tracer = base_;
-  std::shared_ptr<const Scene> scene = world_->shared_scene();
-  if (people > 0) {
-    PopulatedScene populated = Populate(scene, {.count = people, .seed = model->world.seed});
-    scene = std::move(populated.scene);
-    model->people = std::move(populated.people);
-  }
+void Simulation::Build(std::vector<DroneSetup> setups, const PeopleRequest& people, uint64_t seed, double dt,
+                       const std::optional<Vec3d>& wind) {
   // One drone never sees itself; several need bodies.
-  std::vector<DroneBodyRef> refs;
-  if (setups.size() > 1) {
-    std::vector<DroneBodySpec> bodies;
-    for (const DroneSetup& setup : setups) {
-      DroneBodySpec& body = bodies.emplace_back();
-      body.name = setup.name;
-      body.model = DroneBodyModel(setup.model);
-      body.X_WB = setup.X_WB;
-    }
-    scene = AddDroneBodies(std::move(scene), bodies, refs);
-    for (size_t i = 0; i < setups.size(); ++i) {
-      setups[i].instance = refs[i].instance;
-      setups[i].entity = refs[i].entity;
-    }
+  std::vector<DroneBodySpec> bodies;
+  for (size_t i = 0; setups.size() > 1 && i < setups.size(); ++i) {
+    DroneBodySpec& body = bodies.emplace_back();
+    body.name = setups[i].name;
+    body.model = DroneBodyModel(setups[i].model);
+    body.X_WB = setups[i].X_WB;
   }
-  if (scene != world_->shared_scene()) {
-    scene_ = std::move(scene);
-    base_ = std::make_shared<const RayTracer>(scene_);
-    model->tracer = WithoutBodies(base_, refs, model->people.get());
+  stage_ = std::make_shared<Stage>(world_->stage(), people, [&](const Scene&) { return bodies; });
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    setups[i].instance = stage_->bodies()[i].instance;
+    setups[i].entity = stage_->bodies()[i].entity;
   }
+  SimModel model = stage_->Model(std::llround(dt * 1e9));
+  model.world.seed = seed;
+  if (wind) model.wind.mean_W = *wind;
   for (DroneSetup& setup : setups) {
     names_.push_back(setup.name);
-    model->drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model->dt_ns));
+    model.drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model.dt_ns));
   }
-  model_ = std::move(model);
+  model_ = std::make_shared<const SimModel>(std::move(model));
   loop_ = std::make_unique<SimLoop>(model_);
 }
 
@@ -145,13 +131,13 @@ std::shared_ptr<Capture> Simulation::Take(const Rig& rig, size_t i) {
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
   const auto labels = world_->labels();
-  CaptureLocked(rig, i, labels.get(), renderers_.For(rig.rig.tier, base_), *capture);
-  FinishCapture(rig, base_->scene(), labels.get(), *capture);
+  CaptureLocked(rig, i, labels.get(), stage_->renderer(rig.rig.tier), *capture);
+  FinishCapture(rig, scene(), labels.get(), *capture);
   return capture;
 }
 
 std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
-  const DeviceChoice& device = renderers_.device();
+  const DeviceChoice& device = stage_->device();
   if (device.device == "cpu") throw InputError("memory: 'cuda' needs a GPU that renders: World(…, device=\"vulkan\")");
   if (rig.rig.lens != LensModel::kIdeal) throw InputError("memory: the lens real360 is made on the CPU; use memory=\"cpu\"");
   if (world_->labels() && rig.rig.products.semantic)
@@ -159,14 +145,15 @@ std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
   if (rig.part) throw InputError("memory: the product 'part' is made on the CPU; use memory=\"cpu\"");
   auto capture = std::make_shared<CudaCapture>();
   const std::lock_guard lock(render_mutex_);
-  if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(base_, RendererOptions{.tier = rig.rig.tier}, GpuOptions{.gpu = device.gpu});
+  if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(stage_->tracer(), RendererOptions{.tier = rig.rig.tier, .environment = stage_->environment()},
+                                            GpuOptions{.gpu = device.gpu});
   CaptureLocked(rig, i, nullptr, *cuda_, *capture);
   capture->pictures = cuda_->Take();
   return capture;
 }
 
 SnapshotSensors& Simulation::SensorsLocked() {
-  if (!sensors_) sensors_ = std::make_unique<SnapshotSensors>(model_, base_);
+  if (!sensors_) sensors_ = std::make_unique<SnapshotSensors>(model_, stage_->tracer());
   return *sensors_;
 }
 

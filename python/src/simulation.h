@@ -31,19 +31,17 @@ class Simulation {
   /// Where everybody is.
   py::list People() const;
   /// With bodies of drones and people.
-  const Scene& scene() const { return scene_ ? *scene_ : world_->scene(); }
+  const Scene& scene() const { return stage_->scene(); }
 
  private:
-  void Build(std::shared_ptr<SimModel> model, std::vector<DroneSetup> setups, size_t people);
+  void Build(std::vector<DroneSetup> setups, const PeopleRequest& people, uint64_t seed, double dt, const std::optional<Vec3d>& wind);
 
   std::shared_ptr<World> world_;
-  std::shared_ptr<const Scene> scene_;     ///< with bodies, if there are people or several drones
-  std::shared_ptr<const RayTracer> base_;  ///< what cameras see
+  std::shared_ptr<Stage> stage_;  ///< the world's, with bodies and people of its own
   std::shared_ptr<const SimModel> model_;
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::string> names_;
   std::mutex render_mutex_;  // of what follows; never waited for with the GIL held
-  Renderers renderers_;
   std::unique_ptr<CudaRenderer> cuda_;  // made when first asked for
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();

@@ -99,10 +99,10 @@ void BindSimulation(py::module_& m) {
 
 drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
 commands give the same bytes with any number of threads. people: how many
-walk about. wind: (3,) m/s in W. The world says what draws the pictures.)");
+walk about. wind: (3,) m/s in W, None: that of the world. The world says what draws the pictures.)");
   sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
           py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
-          py::arg("dt") = 0.001, py::arg("wind") = py::make_tuple(0.0, 0.0, 0.0))
+          py::arg("dt") = 0.001, py::arg("wind") = py::none())
       .def(
           "step",
           [](Simulation& s, int64_t n) {

@@ -128,7 +128,7 @@ std::unique_ptr<VectorEnvironment> Make(const std::shared_ptr<World>& world, con
   options.seed = seed;
   const NavigationTask navigation = ToTask(task, task_options);
   const py::gil_scoped_release release;
-  return std::make_unique<VectorEnvironment>(world->tracer(), navigation, options);
+  return std::make_unique<VectorEnvironment>(world->stage(), navigation, options);
 }
 
 // Pictures of all environments: (count, H, W) or (count, H, W, channels); None if they are not made.

@@ -12,32 +12,6 @@
 
 namespace airsim360::python {
 
-namespace {
-
-// Wrong names are found before the world is built.
-DeviceChoice ToDevice(const std::string& device, int gpu) {
-  CheckDevice("device", device);
-  if (gpu >= 0 && device == "cpu") throw InputError("gpu: device 'cpu' uses no GPU; say device=\"vulkan\"");
-  return {device, gpu};
-}
-
-}  // namespace
-
-World::World(const std::string& name, uint64_t seed, bool models, const std::string& labels, const std::string& device, int gpu)
-    : name_(name), renderers_(ToDevice(device, gpu)) {
-  scene_ = LoadWorld({.world = name, .seed = seed, .labels = labels, .use_models = models});
-}
-
-std::shared_ptr<const RayTracer> World::TracerLocked() {
-  if (!tracer_) tracer_ = std::make_shared<const RayTracer>(scene_);
-  return tracer_;
-}
-
-std::shared_ptr<const RayTracer> World::tracer() {
-  const std::lock_guard lock(mutex_);
-  return TracerLocked();
-}
-
 std::shared_ptr<const EntityLabels> World::labels() {
   const std::lock_guard lock(labels_mutex_);
   return labels_;
@@ -46,22 +20,24 @@ std::shared_ptr<const EntityLabels> World::labels() {
 size_t World::Relabel(const std::vector<LabelPattern>& patterns, std::vector<std::string>& unused) {
   size_t changed = 0;
   const std::lock_guard lock(labels_mutex_);
-  labels_ = std::make_shared<const EntityLabels>(LabelEntities(*scene_, labels_.get(), patterns, changed, &unused));
+  labels_ = std::make_shared<const EntityLabels>(LabelEntities(scene(), labels_.get(), patterns, changed, &unused));
   return changed;
 }
 
 std::shared_ptr<Capture> World::Render(const Rig& rig, const Kinematics& body) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(render_mutex_);
   auto capture = std::make_shared<Capture>();
   const auto named = labels();
-  CaptureRig(Rendered(rig, named.get()), body, 0, renderers_.For(rig.rig.tier, TracerLocked()), *capture);
-  FinishCapture(rig, *scene_, named.get(), *capture);
+  PanoramicRig rendered = Rendered(rig, named.get());
+  rendered.state = stage_->StartState();
+  CaptureRig(rendered, body, 0, stage_->renderer(rig.rig.tier), *capture);
+  FinishCapture(rig, scene(), named.get(), *capture);
   return capture;
 }
 
 std::shared_ptr<LidarScan> World::Scan(const Lidar& lidar, const Kinematics& body) {
   auto scan = std::make_shared<LidarScan>();
-  ScanLidar(lidar.spec, {}, *tracer(), body, lidar.X_BS, 0, *scan);
+  ScanLidar(lidar.spec, {}, *stage_->tracer(), body, lidar.X_BS, 0, *scan);
   FinishScan(labels().get(), *scan);
   return scan;
 }
@@ -110,7 +86,7 @@ py::tuple Raycast(World& world, const py::object& origins, const py::object& dir
   EntityId* entities = entity.mutable_data();
   {
     const py::gil_scoped_release release;
-    const auto tracer = world.tracer();
+    const auto tracer = world.stage()->solid();
     const Scene& scene = world.scene();
     constexpr int64_t kRaysPerTask = 256;
     ParallelFor((n + kRaysPerTask - 1) / kRaysPerTask, [&](int64_t task) {
@@ -134,7 +110,7 @@ py::array_t<float> Clearance(World& world, const py::object& points, float most)
   py::array_t<float> distance(static_cast<py::ssize_t>(places.size()));
   float* out = distance.mutable_data();
   const py::gil_scoped_release release;
-  const auto tracer = world.tracer();
+  const auto tracer = world.stage()->solid();
   ParallelFor(static_cast<int64_t>(places.size()), [&](int64_t i) {
     out[i] = tracer->Clearance(VecCast<float>(places[static_cast<size_t>(i)]), most);
   });
@@ -170,6 +146,45 @@ py::list Gpus() {
   return list;
 }
 
+// A number of people, or the file that describes them.
+PeopleRequest ToPeople(const py::object& people, uint64_t seed) {
+  PeopleRequest request{.seed = seed};
+  if (!py::isinstance<py::int_>(people)) {
+    request.file = py::str(people).cast<std::string>();
+    return request;
+  }
+  const auto count = people.cast<int64_t>();
+  if (count < 0 || count > 10000) throw InputError("people: " + std::to_string(count) + " is not in 0 ... 10000");
+  if (count > 0) request.count = static_cast<size_t>(count);
+  return request;
+}
+
+// Mistakes are told by the names that Python gives.
+void CheckOptions(const StageOptions& options) {
+  try {
+    CheckStageOptions(options);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    throw InputError(text.starts_with("--") ? text.substr(2) : text);
+  }
+}
+
+std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool models, const std::string& labels,
+                                 const std::string& device, int gpu, const std::string& weather, const std::string& sun,
+                                 const std::string& time, const std::string& place, const std::string& hdri,
+                                 const std::string& environment, const std::string& bbox, const std::string& centre, double radius,
+                                 const py::object& people, const std::string& wind) {
+  StageOptions options{.world = {.world = name, .seed = seed, .labels = labels, .use_models = models},
+                       .environment = {weather, sun, time, place, hdri, environment},
+                       .people = ToPeople(people, seed),
+                       .device = {device, gpu}};
+  options.world.cut = MapCutOf("", bbox, centre, radius);
+  options.wind = ReadWindFile(wind);
+  CheckOptions(options);
+  const py::gil_scoped_release release;
+  return std::make_shared<World>(options);
+}
+
 }  // namespace
 
 void BindWorld(py::module_& m) {
@@ -183,19 +198,24 @@ void BindWorld(py::module_& m) {
 
 `device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
 says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
+`weather`, `sun`, `time`, `place`, `hdri` and `environment` are the light instead of the world's own, as the flags of those names
+of `airsim360 render`. `bbox`, `centre` and `radius` cut a piece out of a map, likewise. `people`: a number, or the path of a
+people .yaml; they live in simulations of it, and captures of the world show them where they begin. `wind`: a wind file, for
+simulations.
 
 ValueError names the nearest world where there is none of that name.)")
-      .def(py::init<const std::string&, uint64_t, bool, const std::string&, const std::string&, int>(), py::arg("name"),
-           py::arg("seed") = 0, py::arg("models") = true, py::kw_only(), py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1,
-           py::call_guard<py::gil_scoped_release>())
+      .def(py::init(&OpenWorld), py::arg("name"), py::arg("seed") = 0, py::arg("models") = true, py::kw_only(),
+           py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "",
+           py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "", py::arg("bbox") = "",
+           py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "")
       .def("__repr__",
            [](const World& w) {
              const SceneCounts counts = w.scene().Count();
              return Text("World(%s: %zu entities, %zu triangles, device %s)", w.name().c_str(),
                          static_cast<size_t>(counts.entities), static_cast<size_t>(counts.instanced_triangles),
-                         w.device().device.c_str());
+                         w.stage()->device().device.c_str());
            })
-      .def_property_readonly("device", [](const World& w) { return w.device().device; })
+      .def_property_readonly("device", [](const World& w) { return w.stage()->device().device; })
       .def_property_readonly("name", &World::name)
       .def_property_readonly(
           "entities", [](World& w) { return EntitiesOf(w.scene(), w.labels().get()); },

@@ -13,6 +13,7 @@
 #include "airsim360/trace/ray_tracer.h"
 #include "airsim360/worlds/building/massing.h"
 #include "airsim360/worlds/built_in.h"
+#include "airsim360/worlds/props/placer.h"
 #include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/new_york_city/manhattan.h"
 #include "airsim360/worlds/osm/test_real_towns.h"

@@ -6,11 +6,12 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
+#include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/opening/world_loader.h"
 #include "airsim360/tasks/agent_server.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -18,10 +19,11 @@ namespace airsim360 {
 namespace {
 
 struct AgentArguments {
-  std::string world, host = "127.0.0.1", tier = "fast";
+  std::string world, host = "127.0.0.1", tier = "fast", wind;
   int port = 8361, episodes = 64;
   bool realtime = false;
   EnvironmentFlags environment;
+  PeopleArguments people;
 };
 
 double SteadySeconds() {
@@ -29,23 +31,24 @@ double SteadySeconds() {
 }
 
 AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
-  AgentApiOptions options{.world = arguments.world, .world_seed = globals.seed};
-  for (const WorldInfo& world : ListWorlds()) options.worlds.push_back(world.name);
-  options.open = [tier = ParseTierArgument(arguments.tier), flags = arguments.environment, globals](
-                     const std::string& name, uint64_t seed) {
-    const LongTask building("building " + name);
-    WorldRequest request = RequestOf(name, globals);
-    request.seed = seed;
-    std::shared_ptr<const Scene> scene = LoadWorld(request);
-    const Environment environment = ApplyFlags(flags, scene->environment);
-    auto world = std::make_shared<AgentWorld>(name, std::move(scene), tier, environment);
-    LogInfo(name + ": ready after " + ClockText(building.seconds()));
-    return world;
+  AgentApiOptions api{.world = arguments.world, .world_seed = globals.seed};
+  for (const WorldInfo& world : ListWorlds()) api.worlds.push_back(world.name);
+  StageOptions options = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
+  options.wind = ReadWindFile(arguments.wind);
+  CheckStageOptions(options);
+  api.open = [tier = ParseTierArgument(arguments.tier), options](const std::string& name, uint64_t seed) {
+    StageOptions stage = options;
+    stage.world.world = name;
+    stage.world.seed = seed;
+    const auto world = std::make_shared<Stage>(stage);
+    world->renderer(tier);  // now, and not when the first agent waits for a picture
+    LogInfo(name + ": ready after " + ClockText(world->load_seconds()));
+    return std::make_shared<AgentWorld>(world, tier);
   };
-  options.realtime = arguments.realtime;
-  options.clock = SteadySeconds;
-  options.max_episodes = static_cast<size_t>(arguments.episodes);
-  return options;
+  api.realtime = arguments.realtime;
+  api.clock = SteadySeconds;
+  api.max_episodes = static_cast<size_t>(arguments.episodes);
+  return api;
 }
 
 constexpr std::chrono::milliseconds kLastJob{800};  // that an action or a picture has to end when the server is stopped
@@ -55,8 +58,6 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
     throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
   if (arguments.episodes < 1 || arguments.episodes > 1024)
     throw InputError("--episodes: " + std::to_string(arguments.episodes) + " is not in 1 ... 1024");
-  ApplyFlags(arguments.environment, {});
-
   AgentApi api(OptionsOf(arguments, globals));
   // Before the server has threads, so that the signals come to Wait alone.
   const StopSignals stop;
@@ -86,6 +87,8 @@ void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--episodes", arguments->episodes, "most episodes open at a time (default 64)");
   command->add_flag("--realtime", arguments->realtime,
                     "what an agent takes to think passes in its episode too; else time passes in actions alone");
+  arguments->people.AddTo(*command);
+  AddWindFlag(*command, arguments->wind);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
   command->callback([arguments, &globals] { Serve(*arguments, globals); });

@@ -278,10 +278,9 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals);
   CheckRoute(arguments);
-  const OpenedWorld world = OpenWorld(arguments.world, globals, spec.tier, arguments.environment,
-                                      arguments.people.Request(globals.seed), processes == 1);
-  spec.environment = DescribeEnvironment(world.environment);
-  const SimModel model = world.Model(kRouteStepNs);
+  Stage stage(StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed)));
+  spec.environment = DescribeEnvironment(stage.environment());
+  const SimModel model = stage.Model(kRouteStepNs);
   std::string trajectory_json;
   const Flight flight = Fly(arguments, model, spec, trajectory_json);
   if (!arguments.processes.is_worker()) {
@@ -289,13 +288,11 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
     CheckFlowSteps(*model.tracer, spec, flight);
     if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
   }
-  CollectInput input{spec, *world.scene, flight, arguments.out, trajectory_json};
-  input.people = world.people;
-  input.tracer = world.tracer;
-  if (arguments.processes.is_worker()) return RunWorker(input, *world.renderer);
+  const CollectInput input = InputOf(stage, spec, flight, arguments.out, trajectory_json);
+  if (arguments.processes.is_worker()) return RunWorker(input, stage.renderer(spec.tier));
   const CollectResult result =
-      processes == 1 ? Collect(input, *world.renderer) : Collect(input, RenderInProcesses(processes));
-  ReportRun(world, spec, result, arguments.out, globals.json);
+      processes == 1 ? Collect(input, stage.renderer(spec.tier)) : Collect(input, RenderInProcesses(processes));
+  ReportRun(stage, spec, result, arguments.out, globals.json);
 }
 
 }  // namespace

@@ -14,8 +14,6 @@
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/index.h"
 #include "airsim360/dataset/people/human_set.h"
-#include "airsim360/opening/world_loader.h"
-#include "airsim360/sim/drone_bodies.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -31,23 +29,20 @@ bool Exists(const std::string& world) {
 
 /// A world with what all its subsets share.
 struct HumanWorld {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<Stage> stage;
   std::shared_ptr<const NavMesh> mesh;
-  std::shared_ptr<const RayTracer> tracer;
 };
 
-HumanWorld OpenHumanWorld(const std::string& name, const GlobalOptions& globals) {
+HumanWorld OpenHumanWorld(const std::string& name, const HumanRun& run, const GlobalOptions& globals) {
   HumanWorld world;
-  const LongTask building("building " + name);
-  world.scene = LoadWorld(RequestOf(name, globals));
-  world.mesh = NavMesh::Build(*world.scene);
-  world.tracer = std::make_shared<const RayTracer>(world.scene);
+  world.stage = std::make_shared<Stage>(StageOptionsOf(name, globals, run.environment));
+  world.mesh = NavMesh::Build(world.stage->scene());
   return world;
 }
 
 CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, const HumanSubset& subset,
                             const HumanWorld& world, uint64_t seed) {
-  const HumanArea area = PickArea(*world.scene, *world.mesh, subset, seed);
+  const HumanArea area = PickArea(world.stage->scene(), *world.mesh, subset, seed);
   // The file that the people are made of is kept: the subset can be made again, or changed, by hand.
   const fs::path folder = fs::path(run.out) / subset.name;
   const fs::path people_file = folder.string() + ".people.yaml";
@@ -56,7 +51,7 @@ CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, cons
   PeopleRequest request = run.people.Request(seed);
   request.file = people_file;
   request.navmesh = world.mesh;
-  const PopulatedScene populated = Populate(world.scene, request);
+  Stage stage(world.stage, request);
 
   DatasetSpec spec = run.spec;
   spec.world = subset.world;
@@ -67,15 +62,9 @@ CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, cons
                 subset.pitch_deg);
   spec.route = text;
   spec.people = std::to_string(subset.people) + " in the area";
-  const auto tracer = std::make_shared<const RayTracer>(populated.scene);
-  const Environment environment = ApplyFlags(run.environment, world.scene->environment);
-  spec.environment = DescribeEnvironment(environment);
-  const auto renderer = MakeCpuRenderer(tracer, {.tier = spec.tier, .environment = environment});
-  const Flight flight = FilmSubset(recipe, subset, area, *populated.people, *world.tracer, seed);
-  CollectInput input{spec, *populated.scene, flight, folder};
-  input.people = populated.people;
-  input.tracer = tracer;
-  return Collect(input, *renderer);
+  spec.environment = DescribeEnvironment(stage.environment());
+  const Flight flight = FilmSubset(recipe, subset, area, *stage.people(), *world.stage->tracer(), seed);
+  return Collect(InputOf(stage, spec, flight, folder), stage.renderer(spec.tier));
 }
 
 }  // namespace
@@ -108,7 +97,7 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
     }
     if (!worlds.contains(subset.world)) {
       worlds.clear();  // one world at a time
-      worlds[subset.world] = OpenHumanWorld(subset.world, globals);
+      worlds[subset.world] = OpenHumanWorld(subset.world, run, globals);
     }
     LogInfo(subset.name + ": " + std::to_string(subset.frames) + " frames, " + std::to_string(subset.people) + " people");
     HumanRun one = run;

@@ -1,7 +1,9 @@
-// The flags of sun, sky and weather that `render` and `collect` share.
+// The flags of sun, sky, weather and wind, the same for every command that has them.
 #pragma once
 
 #include <CLI/CLI.hpp>
+
+#include <string>
 
 #include "airsim360/opening/world_environment.h"
 
@@ -9,5 +11,8 @@ namespace airsim360 {
 
 /// Adds --weather, --sun, --time, --place, --hdri and --environment; `flags` must outlive the command.
 void AddEnvironmentFlags(CLI::App& command, EnvironmentFlags& flags);
+
+/// Adds --wind; `file` must outlive the command.
+void AddWindFlag(CLI::App& command, std::string& file);
 
 }  // namespace airsim360

@@ -41,13 +41,6 @@ struct FlyArguments {
   VideoArguments encoding;
 };
 
-WorldWind ReadWind(const std::string& text) {
-  WorldWind wind;
-  if (text.empty()) return wind;
-  ReadYamlFile(text, [&](ConfigVisitor& v) { wind.Visit(v); });
-  return wind;
-}
-
 // The waypoints as a trajectory within the limits, and where it begins.
 std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& arguments) {
   std::vector<Vec3d> points;
@@ -188,25 +181,19 @@ DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, 
   return spec;
 }
 
-void WriteFrames(const FlyArguments& arguments, const GlobalOptions& globals, const OpenedWorld& world, const FlyResult& result) {
+void WriteFrames(const FlyArguments& arguments, const GlobalOptions& globals, Stage& stage, const FlyResult& result) {
   if (arguments.frames == 0) return;
   DatasetSpec spec = SpecOf(arguments, globals, false);
-  spec.environment = DescribeEnvironment(world.environment);
-  CollectInput input{spec, *world.scene, result.flight, fs::path(arguments.out) / "frames"};
-  input.people = world.people;
-  input.tracer = world.tracer;
-  Collect(input, *world.renderer);
+  spec.environment = DescribeEnvironment(stage.environment());
+  Collect(InputOf(stage, spec, result.flight, fs::path(arguments.out) / "frames"), stage.renderer(spec.tier));
 }
 
-std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, const GlobalOptions& globals, const OpenedWorld& world, FlyResult& result) {
+std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, const GlobalOptions& globals, Stage& stage, FlyResult& result) {
   if (arguments.video.empty()) return {};
   const DatasetSpec spec = SpecOf(arguments, globals, true);
   Flight flight;
   flight.shots = std::move(result.video);
-  CollectInput input{spec, *world.scene, flight, {}};
-  input.people = world.people;
-  input.tracer = world.tracer;
-  return FilmFlight(input, *world.renderer, arguments.video, arguments.encoding.Options(arguments.fps));
+  return FilmFlight(InputOf(stage, spec, flight, {}), stage.renderer(spec.tier), arguments.video, arguments.encoding.Options(arguments.fps));
 }
 
 // Everything that can be wrong with a video, before anything is loaded.
@@ -229,20 +216,18 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   FlyJob job;
   job.tasks = TasksOf(arguments, trajectory);
   CheckVideoFlags(arguments, globals);
-  const Tier tier = ParseTierArgument(arguments.tier);
-  const bool pictures = arguments.frames > 0 || !arguments.video.empty();
-  const WorldWind wind = ReadWind(arguments.wind);
+  ParseTierArgument(arguments.tier);
+  StageOptions options =
+      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
+  options.wind = ReadWindFile(arguments.wind);
   if (!arguments.pose.empty()) {
     arguments.pose = WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals));
     ParsePose(arguments.pose);
   }
 
-  const OpenedWorld world =
-      OpenWorld(arguments.world, globals, pictures ? tier : Tier::kLabels, arguments.environment, arguments.people.Request(globals.seed));
-  SetStart(arguments, *world.scene, trajectory.get(), setup);
-  SimModel model = world.Model(SimModel{}.dt_ns);
-  model.wind = wind;
-  model.world.seed = globals.seed;
+  Stage stage(options);
+  SetStart(arguments, stage.scene(), trajectory.get(), setup);
+  SimModel model = stage.Model();
   model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));
   job.model = std::make_shared<const SimModel>(std::move(model));
   job.speed = arguments.speed;
@@ -250,16 +235,16 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   if (!arguments.video.empty()) job.video_fps = arguments.fps;
   if (arguments.record) job.record_note = arguments.world + ", " + arguments.drone;
   job.log = [](const std::string& text) { LogInfo(text); };
-  const std::string description = DescribeFlight(arguments, globals, world.environment);
+  const std::string description = DescribeFlight(arguments, globals, stage.environment());
   CheckFolder(arguments.out, description, "flight", kFlightName);
   const FolderLock lock(arguments.out);
   WriteFileAtomically(fs::path(arguments.out) / kFlightName, description);
   FlyResult result = RunFlight(job);
   WriteFiles(arguments, result);
-  WriteFrames(arguments, globals, world, result);
-  const std::optional<VideoResult> video = WriteVideo(arguments, globals, world, result);
+  WriteFrames(arguments, globals, stage, result);
+  const std::optional<VideoResult> video = WriteVideo(arguments, globals, stage, result);
   if (globals.json) {
-    nlohmann::ordered_json json = ResultJson(arguments, setup.model, result, *world.scene);
+    nlohmann::ordered_json json = ResultJson(arguments, setup.model, result, stage.scene());
     if (video)
       json["video"] = {{"file", arguments.video}, {"pictures", video->pictures}, {"seconds", video->seconds},
                        {"encoder", video->encoder}, {"render_ms", video->render_ms / static_cast<double>(video->pictures)}};
@@ -304,7 +289,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
       ->check(CLI::Range(0.01, 100.0));
   command->add_option("--sensors", arguments->sensors, "sensor file (docs/reference/sensors.md)");
-  command->add_option("--wind", arguments->wind, "wind file (docs/guide/flying.md)");
+  AddWindFlag(*command, arguments->wind);
   command
       ->add_option("--speed", arguments->speed,
                    "simulated seconds a second, 0 = as fast as possible (default)")

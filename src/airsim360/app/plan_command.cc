@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/session.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/plan_dataset.h"
 #include "airsim360/app/plan_limits.h"
@@ -17,7 +18,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/math/coordinate_limit.h"
-#include "airsim360/opening/world_loader.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/planning/arc_length.h"
 #include "airsim360/planning/knots.h"
 #include "airsim360/planning/point_to_point.h"
@@ -72,13 +73,6 @@ struct PlanWorld {
   std::unique_ptr<WorldClearance> clearance;
   std::unique_ptr<BoundedClearance> bounded;
 };
-
-PlanWorld OpenPlanWorld(const WorldRequest& request) {
-  const LongTask building("building " + request.world);
-  PlanWorld world;
-  world.tracer = std::make_shared<const RayTracer>(LoadWorld(request));
-  return world;
-}
 
 // Places on the Earth become metres.
 void Place(WaypointArguments& arguments, const WorldRequest& request) {
@@ -275,7 +269,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   if (timed && arguments.avoid) throw InputError("--avoid: the waypoints have times; remove the column t");
   const TrajectoryLimits limits = ParseLimits(arguments.limits, timed);
   if (!arguments.world.empty()) {
-    world = OpenPlanWorld(request);
+    world.tracer = Stage(StageOptionsOf(arguments.world, globals)).tracer();
     if (waypoints.points.empty()) {
       waypoints = FindWaypoints(arguments.waypoints, world.tracer, globals.seed, arguments.clearance);
       CheckWaypoints(waypoints);

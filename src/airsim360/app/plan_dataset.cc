@@ -6,7 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/waypoint_set.h"
-#include "airsim360/opening/world_loader.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -34,10 +34,7 @@ void RunWaypointSet(const WaypointSetArguments& arguments, const GlobalOptions& 
     return false;
   };
   // Worlds are always those of seed 0: the seed varies the routes.
-  options.load = [](const std::string& name) {
-    const LongTask building("building " + name);
-    return LoadWorld({.world = name});
-  };
+  options.open = [](const std::string& name) { return std::make_shared<Stage>(StageOptions{.world = {.world = name}}); };
   const WaypointSetResult result = WriteWaypointSet(options);
   if (globals.json) {
     PrintJson({{"out", arguments.out},

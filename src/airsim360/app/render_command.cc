@@ -96,23 +96,19 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals)));
 
-  const OpenedWorld world =
-      OpenWorld(arguments.world, globals, spec.tier, arguments.environment, arguments.people.Request(globals.seed));
-  spec.environment = DescribeEnvironment(world.environment);
-  const SimModel model = world.Model(kRouteStepNs);
+  Stage stage(StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed)));
+  spec.environment = DescribeEnvironment(stage.environment());
+  const SimModel model = stage.Model(kRouteStepNs);
   if (arguments.pose.empty()) pose = DefaultPose(model, spec);
   spec.route = "pose " + Number(pose.p.x) + "," + Number(pose.p.y) + "," + Number(pose.p.z) + "," +
                Number(pose.yaw_deg) + "," + Number(pose.pitch_deg) + "," + Number(pose.roll_deg);
   constexpr double kRadians = std::numbers::pi / 180;
   Flight flight =
       Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
-  if (world.people) flight.shots[0].people = world.people->start;
+  if (stage.people()) flight.shots[0].people = stage.people()->start;
   CheckCameraPlaces(*model.tracer, spec, flight);
-  CollectInput input{spec, *world.scene, flight, arguments.out};
-  input.people = world.people;
-  input.tracer = world.tracer;
-  const CollectResult result = Collect(input, *world.renderer);
-  ReportRun(world, spec, result, arguments.out, globals.json);
+  const CollectResult result = Collect(InputOf(stage, spec, flight, arguments.out), stage.renderer(spec.tier));
+  ReportRun(stage, spec, result, arguments.out, globals.json);
 }
 
 }  // namespace

@@ -7,12 +7,11 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
-#include "airsim360/opening/world_environment.h"
-#include "airsim360/opening/world_loader.h"
 #include "airsim360/rpc/server.h"
 #include "airsim360/worlds/props/props.h"
 
@@ -22,7 +21,7 @@ namespace {
 constexpr std::chrono::milliseconds kLastJob{800};  // that a job has to end when the server is stopped
 
 struct ServeArguments {
-  std::string world, settings, tier = "fast", host;
+  std::string world, settings, tier = "fast", host, wind;
   std::optional<int> port;
   PeopleArguments people;
   bool realtime = false, lockstep = false;
@@ -59,31 +58,24 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
   options.port = arguments.port.value_or(options.settings.port);
   options.lockstep = arguments.lockstep;
   options.tier = ParseTierArgument(arguments.tier);
-  options.device = {globals.device, globals.gpu};
-  options.seed = globals.seed;
   options.assets = AssetsOf(globals.seed);
   return options;
 }
 
 void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   Check(arguments);
-  ServerOptions options = OptionsOf(arguments, globals);
-  ApplyFlags(arguments.environment, {});
-  const PeopleRequest people = arguments.people.Request(globals.seed);
-  std::optional<LongTask> building(std::in_place, "building " + arguments.world);
-  std::shared_ptr<const Scene> scene = LoadWorld(RequestOf(arguments.world, globals));
-  options.environment = ApplyFlags(arguments.environment, scene->environment);
-  if (people.any()) {
-    PopulatedScene populated = Populate(std::move(scene), people);
-    scene = std::move(populated.scene);
-    options.people = std::move(populated.people);
-  }
+  const ServerOptions options = OptionsOf(arguments, globals);
+  StageOptions world =
+      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
+  world.wind = ReadWindFile(arguments.wind);
+  world.bodies = ServedBodies(options);
+  const auto stage = std::make_shared<Stage>(world);
+  stage->tracer();  // while Ctrl-C still ends the program at once
 
   // Before the server has threads, so that the signals come to Wait alone.
   const StopSignals stop;
-  const AirSimServer server(std::move(scene), options);
-  LogInfo(arguments.world + ": ready after " + ClockText(building->seconds()));
-  building.reset();
+  const AirSimServer server(stage, options);
+  LogInfo(arguments.world + ": ready after " + ClockText(stage->load_seconds()));
   if (globals.json) {
     PrintJson({{"address", options.address}, {"port", server.port()}, {"functions", server.Methods()}});
   } else {
@@ -112,6 +104,7 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--realtime", arguments->realtime, "time passes with the wall clock (default)");
   command->add_flag("--lockstep", arguments->lockstep,
                     "time passes only in simContinueForTime and simContinueForFrames, as fast as it can");
+  AddWindFlag(*command, arguments->wind);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
   command->callback([arguments, &globals] { Serve(*arguments, globals); });

@@ -7,47 +7,32 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/index.h"
-#include "airsim360/opening/world_loader.h"
-#include "airsim360/render/vulkan/choose_renderer.h"
-#include "airsim360/sim/drone_bodies.h"
 
 namespace airsim360 {
 
-SimModel OpenedWorld::Model(int64_t dt_ns) const {
-  SimModel model{.tracer = WithoutBodies(tracer, {}, people.get()), .dt_ns = dt_ns};
-  model.people = people;
-  return model;
+StageOptions StageOptionsOf(const std::string& world, const GlobalOptions& globals, const EnvironmentFlags& environment,
+                            const PeopleRequest& people) {
+  return {.world = RequestOf(world, globals),
+          .environment = environment,
+          .people = people,
+          .device = {globals.device, globals.gpu}};
 }
 
-OpenedWorld OpenWorld(const std::string& world, const GlobalOptions& globals, Tier tier,
-                      const EnvironmentFlags& flags, const PeopleRequest& people, bool renders) {
-  // Wrong flags are found before the world is loaded.
-  ApplyFlags(flags, {});
-  if (globals.gpu >= 0 && globals.device == "cpu") throw InputError("--gpu: --device cpu uses no GPU; leave one of them out");
-  const LongTask building("building " + world);
-  OpenedWorld opened;
-  opened.scene = LoadWorld(RequestOf(world, globals));
-  if (people.any()) {
-    PopulatedScene populated = Populate(std::move(opened.scene), people);
-    opened.scene = std::move(populated.scene);
-    opened.people = std::move(populated.people);
-  }
-  opened.tracer = std::make_shared<const RayTracer>(opened.scene);
-  opened.environment = ApplyFlags(flags, opened.scene->environment);
-  if (renders)
-    opened.renderer = MakeRenderer(opened.tracer, {.tier = tier, .environment = opened.environment},
-                                   {globals.device, globals.gpu});
-  opened.load_ms = 1e3 * building.seconds();
-  return opened;
+CollectInput InputOf(Stage& stage, const DatasetSpec& spec, const Flight& flight, const std::filesystem::path& out,
+                     std::string trajectory_json) {
+  CollectInput input{spec, stage.scene(), flight, out, std::move(trajectory_json)};
+  input.people = stage.people();
+  input.tracer = stage.tracer();
+  return input;
 }
 
 namespace {
 
 // What is worth knowing of the people of a dataset; warns where hardly anybody is to be seen.
-nlohmann::ordered_json ReportPeople(const OpenedWorld& world, const CollectResult& result, const std::filesystem::path& out,
+nlohmann::ordered_json ReportPeople(const Stage& stage, const CollectResult& result, const std::filesystem::path& out,
                                     bool json) {
   const PeopleTotals totals = DatasetIndex(out, DatasetIndex::Mode::kRead).CountPeople();
-  const size_t people = world.people->cast.size();
+  const size_t people = stage.people()->cast.size();
   if (!json) {
     std::printf("people: %lld of %zu have pixels, %lld of them %lld or more in some picture; %lld of %lld labelled views of a "
                 "person have pixels\n",
@@ -68,7 +53,7 @@ nlohmann::ordered_json ReportPeople(const OpenedWorld& world, const CollectResul
 
 }  // namespace
 
-void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectResult& result,
+void ReportRun(const Stage& stage, const DatasetSpec& spec, const CollectResult& result,
                const std::filesystem::path& out, bool json) {
   // Means of the frames that this run wrote.
   const double written = result.written > 0 ? static_cast<double>(result.written) : 1;
@@ -76,8 +61,8 @@ void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectR
   const double rendered_fps = render_ms > 0 ? 1000 / render_ms : 0;
   const double written_fps =
       result.wall_ms > 0 ? 1000 * static_cast<double>(result.written) / result.wall_ms : 0;
-  const SceneCounts counts = world.scene->Count();
-  const bool peopled = world.people && !world.people->refs.empty();
+  const SceneCounts counts = stage.scene().Count();
+  const bool peopled = stage.people() && !stage.people()->refs.empty();
   if (json) {
     nlohmann::ordered_json report = {{"out", out.string()},
                                      {"world", spec.world},
@@ -86,15 +71,15 @@ void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectR
                                      {"already_complete", result.already_complete},
                                      {"render_ms", render_ms},
                                      {"write_ms", write_ms},
-                                     {"load_ms", world.load_ms},
+                                     {"load_ms", 1e3 * stage.load_seconds()},
                                      {"frames_per_second", rendered_fps},
                                      {"frames_per_second_written", written_fps},
                                      {"rays", static_cast<uint64_t>(static_cast<double>(result.rays) / written + 0.5)},
                                      {"triangles", counts.instanced_triangles},
                                      {"entities", counts.entities},
-                                     {"people", world.people ? world.people->cast.size() : 0},
+                                     {"people", stage.people() ? stage.people()->cast.size() : 0},
                                      {"peak_rss_mib", PeakRssMib()}};
-    if (peopled) report.update(ReportPeople(world, result, out, json));
+    if (peopled) report.update(ReportPeople(stage, result, out, json));
     PrintJson(report);
     return;
   }
@@ -108,7 +93,7 @@ void ReportRun(const OpenedWorld& world, const DatasetSpec& spec, const CollectR
       "written\n",
       out.c_str(), static_cast<long long>(result.frames), static_cast<long long>(result.written), render_ms,
       rendered_fps, written_fps);
-  if (peopled) ReportPeople(world, result, out, json);
+  if (peopled) ReportPeople(stage, result, out, json);
   std::printf("contact sheet: %s\n", (out / "contact_sheet.png").c_str());
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/session.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/app/world_sheet.h"
@@ -38,8 +39,7 @@ void RunExport(const ExportArguments& arguments, const GlobalOptions& globals) {
   if (out.extension() != ".glb")
     throw InputError("--out: '" + arguments.out + "': worlds are exported as .glb; did you mean '" +
                      fs::path(out).replace_extension(".glb").string() + "'?");
-  const LongTask building("building " + arguments.world);
-  const auto scene = LoadWorld(RequestOf(arguments.world, globals));
+  const auto scene = Stage(StageOptionsOf(arguments.world, globals)).shared_scene();
   WriteGlb(*scene, out);
   const SceneCounts counts = scene->Count();
   const uint64_t bytes = fs::file_size(out);
@@ -146,8 +146,12 @@ void RunImport(ImportArguments arguments, const GlobalOptions& globals) {
   request.heights = arguments.heights;
   request.fill = !arguments.no_fill;
   request.placement = arguments.placement;
-  const LongTask building("reading " + arguments.file);
-  scene = map ? LoadMap(request, &report) : LoadWorld(request);
+  if (map) {
+    const LongTask reading("reading " + arguments.file);
+    scene = LoadMap(request, &report);
+  } else {
+    scene = Stage({.world = request}).shared_scene();
+  }
   if (out.extension() == ".glb") WriteGlb(*scene, out);
   if (out.extension() == ".yaml") {
     if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
@@ -192,8 +196,7 @@ std::string CsvText(const std::string& text) {
 }
 
 void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& globals) {
-  const LongTask building("building " + arguments.world);
-  const auto scene = LoadWorld(RequestOf(arguments.world, globals));
+  const auto scene = Stage(StageOptionsOf(arguments.world, globals)).shared_scene();
   const std::vector<EntityRow> rows = EntityTable(*scene);
   if (globals.json) {
     Json list = Json::array();

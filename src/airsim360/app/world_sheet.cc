@@ -33,8 +33,8 @@ bool OnGround(const Scene& scene, const SurfaceRef& surface) {
 }
 
 // Open places near the spawn: nothing but ground below, air around at every height.
-std::vector<Vec3f> ChoosePlaces(const OpenedWorld& world, const SheetArguments& arguments, uint64_t seed) {
-  const Scene& scene = *world.scene;
+std::vector<Vec3f> ChoosePlaces(Stage& stage, const SheetArguments& arguments, uint64_t seed) {
+  const Scene& scene = stage.scene();
   const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
   RngStream rng(seed, "world sheet");
   std::vector<Vec3f> places;
@@ -42,14 +42,14 @@ std::vector<Vec3f> ChoosePlaces(const OpenedWorld& world, const SheetArguments& 
     const double reach = 25 + 110.0 * static_cast<double>(places.size()) / arguments.poses;
     const Vec3f p{spawn.x + static_cast<float>(rng.Uniform(-reach, reach)),
                   spawn.y + static_cast<float>(rng.Uniform(-reach, reach)), 0};
-    const auto below = world.tracer->Intersect({p.x, p.y, spawn.z + 300}, {0, 0, -1});
+    const auto below = stage.tracer()->Intersect({p.x, p.y, spawn.z + 300}, {0, 0, -1});
     if (!below) continue;
     const float ground = spawn.z + 300 - below->distance;
     if (scene.sky_entity != kNoEntity && !OnGround(scene, below->surface)) continue;
     if (std::abs(ground) > 3 && scene.sky_entity != kNoEntity) continue;
     const bool clear = std::all_of(arguments.heights.begin(), arguments.heights.end(), [&](double h) {
       const float room = h < 3 ? 0.9f : 2.5f;
-      return world.tracer->Clearance({p.x, p.y, ground + static_cast<float>(h)}, room) >= room;
+      return stage.tracer()->Clearance({p.x, p.y, ground + static_cast<float>(h)}, room) >= room;
     });
     const bool apart = std::all_of(places.begin(), places.end(),
                                    [&](Vec3f q) { return std::hypot(p.x - q.x, p.y - q.y) > 9; });
@@ -116,8 +116,8 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
   if (arguments.width < 128 || arguments.width > 2048 || arguments.width % 4)
     throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 128 … 2048");
   const Tier tier = ParseTierArgument(arguments.tier);
-  const OpenedWorld world = OpenWorld(arguments.world, globals, tier);
-  const std::vector<Vec3f> places = ChoosePlaces(world, arguments, globals.seed);
+  Stage stage(StageOptionsOf(arguments.world, globals));
+  const std::vector<Vec3f> places = ChoosePlaces(stage, arguments, globals.seed);
   if (places.empty()) throw RuntimeError(arguments.world + ": no open place found around the spawn");
 
   // One row a place, one column a height.
@@ -139,7 +139,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
       request.tier = tier;
       request.products.albedo = true;
       request.seed = globals.seed;
-      render_ms += world.renderer->Render(request, frame).render_ms;
+      render_ms += stage.renderer(tier).Render(request, frame).render_ms;
       figures[static_cast<size_t>(column)].Add(frame);
       all.Add(frame);
       std::map<CategoryId, std::set<EntityId>> seen;
@@ -167,7 +167,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
   }
   by_height["all"] = all.Json();
   std::map<std::string, size_t> by_path;
-  for (const auto& [category, count] : most_visible) by_path[world.scene->tree[category].path] = count;
+  for (const auto& [category, count] : most_visible) by_path[stage.scene().tree[category].path] = count;
   for (const auto& [path, count] : by_path) visible[path] = count;
   const double frames = static_cast<double>(rows) * columns;
   if (globals.json) {
@@ -176,12 +176,12 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
                {"heights", by_height},
                {"most_visible_entities", visible},
                {"render_ms", render_ms / frames},
-               {"load_ms", world.load_ms},
+               {"load_ms", 1e3 * stage.load_seconds()},
                {"peak_rss_mib", PeakRssMib()}});
     return;
   }
   std::printf("%s: %d places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), rows,
-              render_ms / frames, world.load_ms / 1000);
+              render_ms / frames, stage.load_seconds());
   for (const auto& [height, figure] : by_height.items())
     std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
 }

@@ -6,7 +6,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/base/log.h"
-#include "airsim360/opening/world_loader.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/worlds/survey/world_floor.h"
 #include "airsim360/worlds/survey/world_survey.h"
 #include "airsim360/worlds/worlds.h"
@@ -33,8 +33,7 @@ void PrintWorlds(bool json) {
 
 // What a world holds, counted on the built scene.
 nlohmann::ordered_json CountsOf(const std::string& name, uint64_t seed) {
-  const LongTask building("building " + name);
-  const auto scene = LoadWorld({.world = name, .seed = seed});
+  const auto scene = Stage({.world = {.world = name, .seed = seed}}).shared_scene();
   const WorldSurvey s = SurveyWorld(*scene);
   nlohmann::ordered_json floor = nlohmann::ordered_json::array();
   for (const FloorRow& row : StructuralFloor(name, s))

@@ -59,6 +59,7 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
       entity.name = name;
     }
   }
+  changed->SettleCategories();
   internal::Warnings warnings;
   for (size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) warnings.Add(internal::UnusedRule(rules, i, MatchesAny(patterns[i], scene->entities)));

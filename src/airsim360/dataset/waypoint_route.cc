@@ -21,19 +21,20 @@ const std::vector<KinematicSet>& KinematicSets() {
   return sets;
 }
 
-WaypointSpace::WaypointSpace(std::shared_ptr<const Scene> scene, double radius) {
+WaypointSpace::WaypointSpace(Stage& stage, double radius) {
   constexpr double kVoxel = 0.5;
-  const auto tracer = std::make_shared<const RayTracer>(scene);
+  const auto tracer = stage.solid();
+  const Scene& scene = stage.scene();
   const Box3d box = FlightBox(*tracer);
-  map_ = MapScene(*scene, box, kVoxel);
+  map_ = MapScene(scene, box, kVoxel);
   clearance_ = std::make_unique<WorldClearance>(tracer, map_);
   world_ = std::make_unique<BoundedClearance>(*clearance_, box);
-  const Vec3d spawn = scene->spawn
-                          ? VecCast<double>(*scene->spawn)
+  const Vec3d spawn = scene.spawn
+                          ? VecCast<double>(*scene.spawn)
                           : Vec3d{(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, box.max.z - 5};
   reachable_ = std::make_unique<ReachableSpace>(*map_, spawn, radius);
   if (reachable_->volume() == 0)
-    throw InputError("world '" + scene->name + "': nothing can be reached from its spawn");
+    throw InputError("world '" + scene.name + "': nothing can be reached from its spawn");
 }
 
 namespace {

@@ -164,7 +164,7 @@ WaypointSetResult WriteWaypointSet(const WaypointSetOptions& options) {
   for (size_t w = 0; w < worlds.size(); ++w) {
     if (missing[w].empty()) continue;
     const double start = Seconds();
-    const WaypointSpace space(options.load(worlds[w].name), options.radius);
+    const WaypointSpace space(*options.open(worlds[w].name), options.radius);
     CreateWritableFolder(options.out / worlds[w].name);
     const double prepared = Seconds();
     for (const int64_t part : missing[w])

@@ -11,6 +11,7 @@
 #include "airsim360/planning/point_to_point.h"
 #include "airsim360/planning/random_route.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/stage/stage.h"
 
 namespace airsim360 {
 
@@ -33,7 +34,7 @@ const std::vector<KinematicSet>& KinematicSets();
 class WaypointSpace {
  public:
   /// InputError if nothing can be reached.
-  WaypointSpace(std::shared_ptr<const Scene> scene, double radius);
+  WaypointSpace(Stage& stage, double radius);
   const BoundedClearance& world() const { return *world_; }
   const ClearanceField& map() const { return *map_; }
   const ReachableSpace& reachable() const { return *reachable_; }
@@ -63,7 +64,7 @@ struct WaypointSetOptions {
   double radius = 0.5;                   ///< metres to keep from every surface
   std::vector<std::string> worlds = {};  ///< only these; empty = all of the table
   std::function<bool(const std::string&)> exists = {};
-  std::function<std::shared_ptr<const Scene>(const std::string&)> load = {};
+  std::function<std::shared_ptr<Stage>(const std::string&)> open = {};
 };
 struct WaypointSetResult {
   int64_t flights = 0, written = 0;  ///< of this shard; written by this run

@@ -72,7 +72,7 @@ WaypointSetOptions Options(const fs::path& out) {
   options.most_routes = 4;
   options.worlds = {"city_park", "downtown_west", "sf_city"};
   options.exists = [](const std::string& name) { return name != "sf_city"; };
-  options.load = [](const std::string&) { return Town(); };
+  options.open = [](const std::string&) { return std::make_shared<Stage>(Town()); };
   return options;
 }
 

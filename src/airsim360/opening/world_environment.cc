@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -108,27 +109,37 @@ void SetSunByTime(std::string_view time, std::string_view place, Environment& en
   environment.sun_elevation_deg = sun.elevation_deg;
 }
 
-void VisitEnvironment(ConfigVisitor& v, const fs::path& folder, Environment& environment) {
-  std::string weather, date, time, hdri, lamps = kLampsNames[static_cast<int>(environment.lamps)];
-  v.Field("weather", "a preset: day, sunset, overcast, fog, night, rain, snow, …", weather);
-  if (!weather.empty()) environment = ParseEnvironmentPreset(weather, environment);
-  // Date and place give the sun, unless its angles follow.
-  double latitude = 0, longitude = 0;
-  v.Field("date", "2026-06-21", date);
-  v.Field("time", "14:30+02:00", time);
-  v.Field("latitude", "degrees north", latitude, -90, 90);
-  v.Field("longitude", "degrees east", longitude, -180, 180);
-  if (date.empty() != time.empty()) throw InputError("environment: date and time belong together");
-  if (!date.empty()) {
-    SetSunByTime(date + "T" + time, std::to_string(latitude) + "," + std::to_string(longitude), environment);
+void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
+  v.Field("weather", "a preset: day, sunset, overcast, fog, night, rain, snow, …", weather_);
+  v.Field("date", "2026-06-21", date_);
+  v.Field("time", "14:30+02:00", time_);
+  v.Field("latitude", "degrees north", latitude_, -90, 90);
+  v.Field("longitude", "degrees east", longitude_, -180, 180);
+  if (date_.empty() != time_.empty()) throw InputError("environment: date and time belong together");
+  numbers_.assign(EnvironmentFields().size(), std::nan(""));
+  for (size_t i = 0; i < numbers_.size(); ++i) {
+    const EnvironmentField& field = EnvironmentFields()[i];
+    v.Field(field.name, field.help, numbers_[i], field.low, field.high);
   }
-  for (const EnvironmentField& field : EnvironmentFields())
-    v.Field(field.name, field.help, environment.*field.value, field.low, field.high);
-  v.Field("lamps", "auto, on or off", lamps);
-  environment.lamps = ParseLamps(lamps);
+  v.Field("lamps", "auto, on or off", lamps_);
+  std::string hdri;
   v.Field("hdri", "a sky picture, .hdr or .exr", hdri);
-  if (!hdri.empty()) environment.hdri = LoadSkyPicture(folder / hdri);
+  if (!hdri.empty()) hdri_ = LoadSkyPicture(folder / hdri);
+  Over({});  // mistakes are found before a world is loaded
+}
+
+Environment EnvironmentWords::Over(Environment base) const {
+  Environment environment = weather_.empty() ? std::move(base) : ParseEnvironmentPreset(weather_, base);
+  // Date and place give the sun, unless its angles follow.
+  if (!date_.empty())
+    SetSunByTime(date_ + "T" + time_, std::to_string(latitude_) + "," + std::to_string(longitude_), environment);
+  for (size_t i = 0; i < numbers_.size(); ++i) {
+    if (!std::isnan(numbers_[i])) environment.*EnvironmentFields()[i].value = numbers_[i];
+  }
+  if (!lamps_.empty()) environment.lamps = ParseLamps(lamps_);
+  if (hdri_) environment.hdri = hdri_;
   ValidateEnvironment(environment, "environment");
+  return environment;
 }
 
 Environment ApplyFlags(const EnvironmentFlags& flags, const Environment& base) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "airsim360/base/config.h"
 #include "airsim360/scene/environment.h"
@@ -19,9 +20,21 @@ std::shared_ptr<const SkyPicture> LoadSkyPicture(const std::filesystem::path& fi
 /// none. InputError naming the text.
 void SetSunByTime(std::string_view time, std::string_view place, Environment& environment);
 
-/// The fields of `environment:` in a world file, over the values of `environment`; `folder` is where relative
-/// paths start. A `weather` counts before the other fields, date and place before sun angles.
-void VisitEnvironment(ConfigVisitor& v, const std::filesystem::path& folder, Environment& environment);
+/// The `environment:` of a world file. Presets keep some values of the world's own environment, which is known only
+/// once the world is read: so a file's words are kept, and laid over it then.
+class EnvironmentWords {
+ public:
+  /// Names the fields; `folder` is where relative paths start. InputError for what could not be laid over anything.
+  void Visit(ConfigVisitor& v, const std::filesystem::path& folder);
+  /// `base` with what the file says: `weather` before the other fields, date and place before sun angles.
+  Environment Over(Environment base) const;
+
+ private:
+  std::string weather_, date_, time_, lamps_;
+  double latitude_ = 0, longitude_ = 0;
+  std::vector<double> numbers_;  // of EnvironmentFields(); not a number: not said
+  std::shared_ptr<const SkyPicture> hdri_;
+};
 
 /// What a command line says of the environment; empty = nothing.
 struct EnvironmentFlags {

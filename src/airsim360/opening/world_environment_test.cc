@@ -1,10 +1,13 @@
 #include "airsim360/opening/world_environment.h"
 
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 
 #include "airsim360/base/error.h"
@@ -49,6 +52,31 @@ TEST_F(WorldEnvironment, AWorldFileSetsWhatItNamesAndKeepsTheRest) {
   EXPECT_EQ(e.wetness, 1);
   EXPECT_EQ(e.lamps, Lamps::kOn);
   EXPECT_EQ(e.turbidity, LoadWorld({.world = "box_room"})->environment.turbidity);
+}
+
+// A sky picture may be a gigabyte, and a file that changes between two readings is two files.
+TEST_F(WorldEnvironment, AWorldFileAndItsSkyAreReadOnce) {
+  WriteFileAtomically(folder_ / "sky.exr", EncodeExr(Image<Rgb32f>(16, 8, {1, 2, 3})));
+  const fs::path file = Write("w.yaml", "world: box_room\nenvironment: {weather: rain, hdri: sky.exr}\n");
+  const int watch = inotify_init1(IN_NONBLOCK);
+  ASSERT_GE(watch, 0);
+  ASSERT_GE(inotify_add_watch(watch, folder_.c_str(), IN_OPEN), 0);
+  const Environment e = LoadWorld({.world = file})->environment;
+  EXPECT_TRUE(e.hdri);
+  EXPECT_EQ(e.wetness, 1);
+
+  std::map<std::string, int> opened;
+  alignas(inotify_event) char events[16384];
+  const ssize_t size = read(watch, events, sizeof events);
+  close(watch);
+  for (ssize_t at = 0; at < size;) {
+    inotify_event event;
+    std::memcpy(&event, events + at, sizeof event);
+    if (event.len > 0) ++opened[events + at + sizeof event];
+    at += static_cast<ssize_t>(sizeof event + event.len);
+  }
+  EXPECT_EQ(opened["w.yaml"], 1);
+  EXPECT_EQ(opened["sky.exr"], 1);
 }
 
 TEST_F(WorldEnvironment, AWorldFileCanTellTimeAndPlace) {

@@ -50,8 +50,8 @@ void VisitPlacement(ConfigVisitor& v, ModelPlacement& placement) {
   });
 }
 
-// The fields of a world YAML, filled into `request` and, over its values, `environment`.
-WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environment& environment) {
+// The fields of a world YAML, filled into `request` and `environment`.
+WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, EnvironmentWords& environment) {
   std::string world, labels, heights, bbox, centre;
   double radius = 0;
   ReadYamlFile(file, [&](ConfigVisitor& v) {
@@ -67,7 +67,7 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
     request.additions.Visit(v);
     v.Group("environment", "sun, sky and weather",
-            [&](ConfigVisitor& group) { VisitEnvironment(group, file.parent_path(), environment); });
+            [&](ConfigVisitor& group) { environment.Visit(group, file.parent_path()); });
   });
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
@@ -147,7 +147,7 @@ std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* rep
 
 std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
   if (IsWorldFile(request.world)) {
-    Environment environment;
+    EnvironmentWords environment;
     return OriginOfWorld(ReadWorldFile(request.world, request, environment));
   }
   if (!IsOsmFile(request.world)) return std::nullopt;
@@ -157,12 +157,10 @@ std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   const fs::path path = request.world;
   if (IsWorldFile(path)) {
-    // Read once for the world (and to find mistakes early), once more over the environment that it has.
-    Environment environment;
-    auto scene = LoadWorld(ReadWorldFile(path, request, environment));
-    environment = scene->environment;
-    ReadWorldFile(path, request, environment);
-    return WithEnvironment(std::move(scene), environment);
+    EnvironmentWords words;
+    auto scene = LoadWorld(ReadWorldFile(path, request, words));
+    Environment environment = words.Over(scene->environment);
+    return WithEnvironment(std::move(scene), std::move(environment));
   }
   if (!request.additions.empty() && request.world != "new_york_city" &&
       (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "airsim360/rpc/api.h"
+#include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 
 namespace airsim360 {
@@ -89,8 +90,7 @@ void AddPathCalls(Api& api) {
   api.Start("moveToGPS", [](Session& s, const Reply& reply, double latitude, double longitude, float altitude,
                             float velocity, Seconds timeout_sec, DrivetrainType drivetrain, const YawMode& yaw,
                             float lookahead, float adaptive_lookahead, Text vehicle) {
-    if (!(std::abs(latitude) <= 90 && std::abs(longitude) <= 360))
-      throw std::invalid_argument("no such place");
+    CheckPlaceOnEarth(latitude, longitude);
     const Vec3d p_W = s.earth().ToWorld({latitude, longitude, altitude});
     const Vec3d p_N = NedFromWorld(p_W - s.control(vehicle).status().origin_W);
     MoveTo(s, reply, {p_N}, timeout_sec, Options(s, velocity, drivetrain, yaw, lookahead, adaptive_lookahead),

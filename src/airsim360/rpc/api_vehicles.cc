@@ -2,20 +2,21 @@
 #include <cmath>
 
 #include "airsim360/rpc/api.h"
+#include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/vehicle_state.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr double kFastest = 1000;  // m/s, rad/s: states beyond are refused
-
 void SetKinematics(Session& s, const airsim::KinematicsState& state, const std::string& name) {
   const VehicleControl& control = s.control(name);
   Vehicle& vehicle = s.vehicle(control);
+  // Told in the client's own frames.
+  CheckVelocity("linear_velocity", airsim::FromVector(state.linear_velocity), "m/s");
+  CheckVelocity("angular_velocity", airsim::FromVector(state.angular_velocity), "rad/s");
   const Vec3d v_W = NedFromWorld(airsim::FromVector(state.linear_velocity));
   const Vec3d w_B = FrdFromBody(airsim::FromVector(state.angular_velocity));
-  if (!(Norm(v_W) < kFastest && Norm(w_B) < kFastest)) throw std::invalid_argument("a velocity is absurd");
   s.Teleport(control, airsim::FromPose({state.position, state.orientation}, control.status().origin_W));
   vehicle.motion.v_WB = vehicle.drone.v_WB = v_W;
   vehicle.motion.w_WB_B = vehicle.drone.w_WB_B = w_B;

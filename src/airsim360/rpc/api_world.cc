@@ -6,6 +6,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/file_name.h"
 #include "airsim360/rpc/api.h"
+#include "airsim360/rpc/limits.h"
 #include "airsim360/rpc/ned.h"
 #include "airsim360/rpc/vehicle_state.h"
 
@@ -15,9 +16,7 @@ namespace {
 using Text = const std::string&;
 
 GeoPoint FromWire(const airsim::GeoPoint& point) {
-  if (!(std::abs(point.latitude) <= 90 && std::abs(point.longitude) <= 360)) {
-    throw std::invalid_argument("no such place on the Earth");
-  }
+  CheckPlaceOnEarth(point.latitude, point.longitude);
   return {point.latitude, point.longitude, point.altitude};
 }
 

@@ -38,9 +38,8 @@ RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const Came
   return snapshot.state.vehicles[vehicle].motion.X_WB * camera.X_BA;
 }
 
-ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tracer,
-                           const ImageOptions& options)
-    : session_(session), tracer_(std::move(tracer)), options_(options), ray_tracers_(tracer_) {
+ImageService::ImageService(Session& session, Stage& stage, Tier tier)
+    : session_(session), stage_(stage), tier_(tier), ray_tracers_(stage.tracer()) {
   const SnapshotPointer snapshot = session_.snapshot();
   MakeRendererFor(*snapshot->world);
   thread_ = std::thread([this] { Run(); });
@@ -49,23 +48,11 @@ ImageService::ImageService(Session& session, std::shared_ptr<const RayTracer> tr
 ImageService::~ImageService() { Stop(); }
 
 void ImageService::Stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_) return;
-    stopping_ = true;
-  }
-  wake_.notify_all();
-  thread_.join();
+  jobs_.Stop();
+  if (thread_.joinable()) thread_.join();
 }
 
-void ImageService::Post(Job job) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (stopping_) return;
-    jobs_.push_back(std::move(job));
-  }
-  wake_.notify_one();
-}
+void ImageService::Post(Job job) { jobs_.Post(std::move(job)); }
 
 void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot) {
   const std::lock_guard lock(mutex_);
@@ -74,23 +61,14 @@ void ImageService::Trigger(const std::string& vehicle, SnapshotPointer snapshot)
 
 void ImageService::Run() {
   constexpr std::chrono::seconds kPause{1};  // without a job: nobody is in a hurry
-  const auto called = [&] { return stopping_ || !jobs_.empty(); };
-  std::unique_lock lock(mutex_);
-  while (true) {
-    if (holds_memory_ && !wake_.wait_for(lock, kPause, called)) {
-      lock.unlock();
+  while (!jobs_.stopped()) {
+    const std::optional<Job> job = holds_memory_ ? jobs_.NextWithin(kPause) : jobs_.Next();
+    if (job) {
+      (*job)(*this);
+      holds_memory_ = true;
+    } else if (holds_memory_ && !jobs_.stopped()) {
       GiveBackMemory();
-      lock.lock();
     }
-    wake_.wait(lock, called);
-    if (stopping_) return;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    lock.unlock();
-    job(*this);
-    job = {};
-    holds_memory_ = true;
-    lock.lock();
   }
 }
 
@@ -101,7 +79,7 @@ void ImageService::GiveBackMemory() {
     // Renderers keep images of the last size: a tiny picture takes their place.
     frame_ = {};
     frame_pixels_ = 0;
-    renderer_->Render({.camera = Equirectangular{16, 8}, .tier = options_.tier}, frame_);
+    renderer_->Render({.camera = Equirectangular{16, 8}, .tier = tier_}, frame_);
   }
   pool_.Rest();
   ::malloc_trim(0);
@@ -117,7 +95,7 @@ void ImageService::FollowEnvironment(const WorldView& world) {
 
 void ImageService::MakeRendererFor(const WorldView& world) {
   renderer_.reset();  // a GPU need not hold two
-  renderer_ = MakeRenderer(tracer_, {.tier = options_.tier, .environment = world.environment}, options_.device);
+  renderer_ = stage_.NewRenderer(tier_, world.environment);
   environment_version_ = world.environment_version;
 }
 
@@ -146,7 +124,7 @@ const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot
   FollowEnvironment(*snapshot.world);
   RenderRequest request{.camera = shot.camera, .X_WC = shot.X_WA * CameraInBody()};
   // Without colours there is no shading to be paid for.
-  request.tier = shot.products.rgb ? options_.tier : Tier::kLabels;
+  request.tier = shot.products.rgb ? tier_ : Tier::kLabels;
   request.products = shot.products;
   request.state = StateOf(snapshot, shot.self);
   if (shot.products.flow) {

@@ -1,25 +1,18 @@
 // Pictures for clients: one thread that renders snapshots, so that nothing else ever waits for a picture.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
 
-#include "airsim360/render/vulkan/choose_renderer.h"
+#include "airsim360/base/work_queue.h"
 #include "airsim360/rpc/image_products.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/shared_memory.h"
 
 namespace airsim360 {
-
-struct ImageOptions {
-  Tier tier = Tier::kFast;
-  DeviceChoice device = {.device = "cpu"};
-};
 
 /// Everything but Post and Trigger belongs to jobs, which run in the service's thread.
 class ImageService {
@@ -27,7 +20,7 @@ class ImageService {
   using Job = std::function<void(ImageService&)>;
 
   /// The renderer is made at once.
-  ImageService(Session& session, std::shared_ptr<const RayTracer> tracer, const ImageOptions& options);
+  ImageService(Session& session, Stage& stage, Tier tier);
   ~ImageService();
   ImageService(const ImageService&) = delete;
   ImageService& operator=(const ImageService&) = delete;
@@ -82,8 +75,8 @@ class ImageService {
                                 const Snapshot& snapshot, const Shot& shot, Vec3d origin_W, LentRegion* region);
 
   Session& session_;
-  std::shared_ptr<const RayTracer> tracer_;
-  ImageOptions options_;
+  Stage& stage_;
+  Tier tier_;
   std::unique_ptr<Renderer> renderer_;
   DynamicTracer ray_tracers_;
   uint64_t environment_version_ = 0;
@@ -94,10 +87,8 @@ class ImageService {
   bool holds_memory_ = false;  // a job has run since the last GiveBackMemory
 
   std::mutex mutex_;  // of what follows
-  std::condition_variable wake_;
-  std::deque<Job> jobs_;
   std::map<std::string, SnapshotPointer> triggered_;
-  bool stopping_ = false;
+  WorkQueue<Job> jobs_;
   std::thread thread_;
 };
 

@@ -44,9 +44,9 @@ std::string Pfm(const airsim::ImageResponse& image) {
   return text;
 }
 
-class Recording : public FlightRecorder::Recording, public std::enable_shared_from_this<Recording> {
+class FolderRecording : public FlightRecorder::Recording, public std::enable_shared_from_this<FolderRecording> {
  public:
-  Recording(const RecordingSettings& settings, ImageService& images);
+  FolderRecording(const RecordingSettings& settings, ImageService& images);
   void Record(const SnapshotPointer& snapshot) override;
   bool failed() const override { return failed_; }
 
@@ -64,14 +64,14 @@ class Recording : public FlightRecorder::Recording, public std::enable_shared_fr
   bool is_late_ = false;         // of the session's thread: the log knows
 };
 
-Recording::Recording(const RecordingSettings& settings, ImageService& images)
+FolderRecording::FolderRecording(const RecordingSettings& settings, ImageService& images)
     : settings_(settings), images_(images), folder_(NewFolder(settings.folder)) {
   CreateWritableFolder(folder_ / "images");
   Append("VehicleName\tTimeStamp\tPOS_X\tPOS_Y\tPOS_Z\tQ_W\tQ_X\tQ_Y\tQ_Z\tImageFile\n");
   LogInfo("recording to " + folder_.string());
 }
 
-void Recording::Record(const SnapshotPointer& snapshot) {
+void FolderRecording::Record(const SnapshotPointer& snapshot) {
   constexpr int kMostWaiting = 256;
   if (waiting_ >= kMostWaiting) {
     if (!is_late_) LogWarning("the recording does not keep up: records are left out");
@@ -85,14 +85,14 @@ void Recording::Record(const SnapshotPointer& snapshot) {
   });
 }
 
-void Recording::Append(const std::string& line) {
+void FolderRecording::Append(const std::string& line) {
   const std::filesystem::path path = folder_ / "airsim_rec.txt";
   std::ofstream file(path, std::ios::app);
   errno = 0;
   if (!(file << line << std::flush)) throw RuntimeError(path.string() + ": cannot write: " + std::strerror(errno));
 }
 
-std::string Recording::WriteImage(const airsim::ImageResponse& image, const std::string& vehicle) {
+std::string FolderRecording::WriteImage(const airsim::ImageResponse& image, const std::string& vehicle) {
   const std::string name = "img_" + vehicle + "_" +
                            std::filesystem::path(image.camera_name).filename().string() + "_" +
                            std::to_string(static_cast<int>(image.image_type)) + "_" +
@@ -102,7 +102,7 @@ std::string Recording::WriteImage(const airsim::ImageResponse& image, const std:
   return name;
 }
 
-void Recording::Write(ImageService& images, const SnapshotPointer& snapshot) {
+void FolderRecording::Write(ImageService& images, const SnapshotPointer& snapshot) {
   if (failed_) return;
   try {
     for (size_t v = 0; v < snapshot->vehicles.size(); ++v) WriteVehicle(images, snapshot, v);
@@ -113,7 +113,7 @@ void Recording::Write(ImageService& images, const SnapshotPointer& snapshot) {
 }
 
 // One line of the table and the pictures that it names.
-void Recording::WriteVehicle(ImageService& images, const SnapshotPointer& snapshot, size_t v) {
+void FolderRecording::WriteVehicle(ImageService& images, const SnapshotPointer& snapshot, size_t v) {
   const VehicleStatus& vehicle = snapshot->vehicles[v];
   std::vector<airsim::ImageRequest> requests;
   for (const RecordingSettings::Camera& camera : settings_.cameras) {
@@ -146,7 +146,7 @@ void WriteRecordings(Session& session, ImageService& images) {
   session.Post([&images](Session& s) -> std::function<void()> {
     RecordingSettings settings = s.settings().recording;
     if (settings.cameras.empty()) settings.cameras.push_back({});
-    s.recorder().SetOpen([settings, &images] { return std::make_shared<Recording>(settings, images); });
+    s.recorder().SetOpen([settings, &images] { return std::make_shared<FolderRecording>(settings, images); });
     if (!settings.enabled) return {};
     try {
       s.recorder().Start();

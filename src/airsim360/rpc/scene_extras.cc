@@ -106,9 +106,9 @@ size_t CopiesOf(const SpawnAsset& asset) {
   return asset.category == kShapeCategory ? kShapes : kProps;
 }
 
-std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
-                                       const std::vector<SpawnAsset>& assets, SceneExtras& extras) {
-  const Vec3d somewhere = VecCast<double>(scene->spawn.value_or(scene->bounds.center()));
+std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings,
+                                       const std::vector<SpawnAsset>& assets) {
+  const Vec3d somewhere = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
   std::vector<DroneBodySpec> bodies;
   const Model drone = DroneBodyModel(AirSimQuad());
   for (const auto& [name, vehicle] : settings.vehicles) {
@@ -116,21 +116,23 @@ std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const
     AddCopies(name, "uav/other", drone, somewhere, 1, bodies);
   }
   AddCopies("unused drone", "uav/other", drone, somewhere, kSpareDrones, bodies);
-  const size_t drones = bodies.size();
   for (const SpawnAsset& asset : assets)
     AddCopies("unused " + asset.name, asset.category, asset.model, somewhere, CopiesOf(asset), bodies);
+  return bodies;
+}
 
-  std::vector<DroneBodyRef> refs;
-  scene = AddDroneBodies(std::move(scene), bodies, refs);
-  extras.drones.assign(refs.begin(), refs.begin() + static_cast<ptrdiff_t>(drones));
-  extras.stock.clear();
-  auto first = refs.begin() + static_cast<ptrdiff_t>(drones);
+SceneExtras SortExtras(std::span<const DroneBodyRef> bodies, const std::vector<SpawnAsset>& assets) {
+  size_t held = 0;
+  for (const SpawnAsset& asset : assets) held += CopiesOf(asset);
+  SceneExtras extras;
+  auto first = bodies.end() - static_cast<ptrdiff_t>(held);
+  extras.drones.assign(bodies.begin(), first);
   for (const SpawnAsset& asset : assets) {
     const auto end = first + static_cast<ptrdiff_t>(CopiesOf(asset));
     extras.stock.push_back({asset.name, {first, end}});
     first = end;
   }
-  return scene;
+  return extras;
 }
 
 }  // namespace airsim360

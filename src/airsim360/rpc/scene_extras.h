@@ -2,7 +2,7 @@
 // for simAddVehicle and simSpawnObject. A scene never changes; what is not in use is hidden.
 #pragma once
 
-#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,8 +35,10 @@ inline constexpr size_t kSpareDrones = 32;
 /// Objects of an asset that can be in the world at a time: obstacle courses are made of cubes.
 size_t CopiesOf(const SpawnAsset& asset);
 
-/// The scene with everything of `extras`, which is filled.
-std::shared_ptr<const Scene> AddExtras(std::shared_ptr<const Scene> scene, const AirSimSettings& settings,
-                                       const std::vector<SpawnAsset>& assets, SceneExtras& extras);
+/// All of them, the drones first, to be added to a scene.
+std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings,
+                                       const std::vector<SpawnAsset>& assets);
+/// What became of the bodies of ExtraBodies.
+SceneExtras SortExtras(std::span<const DroneBodyRef> bodies, const std::vector<SpawnAsset>& assets);
 
 }  // namespace airsim360

@@ -34,7 +34,7 @@ class OpenConnections {
 
 // Gone in the opposite order: the session may still hand over to pictures, and both to the socket.
 struct AirSimServer::Impl {
-  std::shared_ptr<const RayTracer> tracer;
+  std::shared_ptr<Stage> stage;
   OpenConnections connections;
   std::mutex tcp_mutex;
   std::unique_ptr<TcpServer> tcp;
@@ -57,18 +57,16 @@ struct AirSimServer::Impl {
   }
 };
 
-AirSimServer::AirSimServer(std::shared_ptr<const Scene> scene, const ServerOptions& options)
+BodiesOfScene ServedBodies(const ServerOptions& options) {
+  return [settings = options.settings, assets = options.assets](const Scene& scene) { return ExtraBodies(scene, settings, assets); };
+}
+
+AirSimServer::AirSimServer(std::shared_ptr<Stage> stage, const ServerOptions& options)
     : impl_(std::make_unique<Impl>()) {
-  SceneExtras extras;
-  impl_->tracer = std::make_shared<const RayTracer>(
-      AddExtras(std::move(scene), options.settings, options.assets, extras));
-  impl_->session = std::make_unique<Session>(impl_->tracer, std::move(extras),
-                                             SessionOptions{.settings = options.settings,
-                                                            .lockstep = options.lockstep,
-                                                            .seed = options.seed,
-                                                            .environment = options.environment,
-                                                            .people = options.people});
-  impl_->images = std::make_unique<ImageService>(*impl_->session, impl_->tracer, ImageOptions{options.tier, options.device});
+  impl_->stage = stage->bodies().empty() ? std::make_shared<Stage>(stage, PeopleRequest{}, ServedBodies(options)) : std::move(stage);
+  impl_->session = std::make_unique<Session>(*impl_->stage, SortExtras(impl_->stage->bodies(), options.assets),
+                                             SessionOptions{.settings = options.settings, .lockstep = options.lockstep});
+  impl_->images = std::make_unique<ImageService>(*impl_->session, *impl_->stage, options.tier);
   WriteRecordings(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,

@@ -28,13 +28,6 @@ uint64_t WallClockNs() {
                                    .count());
 }
 
-std::vector<DroneBodyRef> AllBodies(const SceneExtras& extras) {
-  std::vector<DroneBodyRef> bodies = extras.drones;
-  for (const SpawnStock& stock : extras.stock)
-    bodies.insert(bodies.end(), stock.copies.begin(), stock.copies.end());
-  return bodies;
-}
-
 }  // namespace
 
 std::string NoVehicleText(const std::string& name) {
@@ -51,26 +44,26 @@ size_t Snapshot::Find(const std::string& name) const {
   throw std::runtime_error(NoVehicleText(name));
 }
 
-Session::Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options)
+Session::Session(Stage& stage, SceneExtras extras, const SessionOptions& options)
     : options_(options),
-      objects_(std::shared_ptr<const Scene>(tracer, &tracer->scene())),
+      objects_(stage.shared_scene()),
       earth_(GeoPoint{options.settings.origin.latitude, options.settings.origin.longitude,
                       options.settings.origin.altitude}),
       extras_(std::move(extras)),
-      base_tracer_(WithoutBodies(tracer, AllBodies(extras_), options.people.get())),
-      dynamic_tracer_(tracer),
+      base_tracer_(stage.solid()),
+      dynamic_tracer_(stage.tracer()),
       origin_W_(FindOrigin(*base_tracer_)),
       pacer_(options.lockstep, options.settings.clock_speed),
       recorder_(options.settings.recording) {
   auto world = std::make_shared<WorldView>();
   world->segmentation = InitialSegmentation(objects_.scene(), options_.settings.segmentation_init);
   // What is held ready is not there yet.
-  for (const DroneBodyRef& body : AllBodies(extras_))
+  for (const DroneBodyRef& body : stage.bodies())
     world->places[body.entity] = {objects_.PlaceOf(body.entity).X_WO, {1, 1, 1}, true};
   world->external_cameras = MakeExternalCameras(options_.settings);
-  world->environment = world->base_environment = options_.environment;
+  world->environment = world->base_environment = stage.environment();
   world_ = std::move(world);
-  BuildVehicles();
+  BuildVehicles(stage);
   // Lockstep runs are the same every time: their clock starts at zero.
   auto first = std::make_shared<Snapshot>();
   first->epoch_ns = options_.lockstep ? 0 : WallClockNs();
@@ -80,11 +73,7 @@ Session::Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, co
 }
 
 Session::~Session() {
-  {
-    const std::lock_guard lock(jobs_mutex_);
-    stopping_ = true;
-  }
-  wake_.notify_all();
+  jobs_.Stop();
   thread_.join();
 }
 
@@ -102,9 +91,9 @@ RigidTransform Session::StartPose(const VehicleSettings& settings) const {
 void Session::AddToModel(const std::string& name, const VehicleSettings& settings,
                          const RigidTransform& X_WB) {
   const bool is_drone = settings.type != "ComputerVision";
-  auto model = std::make_shared<SimModel>(*model_);
+  auto model = std::make_shared<SimModel>(loop_->model());
   // Drones come before all others in the simulation.
-  const size_t index = is_drone ? model_->drones.size() : state_.vehicles.size();
+  const size_t index = is_drone ? loop_->model().drones.size() : loop_->state().vehicles.size();
   MakeRoomAt(index);
   const auto place = static_cast<std::ptrdiff_t>(index);
   RigidTransform start = X_WB;
@@ -124,17 +113,17 @@ void Session::AddToModel(const std::string& name, const VehicleSettings& setting
                  " drones have bodies");
     }
     model->drones.push_back(std::make_shared<const SimDrone>(std::move(setup), model->dt_ns));
-    model_ = model;
+    loop_->SetModel(model);
     // Where the file gives a height it starts there, in free fall as in AirSim; else on the ground.
     const bool on_ground = std::isnan(settings.pose.z) || settings.pose.z >= 0;
-    Vehicle vehicle = DroneAt(*model_, state_, index, X_WB, false);
+    Vehicle vehicle = DroneAt(loop_->model(), loop_->state(), index, X_WB, false);
     if (!on_ground) vehicle.motion.X_WB = vehicle.drone.p_WB.z < X_WB.p.z ? X_WB : vehicle.motion.X_WB;
     vehicle.drone.p_WB = vehicle.motion.X_WB.p;
     start = vehicle.motion.X_WB;
-    state_.vehicles.insert(state_.vehicles.begin() + place, vehicle);
+    state().vehicles.insert(state().vehicles.begin() + place, vehicle);
     SampleSensors(index);
   } else {
-    state_.vehicles.push_back(VehicleAt(*model_, X_WB));
+    state().vehicles.push_back(VehicleAt(loop_->model(), X_WB));
   }
   controls_.insert(controls_.begin() + place,
                    std::make_unique<VehicleControl>(index, name, settings, is_drone, start.p));
@@ -152,17 +141,16 @@ void Session::MakeRoomAt(size_t index) {
   world().detection = std::move(detection);
 }
 
-void Session::BuildVehicles() {
-  auto model = std::make_shared<SimModel>();
-  model->tracer = base_tracer_;
-  model->dt_ns = kPhysicsStepNs;
+void Session::BuildVehicles(Stage& stage) {
+  auto model = std::make_shared<SimModel>(stage.Model(kPhysicsStepNs));
   model->world.frame = earth_;
-  model->world.seed = options_.seed;
-  model->wind.mean_W = NedFromWorld(airsim::FromVector(options_.settings.wind));
-  model->people = options_.people;
-  model_ = model;
-  state_.wind_W = model->wind.mean_W;
-  if (model->people) state_.people = model->people->start;
+  // The wind of the settings is that of simSetWind; a wind file says more.
+  if (const Vec3d wind_W = NedFromWorld(airsim::FromVector(options_.settings.wind)); Norm(wind_W) > 0)
+    model->wind.mean_W = wind_W;
+  SimState start;
+  start.wind_W = model->wind.mean_W;
+  if (model->people) start.people = model->people->start;
+  loop_ = std::make_unique<SimLoop>(model, std::move(start));
   // Drones come first in the simulation, in the order of their names as AirSim has them.
   for (const bool drones : {true, false}) {
     for (const auto& [name, settings] : options_.settings.vehicles) {
@@ -174,14 +162,7 @@ void Session::BuildVehicles() {
   }
 }
 
-void Session::Post(Job job) {
-  {
-    const std::lock_guard lock(jobs_mutex_);
-    if (stopping_) return;
-    jobs_.push_back(std::move(job));
-  }
-  wake_.notify_one();
-}
+void Session::Post(Job job) { jobs_.Post(std::move(job)); }
 
 SnapshotPointer Session::snapshot() const {
   const std::lock_guard lock(snapshot_mutex_);
@@ -197,8 +178,8 @@ void Session::Publish() {
   if (new_world_) world_ = std::move(new_world_);
   new_world_.reset();
   auto next = std::make_shared<Snapshot>();
-  next->state = state_;
-  next->model = model_;
+  next->state = loop_->state();
+  next->model = loop_->shared_model();
   next->world = world_;
   next->paused = pacer_.paused();
   next->epoch_ns = snapshot_->epoch_ns;
@@ -209,11 +190,7 @@ void Session::Publish() {
 }
 
 bool Session::RunJobs() {
-  std::vector<Job> jobs;
-  {
-    const std::lock_guard lock(jobs_mutex_);
-    jobs.swap(jobs_);
-  }
+  const std::vector<Job> jobs = jobs_.TakeAll();
   for (const Job& job : jobs) {
     const std::function<void()> answer = job(*this);
     Publish();
@@ -223,46 +200,36 @@ bool Session::RunJobs() {
 }
 
 void Session::StepOnce() {
-  std::vector<SimCommand> commands;
-  if (state_.t_ns % kControlStepNs == 0) {
+  if (loop_->state().t_ns % kControlStepNs == 0) {
     for (const auto& control : controls_) {
       if (!control->status().is_drone) continue;
-      if (auto command = control->Plan(vehicle(*control), state_.t_ns)) {
-        commands.push_back({control->index(), std::move(*command)});
+      if (auto command = control->Plan(vehicle(*control), loop_->state().t_ns)) {
+        loop_->Post({control->index(), std::move(*command)});
       }
     }
   }
-  Step(*model_, commands, state_);
+  loop_->Advance(1);
+  loop_->TakeEvents();  // calls ask for what they want to know
   for (const auto& control : controls_) {
     if (control->status().is_drone) control->Observe(AirSimQuad(), vehicle(*control));
   }
 }
 
-bool Session::Stopping() {
-  const std::lock_guard lock(jobs_mutex_);
-  return stopping_;
-}
-
 void Session::Run() {
-  while (!Stopping()) {
+  while (!jobs_.stopped()) {
     RunJobs();
-    const int64_t due = std::min(pacer_.Due(state_.t_ns), state_.t_ns + kSliceNs);
+    const int64_t due = std::min(pacer_.Due(loop_->state().t_ns), loop_->state().t_ns + kSliceNs);
     bool stepped = false;
-    for (; state_.t_ns + model_->dt_ns <= due; stepped = true) StepOnce();
-    const std::vector<Reply> reached = pacer_.Reached(state_.t_ns);
+    for (; loop_->state().t_ns + loop_->model().dt_ns <= due; stepped = true) StepOnce();
+    const std::vector<Reply> reached = pacer_.Reached(loop_->state().t_ns);
     if (stepped || !reached.empty()) {
       Publish();
       for (const Reply& reply : reached) reply.Nil();
       recorder_.Observe(snapshot());
       continue;
     }
-    std::unique_lock lock(jobs_mutex_);
-    if (stopping_) break;
-    if (!jobs_.empty()) continue;
     // In small slices: answers to questions about the state need not be newer than that.
-    const auto next = pacer_.NextDue(state_.t_ns, kSliceNs);
-    next ? (void)wake_.wait_until(lock, *next)
-         : wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+    jobs_.WaitUntil(pacer_.NextDue(loop_->state().t_ns, kSliceNs));
   }
   for (const auto& control : controls_) control->Cancel();
 }

@@ -1,20 +1,21 @@
 // The running simulation behind a server: one thread that alone changes it, paces it and publishes snapshots.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "airsim360/base/work_queue.h"
 #include "airsim360/rpc/pacer.h"
 #include "airsim360/rpc/recorder.h"
 #include "airsim360/rpc/scene_extras.h"
 #include "airsim360/rpc/settings.h"
 #include "airsim360/rpc/snapshot.h"
 #include "airsim360/rpc/vehicle_control.h"
-#include "airsim360/sim/drone_bodies.h"
+#include "airsim360/sim/sim_loop.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -22,9 +23,6 @@ namespace airsim360 {
 struct SessionOptions {
   AirSimSettings settings;
   bool lockstep = false;  ///< time passes only in simContinueForTime and simContinueForFrames
-  uint64_t seed = 0;
-  Environment environment;
-  std::shared_ptr<const SimPeople> people = nullptr;  ///< of the scene; null = nobody
 };
 
 /// What runs in the session's thread.
@@ -33,8 +31,8 @@ class Session {
   /// Changes the session and returns what is to be done once the change can be seen: answering, mostly.
   using Job = std::function<std::function<void()>(Session&)>;
 
-  /// `tracer` sees the scene with everything of `extras`.
-  Session(std::shared_ptr<const RayTracer> tracer, SceneExtras extras, const SessionOptions& options);
+  /// `extras`: the bodies of `stage`.
+  Session(Stage& stage, SceneExtras extras, const SessionOptions& options);
   /// Ends every move with False and joins the thread.
   ~Session();
   Session(const Session&) = delete;
@@ -54,11 +52,11 @@ class Session {
 
   // From jobs only.
 
-  SimState& state() { return state_; }
-  const SimModel& model() const { return *model_; }
+  SimState& state() { return loop_->Edit(); }
+  const SimModel& model() const { return loop_->model(); }
   VehicleControl& control(const std::string& name);
   bool HasVehicle(const std::string& name) const;
-  Vehicle& vehicle(const VehicleControl& control) { return state_.vehicles[control.index()]; }
+  Vehicle& vehicle(const VehicleControl& control) { return state().vehicles[control.index()]; }
   /// The world, to be changed.
   WorldView& world();
   /// The environment was changed: renderers need to be made anew.
@@ -85,8 +83,7 @@ class Session {
   bool RunJobs();
   void StepOnce();
   void Publish();
-  bool Stopping();
-  void BuildVehicles();
+  void BuildVehicles(Stage& stage);
   void RebuildModel();
   void AddToModel(const std::string& name, const VehicleSettings& settings, const RigidTransform& X_WB);
   void MakeRoomAt(size_t index);
@@ -105,8 +102,7 @@ class Session {
   Vec3d origin_W_;
 
   // Of the session's thread.
-  std::shared_ptr<SimModel> model_;  // replaced, never changed
-  SimState state_;
+  std::unique_ptr<SimLoop> loop_;
   std::vector<std::unique_ptr<VehicleControl>> controls_;
   std::shared_ptr<const WorldView> world_;
   std::shared_ptr<WorldView> new_world_;  // while a job changes it
@@ -115,10 +111,7 @@ class Session {
 
   mutable std::mutex snapshot_mutex_;
   SnapshotPointer snapshot_;
-  std::mutex jobs_mutex_;
-  std::condition_variable wake_;
-  std::vector<Job> jobs_;
-  bool stopping_ = false;
+  WorkQueue<Job> jobs_;
   std::thread thread_;
 };
 

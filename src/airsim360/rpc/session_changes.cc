@@ -22,33 +22,33 @@ bool IsEngineCube(const std::string& asset) { return std::ranges::find(kEngineCu
 
 void Session::ObjectsMoved() {
   auto scene_state = std::make_shared<SceneState>();
-  scene_state->t_ns = state_.t_ns;
+  scene_state->t_ns = loop_->state().t_ns;
   // Drones meet each other otherwise: their bodies are not there. Nor do people stand in the way of free space.
   std::set<EntityId> drones;
   for (const DroneBodyRef& body : extras_.drones) {
     drones.insert(body.entity);
     scene_state->moved.push_back({body.instance, {}, true});
   }
-  if (options_.people) HidePeople(options_.people->refs, *scene_state);
+  if (loop_->model().people) HidePeople(loop_->model().people->refs, *scene_state);
   for (const auto& [entity, place] : world().places) {
     if (!drones.contains(entity)) objects_.Move(entity, place, scene_state->moved);
   }
   std::sort(scene_state->moved.begin(), scene_state->moved.end(),
             [](const MovedInstance& a, const MovedInstance& b) { return a.instance < b.instance; });
-  auto model = std::make_shared<SimModel>(*model_);
+  auto model = std::make_shared<SimModel>(loop_->model());
   model->tracer = dynamic_tracer_.At(scene_state);
-  model_ = model;
+  loop_->SetModel(model);
   // Free space is measured anew.
-  for (Vehicle& vehicle : state_.vehicles) vehicle.contact.free_distance = 0;
+  for (Vehicle& vehicle : state().vehicles) vehicle.contact.free_distance = 0;
 }
 
 void Session::GainsChanged(const VehicleControl& control) {
-  const SimDrone& old = *model_->drones[control.index()];
+  const SimDrone& old = *loop_->model().drones[control.index()];
   DroneSetup setup = old.setup();
   setup.autopilot.simple_flight = control.gains;
-  auto model = std::make_shared<SimModel>(*model_);
+  auto model = std::make_shared<SimModel>(loop_->model());
   model->drones[control.index()] = std::make_shared<const SimDrone>(setup, model->dt_ns);
-  model_ = model;
+  loop_->SetModel(model);
 }
 
 bool Session::AddVehicle(const std::string& name, const std::string& type, const RigidTransform& X_WB) {
@@ -59,7 +59,7 @@ bool Session::AddVehicle(const std::string& name, const std::string& type, const
   const char* why = HasVehicle(name) || name.empty()    ? "the name is empty or taken"
                     : lower != "simpleflight"           ? "there are vehicles of type SimpleFlight alone"
                     : controls_.size() >= kMostVehicles ? "256 vehicles are the most"
-                    : model_->drones.empty() && !controls_.empty()
+                    : loop_->model().drones.empty() && !controls_.empty()
                         ? "where all vehicles are of type ComputerVision there are no drones"
                                                         : nullptr;
   if (why != nullptr) {
@@ -128,7 +128,7 @@ std::string Session::Spawn(const std::string& name, const std::string& asset, co
 void Session::Teleport(const VehicleControl& control, const RigidTransform& X_WB) {
   Vehicle& moved = vehicle(control);
   moved.motion.X_WB = X_WB;
-  moved.clearance = model_->tracer->Clearance(VecCast<float>(X_WB.p), model_->contact_range);
+  moved.clearance = loop_->model().tracer->Clearance(VecCast<float>(X_WB.p), loop_->model().contact_range);
   if (!control.status().is_drone) return;
   moved.drone.p_WB = X_WB.p;
   moved.drone.q_WB = ToQuaternion(X_WB.R);
@@ -138,9 +138,9 @@ void Session::Teleport(const VehicleControl& control, const RigidTransform& X_WB
 
 void Session::SampleSensors(size_t index) {
   constexpr int64_t kLongest = 1'000'000'000;  // no sensor is slower
-  Vehicle& vehicle = state_.vehicles[index];
-  StepSensors(model_->drones[index]->setup().sensors, model_->world, static_cast<uint32_t>(index), MotionOf(vehicle),
-              state_.t_ns, kLongest, vehicle.sensors);
+  Vehicle& vehicle = state().vehicles[index];
+  StepSensors(loop_->model().drones[index]->setup().sensors, loop_->model().world, static_cast<uint32_t>(index), MotionOf(vehicle),
+              loop_->state().t_ns, kLongest, vehicle.sensors);
 }
 
 void Session::Reset() {
@@ -153,15 +153,15 @@ void Session::Reset() {
       continue;
     }
     const uint64_t id = reset.command.id;
-    const RigidTransform start = {model_->drones[control->index()]->setup().X_WB.R, X_WB.p};
-    reset = DroneAt(*model_, state_, control->index(), start, false);
+    const RigidTransform start = {loop_->model().drones[control->index()]->setup().X_WB.R, X_WB.p};
+    reset = DroneAt(loop_->model(), loop_->state(), control->index(), start, false);
     reset.motion.X_WB = start;
     reset.drone.p_WB = start.p;
     reset.drone.q_WB = ToQuaternion(start.R);
     reset.command.id = id + 1;
     SampleSensors(control->index());
   }
-  state_.wind_W = model_->wind.mean_W;
+  state().wind_W = loop_->model().wind.mean_W;
 }
 
 }  // namespace airsim360

@@ -228,6 +228,14 @@ void SceneBuilder::AddAttribution(std::string line) {
   if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
 }
 
+void Scene::SettleCategories() {
+  const std::map<CategoryId, CategoryId> changed = tree.SettleIds();
+  for (Entity& entity : entities) {
+    const auto found = changed.find(entity.category);
+    if (found != changed.end()) entity.category = found->second;
+  }
+}
+
 std::shared_ptr<const Scene> SceneBuilder::Build() {
   // Materials and meshes refer only to what exists.
   for (const Material& material : scene_.materials) {
@@ -259,6 +267,7 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
     }
     scene_.bounds.Add(GrowEntityBounds(instance, scene_.meshes[instance.mesh], scene_.entities));
   }
+  scene_.SettleCategories();
   auto built = std::make_shared<Scene>(std::move(scene_));
   scene_ = Scene();
   name_uses_.clear();

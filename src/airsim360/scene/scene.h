@@ -62,6 +62,8 @@ struct Scene {
                                ///< empty = what is computed of the scene is not kept
 
   const Entity& entity(EntityId id) const { return entities[id - 1]; }
+  /// SemanticTree::SettleIds, for the entities too. To be done before others see the scene.
+  void SettleCategories();
   SceneCounts Count() const;
 };
 
@@ -91,7 +93,8 @@ class SceneBuilder {
   const Mesh& mesh(MeshId id) const { return scene_.meshes[id]; }
   const Material& material(MaterialId id) const { return scene_.materials[id]; }
 
-  /// Checks every index, fills bounds and returns the scene; the builder is empty afterwards. Throws
+  /// Checks every index, fills bounds, settles the ids of custom categories (ids from tree() do not count any
+  /// more) and returns the scene; the builder is empty afterwards. Throws
   /// InputError for an index out of range, a triangle without an entity, a vertex that is not finite, or
   /// parts that do not cover a mesh.
   std::shared_ptr<const Scene> Build();

@@ -82,37 +82,24 @@ void VisitEnvironment(Archive& archive, T& e) {
   VisitPicture(archive, e);
 }
 
-// An order in which adding the custom categories again gives them the ids that they have. An ancestor comes first: Add would
-// make it of the kind of its child. Where several paths want one id, those come first that got what they wanted.
-std::vector<const Category*> OrderOfAdding(const SemanticTree& tree) {
-  std::vector<const Category*> waiting, order;
+// In order of path, so that adding them again gives them the ids that they have (SemanticTree::SettleIds) and an
+// ancestor comes first: Add would make it of the kind of its child.
+std::vector<const Category*> CustomCategories(const SemanticTree& tree) {
+  std::vector<const Category*> custom;
   for (const auto& [id, category] : tree.categories())
-    if (id >= kFirstCustomId) waiting.push_back(&category);
-  std::ranges::sort(waiting, {}, &Category::path);
+    if (id >= kFirstCustomId) custom.push_back(&category);
+  std::ranges::sort(custom, {}, &Category::path);
   SemanticTree again;
-  const auto fits = [&](const Category* category) {
-    return again.Add(category->path, category->thing) == category->id;
-  };
-  if (std::ranges::all_of(waiting, fits)) return waiting;
-  again = {};
-  while (!waiting.empty()) {
-    const size_t before = waiting.size();
-    std::erase_if(waiting, [&](const Category* category) {
-      const SemanticTree back = again;
-      const bool now = (category->parent < kFirstCustomId || again.categories().contains(category->parent)) &&
-                       fits(category);
-      if (now) order.push_back(category);
-      else again = back;
-      return now;
-    });
-    if (waiting.size() == before) throw RuntimeError("archive: categories whose ids no order gives");
+  for (const Category* category : custom) {
+    if (again.Add(category->path, category->thing) != category->id)
+      throw RuntimeError("archive: the ids of the categories are not settled");
   }
-  return order;
+  return custom;
 }
 
 // The built-in categories are in the program; custom ones come back by being added again.
 void VisitTree(ArchiveWriter& archive, const SemanticTree& tree) {
-  archive.Each(OrderOfAdding(tree), [&](const Category* category) { archive(category->path, category->thing); });
+  archive.Each(CustomCategories(tree), [&](const Category* category) { archive(category->path, category->thing); });
 }
 
 void VisitTree(ArchiveReader& archive, SemanticTree& tree) {

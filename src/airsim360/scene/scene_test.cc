@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
@@ -41,6 +44,54 @@ TEST(Semantics, ThousandsOfCustomCategoriesHaveIdsOfTheirOwn) {
   for (int i = 0; i < 5000; ++i) ids.insert(tree.Add("thing/name_" + std::to_string(i)));
   EXPECT_EQ(ids.size(), 5000u);
   EXPECT_GE(*ids.begin(), kFirstCustomId);
+}
+
+// Before, of two paths with one hash the first to be added had it: the same world in another order, other ids.
+TEST(Semantics, IdsOfABuiltSceneFollowFromItsSetOfPathsAlone) {
+  std::vector<std::string> paths;
+  RngStream random(11, "paths");
+  for (int i = 0; i < 5000; ++i) {
+    std::string path = "f" + std::to_string(random.Index(40));
+    for (int part = 0; part < 2; ++part) path += "/k" + std::to_string(random.Index(3000));
+    paths.push_back(path);
+  }
+  const auto build = [&] {
+    SceneBuilder builder("custom");
+    for (const std::string& path : paths) builder.AddEntity(path, builder.tree().Add(path));
+    return builder.Build();
+  };
+  const auto scene = build();
+  std::reverse(paths.begin(), paths.end());
+  const auto reversed = build();
+  for (size_t i = paths.size(); i > 1; --i) std::swap(paths[i - 1], paths[random.Index(static_cast<uint32_t>(i))]);
+  const auto shuffled = build();
+
+  ASSERT_GT(scene->tree.categories().size(), 9000u);  // with their ancestors
+  size_t own = 0, custom = 0;
+  std::set<std::string> seen;
+  for (const auto& [id, category] : scene->tree.categories()) {
+    EXPECT_EQ(category.id, id);
+    EXPECT_TRUE(seen.insert(category.path).second);
+    EXPECT_EQ(scene->tree.At(category.path), id);
+    for (const auto& other : {reversed, shuffled}) {
+      ASSERT_EQ(other->tree.At(category.path), id) << category.path;
+      EXPECT_EQ(other->tree[id].parent, category.parent) << category.path;
+    }
+    const size_t slash = category.path.rfind('/');
+    if (slash != std::string::npos) {
+      EXPECT_EQ(scene->tree[category.parent].path, category.path.substr(0, slash));
+    }
+    if (id < kFirstCustomId) continue;
+    ++custom;
+    own += id == kFirstCustomId + HashName(category.path) % (65536 - kFirstCustomId);
+  }
+  // Most keep the id that they have alone.
+  EXPECT_LT(own, custom);
+  EXPECT_GT(static_cast<double>(own), 0.85 * static_cast<double>(custom));
+  // Entities went along. Repeated names got a number behind.
+  for (const auto& built : {scene, reversed, shuffled})
+    for (const Entity& entity : built->entities)
+      EXPECT_TRUE(entity.name.starts_with(built->tree[entity.category].path));
 }
 
 TEST(Semantics, WhenIdsRunOutItIsSaid) {

@@ -31,6 +31,30 @@ void SimLoop::Advance(int64_t steps) {
   }
 }
 
+int64_t SimLoop::AdvanceWhile(int64_t steps, const AfterStep& go_on) {
+  for (int64_t i = 0; i < steps; ++i) {
+    const std::lock_guard lock(mutex_);
+    const size_t before = events_.size();
+    StepOnce();
+    const bool further = go_on(state_, std::span(events_).subspan(std::min(before, events_.size())));
+    events_.resize(std::min(before, events_.size()));
+    if (!further) return i + 1;
+  }
+  return steps;
+}
+
+SimState& SimLoop::Edit() {
+  const std::lock_guard lock(mutex_);
+  recorder_.reset();
+  return state_;
+}
+
+void SimLoop::SetModel(std::shared_ptr<const SimModel> model) {
+  const std::lock_guard lock(mutex_);
+  recorder_.reset();
+  model_ = std::move(model);
+}
+
 int64_t SimLoop::AdvanceUnlessPaused(int64_t steps) {
   for (int64_t i = 0; i < steps; ++i) {
     const std::lock_guard lock(mutex_);

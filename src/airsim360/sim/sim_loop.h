@@ -4,6 +4,9 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "airsim360/sim/recording.h"
@@ -11,7 +14,9 @@
 
 namespace airsim360 {
 
-/// All functions may be called from any thread; only Advance and Restore change the state, one at a time.
+/// All functions may be called from any thread; only those that step and Restore change the
+/// state, one at a time. Every simulation of the program is stepped here, but for looks ahead beside it (InstantAfter) and
+/// repetitions (Replay).
 class SimLoop {
  public:
   /// Begins with `start`, or with StartState(*model).
@@ -26,11 +31,26 @@ class SimLoop {
   void Post(SimCommand command);
   /// Takes `steps` steps, whether paused or not: what a lockstep client calls.
   void Advance(int64_t steps);
+  /// Is told the state after a step and what happened in it; says whether to take another one. Calls nothing of
+  /// the loop.
+  using AfterStep = std::function<bool(const SimState& state, std::span<const SimEvent> happened)>;
+  /// Takes up to `steps` steps while `go_on` says so, whether paused or not; returns how many. Their events are
+  /// told to `go_on` alone.
+  int64_t AdvanceWhile(int64_t steps, const AfterStep& go_on);
 
   std::shared_ptr<const SimState> Snapshot() const;
   /// Continues from a snapshot; waiting commands are dropped, and a recording ends.
   void Restore(const SimState& snapshot);
   int64_t t_ns() const;
+
+  // For the one thread that steps, between its steps.
+
+  /// The state itself, without a copy.
+  const SimState& state() const { return state_; }
+  /// The same, to be changed by hand (put somewhere else, made anew). Ends a recording.
+  SimState& Edit();
+  /// Steps follow this model from now on: things have moved, a drone came. Ends a recording.
+  void SetModel(std::shared_ptr<const SimModel> model);
 
   /// What happened since the last call, oldest first; the oldest are dropped beyond kMostEvents.
   std::vector<SimEvent> TakeEvents();

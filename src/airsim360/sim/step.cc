@@ -173,8 +173,7 @@ void CheckCommand(const SimModel& model, const SimState& state, const SimCommand
   if (std::holds_alternative<WindCommand>(command.action)) return;
   if (const auto* person = std::get_if<PersonCommand>(&command.action)) {
     if (!state.people || !model.people) throw InputError("command for a person: there are no people");
-    CrowdState trial = state.people->crowd;
-    CommandPerson(*model.people->crowd, trial, person->person, person->action);
+    CheckPersonCommand(*model.people->crowd, state.people->crowd, person->person, person->action);
     return;
   }
   const size_t i = command.vehicle;

@@ -32,6 +32,12 @@ void WorldWind::Visit(ConfigVisitor& v) {
   });
 }
 
+WorldWind ReadWindFile(const std::string& file) {
+  WorldWind wind;
+  if (!file.empty()) ReadYamlFile(file, [&](ConfigVisitor& v) { wind.Visit(v); });
+  return wind;
+}
+
 double ShelterFactor(const RayTracer& tracer, Vec3d p_W, Vec3d wind_W) {
   const double speed = std::hypot(wind_W.x, wind_W.y);
   if (!(speed > 0)) return 1;

@@ -1,6 +1,9 @@
 // The air of a world: mean wind with a profile over height, shadows of buildings, gusts and turbulence.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "airsim360/base/config.h"
 #include "airsim360/flight/wind.h"
 #include "airsim360/trace/ray_tracer.h"
@@ -16,6 +19,9 @@ struct WorldWind {
 
   void Visit(ConfigVisitor& v);
 };
+
+/// The wind of a file (docs/guide/flying.md); calm where `file` is empty. InputError naming file and line.
+WorldWind ReadWindFile(const std::string& file);
 
 inline constexpr double kShelterTime = 1;                ///< seconds
 inline constexpr int64_t kShelterPeriodNs = 50'000'000;  ///< between looks at the buildings

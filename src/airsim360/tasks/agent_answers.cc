@@ -82,6 +82,7 @@ Answer ScoreOf(const Episode& episode) {
           {"navigation_error", score.navigation_error},
           {"path_length", score.path_length},
           {"shortest_length", score.shortest_length},
+          {"shortest_is_straight", score.shortest_is_straight},
           {"spl", score.spl},
           {"ndtw", score.ndtw}};
 }
@@ -115,20 +116,20 @@ Answer ObservationOf(Episode& episode, const ObserveRequest& request) {
        {{"p", VectorOf(X_WB.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}, {"yaw_deg", HeadingOfBody(X_WB) * kDegrees}}},
       {"velocity", {{"v", VectorOf(motion.v_WB)}, {"w", VectorOf(motion.w_WB_B)}}},
       {"collision", CollisionOf(episode)},
-      {"clearance", episode.world().tracer()->Clearance(VecCast<float>(X_WB.p), kClearanceReach)},
+      {"clearance", episode.world().stage().solid()->Clearance(VecCast<float>(X_WB.p), kClearanceReach)},
       {"distance_to_goal", episode.distance_to_goal()},
       {"goal_direction", DirectionTo(episode.goal(), X_WB)}};
   if (request.grid)
-    answer["range_grid"] = GridOf(episode.world().Grid(X_WB, request.grid->rows, request.grid->columns));
+    answer["range_grid"] = GridOf(episode.world().Grid(X_WB, request.grid->rows, request.grid->columns, episode.moved()));
   if (const auto& panorama = request.panorama) {
     answer["panorama"] =
-        PictureOf(episode.world().Panorama(X_WB, panorama->width, panorama->frame), panorama->quality);
+        PictureOf(episode.world().Panorama(X_WB, panorama->width, panorama->frame, episode.moved()), panorama->quality);
   }
   if (!request.views.empty()) {
     Answer views = Answer::array();
     for (const ViewRequest& v : request.views) {
       views.push_back(PictureOf(
-          episode.world().View(X_WB, v.azimuth, v.elevation, v.fov, v.width, v.height), v.quality));
+          episode.world().View(X_WB, v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()), v.quality));
       views.back()["azimuth_deg"] = v.azimuth * kDegrees;
       views.back()["elevation_deg"] = v.elevation * kDegrees;
       views.back()["fov_deg"] = v.fov * kDegrees;

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "airsim360/image/codecs.h"
-#include "airsim360/opening/world_loader.h"
 #include "airsim360/tasks/agent_answers.h"
 
 namespace airsim360 {
@@ -15,8 +14,8 @@ namespace {
 using Json = nlohmann::json;
 
 // One room for all tests.
-std::shared_ptr<AgentWorld> Open(const std::string& name, uint64_t) {
-  static const auto room = std::make_shared<AgentWorld>(name, LoadWorld({.world = "box_room"}), Tier::kFast);
+std::shared_ptr<AgentWorld> Open(const std::string&, uint64_t) {
+  static const auto room = std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}}));
   return room;
 }
 

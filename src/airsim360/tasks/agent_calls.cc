@@ -75,7 +75,7 @@ AgentResponse AgentApi::Picture(Slot& slot, const std::string& name, std::string
     const PanoramaRequest panorama = DecodePanoramaQuery(query);
     const Turn turn(*this, slot);
     Episode& episode = *slot.episode;
-    return JpegResponse(episode.world().Panorama(PoseOf(episode), panorama.width, panorama.frame),
+    return JpegResponse(episode.world().Panorama(PoseOf(episode), panorama.width, panorama.frame, episode.moved()),
                         panorama.quality);
   }
   if (name == "view.jpg") {
@@ -83,12 +83,12 @@ AgentResponse AgentApi::Picture(Slot& slot, const std::string& name, std::string
     const Turn turn(*this, slot);
     Episode& episode = *slot.episode;
     return JpegResponse(
-        episode.world().View(PoseOf(episode), v.azimuth, v.elevation, v.fov, v.width, v.height), v.quality);
+        episode.world().View(PoseOf(episode), v.azimuth, v.elevation, v.fov, v.width, v.height, episode.moved()), v.quality);
   }
   const GridRequest grid = DecodeGridQuery(query);
   const Turn turn(*this, slot);
   Episode& episode = *slot.episode;
-  return JsonResponse(internal::GridOf(episode.world().Grid(PoseOf(episode), grid.rows, grid.columns)));
+  return JsonResponse(internal::GridOf(episode.world().Grid(PoseOf(episode), grid.rows, grid.columns, episode.moved())));
 }
 
 AgentResponse AgentApi::Describe(Slot& slot) {

@@ -7,12 +7,12 @@
 #include <boost/beast/websocket.hpp>
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <deque>
 #include <thread>
 
 #include "airsim360/base/bounded_log.h"
 #include "airsim360/base/error.h"
+#include "airsim360/base/work_queue.h"
 
 namespace airsim360 {
 namespace {
@@ -35,41 +35,18 @@ class Workers {
     for (int i = 0; i < count; ++i) threads_.emplace_back([this] { Run(); });
   }
   ~Workers() { Stop(); }
-  void Post(std::function<void()> job) {
-    {
-      const std::lock_guard lock(mutex_);
-      jobs_.push_back(std::move(job));
-    }
-    wake_.notify_one();
-  }
+  void Post(std::function<void()> job) { jobs_.Post(std::move(job)); }
   void Stop() {
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-      jobs_.clear();
-    }
-    wake_.notify_all();
+    jobs_.Stop();
     for (std::thread& thread : threads_) thread.join();
     threads_.clear();
   }
 
  private:
   void Run() {
-    std::unique_lock lock(mutex_);
-    while (true) {
-      wake_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
-      if (stopping_) return;
-      const auto job = std::move(jobs_.front());
-      jobs_.pop_front();
-      lock.unlock();
-      job();
-      lock.lock();
-    }
+    while (const auto job = jobs_.Next()) (*job)();
   }
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<std::function<void()>> jobs_;
-  bool stopping_ = false;
+  WorkQueue<std::function<void()>> jobs_;
   std::vector<std::thread> threads_;
 };
 

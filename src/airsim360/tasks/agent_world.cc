@@ -20,51 +20,47 @@ RigidTransform LevelCamera(const RigidTransform& X_WB) {
 
 }  // namespace
 
-AgentWorld::AgentWorld(std::string name, std::shared_ptr<const Scene> scene, Tier tier,
-                       const Environment& environment)
-    : name_(std::move(name)),
-      tracer_(std::make_shared<const RayTracer>(std::move(scene))),
-      tier_(tier),
-      renderer_(MakeCpuRenderer(tracer_, {.tier = tier, .environment = environment})) {}
-
-AgentWorld::AgentWorld(std::string name, std::shared_ptr<const Scene> scene, Tier tier)
-    : AgentWorld(std::move(name), scene, tier, scene->environment) {}
+AgentWorld::AgentWorld(std::shared_ptr<Stage> stage, Tier tier) : stage_(std::move(stage)), tier_(tier) {}
 
 const std::vector<Vec3d>& AgentWorld::places() {
   const std::lock_guard lock(places_mutex_);
   if (!places_.empty()) return places_;
   // Narrow scenes: less room will do.
   for (const double radius : {1.0, 0.5, 0.25}) {
-    places_ = FindFreePlaces(*tracer_, {.radius = radius});
+    places_ = FindFreePlaces(*stage_->solid(), {.radius = radius});
     if (!places_.empty()) return places_;
   }
-  throw InputError("world '" + name_ + "' has no free place for a drone");
+  throw InputError("world '" + name() + "' has no free place for a drone");
 }
 
-void AgentWorld::Render(const RenderRequest& request) { renderer_->Render(request, frame_); }
+void AgentWorld::Render(RenderRequest request, std::shared_ptr<const SceneState> moved) {
+  request.state = std::move(moved);
+  stage_->renderer(tier_).Render(request, frame_);
+}
 
-Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFrame frame) {
+Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFrame frame,
+                                 std::shared_ptr<const SceneState> moved) {
   RenderRequest request{.camera = Equirectangular{width, width / 2}, .tier = tier_};
   request.X_WC = frame == PanoFrame::kLevel ? LevelCamera(X_WB) : X_WB * CameraInBody();
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
   const std::lock_guard lock(mutex_);
-  Render(request);
+  Render(request, std::move(moved));
   return frame_.rgb;
 }
 
 Image<Rgb8> AgentWorld::View(const RigidTransform& X_WB, double azimuth, double elevation, double fov,
-                             int width, int height) {
+                             int width, int height, std::shared_ptr<const SceneState> moved) {
   const double focal = width / (2 * std::tan(fov / 2));
   RenderRequest request{.camera = Pinhole{width, height, focal, focal, width / 2.0, height / 2.0},
                         .X_WC = BodyPose(X_WB.p, HeadingOfBody(X_WB) - azimuth, elevation, 0) * CameraInBody(),
                         .tier = tier_};
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
   const std::lock_guard lock(mutex_);
-  Render(request);
+  Render(request, std::move(moved));
   return frame_.rgb;
 }
 
-RangeGrid AgentWorld::Grid(const RigidTransform& X_WB, int rows, int columns) {
+RangeGrid AgentWorld::Grid(const RigidTransform& X_WB, int rows, int columns, std::shared_ptr<const SceneState> moved) {
   // As many rays as fit the sectors exactly.
   const int least = std::max({kGridWidth, kSamplesPerCell * columns, 2 * kSamplesPerCell * rows});
   const int width = (least + 1) / 2 * 2;
@@ -73,7 +69,7 @@ RangeGrid AgentWorld::Grid(const RigidTransform& X_WB, int rows, int columns) {
   request.products = {.rgb = false, .range = true, .semantic = false, .entity = false};
   RangeGrid grid{rows, columns, std::vector<float>(static_cast<size_t>(rows) * static_cast<size_t>(columns))};
   const std::lock_guard lock(mutex_);
-  Render(request);
+  Render(request, std::move(moved));
   for (int y = 0; y < width / 2; ++y) {
     const int row = y * rows / (width / 2);
     for (int x = 0; x < width; ++x) {

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/render/renderer.h"
 #include "airsim360/sensors/rig.h"
-#include "airsim360/trace/ray_tracer.h"
+#include "airsim360/stage/stage.h"
 
 namespace airsim360 {
 
@@ -23,35 +22,35 @@ struct RangeGrid {
 class AgentWorld {
  public:
   /// `tier` of the pictures.
-  AgentWorld(std::string name, std::shared_ptr<const Scene> scene, Tier tier, const Environment& environment);
-  AgentWorld(std::string name, std::shared_ptr<const Scene> scene, Tier tier = Tier::kFast);
+  explicit AgentWorld(std::shared_ptr<Stage> stage, Tier tier = Tier::kFast);
 
-  const std::string& name() const { return name_; }
-  const Scene& scene() const { return tracer_->scene(); }
-  const std::shared_ptr<const RayTracer>& tracer() const { return tracer_; }
+  Stage& stage() { return *stage_; }
+  const std::string& name() const { return stage_->name(); }
+  const Scene& scene() const { return stage_->scene(); }
   /// Free places at which an episode can start or end (FindFreePlaces); at least one, or InputError at first
   /// use.
   const std::vector<Vec3d>& places();
 
+  // `moved`: where people are; null: nobody.
+
   /// The panorama from a pose, levelled (up is world up) and turned by the heading, or as the body is turned.
-  Image<Rgb8> Panorama(const RigidTransform& X_WB, int width, PanoFrame frame = PanoFrame::kLevel);
+  Image<Rgb8> Panorama(const RigidTransform& X_WB, int width, PanoFrame frame = PanoFrame::kLevel,
+                       std::shared_ptr<const SceneState> moved = nullptr);
   /// An ordinary picture to a direction of the level frame: azimuth to the right, elevation up, field of view
   /// across the width, all in radians; 0 < fov < pi.
   Image<Rgb8> View(const RigidTransform& X_WB, double azimuth, double elevation, double fov, int width,
-                   int height);
+                   int height, std::shared_ptr<const SceneState> moved = nullptr);
   /// Looked at in a panorama of 256 x 128 rays or more; every sector holds several.
-  RangeGrid Grid(const RigidTransform& X_WB, int rows, int columns);
+  RangeGrid Grid(const RigidTransform& X_WB, int rows, int columns, std::shared_ptr<const SceneState> moved = nullptr);
 
  private:
-  void Render(const RenderRequest& request);
+  void Render(RenderRequest request, std::shared_ptr<const SceneState> moved);
 
-  std::string name_;
-  std::shared_ptr<const RayTracer> tracer_;
+  std::shared_ptr<Stage> stage_;
   Tier tier_;
   std::mutex places_mutex_;
   std::vector<Vec3d> places_;
   std::mutex mutex_;  // of what follows
-  std::unique_ptr<Renderer> renderer_;
   Frame frame_;
 };
 

@@ -84,7 +84,7 @@ void Episode::ChoosePlaces() {
 }
 
 void Episode::BuildModel() {
-  SimModel model{.tracer = world_->tracer()};
+  SimModel model = world_->stage().Model();
   model.world.seed = spec_.seed;
   DroneSetup setup{.name = "agent", .model = CatalogModel(spec_.drone)};
   // What an agent is told is exact: no sensor of the drone needs to be stepped.
@@ -93,7 +93,7 @@ void Episode::BuildModel() {
   setup.airborne = true;
   const SimDrone drone(setup, model.dt_ns);
   const auto needed = static_cast<float>(drone.radius());
-  if (world_->tracer()->Clearance(VecCast<float>(start_W_), needed) < needed) {
+  if (model.tracer->Clearance(VecCast<float>(start_W_), needed) < needed) {
     const auto& places = world_->places();
     const Vec3d free = *std::ranges::min_element(places, {}, [&](Vec3d p) { return Norm(p - start_W_); });
     char text[160];
@@ -103,14 +103,13 @@ void Episode::BuildModel() {
     throw InputError(text);
   }
   model.drones.push_back(std::make_shared<const SimDrone>(drone));
-  model_ = std::make_shared<const SimModel>(std::move(model));
+  loop_ = std::make_unique<SimLoop>(std::make_shared<const SimModel>(std::move(model)));
 }
 
 void Episode::Reset(std::optional<uint64_t> seed) {
   if (seed) spec_.seed = *seed;
   ChoosePlaces();
   BuildModel();
-  state_ = StartState(*model_);
   end_ = EpisodeEnd::kRunning;
   steps_ = 0;
   setpoint_ = AgentPose{start_W_, spec_.start_yaw};
@@ -120,26 +119,39 @@ void Episode::Reset(std::optional<uint64_t> seed) {
   nearest_ = distance_to_goal();
 }
 
-void Episode::StepOnce(std::vector<SimCommand>& commands) {
-  std::vector<SimEvent> events;
-  Step(*model_, commands, state_, &events);
-  commands.clear();
-  for (const SimEvent& event : events) {
+void Episode::Note(std::span<const SimEvent> happened) {
+  for (const SimEvent& event : happened) {
     if (event.kind != SimEvent::Kind::kCommandRefused) continue;
     refused_ = true;
     refusal_ = event.text;
   }
   // The way flown, and what ends the episode on it.
   const Vec3d p = vehicle().motion.X_WB.p;
-  if (state_.t_ns % kLengthPeriodNs == 0) {
+  if (state().t_ns % kLengthPeriodNs == 0) {
     length_ += Norm(p - last_p_W_);
     last_p_W_ = p;
     nearest_ = std::min(nearest_, distance_to_goal());
   }
-  if (state_.t_ns % kPathPeriodNs == 0) path_.push_back(p);
+  if (state().t_ns % kPathPeriodNs == 0) path_.push_back(p);
   if (spec_.end_on_collision && vehicle().collision.count > 0) end_ = EpisodeEnd::kCollision;
   if (spec_.success == SuccessRule::kReach && distance_to_goal() <= radius_) end_ = EpisodeEnd::kReached;
   if (end_ == EpisodeEnd::kRunning && seconds() >= spec_.max_seconds) end_ = EpisodeEnd::kMaxSeconds;
+}
+
+bool Episode::Fly(int64_t until_ns, const ActionPlan* plan) {
+  bool arrived = false;
+  const int64_t dt_ns = loop_->model().dt_ns;
+  if (end_ != EpisodeEnd::kRunning || until_ns <= state().t_ns) return false;
+  loop_->AdvanceWhile((until_ns - state().t_ns + dt_ns - 1) / dt_ns, [&](const SimState&, std::span<const SimEvent> happened) {
+    Note(happened);
+    arrived = plan != nullptr && Arrived(*plan);
+    return end_ == EpisodeEnd::kRunning && !arrived && !refused_;
+  });
+  return arrived;
+}
+
+std::shared_ptr<const SceneState> Episode::moved() const {
+  return loop_->model().people ? SceneStateOf(loop_->model(), state(), 0) : nullptr;
 }
 
 bool Episode::Arrived(const ActionPlan& plan) const {
@@ -167,18 +179,13 @@ void Episode::Act(const AgentAction& action) {
     end_ = EpisodeEnd::kStopped;
     return;
   }
-  const std::string problem = CommandProblem(plan.command, model_->drones[0]->model());
+  const std::string problem = CommandProblem(plan.command, loop_->model().drones[0]->model());
   if (!problem.empty()) throw InputError("action: the drone cannot fly this: " + problem);
 
   ++steps_;
   refused_ = false;
-  std::vector<SimCommand> commands = {{0, FlightCommand{plan.command, plan.timeout_ns}}};
-  const int64_t until_ns = state_.t_ns + std::llround(1e9 * std::min(plan.seconds, kLongestAction));
-  bool arrived = false;
-  while (end_ == EpisodeEnd::kRunning && state_.t_ns < until_ns && !arrived && !refused_) {
-    StepOnce(commands);
-    arrived = Arrived(plan);
-  }
+  loop_->Post({0, FlightCommand{plan.command, plan.timeout_ns}});
+  const bool arrived = Fly(state().t_ns + std::llround(1e9 * std::min(plan.seconds, kLongestAction)), &plan);
   setpoint_.reset();
   if (arrived) {
     setpoint_ = plan.target;
@@ -189,9 +196,8 @@ void Episode::Act(const AgentAction& action) {
 }
 
 void Episode::Wait(double seconds) {
-  std::vector<SimCommand> commands;
-  const int64_t until_ns = state_.t_ns + std::llround(1e9 * std::clamp(seconds, 0.0, kLongestAction));
-  while (end_ == EpisodeEnd::kRunning && state_.t_ns < until_ns) StepOnce(commands);
+  refused_ = false;
+  Fly(state().t_ns + std::llround(1e9 * std::clamp(seconds, 0.0, kLongestAction)), nullptr);
 }
 
 EpisodeScore Episode::Score() const {
@@ -202,7 +208,12 @@ EpisodeScore Episode::Score() const {
   score.success = ended_well && score.navigation_error <= radius_;
   score.path_length = length_ + Norm(vehicle().motion.X_WB.p - last_p_W_);
   std::vector<Vec3d> reference = spec_.reference_path;
-  if (reference.empty()) reference = {start_W_, goal_W_};
+  if (reference.empty()) {
+    const double radius = model_->drones[0]->radius();
+    const ShortestWay& way = shortest_way_.Find(model_->tracer, start_W_, goal_W_, radius);
+    reference = way.points;
+    score.shortest_is_straight = !way.found;
+  }
   score.shortest_length = PathLength(reference);
   score.spl = SuccessByLength(score.success, score.shortest_length, score.path_length);
   // Both by way, not by time: an agent that thinks in mid-air loses nothing.

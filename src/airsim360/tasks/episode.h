@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/sim/step.h"
+#include "airsim360/sim/sim_loop.h"
 #include "airsim360/tasks/agent_action.h"
 #include "airsim360/tasks/agent_world.h"
+#include "airsim360/tasks/shortest_way.h"
 
 namespace airsim360 {
 
@@ -24,7 +25,7 @@ struct EpisodeSpec {
   std::optional<Vec3d> goal;          ///< in W; none: a free place by the seed
   std::optional<Vec3d> start;         ///< in W; none: the world's first free place
   double start_yaw = 0;               ///< rad
-  std::vector<Vec3d> reference_path;  ///< of a demonstration; empty: the straight line
+  std::vector<Vec3d> reference_path;  ///< of a demonstration; empty: FindShortestWay of the drone
   uint64_t seed = 0;                  ///< of the goal, gusts and sensors
   std::string drone = "hummingbird";  ///< DroneCatalog
   SuccessRule success = SuccessRule::kStop;
@@ -46,7 +47,8 @@ struct EpisodeScore {
   bool oracle_success = false;     ///< some place of the path was within the radius
   double navigation_error = 0;     ///< metres from the last place to the goal
   double path_length = 0;          ///< metres flown
-  double shortest_length = 0;      ///< of the reference path, or straight to the goal
+  double shortest_length = 0;      ///< of the reference path, or of the shortest free way
+  bool shortest_is_straight = false;  ///< no free way was found: all goes by the straight line to the goal
   double ndtw = 0;                 ///< NormalizedTimeWarping to the reference, by the radius of success
   double spl = 0;                  ///< success * shortest / max(path, shortest)
 };
@@ -67,14 +69,16 @@ class Episode {
 
   AgentWorld& world() { return *world_; }
   const EpisodeSpec& spec() const { return spec_; }
-  const Vehicle& vehicle() const { return state_.vehicles[0]; }
-  const SimState& state() const { return state_; }
+  const Vehicle& vehicle() const { return state().vehicles[0]; }
+  const SimState& state() const { return loop_->state(); }
+  /// The people as they stand now, for pictures; null: nobody.
+  std::shared_ptr<const SceneState> moved() const;
   Vec3d start() const { return start_W_; }
   Vec3d goal() const { return goal_W_; }
   double success_radius() const { return radius_; }
   double distance_to_goal() const { return Norm(goal_W_ - vehicle().motion.X_WB.p); }
   int64_t steps() const { return steps_; }
-  double seconds() const { return 1e-9 * static_cast<double>(state_.t_ns); }
+  double seconds() const { return 1e-9 * static_cast<double>(state().t_ns); }
   EpisodeEnd end() const { return end_; }
   EpisodeScore Score() const;
   /// Places every kPathPeriodNs, the first at the start.
@@ -85,7 +89,9 @@ class Episode {
   void Check() const;
   void ChoosePlaces();
   void BuildModel();
-  void StepOnce(std::vector<SimCommand>& commands);
+  /// Flies on until `until_ns`, the end of the episode, or the target of `plan` (null: none) is reached.
+  bool Fly(int64_t until_ns, const ActionPlan* plan);
+  void Note(std::span<const SimEvent> happened);
   bool Arrived(const ActionPlan& plan) const;
   AgentPose Setpoint() const;
 
@@ -93,8 +99,7 @@ class Episode {
   EpisodeSpec spec_;
   double radius_ = 1;
   Vec3d start_W_, goal_W_;
-  std::shared_ptr<const SimModel> model_;
-  SimState state_;
+  std::unique_ptr<SimLoop> loop_;
   EpisodeEnd end_ = EpisodeEnd::kRunning;
   int64_t steps_ = 0;
   std::optional<AgentPose> setpoint_;  ///< where the last action led, if the drone came to rest there
@@ -104,6 +109,7 @@ class Episode {
   double length_ = 0;
   Vec3d last_p_W_;
   std::vector<Vec3d> path_;
+  mutable ShortestWayCache shortest_way_;  ///< looked for when the first score is asked for
 };
 
 }  // namespace airsim360

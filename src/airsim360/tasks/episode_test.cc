@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {
@@ -15,7 +14,7 @@ constexpr double kPi = std::numbers::pi;
 
 std::shared_ptr<AgentWorld> Room() {
   static const auto room =
-      std::make_shared<AgentWorld>("box_room", LoadWorld({.world = "box_room"}), Tier::kFast);
+      std::make_shared<AgentWorld>(std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}}));
   return room;
 }
 
@@ -172,7 +171,7 @@ TEST(Episode, WithoutAGoalTheSeedChoosesAFreeOne) {
   Episode one(Room(), spec), same(Room(), spec);
   EXPECT_EQ(one.goal(), same.goal());
   EXPECT_GT(one.distance_to_goal(), 2 * one.success_radius());
-  EXPECT_GE(Room()->tracer()->Clearance(VecCast<float>(one.goal()), 1), 0.25f);
+  EXPECT_GE(Room()->stage().solid()->Clearance(VecCast<float>(one.goal()), 1), 0.25f);
   same.Reset(4);
   EXPECT_NE(one.goal(), same.goal());
 }

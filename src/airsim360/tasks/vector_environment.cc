@@ -34,10 +34,8 @@ void CheckOptions(const VectorEnvironmentOptions& o) {
   positive("max_rate", o.max_rate);
 }
 
-std::shared_ptr<const SimModel> MakeModel(std::shared_ptr<const RayTracer> tracer, const DroneModel& drone) {
-  auto model = std::make_shared<SimModel>();
-  model->tracer = std::move(tracer);
-  model->dt_ns = kStepNs;
+std::shared_ptr<const SimModel> MakeModel(Stage& stage, const DroneModel& drone) {
+  auto model = std::make_shared<SimModel>(stage.Model(kStepNs));
   DroneSetup setup{.name = "drone", .model = drone};
   setup.sensors = SensorSet{};  // panoramas and state are all that is sensed
   setup.airborne = true;
@@ -54,11 +52,12 @@ ActionLevel ParseActionLevel(std::string_view name) {
   return static_cast<ActionLevel>(found - names.begin());
 }
 
-VectorEnvironment::VectorEnvironment(std::shared_ptr<const RayTracer> tracer, const NavigationTask& task,
+VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task,
                                      const VectorEnvironmentOptions& options)
     : options_((CheckOptions(options), options)),
-      world_(tracer, task),
-      model_(MakeModel(tracer, options.drone)) {
+      stage_(std::move(stage)),
+      world_(stage_->solid(), task),
+      model_(MakeModel(*stage_, options.drone)) {
   const auto count = static_cast<size_t>(options_.count);
   const size_t pixels = count * static_cast<size_t>(options_.width) * static_cast<size_t>(options_.height);
   options_.rgb = options_.rgb && options_.tier != Tier::kLabels;
@@ -74,9 +73,11 @@ VectorEnvironment::VectorEnvironment(std::shared_ptr<const RayTracer> tracer, co
   lanes_.resize(count);
 
   const Tier tier = options_.rgb ? options_.tier : Tier::kLabels;
-  for (int i = 0; i < std::min(options_.count, ThreadCount()); ++i) {
+  // A GPU holds the scene once; on the CPU every thread has a renderer.
+  const int slots = ChoosesGpu(stage_->device()) ? 1 : std::min(options_.count, ThreadCount());
+  for (int i = 0; i < slots; ++i) {
     slots_.push_back(std::make_unique<Slot>());
-    slots_.back()->renderer = MakeCpuRenderer(tracer, {.tier = tier});
+    slots_.back()->renderer = stage_->NewRenderer(tier);
   }
   Reset(options_.seed);
 }
@@ -136,7 +137,7 @@ void VectorEnvironment::Step(std::span<const float> actions) {
 
 uint64_t VectorEnvironment::Hash() const {
   StateHasher hasher;
-  for (const Lane& lane : lanes_) hasher.Add(HashState(lane.state));
+  for (const Lane& lane : lanes_) hasher.Add(HashState(lane.loop->state()));
   return hasher.hash();
 }
 

@@ -11,6 +11,8 @@
 
 #include "airsim360/render/renderer.h"
 #include "airsim360/sensors/rig.h"
+#include "airsim360/sim/sim_loop.h"
+#include "airsim360/stage/stage.h"
 #include "airsim360/tasks/navigation_task.h"
 
 namespace airsim360 {
@@ -59,7 +61,7 @@ struct StateColumns {
 class VectorEnvironment {
  public:
   /// InputError naming the option that makes no sense. Begins with Reset(options.seed).
-  VectorEnvironment(std::shared_ptr<const RayTracer> tracer, const NavigationTask& task,
+  VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task,
                     const VectorEnvironmentOptions& options);
   ~VectorEnvironment();
 
@@ -90,7 +92,7 @@ class VectorEnvironment {
   std::span<const int64_t> steps() const { return steps_; }      ///< of the present episode
 
   /// Of environment i.
-  const SimState& sim_state(int i) const { return lanes_[static_cast<size_t>(i)].state; }
+  const SimState& sim_state(int i) const { return lanes_[static_cast<size_t>(i)].loop->state(); }
   const NavigationEpisode& episode(int i) const { return lanes_[static_cast<size_t>(i)].episode; }
   /// Hash of all states.
   uint64_t Hash() const;
@@ -98,7 +100,7 @@ class VectorEnvironment {
  private:
   /// One environment.
   struct Lane {
-    SimState state;
+    std::unique_ptr<SimLoop> loop;
     NavigationEpisode episode;
     uint64_t number = 0;  ///< of the episode
     bool ended = false;
@@ -119,6 +121,7 @@ class VectorEnvironment {
   void ForAll(const Body& body);
 
   VectorEnvironmentOptions options_;
+  std::shared_ptr<Stage> stage_;
   NavigationWorld world_;
   std::shared_ptr<const SimModel> model_;
   std::vector<Lane> lanes_;

@@ -25,8 +25,11 @@ void VectorEnvironment::Begin(size_t i, const NavigationEpisode& episode) {
   Lane& lane = lanes_[i];
   lane.episode = episode;
   lane.ended = false;
-  lane.state = {};
-  lane.state.vehicles.push_back(DroneAt(*model_, lane.state, 0, lane.episode.X_WB, true));
+  SimState state;
+  state.wind_W = model_->wind.mean_W;
+  if (model_->people) state.people = model_->people->start;
+  state.vehicles.push_back(DroneAt(*model_, state, 0, lane.episode.X_WB, true));
+  lane.loop = std::make_unique<SimLoop>(model_, std::move(state));
   reward_[i] = 0;
   steps_[i] = 0;
   terminated_[i] = truncated_[i] = reached_[i] = crashed_[i] = 0;
@@ -61,18 +64,16 @@ void VectorEnvironment::StepLane(size_t i, std::span<const float> action, Slot& 
   }
 
   // One command, held for the whole step; a crash ends it early.
-  const Vec3d before = lane.state.vehicles[0].motion.X_WB.p;
-  const uint64_t collisions = lane.state.vehicles[0].collision.count;
-  std::vector<SimCommand> commands = {{0, FlightCommand{CommandOf(action)}}};
+  SimLoop& loop = *lane.loop;
+  const Vec3d before = loop.state().vehicles[0].motion.X_WB.p;
+  const uint64_t collisions = loop.state().vehicles[0].collision.count;
+  loop.Post({0, FlightCommand{CommandOf(action)}});
   const auto dynamics_steps = std::llround(options_.period * 1e9 / static_cast<double>(model_->dt_ns));
-  bool crashed = false;
-  for (int64_t s = 0; s < dynamics_steps && !crashed; ++s) {
-    airsim360::Step(*model_, commands, lane.state);
-    commands.clear();
-    crashed = lane.state.vehicles[0].collision.count != collisions;
-  }
+  const auto intact = [&](const SimState& state) { return state.vehicles[0].collision.count == collisions; };
+  loop.AdvanceWhile(dynamics_steps, [&](const SimState& state, std::span<const SimEvent>) { return intact(state); });
+  const bool crashed = !intact(loop.state());
 
-  const Vehicle& drone = lane.state.vehicles[0];
+  const Vehicle& drone = loop.state().vehicles[0];
   const TargetSight sight = Look(i, slot);
   const NavigationScore score =
       world_.Score(lane.episode, before, drone.motion.X_WB.p, drone.clearance, crashed, sight);
@@ -82,7 +83,7 @@ void VectorEnvironment::StepLane(size_t i, std::span<const float> action, Slot& 
   crashed_[i] = score.crashed;
   terminated_[i] = score.reached || score.crashed;
   truncated_[i] =
-      !terminated_[i] && static_cast<double>(lane.state.t_ns) * 1e-9 >= world_.task().seconds - 1e-9;
+      !terminated_[i] && static_cast<double>(lane.loop->state().t_ns) * 1e-9 >= world_.task().seconds - 1e-9;
   lane.ended = terminated_[i] || truncated_[i];
   FillState(i);
 }
@@ -100,7 +101,8 @@ TargetSight VectorEnvironment::Look(size_t i, Slot& slot) {
                   .entity = options_.entity || search};
   const bool anything = options_.rgb || rig.products.range || rig.products.semantic || rig.products.entity;
   if (!anything) return {};
-  CaptureRig(rig, lane.state.vehicles[0].motion, lane.state.t_ns, *slot.renderer, slot.capture);
+  if (model_->people) rig.state = SceneStateOf(*model_, lane.loop->state(), 0);
+  CaptureRig(rig, lane.loop->state().vehicles[0].motion, lane.loop->state().t_ns, *slot.renderer, slot.capture);
   const Frame& frame = slot.capture.frame;
   CopyRow(frame.rgb, i, rgb_);
   CopyRow(frame.range, i, range_);
@@ -122,7 +124,7 @@ TargetSight VectorEnvironment::Look(size_t i, Slot& slot) {
 
 void VectorEnvironment::FillState(size_t i) {
   const Lane& lane = lanes_[i];
-  const Vehicle& drone = lane.state.vehicles[0];
+  const Vehicle& drone = lane.loop->state().vehicles[0];
   const Mat3d& R_WB = drone.motion.X_WB.R;
   const bool search = world_.task().kind == NavigationKind::kSearch;
   const Vec3d ahead = R_WB.column(0);
@@ -136,7 +138,7 @@ void VectorEnvironment::FillState(size_t i) {
   Put(R_WB.row(2), out + StateColumns::kUp);
   Put(drone.motion.w_WB_B, out + StateColumns::kRates);
   out[StateColumns::kClearance] = drone.clearance;
-  const double used = static_cast<double>(lane.state.t_ns) * 1e-9 / world_.task().seconds;
+  const double used = static_cast<double>(lane.loop->state().t_ns) * 1e-9 / world_.task().seconds;
   out[StateColumns::kTimeLeft] = static_cast<float>(std::max(0.0, 1 - used));
   out[StateColumns::kHeading] = static_cast<float>(std::cos(heading));
   out[StateColumns::kHeading + 1] = static_cast<float>(std::sin(heading));

@@ -9,14 +9,14 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/flight/drones/catalog.h"
-#include "airsim360/opening/world_loader.h"
 
 namespace airsim360 {
 namespace {
 
-std::shared_ptr<const RayTracer> Room() {
-  static const auto tracer = std::make_shared<const RayTracer>(LoadWorld({.world = "box_room"}));
-  return tracer;
+std::shared_ptr<Stage> Room() {
+  static const auto room =
+      std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}});
+  return room;
 }
 
 // Labels are made quickly; one test looks at colours.
@@ -228,11 +228,11 @@ TEST(NavigationWorld, EpisodesStartFreeAndKeepTheirDistance) {
   NavigationTask task = Task(NavigationKind::kReach);
   task.least_distance = 3;
   task.most_distance = 6;
-  const NavigationWorld world(Room(), task);
+  const NavigationWorld world(Room()->solid(), task);
   for (uint64_t i = 0; i < 200; ++i) {
     const NavigationEpisode episode = world.Sample(5, i, 2 * i);
     for (const Vec3d p : {episode.X_WB.p, episode.goal_W})
-      EXPECT_GE(Room()->Clearance(VecCast<float>(p), 5), 0.5 * task.clearance - 1e-5);
+      EXPECT_GE(Room()->solid()->Clearance(VecCast<float>(p), 5), 0.5 * task.clearance - 1e-5);
     const double distance = Norm(episode.goal_W - episode.X_WB.p);
     EXPECT_GE(distance, task.least_distance - task.clearance);
     EXPECT_LE(distance, task.most_distance + task.clearance);
@@ -240,11 +240,11 @@ TEST(NavigationWorld, EpisodesStartFreeAndKeepTheirDistance) {
 }
 
 TEST(NavigationWorld, SomethingIsInTheWayOfMostAvoidEpisodes) {
-  const NavigationWorld world(Room(), Task(NavigationKind::kAvoid));
+  const NavigationWorld world(Room()->solid(), Task(NavigationKind::kAvoid));
   int blocked = 0;
   for (uint64_t i = 0; i < 100; ++i) {
     const NavigationEpisode episode = world.Sample(5, 0, i);
-    blocked += Room()->Occluded(VecCast<float>(episode.X_WB.p), VecCast<float>(episode.goal_W));
+    blocked += Room()->solid()->Occluded(VecCast<float>(episode.X_WB.p), VecCast<float>(episode.goal_W));
   }
   EXPECT_GE(blocked, 80);
 }
@@ -252,10 +252,10 @@ TEST(NavigationWorld, SomethingIsInTheWayOfMostAvoidEpisodes) {
 TEST(NavigationWorld, WrongTasksAreNamed) {
   NavigationTask task = Task(NavigationKind::kSearch);
   task.target = "no/such/thing";
-  EXPECT_THROW(NavigationWorld(Room(), task), InputError);
+  EXPECT_THROW(NavigationWorld(Room()->solid(), task), InputError);
   task = Task(NavigationKind::kReach);
   task.clearance = -1;
-  EXPECT_THROW(NavigationWorld(Room(), task), InputError);
+  EXPECT_THROW(NavigationWorld(Room()->solid(), task), InputError);
   EXPECT_THROW(ParseNavigationKind("raech"), InputError);
 }
 

@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/control/gains.h"
@@ -76,6 +77,9 @@ void Designer::ChooseClass() {
   } else if (said_.propeller.value_or(1) < 0.07 || said_.mass.value_or(1) < 0.06) {
     name = said_.cells.value_or(1) > 1 || said_.motor_kv || said_.brushless ? "nano_brushless" : "nano";
     law = "as small as a nano drone";
+  } else if (said_.thrust_to_weight.value_or(0) >= 4 && said_.propeller.value_or(1) < 0.2) {
+    name = "freestyle";
+    law = "thrust to weight of 4 and more, below 8 inches";
   } else if (said_.blades.value_or(2) >= 3 && said_.propeller.value_or(1) < 0.2) {
     name = "freestyle";
     law = "three blades below 8 inches";
@@ -94,6 +98,8 @@ void Designer::ChooseRotors() {
   // "coaxial quad" means four arms.
   if (coaxial && n_ == 4) n_ = 8;
   if (coaxial && n_ == 6) Decide("six coaxial rotors sit on three arms, as a Y6");
+  if (coaxial && n_ % 2 == 1) Refuse("'" + Words("rotors") + "' are no coaxial pairs");
+  if (n_ % 2 == 1) Decide("an odd number of rotors: their torques cancel at unequal thrusts");
   const bool quad_only = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX;
   if (quad_only && n_ != 4) {
     Refuse("'" + Words("layout") + "' is a layout of four rotors, '" + Words("rotors") + "' are " +
@@ -131,6 +137,13 @@ void Designer::ChooseMass() {
   }
   const double loading = kind_.disc_loading;
   const double energy = EnergySaid();
+  if (said_.bare_mass) {
+    const double payload = said_.payload.value_or(0);
+    const double usual = *said_.bare_mass * kind_.battery_share / (1 - kind_.battery_share);
+    m_ = *said_.bare_mass + payload + (energy > 0 ? energy / give_.specific_energy : usual);
+    Law("mass", Said("bare_mass") + ", with battery and payload");
+    return;
+  }
   if (D_ > 0) {
     m_ = loading * Disc(D_) / kGravity;
     Law("mass", Text("disc loading %g N/m^2 (%s)", loading, out_.drone_class.c_str()));
@@ -239,15 +252,22 @@ void Designer::ChoosePropeller() {
 
 namespace {
 
-void DropField(DroneRequest& request, const std::string& field) {
+/// The figure of that name, else nullptr.
+std::optional<double>* FieldOf(DroneRequest& request, const std::string& field) {
   const std::pair<const char*, std::optional<double>*> fields[] = {
-      {"speed", &request.speed},           {"hover_time", &request.hover_time}, {"flight_time", &request.flight_time},
-      {"pitch", &request.pitch},           {"energy_wh", &request.energy_wh},   {"cells", &request.cells},
-      {"capacity_ah", &request.capacity_ah}, {"arm", &request.arm},             {"propeller", &request.propeller},
-      {"payload", &request.payload},       {"mass", &request.mass}};
+      {"thrust_to_weight", &request.thrust_to_weight}, {"speed", &request.speed},
+      {"hover_time", &request.hover_time}, {"flight_time", &request.flight_time}, {"pitch", &request.pitch},
+      {"energy_wh", &request.energy_wh}, {"cells", &request.cells}, {"capacity_ah", &request.capacity_ah},
+      {"arm", &request.arm}, {"propeller", &request.propeller}, {"payload", &request.payload},
+      {"mass", &request.mass}};
   for (const auto& [name, value] : fields) {
-    if (field == name) value->reset();
+    if (field == name) return value;
   }
+  return nullptr;
+}
+
+void DropField(DroneRequest& request, const std::string& field) {
+  if (auto* value = FieldOf(request, field)) value->reset();
   if (field == "layout") request.layout.reset();
   request.words.erase(field);
   request.facts.erase(field);
@@ -255,10 +275,13 @@ void DropField(DroneRequest& request, const std::string& field) {
 
 }  // namespace
 
-DroneDesign DesignDrone(const DroneRequest& request) {
+namespace {
+
+DroneDesign DesignWithFacts(const DroneRequest& request) {
   // Facts give way in this order, the most derived ones first.
-  static constexpr const char* kOrder[] = {"speed",  "hover_time", "flight_time", "pitch",   "capacity_ah", "energy_wh",
-                                           "cells",  "arm",        "propeller",   "payload", "layout",      "mass"};
+  static constexpr const char* kOrder[] = {"thrust_to_weight", "speed", "hover_time", "flight_time", "pitch",
+                                           "capacity_ah", "energy_wh", "cells", "arm", "propeller", "payload",
+                                           "layout", "mass"};
   DroneRequest said = request;
   for (const char* field : kOrder) {
     if (said.facts.empty()) break;
@@ -272,6 +295,36 @@ DroneDesign DesignDrone(const DroneRequest& request) {
   }
   return internal::Designer(said).Run();
 }
+
+/// Where the middle of the said ranges is impossible, one of their ends may not be: the easier end of each.
+std::optional<DroneDesign> DesignAtEnds(const DroneRequest& request) {
+  DroneRequest said = request;
+  for (const auto& [field, range] : request.ranges) {
+    auto* value = FieldOf(said, field);
+    if (value == nullptr || !*value) continue;
+    // A propeller that is larger carries more; of everything else less is easier.
+    *value = field == "propeller" || field == "capacity_ah" || field == "arm" ? range.second : range.first;
+    said.decided.push_back("of '" + said.words.at(field) + "' that end is taken which can be built");
+    try {
+      return DesignWithFacts(said);
+    } catch (const InputError&) {
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+DroneDesign DesignDrone(const DroneRequest& request) {
+  try {
+    return DesignWithFacts(request);
+  } catch (const InputError&) {
+    if (request.ranges.empty()) throw;
+    if (std::optional<DroneDesign> design = DesignAtEnds(request)) return std::move(*design);
+    throw;
+  }
+}
+
 DroneDesign DroneFromPrompt(std::string_view prompt) { return DesignDrone(ParsePrompt(prompt)); }
 
 }  // namespace airsim360

@@ -58,6 +58,11 @@ void Designer::ChooseThrust() {
     }
     SetThrust(most, "as much as tips at Mach 0.65 give");
   }
+  // Five rotors hover with thrusts up to 1.36 times their mean, seven with 1.17.
+  const double unequal = n_ == 5 ? 1.36 : n_ == 7 ? 1.17 : 1;
+  if (unequal > 1 && ratio_ < 1.1 * unequal) {
+    Refuse(Text("%d rotors whose torques cancel need a thrust to weight of %.2f, not %.2f", n_, 1.1 * unequal, ratio_));
+  }
   most_ratio_ = std::min({most, 14.0, give_.ratio});
   drag_ = 1;
   speed_held_ = false;

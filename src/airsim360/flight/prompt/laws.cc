@@ -9,6 +9,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // The propeller at which the laws are anchored: 5 inches.
 constexpr double kReferenceDiameter = 0.127;
+constexpr double kMostTorqueShare = 0.179;  // k_m / (k_f D); the gate ends at 0.18
 }  // namespace
 
 PropellerCoefficients CoefficientsOf(double pitch_ratio, int blades, double diameter) {
@@ -23,6 +24,8 @@ PropellerCoefficients CoefficientsOf(double pitch_ratio, int blades, double diam
   // Low Reynolds numbers cost power; the exponent meets the measured Crazyflie propeller (47 mm, k_m / k_f
   // 7.35 mm), the bound keeps smaller ones plausible.
   if (diameter < kReferenceDiameter) c.power *= std::min(std::pow(kReferenceDiameter / diameter, 0.7), 2.2);
+  // No measured propeller turns more than this share of its thrust times diameter into torque.
+  c.power = std::min(c.power, 2 * kPi * kMostTorqueShare * c.thrust);
   return c;
 }
 

@@ -51,6 +51,7 @@ enum class WordKind {
   kPitch,
   kMass,     ///< "take-off weight", "weighs"
   kEmpty,    ///< "empty weight"
+  kBare,     ///< "without battery"
   kPayload,  ///< "payload", "carries"
   kLoad,     ///< a thing that is carried: value in kg where it is known, meaning a class that it hints at
   kBattery,
@@ -59,6 +60,8 @@ enum class WordKind {
   kSpeed,
   kWind,  ///< a speed that is to be withstood or cruised at
   kThrustRatio,
+  kThrust,  ///< "thrust", "pull"
+  kThing,   ///< has lengths of its own, which are none of the drone's: "doorway", "GSD"
   kElse,  ///< its number is none of the drone's: "sensor", "altitude", "limit"
   // Comparing.
   kAtMost,   ///< "under": what follows is not reached

@@ -15,7 +15,7 @@ constexpr Word kWords[] = {
      "fly|flies|flys|flying|new|nice|like|similar to|something|someone|kindly|also|very|really|must|not|"
      "could|might|may|shall|looking|look|get|get me|got|other|another|one of those|both|own|basic|i d|i m|it s|"
      "along|plus or minus|overall|they|them|he|she|his|her|if possible|preferably|preferred|ideally|hoping|say that|altogether|all together|apiece|"
-     "tetherless|tether less|untethered"},
+     "tetherless|tether less|untethered|between"},
     {kBreak, 0, "", "with|whose|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
                     "through|if|because|having|featuring|including|incl|that has|which has|running|run|runs"},
     {kTo, 0, "", "to|or|until|through to|bis|jusqu|至|到|hasta"},
@@ -112,7 +112,7 @@ constexpr Word kWords[] = {
     {kFaster, 1, "", "faster|quicker"},
     {kFaster, -1, "", "slower"},
     {kCorrection, 0, "", "rather|actually|ok|okay|i mean|make that|no wait|correction|or better|scratch that|er|well|call it|make it|sorry|"
-                           "nope|let s say|lets say|i meant|change that to|or rather|no sorry|oops|wait|strike that|hmm"},
+                           "nope|let s say|lets say|i meant|change that to|or rather|no sorry|oops|wait|strike that|hmm|hang on|nah|no no"},
     {kNegation, 0, "", "not a|not an|no|never|isn t a|instead of a|instead of|rather than a|unlike a"},
 };
 

@@ -44,7 +44,7 @@ constexpr Word kWords[] = {
     {kLengthUnit, 1e-2, "", "zentimeter|centimetros|centimetri|厘米|公分|センチ"},
     {kLengthUnit, 1, "", "metros|metri|米"},
     {kTimeUnit, 60, "", "minuten|minutos|minuti|minuto|分钟|分鐘|分"},
-    {kTimeUnit, 3600, "", "stunden|stunde|std|heure|heures|hora|horas|ora|ore|小时|小時|時間"},
+    {kTimeUnit, 3600, "", "stunden|stunde|std|heure|heures|hora|horas|ora|ore|小时|小時|時間|个小时|個小時|个钟头|个钟"},
     {kSpeedUnit, 1, "", "米每秒|米秒|米/秒"},
     {kSpeedUnit, 1 / 3.6, "", "公里每小时|公里小时|千米每小时|公里/小时|时速公里|stundenkilometer"},
     {kCapacityUnit, 1e-3, "", "毫安时|毫安"},
@@ -77,18 +77,18 @@ constexpr Word kWords[] = {
     {kLayout, 0, "coaxial", "koaxial|koaxialer|coaxiale|共轴|同轴"},
     {kRotorNoun, 0, "", "rotoren|rotores|rotori|rotorzahl|anzahl rotoren|rotoranzahl|旋翼|rotorblatter"},
     {kMotor, 0, "", "motoren|moteurs|moteur|motores|motori|motore|电机|马达"},
-    {kPropeller, 0, "", "propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|プロペラ|luftschrauben"},
+    {kPropeller, 0, "", "propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|桨径|螺旋桨直径|桨直径|桨叶直径|旋翼直径|プロペラ|luftschrauben"},
     {kWheelbase, 0, "", "achsabstand|radstand|diagonale|empattement|entraxe|轴距|对角线|distancia entre ejes|diagonales|"
                         "motorabstand|interasse|batalla"},
     {kMass, 0, "",
      "abfluggewicht|startgewicht|startmasse|abflugmasse|gewicht|gesamtgewicht|masse|wiegt|wiegen|schwer|masse totale|"
      "masse au decollage|poids au decollage|poids|pese|pesant|peso maximo al despegue|peso al despegue|"
      "peso de despegue|peso|pesa|masa|al despegue|au decollage|despegue|decollage|pesa en total|peso total|"
-     "peso al decollo|peso massimo al decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|"
+     "peso al decollo|peso massimo al decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|整机重量|整机|含电池|带电池|"
      "en ordre de vol|al decollo|poids total"},
     {kEmpty, 0, "", "leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
     {kPayload, 0, "",
-     "nutzlast|zuladung|tragt|tragen|charge utile|emport|emporte|carga util|carga|transporta|carico utile|carico|llevar|llevando|cargar|cargando|levantar|levanta|transportar|porter|"
+     "charge de|charge max|charge maximale|charge max de|nutzlast|zuladung|tragt|tragen|charge utile|emport|emporte|carga util|carga|transporta|carico utile|carico|llevar|llevando|cargar|cargando|levantar|levanta|transportar|porter|"
      "transporter|transporte|soulever|souleve|emporter|emportant|portare|sollevare|solleva|heben|hebt|tragend|schleppt|"
      "schleppen|transportieren|trasportare|carregar|carrega|levar|leva|capacidad de carga|capacite d emport|traglast|"
      "载荷|载重|有效载荷|负载|挂载|任务载荷|最大载重|ペイロード|lleva|trasporta|transportiert|portant|porte"},
@@ -99,7 +99,9 @@ constexpr Word kWords[] = {
                      "续航|续航时间|飞行时间|飞行|留空|航时|fliegt|飛行時間|duree de vol|autonomia de vuelo"},
     {kSpeed, 0, "", "geschwindigkeit|hochstgeschwindigkeit|vitesse|vitesse maximale|vitesse max|velocidad|"
                     "velocidad maxima|velocita|最大速度|速度|最高速度|时速|最大飞行速度|最高時速|spitze"},
-    {kThrustRatio, 0, "", "推重比|schub gewicht verhaltnis|rapport poussee poids|schub zu gewicht|relacion empuje peso"},
+    {kThrustRatio, 0, "", "推重比|schub gewicht verhaltnis|rapport poussee poids|schub zu gewicht|relacion empuje peso|ratio poussee poids|poussee poids|"
+                           "rapport poussee sur poids|schub gewichts verhaltnis|schub gewicht|empuje peso|relacion de empuje peso|"
+                           "rapporto spinta peso|spinta peso|推力重量比|推力比|推重"},
     {kWind, 0, "", "抗风|风速|viento|vent|vento"},
     {kLoad, 0, "camera", "kamera|appareil photo|camara|相机|摄像头|カメラ"},
     {kLoad, 0, "", "激光雷达|云台|paket|pakete|paketen|colis|paquete|paquetes|包裹|pacco|pacchi"},

@@ -9,7 +9,7 @@ constexpr Word kWords[] = {
     {kDrone, 0, "",
      "drone|drones|multirotor|multirotors|multicopter|multi rotor|uav|uavs|uas|copter|copters|aircraft|mav|"
      "camera ship|cinema ship|micro aerial vehicle|aerial vehicle|unmanned aerial vehicle|aerial robot|flying robot|aerial platform|"
-     "suas|rpas"},
+     "suas|rpas|machine|vehicle|hexa machine|quad machine"},
     {kClass, 0, "generic", "generic|ordinary|normal|standard|plain"},
     {kClass, 0, "nano", "nano|palm|palm sized|pocket sized nano"},
     {kClass, 0, "whoop", "whoop|tiny whoop|tinywhoop|micro whoop|toy whoop"},
@@ -48,9 +48,10 @@ constexpr Word kWords[] = {
     {kRotors, 6, "", "hexa|hex|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
     {kRotors, 8, "", "octo|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
                      "eight rotor|oktokopter"},
-    {kRotors, 3, "", "tricopter|trirotor|tri copter|tri rotor|tricopters"},
+    {kRotors, 3, "", "tricopter|trirotor|tri copter|tri rotor|tricopters|tri|three rotor"},
     {kRotors, 2, "", "bicopter|bi copter|dualcopter|twin rotor"},
-    {kRotors, 5, "", "pentacopter"},
+    {kRotors, 5, "", "pentacopter|penta|five rotor"},
+    {kRotors, 7, "", "heptacopter|septacopter|seven rotor"},
     {kRotors, 10, "", "decacopter"},
     {kRotors, 12, "", "dodecacopter|dodecarotor"},
     {kCoaxial, 8, "", "x8|octo x8|quad x8|octoquad|octo quad|x8 coaxial|coaxial x8|coax x8"},
@@ -82,7 +83,10 @@ constexpr Word kWords[] = {
     {kArm, 0, "", "arm|arms|arm length|booms|boom"},
     {kWheelbase, 0, "",
      "wheelbase|diagonal|motor to motor|diagonally|motor to motor distance|wheel base|motor spacing|mtm|"
-     "diagonal size|diagonal distance|diagonal wheelbase|shaft to shaft|hub to hub"},
+     "diagonal size|diagonal distance|diagonal wheelbase|shaft to shaft|hub to hub|rotor to rotor|rotor to rotor diagonal|"
+     "prop to prop|propeller to propeller|axle to axle|axis to axis|center to center|centre to centre|corner to corner|"
+     "motor shaft to motor shaft|motor centre to motor centre|motor center to motor center|motors apart|m2m|m to m|"
+     "motor to motor diagonal|diag|across the motors|between the motors|between motors"},
     {kAcross, 0, "", "across|diameter|in diameter|diam|dia|wide|tip to tip|span|from tip to tip|durchmesser|de diametre|"
                      "de diametro|diametre|diametro|直径|von durchmesser|im durchmesser"},
     {kFrame, 0, "", "frame|frames|airframe|frame size"},
@@ -96,8 +100,17 @@ constexpr Word kWords[] = {
      "fully loaded|including battery|with battery|wet weight|weight including battery|launch weight|heavy|"
      "all up at|auw of"},
     {kEmpty, 0, "",
-     "empty|empty weight|dry weight|dry|without payload|without load|unladen|operating empty weight|bare weight|"
+     "empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
+     "w o load|without the payload|without any payload|without cargo|no payload|unloaded|"
      "empty mass|weight without payload"},
+    {kBare, 0, "",
+     "without battery|without the battery|without batteries|without a battery|without batt|without lipo|without lipos|"
+     "without the lipo|without pack|without the pack|w o battery|w o batteries|w o batt|w o lipo|w o pack|no battery|"
+     "no batt|no lipo|no batteries|minus battery|minus the battery|less battery|battery excluded|excl battery|"
+     "excluding battery|excluding batteries|excluding the battery|excl batteries|excl lipo|excluding lipo|"
+     "not counting the battery|before battery|before the battery|battery not included|not including battery|"
+     "not including the battery|dry weight|dry mass|dry|dry weight no batt|sans batterie|sans la batterie|sans lipo|"
+     "ohne akku|ohne akkus|ohne batterie|ohne lipo|sin bateria|sin la bateria|senza batteria|不含电池|无电池|不带电池"},
     {kPayload, 0, "",
      "payload|payloads|carrying|carries|carry|lifting|lifts|lift|useful load|payload capacity|max payload|"
      "maximum payload|hauling|haul|hauls|lugging|lug|lugs|hoist|hoists|bring|brings|bringing|tote|totes|ferry|ferries|"
@@ -117,10 +130,20 @@ constexpr Word kWords[] = {
     {kThrustRatio, 0, "",
      "twr|t w|thrust to weight|thrust to weight ratio|thrust weight|thrust weight ratio|power to weight|"
      "power to weight ratio|t to w|thrust ratio|thrust to mass|thrust margin|thrust reserve"},
+    {kThrust, 0, "",
+     "thrust|max thrust|maximum thrust|total thrust|max total thrust|maximum total thrust|total max thrust|"
+     "static thrust|combined thrust|peak thrust|full thrust|pull|pulls|pulling|schub|gesamtschub|standschub|poussee|"
+     "poussee totale|empuje|empuje total|spinta|spinta totale|推力|总推力|最大推力|拉力|总拉力|最大拉力"},
+    {kThing, 0, "",
+     "gsd|ground sampling distance|ground sample distance|pixel size|doorway|doorways|door|gap|gaps|tunnel|manhole|"
+     "hatch|opening|backpack|suitcase|case|shelf|drawer|trunk|rucksack|mast|pole|stand off|standoff|standoffs|"
+     "spacing|line spacing|track spacing|hole|holes|mounting|stack|screws|tube|tubes|pipe|pipes|plate|plates|"
+     "thickness|tow line|towline|string|gate|gates|hoop|hoops|window|windows|corridor|corridors|room|arena|"
+     "volume|stand"},
     {kElse, 0, "",
      "sensor size|inch sensor|cmos|ccd|imager|image sensor|monitor|tv|lcd|oled|oled screen|barrel|filter|sensor diagonal|screen|display|lens|focal|altitude|ceiling|range of|distance|radius|"
      "height|tall|resolution|charge|charging|recharge|charges|setup|set up|assembly|assemble|warmup|limit|limits|"
-     "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|thrust|"
+     "climb|climbs|climb rate|descent|descends|descent rate|ascent|ascends|ascent rate|vertical speed|"
      "part|level|ip|version|mark|gen|generation|field of view|fov|latency|zoom|deep|thick|cable|tether|per motor|"
      "each motor|landing gear|legs|antenna|goggles|goggle|price|cost|budget|row|swath|temperature|wing loading|"
      "controller|transmitter|remote|above ground|agl|high|swath width|width"},
@@ -145,7 +168,7 @@ constexpr Word kWords[] = {
      "jet fighter|fighter jet|turbofan|turbofans|turbojet|jet engine|jet engines|jet powered|afterburner|afterburners|"
      "afterburning|rocket|missile|cruise missile|rocket powered|scramjet|spaceship|spacecraft|satellite|jetpack|"
      "jet turbine|turbine powered"},
-    {kNoMultirotor, 0, "a ground vehicle", "hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
+    {kNoMultirotor, 0, "a ground vehicle", "ground vehicle|road vehicle|wheeled vehicle|surface vehicle|hovercraft|hoverboard|ground robot|robot dog|quadruped|ugv|rover drone"},
     {kNoMultirotor, 0, "a place without air to fly in",
      "on the moon|on mars|lunar surface|martian|outer space|in outer space|in vacuum|in a vacuum"},
     {kNoMultirotor, 0, "beyond the speed of sound",

@@ -138,13 +138,17 @@ class Joiner {
     if (i >= in_.size()) return false;
     const bool unit_between = IsUnit(in_[i]) && i + 1 < in_.size();
     const size_t link = unit_between ? i + 1 : i;
-    if (!(in_[link].kind == Token::Kind::kDash || in_[link].Is(WordKind::kTo)) || link + 1 >= in_.size())
+    // "between 15 and 20 minutes"
+    const bool between = Before().text == "between" && AtText(link, "and");
+    if (!(between || in_[link].kind == Token::Kind::kDash || in_[link].Is(WordKind::kTo)) || link + 1 >= in_.size())
       return false;
     double high = 0;
     std::string high_text;
     const size_t more = ReadOne(link + 1, high, high_text);
     const size_t end = link + 1 + more;
-    if (more == 0 || end >= in_.size() || !IsUnit(in_[end])) return false;
+    if (more == 0) return false;
+    const bool has_unit = end < in_.size() && IsUnit(in_[end]);
+    if (!has_unit && (unit_between || !(between || FollowsRatio()) || high <= 1)) return false;
     if (unit_between && in_[i].word->kind != in_[end].word->kind) return false;
     const double scale = unit_between && in_[end].word->value > 0 ? in_[i].word->value / in_[end].word->value : 1;
     if (!(low * scale < high && high < 4 * low * scale)) return false;
@@ -153,6 +157,16 @@ class Joiner {
     token.low = low * scale;
     token.high = high;
     return true;
+  }
+
+  /// "TWR 8-10", "thrust to weight of about 3 to 4"
+  bool FollowsRatio() const {
+    for (size_t n = 1; n <= 4 && n <= out_.size(); ++n) {
+      const Token& token = out_[out_.size() - n];
+      if (token.Is(WordKind::kThrustRatio)) return true;
+      if (!token.Is(WordKind::kFiller) && token.kind != Token::Kind::kUnknown) return false;
+    }
+    return false;
   }
 
   std::vector<Token> in_, out_;
@@ -250,6 +264,43 @@ bool ReadPropellerCode(std::string_view text, double (&code)[3], size_t& length)
   }
   length = at;
   return true;
+}
+
+size_t BoxLength(std::string_view text) {
+  double sides[3] = {};
+  size_t at = 0;
+  int parts = 0;
+  std::string_view unit;
+  const auto skip = [&] {
+    while (at < text.size() && text[at] == ' ') ++at;
+  };
+  for (; parts < 3; ++parts) {
+    const size_t digits = ReadNumber(text.substr(at), sides[parts]);
+    if (digits == 0) return 0;
+    at += digits;
+    const size_t end = at;
+    skip();
+    unit = {};
+    for (const std::string_view known : {"mm", "cm", "ft", "m"}) {
+      const size_t next = at + known.size();
+      const bool ends = next >= text.size() || text[next] < 'a' || text[next] > 'z';
+      if (unit.empty() && ends && text.substr(at).starts_with(known)) unit = known;
+    }
+    at = unit.empty() ? end : at + unit.size();
+    const size_t by = at;
+    skip();
+    if (at + 1 < text.size() && (text[at] == 'x' || text[at] == '*')) {
+      ++at;
+      skip();
+    } else {
+      at = by;
+      ++parts;
+      break;
+    }
+  }
+  // "4x 330 mm" counts; "9x4.5" has no unit.
+  const bool counts = parts == 2 && sides[0] <= 12 && sides[0] != sides[1];
+  return parts < 2 || unit.empty() || counts ? 0 : at;
 }
 
 bool ReadPropellerFigures(std::string_view digits, double (&code)[3]) {

@@ -22,6 +22,11 @@ Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
   request_.prompt = PrintableText(prompt);
   used_.assign(tokens_.size(), false);
   claimed_.assign(tokens_.size(), false);
+  for (const Token& token : tokens_) {
+    const bool layout = token.Is(WordKind::kLayout) && token.word->meaning == "coaxial";
+    coaxial_said_ |= layout || token.Is(WordKind::kCoaxial);
+    rotor_words_ += token.Is(WordKind::kRotors) || token.Is(WordKind::kCoaxial);
+  }
 }
 
 DroneRequest Reader::Run() {
@@ -81,12 +86,7 @@ void Reader::ReadWord(size_t i) {
       }
       return;
     case WordKind::kRotors:
-      used_[i] = true;
-      if (i > 1 && (tokens_[i - 1].text == "or" || tokens_[i - 1].text == "/") && Is(i - 2, WordKind::kRotors)) {
-        return Decide("of '" + tokens_[i - 2].text + "' and '" + text + "' the first is taken");
-      }
-      CorrectWith("rotors", request_.rotors, i);
-      return SetRotors(word.value, text);
+      return ReadRotorsWord(i);
     case WordKind::kCoaxial:
       used_[i] = true;
       SetRotors(word.value, text);
@@ -169,6 +169,7 @@ void Reader::SetLayout(const std::string& meaning, const std::string& text) {
 
 void Reader::Finish() {
   FinishRotors();
+  FinishLengths();
   FinishMasses();
   if (request_.brushless && request_.drone_class == "nano") request_.drone_class = "nano_brushless";
   if (model_ != nullptr) {
@@ -177,21 +178,8 @@ void Reader::Finish() {
   } else if (!request_.drone_class && !hinted_class_.empty()) {
     ReadClass(hinted_class_, hinted_words_);
   }
+  FinishThrust();
   ListUnused();
-}
-
-void Reader::FinishRotors() {
-  if (!arm_count_) return;
-  const std::string words = request_.words["arms"];
-  const bool coaxial = request_.layout == RotorLayout::kCoaxial;
-  const double rotors = coaxial ? 2 * *arm_count_ : *arm_count_;
-  if (!request_.rotors) return SetRotors(rotors, words);
-  if (*request_.rotors == 2 * *arm_count_ && !coaxial) {
-    if (request_.layout) Contradiction("layout", words);
-    Decide("two rotors an arm are coaxial pairs");
-    return SetLayout("coaxial", words);
-  }
-  if (*request_.rotors != rotors) Contradiction("rotors", words);
 }
 
 void Reader::FinishMasses() {
@@ -234,6 +222,7 @@ void Reader::FinishMasses() {
     Set(payload, request_.payload, *known_load_, known_load_words_);
     request_.facts.insert("payload");
   }
+  FinishBareMass();
   if (!request_.empty_mass) return;
   const std::string& words = request_.words["empty_mass"];
   if (request_.mass && !request_.payload && *request_.mass > *request_.empty_mass) {

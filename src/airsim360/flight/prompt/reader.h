@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "airsim360/flight/prompt/request.h"
@@ -48,12 +49,25 @@ class Reader {
   void SetLayout(const std::string& meaning, const std::string& text);
   void Finish();
   void FinishMasses();
-  void FinishRotors();
   void ListUnused();
+
+  // reader_counts.cc
+  void ReadRotorsWord(size_t i);
+  void ReadRotorCount(size_t i, size_t noun);
+  void SetRotors(double value, const std::string& words);
+  void SetArms(double value, const std::string& words);
+  bool IsSpare(size_t i, size_t noun) const;
+  bool IsPairOnArm(size_t i, size_t noun) const;
+  bool ReadCount(size_t i);
+  [[noreturn]] void RefuseRotors() const;
+  void FinishRotors();
+
+  // reader_thrust.cc
+  bool ReadThrust(const Quantity& q);
+  void FinishThrust();
 
   // reader_fields.cc
   void Set(const FieldRange& range, Field& field, double value, const std::string& words);
-  void SetRotors(double value, const std::string& words);
   void CorrectWith(const char* name, Field& field, size_t i);
   void SumUp(const char* name, Field& field, const Quantity& q);
   [[noreturn]] void Contradiction(const char* name, const std::string& words) const;
@@ -64,6 +78,8 @@ class Reader {
   bool SaysLittle(size_t i) const;
   /// The token that names what a quantity is of, after it and before it in its phrase; nothing: npos.
   size_t NounAfter(const Quantity& q) const;
+  size_t LabelInParentheses(size_t open) const;
+  size_t VolumeBefore(const Quantity& q) const;
   size_t NounBefore(const Quantity& q, bool adjacent) const;
   /// For a quantity in parentheses the noun before them, else kNone.
   size_t Apposed(const Quantity& q) const;
@@ -83,10 +99,17 @@ class Reader {
   void SetMassOf(size_t noun, const Quantity& q);
   size_t WeighedThing(const Quantity& q, size_t noun) const;
   bool IsOfLoad(const Quantity& q) const;
+  size_t WholeBefore(const Quantity& q) const;
+  bool IsWhole(size_t noun) const;
+  void SumUpMass(const Quantity& q);
+  void FinishBareMass();
+  void FinishOwnMass();
 
   // reader_quantities.cc
   bool ReadQuantity(size_t i);
   void ReadLength(const Quantity& q);
+  bool IsOfPlace(const Quantity& q) const;
+  void FinishLengths();
   void ReadTime(const Quantity& q);
   void ReadSpeed(const Quantity& q);
   void ReadVolume(const Quantity& q);
@@ -97,7 +120,7 @@ class Reader {
   void ReadCode(size_t i);
   void ReadBareNumber(size_t i);
   bool ReadPartNumber(size_t i);
-  bool ReadCount(size_t i);
+  const Word* Comparative(size_t k) const;
   bool ReadComparison(size_t i, double factor, size_t last);
   bool ReadFactor(size_t i);
   bool ReadDifference(const Quantity& q);
@@ -120,6 +143,19 @@ class Reader {
     bool part = false;   ///< "a 300 g frame"
   };
   std::vector<Loose> loose_masses_;
+  std::vector<Quantity> loose_lengths_;  ///< that may be of something else
+  const Token* spanning_ = nullptr;      ///< the number that is being read
+  /// A number of rotors that no drone here has, and its words.
+  std::optional<std::pair<double, std::string>> bad_rotors_;
+  bool whole_said_ = false;    ///< the mass is that of take-off
+  size_t rotor_words_ = 0;     ///< "quad", "Y6"
+  bool coaxial_said_ = false;
+  struct Thrust {
+    double kilograms = 0;
+    bool each = false, whole = false;  ///< of one motor, of all together; neither: not said
+    std::string words;
+  };
+  std::optional<Thrust> thrust_;
   std::optional<double> arm_count_, liquid_, known_load_;
   std::string liquid_words_, known_load_words_;
   std::string hinted_class_, hinted_words_;  ///< a kind that things carried hint at

@@ -20,11 +20,11 @@ bool CanHave(WordKind noun, WordKind unit) {
                      noun == WordKind::kThrustRatio;
   if (unit == WordKind::kLengthUnit) {
     return !timed && noun != WordKind::kMass && noun != WordKind::kEmpty && noun != WordKind::kPayload &&
-           noun != WordKind::kWind;
+           noun != WordKind::kWind && noun != WordKind::kBare && noun != WordKind::kThrust;
   }
   if (unit != WordKind::kMassUnit) return true;
   return !timed && noun != WordKind::kWheelbase && noun != WordKind::kAcross && noun != WordKind::kPitch &&
-         noun != WordKind::kArm;
+         noun != WordKind::kArm && noun != WordKind::kThing;
 }
 
 constexpr size_t kPhrase = 7;  // tokens on either side that a noun is looked for
@@ -45,28 +45,23 @@ void Reader::Set(const FieldRange& range, Field& field, double value, const std:
   if (field) return;
   field = value;
   request_.words[range.name] = words;
-}
-
-void Reader::SetRotors(double value, const std::string& words) {
-  if (value == 3) {
-    throw InputError("'" + words +
-                     "': three fixed rotors cannot hold a heading, for their torques do not cancel; say 4, 6 or 8, "
-                     "or Y6 for three arms with two rotors each");
-  }
-  if (value != 4 && value != 6 && value != 8) {
-    throw InputError("'" + words + "': a drone here has 4, 6 or 8 rotors" +
-                     (value > 8 ? ", and the dynamics hold no more than 8" : ""));
-  }
-  Set({"rotors", 4, 8, ""}, request_.rotors, value, words);
+  if (spanning_ != nullptr && spanning_->high > 0)
+    request_.ranges[range.name] = {value * spanning_->low / spanning_->value, value * spanning_->high / spanning_->value};
 }
 
 void Reader::CorrectWith(const char* name, Field& field, size_t i) {
-  for (size_t k = i; k-- > 0 && i - k < 5;) {
+  bool near = true;
+  for (size_t k = i; k-- > 0 && i - k < 10;) {
+    near &= i - k < 5;
+    // "a bicopter - scratch that, the supervisor wants a quad": such words reach further, up to the next figure.
+    if (!near && tokens_[k].kind == Token::Kind::kNumber) break;
+    if (!near && !(Is(k, WordKind::kCorrection) && tokens_[k].text.size() > 6)) continue;
     // "22 inch? no, 18 inch"
     const bool no = tokens_[k].text == "no" && k > 0 &&
                     (tokens_[k - 1].kind == Token::Kind::kComma || tokens_[k - 1].kind == Token::Kind::kDash);
     // "four minutes there and four back, so 8 minutes"
     const bool sum = tokens_[k].text == "so" && k + 1 == i && k > 0 && tokens_[k - 1].kind == Token::Kind::kComma;
+    if (Is(k, WordKind::kCorrection) && std::string_view(name) == "rotors") bad_rotors_.reset();
     if ((no || sum || Is(k, WordKind::kCorrection)) && field) {
       Decide("'" + tokens_[k].text + "' takes back '" + request_.words[name] + "'");
       field.reset();
@@ -118,8 +113,26 @@ bool Reader::Claims(size_t i) const {
   }
 }
 
+/// "900 g (without battery)": the label that stands alone in parentheses after a quantity, else kNone.
+size_t Reader::LabelInParentheses(size_t open) const {
+  if (open >= tokens_.size() || tokens_[open].text != "(") return kNone;
+  size_t found = kNone;
+  for (size_t i = open + 1; i < tokens_.size() && i < open + 6; ++i) {
+    if (tokens_[i].text == ")") return found;
+    if (tokens_[i].kind == Token::Kind::kNumber || tokens_[i].kind == Token::Kind::kComma) return kNone;
+    const bool label = Is(i, WordKind::kBare) || Is(i, WordKind::kEmpty) || Is(i, WordKind::kMass) ||
+                       Is(i, WordKind::kWheelbase) || Is(i, WordKind::kHover) || Is(i, WordKind::kPropeller) ||
+                       (Is(i, WordKind::kPayload) && tokens_[i].text.starts_with("payload"));
+    if (label && found == kNone && !claimed_[i]) found = i;
+  }
+  return kNone;
+}
+
 size_t Reader::NounAfter(const Quantity& q) const {
   size_t found = kNone;
+  if (const size_t label = LabelInParentheses(q.last + 1); label != kNone && q.unit &&
+      CanHave(WordAt(label)->kind, q.unit->kind))
+    return label;
   for (size_t i = q.last + 1; i < tokens_.size() && i <= q.last + kPhrase; ++i) {
     if (tokens_[i].text == "(" && i == q.last + 1) {  // "5 lb (2.27 kg) payload"
       size_t close = i + 1;
@@ -130,6 +143,9 @@ size_t Reader::NounAfter(const Quantity& q) const {
       }
     }
     const Token::Kind kind = tokens_[i].kind;
+    // "40 mm 4-blade props"
+    const size_t blades = i + 1 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kDash ? i + 2 : i + 1;
+    if (kind == Token::Kind::kNumber && Is(blades, WordKind::kBlades)) continue;
     if (EndsPhrase(i) || kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode) break;
     // "of" joins only at once: "2 kg of bait", not "2 kg drone of ..."
     if (found != kNone && SaysLittle(i) && kind != Token::Kind::kDash) break;
@@ -152,7 +168,7 @@ size_t Reader::NounAfter(const Quantity& q) const {
     // These say for certain; of other nouns the last is the head: "249 g camera drone".
     const Word* word = WordAt(i);
     if (word && (word->kind == WordKind::kMass || word->kind == WordKind::kPayload ||
-                 word->kind == WordKind::kEmpty || word->kind == WordKind::kElse))
+                 word->kind == WordKind::kEmpty || word->kind == WordKind::kElse || word->kind == WordKind::kBare))
       break;
   }
   return found;
@@ -200,7 +216,25 @@ size_t Reader::Apposed(const Quantity& q) const {
   return kNone;
 }
 
+/// The number of a volume before the parenthesis that `q` opens: "1 litre of lake water (call it 1 kg)"; else kNone.
+size_t Reader::VolumeBefore(const Quantity& q) const {
+  size_t open = q.first;
+  while (open-- > 0 && (SaysLittle(open) || Is(open, WordKind::kCorrection))) {
+  }
+  if (open == kNone || tokens_[open].text != "(" || q.unit->kind != WordKind::kMassUnit || NounAfter(q) != kNone)
+    return kNone;
+  for (size_t k = open; k-- > 1 && open - k < 6 && tokens_[k].kind != Token::Kind::kComma;) {
+    if (Is(k, WordKind::kVolumeUnit)) return k - 1;
+    if (tokens_[k].kind == Token::Kind::kNumber) return kNone;
+  }
+  return kNone;
+}
+
 bool Reader::IsRestated(const Quantity& q) const {
+  if (const size_t volume = VolumeBefore(q); volume != kNone) {
+    const double litres = tokens_[volume].value * tokens_[volume + 1].word->value;
+    if (std::abs(litres - q.value) < 0.05 * q.value) return true;
+  }
   if (q.first < 3 || tokens_[q.first - 1].text != "(" || !Is(q.first - 2, q.unit->kind)) return false;
   size_t number = q.first - 3;
   if (tokens_[number].kind == Token::Kind::kDash && number > 0) --number;

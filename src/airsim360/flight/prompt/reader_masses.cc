@@ -28,6 +28,33 @@ size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
   return kNone;
 }
 
+/// "AUW", "total": words that say the mass of the whole drone, whatever stands before them.
+bool Reader::IsWhole(size_t noun) const {
+  const std::string& text = tokens_[noun].text;
+  for (const char* part : {"total", "all", "auw", "tow", "mto", "take", "gross", "fly", "flight", "launch", "loaded",
+                           "rtf", "abflug", "start", "decoll", "despeg", "gesamt"}) {
+    if (text.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// "AUW with GoPro 265 g", "take-off weight incl. camera and battery: 1.9 kg": the mass before what it includes.
+size_t Reader::WholeBefore(const Quantity& q) const {
+  bool includes = false;
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
+    const std::string& text = tokens_[k].text;
+    if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos)
+      return includes && !claimed_[k] ? k : kNone;
+    includes = Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
+    const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) ||
+                       Is(k, WordKind::kMass) || tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
+                       includes || text == "and" || text == "+" || text == "/" || text == "(" || text == ")" ||
+                       (text == "." && k > 0 && tokens_[k - 1].text == "incl");
+    if (!thing) return kNone;
+  }
+  return kNone;
+}
+
 /// The noun that a mass is of, else kNone.
 size_t Reader::NounOfMass(const Quantity& q) const {
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
@@ -35,13 +62,13 @@ size_t Reader::NounOfMass(const Quantity& q) const {
     if (noun == kNone) return false;
     const WordKind kind = kind_of(noun);
     return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty ||
-           kind == WordKind::kBattery;
+           kind == WordKind::kBattery || kind == WordKind::kBare;
   };
   size_t noun = NounBefore(q, true);
   const size_t after = NounAfter(q);
   bool owned = false;
   // "camera weighing 300 g", "battery of 400 g" say whose weight it is.
-  if (noun != kNone && kind_of(noun) == WordKind::kMass && after == kNone) {
+  if (noun != kNone && kind_of(noun) == WordKind::kMass && after == kNone && !IsWhole(noun)) {
     size_t owner = noun;
     while (owner-- > 0 && SaysLittle(owner)) {
     }
@@ -52,8 +79,10 @@ size_t Reader::NounOfMass(const Quantity& q) const {
       owned = true;
     }
   }
-  const bool says_empty = after != kNone && kind_of(after) == WordKind::kEmpty;
-  if (const size_t apposed = Apposed(q); apposed != kNone) {
+  const bool says_empty =
+      after != kNone && (kind_of(after) == WordKind::kEmpty || kind_of(after) == WordKind::kBare);
+  if (const size_t whole = WholeBefore(q); whole != kNone && !says_empty) return whole;
+  if (const size_t apposed = Apposed(q); apposed != kNone && !says_empty) {
     noun = apposed;
   } else if ((!owned && !is_label(noun)) || says_empty ||
       (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
@@ -75,6 +104,7 @@ void Reader::ReadMass(const Quantity& q) {
                      (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
                      Is(q.first - 2, WordKind::kBreak);
   const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  if (VolumeBefore(q) != kNone && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   // "8 kilos of mix" are carried; "3 kg + 1 kg payload" are 4 kg in all.
   const size_t next = q.last + 1;
   const bool of_thing = noun == kNone && next + 1 < tokens_.size() && tokens_[next].text == "of" &&
@@ -124,6 +154,17 @@ bool Reader::IsOfLoad(const Quantity& q) const {
   return false;
 }
 
+/// A mass without battery: with the battery's, where it is said, it is the mass.
+void Reader::FinishBareMass() {
+  FinishOwnMass();
+  if (!request_.bare_mass) return;
+  const std::string words = request_.words["bare_mass"];
+  if (request_.mass && *request_.mass < *request_.bare_mass) Contradiction("mass", words);
+  if (request_.mass || request_.empty_mass || !request_.battery_mass) return;
+  const double whole = *request_.bare_mass + *request_.battery_mass + request_.payload.value_or(0);
+  Set({"mass", 0.01, 400, "kg"}, request_.mass, whole, words + " and " + request_.words["battery_mass"]);
+}
+
 void Reader::SetMassOf(size_t noun, const Quantity& q) {
   const FieldRange payload{"payload", 0.0005, 1000, "kg"};
   const WordKind kind = WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone;
@@ -144,6 +185,15 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
       return Set(payload, request_.payload, q.value, q.words);
     case WordKind::kBattery:
       return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
+    case WordKind::kBare: {
+      // The dry weight of a sprayer is that without its liquid.
+      const bool liquid = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& t) {
+        return t.Is(WordKind::kPayload) || t.Is(WordKind::kVolumeUnit);
+      });
+      if (tokens_[noun].text.starts_with("dry") && liquid)
+        return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+      return Set({"bare_mass", 0.004, 400, "kg"}, request_.bare_mass, q.value, q.words);
+    }
     case WordKind::kEmpty:
       return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
     default:
@@ -152,7 +202,34 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   // "under 250 g" is met just below, unless the mass itself is said.
   if (IsAtMost(q)) return loose_masses_.push_back({q, false});
   CorrectWith("mass", request_.mass, q.first);
+  if (kind == WordKind::kMass && IsWhole(noun)) {
+    whole_said_ = true;
+    SumUpMass(q);
+  }
   Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+}
+
+/// "570 g, put a 30 g sensor on top, so 600 g total"
+void Reader::SumUpMass(const Quantity& q) {
+  bool so = false;
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 6;)
+    so |= tokens_[k].text == "so" || tokens_[k].text == "makes" || tokens_[k].text == "then" || tokens_[k].text == "=";
+  if (!so || !request_.mass || q.value <= *request_.mass) return;
+  Decide("'" + q.words + "' is the sum of '" + request_.words["mass"] + "' and what is added");
+  request_.mass.reset();
+  request_.words.erase("mass");
+}
+
+/// "Weighs 9 kg with battery and could carry 6 kg": more than a drone of 9 kg in all can, so these 9 kg are its own.
+void Reader::FinishOwnMass() {
+  if (!request_.mass || !request_.payload || whole_said_ || request_.empty_mass) return;
+  if (*request_.payload <= 0.6 * *request_.mass || *request_.payload > *request_.mass) return;
+  const std::string words = request_.words["mass"];
+  Decide("'" + words + "' is read as the mass without payload, for '" + request_.words["payload"] + "' is most of it");
+  request_.empty_mass = request_.mass;
+  request_.words["empty_mass"] = words;
+  request_.mass.reset();
+  request_.words.erase("mass");
 }
 
 }  // namespace airsim360::internal

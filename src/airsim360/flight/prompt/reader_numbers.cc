@@ -9,10 +9,23 @@
 
 namespace airsim360::internal {
 
+namespace {
+
+/// "2207", "2806.5": a stator's diameter and height in mm, two figures each.
+bool IsStator(double figures) {
+  const double height = std::fmod(figures, 100);
+  return figures >= 600 && figures < 10000 && height >= 2 && height <= 45;
+}
+
+}  // namespace
+
 size_t Reader::Beside(size_t i, WordKind kind, bool after) const {
   for (size_t n = 1; n <= 4; ++n) {
     if (!after && n > i) break;
     const size_t k = after ? i + n : i - n;
+    if (!after && n == 1 && tokens_[k].text == ")") {  // "TWR (empty) 3"
+      if (k > 2 && tokens_[k - 2].text == "(" && Is(k - 3, kind)) return k - 3;
+    }
     if (k >= tokens_.size() || EndsPhrase(k) || tokens_[k].kind == Token::Kind::kNumber) break;
     if (Is(k, kind)) return k;
     const bool goes_on = SaysLittle(k) || tokens_[k].kind == Token::Kind::kUnknown || Is(k, WordKind::kBrushless) ||
@@ -24,6 +37,7 @@ size_t Reader::Beside(size_t i, WordKind kind, bool after) const {
 
 void Reader::ReadCode(size_t i) {
   const Token& token = tokens_[i];
+  spanning_ = nullptr;
   used_[i] = true;
   if (Is(i + 1, WordKind::kLengthUnit)) used_[i + 1] = true;
   Use(Beside(i, WordKind::kPropeller, true));
@@ -36,6 +50,12 @@ void Reader::ReadCode(size_t i) {
 bool Reader::ReadPartNumber(size_t i) {
   const Token& token = tokens_[i];
   if (token.value < 1000 || token.value > 99999) return false;
+  if (IsStator(token.value) && Is(i - 1, WordKind::kKvUnit)) return used_[i] = true;  // "1300 kv 2806.5"
+  // "6S 2200, 1800 kv", "4S 1500 2400kv": a charge, for no stator is so high.
+  if (!IsStator(token.value) && Is(i - 1, WordKind::kCells) && used_[i - 1]) return false;
+  if (Is(i - 1, WordKind::kCells) && used_[i - 1] && i + 1 < tokens_.size() && tokens_[i + 1].text == "," &&
+      std::fmod(token.value, 50) == 0 && std::fmod(token.value, 100) < 60)
+    return false;
   size_t next = i + 1;
   while (next < tokens_.size() && next < i + 3 &&
          (tokens_[next].text == "/" || tokens_[next].kind == Token::Kind::kDash || tokens_[next].text == ","))
@@ -163,68 +183,27 @@ bool Reader::ReadDifference(const Quantity& q) {
   return true;
 }
 
-/// "six rotors", "4x 2212 motors", "three 12 inch propellers", "3-blade".
-bool Reader::ReadCount(size_t i) {
-  const Token& token = tokens_[i];
-  const bool whole = token.value == std::floor(token.value);
-  const bool none = token.value < 1 || (i + 1 < tokens_.size() && Is(i + 1, WordKind::kRotorNoun) &&
-                                        (!whole || token.value > 40));
-  if (none && (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) &&
-      token.value < 1000)
-    SetRotors(token.value, token.text + " " + tokens_[i + 1].text);
-  if (!whole || token.value > 40 || token.value < 1) return false;
-  bool other_words = false;
-  for (size_t k = i + 1; k < tokens_.size() && k <= i + 5; ++k) {
-    const Word* word = WordAt(k);
-    const Token::Kind kind = tokens_[k].kind;
-    if (word && word->kind == WordKind::kBlades && k <= i + 2) {
-      used_[i] = true;
-      Set({"blades", 2, 6, ""}, request_.blades, token.value, token.text + " " + tokens_[k].text);
-      return true;
-    }
-    if (word && (word->kind == WordKind::kRotorNoun || word->kind == WordKind::kMotor ||
-                 word->kind == WordKind::kPropeller)) {
-      // "two spare propellers" are none of those that it flies with, and "14 pole motors" are no count.
-      if (other_words && (token.value < 3 || token.value > 12)) return false;
-      used_[i] = true;
-      // "two motors on each arm"
-      for (size_t n = k + 1; n < tokens_.size() && n < k + 5 && token.value == 2; ++n) {
-        if (tokens_[n].text == "each" || tokens_[n].text == "per" || Is(n, WordKind::kArm))
-          return SetLayout("coaxial", token.text + " " + tokens_[k].text), true;
-      }
-      for (size_t n = i; n-- > 0 && i - n < 5 && token.value == 2;) {
-        if (Is(n, WordKind::kArm)) return SetLayout("coaxial", token.text + " " + tokens_[k].text), true;
-      }
-      const std::string words = token.text + " " + tokens_[k].text;
-      if (!(request_.layout == RotorLayout::kCoaxial && word->kind != WordKind::kArm && token.value == 3))
-        SetRotors(token.value, words);
-      return true;
-    }
-    if (word && word->kind == WordKind::kArm) {
-      if (other_words && !tokens_[k].text.ends_with("s")) return false;  // "a 7 joint arm"
-      used_[i] = anything_ = true;
-      arm_count_ = token.value;
-      request_.words["arms"] = token.text + " " + tokens_[k].text;
-      return true;
-    }
-    const bool size = kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode ||
-                      (word && (word->kind == WordKind::kLengthUnit || word->kind == WordKind::kTimes ||
-                                word->kind == WordKind::kBrushless || word->kind == WordKind::kKvUnit));
-    other_words |= kind == Token::Kind::kUnknown;
-    if (!size && kind != Token::Kind::kDash && kind != Token::Kind::kUnknown) break;
+/// The word at `k`; "lighter than" compares here.
+const Word* Reader::Comparative(size_t k) const {
+  if (!Is(k, WordKind::kAtMost)) return WordAt(k);
+  for (const char* word : {"lighter", "smaller", "shorter"}) {
+    if (tokens_[k].text.starts_with(word)) return FindWord(word, false);
   }
-  return false;
+  return nullptr;
 }
 
 /// What a real drone's figure is multiplied with: "twice as heavy", "20 % heavier". True when it was read.
 bool Reader::ReadComparison(size_t i, double factor, size_t last) {
   if (model_ == nullptr) return false;
-  for (size_t k = last + 1; k < tokens_.size() && k <= last + 4; ++k) {
-    const Word* word = WordAt(k);
-    if (word == nullptr || SaysLittle(k)) continue;
+  const bool share = last + 1 < tokens_.size() && tokens_[last + 1].text == "of";  // "70 % of"
+  for (size_t k = last + 1; k < tokens_.size() && k <= last + 5; ++k) {
+    const Word* word = Comparative(k);
+    // "70 % of a Mavic 3" is said of its mass.
+    if (share && tokens_[k].kind == Token::Kind::kModel) word = FindWord("weight", false);
+    if (word == nullptr || word->kind == WordKind::kFiller || word->kind == WordKind::kTo) continue;
     const bool percent = Is(last, WordKind::kPercent);
     const bool compares = word->kind >= WordKind::kHeavier && word->kind <= WordKind::kFaster;
-    const double f = percent ? 1 + (compares && word->value < 0 ? -factor : factor)
+    const double f = percent && !share ? 1 + (compares && word->value < 0 ? -factor : factor)
                      : compares && word->value < 0 && factor > 1 ? 1 / factor : factor;
     const std::string words = tokens_[i].text + (percent ? " % " : " ") + tokens_[k].text;
     const std::string of = "'" + words + "' is of " + std::string(model_->title);
@@ -265,6 +244,7 @@ bool Reader::ReadFactor(size_t i) {
 
 void Reader::ReadBareNumber(size_t i) {
   const double value = tokens_[i].value;
+  spanning_ = &tokens_[i];
   if (ReadFactor(i) || ReadPartNumber(i) || ReadCharge(i)) return;
   for (const bool after : {true, false}) {
     const size_t ratio = Beside(i, WordKind::kThrustRatio, after);
@@ -284,7 +264,7 @@ void Reader::ReadBareNumber(size_t i) {
   // "a 250 class quad", "450 frame", "a 450 quad": millimetres between motors that face each other.
   const bool size = Beside(i, WordKind::kSizeNoun, true) != kNone || Beside(i, WordKind::kFrame, true) != kNone ||
                     Beside(i, WordKind::kWheelbase, true) != kNone || Beside(i, WordKind::kWheelbase, false) != kNone ||
-                    Beside(i, WordKind::kRotors, true) != kNone;
+                    Beside(i, WordKind::kRotors, true) != kNone || Beside(i, WordKind::kFrame, false) != kNone;
   if (size && value >= 60 && value <= 2500 && !request_.arm) {
     used_[i] = true;
     Decide("'" + tokens_[i].text + "' is read as the diagonal in millimetres");

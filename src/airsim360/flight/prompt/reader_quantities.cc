@@ -51,6 +51,8 @@ bool Reader::ReadQuantity(size_t i) {
                      (i < 3 || !Is(i - 2, WordKind::kMassUnit));
   if (tokens_[i].negative || minus) throw InputError("a negative number describes no drone: '-" + q.words + "'");
   used_[i] = used_[unit] = true;
+  spanning_ = &tokens_[i];
+  if (word->kind == WordKind::kKvUnit) claimed_[unit] = true;
   // "2 lb 3 oz", "1 h 30 min"
   const size_t next = unit + (Is(unit + 1, WordKind::kBreak) && tokens_[unit + 1].text == "and" ? 2 : 1);
   if (next + 1 < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber && Is(next + 1, word->kind) &&
@@ -90,7 +92,7 @@ void Reader::Dispatch(const Quantity& q) {
   const size_t i = q.first;
   switch (q.unit->kind) {
     case WordKind::kMassUnit:
-      ReadMass(q);
+      if (!ReadThrust(q)) ReadMass(q);
       break;
     case WordKind::kLengthUnit:
       ReadLength(q);
@@ -121,6 +123,7 @@ void Reader::Dispatch(const Quantity& q) {
       break;
     case WordKind::kCells:
       // "no less than 1500 s": no battery has so many cells, these are seconds.
+      if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i)) return;  // "4S 1500s"
       if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
       if (tokens_[i].value != std::floor(tokens_[i].value)) {
         throw InputError("'" + q.words + "' is not a whole number");
@@ -132,7 +135,7 @@ void Reader::Dispatch(const Quantity& q) {
       if (!ReadComparison(i, tokens_[i].value * 0.01, q.last)) NameElse(q, kNone);
       break;
     default:
-      ReadDays(q);
+      if (!ReadThrust(q)) ReadDays(q);
   }
 }
 
@@ -162,7 +165,7 @@ void Reader::ReadLength(const Quantity& q) {
     return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm ||
                           kind_of(n) == WordKind::kWheelbase || kind_of(n) == WordKind::kPitch ||
                           kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
-                          kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades ||
+                          kind_of(n) == WordKind::kThing || kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades ||
                           kind_of(n) == WordKind::kAcross);
   };
   const size_t head = noun;
@@ -187,7 +190,11 @@ void Reader::ReadLength(const Quantity& q) {
                          (!inches || q.value < 0.04 || tokens_[head].text == "sensor");
   const bool far = kind != WordKind::kPropeller && kind != WordKind::kWheelbase && kind != WordKind::kArm &&
                    kind != WordKind::kRotorNoun && kind != WordKind::kFrame && q.value > 3;
-  if (kind == WordKind::kElse || load_only || far) return NameElse(q, noun);
+  if (kind == WordKind::kElse || kind == WordKind::kThing || load_only || far) return NameElse(q, noun);
+  if (noun == kNone && !inches && IsOfPlace(q)) {
+    loose_lengths_.push_back(q);
+    return NameElse(q, kNone);
+  }
   if (noun != kNone && kind != WordKind::kFrame) Use(noun);
   if (kind == WordKind::kBlades) claimed_[noun] = false;
   if (kind == WordKind::kFrame) used_[noun] = true;
@@ -199,6 +206,33 @@ void Reader::ReadLength(const Quantity& q) {
   }
   CorrectWith("arm", request_.arm, q.first);
   Set({"arm", 0.02, 3, "m"}, request_.arm, kind == WordKind::kArm ? q.value : q.value / 2, q.words);
+}
+
+/// Whether a length of which nothing is said may be of a place or a thing: "inside a 3 m cube", "GSD 2 cm".
+bool Reader::IsOfPlace(const Quantity& q) const {
+  if (q.value < 0.04) return true;
+  const size_t next = q.last + 1;
+  const bool thing = next < tokens_.size() && tokens_[next].kind == Token::Kind::kUnknown;
+  size_t before = q.first;
+  while (before-- > 0 && SaysLittle(before)) {
+  }
+  if (before == kNone) return thing;
+  for (const char* word : {"through", "inside", "within", "into", "above", "over", "behind", "from", "past", "every"}) {
+    if (tokens_[before].text == word) return true;
+  }
+  return thing;
+}
+
+/// Of the lengths that may be of something else, the first is the drone's where nothing else says its size.
+void Reader::FinishLengths() {
+  for (const Quantity& q : loose_lengths_) {
+    if (request_.arm || q.value < 0.04 || q.value > 3) continue;
+    const size_t next = q.last + 1;
+    const bool thing = next < tokens_.size() && tokens_[next].kind == Token::Kind::kUnknown;
+    if (!thing) continue;
+    for (size_t i = q.first; i <= q.last; ++i) used_[i] = true;
+    Set({"arm", 0.02, 3, "m"}, request_.arm, q.value / 2, q.words);
+  }
 }
 
 void Reader::ReadTime(const Quantity& q) {

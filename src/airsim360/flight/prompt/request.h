@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace airsim360 {
@@ -19,6 +20,7 @@ struct DroneRequest {
   std::string prompt;
   std::optional<double> mass;          ///< kg, ready to fly, payload included
   std::optional<double> empty_mass;    ///< kg, ready to fly without payload
+  std::optional<double> bare_mass;     ///< kg, without battery and payload
   std::optional<double> payload;       ///< kg
   std::optional<double> battery_mass;  ///< kg
   std::optional<double> propeller;     ///< metres
@@ -43,6 +45,7 @@ struct DroneRequest {
   bool lithium_ion = false;
   std::map<std::string, std::string> words;
   std::set<std::string> facts;
+  std::map<std::string, std::pair<double, double>> ranges;  ///< of fields said as a range, whose middle they hold
   std::vector<std::string> unused;   ///< words that say nothing of a drone's figures
   std::vector<std::string> decided;  ///< what was chosen for the user, one sentence each
 };

@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/number_words.h"
 #include "airsim360/flight/prompt/plain_text.h"
+#include "airsim360/flight/prompt/spoken_forms.h"
 
 namespace airsim360::internal {
 namespace {
@@ -170,7 +170,8 @@ class Cutter {
       tokens_.resize(tokens);
     }
     Token token;
-    size_t length = 0;
+    size_t length = BoxLength(std::string_view(text_).substr(at_));
+    if (length > 0) return AddKind(Token::Kind::kUnknown, length), true;
     if (ReadPropellerCode(std::string_view(text_).substr(at_), token.code, length)) {
       token.kind = Token::Kind::kPropellerCode;
       Add(std::move(token), length);
@@ -252,39 +253,11 @@ class Cutter {
   std::vector<Token> tokens_;
 };
 
-/// Tolerances are left out ("250+-5 g"), and symbols of papers spelt out ("l = 0.2 m").
-std::string WithoutSymbols(const std::string& plain) {
-  static const std::pair<std::regex, const char*> kRules[] = {
-      {std::regex(R"((\d)\s*\+/?-\s*[\d.]+\s*%?)"), "$1 "},
-      {std::regex(R"(\+/?-\s*[\d.]+\s*(%|[a-z]+))"), " "},
-      {std::regex(R"((\d)\+\s*(?=(min|h|g|kg|km)\w*\b))"), "$1 "},  // "35+ minutes"
-      {std::regex(R"(\bm_(p|pl|payload)\s*=)"), " payload "},
-      {std::regex(R"(\bm(_\w+)?\s*=)"), " mass "},
-      {std::regex(R"(\bd(_\w+)?\s*=)"), " propeller diameter "},
-      {std::regex(R"(\bl(_\w+)?\s*=)"), " arm length "},
-      {std::regex(R"(\bn(_\w+)?\s*=)"), " rotors "},
-      {std::regex(R"(\bt_h\w*\s*=)"), " hover time "},
-      {std::regex(R"(\bt_(f\w*|end\w*)\s*=)"), " flight time "},
-      {std::regex(R"(\bv(_?max|_top)?\s*=)"), " top speed "},
-      {std::regex(R"(\brotors?\s*=(.*)\bdiameter\s*=)"), " rotors =$1 propeller diameter "},
-      {std::regex(R"(\bsub(\d{3})\b(?!\s*-?(g|mm)))"), "under $1 g"},
-      {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
-      {std::regex(R"(\b(propellers?|props?) ((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?))"), "$1 $2x$5"},
-      {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
-      {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"), "$1 $2"},
-      {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
-      {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? )"
-                  R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "}};
-  std::string text = plain;
-  for (const auto& [pattern, words] : kRules) text = std::regex_replace(text, pattern, words);
-  return text;
-}
-
 }  // namespace
 
 std::vector<Token> Tokenize(std::string_view prompt) {
   if (prompt.size() > kLongestPrompt) throw InputError("the description is longer than 1000 bytes");
-  return JoinNumbers(Cutter(WithoutSymbols(PlainText(prompt))).Run());
+  return JoinNumbers(Cutter(SpeltOut(PlainText(prompt))).Run());
 }
 
 }  // namespace airsim360::internal

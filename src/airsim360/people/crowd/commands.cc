@@ -33,103 +33,164 @@ NavPoint NearestAtAll(const NavMesh& mesh, Vec3d p) {
   return nearest;
 }
 
+/// All that can be wrong with a command, told without a change. Gives back the place on the mesh that the command
+/// names, if it names one.
+class PersonCheck {
+ public:
+  PersonCheck(const CrowdModel& model, const CrowdState& state, PersonIndex person)
+      : model_(model), in_(*state.internals), i_(person), walker_(in_.walkers[person]) {}
+
+  NavPoint operator()(const SpawnPerson& spawn) const {
+    if (walker_.present) throw InputError(Name() + " is in the world already");
+    return FreePlace(spawn.p_W);
+  }
+  NavPoint operator()(const MovePerson& move) const {
+    MustBePresent();
+    return FreePlace(move.p_W);
+  }
+  NavPoint operator()(const RemovePerson&) const { return Present(); }
+  NavPoint operator()(const SendPerson& send) const {
+    MustBePresent();
+    const NavPoint goal = OnMesh(send.p_W);
+    if (!(send.speed >= 0 && send.speed <= 6))
+      throw InputError("speed " + std::to_string(send.speed) + " is not in 0 … 6 m/s");
+    if (!model_.navmesh->FindPath(walker_.at, goal).complete)
+      throw InputError(Name() + " cannot reach " + Text(send.p_W) + ": there is no way from " +
+                       Text(walker_.at.p_W));
+    return goal;
+  }
+  NavPoint operator()(const SetPersonState& set) const {
+    MustBePresent();
+    const auto& states = model_.plan->states;
+    if (std::ranges::find(states, set.state, &StateDef::name) == states.end()) {
+      std::vector<std::string> names;
+      for (const StateDef& state : states) names.push_back(state.name);
+      throw InputError(UnknownChoiceMessage("state", set.state, names));
+    }
+    if (!(set.seconds >= 0 && set.seconds <= 86400))
+      throw InputError("seconds " + std::to_string(set.seconds) + " is not in 0 … 86400");
+    return {};
+  }
+  NavPoint operator()(const MessagePerson& message) const {
+    MustBePresent();
+    const std::vector<std::string>& messages = model_.plan->messages;
+    if (std::ranges::find(messages, message.type) == messages.end())
+      throw InputError(UnknownChoiceMessage("message", message.type, messages));
+    return {};
+  }
+  NavPoint operator()(const ReleasePerson&) const { return Present(); }
+
+ private:
+  std::string Name() const { return model_.people[i_].name; }
+  void MustBePresent() const {
+    if (!walker_.present) throw InputError(Name() + " is not in the world (spawn them first)");
+  }
+  NavPoint Present() const {
+    MustBePresent();
+    return {};
+  }
+  NavPoint OnMesh(Vec3d p) const {
+    const NavPoint point = model_.navmesh->Nearest(p, 1);
+    if (point.valid()) return point;
+    const NavPoint near = NearestAtAll(*model_.navmesh, p);
+    throw InputError("nobody can stand at " + Text(p) +
+                     (near.valid() ? "; the nearest place is " + Text(near.p_W) : ""));
+  }
+  // On the mesh, and nobody else is there.
+  NavPoint FreePlace(Vec3d p) const {
+    const NavPoint point = OnMesh(p);
+    for (PersonIndex k = 0; k < in_.walkers.size(); ++k) {
+      const Walker& other = in_.walkers[k];
+      if (k == i_ || !other.present || Norm(other.at.p_W - point.p_W) >= 2 * kBodyRadius) continue;
+      throw InputError(Text(point.p_W) + " is taken by " + model_.people[k].name);
+    }
+    return point;
+  }
+
+  const CrowdModel& model_;
+  const CrowdInternals& in_;
+  PersonIndex i_;
+  const Walker& walker_;
+};
+
+/// Does what PersonCheck has found right; `point` is what it gave back.
 class Commander {
  public:
-  Commander(CrowdTick& tick, PersonIndex person) : tick_(tick), i_(person), agent_(tick.in.agents[person]), walker_(tick.in.walkers[person]) {}
+  Commander(CrowdTick& tick, PersonIndex person, const NavPoint& point)
+      : tick_(tick), i_(person), point_(point), agent_(tick.in.agents[person]), walker_(tick.in.walkers[person]) {}
 
   void operator()(const SpawnPerson& spawn) {
-    if (walker_.present) throw InputError(Name() + " is in the world already");
-    Place(spawn.p_W, spawn.yaw);
+    Place(spawn.yaw);
     walker_.present = true;
     tick_.state.people[i_].visible = true;
   }
   void operator()(const MovePerson& move) {
-    MustBePresent();
     HaltPerson(tick_, i_);
-    Place(move.p_W, move.yaw);
+    Place(move.yaw);
   }
   void operator()(const RemovePerson&) {
-    MustBePresent();
     HaltPerson(tick_, i_);
     walker_.present = false;
     tick_.state.people[i_].visible = false;
   }
   void operator()(const SendPerson& send) {
-    MustBePresent();
-    const NavPoint goal = OnMesh(send.p_W);
-    if (!(send.speed >= 0 && send.speed <= 6)) throw InputError("speed " + std::to_string(send.speed) + " is not in 0 … 6 m/s");
     HaltPerson(tick_, i_);
-    if (!tick_.model.navmesh->FindPath(walker_.at, goal).complete)
-      throw InputError(Name() + " cannot reach " + Text(send.p_W) + ": there is no way from " + Text(walker_.at.p_W));
     agent_.commanded = true;
     if (tick_.plan.states[agent_.state].stop) EnterState(tick_, i_, kWalking, -1, 0, "command");
-    SetGoal(tick_, i_, goal, send.speed, 0.3);
+    SetGoal(tick_, i_, point_, send.speed, 0.3);
   }
   void operator()(const SetPersonState& set) {
-    MustBePresent();
-    std::vector<std::string> names;
-    for (const StateDef& state : tick_.plan.states) names.push_back(state.name);
-    const auto found = std::find(names.begin(), names.end(), set.state);
-    if (found == names.end()) throw InputError(UnknownChoiceMessage("state", set.state, names));
-    const auto state = static_cast<uint8_t>(found - names.begin());
-    if (!(set.seconds >= 0 && set.seconds <= 86400)) throw InputError("seconds " + std::to_string(set.seconds) + " is not in 0 … 86400");
+    const auto& states = tick_.plan.states;
+    const auto found = std::ranges::find(states, set.state, &StateDef::name);
+    const auto state = static_cast<uint8_t>(found - states.begin());
     agent_.left_ns[state] = -1;  // a command knows no cool-down
     EnterState(tick_, i_, state, set.seconds > 0 ? set.seconds : -1, set.seconds, "command");
   }
   void operator()(const MessagePerson& message) {
-    MustBePresent();
-    const auto found = std::find(tick_.plan.messages.begin(), tick_.plan.messages.end(), message.type);
-    if (found == tick_.plan.messages.end()) throw InputError(UnknownChoiceMessage("message", message.type, tick_.plan.messages));
+    const auto found = std::ranges::find(tick_.plan.messages, message.type);
     Post(tick_, kNoPerson, i_, static_cast<uint8_t>(found - tick_.plan.messages.begin()));
   }
   void operator()(const ReleasePerson&) {
-    MustBePresent();
     agent_.commanded = false;
     DropGoal(tick_, i_);
   }
 
  private:
-  std::string Name() const { return tick_.model.people[i_].name; }
-  void MustBePresent() const {
-    if (!walker_.present) throw InputError(Name() + " is not in the world (spawn them first)");
-  }
-  NavPoint OnMesh(Vec3d p) const {
-    const NavMesh& mesh = *tick_.model.navmesh;
-    const NavPoint point = mesh.Nearest(p, 1);
-    if (point.valid()) return point;
-    const NavPoint near = NearestAtAll(mesh, p);
-    throw InputError("nobody can stand at " + Text(p) + (near.valid() ? "; the nearest place is " + Text(near.p_W) : ""));
-  }
-  void Place(Vec3d p, double yaw) {
-    const NavPoint point = OnMesh(p);
-    for (PersonIndex k = 0; k < tick_.in.walkers.size(); ++k) {
-      const Walker& other = tick_.in.walkers[k];
-      if (k == i_ || !other.present || Norm(other.at.p_W - point.p_W) >= 2 * kBodyRadius) continue;
-      throw InputError(Text(point.p_W) + " is taken by " + tick_.model.people[k].name);
-    }
-    walker_.at = point;
+  void Place(double yaw) {
+    walker_.at = point_;
     walker_.v = {};
     agent_.offset = {};
-    tick_.in.from[i_] = point.p_W;
+    tick_.in.from[i_] = point_.p_W;
     tick_.in.from_yaw[i_] = tick_.in.to_yaw[i_] = yaw;
-    tick_.state.people[i_].p_WP = point.p_W;
+    tick_.state.people[i_].p_WP = point_.p_W;
     tick_.state.people[i_].yaw = yaw;
   }
 
   CrowdTick& tick_;
   PersonIndex i_;
+  const NavPoint& point_;
   Agent& agent_;
   Walker& walker_;
 };
 
+NavPoint Checked(const CrowdModel& model, const CrowdState& state, PersonIndex person, const PersonAction& action) {
+  if (person >= model.people.size())
+    throw InputError("no person " + std::to_string(person) + ": there are " + std::to_string(model.people.size()));
+  return std::visit(PersonCheck(model, state, person), action);
+}
+
 }  // namespace
+
+void CheckPersonCommand(const CrowdModel& model, const CrowdState& state, PersonIndex person,
+                        const PersonAction& action) {
+  Checked(model, state, person, action);
+}
 
 void CommandPerson(const CrowdModel& model, CrowdState& state, PersonIndex person, const PersonAction& action,
                    std::vector<CrowdEvent>* events) {
-  if (person >= model.people.size())
-    throw InputError("no person " + std::to_string(person) + ": there are " + std::to_string(model.people.size()));
+  const NavPoint point = Checked(model, state, person, action);
   CrowdTick tick{model, *model.plan, state, *state.internals, {}, events, state.t_ns};
-  std::visit(Commander(tick, person), action);
+  std::visit(Commander(tick, person, point), action);
 }
 
 }  // namespace airsim360

@@ -129,9 +129,13 @@ struct ReleasePerson {};  ///< back to their own tree
 using PersonAction =
     std::variant<SpawnPerson, MovePerson, RemovePerson, SendPerson, SetPersonState, MessagePerson, ReleasePerson>;
 /// InputError naming the nearest valid choice: no such person, place off the mesh or taken, goal that cannot
-/// be reached, unknown state or message.
+/// be reached, unknown state or message. The state is then as it was.
 void CommandPerson(const CrowdModel& model, CrowdState& state, PersonIndex person, const PersonAction& action,
                    std::vector<CrowdEvent>* events = nullptr);
+
+/// The InputError of CommandPerson if it would give one; changes and copies nothing.
+void CheckPersonCommand(const CrowdModel& model, const CrowdState& state, PersonIndex person,
+                        const PersonAction& action);
 
 /// Index of a person by name; InputError naming the nearest.
 PersonIndex PersonByName(const CrowdModel& model, std::string_view name);

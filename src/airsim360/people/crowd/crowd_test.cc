@@ -317,6 +317,39 @@ TEST(Crowd, PeopleWaitAtTheKerbUntilTheirLightIsGreen) {
   }
 }
 
+// A command that cannot be done must not be half done: before, somebody sent off the mesh had stopped walking.
+TEST(Crowd, ARefusedCommandChangesNothingAndACheckNamesTheSameError) {
+  TestCrowd crowd(Park(), ReserveOf(3));
+  crowd.Do(0, SpawnPerson{{5, 5, 0}, 1});
+  crowd.Do(1, SpawnPerson{{8, 5, 0}, 1});
+  crowd.Do(0, SendPerson{{15, 5, 0}, 1.5});
+  crowd.Run(1);
+  const auto error_of = [](const auto& action) -> std::string {
+    try {
+      action();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::pair<PersonIndex, PersonAction> wrong[] = {
+      {0, SpawnPerson{{5, 9, 0}, 0}},      {2, MovePerson{{5, 9, 0}, 0}}, {0, MovePerson{{300, 5, 0}, 0}},
+      {0, MovePerson{crowd[1].p_WP, 0}},   {2, RemovePerson{}},           {0, SendPerson{{300, 5, 0}, 0}},
+      {0, SendPerson{{5, 9, 0}, 7}},       {0, SetPersonState{"dancing", 3}}, {0, SetPersonState{"waving", -1}},
+      {0, MessagePerson{"gossip"}},        {2, ReleasePerson{}},          {9, ReleasePerson{}}};
+  for (const auto& [person, action] : wrong) {
+    const uint64_t before = HashCrowd(crowd.state);
+    const std::string said = error_of([&] { CheckPersonCommand(*crowd.model, crowd.state, person, action); });
+    EXPECT_NE(said, "none") << action.index();
+    EXPECT_EQ(error_of([&] { crowd.Do(person, action); }), said);
+    EXPECT_EQ(HashCrowd(crowd.state), before) << said;
+  }
+  CheckPersonCommand(*crowd.model, crowd.state, 0, RemovePerson{});
+  EXPECT_TRUE(crowd[0].visible);
+  crowd.Run(12);
+  EXPECT_NEAR(crowd[0].p_WP.x, 15, 0.5);
+}
+
 TEST(Crowd, SinglePeopleAreSpawnedSentSetAndRemoved) {
   TestCrowd crowd(Park(), ReserveOf(2));
   EXPECT_FALSE(crowd[0].visible);

@@ -43,13 +43,13 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 // clang-format off
 #include "airsim360/render/shared/shading_shared.h"
 // clang-format off: each needs the words of those before it.
+#include "airsim360/render/shared/shading_bsdf.h"
 #include "airsim360/render/shared/shading_air.h"
 #include "airsim360/render/shared/shading_air_view.h"
-#include "airsim360/render/shared/shading_bsdf.h"
-#include "airsim360/render/shared/shading_ground.h"
-#include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_tone.h"
+#include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_ground.h"
 // clang-format on
 #undef SHARED
 #undef INOUT

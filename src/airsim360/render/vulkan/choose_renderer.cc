@@ -75,6 +75,10 @@ void CheckDevice(const std::string& flag, const std::string& device) {
     throw InputError(flag + ": " + UnknownChoiceMessage("device", device, kDevices));
 }
 
+bool ChoosesGpu(const DeviceChoice& choice) {
+  return choice.device != "cpu" && (choice.device == "vulkan" || !WhyNot(choice.gpu));
+}
+
 std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                                        const DeviceChoice& choice) {
   CheckDevice("--device", choice.device);

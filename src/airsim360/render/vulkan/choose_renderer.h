@@ -17,6 +17,9 @@ struct DeviceChoice {
 /// InputError that begins with `flag` unless `device` is auto, cpu or vulkan.
 void CheckDevice(const std::string& flag, const std::string& device);
 
+/// Whether MakeRenderer would draw on a GPU.
+bool ChoosesGpu(const DeviceChoice& choice);
+
 /// `cpu`: the CPU renderer. `vulkan`: the GPU's; RuntimeError saying why where there is none. `auto`: a GPU in hardware where
 /// there is one, else the CPU. Where the machine has no GPU and none was asked for nothing is opened and nothing said; else one
 /// line on stderr names the device or says why it is the CPU. What a GPU fails at (out of memory, lost) goes on on the CPU, with

@@ -9,6 +9,7 @@
 #include "airsim360/base/hash.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/built_in.h"
+#include "airsim360/worlds/props/placer.h"
 #include "airsim360/worlds/city_park/layout.h"
 
 namespace airsim360 {

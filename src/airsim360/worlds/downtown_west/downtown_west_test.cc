@@ -10,6 +10,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/building/massing.h"
 #include "airsim360/worlds/built_in.h"
+#include "airsim360/worlds/props/placer.h"
 
 namespace airsim360 {
 namespace {

@@ -1,0 +1,77 @@
+// What the motors lift: "each motor pulls 900 g", "8 kg of thrust in all".
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+
+#include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/reader.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr double kGravityHere = 9.80665;  // N a kilogram
+constexpr double kMostRatio = 14;         // what the gate lets pass, with a margin
+
+template <size_t N>
+bool IsOneOf(const std::string& text, const char* const (&words)[N]) {
+  return std::any_of(std::begin(words), std::end(words), [&](const char* word) { return text == word; });
+}
+
+constexpr const char* kEach[] = {"each", "per", "per motor", "each motor", "apiece", "every", "je", "por", "par",
+                                 "each of the", "单轴", "单个", "每个"};
+constexpr const char* kWhole[] = {"total", "together", "all", "combined", "altogether", "in all", "in total", "overall",
+                                  "all together", "sum"};
+
+}  // namespace
+
+/// True when the phrase speaks of thrust and the quantity is a force.
+bool Reader::ReadThrust(const Quantity& q) {
+  const std::string& unit = tokens_[q.last].text;
+  const bool newtons = unit == "n" || unit.starts_with("newton");
+  if (q.unit->kind != WordKind::kMassUnit && !newtons) return false;
+  Thrust thrust{newtons ? tokens_[q.first].value / kGravityHere : q.value, false, false, q.words};
+  size_t noun = kNone;
+  bool motor = false;
+  const auto look = [&](size_t k) {
+    const std::string& text = tokens_[k].text;
+    if (Is(k, WordKind::kThrust) && noun == kNone && !claimed_[k]) noun = k;
+    motor |= Is(k, WordKind::kMotor) || Is(k, WordKind::kRotorNoun) || text == "per motor" || text == "each motor";
+    thrust.each |= IsOneOf(text, kEach);
+    thrust.whole |= IsOneOf(text, kWhole) || (Is(k, WordKind::kThrust) && text.find("total") != std::string::npos) ||
+                    (Is(k, WordKind::kThrust) && text.find("combined") != std::string::npos);
+  };
+  // A number with a noun of its own ends the clause on either side.
+  const auto ends = [&](size_t k) {
+    return tokens_[k].kind == Token::Kind::kComma || tokens_[k].text == "and" || tokens_[k].text == "with" ||
+           Is(k, WordKind::kMass) || Is(k, WordKind::kPayload);
+  };
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 9 && !(ends(k) && tokens_[k].text != "total");) look(k);
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 9 && !(ends(k) && tokens_[k].text != "total"); ++k)
+    look(k);
+  if (noun == kNone || (tokens_[noun].text.starts_with("pull") && !motor)) return false;
+  claimed_[noun] = used_[noun] = true;
+  if (!thrust_) thrust_ = thrust;
+  return true;
+}
+
+/// Thrust over the weight is the ratio; where that goes with nothing else it gives way, unless it does not lift.
+void Reader::FinishThrust() {
+  if (!thrust_) return;
+  if (!request_.mass || thrust_->kilograms <= 0)
+    return Decide("'" + thrust_->words + "' of thrust is left to the design, for the mass was not said");
+  const double rotors = request_.rotors.value_or(request_.layout == RotorLayout::kCoaxial ? 8 : 4);
+  const bool each = thrust_->each || (!thrust_->whole && thrust_->kilograms < 1.2 * *request_.mass);
+  const double ratio = thrust_->kilograms * (each && !thrust_->whole ? rotors : 1) / *request_.mass;
+  if (ratio < 1.05 && !request_.facts.count("mass")) {
+    throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust do not lift '" +
+                     request_.words["mass"] + "'");
+  }
+  if (request_.thrust_to_weight) return;
+  if (ratio < 1.05 || ratio > kMostRatio)
+    return Decide("'" + thrust_->words + "' of thrust is not what drones of that mass have and is left to the design");
+  request_.thrust_to_weight = ratio;
+  request_.words["thrust_to_weight"] = thrust_->words + " of thrust";
+  request_.facts.insert("thrust_to_weight");
+}
+
+}  // namespace airsim360::internal
