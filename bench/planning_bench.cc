@@ -1,5 +1,5 @@
 // Minimum snap, gradients, certified peaks and time allocation: our own times. Peers were measured beside
-// this library by programs that are not kept (docs/trajectories.md has the figures and the commits). Usage:
+// this library by programs that are not kept (docs/internals/benchmarks/trajectories.md has the figures and the commits). Usage:
 // planning_bench [--long] (--long: also 100,000 segments)
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that every #include between modules follows the layer table of docs/architecture.md, and between the
+"""Checks that every #include between modules follows the layer table of docs/internals/architecture.md, and between the
 folders of a module its second table.
 
 Usage: check_layers.py [ROOT]. Prints one line per violation and exits 1 if there is any.
@@ -35,7 +35,7 @@ OWNERS = {  # third-party header prefix -> modules whose .cc files may include i
 def read_table(root):
     """Module -> set of modules it may include, from the Markdown table."""
     allowed, levels = {}, {}
-    for line in (root / "docs/architecture.md").read_text().splitlines():
+    for line in (root / "docs/internals/architecture.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
         if len(cells) != 4 or not cells[0].isdigit():
             continue
@@ -56,7 +56,7 @@ def read_table(root):
 def read_folders(root):
     """Folder -> set of folders of its module that it may include, from the second table."""
     allowed = {}
-    for line in (root / "docs/architecture.md").read_text().splitlines():
+    for line in (root / "docs/internals/architecture.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
         if len(cells) == 3 and re.fullmatch(r"[a-z_/]+", cells[0]) and re.fullmatch(r"—|[a-z_/ ]+", cells[2]):
             if cells[0] != "folder":
@@ -120,7 +120,7 @@ def check(root):
     for path in files:
         module = path.relative_to(source).parts[0]
         if module not in allowed:
-            errors.append(f"{path}: module '{module}' is not in the table of docs/architecture.md")
+            errors.append(f"{path}: module '{module}' is not in the table of docs/internals/architecture.md")
             continue
         is_test = path.stem.endswith(("_test", "_fuzz", "_bench"))
         for number, target in includes_of(path):
@@ -141,7 +141,7 @@ def check(root):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
     errors = check(root) + check_folders(root)
-    print("\n".join(errors) if errors else "layers: every include follows docs/architecture.md")
+    print("\n".join(errors) if errors else "layers: every include follows docs/internals/architecture.md")
     return 1 if errors else 0
 
 

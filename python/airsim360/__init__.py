@@ -1,6 +1,6 @@
 """AirSim360: a 360 degree simulator for drones.
 
-A short tour (every line runs; docs/python.md has more, examples/ has programs):
+A short tour (every line runs; docs/reference/python.md has more, examples/ has programs):
 
     import airsim360
 

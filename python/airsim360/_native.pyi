@@ -273,7 +273,7 @@ class World:
                  time: str = "", place: str = "", hdri: str = "", environment: str = "", bbox: str = "", centre: str = "",
                  radius: float = 0.0, people: int | str = 0, wind: str = "") -> None:
         """name: one of worlds(), or a path. seed: of what is made at random. models: furniture from model files where they
-        are installed. labels: a label file, categories by patterns of names (docs/importing.md).
+        are installed. labels: a label file, categories by patterns of names (docs/guide/labels.md).
 
         device: what draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or
         "vulkan" (RuntimeError says why where there is none). gpu: number of one among several, as gpus() lists them.
@@ -286,7 +286,7 @@ class World:
         each side.
 
         people: a number, 0 ... 10000, or the path of a people .yaml; they live in simulations of it, and captures of the
-        world show them where they begin. wind: a wind file, for simulations (docs/simulation.md).
+        world show them where they begin. wind: a wind file, for simulations (docs/guide/flying.md).
 
         ValueError names the nearest choice, for instance the nearest world where there is none of that name."""
     @property
@@ -335,7 +335,7 @@ class Drone:
                  sensors: str = "") -> None:
         """model: a name of drone_catalog(), a .yaml file, or words ("a 250 g five-inch racing quad"). name: ""
         = drone0, drone1 and so on. position (3,) metres of W: where it hovers (airborne) or above where it stands; None: the world's spawn. yaw:
-        radians. controller: who flies it. sensors: a sensor file (docs/sensors.md). ValueError names what was not
+        radians. controller: who flies it. sensors: a sensor file (docs/reference/sensors.md). ValueError names what was not
         understood."""
     @staticmethod
     def from_words(words: str) -> Drone:
@@ -637,7 +637,7 @@ class VectorEnvironment:
                  observations: Sequence[Literal["rgb", "range", "semantic", "entity"]] = ["rgb", "range"],
                  period: float = 0.1, max_speed: float = 3.0, max_turn: float = 1.5, max_rate: float = 6.0,
                  level: bool = False, auto_reset: bool = True, seed: int = 0) -> None:
-        """count: environments. action: what a step commands (docs/python.md). width, height: pixels of the
+        """count: environments. action: what a step commands (docs/reference/python.md). width, height: pixels of the
         panoramas (height 0: half the width). period: seconds of a step. max_speed (m/s), max_turn, max_rate (rad/s): what an action of 1 means. level:
         panoramas keep the horizon level. auto_reset: one that has ended begins anew in the next step. ValueError names
         the nearest for an unknown task option."""
@@ -667,7 +667,7 @@ class VectorEnvironment:
         """(count, H, W) uint32"""
     @property
     def state(self) -> _F32:
-        """(count, 17) float32; columns: docs/python.md"""
+        """(count, 17) float32; columns: docs/reference/python.md"""
     @property
     def reward(self) -> _F32:
         """(count,) float32"""

@@ -1,4 +1,4 @@
-"""Datasets on disk (docs/datasets.md) as NumPy arrays; no compiled module and no other package is needed.
+"""Datasets on disk (docs/reference/dataset_format.md) as NumPy arrays; no compiled module and no other package is needed.
 
     frames = airsim360.Dataset("my_dataset")
     frame = frames[0]
@@ -115,7 +115,7 @@ class Frame:
 
     @property
     def people(self) -> List[PersonRecord]:
-        """The persons of people.jsonl in this frame (docs/people_labels.md); [] without people."""
+        """The persons of people.jsonl in this frame (docs/reference/people_format.md); [] without people."""
         return self.dataset._people.get(self.index, [])
 
     @property
@@ -176,7 +176,7 @@ class Frame:
 
     @property
     def coverage(self) -> _Channels:
-        """Channels of a file of coverage (docs/datasets.md), by name."""
+        """Channels of a file of coverage (docs/reference/dataset_format.md), by name."""
         return self.read("coverage")
 
     @property

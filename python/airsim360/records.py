@@ -87,7 +87,7 @@ class Person(TypedDict):
     yaw: float
     """Heading: radians, 0 = east, counter-clockwise."""
     behaviour: str
-    """What the legs do: "idle", "walk", "sit" and so on (docs/people.md)."""
+    """What the legs do: "idle", "walk", "sit" and so on (docs/guide/people.md)."""
     visible: bool
 
 
@@ -258,7 +258,7 @@ class Replay(TypedDict):
 
 
 class TaskOptions(TypedDict, total=False):
-    """Options of a task of airsim360.gym and VectorEnvironment (rewards: docs/python.md)."""
+    """Options of a task of airsim360.gym and VectorEnvironment (rewards: docs/reference/python.md)."""
 
     target: str
     """search: category path of what is to be found; "" = any thing of everyday size."""
@@ -394,7 +394,7 @@ class EntityRecord(TypedDict):
 
 
 class PersonRecord(TypedDict):
-    """A person in a frame, from Frame.people: the keys of people.jsonl, described in docs/people_labels.md."""
+    """A person in a frame, from Frame.people: the keys of people.jsonl, described in docs/reference/people_format.md."""
 
     entity_id: int
     """The id in Frame.entity."""

@@ -1,4 +1,4 @@
-// airsim360._native: the C++ library as Python sees it. Names and shapes: docs/python.md.
+// airsim360._native: the C++ library as Python sees it. Names and shapes: docs/reference/python.md.
 #include <memory>
 
 #include "airsim360/base/error.h"

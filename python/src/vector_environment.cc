@@ -214,7 +214,7 @@ void BindVectorEnvironment(py::module_& m) {
       .def_property_readonly("range", Pictures<float>(&E::range, 0), "(count, H, W) float32, metres, 0 = sky")
       .def_property_readonly("semantic", Pictures<CategoryId>(&E::semantic, 0), "(count, H, W) uint16")
       .def_property_readonly("entity", Pictures<EntityId>(&E::entity, 0), "(count, H, W) uint32")
-      .def_property_readonly("state", &State, "(count, 17) float32; columns: docs/python.md")
+      .def_property_readonly("state", &State, "(count, 17) float32; columns: docs/guide/gym.md")
       .def_property_readonly("reward", Numbers(&E::reward), "(count,) float32")
       .def_property_readonly("distance", Numbers(&E::distance), "(count,) float32, metres to the goal")
       .def_property_readonly("steps", Numbers(&E::steps), "(count,) int64, of the present episode")

@@ -194,7 +194,7 @@ void BindWorld(py::module_& m) {
   py::class_<World, std::shared_ptr<World>>(
       m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml.
 
-`labels` is a label file: categories by patterns of names (docs/importing.md).
+`labels` is a label file: categories by patterns of names (docs/guide/labels.md).
 
 `device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
 says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.

@@ -1,4 +1,4 @@
-"""The agent interface as a user meets it: the commands of docs/agents.md, hostile clients, the WebSocket."""
+"""The agent interface as a user meets it: the commands of docs/guide/agents.md, hostile clients, the WebSocket."""
 import base64
 import http.client
 import json
@@ -16,7 +16,7 @@ import time
 import unittest
 
 PROGRAM = os.environ["AIRSIM360"]
-DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs/agents.md"
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs/guide/agents.md"
 
 
 class Agent:

@@ -30,7 +30,7 @@ def norm(a):
 
 
 def body_axes(yaw, pitch, roll):
-    """Columns forward, left, up in W of a body with these angles in degrees: the rotation of docs/frames.md, multiplied out by hand."""
+    """Columns forward, left, up in W of a body with these angles in degrees: the rotation of docs/reference/frames.md, multiplied out by hand."""
     y, p, r = (math.radians(a) for a in (yaw, pitch, roll))
     forward = (math.cos(p) * math.cos(y), math.cos(p) * math.sin(y), math.sin(p))
     left0, up0 = (-math.sin(y), math.cos(y), 0), (-math.sin(p) * math.cos(y), -math.sin(p) * math.sin(y), math.cos(p))

@@ -1,4 +1,4 @@
-"""The blocks of README.md and docs/*.md do what they say: each page's ```sh and ```python blocks are pasted into a shell, in order.
+"""The blocks of README.md and docs/**/*.md do what they say: each page's ```sh and ```python blocks are pasted into a shell, in order.
 
 A page has a folder of its own with links to what a clone holds (build, data, examples, tools, docs), PATH has build/bin. Blocks
 marked ```sh slow or ```python slow run with AIRSIM360_SLOW_DOCS=1 alone. A command that ends with & is a server: it is waited for.
@@ -13,10 +13,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ["AIRSIM360"]).resolve()
 BUILD = PROGRAM.parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SLOW = os.environ.get("AIRSIM360_SLOW_DOCS") == "1"
 CACHE = tempfile.TemporaryDirectory()  # worlds are built once for all pages
 COMMANDS = r"(airsim360|build/bin/airsim360|curl|PYTHONPATH=|python3|/usr/bin/python3|cmake|export|import airsim360)\b"
+
+
+def name_of(page):
+    """Path of a page in the repository."""
+    return page.relative_to(ROOT).as_posix()
 
 
 def blocks(page):
@@ -40,7 +45,7 @@ def script_of(page):
         text = re.sub(r"^(airsim360 (?:serve|agent)\b[^\n]*?) *&$",
                       r"\1 > server.log 2>&1 &\nfor i in $(seq 300); do grep -q listening server.log && break; sleep 0.2; done",
                       text, flags=re.M)
-        parts.append(f"echo '{page.name}:{line}' >&2\n{text}")
+        parts.append(f"echo '{name_of(page)}:{line}' >&2\n{text}")
     return "\n".join(parts)
 
 
@@ -50,7 +55,7 @@ class Docs(unittest.TestCase):
     def test_no_command_hides_outside_of_a_fence(self):
         for page in PAGES:
             plain = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
-            self.assertEqual(re.findall(rf"^    {COMMANDS}.*", plain, re.M), [], page.name)
+            self.assertEqual(re.findall(rf"^    {COMMANDS}.*", plain, re.M), [], name_of(page))
 
     def test_readme_is_short(self):
         words = len((ROOT / "README.md").read_text(encoding="utf-8").split())
@@ -59,7 +64,7 @@ class Docs(unittest.TestCase):
     def test_every_link_leads_to_a_file(self):
         for page in PAGES:
             for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
-                self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+                self.assertTrue((page.parent / target).exists(), f"{name_of(page)}: {target}")
 
 
 def run_page(page):
@@ -70,16 +75,17 @@ def run_page(page):
                 os.symlink(ROOT / name, os.path.join(folder, name))
             os.symlink(BUILD, os.path.join(folder, "build"))
             environment = {"PATH": f"{BUILD / 'bin'}:/usr/bin:/bin", "HOME": folder, "PYTHONPATH": str(BUILD / "python"),
-                           "PYTHONDONTWRITEBYTECODE": "1", "LANG": "C.UTF-8",
+                           "PYTHONDONTWRITEBYTECODE": "1", "LANG": "C.UTF-8", "AIRSIM360": str(PROGRAM),
                            "AIRSIM360_CACHE": CACHE.name}
             done = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True, timeout=1500)
-            self.assertEqual(done.returncode, 0, f"{page.name}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
+            self.assertEqual(done.returncode, 0, f"{name_of(page)}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
     return test
 
 
 for _page in PAGES:
     if any(language in ("sh", "python") for language, *_ in blocks(_page)):
-        setattr(Docs, f"test_blocks_of_{_page.stem.lower()}", run_page(_page))
+        _name = re.sub(r"\W", "_", name_of(_page).removesuffix(".md").removeprefix("docs/").lower())
+        setattr(Docs, f"test_blocks_of_{_name}", run_page(_page))
 
 
 if __name__ == "__main__":

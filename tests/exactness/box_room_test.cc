@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The plane that a ray meets first, from the numbers of docs/contracts.md alone.
+// The plane that a ray meets first, from the numbers of docs/reference/contracts.md alone.
 struct Answer {
   double range = kInfinity;
   int side = -1;  ///< 0..5: room x-, x+, y-, y+, floor, ceiling; 6..11: the cube's faces, same order

@@ -11,7 +11,7 @@ import msgpack
 from harness import RawClient, Server, ServerTest
 
 MIB = 1 << 20
-SLACK = 256 * MIB  # beyond the stated limits of docs/rpc.md
+SLACK = 256 * MIB  # beyond the stated limits of docs/guide/airsim_server.md
 ANSWER, WAITING, BYTES_PER_PIXEL = 320 * MIB, 512 * MIB, 40  # of one; of all; while colours are drawn
 WIDEST = (8192, 4096)
 
@@ -109,7 +109,7 @@ class Answers(ServerTest):
             except OSError:
                 pass
         self.assertIs(self.large.call("ping"), True)
-        # What is taken of all together is at most this, as docs/rpc.md says.
+        # What is taken of all together is at most this, as docs/guide/airsim_server.md says.
         self.assertLess(memory(self.server.process), before + 256 * MIB + SLACK)
         for client in hoarders:
             client.close()

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 constexpr int kVertices = 19158;
 
 // What upstream (makehumancommunity, LICENSE.ASSETS.md) has released as CC0 and what is vertex-identical to
-// it: see docs/people.md. Everything else of the package is refused.
+// it: see docs/guide/people.md. Everything else of the package is refused.
 const std::map<std::string, std::set<std::string>> kAllowed = {
     {"clothes", {"fedora", "fedora_cocked", "female_casualsuit01", "female_casualsuit02", "female_elegantsuit01", "female_sportsuit01", "male_casualsuit01", "male_casualsuit02", "male_casualsuit03",
                  "male_casualsuit04", "male_casualsuit05", "male_casualsuit06", "male_elegantsuit01", "shoes01", "shoes02", "shoes03", "shoes04", "shoes05", "shoes06"}},

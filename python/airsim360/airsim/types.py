@@ -1,4 +1,4 @@
-"""AirSim's structures and enumerations. NED, metres, radians; see docs/rpc.md.
+"""AirSim's structures and enumerations. NED, metres, radians; see docs/reference/airsim_functions.md.
 
 `fields` of a structure names its keys on the wire with their defaults; a default that is a structure is made anew for
 each object.
@@ -28,7 +28,7 @@ _Few = TypeVar("_Few", bound="_Numbers")
 
 
 class ImageType:
-    """What a picture shows, for ImageRequest. Depth is in metres; normals, flow and Annotation are this server's (docs/rpc.md)."""
+    """What a picture shows, for ImageRequest. Depth is in metres; normals, flow and Annotation are this server's (docs/reference/airsim_functions.md)."""
 
     Scene = 0
     DepthPlanar = 1

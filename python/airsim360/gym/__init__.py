@@ -7,7 +7,7 @@
 
 Tasks: "reach" (fly to a point), "avoid" (the same with something between), "search" (find a thing, see it from near).
 Observations are a dictionary: the panoramas asked for ("rgb", "range", "semantic", "entity") and "state", 17 numbers
-(docs/python.md). They are views of the environment's own arrays: the next step writes over them; copy what you keep,
+(docs/guide/gym.md). They are views of the environment's own arrays: the next step writes over them; copy what you keep,
 or give copy=True. Where Gymnasium is installed, importing this module registers airsim360/Reach-v0, airsim360/Avoid-v0 and
 airsim360/Search-v0 with it.
 """

@@ -76,7 +76,7 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
 
 void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command =
-      app.add_subcommand("agent", "navigation episodes for VLA/VLM models over HTTP and WebSocket (docs/agents.md)");
+      app.add_subcommand("agent", "navigation episodes for VLA/VLM models over HTTP and WebSocket (docs/guide/agents.md)");
   auto arguments = std::make_shared<AgentArguments>();
   command->add_option("--world", arguments->world, "name or file of the world of episodes that name none")
       ->required();

@@ -316,7 +316,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       "fly a trajectory of `airsim360 plan` (its JSON or YAML), frames spread evenly over it");
   command->add_option("--poses", arguments->poses,
                       "one frame at each pose of a file: CSV x,y,z[,yaw_deg,pitch_deg,roll_deg] or qw,qx,qy,qz, TUM, or "
-                      "frames.jsonl of another dataset (docs/datasets.md)");
+                      "frames.jsonl of another dataset (docs/guide/datasets.md)");
   command->add_option("--frames", arguments->frames,
                       "frames, spread evenly over the flight (default 8); with --fps so many at that rate")
       ->check(CLI::Range(int64_t{1}, kMaxFrames));

@@ -17,6 +17,6 @@ void AddEnvironmentFlags(CLI::App& command, EnvironmentFlags& flags) {
                      "name=value,…: single values, for example cloud_cover=0.6,visibility_m=800,lamps=on");
 }
 
-void AddWindFlag(CLI::App& command, std::string& file) { command.add_option("--wind", file, "wind file (docs/simulation.md)"); }
+void AddWindFlag(CLI::App& command, std::string& file) { command.add_option("--wind", file, "wind file (docs/guide/flying.md)"); }
 
 }  // namespace airsim360

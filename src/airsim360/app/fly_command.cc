@@ -288,7 +288,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(0.01, 100.0));
   command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
       ->check(CLI::Range(0.01, 100.0));
-  command->add_option("--sensors", arguments->sensors, "sensor file (docs/sensors.md)");
+  command->add_option("--sensors", arguments->sensors, "sensor file (docs/reference/sensors.md)");
   AddWindFlag(*command, arguments->wind);
   command
       ->add_option("--speed", arguments->speed,

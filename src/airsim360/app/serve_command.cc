@@ -90,7 +90,7 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
 }  // namespace
 
 void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
-  CLI::App* command = app.add_subcommand("serve", "a server that AirSim's clients can fly in (docs/rpc.md)");
+  CLI::App* command = app.add_subcommand("serve", "a server that AirSim's clients can fly in (docs/guide/airsim_server.md)");
   auto arguments = std::make_shared<ServeArguments>();
   command->add_option("--world", arguments->world, "name or file of the world")->required();
   command->add_option("--settings", arguments->settings,

@@ -38,7 +38,7 @@ void AddBoxFlag(CLI::App& command, GlobalOptions& globals) {
 }
 
 void AddWorldFlags(CLI::App& command, GlobalOptions& globals) {
-  command.add_option("--labels", globals.labels, "label file: categories by name patterns (docs/importing.md)")
+  command.add_option("--labels", globals.labels, "label file: categories by name patterns (docs/guide/labels.md)")
       ->check(CLI::ExistingFile);
   AddBoxFlag(command, globals);
   command.add_option("--centre", globals.centre, "maps: only a square around LAT,LON in degrees, --radius metres to each side");

@@ -1,4 +1,4 @@
-// The label file that a user may put beside a model (docs/importing.md).
+// The label file that a user may put beside a model (docs/guide/labels.md).
 #pragma once
 
 #include <optional>

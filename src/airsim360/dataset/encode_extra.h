@@ -8,7 +8,7 @@
 
 namespace airsim360::internal {
 
-/// The file of "position", "albedo", "material", "part", "sky", "flow" or "coverage", encoded as docs/datasets.md
+/// The file of "position", "albedo", "material", "part", "sky", "flow" or "coverage", encoded as docs/reference/dataset_format.md
 /// says.
 Bytes EncodeExtra(const std::string& product, const Frame& frame, const Scene& scene);
 

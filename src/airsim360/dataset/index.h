@@ -1,5 +1,5 @@
 // index.sqlite: the journal of a collection while it runs and the queryable index of the finished dataset.
-// Tables: frames, files, segments, persons, entities, categories; view frame_categories (docs/datasets.md has the
+// Tables: frames, files, segments, persons, entities, categories; view frame_categories (docs/reference/dataset_format.md has the
 // columns).
 #pragma once
 

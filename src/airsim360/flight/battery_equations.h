@@ -1,4 +1,4 @@
-// The battery: voltage under load, the speed it allows the rotors, and its charge. docs/flight.md.
+// The battery: voltage under load, the speed it allows the rotors, and its charge. docs/internals/flight.md.
 #pragma once
 
 #include "airsim360/flight/drone_constants.h"

@@ -1,5 +1,5 @@
 // Motion of the rigid body and of the rotors over steps, one source for scalars and SIMD lanes.
-// docs/flight.md.
+// docs/internals/flight.md.
 //
 // Rotor speeds follow dw/dt = (target - w) / tau exactly, whatever the step. The body is integrated by
 // classical RK4 with the exact speeds at the start, middle and end; position, which nothing depends on within

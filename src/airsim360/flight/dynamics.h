@@ -1,5 +1,5 @@
 // One multirotor as a rigid body with spinning rotors, in double precision. Equations and sources:
-// docs/flight.md. The batched kernel (batch.h) is compiled from the same equations.
+// docs/internals/flight.md. The batched kernel (batch.h) is compiled from the same equations.
 #pragma once
 
 #include "airsim360/flight/drone_constants.h"

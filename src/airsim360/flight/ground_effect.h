@@ -1,4 +1,4 @@
-// The ground effect: thrust gained near a surface below. docs/flight.md.
+// The ground effect: thrust gained near a surface below. docs/internals/flight.md.
 #pragma once
 
 #include "airsim360/flight/body_equations.h"

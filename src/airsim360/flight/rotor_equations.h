@@ -1,4 +1,4 @@
-// Forces and torques of the rotors, one source for scalars and SIMD lanes. docs/flight.md has the equations.
+// Forces and torques of the rotors, one source for scalars and SIMD lanes. docs/internals/flight.md has the equations.
 //
 // A drive is what the rotors' speeds at one instant amount to; it then gives the wrench for any motion of the
 // body at that instant. UprightDrive is for the common layout (DroneConstants::upright), TiltedDrive for all.

@@ -7,7 +7,7 @@ namespace {
 /// Two problems with the same matrix side by side, x y z in the lanes: 0 the route itself, 1 the adjoint,
 /// whose loads are the derivatives of F by the states (at knots) and by the costates (within segments). All
 /// in the units of the segment at hand; the adjoint is T^(2 D + 1) times its true size. Derivation:
-/// docs/trajectories.md.
+/// docs/internals/trajectories.md.
 template <class Model>
 class AdjointSolver {
  public:

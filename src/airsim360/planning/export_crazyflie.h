@@ -1,5 +1,5 @@
 // Trajectories for the Crazyflie: poly4d rows (CSV of uav_trajectories) and the compressed form of its
-// firmware. Formats: docs/planning.md.
+// firmware. Formats: docs/guide/planning.md.
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,7 @@ struct PlanRecord {
 /// heading that changes adds the column `yaw` (radians).
 std::string TrajectorySamplesCsv(const PlanRecord& plan, double interval);
 
-/// The object that docs/contracts.md describes: order, times, coefficients[segment][axis][power], cost_snap,
+/// The object that docs/reference/contracts.md describes: order, times, coefficients[segment][axis][power], cost_snap,
 /// max_speed, max_acceleration, and more. `yaw` is a number (radians), or for a heading that changes
 /// yaw_coefficients[segment][power], an interpolation of degree 7.
 std::string TrajectoryJson(const PlanRecord& plan);

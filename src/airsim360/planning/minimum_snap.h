@@ -1,5 +1,5 @@
 // The smoothest path through waypoints at given times: unique minimum of the integral of squared snap (or
-// jerk), found in O(segments). Mathematics: docs/trajectories.md.
+// jerk), found in O(segments). Mathematics: docs/internals/trajectories.md.
 #pragma once
 
 #include <memory>

@@ -6,7 +6,7 @@
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
-/// Error grows with the fourth to fifth power of such ratios; see docs/trajectories.md.
+/// Error grows with the fourth to fifth power of such ratios; see docs/internals/trajectories.md.
 constexpr double kSingleRatio = 16, kDoubleRatio = kEvenRatio;
 
 AIRSIM360_INLINE bool UnevenHere(double a, double b, double c) {

@@ -1,6 +1,6 @@
 // The optimal spline as a fixed-interval smoother: one step of the forward pass and one of the backward pass,
 // for any arithmetic type V (double, a SIMD vector, a wider float). Included by kernels: types and
-// always_inline functions only. Derivation: docs/trajectories.md.
+// always_inline functions only. Derivation: docs/internals/trajectories.md.
 //
 // A path that minimises the integral of the squared derivative D + 1 is the most likely path of D + 1 times
 // integrated white noise. Its state at a waypoint is y = (T p', T^2 p'', T^3 p'''), in units of the duration

@@ -1,5 +1,5 @@
 // Calls whose subject does not exist here (an engine's console, materials, lights, film backs; cars): they
-// answer as AirSim does when it finds nothing to act on, and a notice goes to the log. docs/rpc.md lists
+// answer as AirSim does when it finds nothing to act on, and a notice goes to the log. docs/reference/airsim_functions.md lists
 // them.
 #include "airsim360/rpc/api.h"
 

@@ -1,4 +1,4 @@
-// What one client, and all of them together, can take of the server. docs/rpc.md has the same as a table.
+// What one client, and all of them together, can take of the server. docs/guide/airsim_server.md has the same as a table.
 #pragma once
 
 #include <cstddef>

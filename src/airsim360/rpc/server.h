@@ -27,7 +27,7 @@ struct ServerOptions {
 /// bodies, at the cost of a copy of its scene.
 BodiesOfScene ServedBodies(const ServerOptions& options);
 
-/// Serves from its construction to its end. See docs/rpc.md for what each function does.
+/// Serves from its construction to its end. See docs/reference/airsim_functions.md for what each function does.
 class AirSimServer {
  public:
   /// `stage` has no bodies, or those of ServedBodies(options). RuntimeError if the port cannot be had.

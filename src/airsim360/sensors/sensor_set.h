@@ -59,7 +59,7 @@ struct SensorSet {
   void Check(std::string_view where) const;
 };
 
-/// A sensor file; see docs/sensors.md. InputError naming file:line.
+/// A sensor file; see docs/reference/sensors.md. InputError naming file:line.
 SensorSet ReadSensorSet(const std::filesystem::path& file);
 
 /// States of the sensors that the step samples, in the order of the set. Ray sensors and cameras have none:

@@ -1,5 +1,5 @@
 // The simulation: a constant model, a copyable state and one function that advances it by one fixed step.
-// docs/simulation.md walks through the step.
+// docs/internals/one_step.md walks through the step.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ struct FollowRoute {
   int64_t start_ns = 0;
 };
 
-/// The last collision of a vehicle (docs/simulation.md, Events). Stays until the next one, or a reset.
+/// The last collision of a vehicle (docs/guide/flying.md, Events). Stays until the next one, or a reset.
 struct CollisionInfo {
   uint64_t count = 0;  ///< collisions so far; standing, taking off and setting down are none
   int64_t t_ns = 0;

@@ -20,7 +20,7 @@ struct WorldWind {
   void Visit(ConfigVisitor& v);
 };
 
-/// The wind of a file (docs/simulation.md); calm where `file` is empty. InputError naming file and line.
+/// The wind of a file (docs/guide/flying.md); calm where `file` is empty. InputError naming file and line.
 WorldWind ReadWindFile(const std::string& file);
 
 inline constexpr double kShelterTime = 1;                ///< seconds

@@ -42,7 +42,7 @@ TEST(Stage, IsTheWorldWithItsSeedAndWind) {
   EXPECT_EQ(model.wind.mean_W.y, 2);
   EXPECT_EQ(model.people, nullptr);
   EXPECT_EQ(stage.StartState(), nullptr);
-  // The room's inner faces are at x = ±5, y = ±5 (docs/contracts.md).
+  // The room's inner faces are at x = ±5, y = ±5 (docs/reference/contracts.md).
   EXPECT_NEAR(model.tracer->Intersect({0, 0, 3}, {0, 1, 0})->distance, 5, 1e-5);
 }
 

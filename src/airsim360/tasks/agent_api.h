@@ -1,4 +1,4 @@
-// The agent interface without its protocol: requests in, answers out. docs/agents.md and AgentOpenApi say
+// The agent interface without its protocol: requests in, answers out. docs/guide/agents.md and AgentOpenApi say
 // what there is.
 #pragma once
 

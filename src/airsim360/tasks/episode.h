@@ -1,5 +1,5 @@
 // One navigation episode: a drone, a task, limits, and what has come of it. The protocol-free heart of the
-// agent interface; docs/agents.md is its user's view.
+// agent interface; docs/guide/agents.md is its user's view.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,7 @@ struct Placement;
 
 namespace airsim360::internal {
 
-/// The analytic test world of docs/contracts.md: inner faces at x = ±5, y = ±5, z = 0, z = 6; a cube of edge
+/// The analytic test world of docs/reference/contracts.md: inner faces at x = ±5, y = ±5, z = 0, z = 6; a cube of edge
 /// 1 m centred at (3, 0, 0.5), without its bottom face, which would coincide with the floor. Seven entities,
 /// no sky.
 std::shared_ptr<const Scene> BuildBoxRoom(const WorldOptions& options);

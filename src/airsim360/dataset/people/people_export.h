@@ -25,7 +25,7 @@ inline constexpr PeopleFormatPath kPeopleFormatPaths[] = {
     {"nuscenes", "nuscenes/v1.0-airsim360/sample.json", "nuScenes' thirteen tables, in this folder"},
     {"monoloco", "monoloco.json", "MonoLoco's joints with their targets"}};
 
-/// keypoint_orders.json (always), then what spec.people_formats asks for. docs/people_labels.md says how
+/// keypoint_orders.json (always), then what spec.people_formats asks for. docs/guide/people_labels.md says how
 /// panoramas fit into formats made for pinhole cameras.
 std::vector<ExportedFile> ExportPeople(const std::string& people_jsonl, const DatasetSpec& spec);
 

@@ -21,7 +21,7 @@ struct LabelledPicture {
 };
 
 /// Rows of the persons of a picture, by entity id. Deterministic text: lengths to 0.01 mm, pixels to 1e-3,
-/// angles to 1e-6 rad. docs/people_labels.md names every field.
+/// angles to 1e-6 rad. docs/reference/people_format.md names every field.
 std::vector<PersonRow> PersonRows(const LabelledPicture& picture, std::span<const PersonLabel> labels);
 
 /// One line of people.jsonl: frame, camera and all persons of a picture.

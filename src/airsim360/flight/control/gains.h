@@ -1,5 +1,5 @@
 // Gains and limits of a drone's controllers, from its own inertia, rotor lag and thrust: no drone is tuned by
-// hand. docs/drones.md derives the law.
+// hand. docs/internals/autopilot.md derives the law.
 #pragma once
 
 #include "airsim360/flight/drone_model.h"

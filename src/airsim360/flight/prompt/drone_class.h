@@ -7,7 +7,7 @@
 
 namespace airsim360 {
 
-/// Figures of a kind. docs/drones.md says which drones they were read from.
+/// Figures of a kind. docs/internals/drone_laws.md says which drones they were read from.
 struct DroneClass {
   std::string_view name;
   double mass;          ///< kg, when nothing tells the size

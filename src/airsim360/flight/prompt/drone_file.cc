@@ -181,7 +181,7 @@ std::string DroneYaml(const DroneDesign& design) {
   Fields(copy).Visit(writer);
   return "# A drone of airsim360: SI units, body frame +X forward, +Y left, +Z up. What follows a # is the "
          "unit\n"
-         "# and the law that the figure came from (docs/drones.md).\n" +
+         "# and the law that the figure came from (docs/internals/drone_laws.md).\n" +
          writer.text();
 }
 

@@ -23,7 +23,7 @@ struct DroneFigures {
 DroneFigures FiguresOf(const DroneModel& model);
 
 /// Every bound that the model breaks, as "C_T 0.31 is not in 0.06 ... 0.22"; empty = plausible. Bounds:
-/// docs/drones.md.
+/// docs/internals/drone_laws.md.
 std::vector<std::string> GateProblems(const DroneModel& model);
 
 }  // namespace airsim360

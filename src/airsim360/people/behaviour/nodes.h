@@ -1,5 +1,5 @@
 // The nodes that behaviour trees are made of: a tested subset of those of BehaviorTree.CPP 4, and the leaves by
-// which people act. docs/people_behaviour.md has the table.
+// which people act. docs/guide/people_behaviour.md has the table.
 #pragma once
 
 #include <cstdint>

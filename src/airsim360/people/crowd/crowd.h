@@ -1,5 +1,5 @@
 // Many people at once: who they are (constant), where they are and what they do (copyable), and one step.
-// docs/people_behaviour.md describes trees, states, messages and the file that authors write.
+// docs/guide/people_behaviour.md describes trees, states, messages and the file that authors write.
 #pragma once
 
 #include <cstdint>

@@ -237,9 +237,9 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
   EXPECT_GT(Norm(crowd[0].p_WP - seat), 3);
 }
 
-// The example of docs/people_behaviour.md (tests run in the root of the sources), with trees in the file it names.
+// The example of docs/guide/people_behaviour.md (tests run in the root of the sources), with trees in the file it names.
 TEST_F(CrowdFiles, TheFileOfTheDocsWorks) {
-  std::ifstream docs("docs/people_behaviour.md");
+  std::ifstream docs("docs/guide/people_behaviour.md");
   if (!docs) GTEST_SKIP() << "not in the root of the sources";
   std::string line, yaml;
   while (std::getline(docs, line) && line != "### people.yaml") {

@@ -1,6 +1,6 @@
 // Tests 1, 2, 3, 4, 6, 7, 9, 12 and 15 of the RiMEA guideline (version 2.2.1 as used by Zhou et al. 2015), with fewer
 // people where the test allows. Geometry and limits of 1, 4, 6 and 12 are as read in the sources that
-// docs/people_behaviour.md names; those of 7, 9 and 15 are from memory (marked below). Test 4 is
+// docs/internals/people.md names; those of 7, 9 and 15 are from memory (marked below). Test 4 is
 // Steering.SpeedOverDensityIsWithin15PercentOfWeidmann.
 #include <gtest/gtest.h>
 

@@ -63,7 +63,7 @@ std::optional<std::string> WhyNot(int wanted) {
   }
   // A device file whose Vulkan driver is missing.
   if (!hardware && !gpus.empty())
-    why = "this machine has a GPU, but no Vulkan driver for it was found (VK_DRIVER_FILES names one elsewhere; docs/gpu.md)";
+    why = "this machine has a GPU, but no Vulkan driver for it was found (VK_DRIVER_FILES names one elsewhere; docs/guide/gpu.md)";
   return why;
 }
 

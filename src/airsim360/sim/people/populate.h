@@ -12,7 +12,7 @@ namespace airsim360 {
 
 struct PeopleRequest {
   std::optional<size_t> count = {};    ///< overrides the file
-  std::filesystem::path file = {};     ///< people.yaml of docs/people_behaviour.md; empty: the default crowd
+  std::filesystem::path file = {};     ///< people.yaml of docs/guide/people_behaviour.md; empty: the default crowd
   std::filesystem::path sockets = {};  ///< further keypoints (ReadSockets); empty: none
   size_t reserve = 0;                  ///< people who can be brought in later
   double warm_up = 15;                 ///< seconds that people live before the simulation begins

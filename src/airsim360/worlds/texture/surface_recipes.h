@@ -49,7 +49,7 @@ TextureRecipe MakeRecipe(Recipe recipe);
 /// Texels a side that the worlds use: 2 to 4 mm a texel for grounds and walls.
 int SizeOf(Recipe recipe);
 
-/// What scans of the material show (docs/worlds.md, "Materials"): the means that the recipe is brought to,
+/// What scans of the material show (docs/internals/materials.md, "Materials"): the means that the recipe is brought to,
 /// and the bands within which the recipe itself must come out before that. `deviation` is of the luminance,
 /// `spread` of roughness; the scans' own values where the table has them. Negative = not known.
 struct MaterialTarget {
