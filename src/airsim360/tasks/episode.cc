@@ -209,8 +209,8 @@ EpisodeScore Episode::Score() const {
   score.path_length = length_ + Norm(vehicle().motion.X_WB.p - last_p_W_);
   std::vector<Vec3d> reference = spec_.reference_path;
   if (reference.empty()) {
-    const double radius = model_->drones[0]->radius();
-    const ShortestWay& way = shortest_way_.Find(model_->tracer, start_W_, goal_W_, radius);
+    const double radius = loop_->model().drones[0]->radius();
+    const ShortestWay& way = shortest_way_.Find(loop_->model().tracer, start_W_, goal_W_, radius);
     reference = way.points;
     score.shortest_is_straight = !way.found;
   }
