@@ -2,9 +2,10 @@
 import csv
 import json
 import math
+import struct
 import unittest
 
-from program import ProgramTest, tree
+from program import ProgramTest, read_png, tree
 
 
 def clearance(p):
@@ -12,6 +13,16 @@ def clearance(p):
     x, y, z = p
     cube = math.hypot(max(abs(x - 3) - 0.5, 0), max(abs(y) - 0.5, 0), max(z - 1, 0))
     return min(5 - abs(x), 5 - abs(y), z, 6 - z, cube)
+
+
+def to_world(row, p):
+    """A point of a sensor whose pose is a row of its table."""
+    w, x, y, z = (row[key] for key in ("qw", "qx", "qy", "qz"))
+    turned = [
+        (1 - 2 * (y * y + z * z)) * p[0] + 2 * (x * y - w * z) * p[1] + 2 * (x * z + w * y) * p[2],
+        2 * (x * y + w * z) * p[0] + (1 - 2 * (x * x + z * z)) * p[1] + 2 * (y * z - w * x) * p[2],
+        2 * (x * z - w * y) * p[0] + 2 * (y * z + w * x) * p[1] + (1 - 2 * (x * x + y * y)) * p[2]]
+    return [turned[0] + row["px"], turned[1] + row["py"], turned[2] + row["pz"]]
 
 
 class FlyTest(ProgramTest):
@@ -35,6 +46,96 @@ class FlyTest(ProgramTest):
         with open(out / "sensors" / "imu.csv", newline="") as file:
             imu = list(csv.DictReader(file))
         self.assertAlmostEqual(len(imu), 200 * report["flight_s"], delta=2)
+
+    def table(self, file):
+        with open(file, newline="") as rows:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(rows)]
+
+    def test_every_sensor_of_a_set_is_written_at_its_rate(self):
+        sensors = self.folder / "sensors.yaml"
+        sensors.write_text("""
+imus: [{name: imu}, {name: tail, rate_hz: 80}]
+range_finders:
+  - {name: down, rate_hz: 20, beam_deg: 0, sigma: 0, sigma_per_metre: 0}
+  - {name: ahead, rate_hz: 10, beam_deg: 0, sigma: 0, sigma_per_metre: 0, mount: {x: 0.1, pitch_deg: 0}}
+lidars: [{name: top, rate_hz: 5, channels: 4, columns: 90, low_deg: -20, high_deg: 20, sigma: 0}]
+cameras:
+  - {name: pano, width: 64, height: 32, rate_hz: 3, tier: labels}
+  - {name: front, projection: pinhole, width: 32, height: 24, rate_hz: 1}
+""")
+        script = ["--script", "takeoff 2; velocity 0.5,0.3,0,2; hover 1; land"]
+        out, report = self.fly("run", *script, "--sensors", sensors)
+        seconds, folder = report["flight_s"], out / "sensors"
+        trajectory = {round(100 * row["t_s"]): row for row in self.table(out / "trajectory.csv")}
+        self.assertEqual({path.name for path in folder.iterdir()},
+                         {"imu.csv", "imu_tail.csv", "gnss.csv", "barometer.csv", "magnetometer.csv", "range_finder.csv",
+                          "range_finder_ahead.csv", "lidar.csv", "lidar", "camera.csv", "camera", "camera_front.csv", "camera_front"})
+        for name, rate in [("imu", 200), ("imu_tail", 80), ("barometer", 50), ("range_finder", 20), ("range_finder_ahead", 10),
+                           ("lidar", 5), ("camera", 3), ("camera_front", 1)]:
+            rows = self.table(folder / f"{name}.csv")
+            self.assertEqual(len(rows), math.floor(rate * seconds + 1e-6), name)
+            # At the end of the step (1 ms) in which each is due.
+            for k, row in enumerate(rows, 1):
+                self.assertAlmostEqual(row["t_s"], math.ceil(1000 * k / rate - 1e-6) / 1000, places=9)
+        first, second = self.table(folder / "imu.csv"), self.table(folder / "imu_tail.csv")
+        self.assertNotEqual(first[4]["wx"], second[1]["wx"])  # at 25 ms, each with noise of its own
+
+        # Straight down to the floor; ahead along the body to the wall at x = 5 (the cube is lower).
+        checked = 0
+        for row in self.table(folder / "range_finder.csv"):
+            body = trajectory[round(100 * row["t_s"])]
+            if body["pz"] < 0.3:
+                continue
+            self.assertAlmostEqual(row["range"], body["pz"] / (1 - 2 * (body["qx"] ** 2 + body["qy"] ** 2)), delta=1e-4)
+            self.assertEqual((row["valid"], row["entity"]), (1, 1))
+            checked += 1
+        self.assertGreater(checked, 60)
+        for row in self.table(folder / "range_finder_ahead.csv"):
+            body = trajectory[round(100 * row["t_s"])]
+            w, x, y, z = (body[key] for key in ("qw", "qx", "qy", "qz"))
+            if body["pz"] > 1.8:
+                self.assertAlmostEqual(row["range"], (5 - body["px"]) / (1 - 2 * (y * y + z * z)) - 0.1, delta=1e-4)
+
+        # Every point of every scan lies on a face of the room or the cube.
+        scans = self.table(folder / "lidar.csv")
+        self.assertEqual(len(list((folder / "lidar").iterdir())), len(scans))
+        for row in scans:
+            head, body = (folder / "lidar" / f"{int(row['scan']):06d}.ply").read_bytes().split(b"end_header\n", 1)
+            points = list(struct.iter_unpack("<6fHII", body))
+            self.assertEqual(len(points), row["points"])
+            self.assertIn(f"element vertex {len(points)}\n".encode(), head)
+            if row["pz"] > 1:
+                self.assertEqual(len(points), 360)  # the room is closed
+            for point in points:
+                self.assertAlmostEqual(math.hypot(*point[:3]), point[3], delta=1e-4)
+                self.assertAlmostEqual(clearance(to_world(row, point[:3])), 0, delta=1e-3)
+                self.assertIn(point[7], range(1, 8))
+
+        # Pictures: categories where the tier has no colours.
+        pictures = self.table(folder / "camera.csv")
+        self.assertEqual(len(list((folder / "camera").iterdir())), len(pictures))
+        width, height, channels, size, rows = read_png(folder / "camera" / "000000.png")
+        self.assertEqual((width, height, channels, size), (64, 32, 1, 2))
+        self.assertEqual(read_png(folder / "camera_front" / "000001.png")[:4], (32, 24, 3, 1))
+        body = trajectory[round(100 * pictures[2]["t_s"])]
+        self.assertLess(math.dist([body[key] for key in ("px", "py", "pz")], [pictures[2][key] for key in ("px", "py", "pz")]), 0.02)
+
+        # The flight is the one without them, and the same again.
+        plain, _ = self.fly("plain", *script)
+        self.assertEqual((plain / "trajectory.csv").read_bytes(), (out / "trajectory.csv").read_bytes())
+        self.assertEqual({path.name for path in (plain / "sensors").iterdir()},
+                         {"imu.csv", "gnss.csv", "barometer.csv", "magnetometer.csv"})
+        again, _ = self.fly("again", *script, "--sensors", sensors, "--threads", "1")
+        self.assertEqual(tree(again), tree(out))
+
+    def test_sensors_that_cannot_be_written_are_named(self):
+        sensors = self.folder / "sensors.yaml"
+        fly = ("fly", "--world", "box_room", "--out", self.folder / "none", "--sensors", sensors)
+        sensors.write_text("imus: [{name: a}, {name: b/c}]\n")
+        self.run_bad(2, *fly, says=["--sensors", "imus", "b/c"])
+        sensors.write_text("lidars: [{name: top, rate_hz: 1000}]\n")
+        self.run_bad(2, *fly, "--script", "hover 2000", says=["--sensors", "'top'", "rate_hz 1000", "nearest rate_hz is 495"])
+        self.assertFalse((self.folder / "none").exists())
 
     def test_same_seed_same_files_also_with_one_thread(self):
         first, report = self.fly("a", "--script", "takeoff 2; goto 2,1,3; land", "--seed", "3", "--record")

@@ -52,6 +52,14 @@ std::shared_ptr<const PolynomialTrajectory> PlanWaypoints(const FlyArguments& ar
   return std::make_shared<const PolynomialTrajectory>(AllocateTimes(points, limits, {.split = true}).trajectory);
 }
 
+// The standard set without its panorama, which --frames and --video stand for: cameras are those that a file
+// names.
+SensorSet ReadSensors(const std::string& file) {
+  SensorSet sensors = SensorSet::Standard();
+  sensors.cameras.clear();
+  return file.empty() ? sensors : ReadSensorSet(file, sensors);
+}
+
 std::vector<FlyTask> TasksOf(const FlyArguments& arguments,
                              const std::shared_ptr<const PolynomialTrajectory>& trajectory) {
   if (!trajectory)
@@ -153,9 +161,6 @@ std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& g
 void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
   const fs::path out = arguments.out;
   WriteFileAtomically(out / "trajectory.csv", TrajectoryCsv(result.flight));
-  CreateWritableFolder(out / "sensors");
-  for (size_t i = 0; i < std::size(kSensorCsvNames); ++i)
-    WriteFileAtomically(out / "sensors" / (std::string(kSensorCsvNames[i]) + ".csv"), result.sensor_csv[i]);
   if (result.recording) WriteRecording(out / "run.a360", *result.recording);
 }
 
@@ -211,10 +216,13 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
     throw InputError("fly: give --waypoints or --script, not both");
   DroneSetup setup{.name = "drone", .model = FindDrone(arguments.drone)};
   setup.autopilot.controller = ParseControllerKind(arguments.controller);
-  if (!arguments.sensors.empty()) setup.sensors = ReadSensorSet(arguments.sensors);
+  setup.sensors = ReadSensors(arguments.sensors);
   const auto trajectory = arguments.waypoints.empty() ? nullptr : PlanWaypoints(arguments);
   FlyJob job;
   job.tasks = TasksOf(arguments, trajectory);
+  double longest = 0;
+  for (const FlyTask& task : job.tasks) longest += task.seconds;
+  CheckSensorLog(setup.sensors, longest);
   CheckVideoFlags(arguments, globals);
   ParseTierArgument(arguments.tier);
   StageOptions options =
@@ -239,7 +247,10 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   CheckFolder(arguments.out, description, "flight", kFlightName);
   const FolderLock lock(arguments.out);
   WriteFileAtomically(fs::path(arguments.out) / kFlightName, description);
+  SensorLog sensors(job.model, stage, fs::path(arguments.out) / "sensors");
+  job.sensors = &sensors;
   FlyResult result = RunFlight(job);
+  sensors.WriteTables();
   WriteFiles(arguments, result);
   WriteFrames(arguments, globals, stage, result);
   const std::optional<VideoResult> video = WriteVideo(arguments, globals, stage, result);
@@ -288,7 +299,8 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(0.01, 100.0));
   command->add_option("--amax", arguments->amax, "m/s^2 of --waypoints (default 4)")
       ->check(CLI::Range(0.01, 100.0));
-  command->add_option("--sensors", arguments->sensors, "sensor file (docs/reference/sensors.md)");
+  command->add_option("--sensors", arguments->sensors,
+                      "sensor file (docs/reference/sensors.md): all that it names is written to sensors/");
   AddWindFlag(*command, arguments->wind);
   command
       ->add_option("--speed", arguments->speed,

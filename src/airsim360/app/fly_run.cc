@@ -10,18 +10,9 @@ namespace airsim360 {
 namespace {
 
 constexpr int64_t kRecordPeriodNs = 10'000'000;
-constexpr float kClearanceRange = 50;  // metres: farther is not told
+constexpr int64_t kLookPeriodNs = 5'000'000;  // how often a task may end; divides the period above
+constexpr float kClearanceRange = 50;         // metres: farther is not told
 
-void AddRow(std::string& csv, std::initializer_list<double> values) {
-  for (const double value : values) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%s%.12g", csv.empty() || csv.back() == '\n' ? "" : ",", value);
-    csv += number;
-  }
-  csv += '\n';
-}
-
-int64_t PeriodNs(double rate_hz) { return std::llround(1e9 / rate_hz); }
 double Seconds(int64_t t_ns) { return static_cast<double>(t_ns) * 1e-9; }
 
 /// Flies one task after the other and notes what happens.
@@ -29,14 +20,6 @@ class Pilot {
  public:
   Pilot(const FlyJob& job, FlyResult& result)
       : job_(job), result_(result), loop_(job.model), pacer_(loop_, job.speed) {
-    result_.sensor_csv[0] = "t_s,wx,wy,wz,fx,fy,fz\n";
-    result_.sensor_csv[1] = "t_s,measured_s,latitude_deg,longitude_deg,altitude,vx,vy,vz,fix\n";
-    result_.sensor_csv[2] = "t_s,pressure,altitude,temperature\n";
-    result_.sensor_csv[3] = "t_s,bx,by,bz\n";
-    const SensorSet& sensors = job.model->drones[0]->setup().sensors;
-    for (const auto& imu : sensors.imus) slice_ns_ = std::min(slice_ns_, PeriodNs(imu.spec.rate_hz));
-    for (const auto& gnss : sensors.gnss) slice_ns_ = std::min(slice_ns_, PeriodNs(gnss.spec.rate_hz));
-    slice_ns_ = std::max(slice_ns_ - slice_ns_ % job.model->dt_ns, job.model->dt_ns);
     if (!job.record_note.empty()) loop_.StartRecording(job.record_note);
     Note(*loop_.Snapshot());
     NotePicture();
@@ -66,7 +49,7 @@ class Pilot {
     const int64_t end_ns = loop_.t_ns() + static_cast<int64_t>(task.seconds * 1e9);
     bool done = false;
     while (!done && loop_.t_ns() < end_ns) {
-      Advance(std::min(end_ns, loop_.t_ns() + slice_ns_));
+      Advance(std::min(end_ns, (loop_.t_ns() / kLookPeriodNs + 1) * kLookPeriodNs));
       const auto state = loop_.Snapshot();
       Note(*state);
       Compare(task, *state);
@@ -80,10 +63,17 @@ class Pilot {
     }
   }
 
-  // Runs on, and takes the pictures on the way: they change nothing.
+  // Runs on, and stops on the way wherever a picture is due or a sensor has a new reading: looking changes
+  // nothing.
   void Advance(int64_t to_ns) {
-    for (; job_.video_fps > 0 && PictureNs() <= to_ns; NotePicture()) pacer_.Run(PictureNs());
-    pacer_.Run(to_ns);
+    while (loop_.t_ns() < to_ns) {
+      int64_t next_ns = to_ns;
+      if (job_.video_fps > 0) next_ns = std::min(next_ns, PictureNs());
+      if (job_.sensors != nullptr) next_ns = std::min(next_ns, job_.sensors->NextDue(loop_.t_ns()));
+      pacer_.Run(next_ns);
+      if (job_.video_fps > 0 && PictureNs() <= loop_.t_ns()) NotePicture();
+      if (job_.sensors != nullptr) job_.sensors->Note(*loop_.Snapshot());
+    }
   }
   // When the next picture is due, a whole number of steps.
   int64_t PictureNs() const {
@@ -98,7 +88,6 @@ class Pilot {
 
   void Note(const SimState& state) {
     const Vehicle& drone = state.vehicles[0];
-    NoteSensors(drone.sensors);
     if (state.t_ns % kRecordPeriodNs != 0) return;
     result_.flight.trajectory.push_back({state.t_ns, drone.motion, drone.a_WB});
     if (job_.frames > 0) people_.push_back(state.people);
@@ -106,28 +95,6 @@ class Pilot {
     const float clearance =
         job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
     result_.least_clearance = std::min<double>(result_.least_clearance.value_or(kClearanceRange), clearance);
-  }
-
-  void NoteSensors(const SensorStates& sensors) {
-    const auto is_new = [](int64_t t_ns, int64_t& last_ns) { return std::exchange(last_ns, t_ns) != t_ns; };
-    if (!sensors.imus.empty() && is_new(sensors.imus[0].last.t_ns, last_ns_[0])) {
-      const auto& [t, w, f] = sensors.imus[0].last;
-      AddRow(result_.sensor_csv[0], {Seconds(t), w.x, w.y, w.z, f.x, f.y, f.z});
-    }
-    if (!sensors.gnss.empty() && is_new(sensors.gnss[0].last.t_ns, last_ns_[1])) {
-      const GnssReading& r = sensors.gnss[0].last;
-      AddRow(result_.sensor_csv[1],
-             {Seconds(r.t_ns), Seconds(r.measured_ns), r.place.latitude_deg, r.place.longitude_deg,
-              r.place.altitude, r.v_WS.x, r.v_WS.y, r.v_WS.z, r.has_fix ? 1.0 : 0.0});
-    }
-    if (!sensors.barometers.empty() && is_new(sensors.barometers[0].last.t_ns, last_ns_[2])) {
-      const BarometerReading& r = sensors.barometers[0].last;
-      AddRow(result_.sensor_csv[2], {Seconds(r.t_ns), r.pressure, r.altitude, r.temperature});
-    }
-    if (!sensors.magnetometers.empty() && is_new(sensors.magnetometers[0].last.t_ns, last_ns_[3])) {
-      const MagnetometerReading& r = sensors.magnetometers[0].last;
-      AddRow(result_.sensor_csv[3], {Seconds(r.t_ns), r.field.x, r.field.y, r.field.z});
-    }
   }
 
   // Distance to where a trajectory wants the drone now.
@@ -147,8 +114,6 @@ class Pilot {
   std::vector<std::shared_ptr<const PeopleState>> people_;
   SimLoop loop_;
   RealTimePacer pacer_;
-  int64_t slice_ns_ = kRecordPeriodNs;  // the loop is looked at so often that no sample of a sensor is missed
-  int64_t last_ns_[4] = {};
   double squares_ = 0, largest_ = 0;
   int64_t errors_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "airsim360/app/fly_script.h"
+#include "airsim360/app/sensor_log.h"
 #include "airsim360/sim/fly_route.h"
 #include "airsim360/sim/pacer.h"
 
@@ -19,13 +20,13 @@ struct FlyJob {
   int64_t frames = 0;                           ///< pictures, spread evenly over the flight once it is known
   double video_fps = 0;                         ///< of the shots for a video, from the start on; 0 = none
   std::string record_note;                      ///< not empty: the run is recorded
+  SensorLog* sensors = nullptr;                 ///< told of every state with a new reading; null: none
   std::function<void(const std::string&)> log;  ///< told of tasks and events
 };
 
 struct FlyResult {
-  Flight flight;              ///< trajectory at 100 Hz; shots at the times of the frames
-  std::vector<Shot> video;    ///< at FlyJob::video_fps, each at the nearest step
-  std::string sensor_csv[4];  ///< imu, gnss, barometer, magnetometer: all samples of the first of each
+  Flight flight;            ///< trajectory at 100 Hz; shots at the times of the frames
+  std::vector<Shot> video;  ///< at FlyJob::video_fps, each at the nearest step
   std::vector<SimEvent> events;
   /// Metres from the drone to the nearest surface, between take-off and landing (IsEnRoute) and at most 50; none
   /// if it was never there.
@@ -38,9 +39,8 @@ struct FlyResult {
   std::optional<Recording> recording;
 };
 
-inline constexpr const char* kSensorCsvNames[4] = {"imu", "gnss", "barometer", "magnetometer"};
-
-/// Runs all tasks. RuntimeError never; what goes wrong in the air is told by events.
+/// Runs all tasks; how they fly does not depend on the sensors. RuntimeError only where `sensors` cannot
+/// write: what goes wrong in the air is told by events.
 FlyResult RunFlight(const FlyJob& job);
 
 /// "t 12.340 s: collision with 'wall east' at 2.13 m/s".

@@ -132,7 +132,8 @@ Environment EnvironmentWords::Over(Environment base) const {
   Environment environment = weather_.empty() ? std::move(base) : ParseEnvironmentPreset(weather_, base);
   // Date and place give the sun, unless its angles follow.
   if (!date_.empty())
-    SetSunByTime(date_ + "T" + time_, std::to_string(latitude_) + "," + std::to_string(longitude_), environment);
+    SetSunByTime(date_ + "T" + time_, std::to_string(latitude_) + "," + std::to_string(longitude_),
+                 environment);
   for (size_t i = 0; i < numbers_.size(); ++i) {
     if (!std::isnan(numbers_[i])) environment.*EnvironmentFields()[i].value = numbers_[i];
   }

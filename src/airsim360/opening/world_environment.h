@@ -20,11 +20,12 @@ std::shared_ptr<const SkyPicture> LoadSkyPicture(const std::filesystem::path& fi
 /// none. InputError naming the text.
 void SetSunByTime(std::string_view time, std::string_view place, Environment& environment);
 
-/// The `environment:` of a world file. Presets keep some values of the world's own environment, which is known only
-/// once the world is read: so a file's words are kept, and laid over it then.
+/// The `environment:` of a world file. Presets keep some values of the world's own environment, which is
+/// known only once the world is read: so a file's words are kept, and laid over it then.
 class EnvironmentWords {
  public:
-  /// Names the fields; `folder` is where relative paths start. InputError for what could not be laid over anything.
+  /// Names the fields; `folder` is where relative paths start. InputError for what could not be laid over
+  /// anything.
   void Visit(ConfigVisitor& v, const std::filesystem::path& folder);
   /// `base` with what the file says: `weather` before the other fields, date and place before sun angles.
   Environment Over(Environment base) const;

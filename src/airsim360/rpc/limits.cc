@@ -40,9 +40,10 @@ void CheckVelocity(std::string_view name, Vec3d velocity, std::string_view unit)
   if (size <= kFastestState) return;
   const Vec3d nearest = velocity * (kFastestState / size);
   char text[320];
-  std::snprintf(text, sizeof text, "%.40s: (%g, %g, %g) is %g %.10s, more than %g; the nearest is (%g, %g, %g)",
-                std::string(name).c_str(), velocity.x, velocity.y, velocity.z, size, std::string(unit).c_str(),
-                kFastestState, nearest.x, nearest.y, nearest.z);
+  std::snprintf(text, sizeof text,
+                "%.40s: (%g, %g, %g) is %g %.10s, more than %g; the nearest is (%g, %g, %g)",
+                std::string(name).c_str(), velocity.x, velocity.y, velocity.z, size,
+                std::string(unit).c_str(), kFastestState, nearest.x, nearest.y, nearest.z);
   throw std::invalid_argument(text);
 }
 

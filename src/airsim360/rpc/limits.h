@@ -23,7 +23,8 @@ void CheckPlaceOnEarth(double latitude, double longitude);
 
 /// Fastest state of a vehicle that may be set, m/s and rad/s.
 inline constexpr double kFastestState = 1000;
-/// std::invalid_argument naming the velocity, its size, the limit and the nearest velocity of the same direction.
+/// std::invalid_argument naming the velocity, its size, the limit and the nearest velocity of the same
+/// direction.
 void CheckVelocity(std::string_view name, Vec3d velocity, std::string_view unit);
 
 }  // namespace airsim360

@@ -82,8 +82,8 @@ void VisitEnvironment(Archive& archive, T& e) {
   VisitPicture(archive, e);
 }
 
-// In order of path, so that adding them again gives them the ids that they have (SemanticTree::SettleIds) and an
-// ancestor comes first: Add would make it of the kind of its child.
+// In order of path, so that adding them again gives them the ids that they have (SemanticTree::SettleIds) and
+// an ancestor comes first: Add would make it of the kind of its child.
 std::vector<const Category*> CustomCategories(const SemanticTree& tree) {
   std::vector<const Category*> custom;
   for (const auto& [id, category] : tree.categories())
@@ -99,7 +99,8 @@ std::vector<const Category*> CustomCategories(const SemanticTree& tree) {
 
 // The built-in categories are in the program; custom ones come back by being added again.
 void VisitTree(ArchiveWriter& archive, const SemanticTree& tree) {
-  archive.Each(CustomCategories(tree), [&](const Category* category) { archive(category->path, category->thing); });
+  archive.Each(CustomCategories(tree),
+               [&](const Category* category) { archive(category->path, category->thing); });
 }
 
 void VisitTree(ArchiveReader& archive, SemanticTree& tree) {

@@ -46,7 +46,8 @@ TEST(Semantics, ThousandsOfCustomCategoriesHaveIdsOfTheirOwn) {
   EXPECT_GE(*ids.begin(), kFirstCustomId);
 }
 
-// Before, of two paths with one hash the first to be added had it: the same world in another order, other ids.
+// Before, of two paths with one hash the first to be added had it: the same world in another order, other
+// ids.
 TEST(Semantics, IdsOfABuiltSceneFollowFromItsSetOfPathsAlone) {
   std::vector<std::string> paths;
   RngStream random(11, "paths");
@@ -63,7 +64,8 @@ TEST(Semantics, IdsOfABuiltSceneFollowFromItsSetOfPathsAlone) {
   const auto scene = build();
   std::reverse(paths.begin(), paths.end());
   const auto reversed = build();
-  for (size_t i = paths.size(); i > 1; --i) std::swap(paths[i - 1], paths[random.Index(static_cast<uint32_t>(i))]);
+  for (size_t i = paths.size(); i > 1; --i)
+    std::swap(paths[i - 1], paths[random.Index(static_cast<uint32_t>(i))]);
   const auto shuffled = build();
 
   ASSERT_GT(scene->tree.categories().size(), 9000u);  // with their ancestors

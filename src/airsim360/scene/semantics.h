@@ -40,8 +40,8 @@ class SemanticTree {
   /// id where an earlier path has that one. External ids are those of the nearest ancestor that has one.
   /// InputError if ids run out; for paths not of [a-z0-9_]/…, at most 8 parts, 200 characters.
   CategoryId Add(std::string_view path, bool thing = true);
-  /// Gives custom categories the ids that they have if added in order of path: they follow from the set of paths
-  /// then, not from who came first. Returns the new ids of those that changed, by the old ones.
+  /// Gives custom categories the ids that they have if added in order of path: they follow from the set of
+  /// paths then, not from who came first. Returns the new ids of those that changed, by the old ones.
   std::map<CategoryId, CategoryId> SettleIds();
   /// All categories, by id.
   const std::map<CategoryId, Category>& categories() const { return categories_; }

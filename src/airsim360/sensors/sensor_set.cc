@@ -127,8 +127,7 @@ void SensorSet::Check(std::string_view where) const {
   }
 }
 
-SensorSet ReadSensorSet(const std::filesystem::path& file) {
-  SensorSet set = SensorSet::Standard();
+SensorSet ReadSensorSet(const std::filesystem::path& file, SensorSet set) {
   ReadYamlFile(file, [&](ConfigVisitor& v) { set.Visit(v); });
   set.Check(file.string());
   return set;

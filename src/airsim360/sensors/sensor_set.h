@@ -59,8 +59,9 @@ struct SensorSet {
   void Check(std::string_view where) const;
 };
 
-/// A sensor file; see docs/reference/sensors.md. InputError naming file:line.
-SensorSet ReadSensorSet(const std::filesystem::path& file);
+/// A sensor file, over a set that has what it does not name; see docs/reference/sensors.md. InputError naming
+/// file:line.
+SensorSet ReadSensorSet(const std::filesystem::path& file, SensorSet base = SensorSet::Standard());
 
 /// States of the sensors that the step samples, in the order of the set. Ray sensors and cameras have none:
 /// they are functions of a snapshot.

@@ -14,8 +14,8 @@ constexpr double kMaxNodes = 2e6;        // of the lattice: 16 bytes each
 constexpr size_t kMaxExpanded = 100'000;  // nodes looked at from either side
 // Looks at ten times fewer nodes than 1 does in towns; pulled tight, the ways are as short.
 constexpr double kHeuristic = 1.1;
-constexpr double kMinRadius = 0.05;      // metres: what has less room counts as inside a thing
-constexpr double kFit = 0.95;            // of the room at start and goal, so that rounding does not block them
+constexpr double kMinRadius = 0.05;  // metres: what has less room counts as inside a thing
+constexpr double kFit = 0.95;  // of the room at start and goal, so that rounding does not block them
 
 // Where the way may lead: all of a closed room; in the open, where flights are, and around both ends.
 Box3d SpaceOf(const RayTracer& tracer, Vec3d start, Vec3d goal) {

@@ -85,7 +85,8 @@ TEST(ShortestWay, ANarrowPlaceToStartFromIsNoObstacle) {
   EXPECT_TRUE(FindShortestWay(tracer, {-3, -3, 0.15}, {3, -3, 1.5}, 0.4).found);
 }
 
-// Before, the straight line through the wall was the shortest way: 6 m, and half the SPL for a perfect flight.
+// Before, the straight line through the wall was the shortest way: 6 m, and half the SPL for a perfect
+// flight.
 TEST(Episode, AFlightThroughTheOnlyDoorIsScoredByTheWayThatThereIs) {
   const auto world = World(3);
   EpisodeSpec spec;

@@ -33,8 +33,8 @@ NavPoint NearestAtAll(const NavMesh& mesh, Vec3d p) {
   return nearest;
 }
 
-/// All that can be wrong with a command, told without a change. Gives back the place on the mesh that the command
-/// names, if it names one.
+/// All that can be wrong with a command, told without a change. Gives back the place on the mesh that the
+/// command names, if it names one.
 class PersonCheck {
  public:
   PersonCheck(const CrowdModel& model, const CrowdState& state, PersonIndex person)
@@ -117,7 +117,11 @@ class PersonCheck {
 class Commander {
  public:
   Commander(CrowdTick& tick, PersonIndex person, const NavPoint& point)
-      : tick_(tick), i_(person), point_(point), agent_(tick.in.agents[person]), walker_(tick.in.walkers[person]) {}
+      : tick_(tick),
+        i_(person),
+        point_(point),
+        agent_(tick.in.agents[person]),
+        walker_(tick.in.walkers[person]) {}
 
   void operator()(const SpawnPerson& spawn) {
     Place(spawn.yaw);
@@ -173,9 +177,11 @@ class Commander {
   Walker& walker_;
 };
 
-NavPoint Checked(const CrowdModel& model, const CrowdState& state, PersonIndex person, const PersonAction& action) {
+NavPoint Checked(const CrowdModel& model, const CrowdState& state, PersonIndex person,
+                 const PersonAction& action) {
   if (person >= model.people.size())
-    throw InputError("no person " + std::to_string(person) + ": there are " + std::to_string(model.people.size()));
+    throw InputError("no person " + std::to_string(person) + ": there are " +
+                     std::to_string(model.people.size()));
   return std::visit(PersonCheck(model, state, person), action);
 }
 

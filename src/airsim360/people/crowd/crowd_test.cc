@@ -317,7 +317,8 @@ TEST(Crowd, PeopleWaitAtTheKerbUntilTheirLightIsGreen) {
   }
 }
 
-// A command that cannot be done must not be half done: before, somebody sent off the mesh had stopped walking.
+// A command that cannot be done must not be half done: before, somebody sent off the mesh had stopped
+// walking.
 TEST(Crowd, ARefusedCommandChangesNothingAndACheckNamesTheSameError) {
   TestCrowd crowd(Park(), ReserveOf(3));
   crowd.Do(0, SpawnPerson{{5, 5, 0}, 1});
@@ -332,11 +333,18 @@ TEST(Crowd, ARefusedCommandChangesNothingAndACheckNamesTheSameError) {
     }
     return "none";
   };
-  const std::pair<PersonIndex, PersonAction> wrong[] = {
-      {0, SpawnPerson{{5, 9, 0}, 0}},      {2, MovePerson{{5, 9, 0}, 0}}, {0, MovePerson{{300, 5, 0}, 0}},
-      {0, MovePerson{crowd[1].p_WP, 0}},   {2, RemovePerson{}},           {0, SendPerson{{300, 5, 0}, 0}},
-      {0, SendPerson{{5, 9, 0}, 7}},       {0, SetPersonState{"dancing", 3}}, {0, SetPersonState{"waving", -1}},
-      {0, MessagePerson{"gossip"}},        {2, ReleasePerson{}},          {9, ReleasePerson{}}};
+  const std::pair<PersonIndex, PersonAction> wrong[] = {{0, SpawnPerson{{5, 9, 0}, 0}},
+                                                        {2, MovePerson{{5, 9, 0}, 0}},
+                                                        {0, MovePerson{{300, 5, 0}, 0}},
+                                                        {0, MovePerson{crowd[1].p_WP, 0}},
+                                                        {2, RemovePerson{}},
+                                                        {0, SendPerson{{300, 5, 0}, 0}},
+                                                        {0, SendPerson{{5, 9, 0}, 7}},
+                                                        {0, SetPersonState{"dancing", 3}},
+                                                        {0, SetPersonState{"waving", -1}},
+                                                        {0, MessagePerson{"gossip"}},
+                                                        {2, ReleasePerson{}},
+                                                        {9, ReleasePerson{}}};
   for (const auto& [person, action] : wrong) {
     const uint64_t before = HashCrowd(crowd.state);
     const std::string said = error_of([&] { CheckPersonCommand(*crowd.model, crowd.state, person, action); });
