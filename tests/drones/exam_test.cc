@@ -1,5 +1,5 @@
-// Ordinary descriptions, written by people who did not see the lexicon, must be built with every said figure within
-// 2 %, or refused. AIRSIM360_PROMPT_EXAM names another file of the same form.
+// Ordinary descriptions, written by people who did not see the lexicon, must be built with every said figure
+// within 2 %, or refused. AIRSIM360_PROMPT_EXAM names another file of the same form.
 #include "exam.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace airsim360 {
 namespace {
 
-constexpr const char* kFiles[] = {"exam_newcomers.json", "exam_newcomers_2.json", "exam_newcomers_3.json",
-                                  "exam_newcomers_4.json", "exam_own.json"};
+constexpr const char* kFiles[] = {"exam_newcomers.json",   "exam_newcomers_2.json", "exam_newcomers_3.json",
+                                  "exam_newcomers_4.json", "exam_newcomers_5.json", "exam_own.json"};
 constexpr size_t kFlightEvery = 9;
 
 std::string InData(const std::string& file) { return AIRSIM360_SOURCE_DIR "/data/drones/" + file; }

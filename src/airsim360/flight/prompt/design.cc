@@ -224,8 +224,8 @@ void Designer::ChooseArms() {
 }
 
 void Designer::ChoosePropeller() {
-  out_.blades = static_cast<int>(said_.blades.value_or(kind_.blades));
-  out_.pitch = said_.pitch.value_or(kind_.pitch_ratio * D_);
+  out_.blades = static_cast<int>(said_.blades.value_or(std::max(kind_.blades, give_.blades)));
+  out_.pitch = said_.pitch.value_or(std::max(kind_.pitch_ratio, give_.pitch) * D_);
   const double b = out_.pitch / D_;
   if (b < 0.15 || b > 1.3) {
     Refuse(Text("a pitch of %.0f mm contradicts a diameter of %.0f mm", out_.pitch * 1000, D_ * 1000) +
@@ -255,10 +255,17 @@ namespace {
 /// The figure of that name, else nullptr.
 std::optional<double>* FieldOf(DroneRequest& request, const std::string& field) {
   const std::pair<const char*, std::optional<double>*> fields[] = {
-      {"thrust_to_weight", &request.thrust_to_weight}, {"speed", &request.speed},
-      {"hover_time", &request.hover_time}, {"flight_time", &request.flight_time}, {"pitch", &request.pitch},
-      {"energy_wh", &request.energy_wh}, {"cells", &request.cells}, {"capacity_ah", &request.capacity_ah},
-      {"arm", &request.arm}, {"propeller", &request.propeller}, {"payload", &request.payload},
+      {"thrust_to_weight", &request.thrust_to_weight},
+      {"speed", &request.speed},
+      {"hover_time", &request.hover_time},
+      {"flight_time", &request.flight_time},
+      {"pitch", &request.pitch},
+      {"energy_wh", &request.energy_wh},
+      {"cells", &request.cells},
+      {"capacity_ah", &request.capacity_ah},
+      {"arm", &request.arm},
+      {"propeller", &request.propeller},
+      {"payload", &request.payload},
       {"mass", &request.mass}};
   for (const auto& [name, value] : fields) {
     if (field == name) return value;
@@ -279,9 +286,10 @@ namespace {
 
 DroneDesign DesignWithFacts(const DroneRequest& request) {
   // Facts give way in this order, the most derived ones first.
-  static constexpr const char* kOrder[] = {"thrust_to_weight", "speed", "hover_time", "flight_time", "pitch",
-                                           "capacity_ah", "energy_wh", "cells", "arm", "propeller", "payload",
-                                           "layout", "mass"};
+  static constexpr const char* kOrder[] = {
+      "thrust_to_weight", "speed",     "hover_time", "flight_time", "pitch",
+      "capacity_ah",      "energy_wh", "cells",      "arm",         "propeller",
+      "payload",          "layout",    "mass"};
   DroneRequest said = request;
   for (const char* field : kOrder) {
     if (said.facts.empty()) break;

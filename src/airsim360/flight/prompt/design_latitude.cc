@@ -24,6 +24,18 @@ bool Designer::GiveRatio(double least) {
   return true;
 }
 
+/// The said thrust turns the tips too fast: more blades, then more pitch give more of it.
+bool Designer::GiveBlades() {
+  if (!said_.blades && out_.blades < 3) {
+    give_.blades = 3;
+  } else if (!said_.pitch && out_.pitch < 0.8 * D_) {
+    give_.pitch = 0.8;
+  } else {
+    return false;
+  }
+  return true;
+}
+
 /// Too little mass is left for the body.
 bool Designer::GiveMass() {
   const bool timed = HoverTimeAsked() > 0 && EnergySaid() <= 0 && !said_.battery_mass;
@@ -59,6 +71,9 @@ void Designer::TellLatitude() {
     Decide(Text("motors and speed controllers have an efficiency of %.2f instead of 0.75", give_.efficiency));
   if (give_.merit < 1) Decide(Text("the propellers take %.0f %% less torque than usual", 100 * (1 - give_.merit)));
   if (give_.motors < 1) Decide(Text("the motors weigh %.2f of what is usual", give_.motors));
+  if (give_.blades > 2 || give_.pitch > 0)
+    Decide(Text("propellers of %d blades and %.2f diameters of pitch, for the thrust", out_.blades,
+                out_.pitch / D_));
   if (give_.arms < 1) Decide(Text("the arms weigh %.2f of what is usual", give_.arms));
   if (speed_held_) Decide("the said top speed is held by its lean: its thrust would carry it faster");
   if (!said_.mass) Decide(Text("the mass was not said: %.4g kg, ", m_) + out_.laws["mass"]);

@@ -51,6 +51,10 @@ void Designer::ChooseThrust() {
   const double tip = said_.thrust_to_weight ? kFastestTipAsked : kFastestTip;
   const double most = std::pow(2 * tip / D_, 2) * k_f_ * n_ / (m_ * kGravity);
   if (ratio_ > most) {
+    if (said_.thrust_to_weight && GiveBlades()) {
+      ChoosePropeller();
+      return ChooseThrust();
+    }
     if (said_.thrust_to_weight || most < kLeastRatio) {
       Refuse(Text("%d propellers of %.0f mm at Mach %.2f of their tips give %.2f times the weight of %.3g kg",
                   n_, D_ * 1000, tip / 340.3, most, m_) +
@@ -58,10 +62,11 @@ void Designer::ChooseThrust() {
     }
     SetThrust(most, "as much as tips at Mach 0.65 give");
   }
-  // Five rotors hover with thrusts up to 1.36 times their mean, seven with 1.17.
-  const double unequal = n_ == 5 ? 1.36 : n_ == 7 ? 1.17 : 1;
+  // Five rotors hover with thrusts up to 1.25 times their mean, seven with 1.19.
+  const double unequal = n_ == 5 ? 1.25 : n_ == 7 ? 1.19 : 1;
   if (unequal > 1 && ratio_ < 1.1 * unequal) {
-    Refuse(Text("%d rotors whose torques cancel need a thrust to weight of %.2f, not %.2f", n_, 1.1 * unequal, ratio_));
+    Refuse(Text("%d rotors whose torques cancel need a thrust to weight of %.2f, not %.2f", n_, 1.1 * unequal,
+                ratio_));
   }
   most_ratio_ = std::min({most, 14.0, give_.ratio});
   drag_ = 1;

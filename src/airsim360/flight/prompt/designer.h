@@ -22,6 +22,8 @@ struct Latitude {
   double motors = 1;             ///< motor mass / that of the law and the kind
   double arms = 1;               ///< arm mass / that of the kind
   double body = 0.06;            ///< least share of the mass for plate, wiring, electronics
+  int blades = 2;                ///< of the propellers, at least
+  double pitch = 0;              ///< of the propellers / diameter, at least
 };
 
 class Designer {
@@ -86,6 +88,7 @@ class Designer {
   bool GiveMass();
   bool GiveEnergy();
   bool GiveRatio(double least);
+  bool GiveBlades();
   void TellLatitude();
 
   const DroneRequest& said_;

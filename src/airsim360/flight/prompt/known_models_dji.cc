@@ -40,7 +40,7 @@ constexpr KnownModel kModels[] = {
      kSheet},
     {"dji mini 4 pro|mini 4 pro|dji mini 4|mini 4|mini 4k|dji mini 4k", "DJI Mini 4 Pro", "camera", 4, X, 0.249, 247, 6,
      3, 2, 2.59, 18.96, 34, 30, 16, kSheet},
-    {"dji spark", "DJI Spark", "camera", 4, X, 0.3, 170, 4.7, 3, 3, 1.48, 16.87, 16, 15, 13.9, kSheet},
+    {"spark|dji spark", "DJI Spark", "camera", 4, X, 0.3, 170, 4.7, 3, 3, 1.48, 16.87, 16, 15, 13.9, kSheet},
     {"dji neo", "DJI Neo", "camera", 4, X, 0.135, 0, 0, 0, 2, 1.435, 10.5, 18, 17, 16, kSheet},
     {"dji flip", "DJI Flip", "camera", 4, X, 0.249, 0, 0, 0, 2, 0, 22.3, 31, 28, 12, kSheet},
     {"dji phantom 2|phantom 2|phantom 2 vision|dji phantom 2 vision", "DJI Phantom 2", "camera", 4, X, 1.0, 350, 9.4, 5,

@@ -29,13 +29,13 @@ enum class WordKind {
   kPercent,
   kOtherUnit,  ///< of what is no figure of a drone: "megapixels", "dollars"
   // What is described.
-  kDrone,      ///< "drone", "copter"
-  kClass,      ///< meaning: name of a DroneClass
-  kSize,       ///< meaning
-  kRotors,     ///< "hexacopter": value
-  kLayout,     ///< meaning: x, plus, h, wide, coaxial
-  kCoaxial,    ///< "X8", "Y6": value rotors in coaxial pairs
-  kGuards,     ///< ducts, cages
+  kDrone,    ///< "drone", "copter"
+  kClass,    ///< meaning: name of a DroneClass
+  kSize,     ///< meaning
+  kRotors,   ///< "hexacopter": value
+  kLayout,   ///< meaning: x, plus, h, wide, coaxial
+  kCoaxial,  ///< "X8", "Y6": value rotors in coaxial pairs
+  kGuards,   ///< ducts, cages
   kBrushless,
   kLithiumIon,
   // Nouns that claim the number beside them.
@@ -62,7 +62,7 @@ enum class WordKind {
   kThrustRatio,
   kThrust,  ///< "thrust", "pull"
   kThing,   ///< has lengths of its own, which are none of the drone's: "doorway", "GSD"
-  kElse,  ///< its number is none of the drone's: "sensor", "altitude", "limit"
+  kElse,    ///< its number is none of the drone's: "sensor", "altitude", "limit"
   // Comparing.
   kAtMost,   ///< "under": what follows is not reached
   kFactor,   ///< "twice": value

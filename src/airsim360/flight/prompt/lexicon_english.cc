@@ -7,17 +7,24 @@ using enum WordKind;
 
 constexpr Word kWords[] = {
     {kFiller, 0, "",
-     "a|an|the|of|that|is|its|it|about|around|roughly|approximately|approx|ca|circa|some|has|have|which|can|i|we|me|"
-     "this|these|will|would|should|be|my|our|your|to be|say|total of|as|in total|one that|nominal|rated|up to|"
-     "upto|at least|maximum|max|minimum|least|most|at most|no more than|not more than|no less than|more than|over|"
-     "only|just|each|per|so|or so|ish|please|give me|build|design|make|want|need|there|are|in all|equal to|by|"
+     "a|an|the|of|that|is|its|it|about|around|roughly|approximately|approx|ca|circa|some|has|have|which|can|"
+     "i|we|me|"
+     "this|these|will|would|should|be|my|our|your|to be|say|total of|as|in total|one that|nominal|rated|up "
+     "to|"
+     "upto|at least|maximum|max|minimum|least|most|at most|no more than|not more than|no less than|more "
+     "than|over|"
+     "only|just|each|per|so|or so|ish|please|give me|build|design|make|want|need|there|are|in all|equal "
+     "to|by|"
      "do|does|doing|capable of|able to|using|made|type|style|kind|ratio|electric|together|than|"
      "fly|flies|flys|flying|new|nice|like|similar to|something|someone|kindly|also|very|really|must|not|"
-     "could|might|may|shall|looking|look|get|get me|got|other|another|one of those|both|own|basic|i d|i m|it s|"
-     "along|plus or minus|overall|they|them|he|she|his|her|if possible|preferably|preferred|ideally|hoping|say that|altogether|all together|apiece|"
+     "could|might|may|shall|looking|look|get|get me|got|other|another|one of those|both|own|basic|i d|i m|it "
+     "s|"
+     "along|plus or minus|overall|they|them|he|she|his|her|if "
+     "possible|preferably|preferred|ideally|hoping|say that|altogether|all together|apiece|"
      "tetherless|tether less|untethered|between"},
-    {kBreak, 0, "", "with|whose|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
-                    "through|if|because|having|featuring|including|incl|that has|which has|running|run|runs"},
+    {kBreak, 0, "",
+     "with|whose|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
+     "through|if|because|having|featuring|including|incl|that has|which has|running|run|runs"},
     {kTo, 0, "", "to|or|until|through to|bis|jusqu|至|到|hasta"},
     {kNumber, 0, "", "zero"},
     {kNumber, 1, "", "one"},
@@ -50,7 +57,8 @@ constexpr Word kWords[] = {
     {kMultiplier, 100, "", "hundred"},
     {kMultiplier, 1000, "", "thousand"},
     {kHalf, 0.5, "", "half|half a|half an|a half|half of a|one half"},
-    {kHalf, 0.25, "", "quarter|a quarter of a|a quarter of an|quarter of a|quarter of an|a quarter|quarter of"},
+    {kHalf, 0.25, "",
+     "quarter|a quarter of a|a quarter of an|quarter of a|quarter of an|a quarter|quarter of"},
     {kHalf, 0.75, "", "three quarters of a|three quarters of an|three quarter"},
     // Units.
     {kMassUnit, 1e-3, "", "g|gr|gram|grams|gramme|grammes|gm|gms"},
@@ -66,14 +74,17 @@ constexpr Word kWords[] = {
     {kLengthUnit, 1e-3, "", "mm|millimetre|millimetres|millimeter|millimeters|mil"},
     {kLengthUnit, 1e-2, "", "cm|cms|centimetre|centimetres|centimeter|centimeters"},
     {kLengthUnit, 1, "", "m|metre|metres|meter|meters"},
-    {kDistanceUnit, 1000, "", "km|kms|kilometre|kilometres|kilometer|kilometers|mile|miles|nautical miles|nm"},
+    {kDistanceUnit, 1000, "",
+     "km|kms|kilometre|kilometres|kilometer|kilometers|mile|miles|nautical miles|nm"},
     {kTimeUnit, 60, "", "min|mins|minute|minutes|minuets"},
     {kTimeUnit, 3600, "", "h|hr|hrs|hour|hours"},
     {kTimeUnit, 1, "", "sec|secs|second|seconds"},
-    {kSpeedUnit, 1, "", "m s|mps|metres per second|meters per second|metre per second|meter per second|metres a "
-                        "second|meters a second|m sec|ms 1"},
-    {kSpeedUnit, 1 / 3.6, "", "km h|kmh|kph|kmph|km hr|kilometres per hour|kilometers per hour|kilometres an "
-                              "hour|kilometers an hour|km per hour|kms per hour|klicks"},
+    {kSpeedUnit, 1, "",
+     "m s|mps|metres per second|meters per second|metre per second|meter per second|metres a "
+     "second|meters a second|m sec|ms 1"},
+    {kSpeedUnit, 1 / 3.6, "",
+     "km h|kmh|kph|kmph|km hr|kilometres per hour|kilometers per hour|kilometres an "
+     "hour|kilometers an hour|km per hour|kms per hour|klicks"},
     {kSpeedUnit, 0.44704, "", "mph|miles per hour|miles an hour|mi h"},
     {kSpeedUnit, 1852.0 / 3600, "", "knot|knots|kt|kts|kn"},
     {kSpeedUnit, 0.3048, "", "ft s|fps|feet per second"},
@@ -90,9 +101,12 @@ constexpr Word kWords[] = {
     {kCells, 0, "", "s|cell|cells"},
     {kPercent, 0.01, "", "%|percent|per cent"},
     {kOtherUnit, 0, "",
-     "mp|megapixel|megapixels|k|p|fps video|hz|khz|mhz|ghz|w|kw|watt|watts|a|amp|amps|n|newton|newtons|c|degree|"
-     "degrees|deg|usd|dollar|dollars|euro|euros|eur|bucks|gbp|axis|axes|people|persons|years|year|days|day|week|weeks|month|months|week|weeks|month|months|times a "
-     "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x zoom|gb|tb|ms|rpm|bit"},
+     "mp|megapixel|megapixels|k|p|fps "
+     "video|hz|khz|mhz|ghz|w|kw|watt|watts|a|amp|amps|n|newton|newtons|c|degree|"
+     "degrees|deg|usd|dollar|dollars|euro|euros|eur|bucks|gbp|axis|axes|people|persons|years|year|days|day|"
+     "week|weeks|month|months|week|weeks|month|months|times a "
+     "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x "
+     "zoom|gb|tb|ms|rpm|bit"},
     // Comparing.
     {kAtMost, 0, "", "under|below|less than|sub|lighter than|smaller than|fewer than|<|shorter than"},
     {kFactor, 2, "", "twice|double|doubled|two times|twofold|doubling"},
@@ -111,8 +125,11 @@ constexpr Word kWords[] = {
     {kLonger, -1, "", "shorter"},
     {kFaster, 1, "", "faster|quicker"},
     {kFaster, -1, "", "slower"},
-    {kCorrection, 0, "", "rather|actually|ok|okay|i mean|make that|no wait|correction|or better|scratch that|er|well|call it|make it|sorry|"
-                           "nope|let s say|lets say|i meant|change that to|or rather|no sorry|oops|wait|strike that|hmm|hang on|nah|no no"},
+    {kCorrection, 0, "",
+     "rather|actually|ok|okay|i mean|make that|no wait|correction|or better|scratch that|er|well|call "
+     "it|make it|sorry|"
+     "nope|let s say|lets say|i meant|change that to|or rather|no sorry|oops|wait|strike that|hmm|hang "
+     "on|nah|no no"},
     {kNegation, 0, "", "not a|not an|no|never|isn t a|instead of a|instead of|rather than a|unlike a"},
 };
 

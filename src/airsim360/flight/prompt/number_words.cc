@@ -140,7 +140,8 @@ class Joiner {
     const size_t link = unit_between ? i + 1 : i;
     // "between 15 and 20 minutes"
     const bool between = Before().text == "between" && AtText(link, "and");
-    if (!(between || in_[link].kind == Token::Kind::kDash || in_[link].Is(WordKind::kTo)) || link + 1 >= in_.size())
+    if (!(between || in_[link].kind == Token::Kind::kDash || in_[link].Is(WordKind::kTo)) ||
+        link + 1 >= in_.size())
       return false;
     double high = 0;
     std::string high_text;

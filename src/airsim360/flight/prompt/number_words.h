@@ -15,8 +15,8 @@ size_t ReadNumber(std::string_view text, double& value);
 /// "5x4.3x3" or "10x4.5" at the start, of a propeller's size.
 bool ReadPropellerCode(std::string_view text, double (&code)[3], size_t& length);
 
-/// How many characters at the start are the sides of a box ("60x40x30 cm", "3 m x 3 m", "30.5x30.5mm"), which is no
-/// figure of a drone; 0: none.
+/// How many characters at the start are the sides of a box ("60x40x30 cm", "3 m x 3 m", "30.5x30.5mm"), which
+/// is no figure of a drone; 0: none.
 size_t BoxLength(std::string_view text);
 
 /// "9450", "1045", "51466" as diameter and pitch in inches; false where the figures are no propeller's.

@@ -25,6 +25,7 @@ Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
   for (const Token& token : tokens_) {
     const bool layout = token.Is(WordKind::kLayout) && token.word->meaning == "coaxial";
     coaxial_said_ |= layout || token.Is(WordKind::kCoaxial);
+    liquid_said_ |= token.Is(WordKind::kVolumeUnit);
     rotor_words_ += token.Is(WordKind::kRotors) || token.Is(WordKind::kCoaxial);
   }
 }
@@ -58,6 +59,7 @@ DroneRequest Reader::Run() {
 }
 
 void Reader::ReadToken(size_t i) {
+  spanning_ = nullptr;
   if (tokens_[i].kind == Token::Kind::kPropellerCode && Is(i + 1, WordKind::kMassUnit)) {  // "2x1.5 kg"
     tokens_[i].kind = Token::Kind::kNumber;
     tokens_[i].value = tokens_[i].code[0] * tokens_[i].code[1];
@@ -168,6 +170,7 @@ void Reader::SetLayout(const std::string& meaning, const std::string& text) {
 }
 
 void Reader::Finish() {
+  spanning_ = nullptr;
   FinishRotors();
   FinishLengths();
   FinishMasses();
@@ -186,16 +189,20 @@ void Reader::FinishMasses() {
   const FieldRange mass{"mass", 0.01, 400, "kg"}, payload{"payload", 0.0005, 1000, "kg"};
   // "... and a 4S 5 Ah battery weighing 2 kg": no battery of that charge is so heavy, the drone is.
   const double energy = request_.energy_wh.value_or(request_.capacity_ah.value_or(0) * 3.7 * request_.cells.value_or(0));
-  if (request_.battery_mass && !request_.mass && energy > 0 && energy < 60 * *request_.battery_mass) {
+  const bool above_model = model_ && energy <= 0 && request_.battery_mass.value_or(0) > 0.7 * model_->mass;
+  if (request_.battery_mass && !request_.mass &&
+      (above_model || (energy > 0 && energy < 60 * *request_.battery_mass))) {
     const std::string words = request_.words["battery_mass"];
     Decide("'" + words + "' is too much for that battery and is read as the mass of the drone");
     Set(mass, request_.mass, *request_.battery_mass, words);
     request_.battery_mass.reset();
     request_.words.erase("battery_mass");
   }
+  FinishLoadedMass();
   std::stable_partition(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return !loose.part; });
   for (const Loose& loose : loose_masses_) {
     const Quantity& q = loose.quantity;
+    spanning_ = &tokens_[q.first];
     const bool bound = q.unit && IsAtMost(q);
     const double value = bound ? 0.996 * q.value : q.value;
     if (bound && request_.mass && *request_.mass <= q.value * 1.005) continue;
@@ -213,6 +220,7 @@ void Reader::FinishMasses() {
       Set(mass, request_.mass, value, q.words);
     }
   }
+  spanning_ = nullptr;
   if (liquid_ && !request_.payload) {
     Decide("'" + liquid_words_ + "' of liquid weigh " + Kilograms(*liquid_) + ", as water");
     Set(payload, request_.payload, *liquid_, liquid_words_);
@@ -230,6 +238,8 @@ void Reader::FinishMasses() {
     return;
   }
   const double whole = *request_.empty_mass + request_.payload.value_or(0);
+  // "12.5 kg dry, 10 l, 24.5 kg at take-off": the rest is of what was not said.
+  if (request_.mass && *request_.mass >= whole) return;
   Set(mass, request_.mass, whole, request_.payload ? words + " and " + request_.words["payload"] : words);
 }
 

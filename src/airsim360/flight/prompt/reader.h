@@ -99,6 +99,8 @@ class Reader {
   void SetMassOf(size_t noun, const Quantity& q);
   size_t WeighedThing(const Quantity& q, size_t noun) const;
   bool IsOfLoad(const Quantity& q) const;
+  bool IsLoaded(const Quantity& q) const;
+  void FinishLoadedMass();
   size_t WholeBefore(const Quantity& q) const;
   bool IsWhole(size_t noun) const;
   void SumUpMass(const Quantity& q);
@@ -114,6 +116,7 @@ class Reader {
   void ReadSpeed(const Quantity& q);
   void ReadVolume(const Quantity& q);
   void ReadVoltage(const Quantity& q);
+  double PacksInSeries(size_t i) const;
   void ReadDays(const Quantity& q);
   void Dispatch(const Quantity& q);
   void Extend(Quantity& q);
@@ -141,15 +144,17 @@ class Reader {
     Quantity quantity;
     bool thing = false;  ///< "a 300 g sandwich"
     bool part = false;   ///< "a 300 g frame"
+    bool loaded = false;  ///< "3 kg with camera"
   };
   std::vector<Loose> loose_masses_;
   std::vector<Quantity> loose_lengths_;  ///< that may be of something else
   const Token* spanning_ = nullptr;      ///< the number that is being read
   /// A number of rotors that no drone here has, and its words.
   std::optional<std::pair<double, std::string>> bad_rotors_;
-  bool whole_said_ = false;    ///< the mass is that of take-off
-  size_t rotor_words_ = 0;     ///< "quad", "Y6"
+  bool whole_said_ = false;  ///< the mass is that of take-off
+  size_t rotor_words_ = 0;   ///< "quad", "Y6"
   bool coaxial_said_ = false;
+  bool liquid_said_ = false;   ///< litres of something
   struct Thrust {
     double kilograms = 0;
     bool each = false, whole = false;  ///< of one motor, of all together; neither: not said

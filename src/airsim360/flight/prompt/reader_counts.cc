@@ -23,7 +23,8 @@ void Reader::ReadRotorsWord(size_t i) {
     return;
   used_[i] = true;
   // "A quad-arm octo", but no "quadrotor arm length"
-  if (next_is({"arm", "arms"}) && !(next + 1 < tokens_.size() && tokens_[next + 1].kind == Token::Kind::kNumber)) {
+  if (next_is({"arm", "arms"}) &&
+      !(next + 1 < tokens_.size() && tokens_[next + 1].kind == Token::Kind::kNumber)) {
     SetArms(word.value, text + " " + tokens_[next].text);
     return Use(next);
   }
@@ -65,7 +66,8 @@ bool Reader::IsSpare(size_t i, size_t noun) const {
     if (tokens_[k].text == "spare" || tokens_[k].text == "bag" || tokens_[k].text == "extra") return true;
   }
   for (size_t k = i + 1; k < last && (k < noun || tokens_[k].kind != Token::Kind::kComma); ++k) {
-    for (const char* word : {"spare", "spares", "extra", "replacement", "additional", "backup", "broken", "bent"}) {
+    for (const char* word :
+         {"spare", "spares", "extra", "replacement", "additional", "backup", "broken", "bent"}) {
       if (tokens_[k].text == word) return true;
     }
   }
@@ -95,7 +97,8 @@ void Reader::ReadRotorCount(size_t i, size_t noun) {
   }
   // "One motor has a bent bell" counts nothing where the number of rotors is said otherwise.
   const bool known = request_.rotors || model_ || rotor_words_ > 0 || arm_count_;
-  if (value < 3 && known) return;
+  const bool chipped = noun + 1 < tokens_.size() && tokens_[noun + 1].kind == Token::Kind::kUnknown;
+  if (value < 3 && (known || (chipped && !Is(noun, WordKind::kRotorNoun)))) return;
   used_[i] = true;
   if (value == 3 && request_.layout == RotorLayout::kCoaxial) return;
   // "4 or 6 rotors"
@@ -114,7 +117,8 @@ bool Reader::ReadCount(size_t i) {
   const bool whole = token.value == std::floor(token.value);
   const bool none = token.value < 1 || (i + 1 < tokens_.size() && Is(i + 1, WordKind::kRotorNoun) &&
                                         (!whole || token.value > 40));
-  if (none && (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) &&
+  if (none &&
+      (Is(i + 1, WordKind::kRotorNoun) || Is(i + 1, WordKind::kPropeller) || Is(i + 1, WordKind::kMotor)) &&
       token.value < 1000)
     SetRotors(token.value, token.text + " " + tokens_[i + 1].text);
   if (!whole || token.value > 40 || token.value < 1) return false;
@@ -153,9 +157,10 @@ bool Reader::ReadCount(size_t i) {
 void Reader::RefuseRotors() const {
   const auto& [value, words] = *bad_rotors_;
   if (value == 3) {
-    throw InputError("'" + words +
-                     "': three fixed rotors cannot hold a heading, for their torques do not cancel; say 4 to 8, "
-                     "or Y6 for three arms with two rotors each");
+    throw InputError(
+        "'" + words +
+        "': three fixed rotors cannot hold a heading, for their torques do not cancel; say 4 to 8, "
+        "or Y6 for three arms with two rotors each");
   }
   throw InputError("'" + words + "': a drone here has 4 to 8 rotors" +
                    (value > 8 ? ", and the dynamics hold no more than 8" : ""));

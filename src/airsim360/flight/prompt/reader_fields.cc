@@ -46,14 +46,16 @@ void Reader::Set(const FieldRange& range, Field& field, double value, const std:
   field = value;
   request_.words[range.name] = words;
   if (spanning_ != nullptr && spanning_->high > 0)
-    request_.ranges[range.name] = {value * spanning_->low / spanning_->value, value * spanning_->high / spanning_->value};
+    request_.ranges[range.name] = {value * spanning_->low / spanning_->value,
+                                   value * spanning_->high / spanning_->value};
 }
 
 void Reader::CorrectWith(const char* name, Field& field, size_t i) {
   bool near = true;
   for (size_t k = i; k-- > 0 && i - k < 10;) {
     near &= i - k < 5;
-    // "a bicopter - scratch that, the supervisor wants a quad": such words reach further, up to the next figure.
+    // "a bicopter - scratch that, the supervisor wants a quad": such words reach further, up to the next
+    // figure.
     if (!near && tokens_[k].kind == Token::Kind::kNumber) break;
     if (!near && !(Is(k, WordKind::kCorrection) && tokens_[k].text.size() > 6)) continue;
     // "22 inch? no, 18 inch"
@@ -121,7 +123,8 @@ size_t Reader::LabelInParentheses(size_t open) const {
     if (tokens_[i].text == ")") return found;
     if (tokens_[i].kind == Token::Kind::kNumber || tokens_[i].kind == Token::Kind::kComma) return kNone;
     const bool label = Is(i, WordKind::kBare) || Is(i, WordKind::kEmpty) || Is(i, WordKind::kMass) ||
-                       Is(i, WordKind::kWheelbase) || Is(i, WordKind::kHover) || Is(i, WordKind::kPropeller) ||
+                       Is(i, WordKind::kWheelbase) || Is(i, WordKind::kHover) ||
+                       Is(i, WordKind::kPropeller) ||
                        (Is(i, WordKind::kPayload) && tokens_[i].text.starts_with("payload"));
     if (label && found == kNone && !claimed_[i]) found = i;
   }
@@ -130,8 +133,8 @@ size_t Reader::LabelInParentheses(size_t open) const {
 
 size_t Reader::NounAfter(const Quantity& q) const {
   size_t found = kNone;
-  if (const size_t label = LabelInParentheses(q.last + 1); label != kNone && q.unit &&
-      CanHave(WordAt(label)->kind, q.unit->kind))
+  if (const size_t label = LabelInParentheses(q.last + 1);
+      label != kNone && q.unit && CanHave(WordAt(label)->kind, q.unit->kind))
     return label;
   for (size_t i = q.last + 1; i < tokens_.size() && i <= q.last + kPhrase; ++i) {
     if (tokens_[i].text == "(" && i == q.last + 1) {  // "5 lb (2.27 kg) payload"
@@ -161,14 +164,16 @@ size_t Reader::NounAfter(const Quantity& q) const {
     // "4 kg payload 1 kg": the noun is of the number after it, which has no other.
     size_t own = i + 1;
     while (own < tokens_.size() && SaysLittle(own)) ++own;
-    if (own + 1 < tokens_.size() && tokens_[own].kind == Token::Kind::kNumber && q.unit && Is(own + 1, q.unit->kind) &&
-        (own + 2 >= tokens_.size() || EndsPhrase(own + 2)))
+    if (own + 1 < tokens_.size() && tokens_[own].kind == Token::Kind::kNumber && q.unit &&
+        Is(own + 1, q.unit->kind) &&
+        (own + 2 >= tokens_.size() || EndsPhrase(own + 2) || tokens_[own + 2].kind == Token::Kind::kNumber))
       break;
     found = i;
     // These say for certain; of other nouns the last is the head: "249 g camera drone".
     const Word* word = WordAt(i);
-    if (word && (word->kind == WordKind::kMass || word->kind == WordKind::kPayload ||
-                 word->kind == WordKind::kEmpty || word->kind == WordKind::kElse || word->kind == WordKind::kBare))
+    if (word &&
+        (word->kind == WordKind::kMass || word->kind == WordKind::kPayload ||
+         word->kind == WordKind::kEmpty || word->kind == WordKind::kElse || word->kind == WordKind::kBare))
       break;
   }
   return found;
@@ -216,12 +221,14 @@ size_t Reader::Apposed(const Quantity& q) const {
   return kNone;
 }
 
-/// The number of a volume before the parenthesis that `q` opens: "1 litre of lake water (call it 1 kg)"; else kNone.
+/// The number of a volume before the parenthesis that `q` opens: "1 litre of lake water (call it 1 kg)"; else
+/// kNone.
 size_t Reader::VolumeBefore(const Quantity& q) const {
   size_t open = q.first;
   while (open-- > 0 && (SaysLittle(open) || Is(open, WordKind::kCorrection))) {
   }
-  if (open == kNone || tokens_[open].text != "(" || q.unit->kind != WordKind::kMassUnit || NounAfter(q) != kNone)
+  if (open == kNone || tokens_[open].text != "(" || q.unit->kind != WordKind::kMassUnit ||
+      NounAfter(q) != kNone)
     return kNone;
   for (size_t k = open; k-- > 1 && open - k < 6 && tokens_[k].kind != Token::Kind::kComma;) {
     if (Is(k, WordKind::kVolumeUnit)) return k - 1;

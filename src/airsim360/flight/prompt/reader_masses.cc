@@ -1,12 +1,12 @@
 // Whose mass a number with a unit of mass is.
-#include "airsim360/flight/prompt/reader.h"
-
 #include <algorithm>
+
+#include "airsim360/flight/prompt/reader.h"
 
 namespace airsim360::internal {
 
-/// A thing whose own mass is said in a way of its own: "a RED Komodo at 1.8 kg", "Sony A7 + gimbal, 2 kg", "carries
-/// my doll, she weighs 30 g".
+/// A thing whose own mass is said in a way of its own: "a RED Komodo at 1.8 kg", "Sony A7 + gimbal, 2 kg",
+/// "carries my doll, she weighs 30 g".
 size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
   size_t before = q.first;
   while (before-- > 0 && SaysLittle(before)) {
@@ -15,13 +15,15 @@ size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
   if (noun == kNone && tokens_[before].text == "at" && Is(before - 1, WordKind::kLoad)) return before - 1;
   if (noun == kNone && tokens_[before].text == ",") {
     size_t loads = 0;
-    for (size_t k = before; k-- > 0 && tokens_[k].kind != Token::Kind::kComma;) loads += Is(k, WordKind::kLoad);
+    for (size_t k = before; k-- > 0 && tokens_[k].kind != Token::Kind::kComma;)
+      loads += Is(k, WordKind::kLoad);
     const double known = known_load_.value_or(0);
     if (loads > 1 && Is(before - 1, WordKind::kLoad) && q.value > 0.8 * known && q.value < 5 * known)
       return before - 1;
   }
   const std::string& who = tokens_[before - 1].text;
-  if (noun != before || !Is(before, WordKind::kMass) || (who != "he" && who != "she" && who != "they")) return kNone;
+  if (noun != before || !Is(before, WordKind::kMass) || (who != "he" && who != "she" && who != "they"))
+    return kNone;
   for (size_t k = before; k-- > 0;) {
     if (Is(k, WordKind::kPayload) && !claimed_[k]) return k;
   }
@@ -31,25 +33,27 @@ size_t Reader::WeighedThing(const Quantity& q, size_t noun) const {
 /// "AUW", "total": words that say the mass of the whole drone, whatever stands before them.
 bool Reader::IsWhole(size_t noun) const {
   const std::string& text = tokens_[noun].text;
-  for (const char* part : {"total", "all", "auw", "tow", "mto", "take", "gross", "fly", "flight", "launch", "loaded",
-                           "rtf", "abflug", "start", "decoll", "despeg", "gesamt"}) {
+  for (const char* part : {"total", "all", "auw", "tow", "mto", "take", "gross", "fly", "flight", "launch",
+                           "loaded", "rtf", "abflug", "start", "decoll", "despeg", "gesamt"}) {
     if (text.find(part) != std::string::npos) return true;
   }
   return false;
 }
 
-/// "AUW with GoPro 265 g", "take-off weight incl. camera and battery: 1.9 kg": the mass before what it includes.
+/// "AUW with GoPro 265 g", "take-off weight incl. camera and battery: 1.9 kg": the mass before what it
+/// includes.
 size_t Reader::WholeBefore(const Quantity& q) const {
   bool includes = false;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos)
       return includes && !claimed_[k] ? k : kNone;
-    includes = Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
+    includes =
+        Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
     const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) ||
                        Is(k, WordKind::kMass) || tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
-                       includes || text == "and" || text == "+" || text == "/" || text == "(" || text == ")" ||
-                       (text == "." && k > 0 && tokens_[k - 1].text == "incl");
+                       includes || text == "and" || text == "+" || text == "/" || text == "(" ||
+                       text == ")" || (text == "." && k > 0 && tokens_[k - 1].text == "incl");
     if (!thing) return kNone;
   }
   return kNone;
@@ -72,8 +76,9 @@ size_t Reader::NounOfMass(const Quantity& q) const {
     size_t owner = noun;
     while (owner-- > 0 && SaysLittle(owner)) {
     }
-    if (owner != kNone && (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
-                           (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
+    if (owner != kNone &&
+        (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
+         (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
         !claimed_[owner] && !(owner + 1 < tokens_.size() && EndsPhrase(owner + 1))) {
       noun = owner;
       owned = true;
@@ -85,7 +90,7 @@ size_t Reader::NounOfMass(const Quantity& q) const {
   if (const size_t apposed = Apposed(q); apposed != kNone && !says_empty) {
     noun = apposed;
   } else if ((!owned && !is_label(noun)) || says_empty ||
-      (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
+             (kind_of(noun) == WordKind::kPayload && after != kNone && kind_of(after) == WordKind::kMass))
     noun = after != kNone ? after : NounBefore(q, false);
   // "lifting two bags of 3 kg": the verb governs all of its clause.
   for (size_t i = q.first; noun == kNone && i-- > 0 && !EndsPhrase(i) && q.first - i <= 7;) {
@@ -93,6 +98,10 @@ size_t Reader::NounOfMass(const Quantity& q) const {
     if (Is(i, WordKind::kPayload) && !claimed_[i]) noun = i;
   }
   if (const size_t owner = WeighedThing(q, noun); owner != kNone) noun = owner;
+  // "quadricoptere camera: 900 g" is a camera drone, in the order of Romance languages.
+  if (noun != kNone && noun > 0 && noun < q.first && Is(noun, WordKind::kLoad) &&
+      Is(noun - 1, WordKind::kRotors))
+    return kNone;
   return noun;
 }
 
@@ -104,6 +113,9 @@ void Reader::ReadMass(const Quantity& q) {
                      (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
                      Is(q.first - 2, WordKind::kBreak);
   const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  // "a 300 g frame quad, 2 kg"
+  if (noun != kNone && noun > q.last && Is(q.last + 1, WordKind::kFrame) && Is(noun, WordKind::kRotors))
+    return loose_masses_.push_back({q, false, true});
   if (VolumeBefore(q) != kNone && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   // "8 kilos of mix" are carried; "3 kg + 1 kg payload" are 4 kg in all.
   const size_t next = q.last + 1;
@@ -115,25 +127,57 @@ void Reader::ReadMass(const Quantity& q) {
   };
   // "5.5 kg on the hook", "65 lb of cargo", "cargo 3 kg", "3 kg cargo, ..."
   const bool ends = next + 1 >= tokens_.size() || tokens_[next + 1].kind == Token::Kind::kComma;
-  const bool hung = (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
-                    (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) ||
-                    (ends && follows(next, {"cargo", "freight"})) ||
-                    (q.first > 0 && follows(q.first - 1, {"cargo", "freight"}));
+  const bool hung =
+      (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
+      (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) ||
+      (ends && follows(next, {"cargo", "freight"})) ||
+      (q.first > 0 && follows(q.first - 1, {"cargo", "freight"}));
   if ((of_thing || hung) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
-  const bool added = (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
-                     next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
-                     tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
-                     Is(next + 3, WordKind::kPayload);
+  const bool added =
+      (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
+      next + 3 < tokens_.size() && (tokens_[next].text == "+" || tokens_[next].text == "plus") &&
+      tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
+      Is(next + 3, WordKind::kPayload);
   if (added) return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
   if (noun == kNone) {
-    loose_masses_.push_back({q, thing});
+    loose_masses_.push_back({q, thing, false, IsLoaded(q)});
     return;
   }
   SetMassOf(noun, q);
 }
 
-/// Whether a mass of which nothing more is said is of a thing carried: "carry a carton of eggs? 700 g", or, beside the
-/// larger mass of the drone, "magnetometer on a cable, 1.1 kg" and "RFID reader 150 g".
+/// "3 kg with camera"
+bool Reader::IsLoaded(const Quantity& q) const {
+  size_t k = q.last + 1;
+  if (k >= tokens_.size() || (tokens_[k].text != "with" && tokens_[k].text != "w")) return false;
+  while (++k < tokens_.size() && SaysLittle(k)) {
+  }
+  return (Is(k, WordKind::kLoad) || Is(k, WordKind::kPayload)) &&
+         !(k + 1 < tokens_.size() && !EndsPhrase(k + 1));
+}
+
+/// "Weighs 2.4 kg, 3 kg with camera": the first is the mass without payload.
+void Reader::FinishLoadedMass() {
+  for (size_t i = 0; i < loose_masses_.size(); ++i) {
+    const Quantity q = loose_masses_[i].quantity;
+    if (!loose_masses_[i].loaded || request_.empty_mass || request_.payload) continue;
+    if (!request_.mass && i > 0 && loose_masses_[i - 1].quantity.value < q.value) {
+      request_.mass = loose_masses_[i - 1].quantity.value;
+      request_.words["mass"] = loose_masses_[i - 1].quantity.words;
+      loose_masses_.erase(loose_masses_.begin() + static_cast<long>(--i));
+    }
+    if (!request_.mass || *request_.mass >= q.value || *request_.mass < 0.4 * q.value) continue;
+    request_.empty_mass = request_.mass;
+    request_.words["empty_mass"] = request_.words["mass"];
+    request_.mass = q.value;
+    request_.words["mass"] = q.words;
+    loose_masses_.erase(loose_masses_.begin() + static_cast<long>(i));
+    return;
+  }
+}
+
+/// Whether a mass of which nothing more is said is of a thing carried: "carry a carton of eggs? 700 g", or,
+/// beside the larger mass of the drone, "magnetometer on a cable, 1.1 kg" and "RFID reader 150 g".
 bool Reader::IsOfLoad(const Quantity& q) const {
   if (request_.payload || !q.unit || IsAtMost(q) || q.first < 2) return false;
   size_t before = q.first - 1;
@@ -171,7 +215,7 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
       kind == WordKind::kFrame || kind == WordKind::kWind)
     return kind == WordKind::kElse ? NameElse(q, noun)
-                                     : loose_masses_.push_back({q, false, kind != WordKind::kWind});
+                                   : loose_masses_.push_back({q, false, kind != WordKind::kWind});
   // A drone has other figures besides.
   if (kind >= WordKind::kRotorNoun) Use(noun);
   switch (kind) {
@@ -187,10 +231,7 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
       return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
     case WordKind::kBare: {
       // The dry weight of a sprayer is that without its liquid.
-      const bool liquid = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& t) {
-        return t.Is(WordKind::kPayload) || t.Is(WordKind::kVolumeUnit);
-      });
-      if (tokens_[noun].text.starts_with("dry") && liquid)
+      if (tokens_[noun].text.starts_with("dry") && liquid_said_)
         return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
       return Set({"bare_mass", 0.004, 400, "kg"}, request_.bare_mass, q.value, q.words);
     }
@@ -213,19 +254,22 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
 void Reader::SumUpMass(const Quantity& q) {
   bool so = false;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 6;)
-    so |= tokens_[k].text == "so" || tokens_[k].text == "makes" || tokens_[k].text == "then" || tokens_[k].text == "=";
+    so |= tokens_[k].text == "so" || tokens_[k].text == "makes" || tokens_[k].text == "then" ||
+          tokens_[k].text == "=";
   if (!so || !request_.mass || q.value <= *request_.mass) return;
   Decide("'" + q.words + "' is the sum of '" + request_.words["mass"] + "' and what is added");
   request_.mass.reset();
   request_.words.erase("mass");
 }
 
-/// "Weighs 9 kg with battery and could carry 6 kg": more than a drone of 9 kg in all can, so these 9 kg are its own.
+/// "Weighs 9 kg with battery and could carry 6 kg": more than a drone of 9 kg in all can, so these 9 kg are
+/// its own.
 void Reader::FinishOwnMass() {
   if (!request_.mass || !request_.payload || whole_said_ || request_.empty_mass) return;
   if (*request_.payload <= 0.6 * *request_.mass || *request_.payload > *request_.mass) return;
   const std::string words = request_.words["mass"];
-  Decide("'" + words + "' is read as the mass without payload, for '" + request_.words["payload"] + "' is most of it");
+  Decide("'" + words + "' is read as the mass without payload, for '" + request_.words["payload"] +
+         "' is most of it");
   request_.empty_mass = request_.mass;
   request_.words["empty_mass"] = words;
   request_.mass.reset();

@@ -204,7 +204,8 @@ bool Reader::ReadComparison(size_t i, double factor, size_t last) {
     const bool percent = Is(last, WordKind::kPercent);
     const bool compares = word->kind >= WordKind::kHeavier && word->kind <= WordKind::kFaster;
     const double f = percent && !share ? 1 + (compares && word->value < 0 ? -factor : factor)
-                     : compares && word->value < 0 && factor > 1 ? 1 / factor : factor;
+                     : compares && word->value < 0 && factor > 1 ? 1 / factor
+                                                                 : factor;
     const std::string words = tokens_[i].text + (percent ? " % " : " ") + tokens_[k].text;
     const std::string of = "'" + words + "' is of " + std::string(model_->title);
     const auto use = [&] {
@@ -262,9 +263,10 @@ void Reader::ReadBareNumber(size_t i) {
     return Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, value, tokens_[i].text + " kv");
   }
   // "a 250 class quad", "450 frame", "a 450 quad": millimetres between motors that face each other.
-  const bool size = Beside(i, WordKind::kSizeNoun, true) != kNone || Beside(i, WordKind::kFrame, true) != kNone ||
-                    Beside(i, WordKind::kWheelbase, true) != kNone || Beside(i, WordKind::kWheelbase, false) != kNone ||
-                    Beside(i, WordKind::kRotors, true) != kNone || Beside(i, WordKind::kFrame, false) != kNone;
+  const bool size =
+      Beside(i, WordKind::kSizeNoun, true) != kNone || Beside(i, WordKind::kFrame, true) != kNone ||
+      Beside(i, WordKind::kWheelbase, true) != kNone || Beside(i, WordKind::kWheelbase, false) != kNone ||
+      Beside(i, WordKind::kRotors, true) != kNone || Beside(i, WordKind::kFrame, false) != kNone;
   if (size && value >= 60 && value <= 2500 && !request_.arm) {
     used_[i] = true;
     Decide("'" + tokens_[i].text + "' is read as the diagonal in millimetres");

@@ -75,6 +75,9 @@ void Reader::RefuseOthers() const {
       negated |= Is(k, WordKind::kNegation) || text == "than" || text.starts_with("replac") || text == "unlike" ||
                  text == "not" || text == "without" || text == "versus";
     }
+    // "Parrot Disco? no, the Anafi"
+    negated |=
+        i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kComma && tokens_[i + 2].text == "no";
     const bool drone_before = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<long>(i), [](const Token& t) {
       return t.kind == Token::Kind::kModel || t.Is(WordKind::kDrone) || t.Is(WordKind::kRotors);
     });

@@ -123,11 +123,15 @@ void Reader::Dispatch(const Quantity& q) {
       break;
     case WordKind::kCells:
       // "no less than 1500 s": no battery has so many cells, these are seconds.
-      if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i)) return;  // "4S 1500s"
+      if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i))
+        return;  // "4S 1500s"
       if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
       if (tokens_[i].value != std::floor(tokens_[i].value)) {
         throw InputError("'" + q.words + "' is not a whole number");
       }
+      if (const double packs = PacksInSeries(i); packs > 1)
+        return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value,
+                   tokens_[i - 1].text + " " + q.words);
       CorrectWith("cells", request_.cells, i);
       Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
       break;
@@ -137,6 +141,16 @@ void Reader::Dispatch(const Quantity& q) {
     default:
       if (!ReadThrust(q)) ReadDays(q);
   }
+}
+
+/// "Two 6S packs in series": how many packs, else 1.
+double Reader::PacksInSeries(size_t i) const {
+  const size_t count = i > 1 && Is(i - 1, WordKind::kTimes) ? i - 2 : i - 1;
+  if (i == 0 || !IsCountOfThings(tokens_[count])) return 1;
+  for (size_t k = i + 2; k < tokens_.size() && k < i + 8; ++k) {
+    if (tokens_[k].text == "series") return tokens_[count].value;
+  }
+  return 1;
 }
 
 /// Days of flight are more than any multirotor has; days of anything else are none of its figures.
@@ -165,8 +179,8 @@ void Reader::ReadLength(const Quantity& q) {
     return n != kNone && (kind_of(n) == WordKind::kPropeller || kind_of(n) == WordKind::kArm ||
                           kind_of(n) == WordKind::kWheelbase || kind_of(n) == WordKind::kPitch ||
                           kind_of(n) == WordKind::kRotorNoun || kind_of(n) == WordKind::kElse ||
-                          kind_of(n) == WordKind::kThing || kind_of(n) == WordKind::kFrame || kind_of(n) == WordKind::kBlades ||
-                          kind_of(n) == WordKind::kAcross);
+                          kind_of(n) == WordKind::kThing || kind_of(n) == WordKind::kFrame ||
+                          kind_of(n) == WordKind::kBlades || kind_of(n) == WordKind::kAcross);
   };
   const size_t head = noun;
   if (!says(noun)) noun = says(before) ? before : says(Apposed(q)) ? Apposed(q) : kNone;
@@ -217,7 +231,8 @@ bool Reader::IsOfPlace(const Quantity& q) const {
   while (before-- > 0 && SaysLittle(before)) {
   }
   if (before == kNone) return thing;
-  for (const char* word : {"through", "inside", "within", "into", "above", "over", "behind", "from", "past", "every"}) {
+  for (const char* word :
+       {"through", "inside", "within", "into", "above", "over", "behind", "from", "past", "every"}) {
     if (tokens_[before].text == word) return true;
   }
   return thing;
@@ -254,13 +269,18 @@ void Reader::ReadTime(const Quantity& q) {
 }
 
 void Reader::ReadSpeed(const Quantity& q) {
-  if (PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
+  // "can climb at 5 m/s, cruise at 10 m/s"
+  size_t verb = q.first;
+  while (verb-- > 0 && (SaysLittle(verb) || tokens_[verb].text == "at")) {
+  }
+  if (PhraseHas(q, WordKind::kElse) || Is(verb, WordKind::kElse)) return NameElse(q, kNone);
   // "the wind is bad, so a top speed of 18 m/s"
   const size_t label = NounBefore(q, true);
   const std::string& said = label == kNone ? q.words : tokens_[label].text;
   const bool top = Is(label, WordKind::kSpeed) && (said.starts_with("top") || said.starts_with("max") ||
                                                    said.starts_with("full") || said.starts_with("vmax"));
-  if (!top && PhraseHas(q, WordKind::kWind)) {
+  const bool cruises = Is(verb, WordKind::kWind) && tokens_[verb].text.starts_with("cruis");
+  if (!top && (cruises || PhraseHas(q, WordKind::kWind))) {
     if (request_.least_speed && *request_.least_speed >= q.value) return;
     request_.least_speed.reset();
     return Set({"least_speed", 0.1, 150, "m/s"}, request_.least_speed, q.value, q.words);

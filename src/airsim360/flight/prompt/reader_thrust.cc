@@ -17,10 +17,13 @@ bool IsOneOf(const std::string& text, const char* const (&words)[N]) {
   return std::any_of(std::begin(words), std::end(words), [&](const char* word) { return text == word; });
 }
 
-constexpr const char* kEach[] = {"each", "per", "per motor", "each motor", "apiece", "every", "je", "por", "par",
-                                 "each of the", "单轴", "单个", "每个"};
-constexpr const char* kWhole[] = {"total", "together", "all", "combined", "altogether", "in all", "in total", "overall",
-                                  "all together", "sum"};
+constexpr const char* kEach[] = {"each", "per", "per motor",   "each motor", "apiece", "every", "je",
+                                 "por",  "par", "each of the", "单轴",       "单个",   "每个"};
+constexpr const char* kWhole[] = {"total",  "together", "all",     "combined",     "altogether",
+                                  "in all", "in total", "overall", "all together", "sum"};
+constexpr const char* kGives[] = {"produce", "produces", "generate", "generates", "give",
+                                  "gives",   "make",     "makes",    "push",      "pushes",
+                                  "put out", "puts out", "provide",  "provides"};
 
 }  // namespace
 
@@ -31,13 +34,16 @@ bool Reader::ReadThrust(const Quantity& q) {
   if (q.unit->kind != WordKind::kMassUnit && !newtons) return false;
   Thrust thrust{newtons ? tokens_[q.first].value / kGravityHere : q.value, false, false, q.words};
   size_t noun = kNone;
-  bool motor = false;
+  bool motor = false, gives = newtons;
   const auto look = [&](size_t k) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kThrust) && noun == kNone && !claimed_[k]) noun = k;
-    motor |= Is(k, WordKind::kMotor) || Is(k, WordKind::kRotorNoun) || text == "per motor" || text == "each motor";
+    motor |=
+        Is(k, WordKind::kMotor) || Is(k, WordKind::kRotorNoun) || text == "per motor" || text == "each motor";
+    gives |= IsOneOf(text, kGives);
     thrust.each |= IsOneOf(text, kEach);
-    thrust.whole |= IsOneOf(text, kWhole) || (Is(k, WordKind::kThrust) && text.find("total") != std::string::npos) ||
+    thrust.whole |= IsOneOf(text, kWhole) ||
+                    (Is(k, WordKind::kThrust) && text.find("total") != std::string::npos) ||
                     (Is(k, WordKind::kThrust) && text.find("combined") != std::string::npos);
   };
   // A number with a noun of its own ends the clause on either side.
@@ -46,15 +52,20 @@ bool Reader::ReadThrust(const Quantity& q) {
            Is(k, WordKind::kMass) || Is(k, WordKind::kPayload);
   };
   for (size_t k = q.first; k-- > 0 && q.first - k <= 9 && !(ends(k) && tokens_[k].text != "total");) look(k);
-  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 9 && !(ends(k) && tokens_[k].text != "total"); ++k)
+  for (size_t k = q.last + 1;
+       k < tokens_.size() && k <= q.last + 9 && !(ends(k) && tokens_[k].text != "total"); ++k)
     look(k);
-  if (noun == kNone || (tokens_[noun].text.starts_with("pull") && !motor)) return false;
-  claimed_[noun] = used_[noun] = true;
+  // "The motors produce 30 N in total" needs no word for thrust.
+  const bool without_noun = motor && gives && (thrust.each || thrust.whole);
+  if (noun == kNone ? !without_noun : tokens_[noun].text.starts_with("pull") && !motor) return false;
+  Use(noun);
+  for (size_t k = q.first; k <= q.last; ++k) used_[k] = true;
   if (!thrust_) thrust_ = thrust;
   return true;
 }
 
-/// Thrust over the weight is the ratio; where that goes with nothing else it gives way, unless it does not lift.
+/// Thrust over the weight is the ratio; where that goes with nothing else it gives way, unless it does not
+/// lift.
 void Reader::FinishThrust() {
   if (!thrust_) return;
   if (!request_.mass || thrust_->kilograms <= 0)
@@ -68,7 +79,8 @@ void Reader::FinishThrust() {
   }
   if (request_.thrust_to_weight) return;
   if (ratio < 1.05 || ratio > kMostRatio)
-    return Decide("'" + thrust_->words + "' of thrust is not what drones of that mass have and is left to the design");
+    return Decide("'" + thrust_->words +
+                  "' of thrust is not what drones of that mass have and is left to the design");
   request_.thrust_to_weight = ratio;
   request_.words["thrust_to_weight"] = thrust_->words + " of thrust";
   request_.facts.insert("thrust_to_weight");

@@ -45,7 +45,8 @@ struct DroneRequest {
   bool lithium_ion = false;
   std::map<std::string, std::string> words;
   std::set<std::string> facts;
-  std::map<std::string, std::pair<double, double>> ranges;  ///< of fields said as a range, whose middle they hold
+  std::map<std::string, std::pair<double, double>>
+      ranges;                        ///< of fields said as a range, whose middle they hold
   std::vector<std::string> unused;   ///< words that say nothing of a drone's figures
   std::vector<std::string> decided;  ///< what was chosen for the user, one sentence each
 };

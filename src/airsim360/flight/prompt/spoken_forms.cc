@@ -2,6 +2,7 @@
 
 #include <regex>
 #include <utility>
+#include <vector>
 
 namespace airsim360::internal {
 namespace {
@@ -9,56 +10,75 @@ namespace {
 using Rule = std::pair<std::regex, const char*>;
 
 /// The symbols of papers, and tolerances ("250+-5 g"), which say nothing of a drone.
-const Rule kSymbols[] = {
-    {std::regex(R"((\d)\s*\+/?-\s*[\d.]+\s*%?)"), "$1 "},
-    {std::regex(R"(\+/?-\s*[\d.]+\s*(%|[a-z]+))"), " "},
-    {std::regex(R"((\d)\+\s*(?=(min|h|g|kg|km)\w*\b))"), "$1 "},  // "35+ minutes"
-    {std::regex(R"(\bm_(p|pl|payload)\s*=)"), " payload "},
-    {std::regex(R"(\bm(_\w+)?\s*=)"), " mass "},
-    {std::regex(R"(\bd(_\w+)?\s*=)"), " propeller diameter "},
-    {std::regex(R"(\bl(_\w+)?\s*=)"), " arm length "},
-    {std::regex(R"(\bn(_\w+)?\s*=)"), " rotors "},
-    {std::regex(R"(\bt_h\w*\s*=)"), " hover time "},
-    {std::regex(R"(\bt_(f\w*|end\w*)\s*=)"), " flight time "},
-    {std::regex(R"(\bv(_?max|_top)?\s*=)"), " top speed "},
-    {std::regex(R"(\brotors?\s*=(.*)\bdiameter\s*=)"), " rotors =$1 propeller diameter "},
-};
+const std::vector<Rule>& Symbols() {
+  static const std::vector<Rule> kRules = {
+      {std::regex(R"((\d)\s*\+/?-\s*[\d.]+\s*%?)"), "$1 "},
+      {std::regex(R"(\+/?-\s*[\d.]+\s*(%|[a-z]+))"), " "},
+      {std::regex(R"((\d)\+\s*(?=(min|h|g|kg|km)\w*\b))"), "$1 "},  // "35+ minutes"
+      {std::regex(R"(\bm_(p|pl|payload)\s*=)"), " payload "},
+      {std::regex(R"(\bm(_\w+)?\s*=)"), " mass "},
+      {std::regex(R"(\bd(_\w+)?\s*=)"), " propeller diameter "},
+      {std::regex(R"(\bl(_\w+)?\s*=)"), " arm length "},
+      {std::regex(R"(\bn(_\w+)?\s*=)"), " rotors "},
+      {std::regex(R"(\bt_h\w*\s*=)"), " hover time "},
+      {std::regex(R"(\bt_(f\w*|end\w*)\s*=)"), " flight time "},
+      {std::regex(R"(\bv(_?max|_top)?\s*=)"), " top speed "},
+      {std::regex(R"(\brotors?\s*=(.*)\bdiameter\s*=)"), " rotors =$1 propeller diameter "},
+  };
+  return kRules;
+}
 
 /// Numbers written in ways of their own.
-const Rule kNumbers[] = {
-    {std::regex(R"((\d)\s*~\s*(?=\d))"), "$1-"},                                           // "13~15 min"
-    {std::regex(R"(\bsub[ -]?(\d{3})\b(?!\s*-?(g|mm|gr|gram|grams|gramm)\b))"), "under $1 g"},
-    {std::regex(R"(\b(single|one)[ -]cell\b)"), "1 cell"},
-    {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
-    {std::regex(R"(\b(propellers?|props?) ((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?))"), "$1 $2x$5"},
-    {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"), "$1 $2"},
-};
+const std::vector<Rule>& Numbers() {
+  static const std::vector<Rule> kRules = {
+      {std::regex(R"((\d)\s*~\s*(?=\d))"), "$1-"},  // "13~15 min"
+      {std::regex(R"(\bsub[ -]?(\d{3})\b(?!\s*-?(g|mm|gr|gram|grams|gramm)\b))"), "under $1 g"},
+      {std::regex(R"(\b(single|one)[ -]cell\b)"), "1 cell"},
+      {std::regex(R"(\bsingle (propeller|prop|motor)\b)"), "1 $1"},
+      {std::regex(R"((\d)-?ish\b)"), "$1 "},
+      {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
+      {std::regex(R"(\b(propellers?|props?) ((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?))"), "$1 $2x$5"},
+      {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"),
+       "$1 $2"},
+  };
+  return kRules;
+}
 
 /// Turns of phrase whose words would mean something else one by one.
-const Rule kPhrases[] = {
-    {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
-    {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
-    {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? )"
-                R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"), " "},
-    // "Without the GoPro", "minus camera and gimbal"
-    {std::regex(R"((without|w/o|minus|excluding|excl\.?|not counting|not including|less)( the| any| a| its)? )"
-                R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|action cam)s?)"
-                R"(( (and|or|&) (the )?(camera|gimbal|lens|mount|sensor))?\b)"), " without payload "},
-    // Still air is no wind to withstand.
-    {std::regex(R"(\b(in |with |at |under )?(no|zero|without( any)?|w/o|next to no) (wind|gusts|breeze)\b)"), " "},
-    {std::regex(R"(\b(in |at |during )?(straight and )?level flight\b)"), " "},
-    // "Hover? 20 min"
-    {std::regex(R"(\b(propellers?|props?|battery|hover|time|weight|mass|auw|payload|wheelbase|diagonal|speed|cells|)"
-                R"(rotors|motors|thrust|twr)\s*\?\s+(?=(about|around|roughly|only|just|maybe)?\s*~?\d))"), "$1 "},
-};
+const std::vector<Rule>& Phrases() {
+  static const std::vector<Rule> kRules = {
+      {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
+      {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
+      {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? )"
+                  R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"),
+       " "},
+      // "Without the GoPro", "minus camera and gimbal"
+      {std::regex(
+           R"(\b(without|w/o|minus|excluding|excl\.?|not counting|not including|less)( the| any| a| its)? )"
+           R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|action cam)s?)"
+           R"(( (and|or|&) (the )?(camera|gimbal|lens|mount|sensor))?\b)"),
+       " without payload "},
+      // Still air is no wind to withstand.
+      {std::regex(
+           R"(\b(in |with |at |under )?(no|zero|without( any)?|w/o|next to no) (wind|gusts|breeze)\b)"),
+       " "},
+      {std::regex(R"(\b(in |at |during )?(straight and )?level flight\b)"), " "},
+      // "Hover? 20 min"
+      {std::regex(
+           R"(\b(propellers?|props?|battery|hover|time|weight|mass|auw|payload|wheelbase|diagonal|)"
+           R"(speed|cells|rotors|motors|thrust|twr)\s*\?\s+(?=(about|around|roughly|only|just|maybe)?\s*~?\d))"),
+       "$1 "},
+  };
+  return kRules;
+}
 
 }  // namespace
 
 std::string SpeltOut(const std::string& plain) {
   std::string text = plain;
-  for (const auto& [pattern, words] : kSymbols) text = std::regex_replace(text, pattern, words);
-  for (const auto& [pattern, words] : kNumbers) text = std::regex_replace(text, pattern, words);
-  for (const auto& [pattern, words] : kPhrases) text = std::regex_replace(text, pattern, words);
+  for (const auto* rules : {&Symbols(), &Numbers(), &Phrases()}) {
+    for (const auto& [pattern, words] : *rules) text = std::regex_replace(text, pattern, words);
+  }
   return text;
 }
 

@@ -124,7 +124,9 @@ class Cutter {
   }
 
   void Take(const std::string& key, bool joined, size_t end, Token& best, size_t& best_length) const {
-    if (const KnownModel* model = FindKnownModel(key); model && !IsCount(key, end)) {
+    // "2S 500" and "4x500" are no S500 and no X500.
+    const bool after_digit = at_ > 0 && IsDigit(text_[at_ - 1]) && IsLetter(key[0]);
+    if (const KnownModel* model = after_digit ? nullptr : FindKnownModel(key); model && !IsCount(key, end)) {
       best.kind = Token::Kind::kModel;
       best.model = model;
       best.word = nullptr;
