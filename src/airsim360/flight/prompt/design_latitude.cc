@@ -1,8 +1,8 @@
 // How far a design leaves what is usual so that all that was said can be met, and what it tells of that.
-#include "airsim360/flight/prompt/designer.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "airsim360/flight/prompt/designer.h"
 
 namespace airsim360::internal {
 namespace {
@@ -36,6 +36,13 @@ bool Designer::GiveBlades() {
   return true;
 }
 
+/// A mass that nobody said. More of it for the body and less for the energy may undo each other: the steps
+/// are counted.
+bool Designer::GiveOtherMass(double factor, double end) {
+  constexpr int kMostSteps = 60;
+  return !said_.mass && ++mass_steps_ <= kMostSteps && Step(give_.mass, factor, end);
+}
+
 /// Too little mass is left for the body.
 bool Designer::GiveMass() {
   const bool timed = HoverTimeAsked() > 0 && EnergySaid() <= 0 && !said_.battery_mass;
@@ -46,8 +53,9 @@ bool Designer::GiveMass() {
   if (battery && !said_.battery_mass && Step(give_.specific_energy, 1.05, 255)) return true;
   if (timed && Step(give_.efficiency, 1.02, 0.86)) return true;
   if (timed && Step(give_.merit, 0.98, merit_least_)) return true;
-  if (timed && !said_.propeller && !said_.arm && Step(give_.loading, 0.93, 22 / kind_.disc_loading)) return true;
-  if (!said_.mass && Step(give_.mass, 1.08, 3)) return true;
+  if (timed && !said_.propeller && !said_.arm && Step(give_.loading, 0.93, 22 / kind_.disc_loading))
+    return true;
+  if (GiveOtherMass(1.08, 3)) return true;
   if (GiveRatio(1.5)) return true;
   if (Step(give_.motors, 0.93, 0.5)) return true;
   if (Step(give_.arms, 0.9, 0.5)) return true;
@@ -57,7 +65,7 @@ bool Designer::GiveMass() {
 /// The said energy does not last for the said time.
 bool Designer::GiveEnergy() {
   if (!said_.propeller && !said_.arm && Step(give_.loading, 0.93, 22 / kind_.disc_loading)) return true;
-  return !said_.mass && Step(give_.mass, 0.95, 0.4);
+  return GiveOtherMass(0.95, 0.4);
 }
 
 void Designer::TellLatitude() {
@@ -69,7 +77,8 @@ void Designer::TellLatitude() {
   }
   if (give_.efficiency > kUsual.efficiency)
     Decide(Text("motors and speed controllers have an efficiency of %.2f instead of 0.75", give_.efficiency));
-  if (give_.merit < 1) Decide(Text("the propellers take %.0f %% less torque than usual", 100 * (1 - give_.merit)));
+  if (give_.merit < 1)
+    Decide(Text("the propellers take %.0f %% less torque than usual", 100 * (1 - give_.merit)));
   if (give_.motors < 1) Decide(Text("the motors weigh %.2f of what is usual", give_.motors));
   if (give_.blades > 2 || give_.pitch > 0)
     Decide(Text("propellers of %d blades and %.2f diameters of pitch, for the thrust", out_.blades,
@@ -77,8 +86,10 @@ void Designer::TellLatitude() {
   if (give_.arms < 1) Decide(Text("the arms weigh %.2f of what is usual", give_.arms));
   if (speed_held_) Decide("the said top speed is held by its lean: its thrust would carry it faster");
   if (!said_.mass) Decide(Text("the mass was not said: %.4g kg, ", m_) + out_.laws["mass"]);
-  if (!said_.rotors && said_.layout != RotorLayout::kCoaxial) Decide("four rotors, for their number was not said");
-  if (!said_.drone_class && out_.drone_class == "generic") Decide("no kind was said: the usual of all kinds is taken");
+  if (!said_.rotors && said_.layout != RotorLayout::kCoaxial)
+    Decide("four rotors, for their number was not said");
+  if (!said_.drone_class && out_.drone_class == "generic")
+    Decide("no kind was said: the usual of all kinds is taken");
 }
 
 }  // namespace airsim360::internal

@@ -89,6 +89,7 @@ class Designer {
   bool GiveEnergy();
   bool GiveRatio(double least);
   bool GiveBlades();
+  bool GiveOtherMass(double factor, double end);
   void TellLatitude();
 
   const DroneRequest& said_;
@@ -96,7 +97,7 @@ class Designer {
   DroneClass kind_{};
   Latitude give_;
   RotorLayout layout_ = RotorLayout::kX;
-  int n_ = 4;
+  int n_ = 4, mass_steps_ = 0;
   bool guarded_ = false, speed_held_ = false;
   double m_ = 0, D_ = 0, L_ = 0, k_f_ = 0, ratio_km_ = 0, merit_least_ = 1, ratio_ = 0, most_ratio_ = 14, thrust_ = 0,
          speed_ = 0, drag_ = 1;

@@ -83,6 +83,10 @@ TEST(Reader, SharesOfARealDrone) {
   EXPECT_NEAR(*ParsePrompt("20 % lighter than a Phantom 4").mass, 0.8 * 1.38, 1e-12);
 }
 
+TEST(Reader, WhatNoDroneCanDoIsRefusedAndNotSoughtForEver) {
+  EXPECT_THROW(DroneFromPrompt("2200 mAh, hovers 5 hours, 2 inch"), InputError);
+}
+
 TEST(Reader, FiveAndSevenRotorsFly) {
   for (const char* prompt : {"pentacopter, 10 inch props, 1.9 kg", "heptacopter of 2.6 kg, 9 inch props"}) {
     const DroneDesign design = DroneFromPrompt(prompt);
