@@ -87,7 +87,9 @@ class Person(TypedDict):
     yaw: float
     """Heading: radians, 0 = east, counter-clockwise."""
     behaviour: str
-    """What the legs do: "idle", "walk", "sit" and so on (docs/guide/people.md)."""
+    """What arms and head do: "wave", "phone", …; as `locomotion` where they do nothing else (docs/guide/people.md)."""
+    locomotion: str
+    """What the legs do: "idle", "walk", "sit" and so on."""
     visible: bool
 
 

@@ -209,7 +209,8 @@ py::list Simulation::People() const {
     d["position"] = FromVec3(person.p_WP);
     d["velocity"] = FromVec3(person.v_WP);
     d["yaw"] = person.yaw;
-    d["behaviour"] = BehaviourName(person.lower);
+    d["behaviour"] = BehaviourName(person.upper);
+    d["locomotion"] = BehaviourName(person.lower);
     d["visible"] = person.visible;
     list.append(std::move(d));
   }

@@ -59,7 +59,7 @@ void Serve(const AgentArguments& arguments, const GlobalOptions& globals) {
   if (arguments.episodes < 1 || arguments.episodes > 1024)
     throw InputError("--episodes: " + std::to_string(arguments.episodes) + " is not in 1 ... 1024");
   AgentApi api(OptionsOf(arguments, globals));
-  // Before the server has threads, so that the signals come to Wait alone.
+  // Not before the world is there: until then Ctrl-C ends the program at once.
   const StopSignals stop;
   const AgentServer server(api, {.address = arguments.host, .port = arguments.port});
   if (globals.json) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/flight/drones/catalog.h"
@@ -86,11 +87,7 @@ PoseArgument ParsePose(const std::string& text) {
 }
 
 Tier ParseTierArgument(const std::string& text) {
-  static const std::vector<std::string> kBuilt = {"labels", "fast", "high", "reference"};
-  if (std::find(kBuilt.begin(), kBuilt.end(), text) == kBuilt.end()) {
-    throw InputError("--tier: " + UnknownChoiceMessage("tier", text, kBuilt));
-  }
-  return ParseTier(text);
+  return ParseChoice<Tier>("tier", text, kTierNames, "--tier");
 }
 
 int CheckSamples(Tier tier, int samples) {
@@ -105,11 +102,7 @@ int CheckSamples(Tier tier, int samples) {
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
                                    const std::vector<std::string>& choices) {
   std::vector<std::string> parts = Split(text, ',');
-  for (const std::string& part : parts) {
-    if (std::find(choices.begin(), choices.end(), part) == choices.end()) {
-      throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("value", part, choices));
-    }
-  }
+  for (const std::string& part : parts) ParseChoice("value", part, choices, flag);
   return parts;
 }
 

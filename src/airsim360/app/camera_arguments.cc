@@ -7,6 +7,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/config.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360 {
@@ -16,11 +17,7 @@ constexpr size_t kMostCameras = 64;
 constexpr const char* kDefaultSizes[] = {"2048x1024", "512x512", "1024x768", "1024x1024"};
 
 Projection ParseProjection(const std::string& text) {
-  const std::vector<std::string> names(std::begin(kProjectionNames), std::end(kProjectionNames));
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end())
-    throw InputError("--projection: " + UnknownChoiceMessage("projection", text, names));
-  return static_cast<Projection>(found - names.begin());
+  return ParseChoice<Projection>("projection", text, kProjectionNames, "--projection");
 }
 
 // Projection, size and field of view that fit each other; empty and 0 stand for the projection's own.

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "airsim360/app/arguments.h"
-#include "airsim360/app/camera_arguments.h"
 #include "airsim360/app/camera_check.h"
 #include "airsim360/app/collect_human.h"
 #include "airsim360/app/collect_processes.h"
@@ -35,27 +34,15 @@ constexpr double kFileRouteSpeed = 3;  // m/s along route files without times
 constexpr double kTouching = 0.05;     // metres: a route closer to a surface is worth a warning
 
 struct CollectArguments {
-  std::string world, route = "auto", tier = "fast", format = "native", rgb_format = "png";
-  std::string pano_frame = "body", shard = "0/1", out, products, plan, poses, recipe, subset;
+  std::string world, route = "auto", format = "native", shard = "0/1", out, plan, poses, recipe, subset;
   int64_t frames = 0;          // 0: not given
   double fps = 0;              // 0: not given
   std::optional<double> start;
-  int samples = 0;
-  bool normal = false, no_denoise = false;
-  CameraArguments camera;
   EnvironmentFlags environment;
   PictureArguments picture;
   PeopleArguments people;
   ProcessArguments processes;
 };
-
-// A choice among two or more words.
-size_t ParseChoice(const char* flag, const std::string& value, const std::vector<std::string>& choices) {
-  const auto found = std::find(choices.begin(), choices.end(), value);
-  if (found == choices.end())
-    throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("value", value, choices));
-  return static_cast<size_t>(found - choices.begin());
-}
 
 // The video, people, and what is written of them. The native layout holds panoptic.json and people.jsonl in any case.
 void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
@@ -92,19 +79,8 @@ DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& glo
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
-  arguments.camera.Apply(spec);
-  spec.tier = ParseTierArgument(arguments.tier);
-  spec.samples = CheckSamples(spec.tier, arguments.samples);
-  spec.denoise = !arguments.no_denoise;
-  spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
-  if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
   SetFormats(arguments, spec);
-  spec.rgb_format = ParseChoice("--rgb-format", arguments.rgb_format, {"png", "jpg"}) == 1 ? RgbFormat::kJpeg
-                                                                                           : RgbFormat::kPng;
-  spec.pano_frame = ParseChoice("--pano-frame", arguments.pano_frame, {"body", "level"}) == 1
-                        ? PanoFrame::kLevel
-                        : PanoFrame::kBody;
   const Shard shard = ParseShard(arguments.shard);
   spec.shard = shard.index;
   spec.shards = shard.count;
@@ -324,24 +300,13 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(0.001, 1000.0));
   command->add_option("--start", arguments->start, "with --fps: the first frame, seconds after the flight's start")
       ->check(CLI::Range(0.0, 1e7));
-  arguments->camera.AddTo(*command);
-  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
-  command->add_option("--samples", arguments->samples,
-                      "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
-  command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
+  arguments->picture.AddTo(*command);
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "
                       "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
-  command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
-  command->add_option("--pano-frame", arguments->pano_frame,
-                      "body or level: turn with the body or only with its heading");
   arguments->people.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
-  arguments->picture.AddTo(*command);
-  command->add_option("--products", arguments->products,
-                      "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");
-  command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->add_option("--shard", arguments->shard,
                       "I/N: only the frames with index % N == I, I from 0 (default 0/1)");
   arguments->processes.AddTo(*command);

@@ -13,6 +13,7 @@
 #include "airsim360/app/session.h"
 #include "airsim360/app/video_arguments.h"
 #include "airsim360/app/world_flags.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
@@ -180,9 +181,7 @@ DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, 
   spec.route = "flight of " + arguments.drone;
   spec.people = arguments.people.Describe();
   const std::string frame = arguments.pano_frame.empty() ? (video ? "level" : "body") : arguments.pano_frame;
-  const std::vector<std::string> frames = {"body", "level"};
-  if (std::ranges::count(frames, frame) == 0) throw InputError("--pano-frame: " + UnknownChoiceMessage("value", frame, frames));
-  spec.pano_frame = frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
+  spec.pano_frame = ParseChoice<PanoFrame>("value", frame, kPanoFrameNames, "--pano-frame");
   return spec;
 }
 

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "airsim360/base/error.h"
+#include "airsim360/app/arguments.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/renderer.h"
 
@@ -13,6 +14,13 @@ namespace airsim360 {
 namespace {
 
 constexpr double kMostStops = 20;
+
+// "normal,position,…".
+std::string OptionalProductNames() {
+  std::string names;
+  for (const OptionalProduct& product : kOptionalProducts) names += (names.empty() ? "" : ",") + std::string(product.name);
+  return names;
+}
 
 // A number of stops.
 double ParseStops(const std::string& text) {
@@ -28,6 +36,15 @@ double ParseStops(const std::string& text) {
 }  // namespace
 
 void PictureArguments::AddTo(CLI::App& command) {
+  camera.AddTo(command);
+  command.add_option("--tier", tier, "labels, fast, high or reference (default fast)");
+  command.add_option("--samples", samples,
+                     "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
+  command.add_flag("--no-denoise", no_denoise, "tier high: leave the noise in");
+  command.add_option("--products", products, "beside rgb,range,semantic,entity: " + OptionalProductNames());
+  command.add_flag("--normal", normal, "the same as --products normal");
+  command.add_option("--rgb-format", rgb_format, "png or jpg (default png)");
+  command.add_option("--pano-frame", pano_frame, "body or level: turn with the body or only with its heading");
   command.add_option("--tone", tone, "tone curve: filmic, agx or linear (default filmic)");
   command.add_option(
       "--exposure", exposure,
@@ -42,6 +59,14 @@ void PictureArguments::AddTo(CLI::App& command) {
 }
 
 void PictureArguments::Apply(DatasetSpec& spec) const {
+  camera.Apply(spec);
+  spec.tier = ParseTierArgument(tier);
+  spec.samples = CheckSamples(spec.tier, samples);
+  spec.denoise = !no_denoise;
+  spec.normal = normal;
+  if (!products.empty()) ParseProducts(products, spec);
+  spec.rgb_format = ParseChoice<RgbFormat>("value", rgb_format, kRgbFormatNames, "--rgb-format");
+  spec.pano_frame = ParseChoice<PanoFrame>("value", pano_frame, kPanoFrameNames, "--pano-frame");
   const auto named = [](const char* flag, const auto& parse) {
     try {
       return parse();

@@ -15,6 +15,7 @@
 #include "airsim360/app/plan_output.h"
 #include "airsim360/app/plan_waypoints.h"
 #include "airsim360/app/world_flags.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/math/coordinate_limit.h"
@@ -133,8 +134,7 @@ SplineKind ParseKind(const PlanArguments& arguments) {
   if (order != 0 && order != 5 && order != 7)
     throw InputError("--order: " + std::to_string(order) + " is not 5 or 7; did you mean 7?");
   const std::vector<std::string> quantities = {"snap", "jerk"};
-  if (std::find(quantities.begin(), quantities.end(), arguments.minimise) == quantities.end())
-    throw InputError("--minimise: " + UnknownChoiceMessage("quantity", arguments.minimise, quantities));
+  ParseChoice("quantity", arguments.minimise, quantities, "--minimise");
   if (arguments.minimise == "snap") return order == 5 ? SplineKind::kPaperQuintic : SplineKind::kMinimumSnap;
   if (order == 7) throw InputError("--order: 7 has least snap; least jerk is of order 5");
   return SplineKind::kMinimumJerk;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/nearest_name.h"
 #include "airsim360/planning/area_routes.h"
@@ -119,8 +120,7 @@ PlanWaypoints FindWaypoints(const WaypointArguments& arguments, std::shared_ptr<
     Add(out, ParsePlace("--to", arguments.to), "--to");
     return out;
   }
-  if (std::find(kRoutes.begin(), kRoutes.end(), arguments.route) == kRoutes.end())
-    throw InputError("--route: " + UnknownChoiceMessage("kind of route", arguments.route, kRoutes));
+  ParseChoice("kind of route", arguments.route, kRoutes, "--route");
   for (const Vec3d p : OfKind(arguments, tracer, seed, clearance))
     Add(out, p, "--route " + arguments.route + ", waypoint " + std::to_string(out.points.size() + 1));
   return out;

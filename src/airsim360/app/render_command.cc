@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "airsim360/app/arguments.h"
-#include "airsim360/app/camera_arguments.h"
 #include "airsim360/app/camera_check.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
@@ -25,10 +24,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kLookDown = -20;  // degrees, of a narrow camera near people
 
 struct RenderArguments {
-  std::string world, pose, tier = "fast", rgb_format = "png", pano_frame = "body", out, products;
-  int samples = 0;
-  bool normal = false, no_denoise = false;
-  CameraArguments camera;
+  std::string world, pose, out;
   EnvironmentFlags environment;
   PictureArguments picture;
   PeopleArguments people;
@@ -72,23 +68,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
-  arguments.camera.Apply(spec);
-  spec.tier = ParseTierArgument(arguments.tier);
-  spec.samples = CheckSamples(spec.tier, arguments.samples);
-  spec.denoise = !arguments.no_denoise;
-  spec.normal = arguments.normal;
   arguments.picture.Apply(spec);
-  if (!arguments.products.empty()) ParseProducts(arguments.products, spec);
-  if (arguments.rgb_format != "png" && arguments.rgb_format != "jpg") {
-    throw InputError("--rgb-format: " + UnknownChoiceMessage("value", arguments.rgb_format,
-                                                             std::vector<std::string>{"png", "jpg"}));
-  }
-  spec.rgb_format = arguments.rgb_format == "jpg" ? RgbFormat::kJpeg : RgbFormat::kPng;
-  if (arguments.pano_frame != "body" && arguments.pano_frame != "level") {
-    throw InputError("--pano-frame: " + UnknownChoiceMessage("value", arguments.pano_frame,
-                                                             std::vector<std::string>{"body", "level"}));
-  }
-  spec.pano_frame = arguments.pano_frame == "level" ? PanoFrame::kLevel : PanoFrame::kBody;
   spec.people = arguments.people.Describe();
   spec.overlay = arguments.overlay;
   if (spec.overlay && (spec.people.empty() || spec.tier == Tier::kLabels))
@@ -125,22 +105,11 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
       "--pose", arguments->pose,
       "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees; in maps also 60.1708N,24.9375E for x,y (default: "
       "the world's spawn, or near people)");
-  arguments->camera.AddTo(*command);
-  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
-  command->add_option("--samples", arguments->samples,
-                      "high: ambient rays of a pixel at the equator (4); reference: paths of a pixel (64)");
-  command->add_flag("--no-denoise", arguments->no_denoise, "tier high: leave the noise in");
-  command->add_option("--rgb-format", arguments->rgb_format, "png or jpg (default png)");
-  command->add_option("--pano-frame", arguments->pano_frame,
-                      "body or level: turn with the body or only with its heading");
+  arguments->picture.AddTo(*command);
   arguments->people.AddTo(*command);
   command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
-  arguments->picture.AddTo(*command);
-  command->add_option("--products", arguments->products,
-                      "beside rgb,range,semantic,entity: normal,position,albedo,material,part,sky,flow,coverage");
-  command->add_flag("--normal", arguments->normal, "the same as --products normal");
   command->callback([arguments, &globals] { RunRender(*arguments, globals); });
 }
 

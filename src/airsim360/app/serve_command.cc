@@ -70,9 +70,9 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   world.wind = ReadWindFile(arguments.wind);
   world.bodies = ServedBodies(options);
   const auto stage = std::make_shared<Stage>(world);
-  stage->tracer();  // while Ctrl-C still ends the program at once
+  stage->tracer();
 
-  // Before the server has threads, so that the signals come to Wait alone.
+  // Not before the world is there: until then Ctrl-C ends the program at once.
   const StopSignals stop;
   const AirSimServer server(stage, options);
   LogInfo(arguments.world + ": ready after " + ClockText(stage->load_seconds()));

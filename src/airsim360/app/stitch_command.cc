@@ -8,6 +8,7 @@
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/cube_folder.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
@@ -136,9 +137,7 @@ bool UseNearest(const StitchOptions& options, FaceKind kind) {
 
 void CheckFlags(const StitchOptions& options) {
   const auto check = [](const char* flag, const std::string& value, const std::vector<std::string>& choices) {
-    if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
-      throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("value", value, choices));
-    }
+    ParseChoice("value", value, choices, flag);
   };
   check("--axes", options.axes, {"camera", "body", "opengl"});
   check("--filter", options.filter, {"", "linear", "nearest"});

@@ -1,5 +1,9 @@
 #include "airsim360/app/stop_signals.h"
 
+#include <semaphore.h>
+
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <thread>
 
@@ -7,17 +11,32 @@
 
 namespace airsim360 {
 
-StopSignals::StopSignals() {
-  sigemptyset(&signals_);
-  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals_, signal);
-  pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+namespace {
+
+// Signals that have come. A handler may do little more than post to it (signal-safety(7)).
+sem_t came;
+
+void Note(int) { sem_post(&came); }
+
+void HandleWith(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 
-StopSignals::~StopSignals() { pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr); }
+}  // namespace
+
+StopSignals::StopSignals() {
+  sem_init(&came, 0, 0);
+  HandleWith(Note);
+}
+
+StopSignals::~StopSignals() { HandleWith(SIG_DFL); }
 
 void StopSignals::Wait() const {
-  int signal = 0;
-  sigwait(&signals_, &signal);
+  while (sem_wait(&came) != 0 && errno == EINTR) {
+  }
   LogInfo("stopping");
 }
 

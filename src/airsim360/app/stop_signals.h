@@ -2,12 +2,10 @@
 #pragma once
 
 #include <chrono>
-#include <csignal>
 
 namespace airsim360 {
 
-/// Holds back SIGINT and SIGTERM while it lives, so that they end Wait() and nothing else. Made before the threads
-/// of a server, which inherit that.
+/// While it lives SIGINT and SIGTERM end Wait() and nothing else, whichever thread they come to. One at a time.
 class StopSignals {
  public:
   StopSignals();
@@ -17,9 +15,6 @@ class StopSignals {
 
   /// Returns when one of them has come.
   void Wait() const;
-
- private:
-  sigset_t signals_;
 };
 
 /// From now on the process has that long to end by itself; then it ends with status 0, whatever still runs. For what

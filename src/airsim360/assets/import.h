@@ -18,7 +18,7 @@ namespace airsim360 {
 struct ImportOptions {
   /// YAML or JSON that overrides labels, see docs/guide/labels.md; empty = NAME.labels.yaml (.yml, .json) beside
   /// the model NAME.glb if there is one.
-  std::filesystem::path labels;
+  std::filesystem::path labels = {};
   ModelPlacement placement = {};
 };
 

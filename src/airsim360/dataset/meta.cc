@@ -61,8 +61,8 @@ Json ParametersJson(const DatasetSpec& spec) {
                {"route", spec.route},
                {"environment", spec.environment},
                {"normal", spec.normal},
-               {"rgb_format", spec.rgb_format == RgbFormat::kJpeg ? "jpg" : "png"},
-               {"pano_frame", spec.pano_frame == PanoFrame::kLevel ? "level" : "body"}};
+               {"rgb_format", kRgbFormatNames[static_cast<int>(spec.rgb_format)]},
+               {"pano_frame", kPanoFrameNames[static_cast<int>(spec.pano_frame)]}};
   Json products = Json::array();
   for (const ProductFolder& folder : ProductFolders(spec)) products.push_back(folder.name);
   json["products"] = products;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
@@ -38,10 +39,7 @@ bool ParseWholeNumber(std::string_view text, double& value) {
 }
 
 Lamps ParseLamps(const std::string& text) {
-  const std::vector<std::string> names(std::begin(kLampsNames), std::end(kLampsNames));
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("lamps", text, names));
-  return static_cast<Lamps>(found - names.begin());
+  return ParseChoice<Lamps>("lamps", text, kLampsNames);
 }
 
 // "AZ,EL" in degrees.

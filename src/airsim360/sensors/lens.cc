@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
@@ -74,10 +75,7 @@ Image<Rgb32f> RenderSensor(const Real360& lens, const RenderRequest& settings, c
 }  // namespace
 
 LensModel ParseLensModel(std::string_view name) {
-  const std::vector<std::string> names(std::begin(kLensModelNames), std::end(kLensModelNames));
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("lens", name, names));
-  return static_cast<LensModel>(found - names.begin());
+  return ParseChoice<LensModel>("lens", name, kLensModelNames);
 }
 
 Real360 Real360::Perfect() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/sensors/sample_clock.h"
@@ -125,8 +126,7 @@ void LidarSpec::Visit(ConfigVisitor& v) {
 
 void LidarSpec::Check() const {
   static const std::vector<std::string> kPatterns = {"spinning", "rosette"};
-  if (std::ranges::find(kPatterns, pattern) == kPatterns.end())
-    throw InputError("lidar: " + UnknownChoiceMessage("pattern", pattern, kPatterns));
+  ParseChoice("pattern", pattern, kPatterns, "lidar");
   if (channels == 0 || columns == 0 || channels > kMostShots || columns > kMostShots / channels) {
     throw InputError("lidar: " + std::to_string(channels) + " channels of " + std::to_string(columns) +
                      " columns; their product must be in 1 … " + std::to_string(kMostShots));

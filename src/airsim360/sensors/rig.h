@@ -12,6 +12,7 @@ namespace airsim360 {
 
 /// Whether the panorama turns with the body or only with its yaw (up is always world up).
 enum class PanoFrame { kBody, kLevel };
+inline constexpr const char* kPanoFrameNames[] = {"body", "level"};
 
 /// Motion of a vehicle at one instant.
 struct Kinematics {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 
 namespace airsim360 {
@@ -41,8 +42,7 @@ void CheckGimbals(std::string_view where, size_t gimbals, const std::vector<Name
 }
 
 std::string ParseWord(std::string_view what, const std::string& word, std::vector<std::string> choices) {
-  if (std::ranges::find(choices, word) == choices.end())
-    throw InputError(UnknownChoiceMessage(what, word, choices));
+  ParseChoice(what, word, choices);
   return word;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/routes/route_file.h"
@@ -67,10 +68,8 @@ double Number(std::string_view text) {
 std::vector<Column> ParseHeader(const std::vector<std::string_view>& fields) {
   std::vector<Column> columns;
   for (const std::string_view field : fields) {
-    const auto found = std::ranges::find(kNames, field);
-    if (found == kNames.end()) throw InputError(UnknownChoiceMessage("column", field, kNames));
-    const auto column = static_cast<Column>(found - kNames.begin());
-    if (std::ranges::count(columns, column) > 0) throw InputError("column '" + *found + "' is there twice");
+    const auto column = static_cast<Column>(ParseChoice("column", field, kNames));
+    if (std::ranges::count(columns, column) > 0) throw InputError("column '" + std::string(field) + "' is there twice");
     columns.push_back(column);
   }
   return columns;

@@ -22,12 +22,12 @@ struct RecordedStep {
 
 /// A run from one state on. Steps and hashes are in ascending order.
 struct Recording {
-  std::string note;  ///< how the model was made, for people: world, drones, seed
+  std::string note = {};  ///< how the model was made, for people: world, drones, seed
   int64_t dt_ns = 0;
   int64_t first_step = 0, steps = 0;  ///< where the run began, and how long it was
   uint64_t start_hash = 0;            ///< HashState of the state it began with
-  std::vector<RecordedStep> commands;
-  std::vector<std::pair<int64_t, uint64_t>> hashes;  ///< (state.step, HashState)
+  std::vector<RecordedStep> commands = {};
+  std::vector<std::pair<int64_t, uint64_t>> hashes = {};  ///< (state.step, HashState)
 };
 
 /// Notes a run while it goes on.

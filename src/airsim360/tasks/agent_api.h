@@ -26,7 +26,7 @@ struct AgentResponse {
 };
 
 struct AgentApiOptions {
-  std::string world;  ///< of episodes that name none
+  std::string world = {};  ///< of episodes that name none
   uint64_t world_seed = 0;
   std::vector<std::string> worlds = {};  ///< names that episodes may ask for
   /// Builds a world; slow.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/routes/roadmap.h"
@@ -66,10 +67,7 @@ std::vector<EntityId> FindTargets(const Scene& scene, const NavigationTask& task
 }  // namespace
 
 NavigationKind ParseNavigationKind(std::string_view name) {
-  const std::vector<std::string> names(std::begin(kNavigationNames), std::end(kNavigationNames));
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("task", name, names));
-  return static_cast<NavigationKind>(found - names.begin());
+  return ParseChoice<NavigationKind>("task", name, kNavigationNames);
 }
 
 void CheckTask(const NavigationTask& task) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/state_hash.h"
@@ -46,10 +47,7 @@ std::shared_ptr<const SimModel> MakeModel(Stage& stage, const DroneModel& drone)
 }  // namespace
 
 ActionLevel ParseActionLevel(std::string_view name) {
-  const std::vector<std::string> names(std::begin(kActionLevelNames), std::end(kActionLevelNames));
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("action", name, names));
-  return static_cast<ActionLevel>(found - names.begin());
+  return ParseChoice<ActionLevel>("action", name, kActionLevelNames);
 }
 
 VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const NavigationTask& task,

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/video/ffmpeg.h"
@@ -98,9 +99,7 @@ internal::OwnedFd NamelessFile(const fs::path& path) {
 }  // namespace
 
 void CheckVideoOptions(const VideoOptions& options) {
-  const std::vector<std::string> encoders(std::begin(kVideoEncoders), std::end(kVideoEncoders));
-  if (std::ranges::count(encoders, options.encoder) == 0)
-    throw InputError("encoder: " + UnknownChoiceMessage("encoder", options.encoder, encoders));
+  ParseChoice<size_t>("encoder", options.encoder, kVideoEncoders, "encoder");
   if (options.encoder.ends_with("vaapi") && RenderNode().empty())
     throw InputError("encoder: '" + options.encoder + "' needs a GPU (/dev/dri/renderD*), which this machine lacks; use auto");
   if (options.quality < 0 || options.quality > 51)

@@ -45,7 +45,7 @@ std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
                                  {"X_WC", PoseJson(frame.X_WC)},
                                  {"v_WB", Array(frame.body.v_WB)},
                                  {"w_WB_B", Array(frame.body.w_WB_B)},
-                                 {"pano_frame", spec.pano_frame == PanoFrame::kLevel ? "level" : "body"},
+                                 {"pano_frame", kPanoFrameNames[static_cast<int>(spec.pano_frame)]},
                                  {"seed", spec.seed},
                                  {"range_min", frame.range_min},
                                  {"range_median", frame.range_median}};

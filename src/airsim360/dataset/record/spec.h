@@ -14,10 +14,11 @@ enum class Projection { kErp, kCube, kPinhole, kFisheye };
 inline constexpr const char* kProjectionNames[] = {"erp", "cube", "pinhole", "fisheye"};
 
 enum class RgbFormat { kPng, kJpeg };
+inline constexpr const char* kRgbFormatNames[] = {"png", "jpg"};
 
 /// One camera of a rig: what it sees and where it sits on the body.
 struct RigCamera {
-  std::string name;  ///< in file names and frames.jsonl: 1 to 32 of [a-z0-9_]
+  std::string name = {};  ///< in file names and frames.jsonl: 1 to 32 of [a-z0-9_]
   Projection projection = Projection::kPinhole;
   int width = 1024, height = 768;  ///< of one picture; a cube face for Projection::kCube
   double fov_deg = 90;             ///< as DatasetSpec::fov_deg
@@ -29,12 +30,12 @@ struct RigCamera {
 /// bytes.
 struct DatasetSpec {
   std::string command = "collect";  ///< "collect" or "render"
-  std::string world;                ///< as given: a name or a path
+  std::string world = {};                ///< as given: a name or a path
   uint64_t seed = 0;
   Projection projection = Projection::kErp;
   int width = 2048, height = 1024;  ///< of one picture; a cube face for Projection::kCube
   double fov_deg = 90;              ///< pinhole: across the width; fisheye: across the shorter side
-  std::vector<RigCamera> cameras;  ///< a rig, in the order of its files; empty: one camera as above, at B
+  std::vector<RigCamera> cameras = {};  ///< a rig, in the order of its files; empty: one camera as above, at B
   Tier tier = Tier::kFast;
   bool normal = false;
   RgbFormat rgb_format = RgbFormat::kPng;
@@ -44,20 +45,20 @@ struct DatasetSpec {
   int samples = 0;                ///< of the tiers high and reference, 0 = their default
   bool denoise = true;            ///< tier high
   int edge_samples = 0;           ///< as RenderRequest::aa_samples
-  std::string route;              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
-  std::string labels;             ///< "sha256:…" of the label file given beside the world, or ""
-  std::string environment;        ///< DescribeEnvironment of what was rendered
+  std::string route = {};              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
+  std::string labels = {};             ///< "sha256:…" of the label file given beside the world, or ""
+  std::string environment = {};        ///< DescribeEnvironment of what was rendered
   ToneCurve tone = ToneCurve::kFilmic;
   double exposure_ev = 0;      ///< stops added to the fixed daylight exposure
   bool auto_exposure = false;  ///< of every picture its own
   bool radiance = false;       ///< linear light, radiance/STEM.exr
   LensModel lens = LensModel::kIdeal;
   bool position = false, albedo = false, material = false, part = false, sky = false, flow = false, coverage = false;
-  std::string people;        ///< who they are, in words with the SHA-256 of their files; empty = nobody
+  std::string people = {};        ///< who they are, in words with the SHA-256 of their files; empty = nobody
   bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
   bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
   bool video = false;        ///< video.mp4: the colour pictures at their times
-  std::vector<std::string> people_formats;  ///< of kPeopleFormats, in that order
+  std::vector<std::string> people_formats = {};  ///< of kPeopleFormats, in that order
 };
 
 /// Further files made of people.jsonl.

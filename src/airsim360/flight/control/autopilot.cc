@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/flight/control/attitude.h"
 #include "airsim360/flight/control/guidance.h"
@@ -43,10 +44,7 @@ std::string DisarmedProblem(const Command& command, const AutopilotState& state)
 }  // namespace
 
 ControllerKind ParseControllerKind(const std::string& name) {
-  const auto& names = KindNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("controller", name, names));
-  return static_cast<ControllerKind>(found - names.begin());
+  return static_cast<ControllerKind>(ParseChoice("controller", name, KindNames()));
 }
 
 std::string ControllerKindName(ControllerKind kind) { return KindNames()[static_cast<size_t>(kind)]; }

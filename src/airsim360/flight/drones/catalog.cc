@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "airsim360/base/error.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/flight/prompt/design.h"
 #include "airsim360/flight/prompt/laws.h"
 
@@ -190,8 +190,7 @@ std::span<const CatalogDrone> DroneCatalog() { return kDrones; }
 DroneModel CatalogModel(const std::string& name) {
   std::vector<std::string> names;
   for (const CatalogDrone& drone : kDrones) names.emplace_back(drone.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("drone", name, names));
+  const size_t found = ParseChoice("drone", name, names);
 
   const Vec3d generic{0.18, 0.11, 0.04};
   const auto make = [&]() -> DroneModel {
@@ -205,8 +204,8 @@ DroneModel CatalogModel(const std::string& name) {
     if (name == "f450") return AirSim(4, 1.635, 0.052, 0.225, {0.16, 0.10, 0.14}, 0.11, 0.047, 9500, 0.15, 4);
     if (name == "agilicious") return Agilicious();
     if (name == "racer") return Racer();
-    if (name == "f550") return F550(kDrones[found - names.begin()].prompt);
-    return DroneFromPrompt(kDrones[found - names.begin()].prompt).model;
+    if (name == "f550") return F550(kDrones[found].prompt);
+    return DroneFromPrompt(kDrones[found].prompt).model;
   };
   DroneModel model = make();
   model.name = name;

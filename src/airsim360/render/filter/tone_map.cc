@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/base/error.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
@@ -30,10 +30,7 @@ void ToneMapImage(const Image<Rgb32f>& light, float exposure, ToneCurve tone, Im
 }
 
 ToneCurve ParseToneCurve(std::string_view name) {
-  const std::vector<std::string> names(std::begin(kToneCurveNames), std::end(kToneCurveNames));
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(UnknownChoiceMessage("tone curve", name, names));
-  return static_cast<ToneCurve>(found - names.begin());
+  return ParseChoice<ToneCurve>("tone curve", name, kToneCurveNames);
 }
 
 }  // namespace airsim360

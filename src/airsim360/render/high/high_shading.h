@@ -27,7 +27,7 @@ struct TileSampling {
   float ambient_rays;  ///< of a pixel, on average; 1 or more
   float cone_angle;    ///< of a pixel, radians
   bool panorama = false;
-  Vec3f pole;  ///< of a panorama: the axis, in W, about which its columns turn
+  Vec3f pole = {};  ///< of a panorama: the axis, in W, about which its columns turn
 };
 
 /// HighTile::penumbra counts a pixel in so many steps.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "airsim360/base/error.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/log.h"
 #include "airsim360/render/relightable.h"
 
@@ -71,8 +71,7 @@ std::optional<std::string> WhyNot(int wanted) {
 
 void CheckDevice(const std::string& flag, const std::string& device) {
   static const std::vector<std::string> kDevices = {"auto", "cpu", "vulkan"};
-  if (std::find(kDevices.begin(), kDevices.end(), device) == kDevices.end())
-    throw InputError(flag + ": " + UnknownChoiceMessage("device", device, kDevices));
+  ParseChoice("device", device, kDevices, flag);
 }
 
 bool ChoosesGpu(const DeviceChoice& choice) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/base/error.h"
+#include "airsim360/base/choice.h"
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -165,10 +165,7 @@ const std::vector<std::string>& FacadeStyleNames() {
 std::vector<FacadeStyle> StylesOf(const std::vector<std::string>& names) {
   std::vector<FacadeStyle> styles;
   for (const std::string& name : names) {
-    const auto& all = FacadeStyleNames();
-    const auto it = std::find(all.begin(), all.end(), name);
-    if (it == all.end()) throw InputError(UnknownChoiceMessage("facade style", name, all));
-    styles.push_back(static_cast<FacadeStyle>(it - all.begin()));
+    styles.push_back(static_cast<FacadeStyle>(ParseChoice("facade style", name, FacadeStyleNames())));
   }
   return styles;
 }
