@@ -64,17 +64,18 @@ void BuildGroundFloor(FacadeContext& context, FacadePen& pen, const BuildingPlan
 // Bands that run along the whole wall: string course, cornice with brackets, parapet.
 void BuildBands(FacadePen& pen, const BuildingPlan& plan, const Dress& dress, EdgeKind kind) {
   const float ground = MetricsOf(plan.style).ground_height, top = plan.height(), L = pen.length();
-  const float parapet = ParapetHeight(plan);
+  // Ends meet the fronts of the next wall's bands.
+  const float parapet = ParapetHeight(plan), out = pen.reach();
   pen.Use(dress.wall);
   if (parapet > 0) pen.Front(0, L, top, top + parapet, 0);
   if (kind != EdgeKind::kStreet) return;
   pen.Use(dress.trim);
-  if (plan.base == 0) pen.Bar(-0.14f, L + 0.14f, ground - 0.10f, ground + 0.14f, -0.14f, 0);
+  if (plan.base == 0) pen.Bar(-0.14f * out, L + 0.14f * out, ground - 0.10f, ground + 0.14f, -0.14f, 0);
   const float s = dress.cornice * plan.cornice;
   if (s <= 0) return;
-  pen.Bar(-0.16f * s, L + 0.16f * s, top - 0.62f * s, top - 0.34f * s, -0.16f * s, 0);
-  pen.Bar(-0.40f * s, L + 0.40f * s, top - 0.34f * s, top - 0.12f * s, -0.40f * s, 0);
-  pen.Bar(-0.58f * s, L + 0.58f * s, top - 0.12f * s, top + 0.05f * s, -0.58f * s, 0);
+  pen.Bar(-0.16f * s * out, L + 0.16f * s * out, top - 0.62f * s, top - 0.34f * s, -0.16f * s, 0);
+  pen.Bar(-0.40f * s * out, L + 0.40f * s * out, top - 0.34f * s, top - 0.12f * s, -0.40f * s, 0);
+  pen.Bar(-0.58f * s * out, L + 0.58f * s * out, top - 0.12f * s, top + 0.05f * s, -0.58f * s, 0);
   const int brackets = static_cast<int>(L / 0.75f);
   for (int i = 0; i < brackets; ++i) {
     const float x = L * (static_cast<float>(i) + 0.5f) / static_cast<float>(brackets);

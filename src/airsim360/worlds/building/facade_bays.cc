@@ -124,11 +124,12 @@ void ClassicBay(FacadePen& pen, const Dress& dress, const Bay& b, const Opening&
   for (float x : {o.x0 - 0.14f, o.x1 + 0.02f}) pen.Bar(x, x + 0.12f, o.z0 - 0.40f, o.z0 - 0.14f, -0.10f, 0);
   if (b.floor == 0) {
     // Pediment over the first-floor windows.
-    const float z = o.z1 + 0.36f, x0 = o.x0 - 0.28f, x1 = o.x1 + 0.28f, m = b.middle(), y = -0.20f;
+    const float z = o.z1 + 0.36f, x0 = o.x0 - 0.28f, x1 = o.x1 + 0.28f, m = b.middle();
+    const float y = -0.20f * pen.reach(), eave = -0.23f * pen.reach();
     MeshBuilder& mesh = pen.mesh();
     mesh.Triangle({x0, y, z}, {x1, y, z}, {m, y, z + 0.38f}, {x0, -z}, {x1, -z}, {m, -z - 0.38f});
-    mesh.Quad({x0, y - 0.03f, z}, {m, y - 0.03f, z + 0.42f}, {m, 0, z + 0.42f}, {x0, 0, z});
-    mesh.Quad({m, y - 0.03f, z + 0.42f}, {x1, y - 0.03f, z}, {x1, 0, z}, {m, 0, z + 0.42f});
+    mesh.Quad({x0, eave, z}, {m, eave, z + 0.42f}, {m, 0, z + 0.42f}, {x0, 0, z});
+    mesh.Quad({m, eave, z + 0.42f}, {x1, eave, z}, {x1, 0, z}, {m, 0, z + 0.42f});
   }
   // Pilasters between the bays, a course under every third storey.
   pen.Use(dress.wall);

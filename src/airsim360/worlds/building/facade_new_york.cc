@@ -108,7 +108,8 @@ void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStre
       pen.Bar(x - 0.012f, x + 0.012f, z, z + 0.85f, y + 0.12f, y + 0.145f, true, false);
     }
     pen.Use(S::kIronBlack);
-    pen.mesh().Beam({x, -1.78f, sill / kSteps + 0.97f}, {x, -0.15f, sill + 0.97f}, 0.05f);
+    const float y0 = -1.78f * pen.reach(), y1 = -0.15f * pen.reach();
+    pen.mesh().Beam({x, y0, sill / kSteps + 0.97f}, {x, y1, sill + 0.97f}, 0.05f);
   }
 }
 
@@ -121,12 +122,12 @@ void BuildWallExtras(FacadeContext& context, FacadePen& pen, const BuildingPlan&
     const int n = std::max(1, static_cast<int>(std::lround(L / 11)));
     const float w = L / static_cast<float>(n), foot = plan.first_storey(), top = plan.height() + 0.4f;
     const int rows = std::max(1, static_cast<int>(std::lround((top - foot) / w)));
-    const float h = (top - foot) / static_cast<float>(rows);
+    const float h = (top - foot) / static_cast<float>(rows), y = -0.42f * pen.reach();
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < n; ++i) {
         const float x0 = w * static_cast<float>(i), z0 = foot + h * static_cast<float>(j);
         const bool rising = (i + j) % 2 == 0;
-        pen.mesh().Beam({rising ? x0 : x0 + w, -0.42f, z0}, {rising ? x0 + w : x0, -0.42f, z0 + h}, 0.5f);
+        pen.mesh().Beam({rising ? x0 : x0 + w, y, z0}, {rising ? x0 + w : x0, y, z0 + h}, 0.5f);
         if (j == 0) pen.Bar(x0 - 0.2f, x0 + 0.2f, foot, top, -0.45f, -0.1f, true, true);
       }
     }

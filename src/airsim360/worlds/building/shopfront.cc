@@ -127,6 +127,8 @@ void BuildDoor(FacadePen& pen, const GroundFloor& floor, const Shop& shop) {
   pen.Front(r, d1, 0.03f, kHead, back);
   pen.Front(l, r, 0.03f, 0.75f, back);
   pen.Front(l, r, 2.15f, 2.3f, back);
+  pen.Reveal(l, r, 0.75f, 2.15f, back, back + 0.03f);
+  pen.Reveal(l, r, 2.3f, kHead, back, back + 0.03f);
   pen.Use(shop.inside);
   pen.Picture(l, r, 0.75f, 2.15f, back + 0.03f, {0.3f, 0.3f}, {0.5f, 0.8f});
   pen.Picture(l, r, 2.3f, kHead, back + 0.03f, {0.3f, 0.02f}, {0.5f, 0.2f});

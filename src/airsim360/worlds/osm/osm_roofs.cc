@@ -106,9 +106,9 @@ std::vector<Plane> PlanesOf(const OsmVolume& volume, const Frame& f) {
       break;
     case OsmRoof::kRound:
       for (int i = 0; i < 8; ++i) {
-        // Tangents of a half ellipse.
-        const double a = (i + 0.5) * M_PI / 8, x = w * (1 - std::cos(a)), z = h * std::sin(a);
-        const double slope = h * std::cos(a) / (w * std::sin(a));
+        // Tangents of a half ellipse, of which the two in the middle meet at the height of the roof.
+        const double a = (i + 0.5) * M_PI / 8, x = w * (1 - std::cos(a)), r = h * std::sin(3.5 * M_PI / 8);
+        const double z = r * std::sin(a), slope = r * std::cos(a) / (w * std::sin(a));
         planes.Add(0, z - slope * x, slope);
       }
       break;

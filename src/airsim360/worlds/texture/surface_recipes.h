@@ -46,7 +46,7 @@ enum class Recipe {
 
 /// The recipe of a texture; kNone is not allowed.
 TextureRecipe MakeRecipe(Recipe recipe);
-/// Texels a side that the worlds use: 2 to 4 mm a texel for grounds and walls.
+/// Texels a side that the worlds use: 2 to 6 mm a texel for grounds and walls.
 int SizeOf(Recipe recipe);
 
 /// What scans of the material show (docs/internals/materials.md, "Materials"): the means that the recipe is brought to,
