@@ -1,240 +1,306 @@
 #include "airsim360/render/sky/clouds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
 #include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/render/sky/cloud_geometry.h"
+#include "airsim360/render/sky/cloud_shapes.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr float kBase = 1300, kTop = 2900, kFarthest = 60e3f, kEarth = 6360e3f;
-constexpr float kExtinction = 0.042f;  // 1 / m at density 1
-constexpr int kMap = 1024;             // coverage map, texels a side
-constexpr float kMapCell = 2 * kFarthest / kMap;
+constexpr float kPi = 3.14159265f;
+constexpr float kFarthest = 85e3f, kFading = 45e3f;  // metres: where clouds end, and begin to fade
+constexpr float kClosed = 0.97f;                     // cover from which the deck is closed
+constexpr float kLowestRay = 0.0015f;                // sine; flatter rays see the same
+constexpr float kDetailRange = 40e3f;                // metres up to which the fine noise shows
 
-float Clamp01(float x) { return x < 0 ? 0.0f : x > 1 ? 1.0f : x; }
-float Mix(float a, float b, float t) { return a + (b - a) * t; }
-Vec3f Mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
+// Multiple scattering as octaves of single scattering, each with half the extinction and 0.55 of the asymmetry of the one before
+// (Wrenninge, Kulla & Lundqvist, "Oz: the great and volumetric", 2013); weights so that a thick sunlit side has 0.7 of a white wall.
+constexpr int kOctaves = 8;
+constexpr float kOctaveWeight = 0.77f, kOctaveAsymmetry = 0.55f;
+
 float Exp(float x) { return scalar::exp_approx(x); }
+float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+Vec3f Mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
 
 // Henyey-Greenstein.
 float Phase(float g, float mu) {
   const float d = 1 + g * g - 2 * g * mu;
-  return (1 - g * g) / (4 * 3.14159265f * d * std::sqrt(d));
+  return (1 - g * g) / (4 * kPi * d * std::sqrt(d));
 }
 
-// Distance along a ray of sine `z` from the ground to the sphere `height` above it.
-float DistanceToLayer(float z, float height) {
-  const float b = kEarth * std::max(z, 0.003f);
-  return -b + std::sqrt(b * b + 2 * kEarth * height);
+Vec2f WindOf(uint32_t seed) {
+  const float angle = static_cast<float>(RngStream(seed, "wind").Uniform(0, 2 * kPi));
+  return {scalar::sin_approx(angle + 0.5f * kPi), scalar::sin_approx(angle)};
 }
 
-float Altitude(Vec3f p) { return p.z + (p.x * p.x + p.y * p.y) * (0.5f / kEarth); }
+// The type of the low clouds, where nobody named one.
+CloudType TypeOf(const Environment& e, uint32_t seed) {
+  if (e.cloud_type != CloudType::kAuto) return e.cloud_type;
+  if (e.cloud_cover < 0.22) return CloudType::kHumilis;
+  if (e.cloud_cover < 0.55) return CloudType::kMediocris;
+  return RngStream(seed, "broken").Chance(0.4) ? CloudType::kStratocumulus : CloudType::kAuto;
+}
 
 }  // namespace
 
-Clouds::Clouds(double cover, double cirrus, const CloudLight& light)
-    : light_(light),
-      cover_(static_cast<float>(std::clamp(cover, 0.0, 1.0))),
-      cirrus_(static_cast<float>(std::clamp(cirrus, 0.0, 1.0))) {
-  if (cover_ <= 0) return;
-  FreeTheSun();
-  BakeCoverage();
-}
-
-// How much cloud stands over a place, [0, 1]; p relative to the observer.
-float Clouds::Coverage(float x, float y) const {
-  const float qx = x + offset_x_, qy = y + offset_y_;
-  const float c = 0.58f * ValueNoise(qx / 2600, qy / 2600, 3) + 0.30f * ValueNoise(qx / 950, qy / 950, 4) +
-                  0.12f * ValueNoise(qx / 420, qy / 420, 5);
-  const float far = SmoothStep(2000, 9500, std::sqrt(x * x + y * y));
-  const float threshold = Mix(0.70f, 0.40f, far) - (cover_ - 0.35f) * 0.75f;
-  return Clamp01((c - threshold) / 0.28f);
-}
-
-// Moves the field until the sun's disc and its surroundings are clear.
-void Clouds::FreeTheSun() {
-  if (light_.to_sun.z < 0.03f) return;
-  for (int k = 0; k < 96; ++k) {
-    offset_x_ = 400 + 1733.0f * static_cast<float>(k);
-    offset_y_ = -911.0f * static_cast<float>(k);
-    const float t = 0.5f * (kBase + kTop) / light_.to_sun.z;
-    float blocked = 0;
-    for (int j = -3; j <= 3; ++j) {
-      for (int i = -3; i <= 3; ++i)
-        blocked += Coverage(light_.to_sun.x * t + 330.0f * static_cast<float>(i),
-                            light_.to_sun.y * t + 330.0f * static_cast<float>(j));
-    }
-    if (blocked <= 0.05f) return;
-  }
-}
-
-void Clouds::BakeCoverage() {
-  coverage_.resize(static_cast<size_t>(kMap) * kMap);
-  ParallelFor(kMap, [&](int64_t j) {
-    for (int i = 0; i < kMap; ++i) {
-      coverage_[static_cast<size_t>(j) * kMap + i] =
-          Coverage((static_cast<float>(i) + 0.5f) * kMapCell - kFarthest,
-                   (static_cast<float>(j) + 0.5f) * kMapCell - kFarthest);
-    }
-  });
-}
-
-// Density in [0, 1]; detail 0 = base shape, 1 = eroded, 2 = with small turrets.
-float Clouds::Density(Vec3f p, int detail) const {
-  const float h = (Altitude(p) - kBase) / (kTop - kBase);
-  if (h <= 0 || h >= 1) return 0;
-  const float mx = (p.x + kFarthest) / kMapCell - 0.5f, my = (p.y + kFarthest) / kMapCell - 0.5f;
-  const int i = std::clamp(static_cast<int>(mx), 0, kMap - 2),
-            j = std::clamp(static_cast<int>(my), 0, kMap - 2);
-  const float fx = mx - static_cast<float>(i), fy = my - static_cast<float>(j);
-  const float* m = &coverage_[static_cast<size_t>(j) * kMap + i];
-  const float c = Clamp01(Mix(Mix(m[0], m[1], fx), Mix(m[kMap], m[kMap + 1], fx), fy));
-  if (c <= 0.01f) return 0;
-
-  // Flat base, domed top that stands higher where there is more cloud.
-  const float profile = SmoothStep(0, 0.07f, h) * (1 - SmoothStep(0.18f + 0.5f * c, 0.34f + 0.66f * c, h));
-  if (profile <= 0.01f) return 0;
-  const Vec3f q{p.x + offset_x_, p.y + offset_y_, p.z};
-  float d = Clamp01((noise_.At(q * (1 / 1700.0f)) - 0.33f) * 2.2f * profile * (0.5f + c) - (1 - c) * 0.28f -
-                    (1 - profile) * 0.3f);
-  if (d <= 0 || detail == 0) return d;
-  float erosion =
-      0.60f * noise_.At(q * (1 / 430.0f) + Vec3f{0.3f, 0.1f, h}) + 0.28f * noise_.At(q * (1 / 130.0f));
-  erosion += 0.12f * (detail == 2 ? noise_.At(q * (1 / 47.0f)) : 0.5f);
-  return Clamp01((d - (0.60f - erosion) * 0.80f * (1 - d)) * 2.2f);
-}
-
-float Clouds::DepthTowardsSun(Vec3f p, float dither) const {
-  float sum = 0, step = 40, t = step * (0.3f + 0.4f * dither);
-  for (int i = 0; i < 5; ++i) {
-    sum += Density(p + light_.to_sun * t, i < 2 ? 1 : 0) * step;
-    t += step * 0.5f;
-    step *= 1.9f;
-    t += step * 0.5f;
-  }
-  return sum * kExtinction;
-}
-
-// Fall streaks of ice, drawn out along the wind (x); coordinates in units of 5 km.
-float Clouds::CirrusAlpha(float x, float y) const {
-  const float mask = SmoothStep(Mix(0.66f, 0.30f, cirrus_), Mix(0.86f, 0.62f, cirrus_),
-                                FractalNoise(x * 0.55f + 3, y * 0.75f, 4, 72));
-  if (mask <= 0) return 0;
-  const float bend = FractalNoise(x * 0.5f + 9, y * 0.5f, 3, 51) - 0.5f,
-              curl = FractalNoise(x * 1.3f, y * 1.3f + 5, 3, 57) - 0.5f;
-  const float u = x + 0.5f * bend, v = y + 1.1f * bend + 0.22f * curl;
-  const float fibre = FractalNoise(u * 1.0f, v * 7.5f, 6, 61);
-  const float hair = FractalNoise(u * 2.6f + 4, v * 24.0f + 2.5f * curl, 4, 65);
-  const float veil = FractalNoise(u * 0.9f + 1, v * 1.6f, 4, 68);
-  const float body = SmoothStep(0.40f, 0.80f, 0.62f * fibre + 0.24f * hair + 0.2f * veil);
-  return mask * (0.12f * veil + body * body);
-}
-
-// Ice forward-scatters strongly: bright about the sun, thin elsewhere.
-Vec3f Clouds::AddCirrus(Vec3f direction, Vec3f behind) const {
-  const float fade = SmoothStep(0.04f, 0.22f, direction.z) * SmoothStep(0.0f, 0.1f, cirrus_);
-  if (fade <= 0) return behind;
-  const float mu = Dot(direction, light_.to_sun);
-  const float scatter = 0.06f + 0.16f * std::pow(std::max(0.0f, mu), 6.0f);
-  // The distance is bounded so that nothing streaks into the horizon.
-  const float t = 7600 / (direction.z + 0.05f);
-  const float x = direction.x * t * 0.92f + direction.y * t * 0.39f,
-              y = direction.y * t * 0.92f - direction.x * t * 0.39f;
-  const float alpha = (1 - Exp(-1.1f * CirrusAlpha(x / 5200 + 7, y / 5200))) * fade;
-  return Mix(behind, light_.sun_high * scatter + light_.ambient * 0.55f + behind * 0.3f, alpha);
-}
-
-// Fleecy rows: cells of about 350 m in patches of some kilometres; metres.
-float Clouds::PuffAlpha(float x, float y) const {
-  const float mask = SmoothStep(Mix(0.80f, 0.52f, cover_), Mix(0.92f, 0.74f, cover_),
-                                FractalNoise(x / 6500 + 21, y / 5200, 3, 80));
-  if (mask <= 0) return 0;
-  const float wave = 0.08f * std::sin(x / 210 + 3 * FractalNoise(x / 1500, y / 1500, 2, 84));
-  const float cells = FractalNoise(x / 420, y / 300, 5, 86) + wave;
-  return SmoothStep(0.62f - 0.26f * mask, 0.86f - 0.22f * mask, cells) * mask;
-}
-
-// Lit on the sun's side: the sheet is thicker behind where it grows away from the sun.
-Vec3f Clouds::AddPuffs(Vec3f direction, Vec3f behind) const {
-  // None overhead, where a panorama would draw them across its whole width.
-  const float fade = SmoothStep(0.10f, 0.30f, direction.z) * (1 - SmoothStep(0.80f, 0.95f, direction.z)) *
-                     SmoothStep(0.1f, 0.3f, cover_);
-  if (fade <= 0) return behind;
-  const float t = 4300 / (direction.z + 0.03f), x = direction.x * t, y = direction.y * t;
-  const float here = PuffAlpha(x, y);
-  if (here <= 0.003f) return behind;
-  const float towards = PuffAlpha(x + light_.to_sun.x * 150, y + light_.to_sun.y * 150);
-  const float side = Clamp01(0.72f + 0.9f * (here - towards) - 0.30f * here);
-  const float mu = Dot(direction, light_.to_sun);
-  const float scatter = side * (0.085f + 0.16f * std::pow(std::max(0.0f, mu), 5.0f));
-  const float alpha = (1 - Exp(-2.4f * here)) * fade * 0.9f;
-  return Mix(behind, Mix(light_.sun, light_.sun_high, 0.4f) * scatter + light_.ambient * 0.75f, alpha);
-}
-
-float Clouds::SunAt(float x, float y) const {
-  if (cover_ <= 0 || light_.to_sun.z < 0.03f) return 1;
-  constexpr int kSteps = 20;
-  const float z = std::max(light_.to_sun.z, 0.17f);
-  const float first = kBase / z, step = (kTop - kBase) / z / kSteps;
-  const Vec3f to_sun{light_.to_sun.x, light_.to_sun.y, z};
-  float depth = 0;
-  for (int i = 0; i < kSteps; ++i)
-    depth += Density(Vec3f{x, y, 0} + to_sun * (first + (static_cast<float>(i) + 0.5f) * step), 1) * step;
-  // What scatters forwards through the cloud still comes from about the sun: a floor, and a softer fall than
-  // of the direct beam alone.
-  return 0.10f + 0.90f * Exp(-0.4f * kExtinction * depth);
-}
-
-Vec3f Clouds::Over(Vec3f direction, Vec3f behind, Vec3f haze, float dither) const {
-  const Vec3f background = AddPuffs(direction, AddCirrus(direction, behind));
-  if (cover_ <= 0) return background;
-  const float first = DistanceToLayer(direction.z, kBase),
-              last = std::min(DistanceToLayer(direction.z, kTop), kFarthest);
-  if (first >= last) return background;
-
-  // Multiple scattering as three octaves of single scattering, each wider, weaker and less attenuated.
-  const float mu = Dot(direction, light_.to_sun);
-  float phase[3], g = 1;
-  for (float& p : phase) {
-    p = 0.62f * Phase(0.72f * g, mu) + 0.38f * Phase(-0.22f * g, mu);
-    g *= 0.55f;
-  }
+// A ray on its way through the layers, from the nearest on.
+struct Clouds::Ray {
+  Vec3f direction, air;
+  float dither;
+  float cosine;                          // to the sun
+  std::array<float, kOctaves> phase{};   // of the octaves
   Vec3f light{};
-  float through = 1, distance = 0, weight = 0;
-  float t = first + dither * std::max(16.0f, 0.008f * first);
-  while (t < last && through > 0.015f) {
-    const float step = std::max(18.0f, 0.0065f * t);
-    const Vec3f p = direction * t;
-    const float density = Density(p, t < 14000 ? 2 : 1);
-    if (density <= 0) {
-      t += step * (Density(p, 0) > 0 ? 1.0f : 2.2f);
+  float through = 1;
+};
+
+Clouds::Clouds(const Environment& environment, const CloudLight& light)
+    : light_(light),
+      cirrus_(static_cast<float>(environment.cirrus_cover), WindOf(static_cast<uint32_t>(environment.sky_seed) + 1),
+              static_cast<uint32_t>(environment.sky_seed)),
+      cover_(static_cast<float>(environment.cloud_cover)) {
+  const auto seed = static_cast<uint32_t>(environment.sky_seed);
+  const Vec2f wind = WindOf(seed);
+  RngStream random(seed, "bases");
+  const auto usual = static_cast<float>(random.Uniform(0.85, 1.2));
+  if (environment.cloud_cover >= kClosed) {
+    deck_base_ = environment.cloud_base_m > 0 ? static_cast<float>(environment.cloud_base_m) : 800 * usual;
+    deck_.emplace(deck_base_, light.overcast, light.to_sun, wind, seed);
+    return;
+  }
+  if (environment.cloud_cover > 0.005) AddLow(environment, wind, seed);
+  if (environment.altocumulus_cover > 0.02) {
+    const float base = 4300 * static_cast<float>(random.Uniform(0.85, 1.15));
+    layers_.push_back(SheetLayer({base, 230, static_cast<float>(random.Uniform(420, 750)), 26, 0.022f},
+                                 static_cast<float>(environment.altocumulus_cover), WindOf(seed + 2), seed + 77));
+  }
+  PlaceTheSun(cover_, seed);
+  LightLayers();
+}
+
+void Clouds::AddLow(const Environment& environment, Vec2f wind, uint32_t seed) {
+  const CloudType type = TypeOf(environment, seed);
+  const auto base_of = [&](float usual) {
+    if (environment.cloud_base_m > 0) return static_cast<float>(environment.cloud_base_m);
+    return usual * static_cast<float>(RngStream(seed, "bases").Uniform(0.85, 1.2));
+  };
+  if (type == CloudType::kStratocumulus || type == CloudType::kStratus) {
+    const bool flat = type == CloudType::kStratus;
+    const SheetForm form{base_of(flat ? 700 : 1200), flat ? 260.0f : 360.0f, flat ? 2600.0f : 1500.0f, 40, 0.05f};
+    layers_.push_back(SheetLayer(form, cover_, wind, seed));
+    return;
+  }
+  CumulusForm form{base_of(900), 2000, 0.7f};  // broken
+  if (type == CloudType::kHumilis) form = {base_of(1150), 750, 0.75f};
+  if (type == CloudType::kMediocris) form = {base_of(1100), 1350, 1.05f};
+  if (type == CloudType::kCongestus) form = {base_of(900), 2600, 1.5f};
+  layers_.push_back(CumulusLayer(form, cover_, wind, seed));
+}
+
+void Clouds::LightLayers() {
+  const Vec3f sun = light_.sun_at(60);
+  for (const CloudLayer& layer : layers_) {
+    const float cover = layer.cover();
+    // Between clouds light goes to and fro.
+    const Vec3f between = Mix(sun, Vec3f{1, 1, 1} * Luminance(sun), 0.4f) * (0.02f * cover);
+    lights_.push_back({light_.sun_at(0.5f * (layer.lowest() + layer.highest())), light_.sky * (1 - 0.2f * cover) + between,
+                       light_.ground * (1 - 0.45f * cover)});
+  }
+  cirrus_sun_ = light_.sun_at(cirrus_.height());
+}
+
+// Moves the field until the sun stands as it should.
+void Clouds::PlaceTheSun(float cover, uint32_t seed) {
+  RngStream random(seed, "offsets");
+  const double lot = random.Uniform();
+  const bool hidden = cover >= 0.55f && lot < 0.25, veiled = cover >= 0.55f && !hidden && lot < 0.5;
+  constexpr float kRing = 0.03f;  // radians: free means without cloud close to it, either
+  float best = 2;
+  Vec2f best_offset[4] = {};
+  for (int attempt = 0; attempt < 160 && best > 0.05f; ++attempt) {
+    Vec2f offset[4] = {};
+    for (size_t k = 0; k < layers_.size(); ++k) {
+      offset[k] = {static_cast<float>(random.Uniform()) * layers_[k].extent(), static_cast<float>(random.Uniform()) * layers_[k].extent()};
+      layers_[k].SetOffset(offset[k].x, offset[k].y);
+    }
+    float sun = SunThrough(light_.to_sun), around = 0;
+    for (int k = 0; k < 6 && !hidden && !veiled; ++k) {
+      const float angle = static_cast<float>(k) * kPi / 3;
+      const Vec3f side = Normalized(Vec3f{-light_.to_sun.y, light_.to_sun.x, 1e-6f}), up = Cross(light_.to_sun, side);
+      around += (1 - SunThrough(Normalized(light_.to_sun + side * (kRing * std::cos(angle)) + up * (kRing * std::sin(angle))))) / 6;
+    }
+    const float miss = hidden ? sun : veiled ? std::fabs(sun - 0.35f) : (1 - sun) + around;
+    if (miss >= best) continue;
+    best = miss;
+    std::copy(std::begin(offset), std::end(offset), std::begin(best_offset));
+  }
+  for (size_t k = 0; k < layers_.size(); ++k) layers_[k].SetOffset(best_offset[k].x, best_offset[k].y);
+}
+
+float Clouds::SunThrough(Vec3f d) const {
+  float depth = 0;
+  d.z = std::max(d.z, 0.03f);
+  for (const CloudLayer& layer : layers_) {
+    const float first = DistanceToAltitude(d.z, std::max(layer.lowest(), 1.0f)), last = DistanceToAltitude(d.z, layer.highest());
+    constexpr int kSteps = 48;
+    for (int i = 0; i < kSteps; ++i) {
+      const Vec3f p = d * (first + (last - first) * (static_cast<float>(i) + 0.5f) / kSteps);
+      if (layer.MayBeCloud(p.x, p.y)) depth += layer.Density(p.x, p.y, AltitudeOf(p), true) * (last - first) / kSteps;
+    }
+  }
+  return Exp(-0.5f * depth);
+}
+
+// What sunlight meets before a point of a cloud: steps that grow, up to 1.7 km.
+float Clouds::DepthToSun(const CloudLayer& layer, Vec3f p, float altitude, float dither) const {
+  float t = 0, depth = 0, step = 26;
+  for (int k = 0; k < 7; ++k) {
+    dither += 0.618034f;
+    dither -= dither >= 1 ? 1.0f : 0.0f;
+    // Shaken within the step: not at all, and bases show terraces; all over it, and they show grain.
+    const float at = t + (0.32f + 0.36f * dither) * step, there = altitude + light_.to_sun.z * at;
+    if (there > layer.highest()) break;
+    depth += layer.Density(p.x + light_.to_sun.x * at, p.y + light_.to_sun.y * at, there, k < 2) * step;
+    t += step;
+    step *= 1.75f;
+  }
+  return depth;
+}
+
+// Light that a point of a cloud scatters to the ray's eye, of the sun: the octaves after what stands before it.
+float Clouds::SunScattered(const CloudLayer& layer, const Ray& ray, Vec3f p, float altitude, float dither) const {
+  // The extinctions halve from octave to octave: from the last to the first each power is the square of the one before.
+  float pass[kOctaves];
+  pass[kOctaves - 1] = Exp(-DepthToSun(layer, p, altitude, dither) * (1.0f / (1 << (kOctaves - 1))));
+  for (int k = kOctaves - 1; k > 0; --k) pass[k - 1] = pass[k] * pass[k];
+  float sum = 0, weight = 1;
+  for (int k = 0; k < kOctaves; ++k) sum += weight * ray.phase[k] * pass[k], weight *= kOctaveWeight;
+  return sum;
+}
+
+// The same of sky and ground: the sky's comes through what lies above by the two-stream form, the ground's fades upwards.
+Vec3f Clouds::AmbientScattered(const CloudLayer& layer, const LayerLight& light, float altitude) const {
+  const float z = altitude - layer.form().base, thickness = layer.highest() - layer.form().base;
+  const float over = layer.form().extinction * std::max(0.0f, 0.8f * thickness - z) * (0.4f + 0.6f * layer.cover());
+  const float above = 1 / (1 + 0.1f * over), below = Exp(-0.0025f * std::max(0.0f, z));
+  return light.sky * (0.22f + 0.55f * above) + light.ground * (0.12f + 0.38f * below);
+}
+
+void Clouds::March(const CloudLayer& layer, const LayerLight& light, Ray& ray) const {
+  const Vec3f d = ray.direction;
+  const float first = DistanceToAltitude(d.z, std::max(layer.lowest(), 1.0f));
+  const float last = std::min(DistanceToAltitude(d.z, layer.highest()), kFarthest);
+  const float least = layer.highest() - layer.form().base < 500 ? 14.0f : 26.0f, jump = 3.6f * layer.form().cell;
+  Vec3f sum{};
+  float through = 1, distance = 0, weight = 0, dither = ray.dither, sun = 0;
+  bool outside = true;
+  for (float t = first; t < last && through > 0.008f;) {
+    // About as fine as a pixel far away; near enough overhead that no grain shows.
+    const float step = std::max(std::min(least, 0.009f * t), 0.0035f * t);
+    if (!layer.MayBeCloud(d.x * t, d.y * t)) {
+      t += std::max(step, jump);
+      outside = true;
       continue;
     }
-    const float depth = DepthTowardsSun(p, dither);
-    float a = 1, b = 1, direct = 0;
-    for (float ph : phase) {
-      direct += ph * a * Exp(-depth * b);
-      a *= 0.72f;
-      b *= 0.20f;
+    if (outside) t += step * ray.dither;
+    outside = false;
+    const Vec3f p = d * t;
+    const float altitude = AltitudeOf(p), density = layer.Density(p.x, p.y, altitude, t < kDetailRange);
+    if (density <= 0) {
+      t += 1.6f * step;
+      continue;
     }
-    const float h = Clamp01((Altitude(p) - kBase) / (kTop - kBase));
-    const Vec3f source =
-        light_.sun * (1.40f * direct + 0.014f + 0.035f * h) + light_.ambient * (0.40f + 0.75f * h);
-    const float kept = Exp(-density * kExtinction * step);
-    const float share = through * (1 - kept);
-    light += source * share;
-    distance += t * share;
-    weight += share;
+    // What little is left to see is lit as what stands before it.
+    if (through > 0.25f || weight == 0) {
+      dither += 0.7548777f;
+      dither -= dither >= 1 ? 1.0f : 0.0f;
+      sun = SunScattered(layer, ray, p, altitude, dither);
+    }
+    const float kept = Exp(-density * step), share = through * (1 - kept);
+    sum += (light.sun * sun + AmbientScattered(layer, light, altitude)) * share;
+    distance += t * share, weight += share;
     through *= kept;
     t += step;
   }
-  if (weight < 1e-4f) return background;
-  // The air between fades far clouds into the horizon.
-  const float clear = Exp(-distance / weight / 21000.0f);
-  return background * through + light * clear + haze * ((1 - clear) * (1 - through));
+  if (weight < 1e-4f) return;
+  distance /= weight;
+  const float near = 1 - SmoothStep(kFading, kFarthest, distance);
+  Put(ray, sum * near, weight * near, distance);
+}
+
+// Ice scatters forwards strongly: bright about the sun.
+void Clouds::AddCirrus(Ray& ray) const {
+  if (!cirrus_.any() || ray.through < 0.01f) return;
+  const float t = DistanceToAltitude(ray.direction.z, cirrus_.height());
+  const float depth = 0.6f * cirrus_.Depth(ray.direction.x * t, ray.direction.y * t) / std::max(0.12f, ray.direction.z);
+  const float share = 1 - Exp(-depth);
+  if (share < 1e-4f) return;
+  const float mu = ray.cosine;
+  const float scattered = 0.70f * Phase(0.80f, mu) + 0.30f * Phase(0, mu) + 0.02f * Phase(0.985f, mu) + 0.10f * (1 - Exp(-2 * depth)) / kPi;
+  Put(ray, (cirrus_sun_ * scattered + light_.sky * 0.6f) * share, share, t);
+}
+
+// Lays light over what is behind, less what the air before it takes, with the air's own.
+void Clouds::Put(Ray& ray, Vec3f light, float share, float distance) const {
+  const float slope = ray.direction.z + distance * (0.5f / kEarthRadius);  // of the way's chord over the curved ground
+  const auto kept = [&](float reach) {
+    const float r = scalar::layer_path(0, slope, reach, kRayleighHeight), a = scalar::layer_path(0, slope, reach, kAerosolHeight);
+    const Vec3f depth = light_.air.rayleigh * r + light_.air.aerosol * a;
+    return Vec3f{Exp(-depth.x), Exp(-depth.y), Exp(-depth.z)};
+  };
+  const Vec3f here = kept(distance), all = kept(4e5f);
+  const float dim = deck_ ? 1 : 1 - 0.35f * cover_;  // by the shade of clouds
+  for (int c = 0; c < 3; ++c) {
+    const float added = ray.air[c] * dim * (1 - here[c]) / std::max(1 - all[c], 1e-3f);
+    ray.light[c] += (light[c] * here[c] + added * share) * ray.through;
+  }
+  ray.through *= 1 - share;
+}
+
+Vec3f Clouds::Over(Vec3f direction, Vec3f behind, Vec3f air, float dither) const {
+  if (!any()) return behind;
+  Ray ray{Normalized(Vec3f{direction.x, direction.y, std::max(direction.z, kLowestRay)}), air, dither, 0};
+  if (deck_) {
+    ray.air = deck_->AirLight();
+    Put(ray, deck_->Radiance(ray.direction), 1, DistanceToAltitude(ray.direction.z, deck_base_));
+    return ray.light;
+  }
+  ray.cosine = Dot(ray.direction, light_.to_sun);
+  float g = 1;
+  for (float& phase : ray.phase) {
+    phase = 0.86f * Phase(0.82f * g, ray.cosine) + 0.14f * Phase(-0.25f * g, ray.cosine);
+    g *= kOctaveAsymmetry;
+  }
+  for (size_t k = 0; k < layers_.size(); ++k) {
+    if (ray.through > 0.01f) March(layers_[k], lights_[k], ray);
+  }
+  AddCirrus(ray);
+  return ray.light + behind * ray.through;
+}
+
+float Clouds::DepthAlongSun(const CloudLayer& layer, float x, float y, float step) const {
+  // A very low sun's shadows would run for ever; ten degrees is as far as CloudShadowMap follows them.
+  const float z = std::max(light_.to_sun.z, 0.17f);
+  step /= z;
+  float depth = 0;
+  for (float t = layer.lowest() / z + 0.5f * step; t < layer.highest() / z; t += step) {
+    const Vec3f p{x + light_.to_sun.x * t, y + light_.to_sun.y * t, z * t};
+    if (layer.MayBeCloud(p.x, p.y)) depth += layer.Density(p.x, p.y, p.z, true) * step;
+  }
+  return depth;
+}
+
+float Clouds::SunAt(float x, float y, float step) const {
+  if (deck_) return 0;
+  float depth = 0;
+  for (const CloudLayer& layer : layers_) depth += DepthAlongSun(layer, x, y, step);
+  const float z = std::max(light_.to_sun.z, 0.17f), t = cirrus_.height() / z;
+  depth += 0.6f * cirrus_.Depth(x + light_.to_sun.x * t, y + light_.to_sun.y * t) / z;
+  return Exp(-0.5f * depth);
 }
 
 }  // namespace airsim360::internal

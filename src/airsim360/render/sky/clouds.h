@@ -1,51 +1,70 @@
-// Fair-weather clouds: a volume of cumulus, altocumulus and cirrus as sheets above it. Own composition;
-// lighting after Wrenninge et al. (2013).
+// All clouds of a sky: how they look, and what they leave of the sun.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "airsim360/math/vector.h"
-#include "airsim360/render/sky/noise.h"
+#include "airsim360/render/sky/atmosphere.h"
+#include "airsim360/render/sky/cloud_layer.h"
+#include "airsim360/render/sky/cloud_sheets.h"
+#include "airsim360/scene/environment.h"
 
 namespace airsim360::internal {
 
-/// What a cloud needs to know of the light.
+/// What clouds need to know of the light.
 struct CloudLight {
-  Vec3f to_sun;    ///< unit, W
-  Vec3f sun;       ///< irradiance facing the sun, at the height of cumulus
-  Vec3f sun_high;  ///< the same at the height of cirrus
-  Vec3f ambient;   ///< mean radiance of the clear sky
+  Vec3f to_sun;                          ///< unit, W
+  std::function<Vec3f(float)> sun_at;    ///< irradiance facing the sun, by altitude in metres
+  Vec3f sky;                             ///< mean radiance of the clear sky
+  Vec3f ground;                          ///< radiance of the ground below a clear sky
+  ClearAir air;                          ///< before the clouds
+  float overcast;                        ///< what a closed deck gives level ground, units
 };
 
-/// Immutable. Coverage grows with distance, so that a bank stands low around the horizon and only puffs hang
-/// overhead; the field is shifted so that the sun is free from the origin.
+/// Immutable: the same for the same environment and light on every machine. The observer stands at the origin. Volumes of cumulus,
+/// stratocumulus and altocumulus, cirrus above, or a closed deck below all else. Below 0.55 of low cloud the field is moved so that
+/// the sun is free from the origin; above it chance decides whether it is free, veiled or hidden.
 class Clouds {
  public:
-  /// Environment::cloud_cover and cirrus_cover; at 0 there are none.
-  Clouds(double cover, double cirrus, const CloudLight& light);
+  Clouds(const Environment& environment, const CloudLight& light);
 
-  /// Radiance of a sky direction with clouds before a clear sky: `behind` is the clear radiance there, `haze`
-  /// that of the air between. `dither` in [0, 1) shifts the steps.
-  Vec3f Over(Vec3f direction, Vec3f behind, Vec3f haze, float dither) const;
-  /// Share of the sun's light that reaches a point of the ground past the cumulus.
-  float SunAt(float x, float y) const;
+  /// Radiance of a direction above the horizon with the clouds before the clear sky `behind` (with its stars); `air` is the light
+  /// of the clear sky there, which lies before the clouds in part. `dither` in [0, 1) shifts the steps.
+  Vec3f Over(Vec3f direction, Vec3f behind, Vec3f air, float dither) const;
+  /// Share of the sun's direct light that reaches a point of the level through the origin. Half of what a cloud scatters goes on
+  /// within a few degrees (diffraction), and counts as direct: exp(-depth / 2). `step`: of the march, metres of height.
+  float SunAt(float x, float y, float step = 45) const;
+  /// A deck hides the sun and all sky.
+  bool closed() const { return deck_.has_value(); }
+  bool any() const { return closed() || !layers_.empty() || cirrus_.any(); }
 
  private:
-  float Coverage(float x, float y) const;
-  float Density(Vec3f p, int detail) const;
-  float DepthTowardsSun(Vec3f p, float dither) const;
-  float CirrusAlpha(float x, float y) const;
-  float PuffAlpha(float x, float y) const;
-  Vec3f AddCirrus(Vec3f direction, Vec3f behind) const;
-  Vec3f AddPuffs(Vec3f direction, Vec3f behind) const;
-  void FreeTheSun();
-  void BakeCoverage();
+  struct LayerLight {
+    Vec3f sun, sky, ground;  // irradiance facing the sun; radiances from above and below
+  };
+  struct Ray;
+  void AddLow(const Environment& environment, Vec2f wind, uint32_t seed);
+  void LightLayers();
+  void PlaceTheSun(float cover, uint32_t seed);
+  float SunThrough(Vec3f direction) const;
+  float DepthToSun(const CloudLayer& layer, Vec3f p, float altitude, float dither) const;
+  float DepthAlongSun(const CloudLayer& layer, float x, float y, float step) const;
+  float SunScattered(const CloudLayer& layer, const Ray& ray, Vec3f p, float altitude, float dither) const;
+  Vec3f AmbientScattered(const CloudLayer& layer, const LayerLight& light, float altitude) const;
+  void March(const CloudLayer& layer, const LayerLight& light, Ray& ray) const;
+  void AddCirrus(Ray& ray) const;
+  void Put(Ray& ray, Vec3f light, float share, float distance) const;
 
   CloudLight light_;
-  float cover_, cirrus_;
-  float offset_x_ = 400, offset_y_ = 0;
-  CloudNoise noise_;
-  std::vector<float> coverage_;
+  std::vector<CloudLayer> layers_;  // from the lowest up
+  std::vector<LayerLight> lights_;
+  Cirrus cirrus_;
+  Vec3f cirrus_sun_;
+  std::optional<StratusDeck> deck_;
+  float deck_base_ = 0, cover_ = 0;
 };
 
 }  // namespace airsim360::internal

@@ -1,6 +1,7 @@
 #include "airsim360/render/sky/noise.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "airsim360/base/parallel.h"
 
@@ -8,86 +9,141 @@ namespace airsim360::internal {
 namespace {
 
 float Mix(float a, float b, float t) { return a + (b - a) * t; }
-float Smooth(float t) { return t * t * (3.0f - 2.0f * t); }
+float Quintic(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 int Wrap(int i, int period) { return period > 0 ? ((i % period) + period) % period : i; }
 
-// 1 - distance to the nearest of the random points, one a cell.
-float Worley(Vec3f p, int period) {
-  const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y)),
-            z = static_cast<int>(std::floor(p.z));
-  float best = 9;
-  for (int k = 0; k < 27; ++k) {
-    const int i = x + k % 3 - 1, j = y + k / 3 % 3 - 1, l = z + k / 9 - 1;
-    const uint32_t h = HashLattice(Wrap(i, period), Wrap(j, period), Wrap(l, period));
-    const Vec3f point{static_cast<float>(i) + static_cast<float>(h & 1023) / 1024.0f,
-                      static_cast<float>(j) + static_cast<float>((h >> 10) & 1023) / 1024.0f,
-                      static_cast<float>(l) + static_cast<float>((h >> 20) & 1023) / 1024.0f};
-    best = std::min(best, Dot(point - p, point - p));
+// Component of a lattice gradient from ten bits of its hash, -1 … 1.
+float Part(uint32_t hash, int shift) { return static_cast<float>((hash >> shift) & 1023) * (2.0f / 1023) - 1; }
+
+float GradientNoise3(Vec3f p, int period) {
+  const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
+  const Vec3f f{p.x - static_cast<float>(x), p.y - static_cast<float>(y), p.z - static_cast<float>(z)};
+  float corner[8];
+  for (int k = 0; k < 8; ++k) {
+    const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
+    const uint32_t h = HashLattice(Wrap(x + i, period), Wrap(y + j, period), Wrap(z + l, period) + 5000);
+    corner[k] = Part(h, 0) * (f.x - static_cast<float>(i)) + Part(h, 10) * (f.y - static_cast<float>(j)) +
+                Part(h, 20) * (f.z - static_cast<float>(l));
   }
-  return 1.0f - std::min(1.0f, std::sqrt(best));
+  const float u = Quintic(f.x), v = Quintic(f.y), w = Quintic(f.z);
+  return 1.1f * Mix(Mix(Mix(corner[0], corner[1], u), Mix(corner[2], corner[3], u), v),
+                    Mix(Mix(corner[4], corner[5], u), Mix(corner[6], corner[7], u), v), w);
 }
 
-float ValueNoise3(Vec3f p, int period) {
-  const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  const int x = static_cast<int>(fx), y = static_cast<int>(fy), z = static_cast<int>(fz);
-  const float u = Smooth(p.x - fx), v = Smooth(p.y - fy), w = Smooth(p.z - fz);
-  const auto at = [&](int i, int j, int k) {
-    return HashUnit(Wrap(x + i, period), Wrap(y + j, period), Wrap(z + k, period) + 1000);
-  };
-  return Mix(Mix(Mix(at(0, 0, 0), at(1, 0, 0), u), Mix(at(0, 1, 0), at(1, 1, 0), u), v),
-             Mix(Mix(at(0, 0, 1), at(1, 0, 1), u), Mix(at(0, 1, 1), at(1, 1, 1), u), v), w);
-}
+// Random points, one a cell of a cube that wraps, relative to their cells' corners.
+struct Points {
+  explicit Points(int cells) : count(cells), of(static_cast<size_t>(cells) * cells * cells) {
+    for (int k = 0; k < cells * cells * cells; ++k) {
+      const uint32_t h = HashLattice(k % cells, k / cells % cells, k / cells / cells + 100 * cells);
+      of[k] = {static_cast<float>(h & 1023) / 1024.0f, static_cast<float>((h >> 10) & 1023) / 1024.0f,
+               static_cast<float>(h >> 20) / 4096.0f};
+    }
+  }
+  // Distance from p, in cells.
+  float Nearest(Vec3f p) const {
+    const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
+    float best = 9;
+    for (int k = 0; k < 27; ++k) {
+      const int i = x + k % 3 - 1, j = y + k / 3 % 3 - 1, l = z + k / 9 - 1;
+      const Vec3f q = of[(static_cast<size_t>(Wrap(l, count)) * count + Wrap(j, count)) * count + Wrap(i, count)];
+      const Vec3f d{static_cast<float>(i) + q.x - p.x, static_cast<float>(j) + q.y - p.y, static_cast<float>(l) + q.z - p.z};
+      best = std::min(best, Dot(d, d));
+    }
+    return std::sqrt(best);
+  }
+  int count;
+  std::vector<Vec3f> of;
+};
 
 }  // namespace
 
 float ValueNoise(float x, float y, int seed, int period) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int i = static_cast<int>(fx), j = static_cast<int>(fy);
-  const float u = Smooth(x - fx), v = Smooth(y - fy);
+  const int i = FloorToInt(x), j = FloorToInt(y);
+  const float u = SmoothStep(0, 1, x - static_cast<float>(i)), v = SmoothStep(0, 1, y - static_cast<float>(j));
   const auto at = [&](int a, int b) { return HashUnit(Wrap(i + a, period), Wrap(j + b, period), seed); };
   return Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
 }
 
-float FractalNoise(float x, float y, int octaves, int seed) {
-  float sum = 0, weight = 0.5f, total = 0;
+float GradientNoise(float x, float y, int period, int seed) {
+  const int i = FloorToInt(x), j = FloorToInt(y);
+  const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
+  const auto at = [&](int a, int b) {
+    const uint32_t h = HashLattice(Wrap(i + a, period), Wrap(j + b, period), seed);
+    return Part(h, 0) * (fx - static_cast<float>(a)) + Part(h, 10) * (fy - static_cast<float>(b));
+  };
+  const float u = Quintic(fx), v = Quintic(fy);
+  return 1.6f * Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
+}
+
+float FractalNoise(float x, float y, int period, int octaves, int seed) {
+  float sum = 0, weight = 1, total = 0;
   for (int i = 0; i < octaves; ++i) {
-    sum += weight * ValueNoise(x, y, seed + i);
+    sum += weight * GradientNoise(x, y, period, seed + 101 * i);
     total += weight;
     weight *= 0.5f;
-    const float turned = x * 1.62f - y * 1.18f + 3.1f;
-    y = x * 1.18f + y * 1.62f + 7.7f;
-    x = turned;
+    const float tx = period > 0 ? 2 * x : x * 1.62f - y * 1.18f + 3.1f, ty = period > 0 ? 2 * y : x * 1.18f + y * 1.62f + 7.7f;
+    x = tx, y = ty, period *= 2;
   }
   return sum / total;
 }
 
-CloudNoise::CloudNoise() : voxels_(static_cast<size_t>(kSize) * kSize * kSize) {
-  ParallelFor(kSize, [&](int64_t k) {
-    for (int j = 0; j < kSize; ++j) {
-      for (int i = 0; i < kSize; ++i) {
-        const Vec3f p =
-            Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)} * (1.0f / kSize);
-        const float worley =
-            0.55f * Worley(p * 4.0f, 4) + 0.27f * Worley(p * 8.0f, 8) + 0.18f * Worley(p * 16.0f, 16);
-        const float value = 0.5f * ValueNoise3(p * 5.0f, 5) + 0.3f * ValueNoise3(p * 10.0f, 10) +
-                            0.2f * ValueNoise3(p * 20.0f, 20);
-        voxels_[(static_cast<size_t>(k) * kSize + j) * kSize + i] = 0.55f * worley + 0.45f * value;
+float PointDistance(float x, float y, int period, int seed) {
+  const int cx = FloorToInt(x), cy = FloorToInt(y);
+  float best = 9;
+  for (int k = 0; k < 9; ++k) {
+    const int i = cx + k % 3 - 1, j = cy + k / 3 - 1;
+    const uint32_t h = HashLattice(Wrap(i, period), Wrap(j, period), seed);
+    const float dx = static_cast<float>(i) + static_cast<float>(h & 65535) / 65536.0f - x,
+                dy = static_cast<float>(j) + static_cast<float>(h >> 16) / 65536.0f - y;
+    best = std::min(best, dx * dx + dy * dy);
+  }
+  return std::sqrt(best);
+}
+
+const NoiseCube& NoiseCube::Billows() {
+  static const NoiseCube cube(128, {5, 11, 23}, {0.55f, 0.28f, 0.17f}, 0.28f, 0.50f, 0.35f);
+  return cube;
+}
+
+const NoiseCube& NoiseCube::Details() {
+  static const NoiseCube cube(64, {6, 13}, {0.6f, 0.4f}, 0.25f, 0.55f, 0);
+  return cube;
+}
+
+NoiseCube::NoiseCube(int size, std::vector<int> balls, std::vector<float> weights, float low, float range, float bend)
+    : size_(size), mask_(size - 1), voxels_(static_cast<size_t>(size) * size * size) {
+  const std::vector<Points> points(balls.begin(), balls.end());
+  ParallelFor(size, [&](int64_t k) {
+    for (int i = 0; i < size * size; ++i) {
+      const Vec3f p = Vec3f{static_cast<float>(i % size), static_cast<float>(i / size), static_cast<float>(k)} *
+                      (1.0f / static_cast<float>(size));
+      float sum = 0;
+      for (size_t b = 0; b < points.size(); ++b)
+        sum += weights[b] * (1 - points[b].Nearest(p * static_cast<float>(balls[b])));
+      float value = (sum - low) / range;
+      if (bend > 0) {
+        value += bend * (0.6f * GradientNoise3(p * 4.0f, 4) + 0.3f * GradientNoise3(p * 8.0f, 8) +
+                         0.2f * GradientNoise3(p * 16.0f, 16));
       }
+      voxels_[static_cast<size_t>(k) * size * size + i] =
+          static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
     }
   });
 }
 
-float CloudNoise::At(Vec3f p) const {
-  p = p * static_cast<float>(kSize);
-  const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  const float u = p.x - fx, v = p.y - fy, w = p.z - fz;
-  constexpr int kMask = kSize - 1;
-  const int x0 = static_cast<int>(fx) & kMask, y0 = static_cast<int>(fy) & kMask,
-            z0 = static_cast<int>(fz) & kMask;
-  const int x1 = (x0 + 1) & kMask, y1 = (y0 + 1) & kMask, z1 = (z0 + 1) & kMask;
-  const auto at = [&](int i, int j, int k) { return voxels_[(k * kSize + j) * kSize + i]; };
-  return Mix(Mix(Mix(at(x0, y0, z0), at(x1, y0, z0), u), Mix(at(x0, y1, z0), at(x1, y1, z0), u), v),
-             Mix(Mix(at(x0, y0, z1), at(x1, y0, z1), u), Mix(at(x0, y1, z1), at(x1, y1, z1), u), v), w);
+float NoiseCube::At(Vec3f p) const {
+  p = p * static_cast<float>(size_);
+  const int x = FloorToInt(p.x), y = FloorToInt(p.y), z = FloorToInt(p.z);
+  const float u = p.x - static_cast<float>(x), v = p.y - static_cast<float>(y), w = p.z - static_cast<float>(z);
+  const int x0 = x & mask_, x1 = (x + 1) & mask_;
+  const uint8_t* low = &voxels_[static_cast<size_t>(z & mask_) * size_ * size_];
+  const uint8_t* high = &voxels_[static_cast<size_t>((z + 1) & mask_) * size_ * size_];
+  const int y0 = (y & mask_) * size_, y1 = ((y + 1) & mask_) * size_;
+  const auto row = [&](const uint8_t* at) {
+    const auto a = static_cast<float>(at[x0]), b = static_cast<float>(at[x1]);
+    return a + (b - a) * u;
+  };
+  return Mix(Mix(row(low + y0), row(low + y1), v), Mix(row(high + y0), row(high + y1), v), w) * (1 / 255.0f);
 }
 
 }  // namespace airsim360::internal

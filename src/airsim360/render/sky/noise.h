@@ -1,7 +1,6 @@
-// Deterministic lattice noise for clouds and macro variation.
+// Deterministic lattice noise for clouds: the same numbers on every machine.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,22 +30,38 @@ inline float SmoothStep(float a, float b, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
+/// Largest whole number not above x, |x| < 2^31; without a call where the processor has no instruction for it.
+inline int FloorToInt(float x) {
+  const int i = static_cast<int>(x);
+  return i - (static_cast<float>(i) > x ? 1 : 0);
+}
+
 /// Value noise in [0, 1], cells of size 1; `period` > 0 wraps the lattice.
 float ValueNoise(float x, float y, int seed, int period = 0);
-/// Octaves of ValueNoise, each turned and about twice as fine, weights halving; normalised to [0, 1].
-float FractalNoise(float x, float y, int octaves, int seed);
+/// Gradient noise of the plane, about -1 … 1 with mean 0, cells of size 1; `period` > 0 wraps the lattice.
+float GradientNoise(float x, float y, int period, int seed);
+/// Octaves of GradientNoise, each twice as fine and half as strong; without a period each is turned, too.
+float FractalNoise(float x, float y, int period, int octaves, int seed);
+/// Distance to the nearest of random points of the plane, one a cell of size 1; 0 … about 1.2.
+float PointDistance(float x, float y, int period, int seed);
 
-/// Cube of tiling noise, kSize voxels a side, period 1: cauliflower-like Worley octaves mixed with value
-/// noise.
-class CloudNoise {
+/// Cube of noise in [0, 1] that tiles space with period 1. Immutable.
+class NoiseCube {
  public:
-  CloudNoise();
-  /// Trilinear, any p.
+  /// Heaps of balls (Worley noise of three sizes: 5, 11 and 23 a side) bent by gradient noise: the shape of cumulus.
+  static const NoiseCube& Billows();
+  /// Balls of two finer sizes (6 and 13 a side).
+  static const NoiseCube& Details();
+
+  /// Trilinear; any p below 2^24 periods.
   float At(Vec3f p) const;
 
  private:
-  static constexpr int kSize = 64;
-  std::vector<float> voxels_;
+  /// Worley noise of `balls[k]` points a side with `weights[k]`, then mapped from [low, low + range] with `bend` of gradient noise.
+  NoiseCube(int size, std::vector<int> balls, std::vector<float> weights, float low, float range, float bend);
+
+  int size_, mask_;
+  std::vector<uint8_t> voxels_;  // 2 MB and less: the processor's second cache holds it
 };
 
 }  // namespace airsim360::internal

@@ -84,6 +84,11 @@ Vec3f Sky::sun_radiance() const { return sun_irradiance_ * (1 / kSunSolidAngle);
 
 SunLight Sky::sun() const { return {to_sun_, sun_radius_, sun_radiance(), sun_irradiance_}; }
 
+float Sky::sun_seen() const {
+  const float direct = cloud_shadow_.At(place_);
+  return direct * direct;
+}
+
 SkySample Sky::Sample(Vec2f u) const {
   const Vec3f d = sampler_.Direction(u);
   return {d, Radiance(d), sampler_.Pdf(d)};
@@ -120,25 +125,24 @@ void Sky::BakeSky(const Environment& environment) {
   });
 
   // Then clouds before it, and stars behind them.
-  const Vec3f level = LevelIrradiance(clear);
-  const Clouds clouds(environment.cloud_cover, environment.cirrus_cover,
-                      {to_sun_, light_at(2000), light_at(8000), level * (1 / kPi)});
-  const float open = Luminance(level + sun_irradiance_ * std::max(0.0f, to_sun_.z));
-  const CloudDeck deck(environment.cloud_cover, OvercastIlluminance(sun.z, open));
+  const Vec3f level = LevelIrradiance(clear), open = level + sun_irradiance_ * std::max(0.0f, to_sun_.z);
+  constexpr float kGroundAlbedo = 0.16f;
+  // Clouds over a town are lit from below, some ten times brighter than its clear sky (Kyba et al. 2011).
+  const Vec3f town = environment.lamps_on() ? Vec3f{1.30f, 0.98f, 0.72f} * (0.04f / kLuxPerUnit) : Vec3f{};
+  const Clouds clouds(environment, {to_sun_, light_at, level * (1 / kPi), open * (kGroundAlbedo / kPi) + town,
+                                    ClearAir(environment.turbidity), OvercastIlluminance(sun.z, Luminance(open))});
   table_ = MakeTable(2048, 512, false);
   if (sun.z < 0) AddStars(table_);
   ParallelFor(table_.height, [&](int64_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < table_.width; ++x) {
-      const Vec3f d = DirectionOfTexel(table_, x, y), behind = clear.At(d) + table_.Texel(x, y);
-      const Vec3f haze = clear.At(Normalized(Vec3f{d.x, d.y, std::max(d.z, 0.02f)}));
-      table_.SetTexel(x, y,
-                      deck.closed() ? deck.Over(d, behind)
-                                    : deck.Over(d, clouds.Over(d, behind, haze, HashUnit(x, y, 5))));
+      const Vec3f d = DirectionOfTexel(table_, x, y), air = clear.At(d);
+      table_.SetTexel(x, y, clouds.Over(d, air + table_.Texel(x, y), air, HashUnit(x, y, 5)));
     }
   });
-  sun_irradiance_ *= deck.SunLeft();
-  if (environment.cloud_cover > 0 && Luminance(sun_irradiance_) > 0) {
+  if (clouds.closed()) {
+    sun_irradiance_ = {};
+  } else if (clouds.any() && Luminance(sun_irradiance_) > 0) {
     cloud_shadow_ = CloudShadowMap(place_, to_sun_, [&](float x, float y) { return clouds.SunAt(x, y); });
   }
 }

@@ -43,6 +43,9 @@ class Sky {
   /// Mean radiance of the sun's disc (0.53 degrees wide); darker towards the limb.
   Vec3f sun_radiance() const;
   SunLight sun() const;
+  /// Share of the sun's disc that is seen from the place through the clouds: exp(-depth), while light from about it counts as direct
+  /// on surfaces, see Clouds::SunAt.
+  float sun_seen() const;
   /// Share of the sun's light that clouds leave at a point of W, (0, 1].
   float CloudShadow(Vec3f p) const { return cloud_shadow_.At(p); }
   const CloudShadowMap& cloud_shadow() const { return cloud_shadow_; }

@@ -121,7 +121,7 @@ TEST(CloudShadow, PlaceStandsInTheSunAndSomeGroundDoesNot) {
 TEST(CloudShadow, ThereIsNoneUnderAClearOrAClosedSky) {
   for (const double cover : {0.0, 1.0}) {
     Environment environment;
-    environment.cloud_cover = cover;
+    environment.cloud_cover = cover, environment.cirrus_cover = 0;
     EXPECT_EQ(Sky(environment).CloudShadow({500, 700, 0}), 1);
   }
 }

@@ -5,14 +5,11 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/render/sky/atmosphere.h"
-#include "airsim360/render/sky/noise.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-
-Vec3f Mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
 
 // A star's light over a small disc of directions, so that no texel alone carries it.
 void AddStar(SkyTable& table, float azimuth, float elevation, Vec3f irradiance) {
@@ -39,21 +36,6 @@ void AddStar(SkyTable& table, float azimuth, float elevation, Vec3f irradiance) 
     table.SetTexel(x, y, table.Texel(x, y) + irradiance * (weight / all));
   });
 }
-
-// Brightness of the deck about its smooth gradation: soft rolls and billows on a sheet at 900 m, lost in the
-// haze after some kilometres.
-struct DeckStructure {
-  float light, thickness;
-};
-DeckStructure StructureOf(Vec3f direction) {
-  const float t = 900 / (direction.z + 0.06f), x = direction.x * t, y = direction.y * t;
-  const float near = std::exp(-t / 5000);
-  const float rolls = FractalNoise(x / 1500 + 3, y / 900, 5, 91) - 0.5f,
-              billows = FractalNoise(x / 420, y / 330 + 8, 4, 95) - 0.5f;
-  return {1 + near * (0.95f * rolls + 0.40f * billows), 0.5f + rolls + 0.6f * billows};
-}
-
-float Gradation(float z) { return (1 + 2 * std::max(z, 0.0f)) / 3; }
 
 }  // namespace
 
@@ -84,32 +66,6 @@ void AddStars(SkyTable& table) {
     const auto lux = static_cast<float>(2.54e-6 * std::pow(10, -0.4 * magnitude));
     AddStar(table, azimuth, std::asin(z), Vec3f{1 + 0.15f * warm, 1, 1 - 0.2f * warm} * (lux / kLuxPerUnit));
   }
-}
-
-CloudDeck::CloudDeck(double cover, float illuminance)
-    : closed_(SmoothStep(0.7f, 1.0f, static_cast<float>(cover))) {
-  if (closed_ <= 0) return;
-  // What a zenith of 1 would give level ground; 7 pi / 9 without the structure.
-  constexpr int kUp = 24, kAround = 64;
-  float level = 0;
-  for (int k = 0; k < kUp * kAround; ++k) {
-    const float z = std::sqrt((static_cast<float>(k / kAround) + 0.5f) / kUp);
-    const Vec3f d = DirectionOf((static_cast<float>(k % kAround) + 0.5f) * 2 * kPi / kAround, std::asin(z));
-    level += Gradation(z) * StructureOf(d).light * (kPi / (kUp * kAround));
-  }
-  zenith_ = illuminance / level;
-}
-
-float CloudDeck::SunLeft() const { return (1 - closed_) * (1 - closed_); }
-
-Vec3f CloudDeck::Over(Vec3f direction, Vec3f behind) const {
-  if (closed_ <= 0) return behind;
-  const DeckStructure structure = StructureOf(direction);
-  const Vec3f deck = Vec3f{0.955f, 1.0f, 1.06f} * (zenith_ * Gradation(direction.z) * structure.light);
-  // Before it closes, holes where the sheet is thin.
-  const float alpha =
-      closed_ >= 1 ? 1.0f : SmoothStep(0, 0.35f, structure.thickness - 1.15f + 1.55f * closed_);
-  return Mix(behind, deck, alpha);
 }
 
 float OvercastIlluminance(float sun_z, float clear) {

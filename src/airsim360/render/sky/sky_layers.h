@@ -1,4 +1,4 @@
-// What the atmosphere and its fair-weather clouds leave out: the night sky and the closed cloud deck.
+// What the sunlit atmosphere leaves out: the night sky, and how much light a closed sky gives.
 #pragma once
 
 #include "airsim360/math/vector.h"
@@ -18,23 +18,6 @@ Vec3f NightGlow(Vec3f direction, bool lamps);
 /// Adds the stars of the upper hemisphere down to magnitude 6.5: about 4,500 at invented places, their number
 /// growing as 10^(0.5 m), each with the illuminance of its magnitude (2.54e-6 lx for 0).
 void AddStars(SkyTable& table);
-
-/// A closed deck of stratus: the CIE overcast sky (1 : 3 from horizon to zenith) with a soft structure.
-/// Immutable.
-class CloudDeck {
- public:
-  /// `cover` as Environment::cloud_cover: nothing below 0.7, broken up to 1. `illuminance` is what a closed
-  /// deck gives level ground, in units.
-  CloudDeck(double cover, float illuminance);
-  /// The deck before `behind`.
-  Vec3f Over(Vec3f direction, Vec3f behind) const;
-  bool closed() const { return closed_ >= 1; }
-  /// Share of the sun's direct light that is left below it.
-  float SunLeft() const;
-
- private:
-  float closed_, zenith_ = 0;
-};
 
 /// Illuminance of level ground under a thick overcast sky, in units: 300 + 21000 sin(elevation) lux
 /// (Krochmann 1963), below the horizon in proportion to `clear`, that of a clear sky.

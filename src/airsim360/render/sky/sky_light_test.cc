@@ -6,6 +6,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/render/sky/atmosphere.h"
+#include "airsim360/render/sky/cloud_sheets.h"
 #include "airsim360/render/sky/sky.h"
 #include "airsim360/render/sky/sky_layers.h"
 
@@ -79,32 +80,37 @@ TEST(SkyLight, DuskIsRedOverTheSunAndBlueAtTheZenith) {
   EXPECT_GT(Luminance(low), 2 * Luminance(behind));
 }
 
+// CIE S 011:2003, overcast: (1 + 2 sin h) / 3 of the zenith, on the mean over skies and azimuths.
 TEST(SkyLight, OvercastHasTheGradationOfTheCieSkyAndGivesTheIlluminanceAsked) {
-  const CloudDeck deck(1, 2.0f);
-  double level = 0, raised = 0, horizon = 0;
-  constexpr int kUp = 100, kAround = 100;
-  for (int k = 0; k < kUp * kAround; ++k) {
-    const double z = std::sqrt((k / kAround + 0.5) / kUp);
-    level += Luminance(deck.Over(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)), {})) *
-             kPi / (kUp * kAround);
+  constexpr int kSeeds = 8, kUp = 60, kAround = 60;
+  double raised = 0, horizon = 0;
+  for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+    const StratusDeck deck(800, 2.0f, Direction(0.4, 0.8), {1, 0}, seed);
+    double level = 0;
+    for (int k = 0; k < kUp * kAround; ++k) {
+      const double z = std::sqrt((k / kAround + 0.5) / kUp);
+      level += Luminance(deck.Radiance(Direction((k % kAround + 0.5) / kAround * 2 * kPi, std::asin(z)))) * kPi / (kUp * kAround);
+    }
+    EXPECT_NEAR(level / 2.0, 1, 0.03) << seed;
+    // Around the sky at 30 degrees, where the gradation is twice the horizon's.
+    for (int k = 0; k < 400; ++k) {
+      raised += Luminance(deck.Radiance(Direction(k * 2.39996, kPi / 6)));
+      horizon += Luminance(deck.Radiance(Direction(k * 2.39996, 0.02)));
+    }
   }
-  // Around the sky at 30 degrees, where the gradation is twice the horizon's.
-  for (int k = 0; k < 400; ++k) {
-    raised += Luminance(deck.Over(Direction(k * 2.39996, kPi / 6), {})) / 400;
-    horizon += Luminance(deck.Over(Direction(k * 2.39996, 0.001), {})) / 400;
-  }
-  EXPECT_NEAR(level / 2.0, 1, 0.02);
-  EXPECT_NEAR(raised / horizon, 2, 0.2);
+  EXPECT_NEAR(raised / horizon * (1 + 2 * std::sin(0.02)), 2, 0.3);
 }
 
 // Krochmann (1963): 300 + 21000 sin(h) lux.
 TEST(SkyLight, ClosedCloudsGiveTheIlluminanceOfAnOvercastDay) {
-  Environment environment;
-  environment.cloud_cover = 1;
-  const Sky sky(environment);
-  const double lux = sky.GroundIlluminance() * kLuxPerUnit;
-  EXPECT_NEAR(lux / (300 + 21000 * std::sin(48 * kPi / 180)), 1, 0.15);
-  EXPECT_EQ(Luminance(sky.sun_irradiance()), 0);
+  for (const double seed : {0.0, 1.0, 2.0}) {
+    Environment environment;
+    environment.cloud_cover = 1, environment.sky_seed = seed;
+    const Sky sky(environment);
+    const double lux = sky.GroundIlluminance() * kLuxPerUnit;
+    EXPECT_NEAR(lux / (300 + 21000 * std::sin(48 * kPi / 180)), 1, 0.15);
+    EXPECT_EQ(Luminance(sky.sun_irradiance()), 0);
+  }
 }
 
 TEST(SkyLight, NightIsDarkButNotBlackAndTheFullMoonGivesAFractionOfALux) {
