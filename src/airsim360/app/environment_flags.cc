@@ -1,13 +1,25 @@
 #include "airsim360/app/environment_flags.h"
 
 #include <string>
+#include <vector>
 
 namespace airsim360 {
 
+namespace {
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
 void AddEnvironmentFlags(CLI::App& command, EnvironmentFlags& flags) {
-  std::string presets;
-  for (const std::string& name : EnvironmentPresetNames()) presets += (presets.empty() ? "" : ", ") + name;
-  command.add_option("--weather", flags.weather, "light and weather instead of the world's own: " + presets);
+  command.add_option("--weather", flags.weather,
+                     "light and weather instead of the world's own: " + Listed(EnvironmentPresetNames()));
+  command.add_option("--clouds", flags.clouds, "clouds instead of the world's own: " + Listed(CloudPresetNames()));
+  command.add_option("--sky-seed", flags.sky_seed, "draws other clouds of the same kind, 1 … 2^32 - 1 (0: the world's own)");
   command.add_option("--sun", flags.sun, "AZ,EL of the sun: compass and elevation in degrees");
   command.add_option("--time", flags.time,
                      "YYYY-MM-DDTHH:MM[+ZZ:ZZ]: the sun of that time (UTC without an offset), with --place");

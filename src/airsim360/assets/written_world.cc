@@ -28,6 +28,10 @@ Environment ReadEnvironment(const std::string& where, const JsonRef& json) {
   const auto* found = std::find(std::begin(kLampsNames), std::end(kLampsNames), lamps);
   if (found == std::end(kLampsNames)) json.At("lamps").Fail("auto, on or off expected");
   environment.lamps = static_cast<Lamps>(found - std::begin(kLampsNames));
+  const std::string type = json.TextOr("cloud_type", "auto");
+  const auto* named = std::find(std::begin(kCloudTypeNames), std::end(kCloudTypeNames), type);
+  if (named == std::end(kCloudTypeNames)) json.At("cloud_type").Fail("not a type of cloud");
+  environment.cloud_type = static_cast<CloudType>(named - std::begin(kCloudTypeNames));
   ValidateEnvironment(environment, where);
   return environment;
 }
@@ -37,6 +41,7 @@ Environment ReadEnvironment(const std::string& where, const JsonRef& json) {
 std::string WriteWorld(const Scene& scene, const std::vector<bool>& seen) {
   ordered_json environment = ordered_json::object();
   for (const EnvironmentField& field : EnvironmentFields()) environment[field.name] = scene.environment.*field.value;
+  environment["cloud_type"] = kCloudTypeNames[static_cast<int>(scene.environment.cloud_type)];
   environment["lamps"] = kLampsNames[static_cast<int>(scene.environment.lamps)];
   ordered_json unseen = ordered_json::array();
   for (const Entity& entity : scene.entities) {

@@ -42,6 +42,10 @@ Lamps ParseLamps(const std::string& text) {
   return ParseChoice<Lamps>("lamps", text, kLampsNames);
 }
 
+CloudType ParseCloudType(const std::string& text) {
+  return ParseChoice<CloudType>("cloud_type", text, kCloudTypeNames);
+}
+
 // "AZ,EL" in degrees.
 void SetSun(const std::string& text, Environment& environment) {
   const size_t comma = text.find(',');
@@ -65,11 +69,15 @@ void ApplySettings(std::string_view text, Environment& environment) {
       environment.lamps = ParseLamps(value);
       continue;
     }
+    if (name == "cloud_type") {
+      environment.cloud_type = ParseCloudType(value);
+      continue;
+    }
     const auto& fields = EnvironmentFields();
     const auto field =
         std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
     if (field == fields.end()) {
-      std::vector<std::string> names = {"lamps"};
+      std::vector<std::string> names = {"lamps", "cloud_type"};
       for (const EnvironmentField& f : fields) names.emplace_back(f.name);
       throw InputError(UnknownChoiceMessage("setting", name, names));
     }
@@ -109,6 +117,7 @@ void SetSunByTime(std::string_view time, std::string_view place, Environment& en
 
 void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
   v.Field("weather", "a preset: day, sunset, overcast, fog, night, rain, snow, …", weather_);
+  v.Field("clouds", "a preset: clear, humilis, broken, overcast, cirrus, haze, …", clouds_);
   v.Field("date", "2026-06-21", date_);
   v.Field("time", "14:30+02:00", time_);
   v.Field("latitude", "degrees north", latitude_, -90, 90);
@@ -119,6 +128,7 @@ void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
     const EnvironmentField& field = EnvironmentFields()[i];
     v.Field(field.name, field.help, numbers_[i], field.low, field.high);
   }
+  v.Field("cloud_type", "of the low clouds: auto, humilis, mediocris, congestus, stratocumulus, stratus", cloud_type_);
   v.Field("lamps", "auto, on or off", lamps_);
   std::string hdri;
   v.Field("hdri", "a sky picture, .hdr or .exr", hdri);
@@ -128,6 +138,7 @@ void EnvironmentWords::Visit(ConfigVisitor& v, const fs::path& folder) {
 
 Environment EnvironmentWords::Over(Environment base) const {
   Environment environment = weather_.empty() ? std::move(base) : ParseEnvironmentPreset(weather_, base);
+  if (!clouds_.empty()) environment = ParseCloudPreset(clouds_, environment);
   // Date and place give the sun, unless its angles follow.
   if (!date_.empty())
     SetSunByTime(date_ + "T" + time_, std::to_string(latitude_) + "," + std::to_string(longitude_),
@@ -135,6 +146,7 @@ Environment EnvironmentWords::Over(Environment base) const {
   for (size_t i = 0; i < numbers_.size(); ++i) {
     if (!std::isnan(numbers_[i])) environment.*EnvironmentFields()[i].value = numbers_[i];
   }
+  if (!cloud_type_.empty()) environment.cloud_type = ParseCloudType(cloud_type_);
   if (!lamps_.empty()) environment.lamps = ParseLamps(lamps_);
   if (hdri_) environment.hdri = hdri_;
   ValidateEnvironment(environment, "environment");
@@ -145,9 +157,12 @@ Environment ApplyFlags(const EnvironmentFlags& flags, const Environment& base) {
   Environment environment = base;
   if (!flags.weather.empty())
     Naming("--weather", [&] { environment = ParseEnvironmentPreset(flags.weather, base); });
+  if (!flags.clouds.empty()) Naming("--clouds", [&] { environment = ParseCloudPreset(flags.clouds, environment); });
   Naming("--time, --place", [&] { SetSunByTime(flags.time, flags.place, environment); });
   if (!flags.sun.empty()) Naming("--sun", [&] { SetSun(flags.sun, environment); });
   if (!flags.hdri.empty()) Naming("--hdri", [&] { environment.hdri = LoadSkyPicture(flags.hdri); });
+  if (!flags.sky_seed.empty() && !ParseWholeNumber(flags.sky_seed, environment.sky_seed))
+    throw InputError("--sky-seed: '" + flags.sky_seed + "' is not a whole number from 0 to 4294967295");
   Naming("--environment", [&] { ApplySettings(flags.settings, environment); });
   ValidateEnvironment(environment, "environment");
   return environment;

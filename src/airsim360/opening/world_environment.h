@@ -27,11 +27,11 @@ class EnvironmentWords {
   /// Names the fields; `folder` is where relative paths start. InputError for what could not be laid over
   /// anything.
   void Visit(ConfigVisitor& v, const std::filesystem::path& folder);
-  /// `base` with what the file says: `weather` before the other fields, date and place before sun angles.
+  /// `base` with what the file says: `weather`, then `clouds`, before the other fields; date and place before sun angles.
   Environment Over(Environment base) const;
 
  private:
-  std::string weather_, date_, time_, lamps_;
+  std::string weather_, clouds_, date_, time_, cloud_type_, lamps_;
   double latitude_ = 0, longitude_ = 0;
   std::vector<double> numbers_;  // of EnvironmentFields(); not a number: not said
   std::shared_ptr<const SkyPicture> hdri_;
@@ -39,10 +39,10 @@ class EnvironmentWords {
 
 /// What a command line says of the environment; empty = nothing.
 struct EnvironmentFlags {
-  std::string weather = {}, sun = {}, time = {}, place = {}, hdri = {}, settings = {};
+  std::string weather = {}, sun = {}, time = {}, place = {}, hdri = {}, settings = {}, clouds = {}, sky_seed = {};
 };
 
-/// `base` with what the flags say, in the order weather, time, sun, hdri, settings ("name=value,…").
+/// `base` with what the flags say, in the order weather, clouds, time, sun, hdri, sky_seed, settings ("name=value,…").
 /// InputError naming the flag.
 Environment ApplyFlags(const EnvironmentFlags& flags, const Environment& base);
 

@@ -14,6 +14,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/scene/environment_sampler.h"
 
 namespace airsim360 {
 namespace {
@@ -115,6 +116,32 @@ TEST_F(WorldEnvironment, FlagsComeInOrderAndNameThemselvesInErrors) {
   EXPECT_NE(ErrorOf([] { ApplyFlags({.time = "2026-01-01T10:00"}, {}); }).find("--place"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "clouds=1"}, {}); }).find("cloud_cover"), std::string::npos);
   EXPECT_NE(ErrorOf([] { ApplyFlags({.hdri = "a.png"}, {}); }).find("--hdri"), std::string::npos);
+}
+
+TEST_F(WorldEnvironment, CloudsAreAPresetOverWeatherAndUnderSingleValues) {
+  const Environment e = ApplyFlags(
+      {.weather = "sunset", .settings = "cirrus_cover=0.5", .clouds = "stratocumulus", .sky_seed = "41"}, {});
+  EXPECT_EQ(e.sun_elevation_deg, 1.5);
+  EXPECT_EQ(e.cloud_type, CloudType::kStratocumulus);
+  EXPECT_EQ(e.cloud_cover, 0.75);
+  EXPECT_EQ(e.cirrus_cover, 0.5);
+  EXPECT_EQ(e.sky_seed, 41);
+  EXPECT_EQ(ApplyFlags({.weather = "rain"}, e).sky_seed, 41);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.clouds = "brokn"}, {}); }).find("'broken'"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.sky_seed = "a"}, {}); }).find("--sky-seed"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.sky_seed = "1.5"}, {}); }).find("whole number"), std::string::npos);
+  EXPECT_NE(ErrorOf([] { ApplyFlags({.settings = "cloud_type=cumulos"}, {}); }).find("cloud_type"), std::string::npos);
+  const fs::path file = Write("w.yaml", "world: box_room\nenvironment: {clouds: overcast, sky_seed: 7}\n");
+  EXPECT_EQ(LoadWorld({.world = file})->environment.cloud_type, CloudType::kStratus);
+  EXPECT_EQ(LoadWorld({.world = file})->environment.sky_seed, 7);
+}
+
+TEST_F(WorldEnvironment, ASampledTextSetsWhatWasSampled) {
+  for (uint64_t seed = 0; seed < 100; ++seed) {
+    const Environment sampled = SampleEnvironment(seed);
+    const std::string text = DescribeEnvironment(sampled);
+    EXPECT_EQ(DescribeEnvironment(ApplyFlags({.settings = text}, {})), text);
+  }
 }
 
 TEST_F(WorldEnvironment, ASkyPictureIsReadAndMustBeAWholeSky) {

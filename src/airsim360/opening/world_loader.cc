@@ -135,33 +135,16 @@ std::shared_ptr<const Scene> LoadBuilt(const WorldRequest& request) {
   return WithCacheKey(std::move(built), key.Name());
 }
 
-}  // namespace
-
-std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
-  auto built = BuildAnew(request, report);
-  const CacheKey key = KeyOf(request);
-  const DiskCache cache = DiskCache::OfUser();
-  if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
-  return Relabelled(WithCacheKey(std::move(built), key.Name()), request.labels);
+// Clouds that nobody chose are the world's own, and stay so when it is exported.
+std::shared_ptr<const Scene> WithOwnSky(std::shared_ptr<const Scene> scene, uint64_t seed) {
+  if (scene->environment.sky_seed != 0) return scene;
+  Environment environment = scene->environment;
+  environment.sky_seed = SkySeedOf(scene->name, seed);
+  return WithEnvironment(std::move(scene), std::move(environment));
 }
 
-std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
-  if (IsWorldFile(request.world)) {
-    EnvironmentWords environment;
-    return OriginOfWorld(ReadWorldFile(request.world, request, environment));
-  }
-  if (!IsOsmFile(request.world)) return std::nullopt;
-  return OriginOfOsmWorld(request.world, request.cut);
-}
-
-std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
+std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
   const fs::path path = request.world;
-  if (IsWorldFile(path)) {
-    EnvironmentWords words;
-    auto scene = LoadWorld(ReadWorldFile(path, request, words));
-    Environment environment = words.Over(scene->environment);
-    return WithEnvironment(std::move(scene), std::move(environment));
-  }
   if (!request.additions.empty() && request.world != "new_york_city" &&
       (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
     throw InputError("'" + request.world +
@@ -178,6 +161,36 @@ std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   if (!request.heights.empty() && !IsOsmFile(path))
     throw InputError(request.heights.string() + ": heights are for maps (.osm, .osm.pbf), not for '" + request.world + "'");
   return Relabelled(LoadBuilt(request), request.labels);
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
+  auto built = BuildAnew(request, report);
+  const CacheKey key = KeyOf(request);
+  const DiskCache cache = DiskCache::OfUser();
+  if (!cache.folder().empty()) cache.Store(key, ArchiveScene(*built));
+  return WithOwnSky(Relabelled(WithCacheKey(std::move(built), key.Name()), request.labels), request.seed);
+}
+
+std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
+  if (IsWorldFile(request.world)) {
+    EnvironmentWords environment;
+    return OriginOfWorld(ReadWorldFile(request.world, request, environment));
+  }
+  if (!IsOsmFile(request.world)) return std::nullopt;
+  return OriginOfOsmWorld(request.world, request.cut);
+}
+
+std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
+  if (IsWorldFile(request.world)) {
+    EnvironmentWords words;
+    const WorldRequest inner = ReadWorldFile(request.world, request, words);
+    auto scene = LoadWorld(inner);
+    Environment environment = words.Over(scene->environment);
+    return WithOwnSky(WithEnvironment(std::move(scene), std::move(environment)), inner.seed);
+  }
+  return WithOwnSky(LoadScene(request), request.seed);
 }
 
 }  // namespace airsim360

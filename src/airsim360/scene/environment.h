@@ -2,6 +2,7 @@
 // building the world again.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,6 +15,10 @@ namespace airsim360 {
 /// When a world's lamps (street lamps, windows, head lights: materials with `lamp`) shine.
 enum class Lamps { kAuto, kOn, kOff };  ///< kAuto: while the sun is lower than 3 degrees
 inline constexpr const char* kLampsNames[] = {"auto", "on", "off"};
+
+/// What the low clouds are (WMO International Cloud Atlas). kAuto: by their cover; humilis, mediocris, broken, stratus.
+enum class CloudType { kAuto, kHumilis, kMediocris, kCongestus, kStratocumulus, kStratus };
+inline constexpr const char* kCloudTypeNames[] = {"auto", "humilis", "mediocris", "congestus", "stratocumulus", "stratus"};
 
 /// A picture of a whole sky in linear light, for Environment::hdri. Row 0 is the zenith side; the image
 /// centre looks north (+Y) before `yaw_deg` turns it clockwise.
@@ -29,14 +34,18 @@ struct Environment {
   double sun_elevation_deg = 48;  ///< -90 … 90; below the horizon it is dusk, then night
   double turbidity = 2.5;         ///< Linke's: 2 very clear … 10 hazy
   double haze = 1;                ///< clear air between viewer and surfaces: 1 as dense as it is, 0 none
-  double cloud_cover = 0.35;      ///< cumulus: 0 none … 1 overcast
+  double cloud_cover = 0.35;      ///< of the low clouds: 0 none … 1 overcast
+  double altocumulus_cover = 0;   ///< fleecy cloud of middle height, 0 … 1
   double cirrus_cover = 0.3;      ///< thin high cloud, 0 … 1
+  double cloud_base_m = 0;        ///< of the low clouds above the ground; 0 = as usual for their type
+  double sky_seed = 0;            ///< draws the clouds, a whole number; 0 = the world's own (SkySeedOf)
   double visibility_m = 0;        ///< meteorological range (contrast 0.05) of fog; 0 = clear air alone
   double wetness = 0;             ///< of upward surfaces, 0 dry … 1 wet with puddles
   double snow_depth = 0;          ///< lying snow, 0 none … 1 everything that faces up is white
   double rain_mm_h = 0;           ///< drops in the air; does not set wetness by itself
   double snowfall_mm_h = 0;       ///< flakes in the air (water equivalent)
   Lamps lamps = Lamps::kAuto;
+  CloudType cloud_type = CloudType::kAuto;
   std::shared_ptr<const SkyPicture> hdri = nullptr;  ///< replaces sky, clouds and sun where set
   double hdri_yaw_deg = 0;
   double hdri_scale = 1;  ///< from the picture's units to ours
@@ -60,9 +69,18 @@ struct EnvironmentField {
 const std::vector<EnvironmentField>& EnvironmentFields();
 
 /// A named state of sun, sky and weather ("day", "sunset", "fog", "rain", …), laid over `base`: sets all of
-/// light and weather but keeps the base's turbidity, haze, moon and picture. InputError naming the nearest.
+/// light and weather but keeps the base's turbidity, haze, moon, picture and sky
+/// seed. InputError naming the nearest.
 Environment ParseEnvironmentPreset(std::string_view name, const Environment& base = {});
 std::vector<std::string> EnvironmentPresetNames();
+
+/// A named state of the clouds alone ("clear", "humilis", "broken", "overcast", "haze", …), laid over `base`: their type,
+/// covers and base; "haze" sets turbidity too. InputError naming the nearest.
+Environment ParseCloudPreset(std::string_view name, const Environment& base = {});
+std::vector<std::string> CloudPresetNames();
+
+/// The sky_seed of a world that says none: 1 … 2^32 - 1, by its name and seed.
+double SkySeedOf(std::string_view world, uint64_t seed);
 
 /// "name=value,…" of everything that differs from the default, for meta.json; "" = the default.
 std::string DescribeEnvironment(const Environment& environment);

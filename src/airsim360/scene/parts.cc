@@ -1,5 +1,6 @@
 #include "airsim360/scene/parts.h"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <string>
@@ -63,6 +64,13 @@ Image<uint8_t> PartPicture(const Image<CategoryId>& semantic, const Image<uint16
     parts.pixels()[i] = part;
   }
   return parts;
+}
+
+Image<uint8_t> SkyMask(const Image<EntityId>& entity, EntityId sky) {
+  Image<uint8_t> mask(entity.width(), entity.height());
+  std::ranges::transform(entity.pixels(), mask.pixels().begin(),
+                         [&](EntityId id) -> uint8_t { return id == sky && id != kNoEntity ? 255 : 0; });
+  return mask;
 }
 
 }  // namespace airsim360

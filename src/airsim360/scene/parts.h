@@ -7,6 +7,7 @@
 
 #include "airsim360/image/image.h"
 #include "airsim360/scene/material.h"
+#include "airsim360/scene/scene.h"
 #include "airsim360/scene/semantics.h"
 
 namespace airsim360 {
@@ -22,5 +23,8 @@ Part PartOf(std::string_view category, std::string_view material);
 /// The parts (values of Part) of a picture from its categories and material indices plus 1 (0 = nothing hit).
 Image<uint8_t> PartPicture(const Image<CategoryId>& semantic, const Image<uint16_t>& material, const SemanticTree& tree,
                            std::span<const Material> materials);
+
+/// 255 where the picture shows the entity `sky`, else 0; kNoEntity: a scene without a sky.
+Image<uint8_t> SkyMask(const Image<EntityId>& entity, EntityId sky);
 
 }  // namespace airsim360

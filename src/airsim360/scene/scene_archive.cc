@@ -16,7 +16,7 @@ static_assert(sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8 && sizeof(Vec3u) == 12 &
 static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 68 && sizeof(Box3f) == 24);
 static_assert(sizeof(VertexColor) == 8);
 // A field added to these belongs into the lists below.
-static_assert(sizeof(Material) == 152 && sizeof(Environment) == 152 && sizeof(Scene) == 528);
+static_assert(sizeof(Material) == 152 && sizeof(Environment) == 176 && sizeof(Scene) == 552);
 
 template <class Pixel>
 void VisitImage(ArchiveWriter& archive, const Image<Pixel>& image) {
@@ -78,7 +78,7 @@ void VisitPicture(ArchiveReader& archive, Environment& e) {
 template <class Archive, class T>
 void VisitEnvironment(Archive& archive, T& e) {
   for (const EnvironmentField& field : EnvironmentFields()) archive(e.*field.value);
-  archive(e.lamps);
+  archive(e.lamps, e.cloud_type);
   VisitPicture(archive, e);
 }
 

@@ -65,7 +65,7 @@ std::shared_ptr<const Scene> OddScene() {
   builder.AddAttribution("triangle, me, CC0");
   Environment& environment = builder.environment();
   for (const EnvironmentField& field : EnvironmentFields()) environment.*field.value += 0.125;
-  environment.lamps = Lamps::kOn;
+  environment.lamps = Lamps::kOn, environment.cloud_type = CloudType::kStratus;
   environment.hdri = std::make_shared<SkyPicture>(SkyPicture{"sky", {2, 1, {1, 2, 3}}});
   return builder.Build();
 }

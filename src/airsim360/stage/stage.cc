@@ -4,6 +4,17 @@
 #include "airsim360/base/log.h"
 
 namespace airsim360 {
+namespace {
+
+// The world's own with what the flags say; clouds that nobody chose are those of the world.
+Environment EnvironmentOf(const Scene& scene, const StageOptions& options) {
+  Environment environment = ApplyFlags(options.environment, scene.environment);
+  if (environment.sky_seed == 0) environment.sky_seed = scene.environment.sky_seed;
+  if (environment.sky_seed == 0) environment.sky_seed = SkySeedOf(scene.name, options.world.seed);
+  return environment;
+}
+
+}  // namespace
 
 void CheckStageOptions(const StageOptions& options) {
   CheckDevice("--device", options.device.device);
@@ -16,14 +27,14 @@ Stage::Stage(const StageOptions& options) : options_(options) {
   CheckStageOptions(options);
   const LongTask building("building " + options.world.world);
   scene_ = LoadWorld(options.world);
-  environment_ = ApplyFlags(options.environment, scene_->environment);
+  environment_ = EnvironmentOf(*scene_, options);
   Add(options.people, options.bodies);
   load_seconds_ = building.seconds();
 }
 
 Stage::Stage(std::shared_ptr<const Scene> scene, const StageOptions& options) : options_(options), scene_(std::move(scene)) {
   CheckStageOptions(options);
-  environment_ = ApplyFlags(options.environment, scene_->environment);
+  environment_ = EnvironmentOf(*scene_, options);
   Add(options.people, options.bodies);
 }
 
@@ -104,7 +115,9 @@ SimModel Stage::Model(int64_t dt_ns) {
 std::shared_ptr<const SceneState> Stage::StartState() {
   if (!people_) return nullptr;
   const SimModel model = Model();
-  return SceneStateOf(model, airsim360::StartState(model), kNobody);
+  const std::lock_guard lock(mutex_);
+  if (!start_state_) start_state_ = SceneStateOf(model, airsim360::StartState(model), kNobody);
+  return start_state_;
 }
 
 }  // namespace airsim360

@@ -92,6 +92,7 @@ class Stage {
   mutable std::mutex mutex_;  // of what follows
   double load_seconds_ = 0;
   std::shared_ptr<const RayTracer> tracer_, solid_;
+  std::shared_ptr<const SceneState> start_state_;
   std::map<Tier, std::unique_ptr<Renderer>> renderers_;
 };
 

@@ -75,7 +75,7 @@ TEST(Stage, KeepsARendererForEachTierAndGivesOthersAway) {
   Renderer& labels = stage.renderer(Tier::kLabels);
   EXPECT_EQ(&stage.renderer(Tier::kLabels), &labels);
   EXPECT_NE(&stage.renderer(Tier::kFast), &labels);
-  RenderRequest request{.camera = Equirectangular{64, 32}, .X_WC = BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody()};
+  RenderRequest request{{}, Equirectangular{64, 32}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody()};
   request.tier = Tier::kFast;
   Frame kept, other;
   stage.renderer(Tier::kFast).Render(request, kept);
