@@ -1,0 +1,447 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+#include "airsim360/image/color.h"
+#include "airsim360/render/look/develop_kernels.h"
+#include "airsim360/render/look/photo.h"
+#include "airsim360/render/look/scatter.h"
+#include "airsim360/render/look/scatter_kernels.h"
+
+namespace airsim360 {
+namespace {
+
+using namespace internal;
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+
+// ---- the point-spread function
+
+// Legendre series of the symbol in scatter.h, damped, and with the first order of the damping taken out.
+double PointSpread(double angle_deg, double theta) {
+  const double a2 = std::pow(angle_deg * kDegree, 2), x = std::cos(theta);
+  const auto series = [&](double damping) {
+    double p0 = 1, p1 = x, sum = 1;
+    const int most = static_cast<int>(5 / damping);
+    for (int l = 1; l < most; ++l) {
+      const double f = 1 / (1 + std::pow(a2 * l * (l + 1.0), kScatterExponent));
+      sum += (2 * l + 1) * f * std::exp(-0.5 * damping * damping * l * (l + 1.0)) * p1;
+      const double p2 = ((2 * l + 1) * x * p1 - l * p0) / (l + 1);
+      p0 = p1, p1 = p2;
+    }
+    return sum / (4 * kPi);
+  };
+  constexpr double kDamping = 0.1 * kDegree;
+  return (4 * series(kDamping) - series(2 * kDamping)) / 3;
+}
+
+Vec3d CellDirection(const LightCells& cells, int x, int y) {
+  const double theta = 2 * kPi * (x + 0.5) / cells.width, phi = kPi * (0.5 - (y + 0.5) / cells.height);
+  return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
+}
+
+double Energy(const LightCells& cells, int plane) {
+  double sum = 0;
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) sum += cells.At(plane, x, y) * cells.CellAngle(y);
+  return sum;
+}
+
+struct Place {
+  const char* name;
+  int x, y;
+};
+class ScatterTest : public testing::TestWithParam<Place> {};
+
+TEST_P(ScatterTest, APointOfLightSpreadsByTheAnalyticFunctionAndKeepsItsEnergy) {
+  constexpr int kWidth = 1024, kHeight = 512;
+  constexpr double kAngle = 2;
+  LightCells light(true, kWidth, kHeight, 2 * kPi / kWidth, kPi / kHeight), out;
+  const Place at = GetParam();
+  light.At(1, at.x, at.y) = static_cast<float>(1 / light.CellAngle(at.y));
+  const ScatterMixture mixture = MakeScatterMixture(kAngle, kPi / kHeight);
+  Scatter(mixture, light, out);
+  EXPECT_NEAR(Energy(out, 1) + mixture.kept, 1, 2e-4);
+  EXPECT_NEAR(Energy(out, 0), 0, 1e-5);
+  EXPECT_NEAR(Energy(out, 2), 0, 1e-5);
+  // Means over rings of half a degree about the source, and the worst single cell.
+  const Vec3d source = CellDirection(light, at.x, at.y);
+  double worst = 0;
+  for (const double theta_deg : {1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 40.0, 70.0, 120.0}) {
+    double sum = 0, weight = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const double theta = std::acos(std::clamp(Dot(source, CellDirection(light, x, y)), -1.0, 1.0));
+        if (std::abs(theta / kDegree - theta_deg) > 0.18) continue;
+        const double expected = PointSpread(kAngle, theta);
+        worst = std::max(worst, std::abs(out.At(1, x, y) / expected - 1));
+        sum += out.At(1, x, y) / expected * light.CellAngle(y);
+        weight += light.CellAngle(y);
+        x += theta_deg > 15 ? 15 : 0;  // fewer of wide rings
+      }
+    }
+    ASSERT_GT(weight, 0) << theta_deg;
+    EXPECT_NEAR(sum / weight, 1, 0.02) << at.name << ' ' << theta_deg;
+  }
+  EXPECT_LT(worst, 0.06) << at.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Everywhere, ScatterTest,
+                         testing::Values(Place{"middle", 512, 255}, Place{"seam", 0, 200}, Place{"pole", 300, 0},
+                                         Place{"near_pole", 700, 505}, Place{"high", 1023, 60}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(ScatterTest, APlaneKeepsItsEnergyBetweenMirrors) {
+  LightCells light(false, 64, 40, 0.01, 0.01), out;
+  light.At(0, 2, 3) = 5, light.At(2, 60, 39) = 2;
+  const ScatterMixture mixture = MakeScatterMixture(2, 0.01);
+  Scatter(mixture, light, out);
+  EXPECT_NEAR(Energy(out, 0) / Energy(light, 0) + mixture.kept, 1, 1e-4);
+  EXPECT_NEAR(Energy(out, 2) / Energy(light, 2) + mixture.kept, 1, 1e-4);
+  EXPECT_GT(out.At(0, 2, 4), out.At(0, 2, 6));
+}
+
+// ---- the picture
+
+constexpr int kWidth = 512, kHeight = 256;
+
+PhotoRequest Request(int width = kWidth) {
+  PhotoRequest request;
+  request.camera = Equirectangular{width, width / 2};
+  return request;
+}
+
+// Something with a bright sky, a dark ground and texture.
+Image<Rgb32f> Scenery(int width = kWidth) {
+  Image<Rgb32f> light(width, width / 2);
+  for (int y = 0; y < light.height(); ++y) {
+    for (int x = 0; x < width; ++x) {
+      RngStream random(7, "scenery", static_cast<uint64_t>(y / 5 * width + x / 5));
+      const double up = y < light.height() / 2 ? 3 : 0.4;
+      const double base = up * std::exp(random.Normal());
+      light(x, y) = {static_cast<float>(base * 0.8), static_cast<float>(base * 0.9), static_cast<float>(base)};
+    }
+  }
+  return light;
+}
+
+Daylight Noon() {
+  Daylight day;
+  day.to_sun = {static_cast<float>(std::cos(0.7)), 0, static_cast<float>(std::sin(0.7))};
+  day.sun = {16, 14, 11};
+  day.sky = {1.8f, 2.2f, 3};
+  day.sun_seen = 1;
+  return day;
+}
+
+// A camera in W as the rig holds it, level, with a heading in columns to the right.
+Mat3d Heading(double columns, int width) {
+  const Mat3d R = Mat3d::FromColumns({0, -1, 0}, {0, 0, -1}, {1, 0, 0});
+  return R * RotationY(columns * 2 * kPi / width);
+}
+
+TEST(PhotoTest, NeutralSettingsGiveTheSrgbOfTheLight) {
+  Image<Rgb32f> light(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) light(x, y) = {x / 600.0f, y / 200.0f, 0.18f};
+  Image<Rgb8> rgb;
+  TakePhoto(CameraLook::Neutral(), Request(), light, rgb);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      ASSERT_NEAR(rgb(x, y).r, LinearToSrgb8(light(x, y).r), 1);
+      ASSERT_NEAR(rgb(x, y).g, LinearToSrgb8(std::min(1.0f, light(x, y).g)), 1);
+    }
+  }
+}
+
+struct Lab {
+  double l, a, b;
+};
+// Of linear sRGB, CIE 1931, D65.
+Lab ToLab(double r, double g, double b) {
+  const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+  const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047),
+               y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b),
+               z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+TEST(PhotoTest, AColorChartComesOutWithinDeltaE3AtNeutralSettings) {
+  // The usual 24 patches of a chart as 8-bit sRGB (rounded, D65), of which the last six are greys; CIE 1976 difference.
+  constexpr int kPatches[24][3] = {{115, 82, 68},  {194, 150, 130}, {98, 122, 157}, {87, 108, 67},   {133, 128, 177}, {103, 189, 170},
+                                   {214, 126, 44}, {80, 91, 166},   {193, 90, 99},  {94, 60, 108},   {157, 188, 64},  {224, 163, 46},
+                                   {56, 61, 150},  {70, 148, 73},   {175, 54, 60},  {231, 199, 31},  {187, 86, 149},  {8, 133, 161},
+                                   {243, 243, 242}, {200, 200, 200}, {160, 160, 160}, {122, 122, 121}, {85, 85, 85},  {52, 52, 52}};
+  PhotoRequest request = Request();
+  request.camera = Pinhole{240, 160, 200, 200, 120, 80};
+  request.exposure = 0.25f;  // of light four times as strong
+  Image<Rgb32f> light(240, 160);
+  for (int y = 0; y < 160; ++y) {
+    for (int x = 0; x < 240; ++x) {
+      const int* c = kPatches[y / 40 * 6 + x / 40];
+      light(x, y) = {4 * SrgbToLinear(static_cast<uint8_t>(c[0])), 4 * SrgbToLinear(static_cast<uint8_t>(c[1])),
+                     4 * SrgbToLinear(static_cast<uint8_t>(c[2]))};
+    }
+  }
+  // Also with what a camera cannot leave away: noise, softness, sharpening.
+  CameraLook real = CameraLook::Neutral();
+  real.full_well = 15000, real.read_noise = 5, real.softness_px = 0.6, real.sharpening = 0.45;
+  for (const CameraLook& look : {CameraLook::Neutral(), real}) {
+    Image<Rgb8> rgb;
+    TakePhoto(look, request, light, rgb);
+    for (int i = 0; i < 24; ++i) {
+      double mean[3] = {};
+      for (int y = 10; y < 30; ++y) {
+        for (int x = 10; x < 30; ++x) {
+          const Rgb8 c = rgb(i % 6 * 40 + x, i / 6 * 40 + y);
+          mean[0] += SrgbToLinear(c.r) / 400, mean[1] += SrgbToLinear(c.g) / 400, mean[2] += SrgbToLinear(c.b) / 400;
+        }
+      }
+      const Lab seen = ToLab(mean[0], mean[1], mean[2]);
+      const Lab chart = ToLab(SrgbToLinear(static_cast<uint8_t>(kPatches[i][0])), SrgbToLinear(static_cast<uint8_t>(kPatches[i][1])),
+                              SrgbToLinear(static_cast<uint8_t>(kPatches[i][2])));
+      EXPECT_LT(std::hypot(seen.l - chart.l, seen.a - chart.a, seen.b - chart.b), 3) << i;
+    }
+  }
+}
+
+TEST(PhotoTest, NoiseHasTheVarianceOfItsLaw) {
+  CameraLook look = CameraLook::Neutral();
+  look.full_well = 400;
+  look.read_noise = 6;
+  for (const double softness : {0.0, 0.6}) {
+    look.softness_px = softness;
+    for (const float signal : {0.12f, 0.25f, 0.5f}) {
+      for (const double gain : {1.0, 1.7}) {
+        PhotoRequest request = Request();
+        Image<Rgb32f> light(kWidth, kHeight, {signal, signal, signal});
+        // Without gain at the luminance that is white here.
+        look.base_white = 1e9;
+        Image<Rgb8> rgb;
+        const double white = TakePhoto(CameraLook::Neutral(), request, light, rgb).white_cd_m2;
+        look.base_white = white * gain;
+        const PhotoFigures figures = TakePhoto(look, request, light, rgb);
+        EXPECT_NEAR(figures.gain, gain, 1e-9);
+        double sum = 0, squares = 0, count = 0;
+        for (int y = 30; y < 226; ++y) {
+          for (int x = 0; x < kWidth; ++x) {
+            const double value = SrgbToLinear(rgb(x, y).g);
+            sum += value, squares += value * value, ++count;
+          }
+        }
+        const double mean = sum / count, variance = squares / count - mean * mean;
+        EXPECT_NEAR(mean, signal, 0.004);
+        EXPECT_NEAR(variance / NoiseVariance(look, gain, signal), 1, 0.02) << softness << ' ' << signal << ' ' << gain;
+      }
+    }
+  }
+}
+
+TEST(PhotoTest, MeteringHitsItsAim) {
+  for (const double brightness : {0.2, 1.0, 40.0}) {
+    for (const double aim : {0.4, 0.55}) {
+      CameraLook look;
+      look.metering = aim, look.metering_spread = 0, look.dimmest_white = 1e-4;
+      Image<Rgb32f> light = Scenery();
+      for (Rgb32f& c : light.pixels()) c = {c.r * static_cast<float>(brightness), c.g * static_cast<float>(brightness), c.b * static_cast<float>(brightness)};
+      Image<Rgb8> rgb;
+      TakePhoto(look, Request(), light, rgb);
+      double sum = 0, whole = 0;
+      for (int y = 0; y < kHeight; ++y) {
+        const double weight = std::cos(kPi * (0.5 - (y + 0.5) / kHeight));
+        for (int x = 0; x < kWidth; ++x) {
+          const Rgb8 c = rgb(x, y);
+          sum += weight * (0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b) / 255, whole += weight;
+        }
+      }
+      EXPECT_NEAR(sum / whole, aim, 0.015) << brightness;
+    }
+  }
+}
+
+TEST(PhotoTest, StopsComeOnTopOfTheMeter) {
+  PhotoRequest request = Request();
+  Image<Rgb32f> light = Scenery();
+  Image<Rgb8> rgb;
+  const double metered = TakePhoto(CameraLook(), request, light, rgb).exposure_ev;
+  request.exposure_ev = -1.5;
+  EXPECT_NEAR(TakePhoto(CameraLook(), request, light, rgb).exposure_ev, metered - 1.5, 1e-6);
+  EXPECT_NEAR(TakePhoto(CameraLook::Neutral(), request, light, rgb).exposure_ev, -1.5, 1e-6);
+}
+
+TEST(PhotoTest, TheGlareOfTheSunIsItsIrradianceTimesThePointSpread) {
+  CameraLook look = CameraLook::Neutral();
+  look.glare = 0.05;
+  PhotoRequest request = Request(2048);
+  request.R_WC = Heading(300.25, 2048);
+  request.daylight = Noon();
+  request.daylight.sun_seen = 0.5f;
+  Image<Rgb32f> light(2048, 1024);
+  Image<Rgb8> rgb;
+  for (const double theta_deg : {2.0, 4.0, 10.0, 30.0}) {
+    const double expected = 0.05 * 0.5 * 14 * PointSpread(look.glare_deg, theta_deg * kDegree);
+    request.exposure = static_cast<float>(0.75 / expected);
+    TakePhoto(look, request, light, rgb);
+    double sum = 0, count = 0;
+    const Vec3d sun = VecCast<double>(request.daylight.to_sun);
+    for (int y = 0; y < 1024; ++y) {
+      for (int x = 0; x < 2048; ++x) {
+        const Vec3d d = request.R_WC * *PixelToRay(request.camera, {x + 0.5, y + 0.5});
+        if (std::abs(std::acos(std::clamp(Dot(d, sun), -1.0, 1.0)) / kDegree - theta_deg) > 0.05) continue;
+        sum += SrgbToLinear(rgb(x, y).g), ++count;
+      }
+    }
+    EXPECT_NEAR(sum / count / 0.75, 1, 0.02) << theta_deg;
+  }
+}
+
+TEST(PhotoTest, ACameraTurnedByColumnsRollsThePicture) {
+  const CameraLook look;
+  const Image<Rgb32f> scenery = Scenery();
+  PhotoRequest request = Request();
+  request.daylight = Noon();
+  request.exposure = 0.2f;
+  request.R_WC = Heading(11.3, kWidth);
+  Image<Rgb8> straight, turned;
+  Image<Rgb32f> light = scenery;
+  TakePhoto(look, request, light, straight);
+  for (const int k : {1, 7, 200, 511}) {
+    request.R_WC = Heading(11.3 + k, kWidth);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) light(x, y) = scenery((x + k) % kWidth, y);
+    TakePhoto(look, request, light, turned);
+    int off = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) off += turned(x, y) == straight((x + k) % kWidth, y) ? 0 : 1;
+    EXPECT_EQ(off, 0) << k;
+  }
+}
+
+TEST(PhotoTest, TheNumberOfThreadsDoesNotMatter) {
+  PhotoRequest request = Request();
+  request.daylight = Noon();
+  request.R_WC = Heading(0, kWidth);
+  Image<Rgb32f> light = Scenery();
+  Image<Rgb8> one, many;
+  {
+    const ThreadLimit limit(1);
+    TakePhoto(CameraLook(), request, light, one);
+  }
+  const ThreadLimit limit(4);
+  TakePhoto(CameraLook(), request, light, many);
+  EXPECT_TRUE(one == many);
+}
+
+TEST(PhotoTest, NeitherSizeNorProjectionMatters) {
+  for (const Camera& camera : std::vector<Camera>{Equirectangular{2, 1}, Equirectangular{36, 18}, Equirectangular{100, 50}, Pinhole{1, 1, 1, 1, 0.5, 0.5},
+                                                  Pinhole{33, 7, 20, 20, 16, 3}, Pinhole{3, 600, 20, 20, 1, 300}, CubeFace{CubeFaceName::kPosX, 64},
+                                                  Fisheye::Equidistant(50, 50, 3)}) {
+    PhotoRequest request;
+    request.camera = camera;
+    request.daylight = Noon();
+    Image<Rgb32f> light(Width(camera), Height(camera), {1, 1, 1});
+    Image<Rgb8> rgb;
+    CameraLook look;
+    look.metering_spread = look.white_error = look.full_well = 0;
+    TakePhoto(look, request, light, rgb);
+    ASSERT_EQ(rgb.width(), Width(camera));
+    // Even light stays even, at the aim of the meter.
+    const Rgb8 c = rgb(Width(camera) / 2, Height(camera) / 2);
+    EXPECT_GT(c.g, 90);
+    EXPECT_LT(c.g, 190);
+    if (std::holds_alternative<Fisheye>(camera)) {
+      EXPECT_EQ(rgb(0, 0), Rgb8{});
+    }
+  }
+}
+
+TEST(PhotoTest, EverySeedIsAnotherCameraAndFramesShareOne) {
+  CameraLook look;
+  EXPECT_NE(DrawLook(look, 1, 0).red, DrawLook(look, 2, 0).red);
+  EXPECT_EQ(DrawLook(look, 1, 0).red, DrawLook(look, 1, 5).red);
+  look.each_frame = true;
+  EXPECT_NE(DrawLook(look, 1, 0).red, DrawLook(look, 1, 5).red);
+  const DrawnLook off = DrawLook(CameraLook::Neutral(), 3, 0);
+  EXPECT_EQ(off.metering, 0);
+  EXPECT_EQ(off.red, 1);
+  EXPECT_EQ(off.contrast, 0);
+}
+
+TEST(PhotoTest, NonsenseIsRefused) {
+  CameraLook look;
+  look.glare = 0.9;
+  EXPECT_THROW(CheckCameraLook(look), InputError);
+  look = {};
+  look.softness_px = NAN;
+  EXPECT_THROW(CheckCameraLook(look), InputError);
+  EXPECT_THROW(ParseLook("foto"), InputError);
+}
+
+TEST(PhotoTest, ToneKeepsMiddleGreyAndClipsAtItsShoulder) {
+  for (const double shoulder : {0.0, 1.0, 2.7, 5.0}) {
+    EXPECT_NEAR(EncodeTone(shoulder, 0, 0.18), 0.4614, 1e-3);
+    EXPECT_NEAR(EncodeTone(shoulder, 0, ClipOfShoulder(shoulder)), 1, 1e-9);
+    EXPECT_LT(EncodeTone(shoulder, 0.7, ClipOfShoulder(shoulder) * 0.98), 1);
+  }
+  EXPECT_EQ(ClipOfShoulder(0), 1);
+}
+
+// ---- instruction sets
+
+TEST(LookKernels, AllInstructionSetsGiveTheSameBits) {
+  const KernelIsa best = CurrentKernelIsa();
+  const auto noise = [](size_t n, uint64_t key) {
+    std::vector<float> v(n);
+    RngStream random(1, "kernels", key);
+    for (float& x : v) x = static_cast<float>(random.Uniform());
+    return v;
+  };
+  const auto solve = [&](auto fourier, auto solver) {
+    constexpr int kLength = 32, kRows = 32;
+    std::vector<float> planes[4], cosines, sines;
+    for (uint64_t k = 0; k < 4; ++k) planes[k] = noise(kLength * kRows, k);
+    for (int k = 0; k < kLength / 2; ++k)
+      cosines.push_back(static_cast<float>(std::cos(2 * kPi * k / kLength))), sines.push_back(static_cast<float>(std::sin(2 * kPi * k / kLength)));
+    const std::vector<float> area = noise(kRows, 5), flux = noise(kRows + 1, 6), across = noise(kRows, 7), eigen = noise(kLength, 8);
+    const float t[2] = {0.1f, 3}, weight[2] = {0.4f, 0.6f};
+    const ScatterRows rows{planes[0].data(), planes[1].data(), kLength, kLength, cosines.data(), sines.data()};
+    fourier(rows, 16, false);
+    solver({kRows, kLength, area.data(), flux.data(), across.data(), eigen.data(), 2, t, weight,
+            {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data()}}, 16);
+    fourier(rows, 0, true);
+    planes[0].insert(planes[0].end(), planes[1].begin(), planes[1].end());
+    return planes[0];
+  };
+  const auto develop = [&](auto expose, auto tone, auto sharpen) {
+    constexpr int kWide = 48;
+    alignas(64) float memory[30][kWide + 2 * kRowPad];
+    for (uint64_t i = 0; i < 30; ++i) std::ranges::copy(noise(kWide + 2 * kRowPad, 20 + i), memory[i]);
+    const auto row = [&](int i) { return memory[i] + kRowPad; };
+    const auto color = [&](int i) { return ColorRow{row(i), row(i + 1), row(i + 2)}; };
+    expose({kWide, 0.7f, 0.01f, 0.001f, 77u, 0.8f}, color(0));
+    std::vector<float> curve = noise(kCurveSize + 1, 60);
+    const ConstColorRow rows[3] = {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, {row(6), row(7), row(8)}};
+    tone({kWide, 0.18f, {1, 0.9f, 1.1f}, 0.5f, curve.data(), 1.05f}, rows, color(9), color(12), row(15));
+    const float* luminance[5] = {row(15), row(16), row(17), row(18), row(19)};
+    std::vector<Rgb8> out(kWide);
+    sharpen(kWide, 0.4f, {row(12), row(13), row(14)}, luminance, row(20), out.data());
+    return out;
+  };
+  const auto base = solve(isa_sse42::FourierRows, isa_sse42::SolveColumns);
+  const auto picture = develop(isa_sse42::ExposeRow, isa_sse42::ToneRow, isa_sse42::SharpenRow);
+  if (best != KernelIsa::kSse42) {
+    EXPECT_EQ(base, solve(isa_avx2::FourierRows, isa_avx2::SolveColumns));
+    EXPECT_EQ(picture, develop(isa_avx2::ExposeRow, isa_avx2::ToneRow, isa_avx2::SharpenRow));
+  }
+  if (best == KernelIsa::kAvx512) {
+    EXPECT_EQ(base, solve(isa_avx512::FourierRows, isa_avx512::SolveColumns));
+    EXPECT_EQ(picture, develop(isa_avx512::ExposeRow, isa_avx512::ToneRow, isa_avx512::SharpenRow));
+  }
+}
+
+}  // namespace
+}  // namespace airsim360
