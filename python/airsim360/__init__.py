@@ -24,7 +24,7 @@ A short tour (every line runs; docs/reference/python.md has more, examples/ has 
 Names by purpose:
 
     worlds        World  worlds  gpus
-    pictures      Rig  Capture  CudaCapture  Tensor  PARTS  VideoWriter
+    pictures      Rig  Capture  CudaCapture  Tensor  PARTS  PRODUCTS  PICTURE_SETTINGS  VideoWriter
     laser         Lidar  LidarScan
     drones        Drone  drone_catalog
     flight        Simulation  DroneState  Snapshot  Recording  GeoFrame
@@ -59,7 +59,7 @@ import sys as _sys
 
 __version__ = "0.1.0"
 __all__ = ["Capture", "CudaCapture", "Dataset", "Drone", "DroneState", "Frame", "GeoFrame", "Lidar", "LidarScan", "PARTS",
-           "Plan", "Recording", "Rig", "Samples", "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
+           "PICTURE_SETTINGS", "PRODUCTS", "Plan", "Recording", "Rig", "Samples", "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
            "VideoWriter", "World", "airsim", "dataset", "drone_catalog", "gpus", "gym", "metrics", "pictures",
            "plan_minimum_snap", "read_exr", "read_png", "records", "thread_count", "worlds"]
 

@@ -1,5 +1,6 @@
 from . import airsim as airsim, dataset as dataset, gym as gym, metrics as metrics, pictures as pictures, records as records
-from ._native import (PARTS as PARTS, Capture as Capture, CudaCapture as CudaCapture, Drone as Drone,
+from ._native import (PARTS as PARTS, PICTURE_SETTINGS as PICTURE_SETTINGS, PRODUCTS as PRODUCTS,
+                      Capture as Capture, CudaCapture as CudaCapture, Drone as Drone,
                       DroneState as DroneState, GeoFrame as GeoFrame, Lidar as Lidar, LidarScan as LidarScan, Plan as Plan,
                       Recording as Recording, Rig as Rig, Simulation as Simulation, Snapshot as Snapshot, Tensor as Tensor,
                       Threads as Threads, VectorEnvironment as VectorEnvironment, VideoWriter as VideoWriter, World as World,
@@ -10,6 +11,6 @@ from .pictures import read_exr as read_exr, read_png as read_png
 
 __version__: str
 __all__ = ["Capture", "CudaCapture", "Dataset", "Drone", "DroneState", "Frame", "GeoFrame", "Lidar", "LidarScan", "PARTS",
-           "Plan", "Recording", "Rig", "Samples", "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
+           "PICTURE_SETTINGS", "PRODUCTS", "Plan", "Recording", "Rig", "Samples", "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
            "VideoWriter", "World", "airsim", "dataset", "drone_catalog", "gpus", "gym", "metrics", "pictures",
            "plan_minimum_snap", "read_exr", "read_png", "records", "thread_count", "worlds"]

@@ -22,8 +22,13 @@ _Points = Sequence[_Numbers] | npt.NDArray[Any]  # (N, 3)
 _DroneRef = int | str  # number from 0, or name
 _Yaw = float | Literal["forward"] | None
 _Tier = Literal["labels", "fast", "high", "reference"]
-_Product = Literal["rgb", "range", "semantic", "entity", "normal", "position", "albedo", "material", "part", "flow", "radiance"]
+_Product = Literal["rgb", "range", "semantic", "entity", "normal", "position", "albedo", "material", "part",
+                   "sky", "flow", "coverage", "radiance"]
 
+PRODUCTS: tuple[str, ...]
+"""Pictures that a capture can hold, as Rig(products=…) names them."""
+PICTURE_SETTINGS: tuple[str, ...]
+"""How pictures are made: keywords of Rig and of environments, keys of meta.json, and, with dashes, flags of commands."""
 PARTS: tuple[str, ...]
 """What the numbers of Capture.part mean: PARTS[1] is "window". PARTS[0] is "", the body itself."""
 
@@ -63,20 +68,24 @@ class Threads:
 class Rig:
     """A camera on a drone, panoramic unless told otherwise, and what it captures."""
 
-    def __init__(self, width: int = 1024, height: int = 0, tier: _Tier = "fast",
+    def __init__(self, width: int = 1024, height: int = 0, *, tier: _Tier = "fast", samples: int | None = None,
+                 denoise: bool = True, edge_samples: int | None = None,
+                 tone: Literal["filmic", "agx", "linear"] = "filmic", exposure: float | Literal["auto"] = 0.0,
+                 pano_frame: Literal["body", "level"] = "body", lens: Literal["ideal", "real360"] = "ideal",
+                 look: Literal["clean", "photo"] = "clean", camera_look: dict[str, float | bool] = {},
                  products: Sequence[_Product] = ["rgb", "range", "semantic", "entity"],
                  projection: Literal["erp", "pinhole", "fisheye"] = "erp", fov: float = 1.5707963267948966,
                  position: _Vector = (0.0, 0.0, 0.0), yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0,
-                 level: bool = False, lens: Literal["ideal", "real360"] = "ideal",
-                 tone: Literal["filmic", "agx", "linear"] = "filmic", exposure_ev: float = 0.0, samples: int = 0,
-                 seed: int = 0, flow_dt: float = 0.1, edge_samples: int | None = None) -> None:
+                 level: bool = False, seed: int = 0, flow_dt: float = 0.1) -> None:
         """width, height: pixels (height 0: half the width for panoramas, else the width). tier: labels (no colour), fast,
-        high or reference. products: pictures that are made. projection: erp, pinhole or fisheye (fov: radians, across the
-        width or the shorter side). position (3,) metres, yaw, pitch, roll radians: the mount in B. level: the horizon
-        stays level. lens: real360 distorts and fades as a real camera of two fisheyes. exposure_ev: stops. samples: light
-        samples of a pixel in the tiers high and reference, 0 = the tier's own. seed: of those samples and noise. flow_dt:
-        seconds that optical flow leads on by, above 0, at most 10. edge_samples: colour samples of a pixel on an edge, 1 to 64; 1 is the fastest (None: 2 in
-        tier fast, 8 in high). ValueError names the nearest choice."""
+        high or reference. samples: light samples of a pixel in the
+        tiers high and reference, None = the tier's own. denoise: noise filter of tier high. edge_samples: colour samples
+        of a pixel on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high). tone: tone curve. exposure:
+        stops added to the fixed daylight exposure, or "auto". pano_frame: "level" keeps the horizon level. lens: real360
+        distorts and fades as a real camera of two fisheyes. look: photo is what a consumer camera makes of the light, by camera_look (metering, glare, … : docs/guide/pictures.md). products: pictures that are made. projection: erp, pinhole or fisheye (fov:
+        radians, across the width or the shorter side). position (3,) metres, yaw, pitch, roll radians: the mount in B.
+        level: the same as pano_frame="level". seed: of samples and noise. flow_dt: seconds that optical flow leads on by,
+        above 0, at most 10. ValueError names the nearest choice."""
     @property
     def width(self) -> int:
         """Pixels."""
@@ -138,6 +147,13 @@ class Capture:
     def part(self) -> _U8:
         """(H, W) uint8, which part of the pixel's entity (airsim360.PARTS); 0 = its body, or nothing hit."""
     @property
+    def sky(self) -> _U8:
+        """(H, W) uint8, 255 = the ray through the pixel centre meets the sky, else 0."""
+    @property
+    def coverage(self) -> npt.NDArray[np.void]:
+        """(H, W) records of entity (4,) uint32 and share (4,) float32: the entities in a pixel by the share of its area,
+        largest first; entity 0 = no more."""
+    @property
     def radiance(self) -> _F32:
         """(H, W, 3) float32, linear light."""
     @property
@@ -146,6 +162,10 @@ class Capture:
     @property
     def pose(self) -> _F64:
         """(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward."""
+    @property
+    def look(self) -> dict[str, float] | None:
+        """What the camera of look photo chose: exposure_ev, white_cd_m2, gain, red, green, blue, contrast, sun_seen; None
+        for look clean."""
     @property
     def body_pose(self) -> _F64:
         """(4, 4) X_WB."""
@@ -270,8 +290,8 @@ class World:
 
     def __init__(self, name: str, seed: int = 0, models: bool = True, *, labels: str = "",
                  device: Literal["auto", "cpu", "vulkan"] = "auto", gpu: int = -1, weather: str = "", sun: str = "",
-                 time: str = "", place: str = "", hdri: str = "", environment: str = "", bbox: str = "", centre: str = "",
-                 radius: float = 0.0, people: int | str = 0, wind: str = "") -> None:
+                 time: str = "", place: str = "", hdri: str = "", environment: str = "", clouds: str = "", sky_seed: str = "",
+                 bbox: str = "", centre: str = "", radius: float = 0.0, people: int | str = 0, wind: str = "") -> None:
         """name: one of worlds(), or a path. seed: of what is made at random. models: furniture from model files where they
         are installed. labels: a label file, categories by patterns of names (docs/guide/labels.md).
 
@@ -280,7 +300,8 @@ class World:
 
         The light instead of the world's own, as the flags of those names of `airsim360 render`: weather: a preset. sun:
         "AZ,EL", compass and elevation in degrees. time: "YYYY-MM-DDTHH:MM[+ZZ:ZZ]" with place: "LAT,LON" in degrees. hdri:
-        a sky picture (.hdr, .exr). environment: single values, "cloud_cover=0.6,visibility_m=800".
+        a sky picture (.hdr, .exr). environment: single values, "cloud_cover=0.6,visibility_m=800". clouds: a preset of the
+        clouds alone. sky_seed: draws other clouds of the same kind, "1" ... "4294967295".
 
         A piece of a map: bbox: "SOUTH,WEST,NORTH,EAST" in degrees, or centre: "LAT,LON" with radius: 10 ... 30000 metres to
         each side.
@@ -633,12 +654,16 @@ class VectorEnvironment:
     def __init__(self, world: World, task: Literal["reach", "avoid", "search"] = "reach", task_options: TaskOptions = {},
                  count: int = 1, drone: str | Drone = "hummingbird",
                  action: Literal["velocity", "rates", "rotors"] = "velocity", width: int = 128, height: int = 0,
-                 tier: _Tier = "fast",
+                 *, tier: _Tier = "fast", samples: int | None = None,
+                 denoise: bool = True, edge_samples: int | None = None,
+                 tone: Literal["filmic", "agx", "linear"] = "filmic", exposure: float | Literal["auto"] = 0.0,
+                 pano_frame: Literal["body", "level"] = "body", lens: Literal["ideal", "real360"] = "ideal",
+                 look: Literal["clean", "photo"] = "clean", camera_look: dict[str, float | bool] = {},
                  observations: Sequence[Literal["rgb", "range", "semantic", "entity"]] = ["rgb", "range"],
                  period: float = 0.1, max_speed: float = 3.0, max_turn: float = 1.5, max_rate: float = 6.0,
                  level: bool = False, auto_reset: bool = True, seed: int = 0) -> None:
         """count: environments. action: what a step commands (docs/reference/python.md). width, height: pixels of the
-        panoramas (height 0: half the width). period: seconds of a step. max_speed (m/s), max_turn, max_rate (rad/s): what an action of 1 means. level:
+        panoramas (height 0: half the width). tier to camera_look: how they are made, as Rig. period: seconds of a step. max_speed (m/s), max_turn, max_rate (rad/s): what an action of 1 means. level:
         panoramas keep the horizon level. auto_reset: one that has ended begins anew in the next step. ValueError names
         the nearest for an unknown task option."""
     @property

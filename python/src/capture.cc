@@ -1,85 +1,48 @@
 // The panoramic rig and what it captures: arrays are views of the capture's own memory.
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 #include "airsim360/base/error.h"
-#include "airsim360/render/filter/tone_map.h"
 #include "airsim360/scene/parts.h"
 #include "handles.h"
+#include "keywords.h"
 #include "tensor.h"
 
 namespace airsim360::python {
 namespace {
 
-struct ProductName {
-  const char* name;
-  bool Products::*wanted;
-};
-constexpr ProductName kProducts[] = {
-    {"rgb", &Products::rgb},           {"range", &Products::range},       {"semantic", &Products::semantic},
-    {"entity", &Products::entity},     {"normal", &Products::normal},     {"position", &Products::position},
-    {"albedo", &Products::albedo},     {"material", &Products::material}, {"flow", &Products::flow},
-    {"radiance", &Products::radiance},
-};
-
-constexpr const char* kPart = "part";
-
-Products ToProducts(const std::vector<std::string>& names) {
-  Products products{.rgb = false, .range = false, .semantic = false, .entity = false};
-  for (const std::string& name : names) {
-    if (name == kPart) continue;
-    const auto found = std::ranges::find(kProducts, name, &ProductName::name);
-    if (found == std::end(kProducts)) {
-      std::vector<std::string> choices;
-      for (const ProductName& p : kProducts) choices.emplace_back(p.name);
-      choices.emplace_back(kPart);
-      throw InputError(UnknownChoiceMessage("product", name, choices));
-    }
-    products.*(found->wanted) = true;
-  }
-  return products;
-}
-
-Rig MakeRig(uint64_t width, uint64_t height, const std::string& tier,
-            const std::vector<std::string>& products, const std::string& projection, double fov,
-            const py::object& position, double yaw, double pitch, double roll, bool level,
-            const std::string& lens, const std::string& tone, double exposure_ev, int samples, uint64_t seed,
-            double flow_dt, std::optional<int> edge_samples) {
+Rig MakeRig(uint64_t width, uint64_t height, const std::vector<std::string>& products,
+            const std::string& projection, double fov, const py::object& position, double yaw, double pitch,
+            double roll, bool level, uint64_t seed, double flow_dt, const py::kwargs& picture) {
   CameraSpec spec;
   spec.projection = projection;
   spec.width = width;
   spec.height = height == 0 ? (projection == "erp" ? width / 2 : width) : height;
   spec.fov_deg = fov * 180 / M_PI;
-  spec.tier = tier;
-  spec.pano_frame = level ? "level" : "body";
-  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt"), std::ranges::count(products, kPart) > 0, {}};
+  if (level) spec.pano_frame = PanoFrame::kLevel;
+  ReadKeywords(picture, [&](ConfigVisitor& v) { spec.PictureSettings::Visit(v); });
+  spec.seed = seed;
+  Rig rig{spec.Rig(), Finite(flow_dt, "flow_dt"), WithProducts(kNoProducts, products)};
   if (!(flow_dt > 0 && flow_dt <= 10))
     throw InputError("flow_dt: " + std::to_string(flow_dt) + " s is not above 0 and at most 10");
-  CheckCamera(rig.rig.camera);
   rig.rig.X_BC = BodyPose(ToVec3(position, "position"), Finite(yaw, "yaw"), Finite(pitch, "pitch"),
                           Finite(roll, "roll")) *
                  CameraInBody();
-  rig.rig.products = ToProducts(products);
-  if (rig.rig.tier == Tier::kLabels) rig.rig.products.rgb = false;
-  rig.shown = rig.rig.products;
-  if (rig.part) rig.rig.products.semantic = rig.rig.products.material = true;
-  rig.rig.lens = ParseLensModel(lens);
-  rig.rig.tone = ParseToneCurve(tone);
-  rig.rig.exposure_ev = Finite(exposure_ev, "exposure_ev");
-  rig.rig.samples = samples;
-  rig.rig.edge_samples = CheckEdgeSamples("edge_samples", edge_samples);
-  rig.rig.seed = seed;
+  if (rig.rig.tier == Tier::kLabels) rig.shown.rgb = false;
+  rig.rig.products = Rendered(rig.shown);
   return rig;
 }
 
-std::vector<std::string> ProductsOf(const Rig& rig) {
-  std::vector<std::string> names;
-  for (const ProductName& p : kProducts) {
-    if (rig.shown.*(p.wanted)) names.emplace_back(p.name);
-  }
-  if (rig.part) names.emplace_back(kPart);
-  return names;
+// "(self, width: int = 1024, …)": pybind11 knows no signature of keywords that are found out at run time.
+std::string RigDocumentation() {
+  const ConfigFields picture = [](ConfigVisitor& v) { PictureSettings().Visit(v); };
+  return "__init__(self: airsim360.Rig, width: int = 1024, height: int = 0, *, " + KeywordSignature(picture) +
+         ", products: list[str] = ['rgb', 'range', 'semantic', 'entity'], projection: str = 'erp', "
+         "fov: float = 1.5707963267948966, position: object = (0.0, 0.0, 0.0), yaw: float = 0.0, pitch: "
+         "float = 0.0, "
+         "roll: float = 0.0, level: bool = False, seed: int = 0, flow_dt: float = 0.1) -> None\n\n" +
+         KeywordHelp(picture);
 }
 
 [[noreturn]] void RefuseMissing(const std::string& product) {
@@ -124,10 +87,28 @@ Pictures PicturesOf(const Capture& c) {
   note("position", f.position);
   note("albedo", f.albedo);
   note("material", f.material);
-  note(kPart, c.part);
+  note("part", c.part);
+  note("sky", c.sky);
   note("flow", f.flow);
+  note("coverage", f.coverage);
   note("radiance", f.radiance);
   return there;
+}
+
+py::object CoverageOf(const py::object& self) {
+  const Image<CoveragePixel>& image = self.cast<const Capture&>().frame.coverage;
+  if (image.empty()) RefuseMissing("coverage");
+  const py::tuple entities = py::make_tuple(CoveragePixel::kEntities);
+  py::list names, formats, offsets;
+  names.append("entity");
+  names.append("share");
+  formats.append(py::make_tuple("<u4", entities));
+  formats.append(py::make_tuple("<f4", entities));
+  offsets.append(offsetof(CoveragePixel, entity));
+  offsets.append(offsetof(CoveragePixel, share));
+  const auto pixel = static_cast<py::ssize_t>(sizeof(CoveragePixel));
+  return py::array(py::dtype(names, formats, offsets, pixel), {image.height(), image.width()},
+                   {pixel * image.width(), pixel}, image.pixels().data(), self);
 }
 
 std::string Describe(const Capture& c) {
@@ -138,7 +119,7 @@ std::string Describe(const Capture& c) {
 
 // The pictures of a capture in memory of a CUDA device.
 Tensor PictureOf(const CudaCapture& capture, const std::string& product) {
-  ToProducts({product});  // names the nearest where there is no such product
+  WithProducts(kNoProducts, std::vector{product});  // names the nearest where there is no such product
   const GpuFrame& f = capture.pictures->frame();
   const auto& keep = capture.pictures;
   Tensor tensor;
@@ -166,13 +147,15 @@ PanoramicRig Rendered(const Rig& rig, const EntityLabels* labels) {
 
 void FinishCapture(const Rig& rig, const Scene& scene, const EntityLabels* labels, Capture& capture) {
   Frame& frame = capture.frame;
-  if (rig.part) capture.part = PartPicture(frame.semantic, frame.material, scene.tree, scene.materials);
+  if (rig.shown.part) capture.part = PartPicture(frame.semantic, frame.material, scene.tree, scene.materials);
+  if (rig.shown.sky) capture.sky = SkyMask(frame.entity, scene.sky_entity);
   if (labels && rig.rig.products.semantic) {
-    for (size_t i = 0; i < frame.semantic.size(); ++i) frame.semantic.pixels()[i] = labels->Of(frame.entity.pixels()[i], frame.semantic.pixels()[i]);
-    if (!rig.shown.entity) frame.entity = {};
+    for (size_t i = 0; i < frame.semantic.size(); ++i)
+      frame.semantic.pixels()[i] = labels->Of(frame.entity.pixels()[i], frame.semantic.pixels()[i]);
   }
-  if (rig.part && !rig.shown.semantic) frame.semantic = {};
-  if (rig.part && !rig.shown.material) frame.material = {};
+  if (!rig.shown.entity) frame.entity = {};
+  if (!rig.shown.semantic) frame.semantic = {};
+  if (!rig.shown.material) frame.material = {};
 }
 
 void FinishScan(const EntityLabels* labels, LidarScan& scan) {
@@ -184,27 +167,35 @@ void BindCapture(py::module_& m) {
   py::list parts;
   for (const char* name : kPartNames) parts.append(name);
   m.attr("PARTS") = py::tuple(parts);
-  py::class_<Rig>(m, "Rig", R"(A camera on a drone, panoramic unless told otherwise, and what it captures.
+  m.attr("PRODUCTS") = py::tuple(py::cast(ProductNames()));
+  m.attr("PICTURE_SETTINGS") =
+      py::tuple(py::cast(KeywordNames([](ConfigVisitor& v) { PictureSettings().Visit(v); })));
+  py::class_<Rig> rig(m, "Rig", R"(A camera on a drone, panoramic unless told otherwise, and what it captures.
 
-width, height: pixels (height 0: half the width for panoramas, else the width). tier: labels, fast, high or reference.
-products: any of rgb, range, semantic, entity, normal, position, albedo, material, part, flow, radiance. projection: erp,
-pinhole or fisheye (fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B.
-level: the horizon stays level. flow_dt: seconds that optical flow leads on by. edge_samples: colour samples of a pixel
-on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high).)")
-      .def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::arg("tier") = "fast",
-           py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"},
-           py::arg("projection") = "erp", py::arg("fov") = M_PI / 2,
-           py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
-           py::arg("roll") = 0.0, py::arg("level") = false, py::arg("lens") = "ideal",
-           py::arg("tone") = "filmic", py::arg("exposure_ev") = 0.0, py::arg("samples") = 0,
-           py::arg("seed") = 0, py::arg("flow_dt") = 0.1, py::arg("edge_samples") = py::none())
-      .def("__repr__",
-           [](const Rig& r) {
-             return Text("Rig(%dx%d, tier %s, %s)", Width(r.rig.camera), Height(r.rig.camera),
-                         kTierNames[static_cast<int>(r.rig.tier)], Joined(ProductsOf(r)).c_str());
-           })
-      .def_property_readonly("width", [](const Rig& r) { return Width(r.rig.camera); }, "Pixels.")
-      .def_property_readonly("height", [](const Rig& r) { return Height(r.rig.camera); }, "Pixels.");
+width, height: pixels (height 0: half the width for panoramas, else the width). products: any of rgb, range, semantic,
+entity, normal, position, albedo, material, part, sky, flow, coverage, radiance. projection: erp, pinhole or fisheye
+(fov: radians, across the width or the shorter side). position (3,), yaw, pitch, roll: the mount in B. level: the same as
+pano_frame="level". seed: of samples and noise. flow_dt: seconds that optical flow leads on by. All others say how
+pictures are made, as the flags of `airsim360 render` do.)");
+  {
+    py::options options;
+    options.disable_function_signatures();
+    rig.def(py::init(&MakeRig), py::arg("width") = 1024, py::arg("height") = 0, py::kw_only(),
+            py::arg("products") = std::vector<std::string>{"rgb", "range", "semantic", "entity"},
+            py::arg("projection") = "erp", py::arg("fov") = M_PI / 2,
+            py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
+            py::arg("roll") = 0.0, py::arg("level") = false, py::arg("seed") = 0, py::arg("flow_dt") = 0.1,
+            RigDocumentation().c_str());
+  }
+  rig.def("__repr__",
+          [](const Rig& r) {
+            return Text("Rig(%dx%d, tier %s, %s)", Width(r.rig.camera), Height(r.rig.camera),
+                        kTierNames[static_cast<int>(r.rig.tier)], Joined(NamesOf(r.shown)).c_str());
+          })
+      .def_property_readonly(
+          "width", [](const Rig& r) { return Width(r.rig.camera); }, "Pixels.")
+      .def_property_readonly(
+          "height", [](const Rig& r) { return Height(r.rig.camera); }, "Pixels.");
 
   py::class_<Capture, std::shared_ptr<Capture>>(
       m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
@@ -212,7 +203,8 @@ on an edge, 1 to 64; 1 is the fastest (None: 2 in tier fast, 8 in high).)")
 Pictures are views of this object's memory (no copies); one that the rig was not asked for is a ValueError.)")
       .def("__repr__", &Describe)
       .def_property_readonly(
-          "products", [](const Capture& c) { return PicturesOf(c).names; }, "Names of the pictures that are there.")
+          "products", [](const Capture& c) { return PicturesOf(c).names; },
+          "Names of the pictures that are there.")
       .def_property_readonly("rgb", Picture<uint8_t>(&Frame::rgb, 3, "rgb"), "(H, W, 3) uint8, sRGB.")
       .def_property_readonly("range", Picture<float>(&Frame::range, 0, "range"),
                              "(H, W) float32, metres along the ray, 0 = nothing hit (sky).")
@@ -230,22 +222,47 @@ Pictures are views of this object's memory (no copies); one that the rig was not
                              "(H, W) uint16, material index plus 1.")
       .def_property_readonly(
           "part",
-          [](const py::object& self) { return PictureIn<uint8_t>(self, self.cast<const Capture&>().part, 0, kPart); },
-          "(H, W) uint8, which part of the pixel's entity (airsim360.PARTS): 1 window, 2 door, 3 balcony …; 0 = its body, or nothing hit.")
+          [](const py::object& self) {
+            return PictureIn<uint8_t>(self, self.cast<const Capture&>().part, 0, "part");
+          },
+          "(H, W) uint8, which part of the pixel's entity (airsim360.PARTS): 1 window, 2 door, 3 balcony …; "
+          "0 = its body, or nothing hit.")
+      .def_property_readonly(
+          "sky",
+          [](const py::object& self) {
+            return PictureIn<uint8_t>(self, self.cast<const Capture&>().sky, 0, "sky");
+          },
+          "(H, W) uint8, 255 = the ray through the pixel centre meets the sky, else 0.")
+      .def_property_readonly(
+          "coverage", &CoverageOf,
+          "(H, W) records of entity (4,) uint32 and share (4,) float32: the entities in a pixel by the "
+          "share of its area, largest first; entity 0 = no more.")
       .def_property_readonly("radiance", Picture<float>(&Frame::radiance, 3, "radiance"),
                              "(H, W, 3) float32, linear light.")
-      .def_property_readonly("flow", Picture<float>(&Frame::flow, 2, "flow"),  // dx, dy are first in the pixel
-                             "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.")
+      .def_property_readonly(
+          "flow", Picture<float>(&Frame::flow, 2, "flow"),  // dx, dy are first in the pixel
+          "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.")
       .def(
           "tensor",
           [](const py::object& self, const std::string& product) {
-            ToProducts({product});  // names the nearest where there is no such product
+            WithProducts(kNoProducts,
+                         std::vector{product});  // names the nearest where there is no such product
             return ToTensor(self.attr(product.c_str()));
           },
           py::arg("product"), "A picture for from_dlpack of torch, jax, cupy or numpy, without a copy.")
       .def_property_readonly(
           "pose", [](const Capture& c) { return FromPose(c.X_WC); },
           "(4, 4) X_WC: p_W = X_WC p_C, C with +X right, +Y down, +Z forward.")
+      .def_property_readonly(
+          "look",
+          [](const Capture& c) -> py::object {
+            if (!c.photo) return py::none();
+            const PhotoFigures& p = *c.photo;
+            using namespace py::literals;
+            return py::dict("exposure_ev"_a = p.exposure_ev, "white_cd_m2"_a = p.white_cd_m2, "gain"_a = p.gain, "red"_a = p.red,
+                            "green"_a = p.green, "blue"_a = p.blue, "contrast"_a = p.contrast, "sun_seen"_a = p.sun_seen);
+          },
+          "What the camera of look photo chose: exposure_ev, white_cd_m2, gain, red, green, blue, contrast, sun_seen; None for look clean.")
       .def_property_readonly(
           "body_pose", [](const Capture& c) { return FromPose(c.body.X_WB); }, "(4, 4) X_WB.")
       .def_property_readonly(
@@ -255,8 +272,10 @@ Pictures are views of this object's memory (no copies); one that the rig was not
           "p", [](const Capture& c) { return FromVec3(c.X_WC.p); }, "(3,) place of the camera in W, metres.")
       .def_readonly("t_ns", &Capture::t_ns, "Time of the trigger, nanoseconds.")
       .def_property_readonly(
-          "render_ms", [](const Capture& c) { return c.stats.render_ms; }, "Milliseconds of rays and shading alone.")
-      .def_property_readonly("rays", [](const Capture& c) { return c.stats.rays; }, "Rays that were cast.");
+          "render_ms", [](const Capture& c) { return c.stats.render_ms; },
+          "Milliseconds of rays and shading alone.")
+      .def_property_readonly(
+          "rays", [](const Capture& c) { return c.stats.rays; }, "Rays that were cast.");
 
   py::class_<CudaCapture, Capture, std::shared_ptr<CudaCapture>>(m, "CudaCapture", R"(A capture whose pictures stay in memory of the GPU.
 

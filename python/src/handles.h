@@ -22,7 +22,7 @@ namespace airsim360::python {
 
 /// What one trigger gave, as Python holds it.
 struct Capture : airsim360::Capture {
-  Image<uint8_t> part;  ///< PartPicture of the frame; empty where it was not asked for
+  Image<uint8_t> part, sky;  ///< made of the frame; empty where they were not asked for
 };
 
 /// A lidar and where it sits.
@@ -56,6 +56,9 @@ class World {
   std::mutex render_mutex_;  // of the stage's renderers; never waited for with the GIL held
 };
 
+/// So many people; InputError outside 0 to 10000.
+PeopleRequest PeopleOf(int64_t count, uint64_t seed);
+
 /// Entities of a scene by id, as dictionaries.
 py::list EntitiesOf(const Scene& scene, const EntityLabels* labels);
 
@@ -68,11 +71,10 @@ struct CudaCapture : Capture {
 struct Rig {
   PanoramicRig rig;
   double flow_dt = 0.1;  ///< seconds that optical flow leads on by
-  bool part = false;     ///< the product "part", made of semantic and material
   Products shown;        ///< what was asked for; rig.products may be more
 };
 
-/// Makes the product "part" where the rig asks for it, and drops what served it alone.
+/// Makes the products that follow from others, and drops what served them alone.
 /// `labels` (null: none) take the place of the scene's categories.
 void FinishCapture(const Rig& rig, const Scene& scene, const EntityLabels* labels, Capture& capture);
 /// What is rendered for a rig under labels: the entity tells the category.

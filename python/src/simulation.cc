@@ -43,8 +43,7 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
 Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, int64_t people, uint64_t seed,
                        double dt, const py::object& wind)
     : world_(std::move(world)) {
-  if (people < 0 || people > 10000)
-    throw InputError("people: " + std::to_string(people) + " is not in 0 ... 10000");
+  const PeopleRequest crowd = PeopleOf(people, seed);
   if (!(dt >= 1e-5 && dt <= 0.1))
     throw InputError("dt: " + std::to_string(dt) + " s is not in 0.00001 ... 0.1");
   const std::vector<Drone> list = ToDrones(drones);
@@ -64,8 +63,6 @@ Simulation::Simulation(std::shared_ptr<World> world, const py::object& drones, i
     setups.push_back(std::move(setup));
   }
   const py::gil_scoped_release release;
-  PeopleRequest crowd{.seed = seed};
-  if (people > 0) crowd.count = static_cast<size_t>(people);
   Build(std::move(setups), crowd, seed, dt, mean_wind);
 }
 
@@ -142,7 +139,11 @@ std::shared_ptr<CudaCapture> Simulation::TakeCuda(const Rig& rig, size_t i) {
   if (rig.rig.lens != LensModel::kIdeal) throw InputError("memory: the lens real360 is made on the CPU; use memory=\"cpu\"");
   if (world_->labels() && rig.rig.products.semantic)
     throw InputError("memory: the labels of World.relabel are put in on the CPU; use memory=\"cpu\"");
-  if (rig.part) throw InputError("memory: the product 'part' is made on the CPU; use memory=\"cpu\"");
+  for (const char* product : {"part", "sky"}) {
+    if (std::ranges::count(NamesOf(rig.shown), product) > 0)
+      throw InputError("memory: the product '" + std::string(product) +
+                       "' is made on the CPU; use memory=\"cpu\"");
+  }
   auto capture = std::make_shared<CudaCapture>();
   const std::lock_guard lock(render_mutex_);
   if (!cuda_) cuda_ = std::make_unique<CudaRenderer>(stage_->tracer(), RendererOptions{.tier = rig.rig.tier, .environment = stage_->environment()},

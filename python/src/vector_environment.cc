@@ -3,6 +3,7 @@
 
 #include "airsim360/base/error.h"
 #include "handles.h"
+#include "keywords.h"
 
 namespace airsim360::python {
 namespace {
@@ -108,9 +109,9 @@ void SetObservations(const std::vector<std::string>& names, VectorEnvironmentOpt
 std::unique_ptr<VectorEnvironment> Make(const std::shared_ptr<World>& world, const std::string& task,
                                         const py::dict& task_options, int count, const py::object& drone,
                                         const std::string& action, int width, int height,
-                                        const std::string& tier, const std::vector<std::string>& observations,
-                                        double period, double max_speed, double max_turn, double max_rate,
-                                        bool level, bool auto_reset, uint64_t seed) {
+                                        const std::vector<std::string>& observations, double period,
+                                        double max_speed, double max_turn, double max_rate, bool level,
+                                        bool auto_reset, uint64_t seed, const py::kwargs& picture) {
   VectorEnvironmentOptions options;
   options.count = count;
   options.drone = ToDrone(drone).model;
@@ -121,14 +122,28 @@ std::unique_ptr<VectorEnvironment> Make(const std::shared_ptr<World>& world, con
   options.period = period;
   options.width = width;
   options.height = height == 0 ? width / 2 : height;
-  options.tier = ParseTier(tier);
   SetObservations(observations, options);
-  options.level = level;
+  if (level) options.picture.pano_frame = PanoFrame::kLevel;
+  ReadKeywords(picture, [&](ConfigVisitor& v) { options.picture.Visit(v); });
+  options.picture.seed = seed;
   options.auto_reset = auto_reset;
   options.seed = seed;
   const NavigationTask navigation = ToTask(task, task_options);
   const py::gil_scoped_release release;
   return std::make_unique<VectorEnvironment>(world->stage(), navigation, options);
+}
+
+// pybind11 knows no signature of keywords that are found out at run time.
+std::string Documentation() {
+  const ConfigFields picture = [](ConfigVisitor& v) { PictureSettings().Visit(v); };
+  return "__init__(self: airsim360.VectorEnvironment, world: airsim360.World, task: str = 'reach', "
+         "task_options: dict = {}, count: int = 1, drone: object = 'hummingbird', action: str = 'velocity', "
+         "width: int = 128, height: int = 0, *, " +
+         KeywordSignature(picture) +
+         ", observations: list[str] = ['rgb', 'range'], period: float = 0.1, max_speed: float = 3.0, "
+         "max_turn: float = 1.5, max_rate: float = 6.0, level: bool = False, auto_reset: bool = True, "
+         "seed: int = 0) -> None\n\n" +
+         KeywordHelp(picture);
 }
 
 // Pictures of all environments: (count, H, W) or (count, H, W, channels); None if they are not made.
@@ -175,26 +190,36 @@ py::array State(const py::object& self) {
 
 void BindVectorEnvironment(py::module_& m) {
   using E = VectorEnvironment;
-  py::class_<E>(m, "VectorEnvironment",
-                "Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step "
-                "writes into them.")
-      .def(py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
-           py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity",
-           py::arg("width") = 128, py::arg("height") = 0, py::arg("tier") = "fast",
-           py::arg("observations") = std::vector<std::string>{"rgb", "range"}, py::arg("period") = 0.1,
-           py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
-           py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0)
+  py::class_<E> environment(
+      m, "VectorEnvironment",
+      "Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step "
+      "writes into them.");
+  {
+    py::options options;
+    options.disable_function_signatures();
+    environment.def(
+        py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
+        py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity",
+        py::arg("width") = 128, py::arg("height") = 0, py::kw_only(),
+        py::arg("observations") = std::vector<std::string>{"rgb", "range"}, py::arg("period") = 0.1,
+        py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
+        py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
+  }
+  environment
       .def(
           "reset",
           [](E& e, std::optional<uint64_t> seed, const py::object& options) {
             std::vector<EpisodeWish> wishes;
-            if (!options.is_none()) wishes = ToWishes(options.cast<py::dict>(), static_cast<size_t>(e.count()));
+            if (!options.is_none())
+              wishes = ToWishes(options.cast<py::dict>(), static_cast<size_t>(e.count()));
             const py::gil_scoped_release release;
             e.Reset(seed, wishes);
           },
           py::arg("seed") = py::none(), py::arg("options") = py::none(),
-          "Begins anew: episode 0 of `seed`, or everyone's next episode. options: a dictionary with goal and start (3,) of W "
-          "and yaw (radians), for all or with one row an environment; ValueError for places that are not free.")
+          "Begins anew: episode 0 of `seed`, or everyone's next episode. options: a dictionary with goal and "
+          "start (3,) of W "
+          "and yaw (radians), for all or with one row an environment; ValueError for places that are not "
+          "free.")
       .def(
           "step",
           [](E& e, const Actions& actions) {
@@ -204,12 +229,18 @@ void BindVectorEnvironment(py::module_& m) {
           },
           py::arg("actions"), "actions: (count, action_size) float32 in -1 … 1.")
       .def_property_readonly_static(
-          "TASK_OPTIONS", [](const py::object&) { return py::tuple(py::cast(TaskOptions())); }, "Names that task_options takes.")
-      .def("__repr__", [](const E& e) { return Text("VectorEnvironment(%d of %dx%d)", e.count(), e.options().width, e.options().height); })
+          "TASK_OPTIONS", [](const py::object&) { return py::tuple(py::cast(TaskOptions())); },
+          "Names that task_options takes.")
+      .def("__repr__",
+           [](const E& e) {
+             return Text("VectorEnvironment(%d of %dx%d)", e.count(), e.options().width, e.options().height);
+           })
       .def_property_readonly("count", &E::count, "Environments.")
       .def_property_readonly("action_size", &E::action_size, "Numbers of an action.")
-      .def_property_readonly("width", [](const E& e) { return e.options().width; }, "Pixels.")
-      .def_property_readonly("height", [](const E& e) { return e.options().height; }, "Pixels.")
+      .def_property_readonly(
+          "width", [](const E& e) { return e.options().width; }, "Pixels.")
+      .def_property_readonly(
+          "height", [](const E& e) { return e.options().height; }, "Pixels.")
       .def_property_readonly("rgb", Pictures<uint8_t>(&E::rgb, 3), "(count, H, W, 3) uint8")
       .def_property_readonly("range", Pictures<float>(&E::range, 0), "(count, H, W) float32, metres, 0 = sky")
       .def_property_readonly("semantic", Pictures<CategoryId>(&E::semantic, 0), "(count, H, W) uint16")

@@ -55,6 +55,13 @@ py::array_t<double> BoundsOf(const Box3f& box) {
 
 }  // namespace
 
+PeopleRequest PeopleOf(int64_t count, uint64_t seed) {
+  if (count < 0 || count > 10000) throw InputError("people: " + std::to_string(count) + " is not in 0 ... 10000");
+  PeopleRequest request{.seed = seed};
+  if (count > 0) request.count = static_cast<size_t>(count);
+  return request;
+}
+
 py::list EntitiesOf(const Scene& scene, const EntityLabels* labels) {
   py::list list;
   for (const Entity& entity : scene.entities) {
@@ -148,14 +155,9 @@ py::list Gpus() {
 
 // A number of people, or the file that describes them.
 PeopleRequest ToPeople(const py::object& people, uint64_t seed) {
+  if (py::isinstance<py::int_>(people)) return PeopleOf(people.cast<int64_t>(), seed);
   PeopleRequest request{.seed = seed};
-  if (!py::isinstance<py::int_>(people)) {
-    request.file = py::str(people).cast<std::string>();
-    return request;
-  }
-  const auto count = people.cast<int64_t>();
-  if (count < 0 || count > 10000) throw InputError("people: " + std::to_string(count) + " is not in 0 ... 10000");
-  if (count > 0) request.count = static_cast<size_t>(count);
+  request.file = py::str(people).cast<std::string>();
   return request;
 }
 
@@ -172,10 +174,11 @@ void CheckOptions(const StageOptions& options) {
 std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool models, const std::string& labels,
                                  const std::string& device, int gpu, const std::string& weather, const std::string& sun,
                                  const std::string& time, const std::string& place, const std::string& hdri,
-                                 const std::string& environment, const std::string& bbox, const std::string& centre, double radius,
+                                 const std::string& environment, const std::string& clouds, const std::string& sky_seed,
+                                 const std::string& bbox, const std::string& centre, double radius,
                                  const py::object& people, const std::string& wind) {
   StageOptions options{.world = {.world = name, .seed = seed, .labels = labels, .use_models = models},
-                       .environment = {weather, sun, time, place, hdri, environment},
+                       .environment = {weather, sun, time, place, hdri, environment, clouds, sky_seed},
                        .people = ToPeople(people, seed),
                        .device = {device, gpu}};
   options.world.cut = MapCutOf("", bbox, centre, radius);
@@ -198,15 +201,16 @@ void BindWorld(py::module_& m) {
 
 `device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
 says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
-`weather`, `sun`, `time`, `place`, `hdri` and `environment` are the light instead of the world's own, as the flags of those names
-of `airsim360 render`. `bbox`, `centre` and `radius` cut a piece out of a map, likewise. `people`: a number, or the path of a
+`weather`, `clouds`, `sky_seed`, `sun`, `time`, `place`, `hdri` and `environment` are the light instead of the world's own, as the
+flags of those names of `airsim360 render`. `bbox`, `centre` and `radius` cut a piece out of a map, likewise. `people`: a number, or the path of a
 people .yaml; they live in simulations of it, and captures of the world show them where they begin. `wind`: a wind file, for
 simulations.
 
 ValueError names the nearest world where there is none of that name.)")
       .def(py::init(&OpenWorld), py::arg("name"), py::arg("seed") = 0, py::arg("models") = true, py::kw_only(),
            py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "",
-           py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "", py::arg("bbox") = "",
+           py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "",
+           py::arg("clouds") = "", py::arg("sky_seed") = "", py::arg("bbox") = "",
            py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "")
       .def("__repr__",
            [](const World& w) {

@@ -70,8 +70,9 @@ else:
     import gymnasium
     _EnvBase, _VectorBase = gymnasium.Env, gymnasium.vector.VectorEnv
 
-# Options of the native environment; those of a task are airsim360.VectorEnvironment.TASK_OPTIONS.
-_NATIVE_OPTIONS = ("drone", "action", "width", "height", "tier", "period", "max_speed", "max_turn", "max_rate", "level")
+# Options of the native environment, beside airsim360.PICTURE_SETTINGS; those of a task are
+# airsim360.VectorEnvironment.TASK_OPTIONS.
+_NATIVE_OPTIONS = ("drone", "action", "width", "height", "period", "max_speed", "max_turn", "max_rate", "level")
 
 _IMAGES: Dict[str, Tuple[float, float, npt.DTypeLike]] = {
     "rgb": (0, 255, np.uint8), "range": (0, np.inf, np.float32),
@@ -102,11 +103,12 @@ class _Base:
     def _open(self, task: Any, world: Union[str, airsim360.World], count: int, seed: Optional[int], copy: bool,
               observations: Iterable[Any], options: Dict[str, Any], auto_reset: bool) -> None:
         world = airsim360.World(world) if isinstance(world, str) else world
-        known = (*_NATIVE_OPTIONS, *airsim360.VectorEnvironment.TASK_OPTIONS)
+        of_native = (*_NATIVE_OPTIONS, *airsim360.PICTURE_SETTINGS)
+        known = (*of_native, *airsim360.VectorEnvironment.TASK_OPTIONS)
         for name in options:
             if name not in known:
                 raise ValueError(f"unknown option {name!r}{did_you_mean(name, known)} (options: {', '.join(known)})")
-        native = {name: options.pop(name) for name in _NATIVE_OPTIONS if name in options}
+        native = {name: options.pop(name) for name in of_native if name in options}
         task_options: Any = options  # their names are checked above, their values there
         self.native = airsim360.VectorEnvironment(world, task, task_options, count=count, seed=seed or 0,
                                                   observations=list(observations), auto_reset=auto_reset, **native)
@@ -147,8 +149,8 @@ class VectorEnv(_Base, _VectorBase):
 
     task: reach, avoid or search. world: a World, or what World() takes. observations: pictures besides "state", of rgb,
     range, semantic, entity. copy: observations are copies; without it views that the next step writes over. options:
-    drone, action ("velocity", "rates", "rotors"), width, height, tier, period, max_speed, max_turn, max_rate, level
-    (VectorEnvironment), and those of the task (records.TaskOptions); ValueError names the nearest for an unknown one.
+    drone, action ("velocity", "rates", "rotors"), width, height, period, max_speed, max_turn, max_rate, level, tier and
+    the other airsim360.PICTURE_SETTINGS (VectorEnvironment), and those of the task (records.TaskOptions); ValueError names the nearest for an unknown one.
     """
 
     metadata = _metadata()

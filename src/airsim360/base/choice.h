@@ -21,12 +21,17 @@ inline size_t ParseChoice(std::string_view what, std::string_view word, std::spa
   throw InputError(prefix + UnknownChoiceMessage(what, word, choices));
 }
 
+/// The same for names that stand in the source.
+inline size_t ParseChoice(std::string_view what, std::string_view word, std::span<const char* const> names,
+                          std::string_view where = {}) {
+  return ParseChoice(what, word, std::vector<std::string>(names.begin(), names.end()), where);
+}
+
 /// The same for the enumerators of `Enum`, which are named in their order.
 template <class Enum, size_t kCount>
 Enum ParseChoice(std::string_view what, std::string_view word, const char* const (&names)[kCount],
                  std::string_view where = {}) {
-  const std::vector<std::string> choices(std::begin(names), std::end(names));
-  return static_cast<Enum>(ParseChoice(what, word, choices, where));
+  return static_cast<Enum>(ParseChoice(what, word, std::span<const char* const>(names), where));
 }
 
 }  // namespace airsim360

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <set>
 
+#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 
@@ -56,6 +57,35 @@ class YamlReader : public ConfigVisitor {
   }
   void Field(std::string_view name, std::string_view, std::vector<std::string>& value) override {
     Read(name, "a list of texts", value);
+  }
+  void Count(std::string_view name, std::string_view, int& value, int high) override {
+    const YAML::Node node = Find(name);
+    if (!node) return;
+    int read = 0;
+    const std::string wanted = "a whole number from 1 to " + std::to_string(high);
+    Read(name, wanted, read);
+    if (read < 1 || read > high) Fail(node, name, wanted);
+    value = read;
+  }
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
+                double low, double high) override {
+    const YAML::Node node = Find(name);
+    if (!node) return;
+    is_word = node.IsScalar() && node.Scalar() == word;
+    value = 0;
+    if (!is_word) Field(name, help, value, low, high);
+  }
+  void Choice(std::string_view name, std::string_view, std::span<const char* const> names, size_t index,
+              const std::function<void(size_t)>& set) override {
+    const YAML::Node node = Find(name);
+    if (!node) return;
+    std::string word = names[index];
+    Read(name, "a word", word);
+    try {
+      set(ParseChoice(name, word, names));
+    } catch (const InputError& error) {
+      throw InputError(Where(file_, node.Mark()) + std::string(name) + ": " + error.what());
+    }
   }
   void Group(std::string_view name, std::string_view, const ConfigFields& visit) override {
     if (const YAML::Node node = Find(name)) {
@@ -144,6 +174,18 @@ class Describer : public ConfigVisitor {
     std::string list = "[";
     for (const std::string& item : value) list += (list.size() > 1 ? ", " : "") + item;
     Line(name, list + "]", help);
+  }
+  void Count(std::string_view name, std::string_view help, int& value, int) override {
+    Line(name, std::to_string(value), help);
+  }
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
+                double low, double high) override {
+    if (is_word) return Line(name, word, help);
+    Field(name, help, value, low, high);
+  }
+  void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
+              const std::function<void(size_t)>&) override {
+    Line(name, '"' + std::string(names[index]) + '"', help);
   }
   void Group(std::string_view name, std::string_view help, const ConfigFields& visit) override {
     Line(name, "", help);

@@ -14,13 +14,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace airsim360 {
 
-/// Walks the fields of a config struct. A field that a file does not mention keeps its value.
+/// Walks the fields of a config struct: reads them from a file, from the command line (app/config_flags.h) or from
+/// keywords of Python, or writes them. A field that is not mentioned keeps its value.
 class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
@@ -33,9 +35,23 @@ class ConfigVisitor {
                      double high) = 0;
   virtual void Field(std::string_view name, std::string_view help, std::string& value) = 0;
   virtual void Field(std::string_view name, std::string_view help, std::vector<std::string>& value) = 0;
+  /// One of a few words: the enumerators of `Enum`, named in their order.
+  template <class Enum, size_t kCount>
+  void Field(std::string_view name, std::string_view help, Enum& value, const char* const (&names)[kCount]) {
+    Choice(name, help, names, static_cast<size_t>(value), [&value](size_t i) { value = static_cast<Enum>(i); });
+  }
+  /// A whole number from 1 to `high`; 0 stands for one that was not given, and is refused where one is.
+  virtual void Count(std::string_view name, std::string_view help, int& value, int high) = 0;
+  /// A number in [low, high], or `word` instead of one.
+  virtual void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word,
+                        double& value, double low, double high) = 0;
   /// A nested struct.
   virtual void Group(std::string_view name, std::string_view help,
                      const std::function<void(ConfigVisitor&)>& visit) = 0;
+  /// Field of an enumeration without its type: `index` of `names` is the present value, `set` takes another. What the
+  /// value is part of outlives the visitor, and so may `set`.
+  virtual void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
+                      const std::function<void(size_t)>& set) = 0;
   /// A list of nested structs: `visit(v, entry)` names the fields of one. A file that mentions the list
   /// replaces it, each entry starting from the defaults.
   template <class T, class Visit>

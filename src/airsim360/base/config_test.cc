@@ -67,6 +67,62 @@ TEST(Config, ErrorsNameThePlaceTheValueAndTheNearestKey) {
   EXPECT_NE(ErrorOf("[a]: 1\n").find("plain word"), std::string::npos);
 }
 
+enum class Size { kSmall, kLarge };
+constexpr const char* kSizeNames[] = {"small", "large"};
+
+struct Chosen {
+  Size size = Size::kSmall;
+  int count = 0;
+  double level = 1.5;
+  bool automatic = false;
+  void Visit(ConfigVisitor& v) {
+    v.Field("size", "one of two", size, kSizeNames);
+    v.Count("count", "how many", count, 8);
+    v.NumberOr("level", "how much", "auto", automatic, level, -2, 2);
+  }
+};
+
+Chosen ReadChosen(std::string_view text) {
+  Chosen chosen;
+  ReadYaml(text, "x.yaml", [&](ConfigVisitor& v) { chosen.Visit(v); });
+  return chosen;
+}
+
+TEST(Config, WordsCountsAndNumbersOrAWordAreReadAndKeepWhatIsNotGiven) {
+  const Chosen all = ReadChosen("size: large\ncount: 8\nlevel: auto\n");
+  EXPECT_EQ(all.size, Size::kLarge);
+  EXPECT_EQ(all.count, 8);
+  EXPECT_TRUE(all.automatic);
+  const Chosen none = ReadChosen("{}");
+  EXPECT_EQ(none.size, Size::kSmall);
+  EXPECT_EQ(none.count, 0);
+  EXPECT_FALSE(none.automatic);
+  EXPECT_EQ(none.level, 1.5);
+  EXPECT_EQ(ReadChosen("level: -2").level, -2);
+}
+
+TEST(Config, WordsCountsAndNumbersOutOfRangeAreRefusedWithTheirPlace) {
+  const auto refusal = [](std::string_view text) -> std::string {
+    try {
+      ReadChosen(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(refusal("size: lrge"),
+            "x.yaml:1:7: size: unknown size 'lrge'; did you mean 'large'? (choices: small, large)");
+  for (const char* text : {"count: 0", "count: 9", "count: -1", "count: 4000000000",
+                           "count: 99999999999999999999", "count: 1.5", "count: many", "count: [1]"})
+    EXPECT_NE(refusal(text).find("x.yaml:1:8: count: expected a whole number from 1 to 8"), std::string::npos)
+        << refusal(text);
+  for (const char* text : {"level: 2.1", "level: .nan", "level: .inf", "level: -1e300"})
+    EXPECT_NE(refusal(text).find("x.yaml:1:8: level: expected a number from -2 to 2"), std::string::npos)
+        << refusal(text);
+  for (const char* text : {"level: atuo", "level: 1e999", "level: [1]"})
+    EXPECT_NE(refusal(text).find("x.yaml:1:8: level: expected a number"), std::string::npos) << refusal(text);
+}
+
 TEST(Config, DeepNestingIsAnErrorNotACrash) {
   EXPECT_NE(ErrorOf(std::string(100000, '[')), "no error");
   EXPECT_NE(ErrorOf(std::string(100000, '{')), "no error");

@@ -5,46 +5,23 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 
 #include "airsim360/image/image.h"
 #include "airsim360/math/transform.h"
 #include "airsim360/projection/camera.h"
+#include "airsim360/render/products.h"
+#include "airsim360/render/render_settings.h"
 #include "airsim360/scene/scene.h"
 #include "airsim360/scene/scene_state.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
 
-enum class Tier { kLabels, kFast, kHigh, kReference };
-inline constexpr const char* kTierNames[] = {"labels", "fast", "high", "reference"};
-/// Tier of a name; InputError naming the nearest if there is none.
-Tier ParseTier(std::string_view name);
-
-/// From scene radiance to display values.
-enum class ToneCurve { kFilmic, kAgx, kLinear };
-inline constexpr const char* kToneCurveNames[] = {"filmic", "agx", "linear"};
-
-/// Which images a capture fills. Labels cost nothing beside each other: they come from the same rays.
-struct Products {
-  bool rgb = true, range = true, semantic = true, entity = true, normal = false;
-  bool position = false, albedo = false, material = false, coverage = false;
-  bool flow = false;      ///< needs RenderRequest::X_WC_next
-  bool radiance = false;  ///< linear light before exposure and tone curve
-};
-
-struct RenderRequest {
+/// One picture of one camera, made as the settings say.
+struct RenderRequest : RenderSettings {
   Camera camera = {};
   RigidTransform X_WC = {};  ///< pose of the camera in W
-  Tier tier = Tier::kFast;
   Products products = {};
-  double exposure_ev =
-      0;  ///< stops added to the scene's fixed daylight exposure; one exposure for the whole sphere
-  /// Colour samples of a pixel on an edge, the centre ray included, up to kMostEdgeSamples; 1 = none; 0 =
-  /// EdgeSamples' choice.
-  int aa_samples = 0;
 
   /// What has moved; nullptr = nothing. Shared with the flow's second instant below.
   std::shared_ptr<const SceneState> state = nullptr;
@@ -54,18 +31,18 @@ struct RenderRequest {
   std::shared_ptr<const SceneState> next_state = nullptr;
 
   // Tiers high and reference.
-  int samples =
-      0;  ///< high: ambient rays of a pixel at the equator; reference: paths of a pixel; 0 = default
   bool latitude_sampling = true;  ///< fewer samples where rows of a panorama are shorter
-  bool denoise = true;            ///< high
   bool temporal = false;  ///< high: reuse the last frame of this renderer; off = frames are independent
-  uint64_t seed = 0;      ///< of all random choices
-
-  ToneCurve tone = ToneCurve::kFilmic;
-  bool auto_exposure = false;  ///< from the picture's own solid-angle-weighted histogram
+  bool light = false;  ///< also Frame::light and Frame::daylight, of which a look makes a picture (render/look)
 };
 
-inline constexpr int kMostEdgeSamples = 64;
+/// A request that leaves all other settings as they are by default.
+inline RenderRequest MakeRequest(const Camera& camera, const RigidTransform& X_WC, Tier tier,
+                                 const Products& products = {}) {
+  RenderRequest request{{}, camera, X_WC, products};
+  request.tier = tier;
+  return request;
+}
 
 /// Colour samples of a pixel on an edge. Tier `fast` takes two if nothing else is asked for, `high` eight, with which it
 /// is level with 16 paths of a pixel; four where shares of entities are a product of another tier (coverage).
@@ -73,11 +50,8 @@ inline int EdgeSamples(const RenderRequest& request) {
   const int usual = request.tier == Tier::kHigh                                   ? 8
                     : request.tier == Tier::kFast && !request.products.coverage ? 2
                                                                                 : 4;
-  return std::clamp(request.aa_samples > 0 ? request.aa_samples : usual, 1, kMostEdgeSamples);
+  return std::clamp(request.edge_samples > 0 ? request.edge_samples : usual, 1, kMaxEdgeSamples);
 }
-/// A number of edge samples that somebody gave, for RenderRequest::aa_samples; 0 if none was. InputError, naming
-/// it `name`, outside 1 to kMostEdgeSamples.
-int CheckEdgeSamples(std::string_view name, std::optional<int> given);
 
 /// Where the surface point of a pixel is at the next instant. The sky is infinitely far away: it only turns.
 struct FlowPixel {
@@ -100,6 +74,14 @@ struct CoveragePixel {
   friend bool operator==(const CoveragePixel&, const CoveragePixel&) = default;
 };
 
+/// The light of the sky where a camera stands, in units of Sky.
+struct Daylight {
+  Vec3f to_sun{0, 0, 1};  ///< unit, in W; by night to the moon
+  Rgb32f sun;             ///< its irradiance on a plane facing it, outside of cloud shadows; black: there is none
+  float sun_seen = 0;     ///< share of its light that meets the camera, 0 (hidden) … 1
+  Rgb32f sky;             ///< irradiance of level open ground by the sky without it
+};
+
 /// The products asked for; the others are empty, and so is rgb of tier labels. Images keep their memory
 /// between captures of the same size. A pixel without a ray (outside a fisheye's circle) has range 0, entity
 /// 0, semantic void, black.
@@ -116,6 +98,8 @@ struct Frame {
   Image<CoveragePixel> coverage;  ///< soft edges
   Image<Rgb32f> radiance;         ///< linear light, units of Sky
   float exposure = 1;             ///< radiance times this is what the tone curve was given
+  Image<Rgb32f> light;            ///< as radiance, but of tier fast too with edges as smooth as those of rgb
+  Daylight daylight;              ///< set with `light`
 };
 
 /// Counters of the last capture.

@@ -33,7 +33,7 @@ double Of(const WorldView& world, WeatherParameter parameter) {
 double InQuarters(double share) { return std::ceil(4 * share) / 4; }
 
 bool IsSame(const Environment& a, const Environment& b) {
-  return a.lamps == b.lamps && a.hdri == b.hdri &&
+  return a.lamps == b.lamps && a.cloud_type == b.cloud_type && a.hdri == b.hdri &&
          std::ranges::all_of(EnvironmentFields(),
                              [&](const EnvironmentField& field) { return a.*field.value == b.*field.value; });
 }
@@ -47,7 +47,8 @@ void ApplyWeather(Session& s) {
     const double fog = Of(world, WeatherParameter::kFog), dust = Of(world, WeatherParameter::kDust);
     weather.rain_mm_h = std::max(weather.rain_mm_h, kHeaviestRain * rain);
     weather.snowfall_mm_h = std::max(weather.snowfall_mm_h, kHeaviestSnow * snow);
-    weather.cloud_cover = std::max(weather.cloud_cover, InQuarters(std::max(rain, snow)));
+    const double rain_clouds = InQuarters(std::max(rain, snow));
+    if (rain_clouds > weather.cloud_cover) weather.cloud_cover = rain_clouds, weather.cloud_type = CloudType::kAuto;
     weather.wetness = std::max(weather.wetness, Of(world, WeatherParameter::kRoadWetness));
     weather.snow_depth = std::max(weather.snow_depth, Of(world, WeatherParameter::kRoadSnow));
     weather.turbidity = std::max(weather.turbidity, 2.5 + (kHaziest - 2.5) * InQuarters(dust));

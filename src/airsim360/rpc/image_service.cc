@@ -38,8 +38,8 @@ RigidTransform CameraPoseIn(const Snapshot& snapshot, size_t vehicle, const Came
   return snapshot.state.vehicles[vehicle].motion.X_WB * camera.X_BA;
 }
 
-ImageService::ImageService(Session& session, Stage& stage, Tier tier)
-    : session_(session), stage_(stage), tier_(tier), ray_tracers_(stage.tracer()) {
+ImageService::ImageService(Session& session, Stage& stage, const RenderSettings& picture)
+    : session_(session), stage_(stage), picture_(picture), ray_tracers_(stage.tracer()) {
   const SnapshotPointer snapshot = session_.snapshot();
   MakeRendererFor(*snapshot->world);
   thread_ = std::thread([this] { Run(); });
@@ -79,7 +79,7 @@ void ImageService::GiveBackMemory() {
     // Renderers keep images of the last size: a tiny picture takes their place.
     frame_ = {};
     frame_pixels_ = 0;
-    renderer_->Render({.camera = Equirectangular{16, 8}, .tier = tier_}, frame_);
+    renderer_->Render(MakeRequest(Equirectangular{16, 8}, {}, picture_.tier), frame_);
   }
   pool_.Rest();
   ::malloc_trim(0);
@@ -95,7 +95,7 @@ void ImageService::FollowEnvironment(const WorldView& world) {
 
 void ImageService::MakeRendererFor(const WorldView& world) {
   renderer_.reset();  // a GPU need not hold two
-  renderer_ = stage_.NewRenderer(tier_, world.environment);
+  renderer_ = stage_.NewRenderer(picture_.tier, world.environment);
   environment_version_ = world.environment_version;
 }
 
@@ -122,10 +122,9 @@ std::shared_ptr<const RayTracer> ImageService::TracerOf(const Snapshot& snapshot
 
 const Frame& ImageService::RenderShot(const Snapshot& snapshot, const Shot& shot) {
   FollowEnvironment(*snapshot.world);
-  RenderRequest request{.camera = shot.camera, .X_WC = shot.X_WA * CameraInBody()};
+  RenderRequest request{picture_, shot.camera, shot.X_WA * CameraInBody(), shot.products};
   // Without colours there is no shading to be paid for.
-  request.tier = shot.products.rgb ? tier_ : Tier::kLabels;
-  request.products = shot.products;
+  if (!shot.products.rgb) request.tier = Tier::kLabels;
   request.state = StateOf(snapshot, shot.self);
   if (shot.products.flow) {
     const NextTrigger next = InstantAfter(*snapshot.model, snapshot.state, shot.self, kFlowSeconds);

@@ -20,7 +20,7 @@ class ImageService {
   using Job = std::function<void(ImageService&)>;
 
   /// The renderer is made at once.
-  ImageService(Session& session, Stage& stage, Tier tier);
+  ImageService(Session& session, Stage& stage, const RenderSettings& picture);
   ~ImageService();
   ImageService(const ImageService&) = delete;
   ImageService& operator=(const ImageService&) = delete;
@@ -76,7 +76,7 @@ class ImageService {
 
   Session& session_;
   Stage& stage_;
-  Tier tier_;
+  RenderSettings picture_;
   std::unique_ptr<Renderer> renderer_;
   DynamicTracer ray_tracers_;
   uint64_t environment_version_ = 0;

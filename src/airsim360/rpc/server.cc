@@ -66,7 +66,7 @@ AirSimServer::AirSimServer(std::shared_ptr<Stage> stage, const ServerOptions& op
   impl_->stage = stage->bodies().empty() ? std::make_shared<Stage>(stage, PeopleRequest{}, ServedBodies(options)) : std::move(stage);
   impl_->session = std::make_unique<Session>(*impl_->stage, SortExtras(impl_->stage->bodies(), options.assets),
                                              SessionOptions{.settings = options.settings, .lockstep = options.lockstep});
-  impl_->images = std::make_unique<ImageService>(*impl_->session, *impl_->stage, options.tier);
+  impl_->images = std::make_unique<ImageService>(*impl_->session, *impl_->stage, options.picture);
   WriteRecordings(*impl_->session, *impl_->images);
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,

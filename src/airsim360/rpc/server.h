@@ -18,7 +18,7 @@ struct ServerOptions {
   std::string address = "127.0.0.1";
   int port = 41451;  ///< 0 = any free one
   bool lockstep = false;
-  Tier tier = Tier::kFast;
+  RenderSettings picture = {};  ///< how colour pictures are made
   TcpLimits limits = {};
   std::vector<SpawnAsset> assets = ShapeAssets();     ///< what simSpawnObject can make
 };

@@ -203,15 +203,15 @@ void Session::StepOnce() {
   if (loop_->state().t_ns % kControlStepNs == 0) {
     for (const auto& control : controls_) {
       if (!control->status().is_drone) continue;
-      if (auto command = control->Plan(vehicle(*control), loop_->state().t_ns)) {
+      if (auto command = control->Plan(loop_->state().vehicles[control->index()], loop_->state().t_ns)) {
         loop_->Post({control->index(), std::move(*command)});
       }
     }
   }
-  loop_->Advance(1);
-  loop_->TakeEvents();  // calls ask for what they want to know
+  // Nobody is told of events: calls ask for what they want to know.
+  loop_->AdvanceWhile(1, [](const SimState&, std::span<const SimEvent>) { return true; });
   for (const auto& control : controls_) {
-    if (control->status().is_drone) control->Observe(AirSimQuad(), vehicle(*control));
+    if (control->status().is_drone) control->Observe(AirSimQuad(), loop_->state().vehicles[control->index()]);
   }
 }
 

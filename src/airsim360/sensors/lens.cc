@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/image/codecs.h"
-#include "airsim360/render/filter/tone_map.h"
 
 namespace airsim360 {
 namespace {
@@ -74,10 +72,6 @@ Image<Rgb32f> RenderSensor(const Real360& lens, const RenderRequest& settings, c
 
 }  // namespace
 
-LensModel ParseLensModel(std::string_view name) {
-  return ParseChoice<LensModel>("lens", name, kLensModelNames);
-}
-
 Real360 Real360::Perfect() {
   Real360 lens;
   lens.baseline = lens.vignetting = lens.mismatch_ev = lens.read_noise = lens.readout = lens.fringe = 0;
@@ -114,7 +108,7 @@ double NoiseVariance(const Real360& lens, double signal) {
 
 RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving,
                           float exposure, uint64_t frame, const Equirectangular& target, Renderer& renderer,
-                          Image<Rgb8>& rgb) {
+                          const DevelopLight& develop, Image<Rgb8>& rgb) {
   CheckReal360(lens);
   const Fisheye camera = internal::SensorCamera(lens, target);
   RenderStats stats;
@@ -124,8 +118,8 @@ RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, con
     light = RenderSensor(lens, request, X_WC, moving, exposure, rear, camera, renderer, stats);
     internal::ExposeSensor(lens, camera, rear, request.seed, frame, light);
   }
-  const Image<Rgb32f> light = internal::StitchSensors(lens, camera, sensors[0], sensors[1], target);
-  ToneMapImage(light, 1, request.tone, rgb);
+  Image<Rgb32f> light = internal::StitchSensors(lens, camera, sensors[0], sensors[1], target);
+  develop(light, rgb);
   if (lens.jpeg_quality < 1) return stats;
   const Image<Rgba8> coded =
       DecodeRgba8(EncodeJpeg(rgb, static_cast<int>(lens.jpeg_quality)), "picture of real360");

@@ -12,8 +12,6 @@ namespace airsim360 {
 
 enum class LensModel { kIdeal, kReal360 };
 inline constexpr const char* kLensModelNames[] = {"ideal", "real360"};
-/// Model of a name; InputError naming the nearest if there is none.
-LensModel ParseLensModel(std::string_view name);
 
 /// A consumer 360 camera. Light is in units of the display's white, after exposure, before the tone curve.
 struct Real360 {
@@ -41,17 +39,20 @@ void CheckReal360(const Real360& lens);
 /// (read_noise / full_well)^2.
 double NoiseVariance(const Real360& lens, double signal);
 
+/// From the stitched light, exposed, to a picture.
+using DevelopLight = std::function<void(Image<Rgb32f>& light, Image<Rgb8>& rgb)>;
+
 /// Where the camera is at a time relative to the trigger, seconds.
 using PoseAt = std::function<RigidTransform(double t)>;
 
 /// Renders both sensors and stitches them to `target` as if everything were far away: what is near does not
 /// fit at the seam. Rows of a sensor are exposed one after the other, top row first, the middle row at t = 0
-/// (in bands of 16 rows where `X_WC` moves). `request` gives tier, exposure, tone, state and seed; its
+/// (in bands of 16 rows where `X_WC` moves). `request` gives tier, exposure, state and seed; its
 /// camera, pose and products are not used. `exposure` > 0 replaces the renderer's own. Noise is keyed by
 /// (seed, frame, sensor, pixel). Returns the counters of all rendering.
 RenderStats RenderReal360(const Real360& lens, const RenderRequest& request, const PoseAt& X_WC, bool moving,
                           float exposure, uint64_t frame, const Equirectangular& target, Renderer& renderer,
-                          Image<Rgb8>& rgb);
+                          const DevelopLight& develop, Image<Rgb8>& rgb);
 
 namespace internal {
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/filter/tone_map.h"
 
 namespace airsim360 {
 namespace {
@@ -17,6 +18,35 @@ double Heading(const Mat3d& R_WB) {
 
 }  // namespace
 
+void PictureSettings::Visit(ConfigVisitor& v) {
+  RenderSettings::Visit(v);
+  v.Field("pano_frame", "body or level: the picture turns with the body or only with its heading", pano_frame,
+          kPanoFrameNames);
+  v.Field(
+      "lens",
+      "ideal, or real360: colour as of two stitched fisheyes with parallax, noise, rolling shutter and JPEG; "
+      "labels stay ideal",
+      lens, kLensModelNames);
+  v.Field("look", "clean, or photo: colour as a consumer camera takes it, with metering, glare, noise and white balance",
+          look, kLookNames);
+  v.Group("camera_look", "what look photo does", [this](ConfigVisitor& group) { camera_look.Visit(group); });
+}
+
+void CheckPictureSettings(const PictureSettings& settings, const Camera& camera, std::string_view prefix) {
+  CheckRenderSettings(settings, prefix);
+  const std::string before(prefix);
+  if (settings.lens == LensModel::kReal360 && !std::holds_alternative<Equirectangular>(camera))
+    throw InputError(before + "lens: 'real360' makes equirectangular pictures; use " + before +
+                     "projection erp");
+  CheckCameraLook(settings.camera_look, before);
+  if (settings.look == Look::kPhoto && std::holds_alternative<CubeFace>(camera))
+    throw InputError(before + "look: 'photo' meters and scatters every picture by itself, so that the faces of a cube would "
+                     "not fit; use " + before + "projection erp");
+  if (settings.auto_exposure && std::holds_alternative<CubeFace>(camera))
+    throw InputError(before + "exposure: 'auto' would differ between the faces of a cube; use " + before +
+                     "projection erp");
+}
+
 RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
   if (rig.pano_frame == PanoFrame::kBody) return X_WB * rig.X_BC;
   // The rig hangs in a gimbal: its place follows the body, its orientation only the body's heading.
@@ -26,16 +56,41 @@ RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
 
 namespace {
 
+bool WantsPhoto(const PanoramicRig& rig) {
+  return rig.look == Look::kPhoto && rig.products.rgb && rig.tier != Tier::kLabels;
+}
+
+PhotoRequest RequestPhoto(const PanoramicRig& rig, const Capture& capture) {
+  return {.camera = rig.camera,
+          .R_WC = capture.X_WC.R,
+          .exposure = capture.frame.exposure,
+          .exposure_ev = rig.exposure_ev,
+          .daylight = capture.frame.daylight,
+          .seed = rig.seed,
+          .frame = static_cast<uint64_t>(capture.t_ns)};
+}
+
 // Replaces the colour picture by that of a real camera.
 void CaptureLens(const PanoramicRig& rig, const RenderRequest& request, Renderer& renderer,
                  Capture& capture) {
   const auto* target = std::get_if<Equirectangular>(&rig.camera);
   if (target == nullptr) throw InputError("lens real360 makes equirectangular pictures only");
   const Kinematics& body = capture.body;
+  const bool photo = WantsPhoto(rig);
+  const auto develop = [&](Image<Rgb32f>& light, Image<Rgb8>& rgb) {
+    if (!photo) return ToneMapImage(light, 1, request.tone, rgb);
+    // Its sensors have their own noise.
+    CameraLook look = rig.camera_look;
+    look.full_well = 0;
+    PhotoRequest taken = RequestPhoto(rig, capture);
+    for (Rgb32f& c : light.pixels()) c = {c.r / taken.exposure, c.g / taken.exposure, c.b / taken.exposure};
+    capture.photo = TakePhoto(look, taken, light, rgb);
+  };
+  const bool known = rig.auto_exposure || photo;
   const RenderStats stats = RenderReal360(
       rig.real360, request, [&](double t) { return CameraPose(rig, Extrapolate(body, t)); },
-      Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0, rig.auto_exposure ? capture.frame.exposure : 0,
-      static_cast<uint64_t>(capture.t_ns), *target, renderer, capture.frame.rgb);
+      Norm(body.v_WB) > 0 || Norm(body.w_WB_B) > 0, known ? capture.frame.exposure : 0,
+      static_cast<uint64_t>(capture.t_ns), *target, renderer, develop, capture.frame.rgb);
   capture.stats.rays += stats.rays;
   capture.stats.render_ms += stats.render_ms;
 }
@@ -58,25 +113,25 @@ void CaptureRig(const PanoramicRig& rig, const Kinematics& body, int64_t t_ns, R
   capture.pano_frame = rig.pano_frame;
   capture.X_WC_next.reset();
   if (next != nullptr && rig.products.flow) capture.X_WC_next = CameraPose(rig, next->X_WB);
-  RenderRequest request{.camera = rig.camera,
-                        .X_WC = capture.X_WC,
-                        .tier = rig.tier,
-                        .products = rig.products,
-                        .exposure_ev = rig.exposure_ev,
-                        .aa_samples = rig.edge_samples,
-                        .samples = rig.samples,
-                        .denoise = rig.denoise,
-                        .seed = rig.seed,
-                        .tone = rig.tone,
-                        .auto_exposure = rig.auto_exposure};
+  RenderRequest request{rig, rig.camera, capture.X_WC, rig.products};
   request.state = rig.state;
   request.X_WC_next = capture.X_WC_next;
   if (next != nullptr) request.next_state = next->state;
   const bool lens = rig.lens == LensModel::kReal360 && rig.products.rgb && rig.tier != Tier::kLabels;
+  const bool photo = WantsPhoto(rig);
   // The ideal colours serve its exposure at most.
   if (lens) request.products.rgb = rig.auto_exposure;
+  if (photo) {
+    request.light = true;
+    request.exposure_ev = 0;
+    request.auto_exposure = false;
+  }
+  capture.photo.reset();
   capture.stats = renderer.Render(request, capture.frame);
+  request.light = false;
   if (lens) CaptureLens(rig, request, renderer, capture);
+  if (photo && !lens)
+    capture.photo = TakePhoto(rig.camera_look, RequestPhoto(rig, capture), capture.frame.light, capture.frame.rgb);
 }
 
 }  // namespace airsim360

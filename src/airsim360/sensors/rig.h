@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "airsim360/render/look/photo.h"
 #include "airsim360/render/renderer.h"
 #include "airsim360/sensors/lens.h"
 
@@ -21,24 +22,30 @@ struct Kinematics {
   Vec3d w_WB_B;  ///< angular velocity of B in W, expressed in B, rad/s
 };
 
-struct PanoramicRig {
-  Camera camera = Equirectangular{};
-  RigidTransform X_BC = CameraInBody();
+/// How the pictures of a camera on a body are made.
+struct PictureSettings : RenderSettings {
   PanoFrame pano_frame = PanoFrame::kBody;
-  Tier tier = Tier::kFast;
-  Products products;
-  double exposure_ev = 0;
-  ToneCurve tone = ToneCurve::kFilmic;
-  bool auto_exposure = false;
-  int samples = 0;       ///< as RenderRequest::samples
-  bool denoise = true;   ///< as RenderRequest::denoise
-  int edge_samples = 0;  ///< as RenderRequest::aa_samples
-  uint64_t seed = 0;     ///< of samples and noise
+  /// kPhoto: the colour picture is what `camera_look` makes of the light; exposure_ev is on top of what it meters, tone
+  /// and auto_exposure are not used. Everything else stays ideal.
+  Look look = Look::kClean;
+  CameraLook camera_look = {};
   /// kReal360: the colour picture of a panorama is that of two stitched fisheyes; everything else stays
   /// ideal.
   LensModel lens = LensModel::kIdeal;
-  Real360 real360;
-  std::shared_ptr<const SceneState> state;  ///< what has moved; nullptr = nothing
+
+  void Visit(ConfigVisitor& v);
+};
+
+/// CheckRenderSettings, and: a lens that does not make pictures of this camera, an exposure of its own for each face of
+/// a cube.
+void CheckPictureSettings(const PictureSettings& settings, const Camera& camera, std::string_view prefix = {});
+
+struct PanoramicRig : PictureSettings {
+  Camera camera = Equirectangular{};
+  RigidTransform X_BC = CameraInBody();
+  Products products = {};
+  Real360 real360 = {};
+  std::shared_ptr<const SceneState> state = nullptr;  ///< what has moved; nullptr = nothing
 };
 
 /// The next trigger of a rig, which optical flow leads to.
@@ -56,6 +63,7 @@ struct Capture {
   Frame frame;
   RenderStats stats;
   std::optional<RigidTransform> X_WC_next;  ///< pose that the flow leads to, where flow was asked for
+  std::optional<PhotoFigures> photo;        ///< of look photo
 };
 
 /// Pose of the rig's camera for a body pose.

@@ -71,18 +71,13 @@ void CameraSpec::Visit(ConfigVisitor& v) {
   v.Field("height", "pixels", height);
   v.Field("fov_deg", "pinhole: across the width; fisheye: across the shorter side", fov_deg, 1, 360);
   v.Field("rate_hz", "pictures a second", rate_hz, 0.01, 1000);
-  v.Field("pano_frame", "body or level", pano_frame);
-  v.Field("tier", "labels, fast, high or reference", tier);
+  PictureSettings::Visit(v);
 }
 
 PanoramicRig CameraSpec::Rig() const {
-  PanoramicRig rig;
-  rig.camera = MakeCamera(*this);
+  PanoramicRig rig{*this, MakeCamera(*this), mount.pose() * CameraInBody()};
   CheckCamera(rig.camera);
-  rig.X_BC = mount.pose() * CameraInBody();
-  rig.pano_frame = ParseWord("pano_frame", pano_frame, {"body", "level"}) == "level" ? PanoFrame::kLevel
-                                                                                     : PanoFrame::kBody;
-  rig.tier = ParseTier(tier);
+  CheckPictureSettings(rig, rig.camera);
   return rig;
 }
 

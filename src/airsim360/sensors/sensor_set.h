@@ -25,15 +25,13 @@ struct Named {
 };
 
 /// An ordinary or panoramic camera.
-struct CameraSpec {
+struct CameraSpec : PictureSettings {
   std::string projection = "erp";  ///< erp, pinhole or fisheye
   Mount mount = {};                ///< the camera looks along S's forward axis, S's up is up in the picture
   uint64_t gimbal = 0;             ///< 0 = fixed to the body, n = on the n-th gimbal
   uint64_t width = 1024, height = 512;
   double fov_deg = 90;  ///< pinhole: across the width; fisheye: across the shorter side
   double rate_hz = 10;
-  std::string pano_frame = "body";  ///< body or level
-  std::string tier = "fast";        ///< labels, fast, high or reference
 
   void Visit(ConfigVisitor& v);
   /// The rig of an unturned gimbal; InputError naming the value that makes no sense.

@@ -27,7 +27,8 @@ struct TwoInTheRoom {
           {"lidar", {.channels = 32, .columns = 720, .low_deg = -20, .high_deg = 20, .sigma = 0}}};
       setup.sensors.range_finders = {
           {"ahead", {.mount = {}, .beam_deg = 6, .sigma = 0, .sigma_per_metre = 0}}};
-      setup.sensors.cameras = {{"panorama", {.width = 512, .height = 256, .tier = "labels"}}};
+      setup.sensors.cameras = {{"panorama", {.width = 512, .height = 256}}};
+      setup.sensors.cameras[0].spec.tier = Tier::kLabels;
       bodies.push_back({"drone", DroneBodyModel(setup.model), setup.X_WB});
     }
     base = std::make_shared<const RayTracer>(AddDroneBodies(BuildWorld("box_room", {}), bodies, refs));

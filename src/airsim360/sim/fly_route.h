@@ -15,6 +15,7 @@ struct Shot {
   int64_t t_ns = 0;
   Kinematics body;
   std::shared_ptr<const PeopleState> people = nullptr;  ///< SimState::people then
+  bool last = false;  ///< of a take: the next shot does not follow in time, the body goes on as it moves
 };
 
 /// One moment of the recorded trajectory.

@@ -20,7 +20,8 @@ RigidTransform LevelCamera(const RigidTransform& X_WB) {
 
 }  // namespace
 
-AgentWorld::AgentWorld(std::shared_ptr<Stage> stage, Tier tier) : stage_(std::move(stage)), tier_(tier) {}
+AgentWorld::AgentWorld(std::shared_ptr<Stage> stage, const RenderSettings& picture)
+    : stage_(std::move(stage)), picture_(picture) {}
 
 const std::vector<Vec3d>& AgentWorld::places() {
   const std::lock_guard lock(places_mutex_);
@@ -35,12 +36,12 @@ const std::vector<Vec3d>& AgentWorld::places() {
 
 void AgentWorld::Render(RenderRequest request, std::shared_ptr<const SceneState> moved) {
   request.state = std::move(moved);
-  stage_->renderer(tier_).Render(request, frame_);
+  stage_->renderer(request.tier).Render(request, frame_);
 }
 
 Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFrame frame,
                                  std::shared_ptr<const SceneState> moved) {
-  RenderRequest request{.camera = Equirectangular{width, width / 2}, .tier = tier_};
+  RenderRequest request{picture_, Equirectangular{width, width / 2}};
   request.X_WC = frame == PanoFrame::kLevel ? LevelCamera(X_WB) : X_WB * CameraInBody();
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
   const std::lock_guard lock(mutex_);
@@ -51,9 +52,8 @@ Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFram
 Image<Rgb8> AgentWorld::View(const RigidTransform& X_WB, double azimuth, double elevation, double fov,
                              int width, int height, std::shared_ptr<const SceneState> moved) {
   const double focal = width / (2 * std::tan(fov / 2));
-  RenderRequest request{.camera = Pinhole{width, height, focal, focal, width / 2.0, height / 2.0},
-                        .X_WC = BodyPose(X_WB.p, HeadingOfBody(X_WB) - azimuth, elevation, 0) * CameraInBody(),
-                        .tier = tier_};
+  RenderRequest request{picture_, Pinhole{width, height, focal, focal, width / 2.0, height / 2.0},
+                        BodyPose(X_WB.p, HeadingOfBody(X_WB) - azimuth, elevation, 0) * CameraInBody()};
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
   const std::lock_guard lock(mutex_);
   Render(request, std::move(moved));
@@ -64,8 +64,7 @@ RangeGrid AgentWorld::Grid(const RigidTransform& X_WB, int rows, int columns, st
   // As many rays as fit the sectors exactly.
   const int least = std::max({kGridWidth, kSamplesPerCell * columns, 2 * kSamplesPerCell * rows});
   const int width = (least + 1) / 2 * 2;
-  RenderRequest request{
-      .camera = Equirectangular{width, width / 2}, .X_WC = LevelCamera(X_WB), .tier = Tier::kLabels};
+  RenderRequest request = MakeRequest(Equirectangular{width, width / 2}, LevelCamera(X_WB), Tier::kLabels);
   request.products = {.rgb = false, .range = true, .semantic = false, .entity = false};
   RangeGrid grid{rows, columns, std::vector<float>(static_cast<size_t>(rows) * static_cast<size_t>(columns))};
   const std::lock_guard lock(mutex_);

@@ -21,8 +21,8 @@ struct RangeGrid {
 /// Thread-safe; pictures are taken one after the other.
 class AgentWorld {
  public:
-  /// `tier` of the pictures.
-  explicit AgentWorld(std::shared_ptr<Stage> stage, Tier tier = Tier::kFast);
+  /// `picture`: how the pictures are made.
+  explicit AgentWorld(std::shared_ptr<Stage> stage, const RenderSettings& picture = {});
 
   Stage& stage() { return *stage_; }
   const std::string& name() const { return stage_->name(); }
@@ -47,7 +47,7 @@ class AgentWorld {
   void Render(RenderRequest request, std::shared_ptr<const SceneState> moved);
 
   std::shared_ptr<Stage> stage_;
-  Tier tier_;
+  RenderSettings picture_;
   std::mutex places_mutex_;
   std::vector<Vec3d> places_;
   std::mutex mutex_;  // of what follows

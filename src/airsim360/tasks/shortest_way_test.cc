@@ -39,7 +39,7 @@ std::shared_ptr<const Scene> TwoRooms(float door) {
 }
 
 std::shared_ptr<AgentWorld> World(float door) {
-  return std::make_shared<AgentWorld>(std::make_shared<Stage>(TwoRooms(door)), Tier::kLabels);
+  return std::make_shared<AgentWorld>(std::make_shared<Stage>(TwoRooms(door)), RenderSettings{.tier = Tier::kLabels});
 }
 
 // From (-3, -3) to (3, -3) around the end of the wall at y = 3, never nearer to it than r: two tangents, two

@@ -30,6 +30,7 @@ void CheckOptions(const VectorEnvironmentOptions& o) {
     if (!(value > 0 && value <= 1000))
       refuse(std::string(name) + ": " + std::to_string(value) + " is not in 0 ... 1000");
   };
+  CheckPictureSettings(o.picture, Equirectangular{o.width, o.height});
   positive("max_speed", o.max_speed);
   positive("max_turn", o.max_turn);
   positive("max_rate", o.max_rate);
@@ -58,7 +59,7 @@ VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const Navigat
       model_(MakeModel(*stage_, options.drone)) {
   const auto count = static_cast<size_t>(options_.count);
   const size_t pixels = count * static_cast<size_t>(options_.width) * static_cast<size_t>(options_.height);
-  options_.rgb = options_.rgb && options_.tier != Tier::kLabels;
+  options_.rgb = options_.rgb && options_.picture.tier != Tier::kLabels;
   if (options_.rgb) rgb_.resize(pixels);
   if (options_.range) range_.resize(pixels);
   if (options_.semantic) semantic_.resize(pixels);
@@ -70,7 +71,7 @@ VectorEnvironment::VectorEnvironment(std::shared_ptr<Stage> stage, const Navigat
   steps_.resize(count);
   lanes_.resize(count);
 
-  const Tier tier = options_.rgb ? options_.tier : Tier::kLabels;
+  const Tier tier = options_.rgb ? options_.picture.tier : Tier::kLabels;
   // A GPU holds the scene once; on the CPU every thread has a renderer.
   const int slots = ChoosesGpu(stage_->device()) ? 1 : std::min(options_.count, ThreadCount());
   for (int i = 0; i < slots; ++i) {

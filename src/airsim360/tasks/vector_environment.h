@@ -35,9 +35,8 @@ struct VectorEnvironmentOptions {
   double max_rate = 6;                   ///< rad/s of action 1 at level rates
   double period = 0.1;                   ///< seconds of a step, a whole number of milliseconds, even
   int width = 128, height = 64;          ///< of the panoramas; width = 2 height
-  Tier tier = Tier::kFast;
+  PictureSettings picture = {};  ///< how they are made
   bool rgb = true, range = true, semantic = false, entity = false;  ///< panoramas that are made
-  bool level = false;      ///< panoramas keep the horizon level; else they turn with the body
   bool auto_reset = true;  ///< an environment that has ended begins anew in the next step, which does nothing
                            ///< else there (reward 0); off: such a step is an InputError
   uint64_t seed = 0;

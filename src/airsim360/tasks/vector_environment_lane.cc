@@ -91,10 +91,8 @@ void VectorEnvironment::StepLane(size_t i, std::span<const float> action, Slot& 
 TargetSight VectorEnvironment::Look(size_t i, Slot& slot) {
   const Lane& lane = lanes_[i];
   const bool search = world_.task().kind == NavigationKind::kSearch;
-  PanoramicRig rig;
-  rig.camera = Equirectangular{options_.width, options_.height};
-  rig.pano_frame = options_.level ? PanoFrame::kLevel : PanoFrame::kBody;
-  rig.tier = options_.rgb ? options_.tier : Tier::kLabels;
+  PanoramicRig rig{options_.picture, Equirectangular{options_.width, options_.height}};
+  if (!options_.rgb) rig.tier = Tier::kLabels;
   rig.products = {.rgb = options_.rgb,
                   .range = options_.range || search,
                   .semantic = options_.semantic,

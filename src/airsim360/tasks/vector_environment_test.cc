@@ -22,7 +22,7 @@ std::shared_ptr<Stage> Room() {
 // Labels are made quickly; one test looks at colours.
 VectorEnvironmentOptions Options(int count, Tier tier = Tier::kLabels) {
   VectorEnvironmentOptions options;
-  options.tier = tier;
+  options.picture.tier = tier;
   options.count = count;
   options.drone = CatalogModel("hummingbird");
   options.width = 64;

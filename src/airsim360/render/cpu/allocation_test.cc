@@ -50,8 +50,7 @@ TEST(Allocation, TheSecondFrameOfASizeTakesNoMemory) {
         products.position = products.albedo = products.material = products.coverage = products.flow = true;
       }
       Frame frame;
-      RenderRequest request{
-          .camera = Equirectangular{256, 128}, .X_WC = poses[0], .tier = tier, .products = products};
+      RenderRequest request = MakeRequest(Equirectangular{256, 128}, poses[0], tier, products);
       request.X_WC_next = poses[1];
       renderer->Render(request, frame);
       request.X_WC = poses[1];

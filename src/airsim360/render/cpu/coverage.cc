@@ -69,7 +69,7 @@ class EntitySamples {
   LabelTile labels_;
   int lanes_ = 0;
   int owner_[16];
-  EntityId seen_[kTilePixels][kMostEdgeSamples];
+  EntityId seen_[kTilePixels][kMaxEdgeSamples];
   int count_[kTilePixels] = {};
 };
 

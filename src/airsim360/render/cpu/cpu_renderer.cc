@@ -14,6 +14,7 @@
 #include "airsim360/render/filter/tone_map.h"
 #include "airsim360/render/frame/antialias.h"
 #include "airsim360/render/frame/camera_rays.h"
+#include "airsim360/render/frame/daylight.h"
 #include "airsim360/render/frame/label_tables.h"
 #include "airsim360/render/frame/packet_tracer.h"
 #include "airsim360/render/frame/tile_pixels.h"
@@ -82,7 +83,9 @@ class CpuRenderer : public Renderer, public Relightable {
   float ExposureOf(const RenderRequest& request) const {
     return shader_->Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
   }
-  Image<Rgb32f>& RadianceOf(Frame& frame) { return radiance_.empty() ? frame.radiance : radiance_; }
+  Image<Rgb32f>& RadianceOf(Frame& frame) {
+    return !frame.radiance.empty() ? frame.radiance : !frame.light.empty() ? frame.light : radiance_;
+  }
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
     const RayField& field = rays_.field();
@@ -127,9 +130,10 @@ void CpuRenderer::ResizeFrame(const RenderRequest& request, bool color, bool edg
   Resize(edges_, width, height, edges);
   Resize(sun_, width, height, edges);
   Resize(frame.radiance, width, height, color && products.radiance);
+  Resize(frame.light, width, height, color && request.light);
   const bool linear =
       request.auto_exposure || request.tier == Tier::kHigh || request.tier == Tier::kReference;
-  Resize(radiance_, width, height, color && linear && !products.radiance);
+  Resize(radiance_, width, height, color && linear && !products.radiance && !request.light);
 }
 
 void CpuRenderer::SetState(const std::shared_ptr<const SceneState>& state) {
@@ -159,7 +163,8 @@ bool CpuRenderer::SetEnvironment(const Environment& environment) {
 RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   RenderRequest request = asked;
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
-  const bool color = (request.products.rgb || request.products.radiance) && request.tier != Tier::kLabels;
+  const Products& products = request.products;
+  const bool color = (products.rgb || products.radiance || request.light) && request.tier != Tier::kLabels;
   if (color && shader_ == nullptr) {
     shader_ = std::make_unique<Shader>(tracer_, environment_);
     shader_->Apply(applied_);
@@ -174,7 +179,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   }
   const bool paths = color && request.tier == Tier::kReference, high = color && request.tier == Tier::kHigh;
   const int edge_samples = EdgeSamples(request);
-  const bool antialias = color && request.products.rgb && !paths && !high && edge_samples > 1;
+  const bool antialias = color && (products.rgb || request.light) && !paths && !high && edge_samples > 1;
   ResizeFrame(request, color, antialias, frame);
   frame.exposure = color ? ExposureOf(request) : 1;
 
@@ -199,13 +204,19 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   }
   if (high || paths || (color && request.auto_exposure)) Develop(request.tone, RadianceOf(frame), frame);
 
+  if (color && request.light) {
+    if (products.radiance) frame.light = frame.radiance;
+    frame.daylight = DaylightAt(*applied_, *shader_, labels_, VecCast<float>(request.X_WC.p));
+  }
+
   // More colour samples on edges.
   if (antialias) {
     const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
     antialiaser_.FindEdges(entity, luma_, rays_.field().separable, edges_);
     const int64_t rays =
         antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, edge_samples, &edges_, &frame.rgb, &sun_, request.tone});
+                          request.exposure_ev, edge_samples, &edges_, &frame.rgb, &sun_, request.tone,
+                          request.light ? &frame.light : nullptr});
     stats.rays += static_cast<uint64_t>(rays);
   }
   if (!request.products.rgb) frame.rgb = {};

@@ -35,7 +35,7 @@ std::shared_ptr<Renderer> Square() {
 
 Frame Labels(Renderer& renderer, const Camera& camera, const RigidTransform& X_WC) {
   Frame frame;
-  renderer.Render({camera, X_WC, Tier::kLabels, kAllLabels}, frame);
+  renderer.Render(MakeRequest(camera, X_WC, Tier::kLabels, kAllLabels), frame);
   return frame;
 }
 
@@ -129,13 +129,13 @@ TEST(CpuRenderer, TurningTheRigByColumnsRollsEveryProductByteForByte) {
           BodyPose({0.3, -0.2, 2}, 2 * std::numbers::pi / width * 0.5, 0.3, 0) * CameraInBody()};
       for (const RigidTransform& X_WC : poses) {
         Frame still, turned;
-        renderer->Render({camera, X_WC, Tier::kFast, kEverything}, still);
+        renderer->Render(MakeRequest(camera, X_WC, Tier::kFast, kEverything), still);
         for (int k : {1, 3, 16, 50, width - 1}) {
           RigidTransform X = X_WC;
           X.R = X.R * RotationY(2 * std::numbers::pi * k / width);
           // Through a quaternion, as poses come from files.
           X.R = ToMatrix(ToQuaternion(X.R));
-          renderer->Render({camera, X, Tier::kFast, kEverything}, turned);
+          renderer->Render(MakeRequest(camera, X, Tier::kFast, kEverything), turned);
           EXPECT_EQ(turned.entity, Rolled(still.entity, k)) << k;
           EXPECT_EQ(turned.semantic, Rolled(still.semantic, k)) << k;
           EXPECT_EQ(turned.range, Rolled(still.range, k)) << k;
@@ -148,8 +148,9 @@ TEST(CpuRenderer, TurningTheRigByColumnsRollsEveryProductByteForByte) {
 }
 
 TEST(CpuRenderer, OneAndManyThreadsGiveTheSameBytes) {
-  const RenderRequest request{Equirectangular{320, 160}, BodyPose({0, 0, 2}, 0.4, 0.1, 0.2) * CameraInBody(),
-                              Tier::kFast, kEverything};
+  const RenderRequest request =
+      MakeRequest(Equirectangular{320, 160}, BodyPose({0, 0, 2}, 0.4, 0.1, 0.2) * CameraInBody(), Tier::kFast,
+                  kEverything);
   Frame one, many;
   {
     const ThreadLimit limit(1);
@@ -285,12 +286,13 @@ TEST(CpuRenderer, WhereNothingIsHitThereIsSkyWithRangeZeroAndNoNormal) {
 
 TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
   const auto renderer = Square();
-  RenderRequest request{Equirectangular{256, 128}, BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody(),
-                        Tier::kFast, kEverything};
-  request.aa_samples = 1;
+  RenderRequest request =
+      MakeRequest(Equirectangular{256, 128}, BodyPose({0, 0, 2.5}, 0.7, -0.2, 0.1) * CameraInBody(),
+                  Tier::kFast, kEverything);
+  request.edge_samples = 1;
   Frame rough, smooth;
   renderer->Render(request, rough);
-  request.aa_samples = 8;
+  request.edge_samples = 8;
   const RenderStats stats = renderer->Render(request, smooth);
   EXPECT_EQ(rough.entity, smooth.entity);
   EXPECT_EQ(rough.range, smooth.range);
@@ -320,8 +322,8 @@ TEST(CpuRenderer, MoreSamplesChangeColoursOnlyNearEdgesAndLeaveLabelsAlone) {
 
 TEST(CpuRenderer, ProductsNotAskedForAreEmptyAndDoNotChangeTheOthers) {
   const auto renderer = Square();
-  RenderRequest request{Equirectangular{128, 64}, BodyPose({0, 0, 2.5}, 0.7, 0, 0) * CameraInBody(),
-                        Tier::kFast, kEverything};
+  RenderRequest request = MakeRequest(
+      Equirectangular{128, 64}, BodyPose({0, 0, 2.5}, 0.7, 0, 0) * CameraInBody(), Tier::kFast, kEverything);
   Frame all, color;
   renderer->Render(request, all);
   request.products = {.rgb = true, .range = false, .semantic = false, .entity = false, .normal = false};
@@ -340,26 +342,26 @@ TEST(CpuRenderer, ImagesKeepTheirMemoryBetweenCaptures) {
   const auto renderer = Room();
   Frame frame = Labels(*renderer, Equirectangular{128, 64}, BodyPose({0, 0, 5}, 0, 0, 0) * CameraInBody());
   const float* before = frame.range.pixels().data();
-  renderer->Render(
-      {Equirectangular{128, 64}, BodyPose({0, 0, 4}, 1, 0, 0) * CameraInBody(), Tier::kLabels, kAllLabels},
-      frame);
+  renderer->Render(MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 4}, 1, 0, 0) * CameraInBody(),
+                               Tier::kLabels, kAllLabels),
+                   frame);
   EXPECT_EQ(frame.range.pixels().data(), before);
 }
 
 TEST(CpuRenderer, ACameraWithoutPixelsOrPlaceIsAnInputError) {
   const auto renderer = Room();
   Frame frame;
-  EXPECT_THROW(renderer->Render({Equirectangular{0, 0}, {}, Tier::kLabels, {}}, frame), InputError);
-  EXPECT_THROW(
-      renderer->Render({Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels, {}}, frame),
-      InputError);
+  EXPECT_THROW(renderer->Render(MakeRequest(Equirectangular{0, 0}, {}, Tier::kLabels), frame), InputError);
+  EXPECT_THROW(renderer->Render(
+                   MakeRequest(Equirectangular{64, 32}, {{}, {0, std::nan(""), 0}}, Tier::kLabels), frame),
+               InputError);
 }
 
 TEST(NullRenderer, GivesSkyEverywhere) {
   const auto scene = MakeOpenSquare();
   Frame frame;
   const RenderStats stats =
-      MakeNullRenderer(scene)->Render({Equirectangular{64, 32}, {}, Tier::kFast, {}}, frame);
+      MakeNullRenderer(scene)->Render(MakeRequest(Equirectangular{64, 32}, {}, Tier::kFast), frame);
   EXPECT_EQ(stats.rays, 0u);
   EXPECT_EQ(frame.rgb.size(), 64u * 32);
   for (EntityId id : frame.entity.pixels()) EXPECT_EQ(id, scene->sky_entity);

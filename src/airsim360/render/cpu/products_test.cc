@@ -32,7 +32,7 @@ std::unique_ptr<Renderer> RendererOf(std::shared_ptr<const Scene> scene) {
 }
 
 RenderRequest Request(const Camera& camera, const RigidTransform& X_WC, const RigidTransform& X_WC_next) {
-  RenderRequest request{.camera = camera, .X_WC = X_WC, .tier = Tier::kLabels, .products = kAll};
+  RenderRequest request = MakeRequest(camera, X_WC, Tier::kLabels, kAll);
   request.X_WC_next = X_WC_next;
   return request;
 }
@@ -127,7 +127,7 @@ TEST(Coverage, IsWhatAFinerPictureOfTheSamePlaceCounts) {
   const RigidTransform X = Pose({0.2, 0.1, 1.5}, 0.3, 0.2, -0.1);
   constexpr int kFine = 8, kWidth = 128, kHeight = 64;
   RenderRequest request = Request(Equirectangular{kWidth, kHeight}, X, X);
-  request.aa_samples = 64;
+  request.edge_samples = 64;
   const Frame frame = Rendered(*renderer, request);
   const Frame fine = Rendered(*renderer, Request(Equirectangular{kFine * kWidth, kFine * kHeight}, X, X));
   double sum = 0;

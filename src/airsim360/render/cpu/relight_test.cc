@@ -15,7 +15,7 @@ using namespace test;
 Image<Rgb8> Picture(Renderer& renderer, Tier tier) {
   Frame frame;
   const RigidTransform X_WC = BodyPose({0.3, -0.2, 2}, 0.3, 0.2, 0.1) * CameraInBody();
-  renderer.Render({Equirectangular{96, 48}, X_WC, tier, {}}, frame);
+  renderer.Render(MakeRequest(Equirectangular{96, 48}, X_WC, tier), frame);
   return frame.rgb;
 }
 

@@ -28,7 +28,7 @@ Environment Foul() {
 
 Image<Rgb8> Picture(Renderer& renderer, int width, const RigidTransform& X_WC) {
   Frame frame;
-  renderer.Render({Equirectangular{width, width / 2}, X_WC, Tier::kFast, {}}, frame);
+  renderer.Render(MakeRequest(Equirectangular{width, width / 2}, X_WC, Tier::kFast), frame);
   return frame.rgb;
 }
 

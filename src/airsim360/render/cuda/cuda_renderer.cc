@@ -89,6 +89,7 @@ CudaRenderer::~CudaRenderer() = default;
 RenderStats CudaRenderer::Render(const RenderRequest& request, Frame& frame) {
   const auto start = std::chrono::steady_clock::now();
   if (request.auto_exposure) throw InputError("CUDA: automatic exposure is found on the CPU; give exposure_ev");
+  if (request.light) throw InputError("CUDA: a look is made on the CPU; take look clean");
   taken_.reset();
   frame = {};
   GpuRenderer& gpu = *shared_->gpu;

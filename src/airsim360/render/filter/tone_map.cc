@@ -1,10 +1,7 @@
 #include "airsim360/render/filter/tone_map.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
-#include "airsim360/base/choice.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
@@ -27,10 +24,6 @@ void ToneMapImage(const Image<Rgb32f>& light, float exposure, ToneCurve tone, Im
       map(r, g, b, count, exposure, static_cast<int>(tone), &out(first, y));
     }
   });
-}
-
-ToneCurve ParseToneCurve(std::string_view name) {
-  return ParseChoice<ToneCurve>("tone curve", name, kToneCurveNames);
 }
 
 }  // namespace airsim360

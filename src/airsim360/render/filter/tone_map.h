@@ -9,7 +9,4 @@ namespace airsim360 {
 /// light * exposure through the tone curve to 8-bit sRGB. `out` is resized where its size differs.
 void ToneMapImage(const Image<Rgb32f>& light, float exposure, ToneCurve tone, Image<Rgb8>& out);
 
-/// Curve of a name; InputError naming the nearest if there is none.
-ToneCurve ParseToneCurve(std::string_view name);
-
 }  // namespace airsim360

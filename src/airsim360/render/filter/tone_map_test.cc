@@ -23,11 +23,6 @@ TEST(ToneMapTest, TheLinearCurveIsSrgbOfTheExposedLight) {
   }
 }
 
-TEST(ToneMapTest, CurvesHaveNames) {
-  EXPECT_EQ(ParseToneCurve("agx"), ToneCurve::kAgx);
-  EXPECT_THROW(ParseToneCurve("aces"), InputError);
-}
-
 /// Frames of the test square.
 class ExposedFrameTest : public testing::Test {
  protected:
@@ -44,7 +39,8 @@ class ExposedFrameTest : public testing::Test {
 
 TEST_F(ExposedFrameTest, PixelsAreTheToneCurveOfRadianceTimesExposure) {
   for (const ToneCurve tone : {ToneCurve::kFilmic, ToneCurve::kAgx, ToneCurve::kLinear}) {
-    RenderRequest request{.exposure_ev = -1, .aa_samples = 1, .tone = tone};
+    RenderRequest request;
+    request.exposure_ev = -1, request.edge_samples = 1, request.tone = tone;
     request.products.radiance = true;
     const Frame frame = Render(request);
     Image<Rgb8> shown;
@@ -54,7 +50,8 @@ TEST_F(ExposedFrameTest, PixelsAreTheToneCurveOfRadianceTimesExposure) {
 }
 
 TEST_F(ExposedFrameTest, AutoExposureUndoesAFixedOne) {
-  RenderRequest request{.auto_exposure = true};
+  RenderRequest request;
+  request.auto_exposure = true;
   const Frame automatic = Render(request);
   EXPECT_FALSE(automatic.rgb == Render({}).rgb);
   // Stops asked for are added to what the picture says.
@@ -62,7 +59,9 @@ TEST_F(ExposedFrameTest, AutoExposureUndoesAFixedOne) {
   EXPECT_FLOAT_EQ(Render(request).exposure, 2 * automatic.exposure);
   // A fixed exposure of the same size gives the same picture.
   const float fixed = Render({}).exposure;
-  const Frame same = Render({.exposure_ev = std::log2(automatic.exposure / fixed)});
+  RenderRequest brighter;
+  brighter.exposure_ev = std::log2(automatic.exposure / fixed);
+  const Frame same = Render(brighter);
   size_t off = 0;
   for (size_t i = 0; i < same.rgb.size(); ++i)
     off += std::abs(same.rgb.pixels()[i].g - automatic.rgb.pixels()[i].g) > 1;

@@ -39,14 +39,16 @@ class EdgeRun {
     kernels.init(task.origin.x, task.origin.y, task.origin.z, packet_);
   }
 
-  // Adds a pixel of the run with its place in the image, its kind of edge and the colour of its centre ray.
-  void AddPixel(int x, int y, int image_x, int image_y, uint8_t edge, Rgb8 center) {
+  // Adds a pixel of the run with its place in the image, where the colour of its centre ray is, and its kind of
+  // edge.
+  void AddPixel(int x, int y, int image_x, int image_y, uint8_t edge) {
     image_x_[pixel_count_] = image_x, image_y_[pixel_count_] = image_y;
     x_[pixel_count_] = static_cast<uint8_t>(x);
     y_[pixel_count_] = static_cast<uint8_t>(y);
     edge_[pixel_count_] = edge;
     low_[pixel_count_] = 255;
-    AddColor(pixel_count_++, center);
+    if (task_.light != nullptr) AddLight(pixel_count_, (*task_.light)(image_x, image_y));
+    AddColor(pixel_count_++, (*task_.colors)(image_x, image_y));
   }
   int pixel_count() const { return pixel_count_; }
   int x(int pixel) const { return x_[pixel]; }
@@ -79,7 +81,22 @@ class EdgeRun {
     return {EncodeSrgb(r_[pixel] * scale), EncodeSrgb(g_[pixel] * scale), EncodeSrgb(b_[pixel] * scale)};
   }
 
+  Rgb32f MeanLight(int pixel) const {
+    const float scale = 1 / light_weight_[pixel];
+    return {light_r_[pixel] * scale, light_g_[pixel] * scale, light_b_[pixel] * scale};
+  }
+
  private:
+  // Weighted against what is far above the display's white.
+  void AddLight(int pixel, Rgb32f c) {
+    const float exposure = task_.shader->Exposure();
+    const float weight = 1 / (1 + exposure * (0.25f * c.r + 0.625f * c.g + 0.125f * c.b));
+    light_r_[pixel] += weight * c.r;
+    light_g_[pixel] += weight * c.g;
+    light_b_[pixel] += weight * c.b;
+    light_weight_[pixel] += weight;
+  }
+
   void AddColor(int pixel, Rgb8 color) {
     r_[pixel] += SrgbToLinear(color.r);
     g_[pixel] += SrgbToLinear(color.g);
@@ -111,6 +128,8 @@ class EdgeRun {
     task_.shader->ToneMap(radiance.r, radiance.g, radiance.b, hits_.count, task_.exposure_ev, colors,
                           task_.tone);
     for (int i = 0; i < hits_.count; ++i) AddColor(owner_[i], colors[i]);
+    for (int i = 0; i < hits_.count && task_.light != nullptr; ++i)
+      AddLight(owner_[i], {radiance.r[i], radiance.g[i], radiance.b[i]});
     hits_.count = 0;
   }
 
@@ -122,6 +141,7 @@ class EdgeRun {
   uint8_t edge_[kRunPixels], low_[kRunPixels], high_[kRunPixels] = {};
   float r_[kRunPixels] = {}, g_[kRunPixels] = {}, b_[kRunPixels] = {};
   int weight_[kRunPixels] = {};
+  float light_r_[kRunPixels] = {}, light_g_[kRunPixels] = {}, light_b_[kRunPixels] = {}, light_weight_[kRunPixels] = {};
   RayHit16 packet_;
   HitBatch hits_;
   int owner_[HitBatch::kCapacity];  // pixel of each ray
@@ -194,7 +214,7 @@ int Antialiaser::RunTiles(const AntialiasTask& task, int column, int row) const 
     const uint8_t edge = (*task.edges)(image_column(x), row + y);
     if (edge == 0) continue;
     const int image_x = image_column(x);
-    run.AddPixel(x, y, image_x, row + y, edge, (*task.colors)(image_x, row + y));
+    run.AddPixel(x, y, image_x, row + y, edge);
   }
   if (run.pixel_count() == 0) return 0;
 
@@ -219,7 +239,9 @@ int Antialiaser::RunTiles(const AntialiasTask& task, int column, int row) const 
   }
   run.Finish();
   for (int i = 0; i < run.pixel_count(); ++i) {
-    (*task.colors)(image_column(run.x(i)), row + run.y(i)) = run.Mean(i);
+    const int x = image_column(run.x(i)), y = row + run.y(i);
+    (*task.colors)(x, y) = run.Mean(i);
+    if (task.light != nullptr) (*task.light)(x, y) = run.MeanLight(i);
   }
   return run.ray_count();
 }

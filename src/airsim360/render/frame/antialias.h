@@ -33,6 +33,9 @@ struct AntialiasTask {
   Image<Rgb8>* colors;         ///< in: of the centre rays
   const Image<SunPixel>* sun;  ///< of the centre rays
   ToneCurve tone = ToneCurve::kFilmic;
+  /// In and out as `colors`, linear: bright samples count for less, so that edges of highlights are smooth in
+  /// whatever is made of it. nullptr = not wanted.
+  Image<Rgb32f>* light = nullptr;
 };
 
 class Antialiaser {

@@ -26,10 +26,8 @@ Renderer& Square() {
 }
 
 RenderRequest Request(int width, double yaw = 0.3) {
-  return {.camera = Equirectangular{width, width / 2},
-          .X_WC = BodyPose({0.3, 0.2, 1.7}, yaw, 0.2, -0.1) * CameraInBody(),
-          .tier = Tier::kHigh,
-          .products = kAll};
+  return MakeRequest(Equirectangular{width, width / 2},
+                     BodyPose({0.3, 0.2, 1.7}, yaw, 0.2, -0.1) * CameraInBody(), Tier::kHigh, kAll);
 }
 
 Frame Render(const RenderRequest& request) {
@@ -127,7 +125,7 @@ TEST(HighFrame, EveryPixelIsANumberForAllCamerasAndSampleCounts) {
 
 TEST(HighFrame, MoreRaysBringTheNoiseDownAndLeaveTheMean) {
   RenderRequest request = Request(128);
-  request.denoise = false, request.aa_samples = 1;
+  request.denoise = false, request.edge_samples = 1;
   const auto error = [&](int samples, const Image<Rgb32f>& truth, double& bias) {
     request.samples = samples, request.seed = 5;
     const Image<Rgb32f> image = Render(request).radiance;
@@ -151,7 +149,7 @@ TEST(HighFrame, MoreRaysBringTheNoiseDownAndLeaveTheMean) {
 
 TEST(HighFrame, DenoisingComesCloserToManyRaysAndKeepsTheMean) {
   RenderRequest request = Request(256);
-  request.aa_samples = 1, request.denoise = false, request.samples = 64;
+  request.edge_samples = 1, request.denoise = false, request.samples = 64;
   const Image<Rgb32f> truth = Render(request).radiance;
   request.samples = 4, request.seed = 9;
   double error[2] = {}, sum[2] = {}, total = 0;

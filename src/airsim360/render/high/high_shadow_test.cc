@@ -45,13 +45,11 @@ std::shared_ptr<const RayTracer> UnderTheCrown() {
 
 Image<Rgb32f> Render(Renderer& renderer, Tier tier, int samples, uint64_t seed) {
   Frame frame;
-  renderer.Render({.camera = Equirectangular{kWidth, kHeight},
-                   .X_WC = BodyPose({0.2, -0.3, 3}, 0.4, 0, 0) * CameraInBody(),
-                   .tier = tier,
-                   .products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true},
-                   .samples = samples,
-                   .seed = seed},
-                  frame);
+  RenderRequest request =
+      MakeRequest(Equirectangular{kWidth, kHeight}, BodyPose({0.2, -0.3, 3}, 0.4, 0, 0) * CameraInBody(),
+                  tier, {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true});
+  request.samples = samples, request.seed = seed;
+  renderer.Render(request, frame);
   return frame.radiance;
 }
 

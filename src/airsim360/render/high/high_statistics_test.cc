@@ -23,7 +23,7 @@ constexpr float kModel = 0.01f;
 // Mean of `frames` frames with seeds from `seed` on, without denoising.
 Estimate Average(Renderer& renderer, RenderRequest request, int frames, uint64_t seed) {
   request.tier = Tier::kHigh;
-  request.denoise = false, request.aa_samples = 1;
+  request.denoise = false, request.edge_samples = 1;
   request.products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true};
   Frame frame;
   std::vector<Vec3d> sums, squares;
@@ -81,9 +81,9 @@ std::shared_ptr<const Scene> MakeRoofAndWall() {
 TEST(HighStatistics, WithoutBouncesItIsThePathTracersLightWithinTheNoise) {
   const auto tracer = std::make_shared<const RayTracer>(MakeRoofAndWall());
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
-  const RenderRequest request{
-      .camera = Pinhole{48, 40, 128, 128, 24, 20},
-      .X_WC = {Mat3d::FromColumns({1, 0, 0}, {0, -1, 0}, {0, 0, -1}), {0, 0.2, 2}}};
+  const RenderRequest request{{},
+                              Pinhole{48, 40, 128, 128, 24, 20},
+                              {Mat3d::FromColumns({1, 0, 0}, {0, -1, 0}, {0, 0, -1}), {0, 0.2, 2}}};
   const Estimate high = Average(*renderer, request, 64, 1);
 
   const Shader shader(tracer, tracer->scene().environment);
@@ -111,8 +111,8 @@ TEST(HighStatistics, WithoutBouncesItIsThePathTracersLightWithinTheNoise) {
 TEST(HighStatistics, FewRaysInManyFramesAreManyRaysInFewFrames) {
   const auto tracer = std::make_shared<const RayTracer>(test::MakeOpenSquare());
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kHigh});
-  RenderRequest request{.camera = Equirectangular{64, 32},
-                        .X_WC = BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody()};
+  RenderRequest request{
+      {}, Equirectangular{64, 32}, BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody()};
   request.samples = 2;
   const Estimate few = Average(*renderer, request, 96, 1);
   request.samples = 16;

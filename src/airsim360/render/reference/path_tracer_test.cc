@@ -336,8 +336,7 @@ TEST(PathLights, ChooseDirectionsByTheirDensity) {
 TEST(CpuRenderer, ReferenceHasTheLabelsOfTheOtherTiersAndSimilarColours) {
   const auto tracer = std::make_shared<const RayTracer>(test::MakeOpenSquare());
   const auto renderer = MakeCpuRenderer(tracer, {.tier = Tier::kReference});
-  RenderRequest request{.camera = Equirectangular{64, 32},
-                        .X_WC = BodyPose({0, 0, 1.5}, 0, 0, 0) * CameraInBody()};
+  RenderRequest request{{}, Equirectangular{64, 32}, BodyPose({0, 0, 1.5}, 0, 0, 0) * CameraInBody()};
   Frame fast, reference;
   renderer->Render(request, fast);
   request.tier = Tier::kReference;

@@ -174,7 +174,7 @@ KERNEL real3 SunDisc(const ShadeView& view, real3 d) {
   const real3 off = d - make3(real(view.to_sun[0]), real(view.to_sun[1]), real(view.to_sun[2]));
   const real x2 = dot3(off, off) * (1.0f / (0.004625f * 0.004625f));
   const real limb = 0.4f + 0.6f * rroot(rmax(1.0f - x2, real(0.0f)));
-  return Uniform(view.sun_radiance) * sel(x2 < 1.0f, limb * 1.25f, real(0.0f));
+  return Uniform(view.sun_radiance) * sel(x2 < 1.0f, limb * (1.25f * view.sun_seen), real(0.0f));
 }
 
 /// The low three bytes of every lane, one after another.

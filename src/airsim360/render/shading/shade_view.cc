@@ -53,6 +53,7 @@ ShadeView MakeShadeView(const Scene& scene, const SurfaceTables& tables, const S
   Put(view.to_sun, sky->to_sun());
   Put(view.sun_irradiance, sky->sun_irradiance());
   Put(view.sun_radiance, sky->sun_radiance());
+  view.sun_seen = sky->sun_seen();
   view.air = sky->air();
   view.cloud_shadow = sky->cloud_shadow().view();
   if (sky->below().height > 0) view.sky_below = ViewOf(sky->below());

@@ -180,6 +180,7 @@ struct ShadeView {
   float wetness, snow, rain;  ///< Environment: 0 … 1, 0 … 1, drops on puddles 0 … 1
   float lit_rooms;            ///< share of rooms whose lamps are on
   float lamplight;            ///< radiance of a white surface in a lit room
+  float sun_seen;             ///< share of the sun's disc that clouds leave to the eye
   float open_sky;             ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
 };
 

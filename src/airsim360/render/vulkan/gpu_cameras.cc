@@ -91,7 +91,8 @@ int PathSamples(const RenderRequest& request) {
 }
 
 int ColorSamples(const RenderRequest& request) {
-  if (!request.products.rgb && !(request.tier == Tier::kHigh && request.products.radiance)) return 1;
+  const Products& products = request.products;
+  if (!products.rgb && !request.light && !(request.tier == Tier::kHigh && products.radiance)) return 1;
   if (request.tier != Tier::kFast && request.tier != Tier::kHigh) return 1;
   return EdgeSamples(request);
 }

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/render/filter/exposure.h"
+#include "airsim360/render/frame/daylight.h"
 #include "airsim360/render/shading/shader.h"
 #include "airsim360/render/vulkan/gpu.h"
 #include "airsim360/render/vulkan/gpu_high.h"
@@ -74,6 +75,8 @@ class VulkanRenderer : public GpuRenderer {
     const uint64_t ticket = Submit({&request, 1});
     CopyFrame(Wait(ticket).front(), frame);
     Release(ticket);
+    frame.light = {};
+    if (request.light && WantsColor(request)) TakeLight(request, frame);
     frame.exposure = WantsColor(request) ? Exposure(request) : 1;
     RenderStats stats;
     stats.rays = static_cast<uint64_t>(Width(request.camera)) * static_cast<uint64_t>(Height(request.camera));
@@ -167,8 +170,25 @@ class VulkanRenderer : public GpuRenderer {
     Release(ticket);
     return AutoExposureEv(radiance, request.camera, shader_->Exposure());
   }
+  // The radiance that came is the light; that of pixel centres, if wanted too, is rendered again where it differs.
+  void TakeLight(RenderRequest request, Frame& frame) {
+    frame.light = std::move(frame.radiance);
+    frame.radiance = {};
+    if (request.products.radiance && request.tier == Tier::kFast) {
+      request.products = {.rgb = false, .range = false, .semantic = false, .entity = false, .radiance = true};
+      request.light = false;
+      const uint64_t ticket = Start({&request, 1});
+      const GpuFrame centers = Wait(ticket).front();
+      Take(centers.radiance, centers.width, centers.height, frame.radiance);
+      Release(ticket);
+    } else if (request.products.radiance) {
+      frame.radiance = frame.light;
+    }
+    if (!label_tables_) label_tables_ = std::make_unique<LabelTables>(*tracer_);
+    frame.daylight = DaylightAt(*tracer_, *shader_, label_tables_->view(), VecCast<float>(request.X_WC.p));
+  }
   static bool WantsColor(const RenderRequest& r) {
-    return r.tier != Tier::kLabels && (r.products.rgb || r.products.radiance);
+    return r.tier != Tier::kLabels && (r.products.rgb || r.products.radiance || r.light);
   }
   float Exposure(const RenderRequest& r) const {
     return shader_->Exposure() * static_cast<float>(std::exp2(r.exposure_ev));
@@ -275,6 +295,7 @@ class VulkanRenderer : public GpuRenderer {
   std::unique_ptr<GpuShadeTables> shade_;
   std::unique_ptr<GpuHighTables> high_tables_;
   std::unique_ptr<GpuPathTables> path_tables_;
+  std::unique_ptr<LabelTables> label_tables_;  // of the scene as built, for the sun's visibility
   std::unique_ptr<GpuPipeline> color_, edges_, high_, high_light_, filter_, combine_, high_edges_, path_, coverage_, record_, replay_;
   std::vector<std::unique_ptr<GpuSlot>> slots_;
   uint64_t last_ticket_ = 0;

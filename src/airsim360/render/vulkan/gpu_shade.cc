@@ -131,7 +131,7 @@ GpuShadeTables::GpuShadeTables(GpuDevice& device, const Shader& shader, const Sc
   Copy(v.ground, s.ground), Copy(v.sky_irradiance, s.sky_irradiance), Copy(v.mean_ambient, s.mean_ambient);
   s.ground_z = v.ground_z;
   s.wetness = v.wetness, s.lying_snow = v.snow, s.drops = v.rain, s.lit_rooms = v.lit_rooms;
-  s.lamplight = v.lamplight, s.open_sky = v.open_sky;
+  s.lamplight = v.lamplight, s.open_sky = v.open_sky, s.sun_seen = v.sun_seen;
   for (uint32_t tone = 0; tone < views_.size(); ++tone) {
     s.tone = tone;
     views_[tone] = arena_.Put(std::as_bytes(std::span<const GpuShade>(&s, 1)));

@@ -23,7 +23,7 @@ std::array<bool, kProducts> Wanted(const RenderRequest& request) {
   const Products& p = request.products;
   const bool color = request.tier != Tier::kLabels;
   return {p.range, p.entity, p.semantic, p.normal,          p.position,
-          p.material, p.flow, p.albedo,  color && p.radiance, color && p.rgb, p.coverage};
+          p.material, p.flow, p.albedo,  color && (p.radiance || request.light), color && p.rgb, p.coverage};
 }
 
 VkCommandBuffer NewCommands(VkDevice device, VkCommandPool pool) {
@@ -165,6 +165,7 @@ void GpuSlot::FillParameters(std::span<const RenderRequest> requests, GpuCameras
       *to[k] = base + places_[i].offset[k];
       camera.wanted |= kWant[k];
     }
+    if (requests[i].light) camera.wanted |= kWantLight;
     if (places_[i].entity != kNowhere) {
       camera.entity = base + places_[i].entity;
       camera.wanted |= kWantEntity;

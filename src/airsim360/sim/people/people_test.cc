@@ -29,7 +29,8 @@ struct Peopled {
     model->tracer = WithoutBodies(base, {}, populated.people.get());
     model->people = populated.people;
     DroneSetup setup = HummingbirdAt(p_drone);
-    setup.sensors.cameras = {{"panorama", {.width = 256, .height = 128, .tier = "labels"}}};
+    setup.sensors.cameras = {{"panorama", {.width = 256, .height = 128}}};
+    setup.sensors.cameras[0].spec.tier = Tier::kLabels;
     model->drones.push_back(std::make_shared<const SimDrone>(setup, model->dt_ns));
   }
 };

@@ -43,7 +43,7 @@ struct PeopledRoom {
   }
   Frame Render(const Camera& camera, const RigidTransform& X_WC) const {
     const auto renderer = MakeCpuRenderer(base, {.tier = Tier::kLabels});
-    RenderRequest request{.camera = camera, .X_WC = X_WC, .tier = Tier::kLabels};
+    RenderRequest request = MakeRequest(camera, X_WC, Tier::kLabels);
     request.products.rgb = false;
     request.state = state;
     Frame frame;

@@ -1,7 +1,8 @@
 // Rays of cameras, and labels of what they meet.
 
 const uint kWantRange = 1, kWantEntity = 2, kWantSemantic = 4, kWantNormal = 8, kWantPosition = 16,
-           kWantMaterial = 32, kWantFlow = 64, kWantAlbedo = 128, kWantRadiance = 256, kWantRgb = 512, kWantCoverage = 1024;
+           kWantMaterial = 32, kWantFlow = 64, kWantAlbedo = 128, kWantRadiance = 256, kWantRgb = 512, kWantCoverage = 1024,
+           kWantLight = 2048;  // radiance has antialiased edges
 
 layout(location = 0) rayPayloadEXT Hit hit;
 

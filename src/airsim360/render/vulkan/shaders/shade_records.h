@@ -97,5 +97,5 @@ struct GpuShade {
   float cloud_slant[2], cloud_origin[2], cloud_cells_per_metre, cloud_plane_z;
   float wetness, lying_snow, drops, lit_rooms, lamplight, open_sky;
   uint tone;
-  uint pad;
+  float sun_seen;
 };
