@@ -55,22 +55,18 @@ double GroundHeight(const RayTracer& tracer) {
   return hit ? scene.spawn->z - hit->distance : scene.bounds.min.z;
 }
 
-// The k-th number of the sequence of fractional parts of k / g^axis, g the root of g^4 = g + 1 (Roberts' R3).
+}  // namespace
+
+// Fractional parts of k / g^axis, g the root of g^4 = g + 1 (Roberts' R3).
 double LowDiscrepancy(uint64_t k, int axis, double offset) {
   constexpr double kSteps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
   const double x = offset + static_cast<double>(k + 1) * kSteps[axis];
   return x - std::floor(x);
 }
 
-// Ground that a survey looks at: cells of a town, or a box around a single model or room.
-struct Ground {
-  std::vector<Vec2d> cells;  // empty: the box counts
-  Box3f box;
-};
-
-Ground FindGround(const Scene& scene) {
+SurveyedGround FindSurveyedGround(const Scene& scene) {
   constexpr size_t kFewestCells = 16;
-  Ground ground{OccupiedCells(scene), scene.bounds};
+  SurveyedGround ground{OccupiedCells(scene), scene.bounds};
   if (ground.cells.size() >= kFewestCells) return ground;
   ground.cells.clear();
   if (scene.sky_entity == kNoEntity) return ground;
@@ -82,8 +78,20 @@ Ground FindGround(const Scene& scene) {
   return ground;
 }
 
+Vec2d SurveyedGround::At(double u, double v) const {
+  if (cells.empty()) {
+    const Vec3f size = box.size();
+    return {box.min.x + u * size.x, box.min.y + v * size.y};
+  }
+  const double cell = u * static_cast<double>(cells.size());
+  const Vec2d corner = cells[static_cast<size_t>(cell)];
+  return {corner.x + (cell - std::floor(cell)) * kCell, corner.y + v * kCell};
+}
+
+namespace {
+
 // Candidates: low-discrepancy points over the ground and heights.
-std::vector<Vec3d> Candidates(const RayTracer& tracer, const Ground& ground, const PlaceOptions& options) {
+std::vector<Vec3d> Candidates(const RayTracer& tracer, const SurveyedGround& ground, const PlaceOptions& options) {
   const bool open = tracer.scene().sky_entity != kNoEntity;
   const double bottom = GroundHeight(tracer);
   const double top = ground.box.max.z - bottom + (open ? 10 : 0);
@@ -96,14 +104,8 @@ std::vector<Vec3d> Candidates(const RayTracer& tracer, const Ground& ground, con
   for (int k = 0; k < options.candidates; ++k) {
     const double u = LowDiscrepancy(k, 0, offset[0]), v = LowDiscrepancy(k, 1, offset[1]);
     const double z = bottom + low + std::pow(LowDiscrepancy(k, 2, offset[2]), kLowBias) * (high - low);
-    if (ground.cells.empty()) {
-      const Vec3f size = ground.box.size();
-      candidates.push_back({ground.box.min.x + u * size.x, ground.box.min.y + v * size.y, z});
-      continue;
-    }
-    const double cell = u * static_cast<double>(ground.cells.size());
-    const Vec2d corner = ground.cells[static_cast<size_t>(cell)];
-    candidates.push_back({corner.x + (cell - std::floor(cell)) * kCell, corner.y + v * kCell, z});
+    const Vec2d at = ground.At(u, v);
+    candidates.push_back({at.x, at.y, z});
   }
   return candidates;
 }
@@ -111,7 +113,7 @@ std::vector<Vec3d> Candidates(const RayTracer& tracer, const Ground& ground, con
 }  // namespace
 
 Box2d InhabitedGround(const Scene& scene) {
-  const Ground ground = FindGround(scene);
+  const SurveyedGround ground = FindSurveyedGround(scene);
   Box2d box{{ground.box.min.x, ground.box.min.y}, {ground.box.max.x, ground.box.max.y}};
   if (ground.cells.empty()) return box;
   box = {ground.cells.front(), ground.cells.front()};
@@ -123,7 +125,7 @@ Box2d InhabitedGround(const Scene& scene) {
 }
 
 std::vector<Vec3d> FindFreePlaces(const RayTracer& tracer, const PlaceOptions& options) {
-  const Ground ground = FindGround(tracer.scene());
+  const SurveyedGround ground = FindSurveyedGround(tracer.scene());
   const std::vector<Vec3d> candidates = Candidates(tracer, ground, options);
   const auto is_free = [&](Vec3f p) {
     return tracer.Clearance(p, static_cast<float>(options.radius + 1)) >= options.radius;

@@ -14,6 +14,19 @@ struct Box2d {
   Vec2d min, max;
 };
 
+/// The part of a scene where its things stand: the cells of a town that hold most of them, or a box around a single model or
+/// a room.
+struct SurveyedGround {
+  std::vector<Vec2d> cells;  ///< south-west corners; empty: the box counts
+  Box3f box;
+  /// The point at (u, v) in [0, 1)^2: equal areas are equally likely.
+  Vec2d At(double u, double v) const;
+};
+SurveyedGround FindSurveyedGround(const Scene& scene);
+
+/// The k-th number of three sequences that fill the unit cube evenly (axis 0 … 2), each begun at an offset in [0, 1).
+double LowDiscrepancy(uint64_t k, int axis, double offset);
+
 /// Box around the cells of the ground that hold most of the things of everyday size; around a single model in
 /// the open, its box and some way around it.
 Box2d InhabitedGround(const Scene& scene);

@@ -17,6 +17,8 @@ constexpr double kFirstLayer = 2.5;  // metres, height of the lowest layer of vi
 constexpr double kRounding =
     0.3;  // metres that rounded corners may leave the legs by, and gaps between checks
 
+constexpr int kCandidates = 900;  // places looked at, at least
+
 // 6 m/s in towns, slower in rooms.
 double CruiseSpeed(const std::vector<Vec3d>& points) {
   double length = 0;
@@ -130,6 +132,8 @@ std::vector<Vec3d> TourPoints(const RayTracer& tracer, const Roadmap& map, const
 
 }  // namespace
 
+int SurveyViewpoints(int64_t frames) { return static_cast<int>(std::clamp<int64_t>(frames / 4, 40, 800)); }
+
 Route PlanSurvey(const RayTracer& tracer, const SurveyOptions& options) {
   // Enough room for the rounded corners too; in narrow scenes less.
   for (double clearance = options.clearance; clearance > options.clearance / 20; clearance /= 2) {
@@ -137,7 +141,8 @@ Route PlanSurvey(const RayTracer& tracer, const SurveyOptions& options) {
     std::vector<Vec3d> places = FindFreePlaces(tracer, {.seed = options.seed,
                                                         .radius = radius,
                                                         .min_height = options.min_height,
-                                                        .max_height = options.max_height});
+                                                        .max_height = options.max_height,
+                                                        .candidates = std::max(kCandidates, 4 * options.viewpoints)});
     if (places.size() < 2) continue;
     const Roadmap map = Connect(tracer, std::move(places), radius);
     const int start = StartPlace(map);

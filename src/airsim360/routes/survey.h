@@ -16,6 +16,10 @@ struct SurveyOptions {
   int viewpoints = 40;     ///< places the tour visits, spread over the reachable footprint
 };
 
+/// Viewpoints of a survey for so many frames: 40, then one for four frames, so that neighbours do not become duplicates; at
+/// most 800, more than which are planned better as a dataset (airsim360 dataset plan).
+int SurveyViewpoints(int64_t frames);
+
 /// A route that starts at the scene's spawn (or the freest place found) and visits viewpoints spread over the
 /// part of the scene that can be reached from there, every point of it at least `clearance` from any surface.
 /// In scenes too narrow for that the clearance is halved until there is room. A pure function of scene and

@@ -14,11 +14,18 @@ nlohmann::ordered_json PoseJson(const RigidTransform& X) {
   return {{"p", Array(X.p)}, {"q_wxyz", {q.w, q.x, q.y, q.z}}};
 }
 
+// What the camera chose for a picture.
+nlohmann::ordered_json LookJson(const PhotoFigures& photo) {
+  return {{"exposure_ev", photo.exposure_ev}, {"white_cd_m2", photo.white_cd_m2}, {"gain", photo.gain},
+          {"white_balance", {photo.red, photo.green, photo.blue}}, {"contrast", photo.contrast}, {"sun_seen", photo.sun_seen}};
+}
+
 // Pose, next pose and intrinsics of one camera of a rig.
 nlohmann::ordered_json CameraJson(const ViewRecord& record, const View& view) {
   nlohmann::ordered_json json = {{"X_WC", PoseJson(record.X_WC)}};
   if (record.X_WC_next) json["X_WC_next"] = PoseJson(*record.X_WC_next);
   if (const auto K = IntrinsicsJson(view.camera); !K.is_null()) json["K"] = K;
+  if (record.photo) json["look"] = LookJson(*record.photo);
   return json;
 }
 
@@ -49,9 +56,14 @@ std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
                                  {"seed", spec.seed},
                                  {"range_min", frame.range_min},
                                  {"range_median", frame.range_median}};
+  if (!spec.row.empty()) {
+    json["row"] = spec.row;
+    json["environment"] = spec.environment;
+  }
   if (!frame.views.empty() && frame.views[0].X_WC_next) json["X_WC_next"] = PoseJson(*frame.views[0].X_WC_next);
   const std::vector<View> views = Views(spec);
   if (spec.cameras.empty()) {
+    if (!frame.views.empty() && frame.views[0].photo) json["look"] = LookJson(*frame.views[0].photo);
     if (const auto K = IntrinsicsJson(views[0].camera); !K.is_null()) json["K"] = K;
   } else {
     json["X_WB"] = PoseJson(frame.body.X_WB);

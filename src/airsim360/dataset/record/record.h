@@ -36,6 +36,7 @@ struct ViewRecord {
   std::optional<RigidTransform> X_WC_next = {};  ///< where the flow leads to, if the dataset has flow
   std::vector<Segment> segments = {};
   std::vector<PersonRow> persons = {};  ///< by entity id
+  std::optional<PhotoFigures> photo = {};  ///< of look photo
 };
 
 /// A finished frame.

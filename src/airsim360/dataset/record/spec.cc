@@ -68,18 +68,23 @@ bool IsPanoramic(const DatasetSpec& spec) {
   return std::ranges::all_of(Views(spec), [](const View& view) { return view.projection == Projection::kErp; });
 }
 
+void DatasetSpec::Visit(ConfigVisitor& v) {
+  PictureSettings::Visit(v);
+  v.Field("rgb_format", "png or jpg", rgb_format, kRgbFormatNames);
+}
+
+namespace {
+
+bool IsHeld(const DatasetSpec& spec, const ProductInfo& product) {
+  return spec.products.*product.wanted && !(product.needs_light && spec.tier == Tier::kLabels);
+}
+
+}  // namespace
+
 Products ProductsOf(const DatasetSpec& spec) {
-  return {.rgb = spec.tier != Tier::kLabels,
-          .range = true,
-          .semantic = true,
-          .entity = true,
-          .normal = spec.normal,
-          .position = spec.position,
-          .albedo = spec.albedo,
-          .material = spec.material || spec.part,
-          .coverage = spec.coverage,
-          .flow = spec.flow,
-          .radiance = spec.radiance && spec.tier != Tier::kLabels};
+  Products products = spec.products;
+  for (const ProductInfo& product : kProducts) products.*product.wanted = IsHeld(spec, product);
+  return Rendered(products);
 }
 
 std::string Stem(int64_t index) {
@@ -90,15 +95,11 @@ std::string Stem(int64_t index) {
 
 std::vector<ProductFolder> ProductFolders(const DatasetSpec& spec) {
   std::vector<ProductFolder> folders;
-  if (spec.tier != Tier::kLabels)
-    folders.push_back({"rgb", spec.rgb_format == RgbFormat::kJpeg ? ".jpg" : ".png"});
-  folders.push_back({"range", ".exr"});
-  folders.push_back({"semantic", ".png"});
-  folders.push_back({"entity", ".png"});
-  for (const OptionalProduct& product : kOptionalProducts) {
-    if (spec.*product.wanted) folders.push_back({product.name, product.extension});
+  for (const ProductInfo& product : kProducts) {
+    if (!IsHeld(spec, product)) continue;
+    const bool jpeg = product.wanted == &Products::rgb && spec.rgb_format == RgbFormat::kJpeg;
+    folders.push_back({product.name, jpeg ? ".jpg" : product.extension});
   }
-  if (spec.radiance && spec.tier != Tier::kLabels) folders.push_back({"radiance", ".exr"});
   return folders;
 }
 

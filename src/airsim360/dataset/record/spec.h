@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,58 +29,35 @@ struct RigCamera {
 
 /// Parameters of a dataset. Two runs with equal parameters (and the same program and models) write the same
 /// bytes.
-struct DatasetSpec {
+struct DatasetSpec : PictureSettings {
   std::string command = "collect";  ///< "collect" or "render"
   std::string world = {};                ///< as given: a name or a path
-  uint64_t seed = 0;
   Projection projection = Projection::kErp;
   int width = 2048, height = 1024;  ///< of one picture; a cube face for Projection::kCube
   double fov_deg = 90;              ///< pinhole: across the width; fisheye: across the shorter side
   std::vector<RigCamera> cameras = {};  ///< a rig, in the order of its files; empty: one camera as above, at B
-  Tier tier = Tier::kFast;
-  bool normal = false;
+  Products products = {};  ///< colour is left out of tier labels
   RgbFormat rgb_format = RgbFormat::kPng;
-  PanoFrame pano_frame = PanoFrame::kBody;
   int64_t frames = 1;             ///< of the whole dataset, all shards together
   int64_t shard = 0, shards = 1;  ///< this one holds the frames with index % shards == shard
-  int samples = 0;                ///< of the tiers high and reference, 0 = their default
-  bool denoise = true;            ///< tier high
-  int edge_samples = 0;           ///< as RenderRequest::aa_samples
   std::string route = {};              ///< "auto", or "sha256:…" of the route file, or the pose of `render`
   std::string labels = {};             ///< "sha256:…" of the label file given beside the world, or ""
   std::string environment = {};        ///< DescribeEnvironment of what was rendered
-  ToneCurve tone = ToneCurve::kFilmic;
-  double exposure_ev = 0;      ///< stops added to the fixed daylight exposure
-  bool auto_exposure = false;  ///< of every picture its own
-  bool radiance = false;       ///< linear light, radiance/STEM.exr
-  LensModel lens = LensModel::kIdeal;
-  bool position = false, albedo = false, material = false, part = false, sky = false, flow = false, coverage = false;
   std::string people = {};        ///< who they are, in words with the SHA-256 of their files; empty = nobody
   bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
   bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
   bool video = false;        ///< video.mp4: the colour pictures at their times
   std::vector<std::string> people_formats = {};  ///< of kPeopleFormats, in that order
+  std::string plan = {};  ///< hash of the plan that the frames are of; empty = none
+  std::string row = {};   ///< of the plan, of the frames at hand
+  std::map<std::string, std::string> picture = {};  ///< of a plan: the values of its flags that were given
+
+  /// How its pictures are made and stored.
+  void Visit(ConfigVisitor& v);
 };
 
 /// Further files made of people.jsonl.
 inline constexpr const char* kPeopleFormats[] = {"coco_keypoints", "kitti", "nuscenes", "monoloco"};
-
-
-/// A product that a dataset holds only if it is asked for.
-struct OptionalProduct {
-  const char* name;
-  const char* extension;
-  bool DatasetSpec::*wanted;
-};
-inline constexpr OptionalProduct kOptionalProducts[] = {
-    {"normal", ".png", &DatasetSpec::normal},     {"position", ".exr", &DatasetSpec::position},
-    {"albedo", ".png", &DatasetSpec::albedo},     {"material", ".png", &DatasetSpec::material},
-    {"part", ".png", &DatasetSpec::part},
-    {"sky", ".png", &DatasetSpec::sky},           {"flow", ".exr", &DatasetSpec::flow},
-    {"coverage", ".exr", &DatasetSpec::coverage},
-};
-/// Products that every dataset holds (rgb unless the tier is labels).
-inline constexpr const char* kFixedProducts[] = {"rgb", "range", "semantic", "entity"};
 
 /// One picture of a capture. A panorama, pinhole or fisheye capture is one view with an empty suffix, a cube
 /// six with "_+x", "_-x", … appended to the stem; a rig has those of each camera, with "_NAME" before.
@@ -97,7 +75,7 @@ std::vector<View> Views(const DatasetSpec& spec);
 /// Whether every picture is an equirectangular panorama.
 bool IsPanoramic(const DatasetSpec& spec);
 
-/// The products a capture fills: colour unless the tier is labels.
+/// What a renderer fills for a capture: no light in tier labels, and what other products follow from.
 Products ProductsOf(const DatasetSpec& spec);
 
 /// "000000": the name of a frame's files.

@@ -1,0 +1,190 @@
+#include "airsim360/dataset/plan/viewpoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr int kTries = 200;       // places of a frame before it is given up
+constexpr int kAimTries = 60;     // places near a rare thing
+constexpr int64_t kTryStride = int64_t{1} << 24;  // frames of a row stay below it: no place is tried for two of them
+constexpr int kSkyRays = 32;      // one of them must be free: nobody stands inside of a building
+constexpr double kRareShare = 0.06;  // of viewpoints: categories seen from fewer are aimed at
+constexpr double kAimShare = 0.045;  // of frames, for a category that no viewpoint sees
+constexpr double kMostAims = 0.6;    // of all frames
+
+}  // namespace
+
+std::optional<double> GroundUnder(const RayTracer& tracer, Vec2d at) {
+  constexpr int kMostSurfaces = 400;
+  constexpr float kStep = 0.05f;  // metres past a surface
+  const Box3f& bounds = tracer.scene().bounds;
+  Vec3f from{static_cast<float>(at.x), static_cast<float>(at.y), bounds.max.z + 1};
+  std::optional<double> lowest;
+  for (int i = 0; i < kMostSurfaces; ++i) {
+    const auto hit = tracer.Intersect(from, {0, 0, -1});
+    if (!hit) break;
+    lowest = from.z - hit->distance;
+    from.z -= hit->distance + kStep;
+  }
+  return lowest;
+}
+
+EntityId EntityOfHit(const Scene& scene, SurfaceRef surface) {
+  const Instance& instance = scene.instances[surface.instance];
+  const std::vector<MeshPart>& parts = scene.meshes[instance.mesh].parts;
+  const auto after = std::ranges::upper_bound(parts, surface.triangle, {}, &MeshPart::first_triangle);
+  if (after != parts.begin() && std::prev(after)->entity != kNoEntity) return std::prev(after)->entity;
+  return instance.entity;
+}
+
+std::vector<Vec3f> EvenDirections(int n) {
+  // Fibonacci's lattice.
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vec3f> directions;
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (2 * i + 1.0) / n, r = std::sqrt(1 - z * z), a = golden * i;
+    directions.push_back({static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(z)});
+  }
+  return directions;
+}
+
+ViewpointSampler::ViewpointSampler(const RayTracer& tracer, const RecipeRow& row, uint64_t seed, const std::vector<Aim>& aims)
+    : tracer_(tracer), row_(row), seed_(seed), ground_(FindSurveyedGround(tracer.scene())) {
+  if (!row.area.empty()) {
+    has_area_ = true;
+    area_ = AreaOf(row, "row '" + row.name + "': ");
+  }
+  const Scene& scene = tracer.scene();
+  for (const Entity& entity : scene.entities) {
+    if (!entity.bounds.empty()) entities_[entity.category].push_back(entity.id);
+  }
+  for (const Aim& aim : aims) {
+    if (const auto category = scene.tree.Find(aim.category)) aims_.emplace_back(*category, aim.share);
+  }
+}
+
+// Of 32 rays two reach the sky. A closed room has none: there the box of the scene is the room.
+bool ViewpointSampler::SeesTheSky(Vec3d p_W) const {
+  if (tracer_.scene().sky_entity == kNoEntity) return true;
+  static const std::vector<Vec3f> kDirections = EvenDirections(2 * kSkyRays);
+  int free = 0;
+  for (int i = 0; i < kSkyRays && free < 2; ++i) {
+    if (!tracer_.Intersect(VecCast<float>(p_W), kDirections[static_cast<size_t>(i)])) ++free;
+  }
+  return free >= 2;
+}
+
+bool ViewpointSampler::IsGood(Vec3d p_W) const {
+  const auto clearance = static_cast<float>(row_.clearance);
+  return tracer_.Clearance(VecCast<float>(p_W), clearance) >= clearance && SeesTheSky(p_W);
+}
+
+Vec3d ViewpointSampler::Even(int64_t k) const {
+  RngStream offsets(seed_, "viewpoints " + row_.name);
+  const double offset[3] = {offsets.Uniform(), offsets.Uniform(), offsets.Uniform()};
+  const Scene& scene = tracer_.scene();
+  const bool open = scene.sky_entity != kNoEntity;
+  for (int64_t i = 0; i < kTries; ++i) {
+    const auto n = static_cast<uint64_t>(k + i * kTryStride);
+    const double u = LowDiscrepancy(n, 0, offset[0]), v = LowDiscrepancy(n, 1, offset[1]);
+    const Vec2d at = has_area_ ? Vec2d{area_.min.x + u * (area_.max.x - area_.min.x), area_.min.y + v * (area_.max.y - area_.min.y)}
+                               : ground_.At(u, v);
+    const auto ground = GroundUnder(tracer_, at);
+    if (!ground && open && !ground_.cells.empty()) continue;
+    const double bottom = ground.value_or(scene.bounds.min.z);
+    // Not above the ceiling of a room.
+    const double highest = open ? row_.highest : std::min(row_.highest, scene.bounds.max.z - bottom - row_.clearance);
+    const double lowest = std::min(row_.lowest, std::max(row_.clearance, highest));
+    const double height = lowest * std::pow(std::max(highest, lowest) / lowest, LowDiscrepancy(n, 2, offset[2]));
+    const Vec3d p{at.x, at.y, bottom + height};
+    if (IsGood(p)) return p;
+  }
+  throw InputError("row '" + row_.name + "': no free place for frame " + std::to_string(k) + " among " + std::to_string(kTries) +
+                   " in world '" + row_.world + "'; use a smaller clearance or another area");
+}
+
+// A place from which some entity of a category is seen in its middle.
+bool ViewpointSampler::Near(CategoryId category, int64_t k, Vec3d& p_W) const {
+  constexpr double kNearest = 2, kFarthest = 20;  // metres beyond the entity's own radius
+  constexpr float kLarge = 8;                     // metres of which a part is looked at
+  const auto found = entities_.find(category);
+  if (found == entities_.end()) return false;
+  const Scene& scene = tracer_.scene();
+  RngStream random(seed_, "aim " + row_.name, static_cast<uint64_t>(k));
+  for (int i = 0; i < kAimTries; ++i) {
+    const EntityId entity = found->second[random.Index(static_cast<uint32_t>(found->second.size()))];
+    const Box3f& box = scene.entity(entity).bounds;
+    const Vec3f size = box.size();
+    Vec3d target;
+    for (int axis = 0; axis < 3; ++axis) target[axis] = box.min[axis] + size[axis] * random.Uniform(0.1, 0.9);
+    const double radius = 0.5 * std::min(kLarge, std::max({size.x, size.y, size.z}));
+    const double distance = radius + kNearest * std::pow(kFarthest / kNearest, random.Uniform());
+    const double azimuth = random.Uniform(0, 2 * std::numbers::pi), elevation = random.Uniform(-0.1, 0.9);
+    const Vec3d p = target + Vec3d{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)} * distance;
+    if (has_area_ && (p.x < area_.min.x || p.x > area_.max.x || p.y < area_.min.y || p.y > area_.max.y)) continue;
+    const auto hit = tracer_.Intersect(VecCast<float>(p), VecCast<float>(Normalized(target - p)));
+    if (!hit || scene.entity(EntityOfHit(scene, hit->surface)).category != category) continue;
+    const auto ground = GroundUnder(tracer_, {p.x, p.y});
+    if (!ground || p.z < *ground + row_.lowest || p.z > *ground + row_.highest || !IsGood(p)) continue;
+    p_W = p;
+    return true;
+  }
+  return false;
+}
+
+RigidTransform ViewpointSampler::Pose(int64_t k) const {
+  RngStream random(seed_, "heading " + row_.name, static_cast<uint64_t>(k));
+  const double yaw = random.Uniform(-std::numbers::pi, std::numbers::pi);
+  const double tilt = row_.tilt_deg * std::numbers::pi / 180;
+  const double pitch = random.Uniform(-tilt, tilt), roll = random.Uniform(-tilt, tilt);
+  double lot = random.Uniform();
+  Vec3d p;
+  for (const auto& [category, share] : aims_) {
+    if (lot < share && Near(category, k, p)) return BodyPose(p, yaw, pitch, roll);
+    if (lot < share) break;
+    lot -= share;
+  }
+  return BodyPose(Even(k), yaw, pitch, roll);
+}
+
+std::vector<Aim> ViewpointSampler::FindAims() const {
+  constexpr int64_t kViewpoints = 256;
+  constexpr int kRays = 2048;
+  const std::vector<Vec3f> directions = EvenDirections(kRays);
+  const Scene& scene = tracer_.scene();
+  std::vector<std::set<CategoryId>> seen(kViewpoints);
+  ParallelFor(kViewpoints, [&](int64_t k) {
+    const Vec3f p = VecCast<float>(Even(k));
+    for (const Vec3f& direction : directions) {
+      const auto hit = tracer_.Intersect(p, direction);
+      if (hit) seen[static_cast<size_t>(k)].insert(scene.entity(EntityOfHit(scene, hit->surface)).category);
+    }
+  });
+  std::vector<Aim> aims;
+  double all = 0;
+  for (const auto& [category, list] : entities_) {
+    const auto count = std::ranges::count_if(seen, [&](const auto& set) { return set.contains(category); });
+    const double share = static_cast<double>(count) / kViewpoints;
+    if (share >= kRareShare) continue;
+    // Without anything to see it from (inside of a building, say) it would only waste frames.
+    Vec3d p;
+    bool can = false;
+    for (int64_t k = 0; k < 4 && !can; ++k) can = Near(category, k, p);
+    if (!can) continue;
+    aims.push_back({scene.tree[category].path, kAimShare * (1 - share / kRareShare / 2)});
+    all += aims.back().share;
+  }
+  // Three digits, as they are written in the plan.
+  for (Aim& aim : aims) aim.share = std::round(aim.share * std::min(1.0, kMostAims / std::max(all, 1e-9)) * 1000) / 1000;
+  return aims;
+}
+
+}  // namespace airsim360
