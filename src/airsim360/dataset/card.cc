@@ -49,8 +49,8 @@ std::string FurtherFiles(const DatasetSpec& spec) {
   std::string text;
   const auto line = [&](const std::string& path, const std::string& holds) { text += "- `" + path + "` " + holds + "\n"; };
   if (spec.video) line(kVideoName, "the colour pictures as a video, of panoramas in 360 degrees");
-  if (spec.material) line("materials.json", "what the values of `material/` are");
-  if (spec.part) line("parts.json", "what the values of `part/` are");
+  if (spec.products.material) line("materials.json", "what the values of `material/` are");
+  if (spec.products.part) line("parts.json", "what the values of `part/` are");
   for (const std::string& name : PoseFileNames(spec))
     line(name, name.ends_with(".json") ? "poses and intrinsics for nerfstudio" : "poses and intrinsics for COLMAP");
   if (spec.people.empty()) return text;

@@ -27,7 +27,9 @@ double Milliseconds(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<int64_t> FramesOfShard(const DatasetSpec& spec) {
+std::vector<int64_t> FramesOfShard(const CollectInput& input) {
+  if (input.frames) return *input.frames;
+  const DatasetSpec& spec = input.spec;
   std::vector<int64_t> frames;
   for (int64_t i = spec.shard; i < spec.frames; i += spec.shards) frames.push_back(i);
   return frames;
@@ -51,16 +53,22 @@ std::vector<int64_t> MissingFrames(const CollectInput& input, DatasetIndex& inde
     if (!done[frame]) index.RemoveFrame(frame);
   }
   std::vector<int64_t> missing;
-  for (int64_t frame : FramesOfShard(input.spec)) {
+  for (int64_t frame : FramesOfShard(input)) {
     if (!done[frame]) missing.push_back(frame);
   }
   return missing;
 }
 
 // True if all frames and all files that describe them are there: SHA256SUMS is the last file written.
-bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
-  if (spec.material && !fs::exists(folder / "materials.json")) return false;
-  if (spec.part && !fs::exists(folder / "parts.json")) return false;
+bool IsFinished(const CollectInput& input) {
+  const fs::path& folder = input.out;
+  const DatasetSpec& spec = input.spec;
+  for (const auto& [name, text] : input.further_files) {
+    if (!fs::exists(folder / name)) return false;
+  }
+  if (!input.flight.trajectory.empty() && !fs::exists(folder / "trajectory.csv")) return false;
+  if (spec.products.material && !fs::exists(folder / "materials.json")) return false;
+  if (spec.products.part && !fs::exists(folder / "parts.json")) return false;
   if (spec.video && !fs::exists(folder / kVideoName)) return false;
   if (!spec.people.empty()) {
     for (const char* name : {"people.jsonl", "keypoint_orders.json"}) {
@@ -73,11 +81,31 @@ bool IsFinished(const fs::path& folder, const DatasetSpec& spec) {
   for (const std::string& name : PoseFileNames(spec)) {
     if (!fs::exists(folder / name)) return false;
   }
-  for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "trajectory.csv",
-                           "README.md", "contact_sheet.png"}) {
+  for (const char* name : {kChecksumsName, "frames.jsonl", "entities.json", "panoptic.json", "README.md",
+                           "contact_sheet.png"}) {
     if (!fs::exists(folder / name)) return false;
   }
   return true;
+}
+
+// Gives entities the ids that they have in the dataset.
+void Renumber(const CollectInput& input, std::vector<Capture>& captures, FrameLabels& people) {
+  if (!input.renumber) return;
+  const auto change = [&](EntityId& id) {
+    if (id != kNoEntity) id = input.renumber(id);
+  };
+  for (Capture& capture : captures) {
+    for (EntityId& id : capture.frame.entity.pixels()) change(id);
+    for (CoveragePixel& pixel : capture.frame.coverage.pixels()) {
+      for (EntityId& id : pixel.entity) change(id);
+    }
+  }
+  for (std::vector<PersonLabel>& view : people) {
+    for (PersonLabel& person : view) {
+      change(person.entity);
+      for (KeypointLabel& keypoint : person.keypoints) change(keypoint.occluder);
+    }
+  }
 }
 
 // Renders and writes frames; `done` is told of each.
@@ -87,7 +115,7 @@ void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, 
   internal::ShotSource source(input);
   FrameWriter writer(context, index, input.out);
   for (const int64_t frame : frames) {
-    const auto i = static_cast<size_t>(frame);
+    const auto i = static_cast<size_t>(frame - input.first_frame);
     std::vector<Capture> captures = writer.Acquire();
     const auto state = source.Take(i, context.views, ProductsOf(input.spec), renderer, captures);
     for (const Capture& capture : captures) {
@@ -95,6 +123,8 @@ void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, 
       result.rays += capture.stats.rays;
     }
     FrameLabels labels = source.Label(i, state, context.views, captures);
+    Renumber(input, captures, labels);
+    for (Capture& capture : captures) capture.t_ns += input.t_offset_ns;
     writer.Submit(frame, std::move(captures), std::move(labels));
     ++result.written;
     done(frame);
@@ -103,8 +133,15 @@ void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, 
   result.write_ms += writer.write_ms();
 }
 
-// Writes the files that are made from all frames, and last the checksums of everything.
-void WriteSummaries(const CollectInput& input) {
+void CheckNothingIsMissing(const CollectInput& input) {
+  DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
+  const size_t missing = MissingFrames(input, index).size();
+  if (missing > 0) throw RuntimeError("collect: " + std::to_string(missing) + " frames are still missing: run it again to finish it");
+}
+
+}  // namespace
+
+void FinishDataset(const CollectInput& input) {
   DatasetIndex::Finish(input.out, input.scene);
   const DatasetIndex index(input.out, DatasetIndex::Mode::kRead);
   std::map<std::string, std::string> checksums;
@@ -116,9 +153,9 @@ void WriteSummaries(const CollectInput& input) {
   write("frames.jsonl", AsBytes(frames));
   for (const ExportedFile& file : ExportPoses(frames, input.spec)) write(file.path.c_str(), AsBytes(file.text));
   write("entities.json", AsBytes(EntitiesJson(index, input.scene)));
-  if (input.spec.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
-  if (input.spec.part) write("parts.json", AsBytes(PartsJson()));
-  if (input.people) {
+  if (input.spec.products.material) write("materials.json", AsBytes(MaterialsJson(input.scene)));
+  if (input.spec.products.part) write("parts.json", AsBytes(PartsJson()));
+  if (!input.spec.people.empty()) {
     const std::string people = PeopleJsonl(index, input.spec);
     write("people.jsonl", AsBytes(people));
     for (const ExportedFile& file : ExportPeople(people, input.spec)) {
@@ -127,7 +164,8 @@ void WriteSummaries(const CollectInput& input) {
     }
   }
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
-  write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
+  if (!input.flight.trajectory.empty()) write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
+  for (const auto& [name, text] : input.further_files) write(name.c_str(), AsBytes(text));
   if (!input.trajectory_json.empty()) write("trajectory.json", AsBytes(input.trajectory_json));
   if (input.spec.video) {
     FilmDataset(input.out, input.out / kVideoName, {});
@@ -145,20 +183,16 @@ void WriteSummaries(const CollectInput& input) {
   WriteFileAtomically(input.out / kChecksumsName, text);
 }
 
-void CheckNothingIsMissing(const CollectInput& input) {
-  DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
-  const size_t missing = MissingFrames(input, index).size();
-  if (missing > 0) throw RuntimeError("collect: " + std::to_string(missing) + " frames are still missing: run it again to finish it");
-}
+namespace {
 
 // Rendered here, or elsewhere where `renderer` is null.
 CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderElsewhere& elsewhere) {
-  if (static_cast<int64_t>(input.flight.shots.size()) != input.spec.frames) {
+  if (!input.frames && static_cast<int64_t>(input.flight.shots.size()) != input.spec.frames) {
     throw RuntimeError("collect: the flight has " + std::to_string(input.flight.shots.size()) +
                        " shots for " + std::to_string(input.spec.frames) + " frames");
   }
   const auto start = std::chrono::steady_clock::now();
-  CollectResult result{.frames = static_cast<int64_t>(FramesOfShard(input.spec).size())};
+  CollectResult result{.frames = static_cast<int64_t>(FramesOfShard(input).size())};
   const std::string meta = MetaJson(input.spec, input.scene);
   CheckFolder(input.out, meta);
   const FolderLock lock(input.out);
@@ -172,7 +206,7 @@ CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderEls
   {
     DatasetIndex index(input.out, DatasetIndex::Mode::kJournal);
     missing = MissingFrames(input, index);
-    if (missing.empty() && IsFinished(input.out, input.spec)) {
+    if (missing.empty() && IsFinished(input)) {
       result.already_complete = true;
       return result;
     }
@@ -191,7 +225,8 @@ CollectResult Run(const CollectInput& input, Renderer* renderer, const RenderEls
     CheckNothingIsMissing(input);
   }
   result.wall_ms = Milliseconds(start);
-  WriteSummaries(input);
+  if (input.before_summaries) input.before_summaries();
+  FinishDataset(input);
   return result;
 }
 

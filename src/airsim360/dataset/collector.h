@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "airsim360/dataset/record/spec.h"
@@ -23,6 +26,16 @@ struct CollectInput {
   /// Of the scene, whose states the shots hold; null = nobody. `tracer` is of the scene too.
   std::shared_ptr<const SimPeople> people = nullptr;
   std::shared_ptr<const RayTracer> tracer = nullptr;
+
+  // Datasets of a plan, whose frames are of several worlds and taken block by block.
+  int64_t first_frame = 0;  ///< of the dataset: that of flight.shots[0]
+  int64_t t_offset_ns = 0;  ///< added to the times of the shots
+  /// Frames of this shard; unset: those with index % shards == shard.
+  std::optional<std::vector<int64_t>> frames = {};
+  /// From the entity ids of the world to those of the dataset, which `scene` holds; empty: they are the same.
+  std::function<EntityId(EntityId)> renumber = {};
+  std::map<std::string, std::string> further_files = {};  ///< name -> content, written with the summaries
+  std::function<void()> before_summaries = {};             ///< called when all frames are there
 };
 
 /// What a run did.
@@ -49,6 +62,9 @@ using RenderElsewhere =
 
 /// The same dataset, byte for byte, with the frames rendered elsewhere.
 CollectResult Collect(const CollectInput& input, const RenderElsewhere& elsewhere);
+
+/// The files that describe the frames in the journal, all of which are there, and last the checksums of everything.
+void FinishDataset(const CollectInput& input);
 
 /// Writes those of `frames` that are not in the journal yet into a dataset that another process has begun and will finish;
 /// several may do so at once, with different frames. `done` is told of each.

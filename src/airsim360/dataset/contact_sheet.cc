@@ -125,8 +125,8 @@ Bytes ContactSheetPng(const DatasetIndex& index, const DatasetSpec& spec, const 
   };
   std::vector<ProductFolder> products = ProductFolders(spec);
   std::erase_if(products, [](const ProductFolder& product) {
-    return std::none_of(std::begin(kFixedProducts), std::end(kFixedProducts),
-                        [&](const char* fixed) { return product.name == fixed; });
+    return std::ranges::none_of(
+        kProducts, [&](const ProductInfo& info) { return info.always && product.name == info.name; });
   });
   const std::vector<int64_t> frames = index.Frames();
   const std::vector<View> views = Views(spec);

@@ -163,6 +163,7 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
           FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
                        {.wraps = projection == Projection::kErp,
                         .allows_void = projection == Projection::kFisheye})};
+      frame.record.views[v].photo = captures[v].photo;
     } else {
       FillRangeFigures(captures, frame.record);
     }

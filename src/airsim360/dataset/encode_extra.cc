@@ -37,13 +37,6 @@ Bytes EncodeAlbedo(const Image<Rgb32f>& albedo) {
   return EncodePng(coded);
 }
 
-Bytes EncodeSky(const Image<EntityId>& entity, EntityId sky) {
-  Image<uint8_t> mask(entity.width(), entity.height());
-  std::transform(entity.pixels().begin(), entity.pixels().end(), mask.pixels().begin(),
-                 [&](EntityId id) { return id == sky && id != kNoEntity ? 255 : 0; });
-  return EncodePng(mask);
-}
-
 Bytes EncodeFlow(const Image<FlowPixel>& flow) {
   return EncodeChannels(flow, {"dx", "dy", "range", "occluded", "motion.X", "motion.Y", "motion.Z"},
                         [](const FlowPixel& pixel, float* out) {
@@ -74,7 +67,7 @@ Bytes EncodeExtra(const std::string& product, const Frame& frame, const Scene& s
   if (product == "albedo") return EncodeAlbedo(frame.albedo);
   if (product == "material") return EncodePng(frame.material);
   if (product == "part") return EncodePng(PartPicture(frame.semantic, frame.material, scene.tree, scene.materials));
-  if (product == "sky") return EncodeSky(frame.entity, scene.sky_entity);
+  if (product == "sky") return EncodePng(SkyMask(frame.entity, scene.sky_entity));
   if (product == "flow") return EncodeFlow(frame.flow);
   if (product == "coverage") return EncodeCoverage(frame.coverage);
   throw RuntimeError("no way to encode the product '" + product + "'");

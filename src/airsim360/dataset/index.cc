@@ -151,4 +151,26 @@ std::vector<SeenEntity> DatasetIndex::SeenEntities() const {
   return seen;
 }
 
+std::vector<DatasetIndex::NamedEntity> DatasetIndex::Entities() const {
+  std::vector<NamedEntity> entities;
+  Statement rows(impl_->database, "SELECT entity, name, category FROM entities ORDER BY entity");
+  while (rows.Next())
+    entities.push_back({static_cast<EntityId>(rows.Int(0)), rows.Text(1), static_cast<CategoryId>(rows.Int(2))});
+  return entities;
+}
+
+void DatasetIndex::Take(const std::filesystem::path& other) {
+  Statement(impl_->database, "ATTACH ? AS other").Bind(0, (other / kIndexName).string()).Run();
+  {
+    Transaction transaction(impl_->database);
+    impl_->database.Run("CREATE TEMP TABLE new_frames AS SELECT frame FROM other.frames WHERE frame NOT IN (SELECT frame FROM main.frames)");
+    for (const std::string table : {"frames", "files", "segments", "persons"}) {
+      impl_->database.Run("INSERT INTO main." + table + " SELECT * FROM other." + table + " WHERE frame IN (SELECT frame FROM new_frames)");
+    }
+    impl_->database.Run("DROP TABLE new_frames");
+    transaction.Commit();
+  }
+  impl_->database.Run("DETACH other");
+}
+
 }  // namespace airsim360

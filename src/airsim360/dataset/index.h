@@ -58,6 +58,17 @@ class DatasetIndex {
   std::vector<CategoryTotal> CategoryTotals() const;                            ///< by category id
   std::vector<SeenEntity> SeenEntities() const;                                 ///< by entity id
 
+  /// Names of the entities seen, of an index that was finished.
+  struct NamedEntity {
+    EntityId id = kNoEntity;
+    std::string name;
+    CategoryId category = kVoid;
+  };
+  std::vector<NamedEntity> Entities() const;
+
+  /// Adds the frames of another folder's index that this one lacks, durably.
+  void Take(const std::filesystem::path& other);
+
   /// Replaces the file by one that depends only on its content, not on the order and number of writes, with
   /// the names of `scene`'s categories and entities. The index is closed for writing afterwards.
   static void Finish(const std::filesystem::path& folder, const Scene& scene);

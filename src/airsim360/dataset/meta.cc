@@ -1,6 +1,8 @@
 // meta.json: what a dataset is, for people and programs.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "airsim360/dataset/record/config_json.h"
 #include "airsim360/dataset/record/intrinsics.h"
 #include "airsim360/dataset/record/spec.h"
 #include "airsim360/dataset/record/version.h"
@@ -48,21 +50,21 @@ Json CamerasJson(const DatasetSpec& spec) {
 }
 
 Json ParametersJson(const DatasetSpec& spec) {
-  Json json = {{"command", spec.command},
-               {"world", spec.world},
+  Json json = {{"command", spec.command}};
+  if (!spec.plan.empty()) {
+    json["plan"] = spec.plan;
+    json["picture"] = spec.picture;
+  }
+  json.update({{"world", spec.world},
                {"seed", spec.seed},
                {"projection", kProjectionNames[static_cast<int>(spec.projection)]},
                {"width", spec.width},
                {"height", spec.height},
-               {"tier", kTierNames[static_cast<int>(spec.tier)]},
                {"frames", spec.frames},
                {"shard", spec.shard},
                {"shards", spec.shards},
                {"route", spec.route},
-               {"environment", spec.environment},
-               {"normal", spec.normal},
-               {"rgb_format", kRgbFormatNames[static_cast<int>(spec.rgb_format)]},
-               {"pano_frame", kPanoFrameNames[static_cast<int>(spec.pano_frame)]}};
+               {"environment", spec.environment}});
   Json products = Json::array();
   for (const ProductFolder& folder : ProductFolders(spec)) products.push_back(folder.name);
   json["products"] = products;
@@ -70,13 +72,8 @@ Json ParametersJson(const DatasetSpec& spec) {
   if (spec.cameras.empty() && has_fov) json["fov_deg"] = spec.fov_deg;
   if (!spec.cameras.empty()) json["cameras"] = RigJson(spec);
   if (!spec.labels.empty()) json["labels"] = spec.labels;
-  if (spec.samples != 0) json["samples"] = spec.samples;
-  if (!spec.denoise) json["denoise"] = false;
-  if (spec.edge_samples > 0) json["edge_samples"] = spec.edge_samples;
-  json["tone"] = kToneCurveNames[static_cast<int>(spec.tone)];
-  json["exposure"] = spec.auto_exposure ? Json("auto") : Json(spec.exposure_ev);
-  json["radiance"] = spec.radiance;
-  json["lens"] = kLensModelNames[static_cast<int>(spec.lens)];
+  AddConfig([picture = spec](ConfigVisitor& v) mutable { picture.Visit(v); }, json);
+  if (spec.look != Look::kPhoto) json.erase("camera_look");
   if (spec.video) json["video"] = "libx264, crf 18";
   if (!spec.people.empty()) {
     json["people"] = spec.people;
@@ -111,47 +108,15 @@ Json ConventionsJson() {
 
 Json EncodingsJson(const DatasetSpec& spec, const Scene& scene) {
   Json json;
-  if (spec.tier != Tier::kLabels) {
-    json["rgb"] = spec.rgb_format == RgbFormat::kJpeg ? "8-bit sRGB JPEG 4:4:4" : "8-bit sRGB PNG";
+  for (const ProductFolder& folder : ProductFolders(spec)) {
+    const auto info = std::ranges::find(kProducts, folder.name, &ProductInfo::name);
+    json[folder.name] = info->encoding;
   }
-  json["range"] =
-      "OpenEXR float32, channel Y: metres along the ray through the pixel centre, 0 = nothing hit (sky)";
-  json["semantic"] =
-      NeedsWideSemantics(scene)
-          ? "16-bit gray PNG, category id of `categories` (custom ones are 256 and above); 0 = void, never written"
-          : "8-bit palette PNG: the index stored in a pixel is the category id of `categories`, the palette holds "
-            "their colours; PIL's np.asarray(Image.open(f)) gives indices, cv2.imread colours; 0 = void, never written";
-  json["entity"] = "8-bit RGB PNG, entity id = R + 256 G + 65536 B; 0 never appears";
-  if (spec.normal) {
-    json["normal"] =
-        "16-bit RGB PNG, unit world normal towards the camera: n = value / 32767 - 1; (0, 0, 0) = nothing "
-        "hit";
-  }
-  if (spec.radiance && spec.tier != Tier::kLabels) {
-    json["radiance"] =
-        "OpenEXR half float, channels R G B: linear light before exposure and tone curve (sunlight outside "
-        "the atmosphere has irradiance 20), at most 65504; ideal lens";
-  }
-  if (spec.position)
-    json["position"] =
-        "OpenEXR float32, channels X, Y, Z: the point hit, in W, metres; (0, 0, 0) = nothing hit";
-  if (spec.albedo)
-    json["albedo"] = "8-bit sRGB PNG: base colour of the surface without any light; black = nothing hit";
-  if (spec.material) json["material"] = "16-bit PNG: key of materials.json; 0 = nothing hit";
-  if (spec.part) json["part"] = "8-bit PNG: key of parts.json, which part of the pixel's entity this is; 0 = its body, or nothing hit";
-  if (spec.sky) json["sky"] = "8-bit PNG: 255 = the ray through the pixel centre meets the sky, else 0";
-  if (spec.flow) {
-    json["flow"] =
-        "OpenEXR float32: dx, dy pixels to where the point is in the next frame (X_WC_next of frames.jsonl), "
-        "x wraps the short way in panoramas; range metres to it then, 0 = sky; occluded 1 = hidden then or "
-        "outside the picture (dx = dy = 0 there); motion.X, motion.Y, motion.Z its own displacement in W. "
-        "The last frame leads to the pose extrapolated from its velocities";
-  }
-  if (spec.coverage) {
-    json["coverage"] =
-        "OpenEXR float32: id.0 … id.3 entities of the pixel by area, largest first, 0 = no more; share.0 … "
-        "share.3 their shares of it";
-  }
+  if (json.contains("rgb") && spec.rgb_format == RgbFormat::kJpeg) json["rgb"] = "8-bit sRGB JPEG 4:4:4";
+  if (NeedsWideSemantics(scene))
+    json["semantic"] =
+        "16-bit gray PNG, category id of `categories` (custom ones are 256 and above); 0 = void, never "
+        "written";
   return json;
 }
 
@@ -191,6 +156,8 @@ std::string MetaJson(const DatasetSpec& spec, const Scene& scene) {
       {"conventions", ConventionsJson()},
       {"encodings", EncodingsJson(spec, scene)},
       {"categories", CategoriesJson(scene.tree)}};
+  // Of a plan the scene is the names of several worlds; plan.json has what they hold.
+  if (!spec.plan.empty()) json["scene"] = {{"name", scene.name}};
   if (const Json cameras = CamerasJson(spec); !cameras.empty()) json["cameras"] = cameras;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -203,9 +170,13 @@ std::string DescribeMetaDifference(const std::string& on_disk, const std::string
     return json.is_object() && json.contains(key) ? json[key].dump() : std::string("nothing");
   };
   const Json parameters = a.value("parameters", Json::object());
-  for (const auto& [key, value] : b["parameters"].items()) {
-    if (text(parameters, key) != value.dump())
-      return key + " is " + text(parameters, key) + " there, " + value.dump() + " here";
+  // What was given as flags of a plan is told by the parameter that it changes, if there is one.
+  constexpr const char* kGiven = "picture";
+  for (const bool given : {false, true}) {
+    for (const auto& [key, value] : b["parameters"].items()) {
+      if ((key == kGiven) == given && text(parameters, key) != value.dump())
+        return key + " is " + text(parameters, key) + " there, " + value.dump() + " here";
+    }
   }
   for (const auto& [key, value] : b.items()) {
     if (key == "parameters" || text(a, key) == value.dump()) continue;

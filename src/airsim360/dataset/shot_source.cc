@@ -5,33 +5,18 @@
 namespace airsim360::internal {
 namespace {
 
-PanoramicRig MakeRig(const DatasetSpec& spec, const View& view, const Products& products) {
-  PanoramicRig rig;
-  rig.camera = view.camera;
-  rig.X_BC = view.X_BC;
-  rig.pano_frame = spec.pano_frame;
-  rig.tier = spec.tier;
-  rig.products = products;
-  rig.samples = spec.samples;
-  rig.denoise = spec.denoise;
-  rig.edge_samples = spec.edge_samples;
-  rig.exposure_ev = spec.exposure_ev;
-  rig.tone = spec.tone;
-  rig.auto_exposure = spec.auto_exposure;
-  rig.seed = spec.seed;
-  rig.lens = spec.lens;
-  return rig;
-}
+// Whether the shot after this one is of the same take.
+bool Follows(const std::vector<Shot>& shots, size_t frame) { return frame + 1 < shots.size() && !shots[frame].last; }
 
 // Where flow leads to: the next frame of the whole flight; from the last one on, as the body moves there, for
 // as long as the frame before took.
 double NextSeconds(const std::vector<Shot>& shots, size_t frame) {
   constexpr double kLoneFrameSeconds = 0.1;  // a single frame has no interval of its own
-  if (frame + 1 < shots.size()) return static_cast<double>(shots[frame + 1].t_ns - shots[frame].t_ns) * 1e-9;
-  return frame > 0 ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
+  if (Follows(shots, frame)) return static_cast<double>(shots[frame + 1].t_ns - shots[frame].t_ns) * 1e-9;
+  return frame > 0 && !shots[frame - 1].last ? static_cast<double>(shots[frame].t_ns - shots[frame - 1].t_ns) * 1e-9 : kLoneFrameSeconds;
 }
 RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
-  if (frame + 1 < shots.size()) return shots[frame + 1].body.X_WB;
+  if (Follows(shots, frame)) return shots[frame + 1].body.X_WB;
   return Extrapolate(shots[frame].body, NextSeconds(shots, frame));
 }
 
@@ -49,7 +34,7 @@ std::shared_ptr<const SceneState> ShotSource::Take(size_t frame, const std::vect
   NextTrigger next{NextPose(shots, frame), state};
   if (products.flow) next.state = StateAfter(frame);
   for (size_t v = 0; v < views.size(); ++v) {
-    PanoramicRig rig = MakeRig(input_.spec, views[v], products);
+    PanoramicRig rig{input_.spec, views[v].camera, views[v].X_BC, products};
     rig.state = state;
     CaptureRig(rig, shot.body, shot.t_ns, renderer, captures[v], &next);
   }
@@ -77,7 +62,7 @@ std::shared_ptr<const SceneState> ShotSource::StateOf(const Shot& shot) const {
 std::shared_ptr<const SceneState> ShotSource::StateAfter(size_t frame) const {
   const std::vector<Shot>& shots = input_.flight.shots;
   const Shot& shot = shots[frame];
-  const bool last = frame + 1 == shots.size();
+  const bool last = !Follows(shots, frame);
   if (!input_.people || !shot.people || (!last && !shots[frame + 1].people)) return nullptr;
   const int64_t t_ns = last ? shot.t_ns + std::llround(NextSeconds(shots, frame) * 1e9) : shots[frame + 1].t_ns;
   PeoplePoses poses = last ? PosesLater(*input_.people, *shot.people, t_ns + input_.people->epoch_ns) : PosesOf(shots[frame + 1]);

@@ -71,7 +71,12 @@ class PeopleDatasetTest : public ::testing::Test {
     folder_ = fs::temp_directory_path() / ("airsim360_people_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    spec_ = {.world = "box_room", .width = 256, .height = 128, .frames = 3, .route = "test"};
+    spec_ = {};
+    spec_.world = "box_room";
+    spec_.width = 256;
+    spec_.height = 128;
+    spec_.frames = 3;
+    spec_.route = "test";
     spec_.people = "5";
     spec_.crops = spec_.overlay = true;
     for (const char* format : kPeopleFormats) spec_.people_formats.push_back(format);
