@@ -77,24 +77,24 @@ double Median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-RenderRequest MakeRequest(const Options& options, const World& world, Tier tier, int aa_samples) {
-  return {.camera = Equirectangular{options.width, options.width / 2},
-          .X_WC = RigidTransform{{}, world.eye} * CameraInBody(),
-          .tier = tier,
-          .aa_samples = aa_samples};
+RenderRequest MakeRequest(const Options& options, const World& world, Tier tier, int edge_samples) {
+  RenderRequest request = MakeRequest(Equirectangular{options.width, options.width / 2},
+                                      RigidTransform{{}, world.eye} * CameraInBody(), tier);
+  request.edge_samples = edge_samples;
+  return request;
 }
 
 void MeasureRatios(const Options& options, const World& world, Renderer& renderer) {
   struct Kind {
     const char* name;
     Tier tier;
-    int aa_samples;
+    int edge_samples;
   };
   for (const Kind kind :
        {Kind{"fast", Tier::kFast, 1}, Kind{"fast aa", Tier::kFast, 4}, Kind{"high", Tier::kHigh, 1},
         Kind{"high aa", Tier::kHigh, 4}}) {
     if (!options.kind.empty() && options.kind != kind.name) continue;
-    const RenderRequest request = MakeRequest(options, world, kind.tier, kind.aa_samples);
+    const RenderRequest request = MakeRequest(options, world, kind.tier, kind.edge_samples);
     Frame frame;
     renderer.Render(request, frame);  // warms up
     if (options.profile) {

@@ -115,12 +115,9 @@ int main(int argc, char** argv) {
   const RigidTransform X_WC =
       BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{})), 0.7, 0, 0) * CameraInBody();
   const auto render = [&](const Camera& camera, Frame& frame) {
-    renderer->Render({.camera = camera,
-                      .X_WC = X_WC,
-                      .tier = Tier::kFast,
-                      .products = {.semantic = false},
-                      .aa_samples = 1},
-                     frame);
+    RenderRequest request = MakeRequest(camera, X_WC, Tier::kFast, {.semantic = false});
+    request.edge_samples = 1;
+    renderer->Render(request, frame);
   };
 
   std::printf("downtown_west, %dx%d, colour + range + entity, %d threads, medians of %d alternating rounds\n",

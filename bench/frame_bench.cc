@@ -26,7 +26,7 @@ using namespace airsim360;
 struct Row {
   const char* what;
   Tier tier;
-  int aa_samples;
+  int edge_samples;
   int threads;
 };
 
@@ -105,11 +105,10 @@ int main(int argc, char** argv) {
     for (size_t i = 0; i < rows.size(); ++i) {
       const ThreadLimit limit(rows[i].threads);
       const double before = ProcessorMilliseconds();
-      const RenderStats stats = renderer->Render({.camera = Equirectangular{width, width / 2},
-                                                  .X_WC = CameraPose(rig, X_WB),
-                                                  .tier = rows[i].tier,
-                                                  .aa_samples = rows[i].aa_samples},
-                                                 frame);
+      RenderRequest request =
+          MakeRequest(Equirectangular{width, width / 2}, CameraPose(rig, X_WB), rows[i].tier);
+      request.edge_samples = rows[i].edge_samples;
+      const RenderStats stats = renderer->Render(request, frame);
       times[i].push_back(stats.render_ms);
       work[i].push_back(ProcessorMilliseconds() - before);
       rays[i] += static_cast<double>(stats.rays);

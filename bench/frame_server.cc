@@ -4,7 +4,7 @@
 // before surfaces, which another renderer can have just so.
 // Says {"ready": true, "sun_irradiance": [r, g, b]}, then reads one JSON object a line:
 //   {"size": [W, H], "tier": "fast", "X_WC": {"p": [...], "q_wxyz": [...]}, "labels": true, "samples": N,
-//    "aa_samples": N, "seed": N, "radiance": FILE.exr or absent}
+//    "edge_samples": N, "seed": N, "radiance": FILE.exr or absent}
 // and answers each with {"seconds": ..., "rays": ...}.
 #include <cstdio>
 #include <iostream>
@@ -52,7 +52,7 @@ RenderRequest ReadRequest(const json& line) {
   request.products = {.rgb = true, .range = labels, .semantic = labels, .entity = labels, .normal = labels};
   request.products.radiance = line.contains("radiance");
   request.samples = line.value("samples", 0);
-  request.aa_samples = line.value("aa_samples", request.aa_samples);
+  request.edge_samples = line.value("edge_samples", request.edge_samples);
   request.seed = line.value("seed", uint64_t{0});
   return request;
 }

@@ -181,11 +181,11 @@ void Measure(Bench& bench, RenderRequest request, const Settings& settings) {
   const int width = software ? 128 : 2048, large = software ? 128 : 4096;
   row("camera rays alone", width, Tier::kLabels, nothing);
   row("all labels", width, Tier::kLabels, labels);
-  request.aa_samples = 1;
+  request.edge_samples = 1;
   const auto plain = row("fast and labels but flow, 1 sample", width, Tier::kFast, {.normal = true});
   double alone = 0;
   const RenderRequest recorded = request;
-  request.aa_samples = 4;
+  request.edge_samples = 4;
   const auto fast = row("fast, all labels, antialiased", width, Tier::kFast, everything);
   bench.gpu().ReadBack(false);
   const auto unread = row("fast ... not read back", width, Tier::kFast, everything);
@@ -193,7 +193,7 @@ void Measure(Bench& bench, RenderRequest request, const Settings& settings) {
   const auto high = row("high, all labels, antialiased", large, Tier::kHigh, everything);
   request.samples = 8;
   row("reference, 8 paths, all labels", width, Tier::kReference, everything);
-  request.samples = 0, request.aa_samples = 1;
+  request.samples = 0, request.edge_samples = 1;
 
   // Training: many small panoramas at once.
   const size_t cameras = software ? 16 : 1024;

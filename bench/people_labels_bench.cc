@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
                   keypoints.fastest, all_boxes.median, all_boxes.fastest, o.threads);
     }
     labels = LabelPeople(picture, {.boxes = false});
-    RenderRequest request{.camera = camera, .X_WC = X_WC, .tier = Tier::kLabels};
+    RenderRequest request = MakeRequest(camera, X_WC, Tier::kLabels);
     request.products = {.rgb = false, .range = false, .semantic = false};
     request.state = state;
     Frame frame;

@@ -93,11 +93,10 @@ void Moving(int width, int rounds) {
   const Cast cast = ChooseCast(*scene);
   size_t vertices = 0;
   for (MeshId m : cast.meshes) vertices += scene->meshes[m].positions.size();
-  RenderRequest request{
-      .camera = Equirectangular{width, width / 2},
-      .X_WC = BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{0, 0, 3})), 0, 0, 0) * CameraInBody(),
-      .tier = Tier::kLabels,
-      .products = kLabels};
+  RenderRequest request =
+      MakeRequest(Equirectangular{width, width / 2},
+                  BodyPose(VecCast<double>(scene->spawn.value_or(Vec3f{0, 0, 3})), 0, 0, 0) * CameraInBody(),
+                  Tier::kLabels, kLabels);
   Frame frame;
   std::vector<double> ticks, built, moved;
   for (int i = 0; i <= rounds; ++i) {
@@ -186,10 +185,9 @@ void MeasureForest(uint32_t cuts, int width, int rounds) {
   const auto sorted = MakeCpuRenderer(std::make_shared<const RayTracer>(scene));
   const auto filtered = MakeCpuRenderer(
       std::make_shared<const RayTracer>(scene, RayTracerOptions{.isa = {}, .sort_alpha = false}));
-  const RenderRequest request{.camera = Equirectangular{width, width / 2},
-                              .X_WC = BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(),
-                              .tier = Tier::kLabels,
-                              .products = kLabels};
+  const RenderRequest request =
+      MakeRequest(Equirectangular{width, width / 2}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(),
+                  Tier::kLabels, kLabels);
   Frame a, b;
   std::vector<double> with, without;
   for (int i = 0; i <= rounds; ++i) {

@@ -214,10 +214,9 @@ struct Row {
 
 Row Measure(int threads, int rounds, const RawScene& raw, const RayTables& tables, Renderer& renderer) {
   const ThreadLimit limit(threads);
-  RenderRequest request{Equirectangular{tables.width, tables.height},
-                        RigidTransform{{}, kEye} * CameraInBody(),
-                        Tier::kLabels,
-                        {.rgb = false, .range = true, .semantic = true, .entity = true, .normal = true}};
+  RenderRequest request = MakeRequest(
+      Equirectangular{tables.width, tables.height}, RigidTransform{{}, kEye} * CameraInBody(), Tier::kLabels,
+      {.rgb = false, .range = true, .semantic = true, .entity = true, .normal = true});
   Frame frame, ids;
   std::vector<double> ms[4];
   double checksum[2] = {};

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
 
   // A drone 1.5 m above the ground that looks east; its panorama looks along the body's forward axis.
   const RigidTransform X_WB = BodyPose({0, 0, 1.5}, 0, 0, 0);
-  const RenderRequest request{.camera = Equirectangular{1024, 512}, .X_WC = X_WB * CameraInBody()};
+  const RenderRequest request = MakeRequest(Equirectangular{1024, 512}, X_WB * CameraInBody(), Tier::kFast);
   Frame frame;
   renderer->Render(request, frame);
 

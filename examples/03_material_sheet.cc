@@ -75,9 +75,10 @@ int main(int argc, char** argv) {
   // Seen from the front and above.
   const double across = kColumns * (kWidth + kGap), middle = across / 2 - kGap / 2;
   const auto renderer = MakeCpuRenderer(std::make_shared<RayTracer>(builder.Build()), {.tier = Tier::kFast});
-  RenderRequest request{.camera = Pinhole{1600, 1200, 2900, 2900, 800, 600},
-                        .X_WC = BodyPose({middle, -24, 31}, 1.5707963, -0.63, 0) * CameraInBody(),
-                        .aa_samples = 8};
+  RenderRequest request{{},
+                        Pinhole{1600, 1200, 2900, 2900, 800, 600},
+                        BodyPose({middle, -24, 31}, 1.5707963, -0.63, 0) * CameraInBody()};
+  request.edge_samples = 8;
   request.products = {};
   request.products.rgb = true;
   Frame frame;

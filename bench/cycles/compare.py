@@ -200,8 +200,8 @@ def quality(ours, cycles, labels, pose, size, light, own_spp, spp, folder, deadl
     path, strips = folder / "radiance.exr", strips_of(size[0])
     in_strips = lambda image: numpy.concatenate([image[:, a:b] for a, b in strips], 1)
 
-    def mine(tier, samples, seed, aa_samples=4):
-        answer = ours.ask(size=size, tier=tier, samples=samples, seed=seed, aa_samples=aa_samples, labels=False, X_WC=pose, radiance=str(path))
+    def mine(tier, samples, seed, edge_samples=4):
+        answer = ours.ask(size=size, tier=tier, samples=samples, seed=seed, edge_samples=edge_samples, labels=False, X_WC=pose, radiance=str(path))
         return in_strips(colors(path)), answer["seconds"]
 
     def theirs(samples, seed):
@@ -247,7 +247,7 @@ def open_ours(world, threads, folder, *mode):
     sky = folder / "sky.exr"
     (folder / "dot.obj").write_text("v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nf 1 2 3\n")
     picture = Server([BIN / "frame_server", str(folder / "dot.obj"), str(threads), "fast", world, *mode])
-    picture.ask(size=[2048, 1024], tier="fast", aa_samples=1, labels=False, radiance=str(sky),
+    picture.ask(size=[2048, 1024], tier="fast", edge_samples=1, labels=False, radiance=str(sky),
                 X_WC={"p": [0, 0, 30], "q_wxyz": [0.5, -0.5, 0.5, -0.5]})
     picture.close()
     write_exr(sky, numpy.minimum(colors(sky), 30))  # the disc is the sun lamp's
@@ -289,12 +289,12 @@ def pairs(ours, cycles, X_WC, light, steps, arguments):
     size = arguments.size
     if "fast" in steps:
         paired_speed("fast, all labels, no antialiasing / Cycles 1 spp, direct light, Z, index, normal", ours, cycles,
-                     dict(size=size, tier="fast", aa_samples=1, X_WC=X_WC),
+                     dict(size=size, tier="fast", edge_samples=1, X_WC=X_WC),
                      dict(size=size, samples=1, bounces=0, X_WC=X_WC, **light), arguments.rounds)
     if "high" in steps:
         for n in (4, 8, 16, 64):
             paired_speed(f"high, all labels, {n} samples at edges / Cycles 16 spp, 4 bounces", ours, cycles,
-                         dict(size=size, tier="high", aa_samples=n, X_WC=X_WC),
+                         dict(size=size, tier="high", edge_samples=n, X_WC=X_WC),
                          dict(size=size, samples=16, bounces=4, X_WC=X_WC, **light), arguments.rounds)
 
 

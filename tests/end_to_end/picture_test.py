@@ -42,6 +42,26 @@ class Pictures(ProgramTest):
             around = {pixel(entities, bytes_per_pixel[1], x + i, y + k) for i in (-1, 0, 1) for k in (-1, 0, 1)}
             self.assertGreater(len(around), 1, (x, y))
 
+    def test_a_photo_changes_colours_alone_and_says_what_the_camera_chose(self):
+        clean = self.shoot("clean", "--products", "radiance")
+        photo = self.shoot("photo", "--products", "radiance", "--look", "photo", "--metering", "0.4", "--metering-spread", "0")
+        for product in ["range/000000.exr", "entity/000000.png", "semantic/000000.png", "radiance/000000.exr"]:
+            self.assertEqual((photo / product).read_bytes(), (clean / product).read_bytes())
+        self.assertNotEqual(self.rows(photo), self.rows(clean))
+        parameters = read_json(photo / "meta.json")["parameters"]
+        self.assertEqual((parameters["look"], parameters["camera_look"]["metering"]), ("photo", 0.4))
+        self.assertNotIn("camera_look", read_json(clean / "meta.json")["parameters"])
+        figures = [json.loads((out / "frames.jsonl").read_text()).get("look") for out in (clean, photo)]
+        self.assertIsNone(figures[0])
+        self.assertGreaterEqual(figures[1]["gain"], 1)
+        brighter = self.shoot("brighter", "--look", "photo", "--metering", "0.4", "--metering-spread", "0", "--exposure", "1")
+        stops = [json.loads((out / "frames.jsonl").read_text())["look"]["exposure_ev"] for out in (photo, brighter)]
+        self.assertAlmostEqual(stops[1] - stops[0], 1)
+        refused = run("render", "--world", "box_room", "--look", "photo", "--projection", "cube", "--size", "64x64", "--out", self.folder / "cube")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--look: 'photo'", refused.stderr)
+        self.assertFalse((self.folder / "cube").exists())
+
     def test_a_stop_more_is_brighter(self):
         dark, bright = [sum(map(sum, self.rows(self.shoot(f"ev{ev}", "--exposure", ev)))) for ev in ("-1", "1")]
         self.assertGreater(bright, 1.2 * dark)

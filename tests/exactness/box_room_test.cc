@@ -101,12 +101,10 @@ TEST_F(BoxRoom, EveryLabelOfEveryPixelIsTheClosedFormFromTwentyRandomPoses) {
       p = {rng.Uniform(-4.9, 4.9), rng.Uniform(-4.9, 4.9), rng.Uniform(0.1, 5.9)};
     } while (p.x > 2.4 && p.x < 3.6 && std::abs(p.y) < 0.6 && p.z < 1.1);
     const double pi = std::numbers::pi;
-    RenderRequest request{
-        .camera = Equirectangular{kWidth, kHeight},
-        .X_WC =
-            BodyPose(p, rng.Uniform(-pi, pi), rng.Uniform(-1.5, 1.5), rng.Uniform(-pi, pi)) * CameraInBody(),
-        .tier = Tier::kLabels,
-        .products = {.rgb = false, .normal = true}};
+    RenderRequest request = MakeRequest(
+        Equirectangular{kWidth, kHeight},
+        BodyPose(p, rng.Uniform(-pi, pi), rng.Uniform(-1.5, 1.5), rng.Uniform(-pi, pi)) * CameraInBody(),
+        Tier::kLabels, {.rgb = false, .normal = true});
     Frame frame;
     renderer_->Render(request, frame);
     for (int y = 0; y < kHeight; ++y) {
@@ -146,10 +144,8 @@ TEST_F(BoxRoom, EveryLabelOfEveryPixelIsTheClosedFormFromTwentyRandomPoses) {
 }
 
 TEST_F(BoxRoom, EntityAreasAddUpToAllPixels) {
-  RenderRequest request{.camera = Equirectangular{256, 128},
-                        .X_WC = BodyPose({0, 1, 2}, 0.3, 0.2, 0.1) * CameraInBody(),
-                        .tier = Tier::kLabels,
-                        .products = {}};
+  RenderRequest request = MakeRequest(Equirectangular{256, 128},
+                                      BodyPose({0, 1, 2}, 0.3, 0.2, 0.1) * CameraInBody(), Tier::kLabels);
   Frame frame;
   renderer_->Render(request, frame);
   std::map<EntityId, int> area;

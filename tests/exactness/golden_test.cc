@@ -64,9 +64,8 @@ void ExpectGoldens(std::shared_ptr<const Scene> scene, const std::string& name) 
   for (const Tier tier : {Tier::kFast, Tier::kHigh, Tier::kReference}) {
     const int width = tier == Tier::kReference ? 64 : 128;
     Frame frame;
-    renderer->Render({.camera = Equirectangular{width, width / 2},
-                      .X_WC = BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody(),
-                      .tier = tier},
+    renderer->Render(MakeRequest(Equirectangular{width, width / 2},
+                                 BodyPose({0.3, 0.2, 1.7}, 0.3, 0.2, -0.1) * CameraInBody(), tier),
                      frame);
     const std::string file = name + "_" + kTierNames[static_cast<int>(tier)];
     ExpectSimilarColours(frame.rgb, file + ".png");

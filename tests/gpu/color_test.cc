@@ -17,7 +17,7 @@ void ExpectTheCpus(const std::shared_ptr<const Scene>& scene, const Environment&
   Pair pair(scene, environment, Tier::kFast);
   RenderRequest request = ColorRequest(*scene, width);
   for (const int samples : {1, 4}) {
-    request.aa_samples = samples;
+    request.edge_samples = samples;
     Frame cpu, gpu;
     pair.cpu->Render(request, cpu);
     pair.gpu->Render(request, gpu);
@@ -79,7 +79,7 @@ TEST(GpuColor, OfBentMeshesIsTheCpus) {
   const auto scene = BuildWorld("sunlit_room", {.seed = 1});
   Pair pair(scene, ClearSky(40), Tier::kFast);
   RenderRequest request = ColorRequest(*scene, 64);
-  request.aa_samples = 1;
+  request.edge_samples = 1;
   request.state = BentState(*scene);
   ASSERT_FALSE(request.state->deformed.empty());
   Frame cpu, gpu;
@@ -127,7 +127,7 @@ TEST(GpuColor, ItsRaysCanBeTracedOnceMoreAlone) {
   const auto scene = BuildWorld("sunlit_room", {.seed = 1});
   Pair pair(scene, ClearSky(40), Tier::kFast);
   RenderRequest request = ColorRequest(*scene, 32);
-  request.aa_samples = 1;
+  request.edge_samples = 1;
   pair.gpu->TraceAloneMs(request);
   request.tier = Tier::kHigh;
   EXPECT_THROW(pair.gpu->TraceAloneMs(request), InputError);

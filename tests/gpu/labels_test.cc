@@ -102,7 +102,7 @@ TEST(GpuLabels, SharesOfEntitiesInAPixelAreTheCpusThroughEveryCamera) {
   for (const Camera& camera : cameras) {
     RenderRequest request = LabelRequest(camera, test::RandomPose(rng));
     request.products.coverage = true, request.products.entity = camera.index() % 2 == 0;
-    request.aa_samples = 16;
+    request.edge_samples = 16;
     Frame cpu, gpu;
     pair.cpu->Render(request, cpu);
     pair.gpu->Render(request, gpu);

@@ -20,7 +20,7 @@ TEST(GpuVertexColors, AreTheCpusInEveryTier) {
     RenderRequest request = ColorRequest(*scene, 64);
     request.tier = tier;
     request.samples = tier == Tier::kReference ? 4 : 0;
-    request.aa_samples = 1;
+    request.edge_samples = 1;
     request.products.position = true;
     Frame cpu, gpu;
     pair.cpu->Render(request, cpu);

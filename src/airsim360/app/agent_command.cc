@@ -5,6 +5,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
@@ -19,7 +20,8 @@ namespace airsim360 {
 namespace {
 
 struct AgentArguments {
-  std::string world, host = "127.0.0.1", tier = "fast", wind;
+  std::string world, host = "127.0.0.1", wind;
+  RenderSettings picture;
   int port = 8361, episodes = 64;
   bool realtime = false;
   EnvironmentFlags environment;
@@ -35,15 +37,15 @@ AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& 
   for (const WorldInfo& world : ListWorlds()) api.worlds.push_back(world.name);
   StageOptions options = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
   options.wind = ReadWindFile(arguments.wind);
-  CheckStageOptions(options);
-  api.open = [tier = ParseTierArgument(arguments.tier), options](const std::string& name, uint64_t seed) {
+  CheckRenderSettings(arguments.picture, "--");
+  api.open = [picture = arguments.picture, options](const std::string& name, uint64_t seed) {
     StageOptions stage = options;
     stage.world.world = name;
     stage.world.seed = seed;
     const auto world = std::make_shared<Stage>(stage);
-    world->renderer(tier);  // now, and not when the first agent waits for a picture
+    world->renderer(picture.tier);  // now, and not when the first agent waits for a picture
     LogInfo(name + ": ready after " + ClockText(world->load_seconds()));
-    return std::make_shared<AgentWorld>(world, tier);
+    return std::make_shared<AgentWorld>(world, picture);
   };
   api.realtime = arguments.realtime;
   api.clock = SteadySeconds;
@@ -82,8 +84,7 @@ void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
       ->required();
   command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8361)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
-  command->add_option("--tier", arguments->tier,
-                      "quality of colour pictures: fast, high or reference (default fast)");
+  AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->picture.Visit(v); });
   command->add_option("--episodes", arguments->episodes, "most episodes open at a time (default 64)");
   command->add_flag("--realtime", arguments->realtime,
                     "what an agent takes to think passes in its episode too; else time passes in actions alone");

@@ -86,34 +86,11 @@ PoseArgument ParsePose(const std::string& text) {
   return {{values[0], values[1], values[2]}, values[3], values[4], values[5]};
 }
 
-Tier ParseTierArgument(const std::string& text) {
-  return ParseChoice<Tier>("tier", text, kTierNames, "--tier");
-}
-
-int CheckSamples(Tier tier, int samples) {
-  const int most = tier == Tier::kReference ? 1 << 20 : 256;
-  if (samples < 0 || samples > most) {
-    throw InputError("--samples: " + std::to_string(samples) + " is not in 1 … " + std::to_string(most) +
-                     "; did you mean " + std::to_string(samples < 0 ? 1 : most) + "?");
-  }
-  return samples;
-}
-
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
                                    const std::vector<std::string>& choices) {
   std::vector<std::string> parts = Split(text, ',');
   for (const std::string& part : parts) ParseChoice("value", part, choices, flag);
   return parts;
-}
-
-void ParseProducts(const std::string& text, DatasetSpec& spec) {
-  std::vector<std::string> names(std::begin(kFixedProducts), std::end(kFixedProducts));
-  for (const OptionalProduct& product : kOptionalProducts) names.push_back(product.name);
-  for (const std::string& name : ParseList("--products", text, names)) {
-    for (const OptionalProduct& product : kOptionalProducts) {
-      if (name == product.name) spec.*product.wanted = true;
-    }
-  }
 }
 
 Shard ParseShard(const std::string& text) {

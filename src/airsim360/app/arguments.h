@@ -31,19 +31,9 @@ struct PoseArgument {
 };
 PoseArgument ParsePose(const std::string& text);
 
-/// A tier that can be rendered today; InputError naming `--tier` otherwise.
-Tier ParseTierArgument(const std::string& text);
-
-/// --samples: 0 (not given) … 256, of tier reference more; InputError otherwise.
-int CheckSamples(Tier tier, int samples);
-
 /// "a,b,c" split; InputError naming `flag` for an entry that is not among `choices`.
 std::vector<std::string> ParseList(std::string_view flag, const std::string& text,
                                    const std::vector<std::string>& choices);
-
-/// "rgb,range,flow": sets the optional products of `spec`; those that every dataset holds may be named too.
-/// InputError naming `--products` and the nearest name for one that does not exist.
-void ParseProducts(const std::string& text, DatasetSpec& spec);
 
 /// "I/N", 0 <= I < N; InputError naming `--shard` otherwise.
 struct Shard {

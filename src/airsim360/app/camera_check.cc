@@ -71,7 +71,7 @@ void CheckCameraPlaces(const RayTracer& tracer, const DatasetSpec& spec, const F
 void CheckFlowSteps(const RayTracer& tracer, const DatasetSpec& spec, const Flight& flight) {
   constexpr size_t kFrames = 32;
   constexpr int kDirections = 96;
-  if (!spec.flow || flight.shots.size() < 2) return;
+  if (!spec.products.flow || flight.shots.size() < 2) return;
   std::vector<double> steps, ranges;
   for (size_t i = 0; i + 1 < flight.shots.size(); ++i)
     steps.push_back(Norm(flight.shots[i + 1].body.X_WB.p - flight.shots[i].body.X_WB.p));

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/camera_arguments.h"
 #include "airsim360/app/camera_check.h"
 #include "airsim360/app/collect_human.h"
 #include "airsim360/app/collect_processes.h"
@@ -39,6 +40,7 @@ struct CollectArguments {
   double fps = 0;              // 0: not given
   std::optional<double> start;
   EnvironmentFlags environment;
+  CameraArguments camera;
   PictureArguments picture;
   PeopleArguments people;
   ProcessArguments processes;
@@ -74,12 +76,13 @@ void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
 }
 
 DatasetSpec MakeSpec(const CollectArguments& arguments, const GlobalOptions& globals) {
-  DatasetSpec spec;
+  DatasetSpec spec = arguments.picture.Spec();
+  arguments.camera.Apply(spec);
+  PictureArguments::Check(spec);
   spec.command = "collect";
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
-  arguments.picture.Apply(spec);
   SetFormats(arguments, spec);
   const Shard shard = ParseShard(arguments.shard);
   spec.shard = shard.index;
@@ -180,7 +183,7 @@ Plan MakePlan(const CollectArguments& arguments, const SimModel& model, DatasetS
   if (!arguments.plan.empty()) return PlanFromTrajectory(arguments, spec);
   if (arguments.route != "auto") return PlanFromFile(arguments, spec);
   if (std::optional<Plan> near_people = PlanNearPeople(arguments, model, spec)) return *std::move(near_people);
-  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, {.seed = spec.seed})), {}};
+  Plan plan{std::make_shared<const Route>(PlanSurvey(*model.tracer, {.seed = spec.seed, .viewpoints = SurveyViewpoints(arguments.frames)})), {}};
   plan.shot_times_ns = ShotTimes(arguments, *plan.route);
   spec.route = "auto" + Rate(arguments);
   return plan;
@@ -265,7 +268,11 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
     if (flight.least_clearance < kTouching) LogWarning("the route touches or enters a surface of the world");
   }
   const CollectInput input = InputOf(stage, spec, flight, arguments.out, trajectory_json);
-  if (arguments.processes.is_worker()) return RunWorker(input, stage.renderer(spec.tier));
+  if (arguments.processes.is_worker()) {
+    return RunWorker([&](std::span<const int64_t> frames, const std::function<void(int64_t)>& done) {
+      return CollectPart(input, stage.renderer(spec.tier), frames, done);
+    });
+  }
   const CollectResult result =
       processes == 1 ? Collect(input, stage.renderer(spec.tier)) : Collect(input, RenderInProcesses(processes));
   ReportRun(stage, spec, result, arguments.out, globals.json);
@@ -300,6 +307,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
       ->check(CLI::Range(0.001, 1000.0));
   command->add_option("--start", arguments->start, "with --fps: the first frame, seconds after the flight's start")
       ->check(CLI::Range(0.0, 1e7));
+  arguments->camera.AddTo(*command);
   arguments->picture.AddTo(*command);
   command->add_option("--format", arguments->format,
                       "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "

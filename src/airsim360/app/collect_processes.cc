@@ -148,12 +148,17 @@ void AddTotals(const std::string& line, CollectResult& result) {
   result.render_ms += render_ms, result.write_ms += write_ms, result.rays += rays;
 }
 
-void RenderAll(int processes, const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result) {
+void RenderAll(int processes, Dealing dealing, const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result) {
   const auto count = std::min(static_cast<size_t>(processes), missing.size());
   std::vector<std::unique_ptr<Worker>> workers;
   for (size_t k = 0; k < count; ++k) {
     std::vector<int64_t> frames;
-    for (size_t i = k; i < missing.size(); i += count) frames.push_back(missing[i]);
+    if (dealing == Dealing::kInTurn) {
+      for (size_t i = k; i < missing.size(); i += count) frames.push_back(missing[i]);
+    } else {
+      const auto border = [&](size_t n) { return missing.begin() + static_cast<ptrdiff_t>(missing.size() * n / count); };
+      frames.assign(border(k), border(k + 1));
+    }
     workers.push_back(std::make_unique<Worker>(static_cast<int>(k), static_cast<int>(count), std::move(frames)));
     workers.back()->Start();
   }
@@ -209,21 +214,21 @@ void BecomeWorker(const ProcessArguments& arguments, GlobalOptions& globals) {
   static const ThreadLimit share(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / count));
 }
 
-void RunWorker(const CollectInput& input, Renderer& renderer) {
+void RunWorker(const WriteFramesHere& write) {
   std::vector<int64_t> frames;
   std::string line;
   while (std::getline(std::cin, line) && line != "end") frames.push_back(std::stoll(line));
   if (line != "end") throw RuntimeError("--worker: the process that knows the frames is gone");
-  const CollectResult result = CollectPart(input, renderer, frames, [](int64_t frame) {
+  const CollectResult result = write(frames, [](int64_t frame) {
     std::printf("frame %lld\n", static_cast<long long>(frame));
     std::fflush(stdout);
   });
   std::printf("total %.6f %.6f %llu\n", result.render_ms, result.write_ms, static_cast<unsigned long long>(result.rays));
 }
 
-RenderElsewhere RenderInProcesses(int processes) {
-  return [processes](const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result) {
-    RenderAll(processes, missing, written, result);
+RenderElsewhere RenderInProcesses(int processes, Dealing dealing) {
+  return [processes, dealing](const std::vector<int64_t>& missing, const std::function<void()>& written, CollectResult& result) {
+    RenderAll(processes, dealing, missing, written, result);
   };
 }
 

@@ -1,7 +1,9 @@
 // `collect` in several processes: one that knows what is missing, and others that render it.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,11 +27,15 @@ int CountProcesses(const ProcessArguments& arguments, const GlobalOptions& globa
 /// In a worker: takes its GPU and its share of the cores out of `globals`, and ends it when its parent dies.
 void BecomeWorker(const ProcessArguments& arguments, GlobalOptions& globals);
 
-/// In a worker, once the world is loaded: renders what it is told to and reports on stdout.
-void RunWorker(const CollectInput& input, Renderer& renderer);
+/// Writes frames and tells `done` of each.
+using WriteFramesHere = std::function<CollectResult(std::span<const int64_t> frames, const std::function<void(int64_t frame)>& done)>;
+/// In a worker: writes what it is told to and reports on stdout.
+void RunWorker(const WriteFramesHere& write);
 
-/// In the parent: has `processes` copies of this program with the same arguments render. Frames are dealt out in turn; a
+/// How frames are dealt out among processes: one to each in turn, or to each those that follow one another.
+enum class Dealing { kInTurn, kRuns };
+/// In the parent: has `processes` copies of this program with the same arguments render. A
 /// process that is killed is started again for what it left. RuntimeError if one fails, or dies again and again.
-RenderElsewhere RenderInProcesses(int processes);
+RenderElsewhere RenderInProcesses(int processes, Dealing dealing = Dealing::kInTurn);
 
 }  // namespace airsim360

@@ -9,7 +9,7 @@
 
 namespace airsim360 {
 
-/// Adds --weather, --sun, --time, --place, --hdri and --environment; `flags` must outlive the command.
+/// Adds --weather, --clouds, --sky-seed, --sun, --time, --place, --hdri and --environment; `flags` must outlive the command.
 void AddEnvironmentFlags(CLI::App& command, EnvironmentFlags& flags);
 
 /// Adds --wind; `file` must outlive the command.

@@ -10,10 +10,10 @@
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/fly_run.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/video_arguments.h"
 #include "airsim360/app/world_flags.h"
-#include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
@@ -33,12 +33,14 @@ namespace fs = std::filesystem;
 
 struct FlyArguments {
   std::string world, drone = "hummingbird", controller = "indi", waypoints, script, pose, sensors, wind, out,
-                     size = "1024x512", tier = "fast", pano_frame, video;
+                     size = "1024x512", video;
   double vmax = 4, amax = 4, speed = 0, fps = VideoOptions{}.frame_rate;
   int64_t frames = 0;
   bool record = false;
   EnvironmentFlags environment;
   PeopleArguments people;
+  PictureArguments picture;
+  bool pano_frame_given = false;
   VideoArguments encoding;
 };
 
@@ -167,7 +169,7 @@ void WriteFiles(const FlyArguments& arguments, const FlyResult& result) {
 
 // What frames and videos of the flight look like. A video is level unless told otherwise: nobody likes a sphere that rolls.
 DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, bool video) {
-  DatasetSpec spec;
+  DatasetSpec spec = arguments.picture.Spec();
   spec.command = "fly";
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
@@ -176,12 +178,11 @@ DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, 
   CheckPanoramaSize(size);
   spec.width = size.width;
   spec.height = size.height;
-  spec.tier = ParseTierArgument(arguments.tier);
   spec.frames = arguments.frames;
   spec.route = "flight of " + arguments.drone;
   spec.people = arguments.people.Describe();
-  const std::string frame = arguments.pano_frame.empty() ? (video ? "level" : "body") : arguments.pano_frame;
-  spec.pano_frame = ParseChoice<PanoFrame>("value", frame, kPanoFrameNames, "--pano-frame");
+  if (video && !arguments.pano_frame_given) spec.pano_frame = PanoFrame::kLevel;
+  PictureArguments::Check(spec);
   return spec;
 }
 
@@ -223,7 +224,6 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   for (const FlyTask& task : job.tasks) longest += task.seconds;
   CheckSensorLog(setup.sensors, longest);
   CheckVideoFlags(arguments, globals);
-  ParseTierArgument(arguments.tier);
   StageOptions options =
       StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
   options.wind = ReadWindFile(arguments.wind);
@@ -309,9 +309,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
       ->add_option("--frames", arguments->frames, "panoramas spread over the flight, in frames/ (default 0)")
       ->check(CLI::Range(int64_t{0}, int64_t{1000000}));
   command->add_option("--size", arguments->size, "WxH of the panoramas (default 1024x512)");
-  command->add_option("--tier", arguments->tier, "labels, fast, high or reference (default fast)");
-  command->add_option("--pano-frame", arguments->pano_frame,
-                      "body or level: turn with the body or only with its heading (default body, of videos level)");
+  arguments->picture.AddTo(*command);
   command->add_option("--video", arguments->video, "FILE.mp4: a 360 degree video of the flight; needs the program ffmpeg");
   command->add_option("--fps", arguments->fps, "pictures a second of the video (default 30)")->check(CLI::Range(0.1, 240.0));
   arguments->encoding.AddTo(*command);
@@ -319,7 +317,10 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");
-  command->callback([arguments, &globals] { RunFly(*arguments, globals); });
+  command->callback([arguments, command, &globals] {
+    arguments->pano_frame_given = command->count("--pano-frame") > 0;
+    RunFly(*arguments, globals);
+  });
 }
 
 }  // namespace airsim360

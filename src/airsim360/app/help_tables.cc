@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 
+#include "airsim360/app/config_flags.h"
 #include "airsim360/app/help.h"
+#include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/plan_output.h"
 #include "airsim360/dataset/record/spec.h"
 #include "airsim360/flight/drones/catalog.h"
@@ -18,9 +20,11 @@ struct FlagGroup {
 };
 
 constexpr auto kGroups = std::to_array<FlagGroup>({
-    {"World", " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes --bbox --centre "
+    {"World",
+     " --world --labels --heights --no-fill --recipe --subset --settings --seed --episodes --bbox --centre "
      "--scale --up --offset --ground "},
-    {"Drone", " --drone --real --file --catalog --words --form --llm --llm-model --llm-key-env --check --controller "
+    {"Drone",
+     " --drone --real --file --catalog --words --form --llm --llm-model --llm-key-env --check --controller "
      "--sensors --wind "},
     {"Route",
      " --waypoints --route --plan --pose --script --from --to --avoid --clearance --area --height --spacing "
@@ -29,14 +33,16 @@ constexpr auto kGroups = std::to_array<FlagGroup>({
      " --vmax --amax --axis-vmax --axis-amax --climb --descent --dt --order --minimise --speed --realtime "
      "--lockstep "},
     {"Camera",
-     " --projection --cameras --size --fov --pano-frame --lens --width --cube --axes --depth-z --nearest --filter "
+     " --projection --cameras --size --fov --pano-frame --lens --look --width --cube --axes --depth-z --nearest "
+     "--filter "
      "--ppd --wrap "},
-    {"Quality", " --tier --samples --no-denoise --edge-samples --tone --exposure "},
+    {"Look", ""},     // what CameraLook names, for --look photo
+    {"Quality", ""},  // and what else RenderSettings names
     {"People", " --people --people-warmup --people-level --people-reserve --sockets --overlay "},
-    {"Weather", " --weather --sun --time --place --hdri --environment "},
+    {"Weather", " --weather --clouds --sky-seed --sun --time --place --hdri --environment --latitude --min-sun --rural "},
     {"Output",
      " --out --frames --fps --shard --products --normal --radiance --format --rgb-format --video --encoder "
-     "--quality --record --buildings --csv --count --dataset --routes --worlds --json "},
+     "--quality --record --buildings --csv --count --dataset --routes --worlds --shard-mb --points --method --parallax --bits --model --apply --html --json "},
     {"Further", ""},
     {"Machine", " --threads --device --gpu --processes --no-cache --host --port --help --version "},
 });
@@ -86,6 +92,14 @@ constexpr auto kExamples = std::to_array<CommandExample>({
      "a way round everything, and a drawing of it"},
     {"verify", "airsim360 verify dataset", "whether every file of a dataset is there and unharmed"},
     {"verify", "airsim360 verify dataset --json", "the same, for programs"},
+    {"dataset export", "airsim360 dataset export town --format omni360 --out town_omni360",
+     "in the layout of the AirSim360 release"},
+    {"dataset export", "airsim360 dataset export town --format webdataset --shard-mb 500 --out shards",
+     "tar files for training"},
+    {"dataset dedupe", "airsim360 dataset dedupe town", "which frames show what an earlier one shows"},
+    {"dataset dedupe", "airsim360 dataset dedupe town --parallax 0.05 --apply", "removes them, with a wider net"},
+    {"dataset card", "airsim360 dataset card town", "what it holds, as Markdown"},
+    {"dataset card", "airsim360 dataset card town --html", "writes town/index.html to look through it"},
     {"video", "airsim360 video dataset --out film.mp4", "the panoramas of a dataset as a 360 degree video"},
     {"video", "airsim360 video dataset --fps 10 --encoder libx264 --out film.mp4",
      "ten a second, the same bytes on any machine"},
@@ -111,6 +125,9 @@ constexpr auto kExamples = std::to_array<CommandExample>({
     {"drone", "airsim360 drone \"a 250 g five-inch racing quad\" --out racer.yaml",
      "a drone from words, for fly --drone racer.yaml"},
     {"drone", "airsim360 drone --catalog", "the real drones that are known"},
+    {"environments sample", "airsim360 environments sample 24 --seed 7", "24 skies of a temperate year, by day"},
+    {"environments sample", "airsim360 environments sample 5 --latitude -23 --min-sun 10 --json",
+     "of the tropic of Capricorn, with month, hour and kind of sky"},
     {"doctor", "airsim360 doctor", "what is missing on this machine, and the command that installs it"},
     {"doctor", "airsim360 doctor --json", "the same, for programs"},
     {"completion", "airsim360 completion bash > ~/.local/share/bash-completion/completions/airsim360",
@@ -139,14 +156,8 @@ std::vector<std::string> Words(string_view text) {
 
 // Flags whose values are the same in every command.
 constexpr std::pair<string_view, string_view> kFixedChoices[] = {
-    {"--tier", "labels fast high reference"},
     {"--device", "auto cpu vulkan"},
     {"--projection", "erp cube pinhole fisheye"},
-    {"--pano-frame", "body level"},
-    {"--rgb-format", "png jpg"},
-    {"--tone", "filmic agx linear"},
-    {"--lens", "ideal real360"},
-    {"--exposure", "0 auto"},
     {"--controller", "simple_flight px4 se3 indi"},
     {"--minimise", "snap jerk"},
     {"--order", "5 7"},
@@ -169,7 +180,9 @@ string_view GroupOfFlag(string_view flag) {
   for (const FlagGroup& group : kGroups) {
     if (Holds(group.flags, flag)) return group.name;
   }
-  return "Further";
+  const std::vector<std::string> looks = ConfigFlagNames([](ConfigVisitor& v) { CameraLook().Visit(v); });
+  if (std::ranges::count(looks, flag) > 0) return "Look";
+  return std::ranges::count(PictureFlagNames(), flag) > 0 ? "Quality" : "Further";
 }
 
 std::vector<std::string> ChoicesOf(string_view command, string_view flag) {
@@ -183,19 +196,22 @@ std::vector<std::string> ChoicesOf(string_view command, string_view flag) {
     return names;
   }
   if (flag == "--weather") return EnvironmentPresetNames();
+  if (flag == "--clouds") return CloudPresetNames();
   if (flag == "--format")
     return command == "plan"
                ? PlanFormats()
                : Words("native coco video coco_keypoints kitti nuscenes monoloco crops overlay");
   if (flag == "--route") return Words(command == "plan" ? "coverage orbit road random" : "auto");
   if (flag == "--products") {
-    for (const OptionalProduct& product : kOptionalProducts) names.emplace_back(product.name);
+    for (const ProductInfo& product : kProducts) {
+      if (!product.always) names.emplace_back(product.name);
+    }
     return names;
   }
   for (const auto& [name, choices] : kFixedChoices) {
     if (name == flag) return Words(choices);
   }
-  return {};
+  return ConfigFlagChoices([](ConfigVisitor& v) { DatasetSpec().Visit(v); }, flag);
 }
 
 bool TakesFiles(string_view flag) {

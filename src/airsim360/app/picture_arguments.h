@@ -1,27 +1,29 @@
-// Flags of `render` and `collect` that say what a frame is: cameras, tier, products, and how its colours are made.
+// Flags that say how pictures are made and which: those of `render`, `collect` and `fly`.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "airsim360/app/camera_arguments.h"
 #include "airsim360/dataset/record/spec.h"
 
 namespace airsim360 {
 
 struct PictureArguments {
-  CameraArguments camera;
-  std::string tier = "fast", products, rgb_format = "png", pano_frame = "body";
-  std::string tone = "filmic", exposure = "0", lens = "ideal";
-  int samples = 0;
-  bool normal = false, no_denoise = false, radiance = false;
-  std::optional<int> edge_samples;
-
   /// Adds the flags; this object must outlive the parsing.
   void AddTo(CLI::App& command);
-  /// Fills the spec. InputError naming the flag and the value.
-  void Apply(DatasetSpec& spec) const;
+  /// A dataset whose pictures are made so; the rest is the caller's. InputError naming the flag and the value.
+  DatasetSpec Spec() const;
+  /// What does not fit the cameras of `spec`: InputError naming the flag.
+  static void Check(const DatasetSpec& spec);
+
+ private:
+  DatasetSpec picture_;  // what DatasetSpec::Visit names
+  std::vector<std::string> products_;
+  bool normal_ = false, radiance_ = false;
 };
+
+/// The flags that all pictures have, for completion and the groups of --help.
+const std::vector<std::string>& PictureFlagNames();
 
 }  // namespace airsim360

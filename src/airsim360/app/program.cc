@@ -155,12 +155,14 @@ Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim
   AddPlanCommand(app_, globals_);
   AddVerifyCommand(app_, globals_);
   AddVideoCommand(app_, globals_);
+  AddDatasetCommand(app_, globals_);
   AddStitchCommand(app_, globals_);
   AddEvalCommand(app_, globals_);
   AddFlyCommand(app_, globals_);
   AddServeCommand(app_, globals_);
   AddAgentCommand(app_, globals_);
   AddDroneCommand(app_, globals_);
+  AddEnvironmentsCommand(app_, globals_);
   AddDoctorCommand(app_, globals_);
   for (CLI::App* command : app_.get_subcommands(Any)) {
     const auto nested = command->get_subcommands(Any);

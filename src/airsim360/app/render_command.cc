@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "airsim360/app/arguments.h"
+#include "airsim360/app/camera_arguments.h"
 #include "airsim360/app/camera_check.h"
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
@@ -26,6 +27,7 @@ constexpr double kLookDown = -20;  // degrees, of a narrow camera near people
 struct RenderArguments {
   std::string world, pose, out;
   EnvironmentFlags environment;
+  CameraArguments camera;
   PictureArguments picture;
   PeopleArguments people;
   bool overlay = false;
@@ -63,12 +65,13 @@ PoseArgument DefaultPose(const SimModel& model, const DatasetSpec& spec) {
 
 void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded.
-  DatasetSpec spec;
+  DatasetSpec spec = arguments.picture.Spec();
+  arguments.camera.Apply(spec);
+  PictureArguments::Check(spec);
   spec.command = "render";
   spec.world = DescribeWorld(arguments.world, globals);
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
-  arguments.picture.Apply(spec);
   spec.people = arguments.people.Describe();
   spec.overlay = arguments.overlay;
   if (spec.overlay && (spec.people.empty() || spec.tier == Tier::kLabels))
@@ -105,6 +108,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
       "--pose", arguments->pose,
       "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]] in metres and degrees; in maps also 60.1708N,24.9375E for x,y (default: "
       "the world's spawn, or near people)");
+  arguments->camera.AddTo(*command);
   arguments->picture.AddTo(*command);
   arguments->people.AddTo(*command);
   command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");

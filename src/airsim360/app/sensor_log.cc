@@ -113,7 +113,7 @@ SensorLog::SensorLog(std::shared_ptr<const SimModel> model, Stage& stage, fs::pa
   if (!range_finders_.empty() || !lidars_.empty() || !cameras_.empty())
     snapshots_.emplace(model_, stage_.tracer());
   // What cannot be had is found out on the ground.
-  for (const auto& camera : set_.cameras) stage_.renderer(ParseTier(camera.spec.tier));
+  for (const auto& camera : set_.cameras) stage_.renderer(camera.spec.tier);
 }
 
 int64_t SensorLog::NextDue(int64_t t_ns) const {
@@ -194,7 +194,7 @@ void SensorLog::NoteScan(const SimState& state, size_t i, Track& track) {
 
 // Colours; of tier labels, which has none, the categories.
 void SensorLog::NotePicture(const SimState& state, size_t i, Track& track) {
-  const Tier tier = ParseTier(set_.cameras[i].spec.tier);
+  const Tier tier = set_.cameras[i].spec.tier;
   const bool colours = tier != Tier::kLabels;
   const Products products{.rgb = colours, .range = false, .semantic = !colours, .entity = false};
   snapshots_->Camera(state, 0, i, products, stage_.renderer(tier), capture_);

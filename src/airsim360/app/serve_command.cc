@@ -5,6 +5,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
@@ -21,7 +22,8 @@ namespace {
 constexpr std::chrono::milliseconds kLastJob{800};  // that a job has to end when the server is stopped
 
 struct ServeArguments {
-  std::string world, settings, tier = "fast", host, wind;
+  std::string world, settings, host, wind;
+  RenderSettings picture;
   std::optional<int> port;
   PeopleArguments people;
   bool realtime = false, lockstep = false;
@@ -57,7 +59,9 @@ ServerOptions OptionsOf(const ServeArguments& arguments, const GlobalOptions& gl
   options.address = arguments.host.empty() ? options.settings.local_host_ip : arguments.host;
   options.port = arguments.port.value_or(options.settings.port);
   options.lockstep = arguments.lockstep;
-  options.tier = ParseTierArgument(arguments.tier);
+  CheckRenderSettings(arguments.picture, "--");
+  options.picture = arguments.picture;
+  options.picture.seed = globals.seed;
   options.assets = AssetsOf(globals.seed);
   return options;
 }
@@ -99,8 +103,7 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
                       "TCP port, 0 = any free one (default: of the settings, 41451)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
   arguments->people.AddTo(*command);
-  command->add_option("--tier", arguments->tier,
-                      "quality of colour pictures: fast, high or reference (default fast)");
+  AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->picture.Visit(v); });
   command->add_flag("--realtime", arguments->realtime, "time passes with the wall clock (default)");
   command->add_flag("--lockstep", arguments->lockstep,
                     "time passes only in simContinueForTime and simContinueForFrames, as fast as it can");

@@ -7,8 +7,9 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
-#include "airsim360/app/session.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/config_flags.h"
+#include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/app/world_sheet.h"
 #include "airsim360/assets/export.h"
@@ -280,7 +281,7 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   sheet->add_option("--poses", view->poses, "places, 1 … 64 (16)");
   sheet->add_option("--heights", view->heights, "metres above the ground (1.6,12,40,100)")->delimiter(',');
   sheet->add_option("--width", view->width, "of one panorama in pixels (512)");
-  sheet->add_option("--tier", view->tier, "labels, fast, high or reference (fast)");
+  AddConfigFlags(*sheet, [view](ConfigVisitor& v) { view->picture.Visit(v); });
   AddWorldFlags(*sheet, globals);
   sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
 }

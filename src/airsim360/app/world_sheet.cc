@@ -115,7 +115,7 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
     throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
   if (arguments.width < 128 || arguments.width > 2048 || arguments.width % 4)
     throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 128 … 2048");
-  const Tier tier = ParseTierArgument(arguments.tier);
+  CheckRenderSettings(arguments.picture, "--");
   Stage stage(StageOptionsOf(arguments.world, globals));
   const std::vector<Vec3f> places = ChoosePlaces(stage, arguments, globals.seed);
   if (places.empty()) throw RuntimeError(arguments.world + ": no open place found around the spawn");
@@ -133,13 +133,11 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
     for (int column = 0; column < columns; ++column) {
       const Vec3f p = places[static_cast<size_t>(row)];
       const double z = p.z + arguments.heights[static_cast<size_t>(column)];
-      RenderRequest request;
-      request.camera = Equirectangular{w, h};
-      request.X_WC = BodyPose({p.x, p.y, z}, 0.6 * row, 0, 0) * CameraInBody();
-      request.tier = tier;
+      RenderRequest request{arguments.picture, Equirectangular{w, h},
+                            BodyPose({p.x, p.y, z}, 0.6 * row, 0, 0) * CameraInBody()};
       request.products.albedo = true;
       request.seed = globals.seed;
-      render_ms += stage.renderer(tier).Render(request, frame).render_ms;
+      render_ms += stage.renderer(request.tier).Render(request, frame).render_ms;
       figures[static_cast<size_t>(column)].Add(frame);
       all.Add(frame);
       std::map<CategoryId, std::set<EntityId>> seen;

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "airsim360/app/commands.h"
+#include "airsim360/render/render_settings.h"
 
 namespace airsim360 {
 
 struct SheetArguments {
-  std::string world, out, tier = "fast";
+  std::string world, out;
+  RenderSettings picture;
   int poses = 16;
   int width = 512;
   std::vector<double> heights{1.6, 12, 40, 100};

@@ -9,6 +9,8 @@ int main() {
   using namespace airsim360;
   const auto renderer = MakeCpuRenderer(std::make_shared<RayTracer>(LoadWorld({.world = "box_room"})));
   Frame frame;
-  renderer->Render({.camera = Equirectangular{128, 64}, .X_WC = BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody()}, frame);
+  renderer->Render(
+      MakeRequest(Equirectangular{128, 64}, BodyPose({0, 0, 3}, 0, 0, 0) * CameraInBody(), Tier::kFast),
+      frame);
   std::printf("%.2f\n", static_cast<double>(frame.range(64, 32)));
 }

@@ -40,6 +40,17 @@ class YamlWriter : public ConfigVisitor {
     Line(name, Quoted(value), help);
   }
   void Field(std::string_view, std::string_view, std::vector<std::string>&) override {}
+  void Count(std::string_view name, std::string_view help, int& value, int) override {
+    if (value != 0) Line(name, std::to_string(value), help);
+  }
+  void NumberOr(std::string_view name, std::string_view help, const char* word, bool& is_word, double& value,
+                double, double) override {
+    Line(name, is_word ? std::string(word) : Number(value), help);
+  }
+  void Choice(std::string_view name, std::string_view help, std::span<const char* const> names, size_t index,
+              const std::function<void(size_t)>&) override {
+    Line(name, names[index], help);
+  }
   void Group(std::string_view name, std::string_view help, const ConfigFields& visit) override {
     Line(name, "", help);
     YamlWriter inner(depth_ + 1);

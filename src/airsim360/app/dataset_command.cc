@@ -1,0 +1,23 @@
+// airsim360 dataset: what is done with whole datasets; a file for each of its commands.
+#include "airsim360/app/commands.h"
+#include "airsim360/app/dataset_card_command.h"
+#include "airsim360/app/dataset_dedupe_command.h"
+#include "airsim360/app/dataset_export_command.h"
+#include "airsim360/app/dataset_plan_command.h"
+
+namespace airsim360 {
+
+void AddDatasetCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand("dataset", "datasets as a whole: plans, shards, clusters, other formats, duplicates, what is in them");
+  command->require_subcommand(1);
+  AddDatasetPlan(*command, globals);
+  AddDatasetRun(*command, globals);
+  AddDatasetMerge(*command, globals);
+  AddDatasetStatus(*command, globals);
+  AddDatasetSlurm(*command, globals);
+  AddDatasetExport(*command, globals);
+  AddDatasetDedupe(*command, globals);
+  AddDatasetCard(*command, globals);
+}
+
+}  // namespace airsim360
