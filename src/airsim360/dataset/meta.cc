@@ -170,11 +170,11 @@ std::string DescribeMetaDifference(const std::string& on_disk, const std::string
     return json.is_object() && json.contains(key) ? json[key].dump() : std::string("nothing");
   };
   const Json parameters = a.value("parameters", Json::object());
-  // What was given as flags of a plan is told by the parameter that it changes, if there is one.
-  constexpr const char* kGiven = "picture";
-  for (const bool given : {false, true}) {
+  // What follows from another parameter is told last: the products from the tier, `picture` from the flags of a plan.
+  const auto follows = [](const std::string& key) { return key == "products" || key == "picture"; };
+  for (const bool last : {false, true}) {
     for (const auto& [key, value] : b["parameters"].items()) {
-      if ((key == kGiven) == given && text(parameters, key) != value.dump())
+      if (follows(key) == last && text(parameters, key) != value.dump())
         return key + " is " + text(parameters, key) + " there, " + value.dump() + " here";
     }
   }
