@@ -154,8 +154,8 @@ class Dedupe(FormatTest):
         self.assertEqual(len(json.loads((out / "annotations/instances.json").read_text())["images"]), len(kept))
 
     def test_what_is_wrong_is_named(self):
-        for words, says in [(["--method", "paralax"], ["--method", "did you mean 'parallax'"]), (["--method", "sscd", "--model", "m.onnx"], ["sscd", "OpenCV"]),
-                            (["--parallax", "-1"], ["--parallax"]), (["--bits", "300"], ["--bits", "300"]), (["--model", "m.onnx"], ["--model", "sscd"])]:
+        for words, says in [(["--method", "paralax"], ["--method", "did you mean 'parallax'"]), (["--method", "sscd"], ["--method sscd", "--model"]),
+                            (["--parallax", "-1"], ["--parallax"]), (["--bits", "300"], ["--bits", "300"]), (["--model", "m.onnx"], ["--model", "sscd"]), (["--similarity", "0.5"], ["--similarity", "sscd"])]:
             self.run_bad(2, "dataset", "dedupe", self.data, *words, says=says)
         self.run_bad(2, "dataset", "dedupe", self.folder / "none", says=["none"])
         self.assertFalse((self.data / "kept.txt").exists())

@@ -1,5 +1,6 @@
 #include "airsim360/app/dataset_dedupe_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -16,10 +17,13 @@ struct DedupeArguments {
   DedupeOptions options;
 };
 
-void RunDedupe(DedupeArguments arguments, bool json) {
+void RunDedupe(DedupeArguments arguments, const CLI::App& command, bool json) {
   arguments.options.methods = ParseList("--method", arguments.methods, {std::begin(kDedupeMethods), std::end(kDedupeMethods)});
-  if (!arguments.model.empty() && arguments.methods.find("sscd") == std::string::npos)
-    throw InputError("--model: '" + arguments.model + "' is for --method sscd");
+  for (const char* flag : {"--model", "--similarity"}) {
+    if (command.count(flag) > 0 && std::ranges::count(arguments.options.methods, "sscd") == 0)
+      throw InputError(std::string(flag) + ": it is for --method sscd");
+  }
+  arguments.options.model = arguments.model;
   const DedupeResult result = DedupeDataset(arguments.folder, arguments.options);
   std::map<std::string, int64_t> reasons;
   for (const DroppedFrame& frame : result.dropped) ++reasons[frame.reason];
@@ -47,9 +51,10 @@ void AddDatasetDedupe(CLI::App& dataset, GlobalOptions& globals) {
   command->add_option("--method", arguments->methods, "of parallax, hash, sscd (default parallax,hash)");
   command->add_option("--parallax", arguments->options.parallax, "rad: baseline / median range of twins is below (default 0.02)");
   command->add_option("--bits", arguments->options.bits, "of 256: hashes of twins differ in no more (default 31)");
-  command->add_option("--model", arguments->model, "ONNX file of --method sscd");
+  command->add_option("--model", arguments->model, "ONNX file of the network of --method sscd");
+  command->add_option("--similarity", arguments->options.similarity, "of --method sscd: cosine of descriptors of twins is at least (default 0.75)");
   command->add_flag("--apply", arguments->options.apply, "take the dropped frames out of the dataset");
-  command->callback([arguments, &globals] { RunDedupe(*arguments, globals.json); });
+  command->callback([arguments, command, &globals] { RunDedupe(*arguments, *command, globals.json); });
 }
 
 }  // namespace airsim360

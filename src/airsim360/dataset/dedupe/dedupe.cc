@@ -12,6 +12,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/dataset/dedupe/alike_search.h"
 #include "airsim360/dataset/dedupe/panorama_hash.h"
 #include "airsim360/dataset/export/native_dataset.h"
 #include "airsim360/dataset/folder.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kHashReach = 4;     // times the parallax: how far apart pictures are compared
 constexpr double kSkyRange = 50;     // metres: stands for the median range where a picture is all sky
 constexpr double kTurn = 0.02;       // radians: how little pictures that are no panoramas may be turned
+constexpr double kRounding = 1e-6;   // of the similarity of a picture with itself
 
 // What of a frame decides.
 struct Candidate {
@@ -134,22 +136,23 @@ class Hashes {
 };
 
 struct Methods {
-  bool parallax = false, hash = false;
+  bool parallax = false, hash = false, sscd = false;
 };
 
 Methods MethodsOf(const NativeDataset& data, const DedupeOptions& options) {
   Methods methods;
   for (const std::string& name : options.methods) {
-    const size_t index = ParseChoice<size_t>("method", name, kDedupeMethods, "--method");
-    if (index == 2)
-      throw InputError("--method sscd: needs a neural network, and this program is built without one (OpenCV's DNN, libopencv-dnn-dev); use parallax,hash");
-    (index == 0 ? methods.parallax : methods.hash) = true;
+    bool* const chosen[] = {&methods.parallax, &methods.hash, &methods.sscd};
+    *chosen[ParseChoice<size_t>("method", name, kDedupeMethods, "--method")] = true;
   }
-  if (!methods.parallax && !methods.hash) throw InputError("--method: name parallax, hash or both");
+  if (!methods.parallax && !methods.hash && !methods.sscd) throw InputError("--method: name parallax, hash or sscd");
+  if (methods.sscd && options.model.empty())
+    throw InputError("--method sscd: name an ONNX file of the network with --model; there is none in the program");
   if (data.views().size() != 1) throw InputError("dedupe: '" + data.folder().string() + "' has several pictures a frame; datasets of one camera are filtered");
   const bool hashable = data.Has("rgb") && data.views().front().projection == Projection::kErp;
   if (methods.hash && !hashable && !methods.parallax) throw InputError("--method hash: needs colour panoramas, which '" + data.folder().string() + "' lacks; use parallax");
   methods.hash = methods.hash && hashable;
+  if (methods.sscd && !hashable) throw InputError("--method sscd: needs colour panoramas, which '" + data.folder().string() + "' lacks; use parallax");
   return methods;
 }
 
@@ -170,6 +173,7 @@ struct Filter {
   Methods methods;
   std::vector<Candidate> frames;
   Hashes hashes{data};
+  std::optional<internal::AlikeSearch> alike = {};
 
   bool IsParallaxTwin(const Candidate& a, const Candidate& b) const {
     if (a.state != b.state || Parallax(a, b) >= options.parallax) return false;
@@ -177,8 +181,15 @@ struct Filter {
   }
   // All pictures that can be wanted: those with any earlier one near that is no twin by parallax.
   void PrepareHashes();
+  void OpenModel();
   DedupeResult Run();
 };
+
+void Filter::OpenModel() {
+  std::vector<internal::AlikeFrame> list;
+  for (const Candidate& frame : frames) list.push_back({frame.position, frame.R, frame.place});
+  alike.emplace(data, std::move(list), options.model);
+}
 
 void Filter::PrepareHashes() {
   const double reach = kHashReach * options.parallax;
@@ -206,13 +217,15 @@ void Filter::PrepareHashes() {
 DedupeResult Filter::Run() {
   DedupeResult result;
   result.histogram.assign(std::size(kParallaxBins) + 1, 0);
+  if (methods.sscd) OpenModel();
   if (methods.hash) PrepareHashes();
+  ProgressBar progress("dedupe: frames", static_cast<int64_t>(frames.size()));
   const double reach = std::max(kHashReach * options.parallax, kParallaxBins[std::size(kParallaxBins) - 1]);
   KeptFrames kept(reach);
   for (size_t i = 0; i < frames.size(); ++i) {
     const Candidate& frame = frames[i];
-    // The nearest twin by parallax, else the most alike by hash; of equal ones the earliest.
-    std::optional<DroppedFrame> by_parallax, by_hash;
+    // The nearest twin by parallax, else the most alike by hash, else by the network; of equal ones the earliest.
+    std::optional<DroppedFrame> by_parallax, by_hash, by_network;
     double nearest = reach;
     kept.Near(frame, [&](size_t k) {
       const double parallax = Parallax(frame, frames[k]);
@@ -230,14 +243,21 @@ DedupeResult Filter::Run() {
     });
     const auto bin = static_cast<size_t>(std::ranges::upper_bound(kParallaxBins, nearest) - std::begin(kParallaxBins));
     if (i > 0) ++result.histogram[std::min(bin, std::size(kParallaxBins))];
-    if (by_parallax || by_hash) {
-      result.dropped.push_back(by_parallax ? *by_parallax : *by_hash);
+    if (alike && !by_parallax && !by_hash) {
+      const auto twin = alike->MostAlike(i);
+      if (twin && twin->similarity >= options.similarity - kRounding)
+        by_network = DroppedFrame{frame.stem, frames[twin->number].stem, "sscd", twin->similarity};
+    }
+    if (by_parallax || by_hash || by_network) {
+      result.dropped.push_back(by_parallax ? *by_parallax : by_hash ? *by_hash : *by_network);
     } else {
       result.kept.push_back(frame.stem);
       kept.Add(frame, i);
+      if (alike) alike->Keep();
     }
+    progress.Update(static_cast<int64_t>(i + 1));
   }
-  result.hashed = static_cast<int64_t>(hashes.size());
+  result.hashed = static_cast<int64_t>(hashes.size()) + (alike ? alike->described() : 0);
   return result;
 }
 
@@ -257,6 +277,8 @@ DedupeResult DedupeDataset(const fs::path& folder, const DedupeOptions& options)
   if (!(options.parallax > 0 && options.parallax < 1))
     throw InputError("--parallax: " + std::to_string(options.parallax) + " is not in 0 … 1 rad");
   if (options.bits < 0 || options.bits > 256) throw InputError("--bits: " + std::to_string(options.bits) + " is not in 0 … 256");
+  if (!(options.similarity > 0 && options.similarity <= 1))
+    throw InputError("--similarity: " + std::to_string(options.similarity) + " is not above 0 and at most 1");
   DedupeResult result;
   {
     const NativeDataset data(folder);

@@ -1,0 +1,10 @@
+# One of two sources knows OpenCV; the other says that this build has none.
+set(opencv_source ${CMAKE_CURRENT_SOURCE_DIR}/src/airsim360/dataset/dedupe/copy_detector_opencv.cc)
+get_target_property(dataset_sources airsim360_dataset SOURCES)
+if(OPENCV_LIBRARIES)
+  list(FILTER dataset_sources EXCLUDE REGEX "/copy_detector_none\\.cc$")
+  set_source_files_properties(${opencv_source} PROPERTIES COMPILE_OPTIONS "-isystem;${OPENCV_INCLUDE_DIR}")
+else()
+  list(FILTER dataset_sources EXCLUDE REGEX "/copy_detector_opencv\\.cc$")
+endif()
+set_target_properties(airsim360_dataset PROPERTIES SOURCES "${dataset_sources}")
