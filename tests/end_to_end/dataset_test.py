@@ -203,15 +203,45 @@ class Datasets(ProgramTest):
         plan_of(RECIPE.replace("weather: overcast", "weather: overcats"), "overcast")
         plan_of(RECIPE.replace("cloud_cover", "clouds_cover"), "cloud_cover")
         plan_of(RECIPE.replace("high: 0.9", "high: 1.9"), "cloud_cover is 1.9")
+        plan_of(RECIPE.replace("setting: cloud_cover", "setting: exposure"), "skies 'two'", "exposure: auto")
+        plan_of(RECIPE.replace("exposure: auto", "exposure: 0").replace("setting: cloud_cover, low: 0", "setting: exposure, low: -21"), "-20 … 20 stops")
         plan_of(RECIPE.replace("frames: 7", "frames: -7"), "r.yaml:11", "frames")
         plan_of(RECIPE.replace("name: sunny", "name: boxes"), "two rows are called 'boxes'")
         plan_of(RECIPE.replace("skies: two, clearance: 0.5", "skies: tow, clearance: 0.5"), "did you mean 'two'")
         plan_of(RECIPE.replace("clearance: 0.3", "clearance: 90"), "no free place")
+        self.run_bad(2, "dataset", "plan", "omni360-waypoint", "--out", self.folder / "p.json", says=["flights", "airsim360 plan --dataset waypoint --out", "omni360-waypoint-frames"])
         self.run_bad(2, "dataset", "plan", "omni360-scen", "--out", self.folder / "p.json", says=["did you mean 'omni360-scene'"])
         self.run_bad(2, "dataset", "plan", self.shared / "rooms.yaml", "--frames", "2", "--out", self.folder / "p.json", says=["--frames: 2 is not in 3"])
         self.run_bad(2, "dataset", "plan", self.plan, "--show", "16", says=["--show: '16'"])
         self.run_bad(2, "dataset", "plan", self.plan, "--show", "8", says=["no_such_city"])
         self.assertFalse((self.folder / "p.json").exists())
+
+    def test_photos_and_exposures_of_a_recipe_follow_from_the_plan(self):
+        picture = "{size: 64x32, tier: fast, look: photo, exposure: -0.5, camera_look: {each_frame: true, metering_spread: 0.1, noise_free: 0}}"
+        recipe = RECIPE.replace("{size: 128x64, tier: fast, exposure: auto}", picture).replace("high: 0.9}", "high: 0.9}, {setting: exposure, low: -1, high: 1}")
+        (self.folder / "photo.yaml").write_text(recipe)
+        self.run_bad(2, "dataset", "plan", self.folder / "photo.yaml", "--out", self.folder / "photo.json", says=["photo.yaml:3", "noise_free"])
+        (self.folder / "photo.yaml").write_text(recipe.replace("noise_free: 0", "full_well: 0"))
+        plan = self.folder / "photo.json"
+        self.run_ok("dataset", "plan", self.folder / "photo.yaml", "--seed", "7", "--out", plan)
+        self.run_ok("dataset", "run", plan, "--out", self.folder / "photo")
+        frames = {frame["index"]: frame for frame in self.frames(self.folder / "photo")}
+        shown = [json.loads(line) for line in self.run_ok("dataset", "plan", plan, "--show", "0:16").stdout.splitlines()]
+        self.assertEqual({frame["index"]: frame["exposure"] for frame in shown}, {index: frame["exposure"] for index, frame in frames.items()})
+        self.assertTrue(all(-1.5 <= frame["exposure"] <= 0.5 for frame in frames.values()))
+        self.assertGreater(len({frame["exposure"] for frame in frames.values()}), 1)
+        # A camera of its own for every frame; the same again in shards.
+        self.assertEqual(len({frame["look"]["contrast"] for frame in frames.values()}), len(frames))
+        shards = [self.folder / f"photo{i}" for i in range(2)]
+        for i, folder in enumerate(shards):
+            self.run_ok("dataset", "run", plan, "--shard", f"{i}/2", "--out", folder)
+        self.run_ok("dataset", "merge", *shards, "--out", self.folder / "merged")
+        self.assertEqual(tree(self.folder / "merged"), tree(self.folder / "photo"))
+        # Flags count before the recipe: an exposure of each picture's own cannot be drawn as well.
+        self.run_bad(2, "dataset", "run", plan, "--look", "clean", "--exposure", "auto", "--out", self.folder / "auto", says=["--exposure", "drawn"])
+        self.assertFalse((self.folder / "auto").exists())
+        parameters = read_json(self.folder / "photo/meta.json")["parameters"]
+        self.assertEqual((parameters["look"], parameters["camera_look"]["metering_spread"], parameters["camera_look"]["each_frame"]), ("photo", 0.1, True))
 
     def test_rows_are_scaled_in_proportion(self):
         report = json.loads(self.run_ok("dataset", "plan", self.shared / "rooms.yaml", "--frames", "1600", "--out", self.folder / "p.json", "--json").stdout)
@@ -224,7 +254,15 @@ class Datasets(ProgramTest):
                     "--shards", self.folder / "it's here")
         subprocess.run(["sh", str(self.folder / "job.sh")], check=True, capture_output=True)
         self.assertEqual(tree(self.folder / "it's here/dataset"), tree(self.whole))
-        self.run_bad(2, "dataset", "slurm", self.plan, "--array", "13", "--out", self.folder / "job.sh", says=["--array: 13 shards"])
+        again = subprocess.run(["sh", str(self.folder / "job.sh"), "missing"], check=True, capture_output=True, text=True)
+        self.assertEqual(again.stdout.strip(), "")
+        slurm = ("dataset", "slurm", self.plan, "--out", self.folder / "bad.sh", "--array")
+        self.run_bad(2, *slurm, "13", says=["--array: 13 shards"])
+        self.run_bad(2, *slurm, "2", "--remote", "/tmp/store", says=["--remote: '/tmp/store'", "REMOTE:PATH"])
+        self.run_bad(2, *slurm, "2", "--image", "a", says=["--image", "slurm"])
+        self.run_bad(2, *slurm, "2", "--backend", "xargs", "--time-limit", "1:00", says=["--time-limit", "xargs"])
+        self.run_bad(2, *slurm, "2", "--backend", "kubernetes", "--shards", "/tmp/s", says=["--shards: '/tmp/s'", "/data"])
+        self.assertFalse((self.folder / "bad.sh").exists())
 
     def test_built_in_recipes_have_the_numbers_of_the_paper(self):
         lines = self.run_ok("dataset", "plan").stdout.splitlines()

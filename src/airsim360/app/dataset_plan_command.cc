@@ -8,6 +8,7 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/dataset/record/record.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -78,17 +79,20 @@ std::pair<int64_t, int64_t> ParseShow(const std::string& text, int64_t frames) {
 }
 
 nlohmann::ordered_json FrameJsonOf(const DatasetPlan& plan, FrameSource& source, int64_t frame, const FrameBlock& block, const Shot& shot) {
+  using Json = nlohmann::ordered_json;
   const RecipeRow& row = plan.recipe.rows[block.row];
+  const PictureSettings& picture = plan.recipe.picture.settings;
   const RigidTransform X_WC = shot.body.X_WB * CameraInBody();
   const Quaternion q = ToQuaternion(X_WC.R);
   const Vec3d p = X_WC.p;
-  const Environment sky = EnvironmentOf(plan, block, source.StageOf(block.row)->environment());
+  const PlannedSky sky = SkyOf(plan, block, source.StageOf(block.row)->environment());
   return {{"index", frame},
           {"row", row.name},
           {"world", row.world},
           {"X_WC", {{"p", {p.x, p.y, p.z}}, {"q_wxyz", {q.w, q.x, q.y, q.z}}}},
           {"v_WB", {shot.body.v_WB.x, shot.body.v_WB.y, shot.body.v_WB.z}},
-          {"environment", DescribeEnvironment(sky)},
+          {"environment", DescribeEnvironment(sky.environment)},
+          {"exposure", HasOwnExposure(picture) ? Json("auto") : Json(picture.exposure_ev + sky.exposure_ev)},
           {"people", row.people},
           {"seed", block.seed},
           {"block", {block.first, block.first + block.count}}};

@@ -145,7 +145,7 @@ FrameBlock BlockOf(const DatasetPlan& plan, int64_t frame) {
           .seed = RngStream(plan.seed, "plan block " + row.name, static_cast<uint64_t>(number)).Bits()};
 }
 
-Environment EnvironmentOf(const DatasetPlan& plan, const FrameBlock& block, const Environment& world) {
+PlannedSky SkyOf(const DatasetPlan& plan, const FrameBlock& block, const Environment& world) {
   const RecipeRow& row = plan.recipe.rows[block.row];
   const auto mixture = std::ranges::find(plan.recipe.skies, row.skies, &SkyMixture::name);
   return internal::DrawSky(*mixture, RngStream(plan.seed, "plan sky " + row.name, static_cast<uint64_t>(block.number)), world);

@@ -74,8 +74,13 @@ struct FrameBlock {
 };
 FrameBlock BlockOf(const DatasetPlan& plan, int64_t frame);
 
+/// What the frames of a block share.
+struct PlannedSky {
+  Environment environment;
+  double exposure_ev = 0;  ///< stops on top of those of the picture
+};
 /// The sky of a block, drawn from its row's mixture over the world's own.
-Environment EnvironmentOf(const DatasetPlan& plan, const FrameBlock& block, const Environment& world);
+PlannedSky SkyOf(const DatasetPlan& plan, const FrameBlock& block, const Environment& world);
 
 /// Frames whose worlds exist, ascending, as [first, last) runs.
 std::vector<std::pair<int64_t, int64_t>> RunsThatExist(const DatasetPlan& plan);

@@ -35,11 +35,12 @@ class BlockWriter {
     const std::shared_ptr<Stage> stage = source_.StageOf(block.row);
     labels_.Fill(block.row, stage->scene());
     DatasetSpec spec = SpecOfPlan(run_.plan, run_.spec, run_.shard, run_.shards);
-    const Environment sky = EnvironmentOf(run_.plan, block, stage->environment());
+    const PlannedSky sky = SkyOf(run_.plan, block, stage->environment());
     spec.world = row.world;
     spec.row = row.name;
     spec.seed = block.seed;
-    spec.environment = DescribeEnvironment(sky);
+    spec.environment = DescribeEnvironment(sky.environment);
+    spec.exposure_ev += sky.exposure_ev;
     const Flight flight = source_.ShotsOf(block);
     CollectInput input = InputOf(run_, spec, labels_.scene(), flight);
     input.first_frame = block.first;
@@ -47,7 +48,7 @@ class BlockWriter {
     input.renumber = labels_.Renumbering(block.row);
     input.people = stage->people();
     input.tracer = stage->tracer();
-    const CollectResult part = CollectPart(input, RendererFor(*stage, spec, sky), frames, done);
+    const CollectResult part = CollectPart(input, RendererFor(*stage, spec, sky.environment), frames, done);
     result.written += part.written, result.render_ms += part.render_ms, result.write_ms += part.write_ms, result.rays += part.rays;
   }
 
@@ -115,6 +116,7 @@ DatasetSpec SpecOfPlan(const DatasetPlan& plan, const DatasetSpec& pictures, int
 }
 
 CollectResult RunPlan(const PlanRun& run, const RenderElsewhere& elsewhere) {
+  CheckExposures(run.plan.recipe, run.spec, "--exposure");
   PlanLabels labels(run.plan);
   const DatasetSpec spec = SpecOfPlan(run.plan, run.spec, run.shard, run.shards);
   const Flight nothing;

@@ -107,7 +107,7 @@ TEST(Plan, BlocksDivideEveryRowAndFramesOfABlockShareItsSky) {
     EXPECT_EQ(BlockOf(plan, frame + block.count - 1).first, frame);
     EXPECT_EQ(BlockOf(plan, frame + block.count - 1).seed, block.seed);
     EXPECT_EQ(PlaceOf(plan, frame + block.count - 1).row, block.row);
-    skies.insert(DescribeEnvironment(EnvironmentOf(plan, block, {})));
+    skies.insert(DescribeEnvironment(SkyOf(plan, block, {}).environment));
     frame += block.count;
   }
   // Nearly every block has a sky of its own.
@@ -123,7 +123,7 @@ TEST(Plan, SkiesAreDrawnByTheirWeightsAndWithinTheirRanges) {
   double turbidity = 0;
   constexpr int kFrames = 4000;
   for (int64_t frame = 0; frame < kFrames; ++frame) {
-    const Environment sky = EnvironmentOf(plan, BlockOf(plan, frame), {});
+    const Environment sky = SkyOf(plan, BlockOf(plan, frame), {}).environment;
     if (sky.cloud_cover == 1) {
       ++overcast;
       continue;
@@ -134,6 +134,31 @@ TEST(Plan, SkiesAreDrawnByTheirWeightsAndWithinTheirRanges) {
   }
   EXPECT_NEAR(overcast / double{kFrames}, 0.25, 0.03);
   EXPECT_NEAR(turbidity / (kFrames - overcast), 4, 0.1);
+}
+
+TEST(Plan, ExposureIsDrawnWithTheSkyAndLeavesItAsItIs) {
+  DatasetPlan plan = ScenePlan();
+  plan.recipe.picture.settings.auto_exposure = false;
+  plan.recipe.skies = {{"varied", 1, {{.weather = "clear", .settings = {{"turbidity", 2, 6}}}}}};
+  DatasetPlan exposed = plan;
+  exposed.recipe.skies[0].choices[0].settings.push_back({"exposure", -1.5, 0.5});
+  double sum = 0;
+  constexpr int kFrames = 2000;
+  for (int64_t frame = 0; frame < kFrames; ++frame) {
+    const PlannedSky sky = SkyOf(plan, BlockOf(plan, frame), {}), same = SkyOf(exposed, BlockOf(exposed, frame), {});
+    EXPECT_EQ(sky.exposure_ev, 0);
+    EXPECT_EQ(DescribeEnvironment(same.environment), DescribeEnvironment(sky.environment));
+    EXPECT_GE(same.exposure_ev, -1.5);
+    EXPECT_LE(same.exposure_ev, 0.5);
+    EXPECT_EQ(SkyOf(exposed, BlockOf(exposed, frame), {}).exposure_ev, same.exposure_ev);
+    sum += same.exposure_ev;
+  }
+  EXPECT_NEAR(sum / kFrames, -0.5, 0.05);
+  // Not both: each picture's own exposure and one that is drawn. A photo is metered, and the stops come on top.
+  exposed.recipe.picture.settings.auto_exposure = true;
+  EXPECT_THROW(CheckRecipe(exposed.recipe, "r.yaml"), InputError);
+  exposed.recipe.picture.settings.look = Look::kPhoto;
+  EXPECT_NO_THROW(CheckRecipe(exposed.recipe, "r.yaml"));
 }
 
 TEST(Plan, EntitiesOfWorldsAndOfPeopleHaveIdsOfTheirOwn) {
@@ -159,7 +184,7 @@ TEST(Plan, EntitiesOfWorldsAndOfPeopleHaveIdsOfTheirOwn) {
 }
 
 TEST(ClusterScript, QuotesWhatAShellWouldTakeApart) {
-  const ClusterJob job{.name = "My set!", .hash = std::string(64, 'a'), .program = "/opt/it's/airsim360", .plan = "/a b/plan.json", .out = "/out $HOME", .shards = 12, .image = "a\"b", .claim = "c"};
+  const ClusterJob job{.name = "My set!", .hash = std::string(64, 'a'), .program = "/opt/it's/airsim360", .plan = "/a b/plan.json", .out = "/out $HOME", .flags = {}, .shards = 12, .image = "a\"b", .claim = "c", .secret = {}, .plan_text = {}};
   const std::string slurm = ClusterScript(ClusterBackend::kSlurm, job);
   EXPECT_NE(slurm.find("--job-name=my-set\n"), std::string::npos);
   EXPECT_NE(slurm.find("--array=0-11\n"), std::string::npos);

@@ -11,14 +11,17 @@
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/plan/built_in_recipes.h"
 #include "airsim360/dataset/record/config_json.h"
+#include "airsim360/dataset/record/record.h"
 #include "airsim360/scene/environment.h"
 #include "airsim360/scene/environment_sampler.h"
 
 namespace airsim360 {
 namespace {
 
+constexpr char kWaypointSet[] = "omni360-waypoint";
+
 void VisitSettings(ConfigVisitor& v, SettingRange& range) {
-  v.Field("setting", "a number of the environment, such as turbidity", range.setting);
+  v.Field("setting", "a number of the environment, such as turbidity, or exposure", range.setting);
   v.Field("low", "drawn evenly from here", range.low, -1e9, 1e9);
   v.Field("high", "to here", range.high, -1e9, 1e9);
 }
@@ -74,9 +77,15 @@ void CheckMixture(const SkyMixture& mixture, const std::string& where) {
     for (const SettingRange& range : choice.settings) {
       std::vector<std::string> names;
       for (const EnvironmentField& field : EnvironmentFields()) names.emplace_back(field.name);
-      const EnvironmentField& field =
-          EnvironmentFields()[ParseChoice("setting", range.setting, names, at + "settings")];
+      names.emplace_back(kExposureSetting);
+      const size_t index = ParseChoice("setting", range.setting, names, at + "settings");
       if (!(range.low <= range.high)) throw InputError(at + range.setting + ": low is above high");
+      if (index == EnvironmentFields().size()) {
+        if (range.low < -kMaxStops || range.high > kMaxStops)
+          throw InputError(at + "exposure: it is in " + std::to_string(-static_cast<int>(kMaxStops)) + " … " + std::to_string(static_cast<int>(kMaxStops)) + " stops");
+        continue;
+      }
+      const EnvironmentField& field = EnvironmentFields()[index];
       Environment ends;
       for (const double end : {range.low, range.high}) {
         ends.*field.value = end;
@@ -158,11 +167,25 @@ void CheckRecipe(const Recipe& recipe, const std::string& where) {
     CheckRow(row, recipe, where);
     if (!names.insert(row.name).second) throw InputError(where + ": two rows are called '" + row.name + "'");
   }
+  CheckExposures(recipe, recipe.picture.settings, where);
   if (recipe.frames() > kMostPlanFrames)
     throw InputError(where + ": " + std::to_string(recipe.frames()) + " frames are more than " + std::to_string(kMostPlanFrames));
 }
 
+void CheckExposures(const Recipe& recipe, const PictureSettings& picture, const std::string& where) {
+  if (!HasOwnExposure(picture)) return;
+  for (const SkyMixture& mixture : recipe.skies) {
+    for (const SkyChoice& choice : mixture.choices) {
+      if (std::ranges::count(choice.settings, kExposureSetting, &SettingRange::setting) > 0)
+        throw InputError(where + ": skies '" + mixture.name + "': exposure is drawn, but every picture finds its own with exposure: auto; give a number of stops");
+    }
+  }
+}
+
 Recipe FindRecipe(const std::string& name_or_file) {
+  if (name_or_file == kWaypointSet)
+    throw InputError(std::string(kWaypointSet) + " holds flights, not frames: airsim360 plan --dataset waypoint --out DIR makes it, with "
+                     "--shard I/N a part of it; frames along its flights: airsim360 dataset plan omni360-waypoint-frames");
   const std::vector<std::string> names = RecipeNames();
   if (std::ranges::count(names, name_or_file) > 0) {
     Recipe recipe = internal::BuiltInRecipe(name_or_file);

@@ -21,11 +21,13 @@ enum class Sampler {
 };
 inline constexpr const char* kSamplerNames[] = {"viewpoints", "flights", "people"};
 
-/// A number of the environment drawn evenly from a range.
+/// A number of the environment, or the exposure, drawn evenly from a range.
 struct SettingRange {
-  std::string setting;  ///< of EnvironmentFields()
+  std::string setting;  ///< of EnvironmentFields(), or kExposureSetting: stops on top of those of the picture
   double low = 0, high = 0;
 };
+
+inline constexpr char kExposureSetting[] = "exposure";
 
 /// One kind of sky of a mixture.
 struct SkyChoice {
@@ -90,6 +92,8 @@ struct Recipe {
 void VisitRecipe(ConfigVisitor& v, Recipe& recipe);
 /// InputError naming `where` (a file), the row and the value for what makes no sense.
 void CheckRecipe(const Recipe& recipe, const std::string& where);
+/// InputError after `where` if skies draw the exposure of pictures that find their own.
+void CheckExposures(const Recipe& recipe, const PictureSettings& picture, const std::string& where);
 
 /// The rectangle of a row's `area`; InputError beginning with `where` if it is none.
 Box2d AreaOf(const RecipeRow& row, const std::string& where);

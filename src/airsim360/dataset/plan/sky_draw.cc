@@ -21,17 +21,17 @@ const SkyChoice& Choose(const SkyMixture& mixture, double at) {
 
 }  // namespace
 
-Environment DrawSky(const SkyMixture& mixture, RngStream random, const Environment& world) {
+PlannedSky DrawSky(const SkyMixture& mixture, RngStream random, const Environment& world) {
   const SkyChoice& choice = Choose(mixture, random.Uniform());
-  Environment sky = choice.weather.empty() ? world : ParseEnvironmentPreset(choice.weather, world);
+  PlannedSky sky{choice.weather.empty() ? world : ParseEnvironmentPreset(choice.weather, world), 0};
   if (choice.climate)
-    sky = SampleEnvironment(random.Bits(), {.latitude_deg = choice.latitude_deg, .least_sun_elevation_deg = choice.least_sun_elevation_deg});
+    sky.environment = SampleEnvironment(random.Bits(), {.latitude_deg = choice.latitude_deg, .least_sun_elevation_deg = choice.least_sun_elevation_deg});
   for (const SettingRange& range : choice.settings) {
     const auto field = std::ranges::find_if(EnvironmentFields(), [&](const EnvironmentField& f) { return f.name == range.setting; });
     // Few digits, as people and flags write them; never outside the range, as rounding could be.
     const double parts = range.high - range.low > 50 ? 1 : 100;
     const double drawn = std::round(random.Uniform(range.low, range.high) * parts) / parts;
-    sky.*(field->value) = std::clamp(drawn, range.low, range.high);
+    (field == EnvironmentFields().end() ? sky.exposure_ev : sky.environment.*(field->value)) = std::clamp(drawn, range.low, range.high);
   }
   return sky;
 }

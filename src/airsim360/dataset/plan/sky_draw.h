@@ -2,12 +2,11 @@
 #pragma once
 
 #include "airsim360/base/random.h"
-#include "airsim360/dataset/plan/recipe.h"
-#include "airsim360/scene/environment.h"
+#include "airsim360/dataset/plan/plan.h"
 
 namespace airsim360::internal {
 
 /// A choice by weight, its preset over `world`, its numbers drawn. A pure function of its arguments.
-Environment DrawSky(const SkyMixture& mixture, RngStream random, const Environment& world);
+PlannedSky DrawSky(const SkyMixture& mixture, RngStream random, const Environment& world);
 
 }  // namespace airsim360::internal

@@ -42,6 +42,8 @@ nlohmann::ordered_json IntrinsicsJson(const Camera& camera) {
   return nullptr;
 }
 
+bool HasOwnExposure(const PictureSettings& picture) { return picture.auto_exposure && picture.look != Look::kPhoto; }
+
 std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
   nlohmann::ordered_json sha256;
   for (const FileRecord& file : frame.files) sha256[file.key] = file.sha256;
@@ -59,6 +61,7 @@ std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
   if (!spec.row.empty()) {
     json["row"] = spec.row;
     json["environment"] = spec.environment;
+    if (spec.tier != Tier::kLabels && !HasOwnExposure(spec)) json["exposure"] = spec.exposure_ev;
   }
   if (!frame.views.empty() && frame.views[0].X_WC_next) json["X_WC_next"] = PoseJson(*frame.views[0].X_WC_next);
   const std::vector<View> views = Views(spec);

@@ -51,6 +51,9 @@ struct FrameRecord {
   std::vector<ViewRecord> views;  ///< as Views(spec)
 };
 
+/// Whether every picture finds its exposure by itself: `auto`, unless it is a photo, whose stops come on top of its metering.
+bool HasOwnExposure(const PictureSettings& picture);
+
 /// One line of frames.jsonl, without the line feed.
 std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec);
 
