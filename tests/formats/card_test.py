@@ -25,6 +25,20 @@ class Card(FormatTest):
         text = self.run_ok("dataset", "card", self.data).stdout
         self.assertIn(f"| frames | {len(self.frames)} |", text)
 
+    def check_legend(self, sheet):
+        """Colour over categories of the frame that shows the most of them, then a swatch for every category of the world."""
+        width, height = self.SIZE
+        colours = {c["id"]: tuple(c["color"]) for c in self.meta["categories"]}
+        seen = [read_png(self.source("semantic", frame)) for frame in self.frames]
+        richest = max(range(len(seen)), key=lambda i: len(np.unique(seen[i])))
+        top = 24
+        np.testing.assert_array_equal(sheet[top:top + height, :width], read_png(self.source("rgb", self.frames[richest])))
+        top += height + 4
+        drawn = np.array([[colours[v] for v in row] for row in seen[richest]], np.uint8)
+        np.testing.assert_array_equal(sheet[top:top + height, :width], drawn)
+        swatches = {tuple(pixel) for pixel in sheet[top + height + 4:].reshape(-1, 3)}
+        self.assertEqual(swatches - {(0, 0, 0), (255, 255, 255)}, {colours[v] for v in np.unique(np.concatenate(seen))} - {(0, 0, 0), (255, 255, 255)})
+
     def test_the_page_shows_everything_from_the_folder_alone(self):
         before = tree(self.data)
         page = self.run_ok("dataset", "card", self.data, "--html").stdout.strip()
@@ -38,6 +52,8 @@ class Card(FormatTest):
             for name in entry["files"].values():
                 self.assertTrue((self.data / name).is_file(), name)
                 self.assertRegex(name, r"\.(png|jpg)$")
+        self.assertIn('src="gallery/legend_box_room.png"', text)
+        self.check_legend(read_png(self.data / "gallery/legend_box_room.png"))
         after = tree(self.data)
         self.assertEqual({name: after[name] for name in before}, before)
         verified = json.loads(self.run_ok("verify", self.data, "--json").stdout)

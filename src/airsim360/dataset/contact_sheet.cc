@@ -4,6 +4,7 @@
 
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/dataset/color_legend.h"
 #include "airsim360/dataset/summaries.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/draw.h"
@@ -62,55 +63,44 @@ Image<Rgb8> Thumbnail(const std::string& product, const SemanticTree& tree, cons
   return ResizeBox(WithoutAlpha(DecodeRgba8(bytes, name)), width, height);
 }
 
-// What the colours mean: a scale of ranges, and the categories seen, the largest first.
+// The categories seen, the largest first.
+std::vector<ColorLegend::Entry> CategoryEntries(const DatasetIndex& index, const Scene& scene) {
+  constexpr size_t kMost = 60;
+  std::vector<CategoryTotal> totals = index.CategoryTotals();
+  std::ranges::stable_sort(totals, std::greater(), &CategoryTotal::pixels);
+  const size_t shown = std::min(totals.size(), kMost);
+  std::vector<ColorLegend::Entry> entries;
+  for (size_t i = 0; i < shown; ++i)
+    entries.push_back({CategoryColor(scene.tree, totals[i].category), scene.tree[totals[i].category].path});
+  if (shown < totals.size()) entries.push_back({{255, 255, 255}, std::to_string(totals.size() - shown) + " more: README.md"});
+  return entries;
+}
+
+// What the colours mean: a scale of ranges, and the categories.
 class Legend {
  public:
-  Legend(const DatasetIndex& index, const Scene& scene, int width) : width_(width) {
-    std::vector<CategoryTotal> totals = index.CategoryTotals();
-    std::ranges::stable_sort(totals, std::greater(), &CategoryTotal::pixels);
-    const size_t shown = std::min(totals.size(), kMost);
-    for (size_t i = 0; i < shown; ++i) {
-      entries_.push_back({CategoryColor(scene.tree, totals[i].category), scene.tree[totals[i].category].path});
-      column_ = std::max(column_, kSwatch + 3 * kGap + TextWidth(entries_.back().text, 1));
-    }
-    if (shown < totals.size())
-      entries_.push_back({{255, 255, 255}, std::to_string(totals.size() - shown) + " more: README.md"});
-    columns_ = std::max(1, width_ / column_);
-  }
+  Legend(const DatasetIndex& index, const Scene& scene, int width) : width_(width), categories_(CategoryEntries(index, scene), width) {}
 
-  int height() const {
-    const int rows = (static_cast<int>(entries_.size()) + columns_ - 1) / columns_;
-    return kScaleHeight + rows * kLine + kGap;
-  }
+  int height() const { return kScaleHeight + categories_.height() + kGap; }
 
   void Draw(int top, Image<Rgb8>& sheet) const {
     // Ranges from left to right, with their metres below.
     const int length = std::min(width_ - 2 * kGap, kThumbWidth);
     for (int x = 0; x < length; ++x) {
       const double t = static_cast<double>(x) / length;
-      FillRectangle(kGap + x, top, 1, kSwatch, ScaleColor(1 - t), sheet);
+      FillRectangle(kGap + x, top, 1, ColorLegend::kSwatch, ScaleColor(1 - t), sheet);
     }
     for (int metres : {1, 3, 10, 30, 100}) {
       const int x = kGap + static_cast<int>(LogScale(metres, kNearest, kFarthest) * length);
-      DrawText(std::to_string(metres) + " m", x, top + kSwatch + 2, {0, 0, 0}, 1, sheet);
+      DrawText(std::to_string(metres) + " m", x, top + ColorLegend::kSwatch + 2, {0, 0, 0}, 1, sheet);
     }
-    for (size_t i = 0; i < entries_.size(); ++i) {
-      const int x = kGap + static_cast<int>(i) % columns_ * column_;
-      const int y = top + kScaleHeight + static_cast<int>(i) / columns_ * kLine;
-      FillRectangle(x, y, kSwatch, kSwatch, entries_[i].color, sheet);
-      DrawText(entries_[i].text, x + kSwatch + kGap, y + 2, {0, 0, 0}, 1, sheet);
-    }
+    categories_.Draw(top + kScaleHeight, sheet);
   }
 
  private:
-  static constexpr size_t kMost = 60;
-  static constexpr int kSwatch = 12, kLine = 16, kScaleHeight = 32;
-  struct Entry {
-    Rgb8 color;
-    std::string text;
-  };
-  int width_, column_ = 1, columns_ = 1;
-  std::vector<Entry> entries_;
+  static constexpr int kScaleHeight = 32;
+  int width_;
+  ColorLegend categories_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/folder.h"
+#include "airsim360/dataset/gallery/scene_legend.h"
 #include "airsim360/dataset/gallery/statistics.h"
 #include "airsim360/image/codecs.h"
 
@@ -136,9 +137,19 @@ std::string Legend(const NativeDataset& data, const internal::DatasetStatistics&
   return text;
 }
 
+// Of each world a picture with its categories.
+std::string Scenes(const internal::DatasetStatistics& statistics) {
+  std::string text;
+  for (const auto& [world, count] : statistics.worlds) {
+    text += "<figure class=scene><figcaption>" + Escaped(world) + "</figcaption><img src=\"gallery/" + internal::SceneLegendName(world) +
+            "\" alt=\"colour, categories and legend of " + Escaped(world) + "\"></figure>\n";
+  }
+  return text;
+}
+
 constexpr char kHead[] = R"(<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <style>body{font:15px sans-serif;margin:1em;background:#fafafa;color:#222}#pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(420px,1fr));gap:12px}
-figure{margin:0}figcaption{font-weight:600;padding:2px 0}img{width:100%;display:block;background:#ddd}input[type=range]{width:60%;vertical-align:middle}
+figure{margin:0}.scene{max-width:1024px;margin:0 0 1em}figcaption{font-weight:600;padding:2px 0}img{width:100%;display:block;background:#ddd}input[type=range]{width:60%;vertical-align:middle}
 #legend span{display:inline-block;margin-right:1em}#legend i{display:inline-block;width:1em;height:1em;margin-right:.3em;vertical-align:-2px;border:1px solid #888}
 pre{white-space:pre-wrap}</style><title>)";
 
@@ -167,7 +178,7 @@ std::string Page(const NativeDataset& data, const internal::DatasetStatistics& s
   const std::string title = Escaped(data.spec().world) + ": " + std::to_string(data.size()) + " frames";
   return kHead + title + "</title><h1>" + title + "</h1>\n<p><button id=back aria-label=\"previous frame\">&larr;</button> "
          "<input type=range id=frame min=0 value=0 aria-label=\"frame\"> <button id=on aria-label=\"next frame\">&rarr;</button></p>\n"
-         "<p id=about></p><div id=pictures></div>\n<h2>Categories</h2><p id=legend>" + Legend(data, statistics) +
+         "<p id=about></p><div id=pictures></div>\n<h2>Scenes</h2>" + Scenes(statistics) + "<h2>Categories</h2><p id=legend>" + Legend(data, statistics) +
          "</p>\n<h2>Card</h2><pre>" + Escaped(internal::StatisticsMarkdown(data, statistics)) + "</pre>\n<script>const frames = " +
          ScriptJson(frames) + ";" + kScript + "</script></html>\n";
 }
@@ -197,6 +208,8 @@ fs::path WriteGallery(const fs::path& folder) {
     });
     progress.Update(static_cast<int64_t>(begin + n));
   }
+  for (const auto& [world, count] : statistics.worlds)
+    WriteFileAtomically(pictures / internal::SceneLegendName(world), EncodePng(internal::DrawSceneLegend(data, statistics, world)));
   const fs::path page = folder / "index.html";
   WriteFileAtomically(page, Page(data, statistics, Json(entries)));
   return page;

@@ -40,20 +40,32 @@ void CountSegments(const NativeDataset& data, const NativeFrame& frame, DatasetS
     s.persons += seen;
     s.frames_with_persons += seen > 0;
   }
+  WorldCount& world = s.worlds[frame.world];
+  ++world.frames;
   for (const auto& [id, count] : here) {
     CategoryCount& total = s.categories[id];
     ++total.frames;
     total.pixels += count.pixels;
     total.solid_angle += count.solid_angle;
+    world.pixels[id] += count.pixels;
     s.pixels += count.pixels;
     s.solid_angle += count.solid_angle;
   }
+  if (here.size() <= world.richest_count) return;
+  world.richest = frame.position;
+  world.richest_count = here.size();
 }
 
 int64_t DroppedRows(const fs::path& folder) {
   if (!fs::exists(folder / "dropped.csv")) return 0;
   const std::string text = ReadTextFile(folder / "dropped.csv");
   return std::max<int64_t>(0, std::ranges::count(text, '\n') - 1);
+}
+
+std::map<std::string, int64_t> FramesOfWorlds(const DatasetStatistics& s) {
+  std::map<std::string, int64_t> frames;
+  for (const auto& [world, count] : s.worlds) frames[world] = count.frames;
+  return frames;
 }
 
 // "a | b" rows of a table of two columns.
@@ -87,7 +99,6 @@ DatasetStatistics CountDataset(const NativeDataset& data) {
   ProgressBar progress("card", s.frames);
   for (size_t i = 0; i < data.size(); ++i) {
     const NativeFrame frame = data.Frame(i);
-    ++s.worlds[frame.world];
     const Json& own = frame.json.contains("environment") ? frame.json["environment"] : Json(data.spec().environment);
     ++s.environments[own.is_string() ? own.get<std::string>() : own.dump()];
     ++s.heights[BinOf(kHeightBins, frame.X_WC(data.views().front()).p.z)];
@@ -115,7 +126,7 @@ std::string StatisticsMarkdown(const NativeDataset& data, const DatasetStatistic
   row("categories seen", std::to_string(s.categories.size()));
   if (data.HasPeople()) row("people", std::to_string(s.persons) + " seen, in " + std::to_string(s.frames_with_persons) + " pictures");
   row("dropped as duplicates", std::to_string(s.dropped));
-  text += CountTable("scene", s.worlds) + CountTable("environment", s.environments);
+  text += CountTable("scene", FramesOfWorlds(s)) + CountTable("environment", s.environments);
   text += CountTable("height of the camera (z), m", Named(kHeightBins, s.heights));
   text += CountTable("median range, m", Named(kRangeBins, s.ranges));
   text += "\n| category | frames | % of frames | % of pixels | % of solid angle |\n|---|--:|--:|--:|--:|\n";
@@ -135,7 +146,7 @@ Json StatisticsJson(const NativeDataset& data, const DatasetStatistics& s) {
   for (const auto& [id, c] : LargestFirst(s))
     categories[data.category(id).path] = {{"frames", c.frames}, {"pixels", c.pixels}, {"solid_angle", c.solid_angle}};
   return {{"frames", s.frames},         {"bytes", s.bytes},
-          {"worlds", s.worlds},         {"environments", s.environments},
+          {"worlds", FramesOfWorlds(s)}, {"environments", s.environments},
           {"height_bins", kHeightBins}, {"heights", s.heights},
           {"range_bins", kRangeBins},   {"ranges", s.ranges},
           {"persons", s.persons},       {"dropped", s.dropped},

@@ -21,11 +21,20 @@ struct CategoryCount {
   double solid_angle = 0;   ///< steradians, over all pictures
 };
 
+/// What the frames of one world show.
+struct WorldCount {
+  int64_t frames = 0;
+  std::map<CategoryId, int64_t> pixels;
+  size_t richest = 0;         ///< position of the frame that shows the most categories, of equals the first
+  size_t richest_count = 0;   ///< categories in it
+};
+
 struct DatasetStatistics {
   int64_t frames = 0, bytes = 0;  ///< bytes: of the frames' files
   int64_t pixels = 0;
   double solid_angle = 0;
-  std::map<std::string, int64_t> worlds, environments;  ///< frames of each
+  std::map<std::string, WorldCount> worlds;
+  std::map<std::string, int64_t> environments;  ///< frames of each
   std::map<CategoryId, CategoryCount> categories;
   std::vector<int64_t> heights, ranges;                 ///< kHeightBins, kRangeBins
   int64_t persons = 0, frames_with_persons = 0;         ///< persons: views of a person with pixels
