@@ -23,11 +23,11 @@ rows:
 # Validates every document; then puts a value of the wrong kind at every place: a schema that knows the key refuses it.
 CHECK = """
 import fs from 'fs';
-import yaml from 'js-yaml';
+import { loadAll } from 'js-yaml';
 import { Job } from 'kubernetes-models/batch/v1';
 import { ConfigMap } from 'kubernetes-models/v1';
 const kinds = {Job, ConfigMap};
-const documents = yaml.loadAll(fs.readFileSync(process.argv[2], 'utf8'));
+const documents = loadAll(fs.readFileSync(process.argv[2], 'utf8'));
 const valid = document => { try { new kinds[document.kind](document).validate(); return null; } catch (e) { return e.message; } };
 const unknown = [];
 function spoil(document, place, path) {
