@@ -144,7 +144,7 @@ OnnxHeader ReadOnnxHeader(ByteSpan model, const std::string& name) {
     });
     if (standard) header.opset = version;
   });
-  if (!whole || graph.empty()) throw InputError(name + ": not an ONNX file");
+  if (!whole || graph.empty() || header.opset < 1) throw InputError(name + ": not an ONNX file");
   // Old files list weights among the inputs.
   std::vector<TensorInfo> inputs;
   std::set<std::string> weights;
