@@ -30,6 +30,7 @@ Names by purpose:
     flight        Simulation  DroneState  Snapshot  Recording  GeoFrame
     planning      plan_minimum_snap  Plan
     datasets      Dataset  Frame  Samples  read_png  read_exr
+    on demand     data (Panoramas, Panorama: frames of a plan, drawn when asked for)
     scores        metrics (psnr, ws_psnr, ssim, flip, path_length, spl, ndtw)
     learning      gym (make, make_vec)  VectorEnvironment
     AirSim        airsim (MultirotorClient and the other names of AirSim's own client)
@@ -60,10 +61,10 @@ import sys as _sys
 __version__ = "0.1.0"
 __all__ = ["Capture", "CudaCapture", "Dataset", "Drone", "DroneState", "Frame", "GeoFrame", "Lidar", "LidarScan", "PARTS",
            "PICTURE_SETTINGS", "PRODUCTS", "Plan", "Recording", "Rig", "Samples", "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
-           "VideoWriter", "World", "airsim", "dataset", "drone_catalog", "gpus", "gym", "metrics", "pictures",
+           "VideoWriter", "World", "airsim", "data", "dataset", "drone_catalog", "gpus", "gym", "metrics", "pictures",
            "plan_minimum_snap", "read_exr", "read_png", "records", "thread_count", "worlds"]
 
-_SUBMODULES = ("airsim", "dataset", "gym", "metrics", "pictures", "records")
+_SUBMODULES = ("airsim", "data", "dataset", "gym", "metrics", "pictures", "records")
 # Names that need NumPy alone, by module.
 _PURE = {"Dataset": "dataset", "Frame": "dataset", "Samples": "dataset", "read_exr": "pictures", "read_png": "pictures"}
 

@@ -728,3 +728,35 @@ class VectorEnvironment:
 
 def _read_rgb(path: str) -> _U8:
     """A PNG, JPEG or WebP file as (H, W, 3) uint8 sRGB. ValueError names the file where it is none."""
+
+def _find_plan(name: str, worlds: Sequence[str], frames: int, seed: int, device: str, gpu: int) -> str:
+    """The text of a plan file: of a recipe or a file, with '@HASH' behind or not."""
+
+class _PlanFrames:
+    """Frames of a plan as dataset run would write them; airsim360.data.Panoramas is for users."""
+
+    def __init__(self, plan: str, picture: dict[str, Any], products: Sequence[str] | None, projection: str, size: str, fov_deg: float,
+                 cameras: str, environment: dict[str, str], device: str, gpu: int, cache: str | None, cache_bytes: int) -> None: ...
+    @property
+    def hash(self) -> str:
+        """Of the plan."""
+    @property
+    def count(self) -> int:
+        """Number of frames."""
+    @property
+    def worlds(self) -> dict[str, str | None]:
+        """World -> hash, None where it did not exist."""
+    @property
+    def uses_gpu(self) -> bool:
+        """Whether a GPU draws."""
+    @property
+    def meta(self) -> str:
+        """meta.json of a dataset of these frames."""
+    def blocks(self) -> list[tuple[int, int]]:
+        """(first, last) of the frames of each sky whose worlds exist."""
+    def open(self, threads: int) -> None:
+        """Opens worlds, as many as are kept."""
+    def describe(self, frame: int, threads: int) -> str:
+        """What a frame is, JSON."""
+    def take(self, frame: int, threads: int) -> tuple[str, list[tuple[str, str, list[str], npt.NDArray[Any]]]]:
+        """The same with persons, and (product, view, channels, picture) of all pictures."""

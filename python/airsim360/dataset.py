@@ -20,6 +20,7 @@ from ._words import did_you_mean
 from .pictures import read_exr, read_png
 
 if TYPE_CHECKING:
+    from .data import Panoramas
     from .records import Category, EntityRecord, FrameRecord, Meta, PersonRecord, Pose
 
 __all__ = ["Dataset", "Frame", "Samples"]
@@ -61,7 +62,7 @@ class Frame:
 
     def __repr__(self) -> str:
         x, y, z = self.p
-        return f"Frame({self.index}: {', '.join(self.products)} at ({x:.2f}, {y:.2f}, {z:.2f}) m, t = {self.t:.2f} s)"
+        return f"{type(self).__name__}({self.index}: {', '.join(self.products)} at ({x:.2f}, {y:.2f}, {z:.2f}) m, t = {self.t:.2f} s)"
 
     @property
     def index(self) -> int:
@@ -206,7 +207,7 @@ class Frame:
         if product == "entity":
             return stored.astype(np.uint32) @ np.array([1, 256, 65536], np.uint32)
         if product == "normal":
-            return np.where(stored.any(-1, keepdims=True), stored / np.float32(32767) - np.float32(1), np.float32(0))
+            return _normals(stored)
         return stored != 0 if product == "sky" else stored
 
     def path(self, product: str, view: str = "") -> Path:
@@ -234,12 +235,12 @@ class Frame:
         """(H, W, 3) float64 unit rays in C through the pixel centres: panoramas, cube faces and pinholes."""
         if view in _CUBE_FACES:
             forward, right = (np.array(axis, float) for axis in _CUBE_FACES[view])
-            size = self.dataset.meta["size"][0]
+            size = self._meta["size"][0]
             grid = 2 * (np.arange(size) + 0.5) / size - 1
             ray: _F64 = forward + grid[None, :, None] * right + grid[:, None, None] * np.cross(forward, right)
             return _unit(ray)
-        width, height = self.dataset.meta["size"]
-        projection = self.dataset.meta["parameters"]["projection"]
+        width, height = self._meta["size"]
+        projection = self._meta["parameters"]["projection"]
         if projection == "erp":
             theta = 2 * np.pi * ((np.arange(width) + 0.5) / width - 0.5)
             phi = np.pi * (0.5 - (np.arange(height) + 0.5) / height)[:, None]
@@ -256,10 +257,10 @@ class Frame:
     @property
     def K(self) -> _F64:
         """(3, 3) intrinsics of a pinhole picture in pixels: x = (K p_C)_x / z, pixel centres at + 0.5."""
-        parameters = self.dataset.meta["parameters"]
+        parameters = self._meta["parameters"]
         if parameters["projection"] != "pinhole":
             raise ValueError(f"K: {parameters['projection']} pictures have no pinhole intrinsics")
-        width, height = self.dataset.meta["size"]
+        width, height = self._meta["size"]
         f = width / 2 / np.tan(np.radians(parameters["fov_deg"]) / 2)
         return np.array([[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]])
 
@@ -272,6 +273,10 @@ class Frame:
     if not TYPE_CHECKING:  # checkers are to find unknown names themselves
         def __getattr__(self, name):
             raise AttributeError(f"a frame has no {name!r}{'' if name.startswith('_') else did_you_mean(name, _PRODUCTS)}")
+
+    @property
+    def _meta(self) -> Meta:
+        return self.dataset.meta
 
     @cached_property
     def _keys(self) -> List[Tuple[str, str]]:
@@ -351,7 +356,7 @@ class Samples(Sequence[Any]):
     Unsigned integers of more than 8 bits become int64, which torch's losses take as class ids.
     """
 
-    def __init__(self, dataset: Dataset, products: Sequence[str],
+    def __init__(self, dataset: Union[Dataset, "Panoramas"], products: Sequence[str],
                  transform: Optional[Callable[[Dict[str, _Array]], Any]] = None) -> None:
         self.dataset, self.products, self.transform = dataset, [_product(name) for name in products], transform
 
@@ -367,6 +372,12 @@ class Samples(Sequence[Any]):
 def _lines(path: Path) -> List[Any]:
     with open(path, encoding="utf-8") as lines:
         return [json.loads(line) for line in lines]
+
+
+def _normals(stored: npt.NDArray[np.uint16]) -> _F32:
+    """Unit normals as they are stored, (H, W, 3); 0 = nothing hit."""
+    normals: _F32 = np.where(stored.any(-1, keepdims=True), stored / np.float32(32767) - np.float32(1), np.float32(0))
+    return normals
 
 
 def _unit(rays: _F64) -> _F64:

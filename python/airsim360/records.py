@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     _Rows = Union[_Vector, Sequence[Sequence[float]]]
 
 __all__ = ["BarometerReading", "Category", "Certificate", "Collision", "Entity", "EntityRecord", "EpisodeInfo", "Event", "FrameRecord",
-           "GnssReading", "Gpu", "ImuReading", "Limits", "MagnetometerReading", "Meta", "Person", "PersonRecord", "Pose",
+           "GnssReading", "Gpu", "ImuReading", "Limits", "MagnetometerReading", "Meta", "Person", "PersonRecord", "PlannedFrame", "Pose",
            "Replay", "ResetOptions", "Rotor", "TaskOptions", "TrajectorySamples",
            "VectorInfo", "WorldInfo"]
 
@@ -367,6 +367,33 @@ class FrameRecord(TypedDict):
     """With several cameras, for each by name: X_WC, X_WC_next, K, look."""
     sha256: Dict[str, str]
     """Checksum of each picture, by product and view."""
+
+
+class PlannedFrame(TypedDict):
+    """What a frame of a plan is, from data.Panoramas.meta and `airsim360 dataset plan --show`."""
+
+    index: int
+    row: str
+    """Of the recipe."""
+    world: str
+    t_ns: int
+    """Simulated time in the dataset, nanoseconds."""
+    X_WC: Pose
+    """Camera in W, of the first view."""
+    v_WB: List[float]
+    """(3,) m/s in W."""
+    w_WB_B: List[float]
+    """(3,) rad/s in B."""
+    environment: str
+    """Sun, sky and weather; World(environment=...) takes it."""
+    people: int
+    """How many are in the world."""
+    seed: int
+    """Of the noise and samples of its block."""
+    block: List[int]
+    """(2,) first frame that shares its sky, and the one behind the last."""
+    persons: NotRequired[List[PersonRecord]]
+    """Of data.Panorama.about in rows of people: entries of people.jsonl."""
 
 
 class Category(TypedDict):

@@ -74,5 +74,6 @@ void BindVideo(py::module_& m);
 void BindGeodesy(py::module_& m);
 void BindPictures(py::module_& m);
 void BindVectorEnvironment(py::module_& m);
+void BindPlanFrames(py::module_& m);
 
 }  // namespace airsim360::python

@@ -57,4 +57,5 @@ PYBIND11_MODULE(_native, m) {
   BindGeodesy(m);
   BindPictures(m);
   BindVectorEnvironment(m);
+  BindPlanFrames(m);
 }

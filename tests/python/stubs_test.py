@@ -133,7 +133,7 @@ def public_names():
     for name in airsim360.__all__:
         thing = getattr(airsim360, name)
         lines += [f"{name}.{part}" for part in thing.__all__] if isinstance(thing, types.ModuleType) else lines_of(name, thing)
-    for module in (airsim360.airsim, airsim360.gym, airsim360.metrics, airsim360.records, msgpackrpc, msgpackrpc.error):
+    for module in (airsim360.airsim, airsim360.data, airsim360.gym, airsim360.metrics, airsim360.records, msgpackrpc, msgpackrpc.error):
         path = module.__name__.removeprefix("airsim360.")
         for name in module.__all__:
             if name in ("Box", "Dict", "HAS_GYMNASIUM", "error"):  # Gymnasium's where it is installed
@@ -157,6 +157,7 @@ class PublicNames(unittest.TestCase):
 
     def test_datasets_and_gym_import_only_what_they_need(self):
         for module, heavy in (("airsim360.dataset", {"airsim360._native", "PIL", "torch", "msgpack", "difflib", "http"}),
+                              ("airsim360.data", {"airsim360._native", "PIL", "torch", "msgpack", "difflib", "http", "multiprocessing"}),
                               ("airsim360.gym", {"airsim360._native", "PIL", "torch", "msgpack"}),
                               ("airsim360.airsim", {"airsim360._native", "PIL", "torch", "gymnasium", "airsim360.gym"})):
             done = subprocess.run([sys.executable, "-c", f"import sys; import {module}; print(*sys.modules)"],
@@ -167,7 +168,7 @@ class PublicNames(unittest.TestCase):
         import airsim360
         import airsim360.airsim
         import airsim360.gym
-        for module in (airsim360, airsim360.airsim, airsim360.gym, airsim360.metrics, airsim360.records):
+        for module in (airsim360, airsim360.airsim, airsim360.data, airsim360.gym, airsim360.metrics, airsim360.records):
             for name in module.__all__:
                 thing = getattr(module, name)
                 if isinstance(thing, (type, types.FunctionType, types.BuiltinFunctionType, types.ModuleType)):

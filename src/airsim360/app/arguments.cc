@@ -17,9 +17,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kMinSide = 2;
-constexpr int kMaxSide = 16384;
-
 std::vector<std::string> Split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   size_t begin = 0;
@@ -45,29 +42,6 @@ std::string Trimmed(const std::string& text) {
 }
 
 }  // namespace
-
-ImageSize ParseSize(const std::string& text) {
-  ImageSize size;
-  const std::vector<std::string> parts = Split(text, 'x');
-  if (parts.size() != 2 || !ParseNumber(parts[0], size.width) || !ParseNumber(parts[1], size.height)) {
-    throw InputError("--size: '" + text + "' is not WIDTHxHEIGHT, for example 2048x1024");
-  }
-  for (int side : {size.width, size.height}) {
-    if (side < kMinSide || side > kMaxSide) {
-      throw InputError("--size: '" + text + "': " + std::to_string(side) + " is not in " +
-                       std::to_string(kMinSide) + " … " + std::to_string(kMaxSide));
-    }
-  }
-  return size;
-}
-
-void CheckPanoramaSize(ImageSize size) {
-  if (size.width == 2 * size.height) return;
-  const int height = std::clamp(size.width / 2, kMinSide / 2, kMaxSide / 2);
-  throw InputError("--size: '" + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                   "' is not twice as wide as high, as an equirectangular panorama is; did you mean '" +
-                   std::to_string(2 * height) + "x" + std::to_string(height) + "'?");
-}
 
 PoseArgument ParsePose(const std::string& text) {
   const std::vector<std::string> parts = Split(text, ',');

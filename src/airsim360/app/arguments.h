@@ -7,21 +7,12 @@
 #include <vector>
 
 #include "airsim360/app/commands.h"
-#include "airsim360/dataset/record/spec.h"
+#include "airsim360/dataset/record/camera_choice.h"
 #include "airsim360/flight/drone_model.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
-
-struct ImageSize {
-  int width = 0, height = 0;
-};
-
-/// "WxH" with both in 2…16384; InputError naming `--size` and the value.
-ImageSize ParseSize(const std::string& text);
-/// The height that makes a full equirectangular panorama; InputError unless width = 2 height.
-void CheckPanoramaSize(ImageSize size);
 
 /// "x,y,z[,yaw_deg[,pitch_deg[,roll_deg]]]": metres and degrees, finite. InputError naming `--pose` and the
 /// value.

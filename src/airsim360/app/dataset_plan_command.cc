@@ -5,11 +5,10 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
-#include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
-#include "airsim360/dataset/record/record.h"
-#include "airsim360/worlds/worlds.h"
+#include "airsim360/dataset/plan/find_plan.h"
+#include "airsim360/dataset/plan/plan_block.h"
 
 namespace airsim360 {
 namespace {
@@ -19,14 +18,6 @@ struct PlanArguments {
   int64_t frames = 0;
   bool list = false;
 };
-
-bool WorldExists(const std::string& world) {
-  if (std::filesystem::exists(world)) return true;
-  for (const WorldInfo& info : ListWorlds()) {
-    if (info.name == world) return true;
-  }
-  return false;
-}
 
 std::vector<std::string> SplitWords(const std::string& text) {
   std::vector<std::string> words;
@@ -39,15 +30,8 @@ std::vector<std::string> SplitWords(const std::string& text) {
 }
 
 DatasetPlan PlanOf(const PlanArguments& arguments, const GlobalOptions& globals) {
-  if (IsPlanFile(arguments.recipe)) {
-    if (!arguments.worlds.empty() || arguments.frames > 0)
-      throw InputError("--world, --frames: '" + arguments.recipe + "' is a plan already; give them with its recipe");
-    return ReadPlan(arguments.recipe);
-  }
-  Recipe recipe = FindRecipe(arguments.recipe);
-  if (!arguments.worlds.empty()) recipe = WithWorlds(std::move(recipe), SplitWords(arguments.worlds));
-  if (arguments.frames > 0) recipe = Scaled(std::move(recipe), arguments.frames);
-  return MakePlan(recipe, globals.seed, WorldExists, PlanWorldOpener(globals));
+  return FindPlan({.name = arguments.recipe, .worlds = SplitWords(arguments.worlds), .frames = arguments.frames, .seed = globals.seed},
+                  {globals.device, globals.gpu});
 }
 
 nlohmann::ordered_json SummaryOf(const DatasetPlan& plan) {
@@ -78,29 +62,9 @@ std::pair<int64_t, int64_t> ParseShow(const std::string& text, int64_t frames) {
   return {first, last};
 }
 
-nlohmann::ordered_json FrameJsonOf(const DatasetPlan& plan, FrameSource& source, int64_t frame, const FrameBlock& block, const Shot& shot) {
-  using Json = nlohmann::ordered_json;
-  const RecipeRow& row = plan.recipe.rows[block.row];
-  const PictureSettings& picture = plan.recipe.picture.settings;
-  const RigidTransform X_WC = shot.body.X_WB * CameraInBody();
-  const Quaternion q = ToQuaternion(X_WC.R);
-  const Vec3d p = X_WC.p;
-  const PlannedSky sky = SkyOf(plan, block, source.StageOf(block.row)->environment());
-  return {{"index", frame},
-          {"row", row.name},
-          {"world", row.world},
-          {"X_WC", {{"p", {p.x, p.y, p.z}}, {"q_wxyz", {q.w, q.x, q.y, q.z}}}},
-          {"v_WB", {shot.body.v_WB.x, shot.body.v_WB.y, shot.body.v_WB.z}},
-          {"environment", DescribeEnvironment(sky.environment)},
-          {"exposure", HasOwnExposure(picture) ? Json("auto") : Json(picture.exposure_ev + sky.exposure_ev)},
-          {"people", row.people},
-          {"seed", block.seed},
-          {"block", {block.first, block.first + block.count}}};
-}
-
 void ShowFrames(const DatasetPlan& plan, const std::string& show, const GlobalOptions& globals) {
   const auto [first, last] = ParseShow(show, plan.frames());
-  FrameSource source(plan, PlanWorldOpener(globals));
+  FrameSource source(plan, WorldOpener({globals.device, globals.gpu}));
   for (int64_t frame = first; frame < last;) {
     const FrameBlock block = BlockOf(plan, frame);
     const RecipeRow& row = plan.recipe.rows[block.row];
@@ -112,10 +76,11 @@ void ShowFrames(const DatasetPlan& plan, const std::string& show, const GlobalOp
     }
     const Flight flight = last == first + 1 ? Flight{.shots = {source.ShotOf(frame)}, .trajectory = {}} : source.ShotsOf(block);
     const int64_t begin = last == first + 1 ? frame : block.first;
+    const PlannedSky sky = SkyOf(plan, block, source.StageOf(block.row)->environment());
     for (; frame < std::min(last, block.first + block.count); ++frame) {
-      const auto json = FrameJsonOf(plan, source, frame, block, flight.shots[static_cast<size_t>(frame - begin)]);
-      if (last == first + 1) PrintJson(json);
-      else std::printf("%s\n", json.dump().c_str());
+      const std::string json = PlannedFrameJson(plan, frame, flight.shots[static_cast<size_t>(frame - begin)], sky, plan.recipe.picture.settings);
+      if (last == first + 1) PrintJson(nlohmann::ordered_json::parse(json));
+      else std::printf("%s\n", json.c_str());
     }
   }
 }
@@ -139,12 +104,6 @@ void RunPlanCommand(const PlanArguments& arguments, const GlobalOptions& globals
 }
 
 }  // namespace
-
-OpenWorld PlanWorldOpener(const GlobalOptions& globals) {
-  return [device = DeviceChoice{globals.device, globals.gpu}](const RecipeRow& row) {
-    return std::make_shared<Stage>(StageOptions{.world = {.world = row.world, .seed = row.world_seed}, .device = device});
-  };
-}
 
 void AddDatasetPlan(CLI::App& dataset, GlobalOptions& globals) {
   CLI::App* command = dataset.add_subcommand("plan", "a dataset before it is made: a small file from which every frame follows");

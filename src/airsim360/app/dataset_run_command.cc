@@ -4,12 +4,11 @@
 #include <memory>
 
 #include "airsim360/app/arguments.h"
-#include "airsim360/app/camera_arguments.h"
 #include "airsim360/app/collect_processes.h"
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/dataset_plan_command.h"
-#include "airsim360/app/picture_arguments.h"
 #include "airsim360/base/error.h"
+#include "airsim360/dataset/plan/plan_spec.h"
 
 namespace airsim360 {
 namespace {
@@ -77,7 +76,7 @@ void RunShard(const RunArguments& arguments, const CLI::App& command, GlobalOpti
   const DatasetPlan plan = ReadPlan(arguments.plan);
   const DatasetSpec spec = SpecOfPictures(plan.recipe.picture, GivenFields(command, arguments.picture));
   const Shard shard = ParseShard(arguments.shard);
-  const PlanRun run{plan, spec, arguments.out, shard.index, shard.count, PlanWorldOpener(globals)};
+  const PlanRun run{plan, spec, arguments.out, shard.index, shard.count, WorldOpener({globals.device, globals.gpu})};
   if (arguments.processes.is_worker()) {
     return RunWorker([&](std::span<const int64_t> frames, const std::function<void(int64_t)>& done) { return RunPlanPart(run, frames, done); });
   }
@@ -98,7 +97,7 @@ struct StatusArguments {
 std::vector<fs::path> Paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
 void RunMerge(const MergeArguments& arguments, const GlobalOptions& globals) {
-  const CollectResult result = MergeShards(Paths(arguments.folders), arguments.out, SpecOfPictures);
+  const CollectResult result = MergeShards(Paths(arguments.folders), arguments.out);
   if (globals.json) return PrintJson({{"out", arguments.out}, {"frames", result.frames}, {"frames_merged", result.written}});
   std::printf("%s: %lld frames of %zu folders\n", arguments.out.c_str(), static_cast<long long>(result.frames), arguments.folders.size());
 }
@@ -139,24 +138,6 @@ void RunStatus(const StatusArguments& arguments, const GlobalOptions& globals) {
 }
 
 }  // namespace
-
-DatasetSpec SpecOfPictures(const RecipePicture& recipe, const std::map<std::string, std::string>& given) {
-  RecipePicture picture = recipe;
-  std::string text = "{";
-  for (const auto& [name, value] : given) text += (text.size() > 1 ? ", " : "") + ("\"" + name + "\": ") + value;
-  ReadYaml(text + "}", "flags", [&](ConfigVisitor& v) { VisitPicture(v, picture); });
-  DatasetSpec spec = picture.settings;
-  CameraArguments camera;
-  camera.size = picture.size;
-  camera.Apply(spec);
-  spec.products = WithProducts(spec.products, picture.products, "--products");
-  PictureArguments::Check(spec);
-  // Numbers of materials are those of one world.
-  if (spec.products.material || spec.products.part) throw InputError("--products: material and part are numbered by world; collect has them");
-  if (spec.products.radiance && spec.tier == Tier::kLabels) throw InputError("--products: tier 'labels' has no light; use --tier fast");
-  spec.picture = given;
-  return spec;
-}
 
 void AddDatasetRun(CLI::App& dataset, GlobalOptions& globals) {
   CLI::App* command = dataset.add_subcommand("run", "make the frames of a plan; run again to finish what was interrupted");

@@ -88,26 +88,6 @@ bool IsFinished(const CollectInput& input) {
   return true;
 }
 
-// Gives entities the ids that they have in the dataset.
-void Renumber(const CollectInput& input, std::vector<Capture>& captures, FrameLabels& people) {
-  if (!input.renumber) return;
-  const auto change = [&](EntityId& id) {
-    if (id != kNoEntity) id = input.renumber(id);
-  };
-  for (Capture& capture : captures) {
-    for (EntityId& id : capture.frame.entity.pixels()) change(id);
-    for (CoveragePixel& pixel : capture.frame.coverage.pixels()) {
-      for (EntityId& id : pixel.entity) change(id);
-    }
-  }
-  for (std::vector<PersonLabel>& view : people) {
-    for (PersonLabel& person : view) {
-      change(person.entity);
-      for (KeypointLabel& keypoint : person.keypoints) change(keypoint.occluder);
-    }
-  }
-}
-
 // Renders and writes frames; `done` is told of each.
 void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, Renderer& renderer, DatasetIndex& index,
                  const std::function<void(int64_t frame)>& done, CollectResult& result) {
@@ -115,16 +95,12 @@ void WriteFrames(const CollectInput& input, const std::vector<int64_t>& frames, 
   internal::ShotSource source(input);
   FrameWriter writer(context, index, input.out);
   for (const int64_t frame : frames) {
-    const auto i = static_cast<size_t>(frame - input.first_frame);
     std::vector<Capture> captures = writer.Acquire();
-    const auto state = source.Take(i, context.views, ProductsOf(input.spec), renderer, captures);
+    FrameLabels labels = source.TakeForDataset(frame, context.views, renderer, captures);
     for (const Capture& capture : captures) {
       result.render_ms += capture.stats.render_ms;
       result.rays += capture.stats.rays;
     }
-    FrameLabels labels = source.Label(i, state, context.views, captures);
-    Renumber(input, captures, labels);
-    for (Capture& capture : captures) capture.t_ns += input.t_offset_ns;
     writer.Submit(frame, std::move(captures), std::move(labels));
     ++result.written;
     done(frame);

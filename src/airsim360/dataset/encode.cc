@@ -16,8 +16,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr int kJpegQuality = 95;
-
 // Compass heading, pitch and roll of the panorama, degrees.
 GPano PhotoSpherePose(const Mat3d& R_WC) {
   constexpr double kDegrees = 180 / std::numbers::pi;
@@ -36,24 +34,7 @@ Bytes EncodeRgb(const Capture& capture, Projection projection, const DatasetSpec
 }
 
 Bytes EncodeSemantic(const Image<CategoryId>& semantic, bool wide) {
-  if (wide) return EncodePng(semantic);
-  Image<uint8_t> narrow(semantic.width(), semantic.height());
-  std::transform(semantic.pixels().begin(), semantic.pixels().end(), narrow.pixels().begin(),
-                 [](CategoryId id) { return static_cast<uint8_t>(id); });
-  return EncodePalettePng(narrow, CategoryPalette());
-}
-
-// n in [-1, 1] as round((n + 1) * 32767); nothing hit stays (0, 0, 0), which no unit normal gives.
-Bytes EncodeNormal(const Image<Vec3f>& normal) {
-  Image<Rgb16> coded(normal.width(), normal.height());
-  std::transform(normal.pixels().begin(), normal.pixels().end(), coded.pixels().begin(), [](Vec3f n) {
-    if (n == Vec3f{}) return Rgb16{};
-    const auto code = [](float x) {
-      return static_cast<uint16_t>(std::lround((std::clamp(x, -1.0f, 1.0f) + 1) * 32767.0f));
-    };
-    return Rgb16{code(n.x), code(n.y), code(n.z)};
-  });
-  return EncodePng(coded);
+  return wide ? EncodePng(semantic) : EncodePalettePng(internal::NarrowSemantic(semantic), CategoryPalette());
 }
 
 Bytes EncodeProduct(const std::string& product, const Capture& capture, const View& view,
@@ -63,7 +44,6 @@ Bytes EncodeProduct(const std::string& product, const Capture& capture, const Vi
   if (product == "semantic") return EncodeSemantic(capture.frame.semantic, NeedsWideSemantics(context.scene));
   if (product == "entity") return EncodeIdPng(capture.frame.entity);
   if (product == "radiance") return EncodeHalfExr(capture.frame.radiance);
-  if (product == "normal") return EncodeNormal(capture.frame.normal);
   return internal::EncodeExtra(product, capture.frame, context.scene);
 }
 

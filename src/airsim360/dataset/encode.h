@@ -9,6 +9,8 @@
 
 namespace airsim360 {
 
+inline constexpr int kJpegQuality = 95;
+
 /// A file of a frame before it is written.
 struct EncodedFile {
   FileRecord record;

@@ -20,6 +20,26 @@ RigidTransform NextPose(const std::vector<Shot>& shots, size_t frame) {
   return Extrapolate(shots[frame].body, NextSeconds(shots, frame));
 }
 
+// Gives entities the ids that they have in the dataset.
+void Renumber(const CollectInput& input, std::vector<Capture>& captures, FrameLabels& people) {
+  if (!input.renumber) return;
+  const auto change = [&](EntityId& id) {
+    if (id != kNoEntity) id = input.renumber(id);
+  };
+  for (Capture& capture : captures) {
+    for (EntityId& id : capture.frame.entity.pixels()) change(id);
+    for (CoveragePixel& pixel : capture.frame.coverage.pixels()) {
+      for (EntityId& id : pixel.entity) change(id);
+    }
+  }
+  for (std::vector<PersonLabel>& view : people) {
+    for (PersonLabel& person : view) {
+      change(person.entity);
+      for (KeypointLabel& keypoint : person.keypoints) change(keypoint.occluder);
+    }
+  }
+}
+
 }  // namespace
 
 ShotSource::ShotSource(const CollectInput& input) : input_(input) {
@@ -39,6 +59,15 @@ std::shared_ptr<const SceneState> ShotSource::Take(size_t frame, const std::vect
     CaptureRig(rig, shot.body, shot.t_ns, renderer, captures[v], &next);
   }
   return state;
+}
+
+FrameLabels ShotSource::TakeForDataset(int64_t frame, const std::vector<View>& views, Renderer& renderer, std::vector<Capture>& captures) {
+  const auto i = static_cast<size_t>(frame - input_.first_frame);
+  const auto state = Take(i, views, ProductsOf(input_.spec), renderer, captures);
+  FrameLabels labels = Label(i, state, views, captures);
+  Renumber(input_, captures, labels);
+  for (Capture& capture : captures) capture.t_ns += input_.t_offset_ns;
+  return labels;
 }
 
 FrameLabels ShotSource::Label(size_t frame, const std::shared_ptr<const SceneState>& state, const std::vector<View>& views,

@@ -17,11 +17,13 @@ class ShotSource {
   /// Fills one capture for each of `views` at a shot of the flight and returns the state that they show (nullptr without people).
   std::shared_ptr<const SceneState> Take(size_t frame, const std::vector<View>& views, const Products& products, Renderer& renderer,
                                          std::vector<Capture>& captures);
-  /// What is to be written of the people in these captures.
-  FrameLabels Label(size_t frame, const std::shared_ptr<const SceneState>& state, const std::vector<View>& views,
-                    const std::vector<Capture>& captures);
+  /// Frame `frame` of the dataset as its files show it, and what is to be written of its people: entities have the ids that they
+  /// have in the dataset, times count from its start.
+  FrameLabels TakeForDataset(int64_t frame, const std::vector<View>& views, Renderer& renderer, std::vector<Capture>& captures);
 
  private:
+  FrameLabels Label(size_t frame, const std::shared_ptr<const SceneState>& state, const std::vector<View>& views,
+                    const std::vector<Capture>& captures);
   std::shared_ptr<const SceneState> StateOf(const Shot& shot) const;
   std::shared_ptr<const SceneState> StateAfter(size_t frame) const;
   PeoplePoses PosesOf(const Shot& shot) const;

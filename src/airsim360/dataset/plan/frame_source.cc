@@ -75,6 +75,16 @@ struct FrameSource::RowState {
   Flight film;     // of people: all frames of the row, once some are asked for
 };
 
+OpenWorld WorldOpener(const DeviceChoice& device) {
+  return [device](const RecipeRow& row) {
+    StageOptions options;
+    options.world.world = row.world;
+    options.world.seed = row.world_seed;
+    options.device = device;
+    return std::make_shared<Stage>(options);
+  };
+}
+
 FrameSource::FrameSource(const DatasetPlan& plan, OpenWorld open) : plan_(plan), open_(std::move(open)) {}
 FrameSource::~FrameSource() = default;
 
@@ -131,37 +141,48 @@ FrameSource::RowState& FrameSource::Enter(size_t index) {
 
 const std::shared_ptr<Stage>& FrameSource::StageOf(size_t row) { return Enter(row).stage; }
 
-Flight FrameSource::ShotsOf(const FrameBlock& block) {
+Flight FrameSource::PartOf(const FrameBlock& block, int64_t first, int64_t last) {
   RowState& state = Enter(block.row);
-  const RecipeRow& row = plan_.recipe.rows[block.row];
-  const int64_t in_row = block.first - FirstFrame(plan_, block.row);
+  const int64_t in_row = block.first - FirstFrame(plan_, block.row), count = last - first;
   Flight flight;
   if (state.viewpoints) {
-    flight.shots.resize(static_cast<size_t>(block.count));
-    ParallelFor(block.count, [&](int64_t k) {
-      Shot& shot = flight.shots[static_cast<size_t>(k)];
+    flight.shots.resize(static_cast<size_t>(count));
+    ParallelFor(count, [&](int64_t i) {
+      Shot& shot = flight.shots[static_cast<size_t>(i)];
+      const int64_t k = first + i;
       shot = {.t_ns = k * kBetweenViewpoints, .body = {.X_WB = state.viewpoints->Pose(in_row + k)}};
       shot.last = true;
     });
   } else if (state.flights) {
-    const auto size = static_cast<int64_t>(row.flight_frames);
-    const int64_t flights = (block.count + size - 1) / size;
+    const auto size = static_cast<int64_t>(plan_.recipe.rows[block.row].flight_frames);
+    const int64_t flights = (count + size - 1) / size;
     std::vector<std::vector<Shot>> shots(static_cast<size_t>(flights));
-    ParallelFor(flights, [&](int64_t k) { shots[static_cast<size_t>(k)] = state.flights->Shots(in_row / size + k); });
-    for (int64_t k = 0; k < block.count; ++k) {
-      flight.shots.push_back(shots[static_cast<size_t>(k / size)][static_cast<size_t>(k % size)]);
+    ParallelFor(flights, [&](int64_t i) { shots[static_cast<size_t>(i)] = state.flights->Shots((in_row + first) / size + i); });
+    for (int64_t k = first; k < last; ++k) {
+      flight.shots.push_back(shots[static_cast<size_t>((k - first) / size)][static_cast<size_t>(k % size)]);
       flight.shots.back().t_ns += k / size * size * kBetweenViewpoints;
     }
   } else {
-    const auto first = FilmOf(state).shots.begin() + in_row;
-    flight.shots.assign(first, first + block.count);
+    const auto begin = FilmOf(state).shots.begin() + in_row;
+    flight.shots.assign(begin + first, begin + last);
   }
   return flight;
 }
 
+Flight FrameSource::ShotsOf(const FrameBlock& block) { return PartOf(block, 0, block.count); }
+
+Take FrameSource::TakeOf(int64_t frame) {
+  const FrameBlock block = BlockOf(plan_, frame);
+  const RecipeRow& row = plan_.recipe.rows[block.row];
+  const Sampler sampler = SamplerOf(row);
+  const int64_t size = sampler == Sampler::kViewpoints ? 1 : sampler == Sampler::kFlights ? static_cast<int64_t>(row.flight_frames) : block.count;
+  const int64_t first = (frame - block.first) / size * size;
+  return {block.first + first, PartOf(block, first, std::min(first + size, block.count))};
+}
+
 Shot FrameSource::ShotOf(int64_t frame) {
-  FrameBlock block = BlockOf(plan_, frame);
-  return ShotsOf(block).shots[static_cast<size_t>(frame - block.first)];
+  const Take take = TakeOf(frame);
+  return take.flight.shots[static_cast<size_t>(frame - take.first)];
 }
 
 WorldFacts FactsOf(const Scene& scene) {

@@ -13,6 +13,14 @@ namespace airsim360 {
 
 /// Opens the world of a row, without people.
 using OpenWorld = std::function<std::shared_ptr<Stage>(const RecipeRow& row)>;
+/// As plans need them: without anything that flags could change.
+OpenWorld WorldOpener(const DeviceChoice& device);
+
+/// Frames that follow one another in one movement: a viewpoint alone, a flight, the views of people of a row.
+struct Take {
+  int64_t first = 0;  ///< frame of the plan of flight.shots[0]
+  Flight flight;
+};
 
 class FrameSource {
  public:
@@ -23,6 +31,8 @@ class FrameSource {
   const std::shared_ptr<Stage>& StageOf(size_t row);
   /// One shot for each frame of a block, in order; times count from the start of the block (of the row, with people).
   Flight ShotsOf(const FrameBlock& block);
+  /// The take of one frame, as far as its block holds it; its shots are those of ShotsOf.
+  Take TakeOf(int64_t frame);
   /// One frame alone; the same as within its block.
   Shot ShotOf(int64_t frame);
 
@@ -30,6 +40,8 @@ class FrameSource {
   struct RowState;
   RowState& Enter(size_t row);
   const Flight& FilmOf(RowState& state);
+  /// Shots [first, last) of a block, counted from its first; whole takes but at its end.
+  Flight PartOf(const FrameBlock& block, int64_t first, int64_t last);
 
   const DatasetPlan& plan_;
   OpenWorld open_;

@@ -95,10 +95,13 @@ bool IsPlanFile(const std::filesystem::path& file) {
 }
 
 DatasetPlan ReadPlan(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  const Json json = Json::parse(ReadTextFile(file, uint64_t{64} << 20), nullptr, false);
+  return ParsePlan(ReadTextFile(file, uint64_t{64} << 20), file.string());
+}
+
+DatasetPlan ParsePlan(std::string_view text, const std::string& name) {
+  const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("format") || !json["format"].is_string() || !json.contains("recipe"))
-    throw InputError(name + ": not a plan; make one with airsim360 dataset plan RECIPE --out " + file.filename().string());
+    throw InputError(name + ": not a plan; make one with airsim360 dataset plan RECIPE --out plan.json");
   if (json["format"] != kPlanFormat)
     throw InputError(name + ": format '" + json["format"].get<std::string>() + "' is not " + kPlanFormat + ", which this program reads; plan again");
   DatasetPlan plan;
@@ -192,7 +195,7 @@ EntityBase EntityBaseOf(const DatasetPlan& plan, size_t row) {
   std::vector<std::string> seen;
   for (size_t r = 0; r < plan.recipe.rows.size(); ++r) {
     const std::string key = WorldKey(plan.recipe.rows[r]);
-    if (r < row) people += static_cast<int64_t>(plan.recipe.rows[r].people);
+    if (r < row) people += kEntitiesOfPerson * static_cast<int64_t>(plan.recipe.rows[r].people);
     if (key == WorldKey(plan.recipe.rows[row]) && std::ranges::count(seen, key) == 0) base.world = worlds;
     if (std::ranges::count(seen, key) > 0) continue;
     seen.push_back(key);
@@ -205,7 +208,7 @@ EntityBase EntityBaseOf(const DatasetPlan& plan, size_t row) {
 int64_t EntityCount(const DatasetPlan& plan) {
   int64_t count = 0;
   for (const auto& [key, world] : plan.worlds) count += world.entities;
-  for (const RecipeRow& row : plan.recipe.rows) count += static_cast<int64_t>(row.people);
+  for (const RecipeRow& row : plan.recipe.rows) count += kEntitiesOfPerson * static_cast<int64_t>(row.people);
   return count;
 }
 

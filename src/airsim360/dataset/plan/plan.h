@@ -53,6 +53,8 @@ std::string PlanJson(const DatasetPlan& plan);
 void SealPlan(DatasetPlan& plan);
 /// InputError if it is no plan, of another format, or was edited (its hash is not that of its content).
 DatasetPlan ReadPlan(const std::filesystem::path& file);
+/// The same from memory; `name` stands for the file in messages.
+DatasetPlan ParsePlan(std::string_view text, const std::string& name);
 /// Whether a file looks like a plan rather than a recipe.
 bool IsPlanFile(const std::filesystem::path& file);
 
@@ -88,10 +90,13 @@ std::vector<std::pair<int64_t, int64_t>> RunsThatExist(const DatasetPlan& plan);
 /// so that a shard opens few worlds and skies.
 std::vector<int64_t> FramesOfShard(const DatasetPlan& plan, int64_t index, int64_t count);
 
+/// Ids that a person has at most: the body and what it can carry.
+inline constexpr int64_t kEntitiesOfPerson = 5;
+
 /// Where the entity ids of a world and of a row's people begin in a dataset of the plan.
 struct EntityBase {
   int64_t world = 0;   ///< added to ids of the world's own entities
-  int64_t people = 0;  ///< added to the number of a person, from 0, gives the id less one
+  int64_t people = 0;  ///< added to the number of an entity of people, from 0, gives the id less one
 };
 EntityBase EntityBaseOf(const DatasetPlan& plan, size_t row);
 /// Number of ids of a dataset of the plan.

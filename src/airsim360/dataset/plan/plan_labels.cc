@@ -4,11 +4,15 @@
 #include <set>
 
 #include "airsim360/base/error.h"
+#include "airsim360/people/skeleton.h"
 
 namespace airsim360 {
 namespace {
 
 constexpr char kPersonCategory[] = "human/person";
+// Of what people carry.
+constexpr const char* kCarriedCategories[] = {"object/phone", "object/bag", "object/umbrella", "object/stroller"};
+static_assert(kEntitiesOfPerson == kPropCount && std::size(kCarriedCategories) + 1 == kPropCount);  // Prop::kNone counts too
 
 }  // namespace
 
@@ -32,6 +36,9 @@ PlanLabels::PlanLabels(const DatasetPlan& plan) : plan_(plan) {
   }
   const CategoryId first = used.empty() ? scene_.tree.At(kPersonCategory) : *used.begin();
   const bool people = std::ranges::any_of(plan.recipe.rows, [](const RecipeRow& row) { return row.people > 0; });
+  if (people) {
+    for (const char* path : kCarriedCategories) used.insert(scene_.tree.At(path));
+  }
   for (Entity& entity : scene_.entities) entity.category = people ? scene_.tree.At(kPersonCategory) : first;
   for (const CategoryId category : used)
     scene_.entities.push_back({.id = static_cast<EntityId>(scene_.entities.size() + 1), .name = {}, .category = category, .bounds = {}});

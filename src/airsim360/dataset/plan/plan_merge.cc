@@ -10,6 +10,7 @@
 #include "airsim360/dataset/index.h"
 #include "airsim360/dataset/plan/plan_labels.h"
 #include "airsim360/dataset/plan/plan_run.h"
+#include "airsim360/dataset/plan/plan_spec.h"
 
 namespace airsim360 {
 namespace {
@@ -101,8 +102,7 @@ std::vector<int64_t> MissingShards(const DatasetPlan& plan, const std::vector<fs
   return missing;
 }
 
-CollectResult MergeShards(const std::vector<fs::path>& folders, const fs::path& out,
-                          const std::function<DatasetSpec(const RecipePicture& recipe, const std::map<std::string, std::string>& given)>& spec_of) {
+CollectResult MergeShards(const std::vector<fs::path>& folders, const fs::path& out) {
   if (folders.empty()) throw InputError("dataset merge: name the folders of shards");
   for (const fs::path& folder : folders) {
     if (!fs::exists(folder / kMetaName)) throw InputError("'" + folder.string() + "' is not a dataset: it has no " + kMetaName);
@@ -111,7 +111,7 @@ CollectResult MergeShards(const std::vector<fs::path>& folders, const fs::path& 
   }
   const DatasetPlan plan = ReadPlan(folders.front() / kPlanName);
   const Json first = ParametersOf(folders.front());
-  const DatasetSpec spec = SpecOfPlan(plan, spec_of(plan.recipe.picture, first.at("picture").get<std::map<std::string, std::string>>()), 0, 1);
+  const DatasetSpec spec = SpecOfPlan(plan, SpecOfPictures(plan.recipe.picture, first.at("picture").get<std::map<std::string, std::string>>()), 0, 1);
   PlanLabels labels(plan);
   for (const fs::path& folder : folders) {
     const Json parameters = ParametersOf(folder);

@@ -19,9 +19,6 @@ struct PlanRun {
   OpenWorld open;
 };
 
-/// The spec of a dataset of the plan.
-DatasetSpec SpecOfPlan(const DatasetPlan& plan, const DatasetSpec& pictures, int64_t shard, int64_t shards);
-
 /// Makes the frames of the shard that are missing in the folder, here, or by `elsewhere` where that is given, and what
 /// describes them. Worlds that do not exist are left out. InputError if the folder holds something else, or a world is not the
 /// one that was planned with; RuntimeError if writing fails: what was done so far stays valid.
@@ -46,10 +43,8 @@ std::vector<int64_t> MissingShards(const DatasetPlan& plan, const std::vector<st
 
 /// One dataset of all frames of the folders, which are shards of one plan and finished: byte for byte what one run had made.
 /// Pictures are linked where the file system can, else copied. InputError for folders of different plans or pictures, or
-/// unfinished; RuntimeError if frames are missing in all of them. `spec_of`: what the pictures of a recipe are with the flags
-/// that were given.
-CollectResult MergeShards(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out,
-                          const std::function<DatasetSpec(const RecipePicture& recipe, const std::map<std::string, std::string>& given)>& spec_of);
+/// unfinished; RuntimeError if frames are missing in all of them.
+CollectResult MergeShards(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out);
 
 /// Name of the plan in the folder of a dataset.
 inline constexpr char kPlanName[] = "plan.json";

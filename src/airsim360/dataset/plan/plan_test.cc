@@ -176,7 +176,7 @@ TEST(Plan, EntitiesOfWorldsAndOfPeopleHaveIdsOfTheirOwn) {
     if (row == 4) {
       EXPECT_EQ(renumber(1), labels.Renumbering(0)(1));
     }
-    for (EntityId id = row == 4 ? own + 1 : 1; id <= own + plan.recipe.rows[row].people; ++id) EXPECT_TRUE(ids.insert(renumber(id)).second);
+    for (EntityId id = row == 4 ? own + 1 : 1; id <= own + kEntitiesOfPerson * plan.recipe.rows[row].people; ++id) EXPECT_TRUE(ids.insert(renumber(id)).second);
   }
   EXPECT_EQ(static_cast<int64_t>(ids.size()), EntityCount(plan));
   EXPECT_EQ(*ids.begin(), 1u);
