@@ -140,6 +140,14 @@ class Datasets(ProgramTest):
         self.assertEqual(seen["box_room"] | seen["sunlit_room"], set(entities))
         self.assertTrue(all(entity["name"] for entity in entities.values()))
 
+    def test_a_plan_is_named_by_its_recipe_and_hash(self):
+        digest = json.loads(self.plan.read_text())["hash"]
+        for name in (f"{self.shared / 'rooms.yaml'}@{digest[:7]}", f"{self.plan}@{digest}"):
+            self.run_ok("dataset", "plan", name, "--seed", "5", "--out", self.folder / "named.json")
+            self.assertEqual((self.folder / "named.json").read_bytes(), self.plan.read_bytes())
+        self.run_bad(2, "dataset", "plan", f"{self.shared / 'rooms.yaml'}@{digest}", "--out", self.folder / "a", says=["the hash of", "the seed"])
+        self.run_bad(2, "dataset", "plan", f"{self.plan}@12345", "--out", self.folder / "a", says=["'12345' is not the hash of a plan"])
+
     def test_a_plan_that_was_edited_is_refused(self):
         edited = self.folder / "edited.json"
         edited.write_text(self.plan.read_text().replace('"frames": 7', '"frames": 8'))

@@ -1,5 +1,6 @@
 """airsim360.data.Panoramas: frames of a plan on demand are those of the collected dataset, whatever the order, process or cache."""
 import hashlib
+import importlib.util
 import json
 import multiprocessing
 import os
@@ -13,11 +14,6 @@ import numpy as np
 
 from airsim360 import Dataset
 from airsim360.data import Panoramas
-
-try:
-    import torch
-except ImportError:
-    torch = None
 
 PROGRAM = os.environ["AIRSIM360"]
 RECIPE = """
@@ -48,7 +44,8 @@ def digest(frame):
     """Of all pictures of a frame."""
     sums = hashlib.sha256()
     for name in frame.products:
-        sums.update(np.ascontiguousarray(frame[name]).tobytes())
+        for array in frame[name].values() if isinstance(frame[name], dict) else [frame[name]]:
+            sums.update(np.ascontiguousarray(array).tobytes())
     return sums.hexdigest()
 
 
@@ -226,8 +223,9 @@ class OnDemand(unittest.TestCase):
         self.assertEqual({k: frame[k].dtype for k in list(frame)[2:]}, {"range": np.float32, "semantic": np.uint8, "entity": np.int32})
         np.testing.assert_array_equal(frame["entity"], frame.entity)
 
-    @unittest.skipIf(torch is None, "PyTorch is not installed: apt-get install python3-torch")
+    @unittest.skipUnless(importlib.util.find_spec("torch"), "PyTorch is not installed: apt-get install python3-torch")
     def test_a_loader_of_torch_takes_it_as_it_is(self):
+        import torch.utils.data  # heavy: not in the processes of the other tests
         for method in ("fork", "spawn"):
             panoramas = self.labels(cache=False)
             loader = torch.utils.data.DataLoader(panoramas, batch_size=3, num_workers=2, sampler=panoramas.order(seed=4),

@@ -108,7 +108,7 @@ void RunPlanCommand(const PlanArguments& arguments, const GlobalOptions& globals
 void AddDatasetPlan(CLI::App& dataset, GlobalOptions& globals) {
   CLI::App* command = dataset.add_subcommand("plan", "a dataset before it is made: a small file from which every frame follows");
   auto arguments = std::make_shared<PlanArguments>();
-  command->add_option("RECIPE", arguments->recipe, "name, YAML file (docs/guide/dataset_plans.md), or a plan to --show; without one the names are listed");
+  command->add_option("RECIPE", arguments->recipe, "name, YAML file (docs/guide/dataset_plans.md), or a plan to --show; @HASH behind it: what its hash must be; without one the names are listed");
   command->add_option("--out", arguments->out, "file of the plan");
   command->add_option("--world", arguments->worlds, "only the rows of these worlds: name,name");
   command->add_option("--frames", arguments->frames, "scale all rows to so many frames in total")->check(CLI::Range(int64_t{1}, kMostPlanFrames));
