@@ -2,8 +2,8 @@
 
     PYTHONPATH=build/python /usr/bin/python3 bench/on_demand.py [--world downtown_west] [--size 2048x1024] [--tiers labels,fast]
 
-Frames of one sky are taken in order. Workers have one thread each, as has the process that they are compared with; worlds are
-opened before the workers are forked. The median of three rounds counts.
+Frames of one sky are taken in order. Workers have one thread each; one of them is compared with two. Their worlds are opened before
+they are forked, so they share them. Medians of rounds.
 """
 import argparse
 import multiprocessing
@@ -21,14 +21,27 @@ def take(panoramas, frames):
     return time.monotonic() - start
 
 
-def two_workers(panoramas, frames):
-    """Seconds of both together, from the first frame on."""
+def work(panoramas, frames, barrier, queue):
+    barrier.wait()
+    cpu = time.process_time()
+    take(panoramas, frames)
+    queue.put(time.process_time() - cpu)
+
+
+def workers(panoramas, parts):
+    """Seconds of forked workers together, one for each part, and their CPU seconds. They go on with the worlds of this process."""
     context = multiprocessing.get_context("fork")
-    with context.Pool(2) as pool:
-        pool.starmap(take, [(panoramas, frames[:1])] * 2, chunksize=1)
-        start = time.monotonic()
-        pool.starmap(take, [(panoramas, frames[0::2]), (panoramas, frames[1::2])], chunksize=1)
-        return time.monotonic() - start
+    barrier, queue = context.Barrier(len(parts) + 1), context.Queue()
+    processes = [context.Process(target=work, args=(panoramas, part, barrier, queue)) for part in parts]
+    for process in processes:
+        process.start()
+    barrier.wait()
+    start = time.monotonic()
+    cpu = sum(queue.get() for _ in parts)
+    seconds = time.monotonic() - start
+    for process in processes:
+        process.join()
+    return seconds, cpu
 
 
 def main():
@@ -41,29 +54,33 @@ def main():
     frames = list(range(given.frames))
     with tempfile.TemporaryDirectory() as folder:
         for tier in given.tiers.split(","):
-            start = time.monotonic()
             options = dict(world=given.world, frames=1000, size=given.size, tier=tier)
-            panoramas = Panoramas("omni360-scene", cache=f"{folder}/{tier}", **options)
-            planned = time.monotonic()
-            panoramas[0]
-            first = time.monotonic()
-            print(f"{tier}: plan {planned - start:.2f} s, first frame {first - planned:.2f} s")
+
+            def tell(what, count, action):
+                """Frames a second, or seconds of one, and the CPU time of a frame."""
+                start, cpu = time.monotonic(), time.process_time()
+                result = action()
+                seconds, cpu = time.monotonic() - start, (time.process_time() - cpu) / count
+                print(f"{tier}: {what}: " + (f"{count / seconds:.2f} frames/s" if count > 1 else f"{seconds:.2f} s") + f", CPU {cpu:.3f} s")
+                return result
+
+            panoramas = tell("plan", 1, lambda: Panoramas("omni360-scene", cache=f"{folder}/{tier}", **options))
+            tell("first frame", 1, lambda: panoramas[0])
             plain = Panoramas("omni360-scene", cache=False, **options)
             take(plain, frames[:1])
-            print(f"{tier}: {len(frames) / statistics.median(take(plain, frames) for _ in range(3)):.2f} frames/s on all threads")
+            tell("next frames, all threads", len(frames), lambda: take(plain, frames))
             take(panoramas, frames)
             kept = Panoramas("omni360-scene", cache=f"{folder}/{tier}", **options)
-            start = time.monotonic()
-            kept[0]
-            print(f"{tier}: from the cache: first {time.monotonic() - start:.3f} s, "
-                  f"{len(frames) / statistics.median(take(kept, frames) for _ in range(3)):.1f} frames/s")
+            tell("first frame from the cache", 1, lambda: kept[0])
+            tell("next frames from the cache", len(frames), lambda: take(kept, frames))
             if tier == "labels":
-                one = Panoramas("omni360-scene", cache=False, threads=1, **options)
+                one = Panoramas("omni360-scene", cache=False, threads=1, **options).open()
                 take(one, frames[:1])
-                alone = [take(one, frames) for _ in range(3)]
-                both = [two_workers(one, frames) for _ in range(3)]
-                print(f"{tier}: one thread {len(frames) / statistics.median(alone):.2f} frames/s, two workers "
-                      f"{len(frames) / statistics.median(both):.2f}: {statistics.median(alone) / statistics.median(both):.2f} times")
+                rounds = [(workers(one, [frames]), workers(one, [frames[0::2], frames[1::2]])) for _ in range(5)]
+                alone, both = (tuple(statistics.median(r[k][i] for r in rounds) for i in (0, 1)) for k in (0, 1))
+                print(f"{tier}: one worker {len(frames) / alone[0]:.2f} frames/s, two {len(frames) / both[0]:.2f}: "
+                      f"{alone[0] / both[0]:.2f} times; CPU time of a frame {1000 * alone[1] / len(frames):.0f} and "
+                      f"{1000 * both[1] / len(frames):.0f} ms")
 
 
 if __name__ == "__main__":
