@@ -22,5 +22,6 @@ if(AIRSIM360_PYTHON)
     target_precompile_headers(airsim360_native PRIVATE <pybind11/pybind11.h> <pybind11/numpy.h> <pybind11/stl.h>)
   endif()
   # Our libraries are inside and invisible to others; that also lets their kernels be linked without -fPIC.
-  target_link_options(airsim360_native PRIVATE -Wl,--exclude-libs,ALL)
+  # Libraries that no part of the module needs (OpenCV) stay out of the wheel.
+  target_link_options(airsim360_native PRIVATE -Wl,--exclude-libs,ALL -Wl,--as-needed)
 endif()
