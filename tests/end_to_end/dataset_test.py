@@ -64,6 +64,11 @@ class Datasets(ProgramTest):
                 self.assertEqual(alone[key], written[index][key], key)
         self.assertGreater(len({frame["environment"] for frame in written.values()}), 2)
 
+    def test_a_recipe_is_planned_and_run_by_one_command(self):
+        self.run_ok("dataset", "run", self.shared / "rooms.yaml", "--seed", "5", "--out", self.folder / "a")
+        self.assertEqual(tree(self.folder / "a"), tree(self.whole))
+        self.run_bad(2, "dataset", "run", "omni360-mni", "--out", self.folder / "b", says=["did you mean 'omni360-mini'"])
+
     def test_the_same_recipe_and_seed_give_the_same_plan_and_another_seed_another(self):
         hashes = []
         for name, seed in (("a", 5), ("b", 5), ("c", 6)):

@@ -8,6 +8,7 @@
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/dataset_plan_command.h"
 #include "airsim360/base/error.h"
+#include "airsim360/dataset/plan/find_plan.h"
 #include "airsim360/dataset/plan/plan_spec.h"
 
 namespace airsim360 {
@@ -73,7 +74,9 @@ void PrintReport(const CollectResult& result, const RunArguments& arguments, con
 void RunShard(const RunArguments& arguments, const CLI::App& command, GlobalOptions& globals) {
   if (arguments.processes.is_worker()) BecomeWorker(arguments.processes, globals);
   const int processes = arguments.processes.is_worker() ? 1 : CountProcesses(arguments.processes, globals);
-  const DatasetPlan plan = ReadPlan(arguments.plan);
+  // What is meant to be a plan's file is never taken for the name of a recipe.
+  const bool is_file = fs::path(arguments.plan).extension() == ".json";
+  const DatasetPlan plan = is_file ? ReadPlan(arguments.plan) : FindPlan({.name = arguments.plan, .seed = globals.seed}, {globals.device, globals.gpu});
   const DatasetSpec spec = SpecOfPictures(plan.recipe.picture, GivenFields(command, arguments.picture));
   const Shard shard = ParseShard(arguments.shard);
   const PlanRun run{plan, spec, arguments.out, shard.index, shard.count, WorldOpener({globals.device, globals.gpu})};
@@ -142,7 +145,7 @@ void RunStatus(const StatusArguments& arguments, const GlobalOptions& globals) {
 void AddDatasetRun(CLI::App& dataset, GlobalOptions& globals) {
   CLI::App* command = dataset.add_subcommand("run", "make the frames of a plan; run again to finish what was interrupted");
   auto arguments = std::make_shared<RunArguments>();
-  command->add_option("PLAN", arguments->plan, "file of airsim360 dataset plan")->required();
+  command->add_option("PLAN", arguments->plan, "file of airsim360 dataset plan, or a recipe, of which the plan with --seed is made")->required();
   command->add_option("--out", arguments->out, "folder of the dataset, or of this shard of it")->required();
   command->add_option("--shard", arguments->shard, "I/N: part I of N of the frames, which follow one another (default 0/1)");
   RecipePicture& picture = arguments->picture;

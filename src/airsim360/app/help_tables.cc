@@ -94,7 +94,7 @@ constexpr auto kExamples = std::to_array<CommandExample>({
     {"verify", "airsim360 verify dataset --json", "the same, for programs"},
     {"dataset plan", "airsim360 dataset plan omni360-mini --out plan.json", "where each of its frames is, under which sky"},
     {"dataset plan", "airsim360 dataset plan plan.json --show 2 --json", "frame 2 of a plan, for programs"},
-    {"dataset run", "airsim360 dataset run plan.json --out mini", "makes its frames; again after an interruption"},
+    {"dataset run", "airsim360 dataset run omni360-mini --out mini", "makes the reference dataset; again after an interruption"},
     {"dataset run", "airsim360 dataset run plan.json --shard 0/8 --out shard0", "the first eighth, for one machine of eight"},
     {"dataset merge", "airsim360 dataset merge shard0 shard1 --out mini", "one dataset of two shards"},
     {"dataset merge", "airsim360 dataset merge shard0 shard1 --out mini --json", "the same, for programs"},
