@@ -90,7 +90,7 @@ struct FaceMaps {
 
 Image<Rgb8> Resampled(const Image<Rgb8>& picture, const FaceMaps& faces, size_t f) {
   Image<Rgb32f> floats(picture.width(), picture.height());
-  std::ranges::transform(picture.pixels(), floats.pixels().begin(), [](Rgb8 c) { return Rgb32f(c.r, c.g, c.b); });
+  std::ranges::transform(picture.pixels(), floats.pixels().begin(), [](Rgb8 c) { return Rgb32f{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)}; });
   const Image<Rgb32f> face = ResampleBilinear(floats, faces.source, faces.maps[f]);
   Image<Rgb8> result(face.width(), face.height());
   const auto byte = [](float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 255.0f))); };

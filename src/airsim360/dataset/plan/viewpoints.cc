@@ -171,7 +171,7 @@ std::vector<Aim> ViewpointSampler::FindAims() const {
   std::vector<Aim> aims;
   double all = 0;
   for (const auto& [category, list] : entities_) {
-    const auto count = std::ranges::count_if(seen, [&](const auto& set) { return set.contains(category); });
+    const auto count = std::ranges::count_if(seen, [&, id = category](const auto& set) { return set.contains(id); });
     const double share = static_cast<double>(count) / kViewpoints;
     if (share >= kRareShare) continue;
     // Without anything to see it from (inside of a building, say) it would only waste frames.
