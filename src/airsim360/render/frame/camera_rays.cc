@@ -6,6 +6,7 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
 
 namespace airsim360::internal {
 namespace {
@@ -50,27 +51,6 @@ Mat3d CanonicalFrame(Vec3d down) {
 
 double Rounded(double x) { return std::round(x / kAxisStep) * kAxisStep; }
 
-bool SameCamera(const Camera& a, const Camera& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* x = std::get_if<Equirectangular>(&a)) {
-    const auto& y = std::get<Equirectangular>(b);
-    return x->width == y.width && x->height == y.height;
-  }
-  if (const auto* x = std::get_if<CubeFace>(&a)) {
-    const auto& y = std::get<CubeFace>(b);
-    return x->face == y.face && x->size == y.size;
-  }
-  if (const auto* x = std::get_if<Pinhole>(&a)) {
-    const auto& y = std::get<Pinhole>(b);
-    return x->width == y.width && x->height == y.height && x->fx == y.fx && x->fy == y.fy && x->cx == y.cx &&
-           x->cy == y.cy;
-  }
-  const auto& x = std::get<Fisheye>(a);
-  const auto& y = std::get<Fisheye>(b);
-  return x.width == y.width && x.height == y.height && x.fx == y.fx && x.fy == y.fy && x.cx == y.cx &&
-         x.cy == y.cy && x.k == y.k && x.max_theta == y.max_theta;
-}
-
 }  // namespace
 
 void CameraRays::Update(const Camera& camera, const Mat3d& R_WC) {
@@ -79,7 +59,7 @@ void CameraRays::Update(const Camera& camera, const Mat3d& R_WC) {
     throw InputError("camera of " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
   }
   const auto* erp = std::get_if<Equirectangular>(&camera);
-  if (!SameCamera(camera, camera_)) {
+  if (camera != camera_) {
     field_ = RayField{};
     field_.width = width;
     field_.height = height;
@@ -156,7 +136,8 @@ void CameraRays::MakeTable(const Camera& camera) {
   rays_.assign(3 * n, 0);
   std::fill(rays_.begin() + static_cast<std::ptrdiff_t>(2 * n), rays_.end(), 1.0f);
   has_ray_.assign(n, 0);
-  for (int y = 0; y < field_.height; ++y) {
+  ParallelFor(field_.height, [&](int64_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < field_.width; ++x) {
       const std::optional<Vec3d> ray = PixelToRay(camera, {x + 0.5, y + 0.5});
       if (!ray) continue;
@@ -166,7 +147,7 @@ void CameraRays::MakeTable(const Camera& camera) {
       rays_[2 * n + i] = static_cast<float>(ray->z);
       has_ray_[i] = -1;
     }
-  }
+  });
   field_.ray_x = rays_.data();
   field_.ray_y = rays_.data() + n;
   field_.ray_z = rays_.data() + 2 * n;
