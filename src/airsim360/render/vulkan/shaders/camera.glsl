@@ -57,6 +57,14 @@ vec2 Distort(GpuCamera camera, vec2 m) {
                            p1 * (q + 2.0 * m.y * m.y) + 2.0 * p2 * m.x * m.y + q * (c.v[17] + q * c.v[18]));
 }
 
+/// Where the plane of a lens's picture, continued beyond its borders, shows a direction.
+vec2 LensPixel(GpuCamera camera, vec3 d) {
+  const float across = length(d.xy);
+  const vec2 along = across > 0.0 ? d.xy / across : vec2(1.0, 0.0);
+  return vec2(camera.focal[0], camera.focal[1]) * Distort(camera, LawRadius(camera, d, atan2_approx(across, d.z)) * along) +
+         vec2(camera.center[0], camera.center[1]);
+}
+
 /// Pixel position that sees a direction of the frame of the projection; false = none.
 bool Project(GpuCamera camera, vec3 d, out vec2 pixel) {
   pixel = vec2(0.0);
@@ -72,9 +80,8 @@ bool Project(GpuCamera camera, vec3 d, out vec2 pixel) {
   } else {
     const float across = length(d.xy), theta = atan2_approx(across, d.z);
     if (!(theta <= camera.max_theta)) return false;
-    const vec2 along = across > 0.0 ? d.xy / across : vec2(1.0, 0.0);
-    pixel = center + focal * (camera.projection == 2 ? FisheyeRadius(camera, theta) * along
-                                                     : Distort(camera, LawRadius(camera, d, theta) * along));
+    if (camera.projection == 3) pixel = LensPixel(camera, d);
+    else pixel = focal * FisheyeRadius(camera, theta) * (across > 0.0 ? d.xy / across : vec2(1.0, 0.0)) + center;
   }
   return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= float(camera.width) && pixel.y <= float(camera.height);
 }
