@@ -256,12 +256,11 @@ class RigOfTwentyTest(Rigs):
             mine = [line for line in (alone / "people.jsonl").read_text().splitlines()]
             self.assertEqual([line for line in (twenty / "people.jsonl").read_text().splitlines() if f'"000000_{name}"' in line], mine)
         frame = next(f for f in lines(twenty / "people.jsonl") if f["stem"] == "000000_lens")
-        entity = read_ids(twenty / "entity/000000_lens.png")
         fx, fy, cx, cy, xi, alpha = 15, 15, 24, 24, -0.18, 0.59
-        checked = visible = 0
+        checked = 0
         for person in frame["persons"]:
-            for (x, y, z), (u, v), state in zip(person["keypoints_cam"], person["keypoints_px"], person["keypoint_state"]):
-                if u is None or math.degrees(math.atan2(math.hypot(x, y), z)) > 94:
+            for (x, y, z), (u, v) in zip(person["keypoints_cam"], person["keypoints_px"]):
+                if (u, v) == (0, 0) or math.degrees(math.atan2(math.hypot(x, y), z)) > 94:  # not in the picture
                     continue
                 d1 = norm((x, y, z))
                 d2 = math.sqrt(x * x + y * y + (xi * d1 + z) ** 2)
