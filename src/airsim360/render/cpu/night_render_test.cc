@@ -1,6 +1,7 @@
 // Lamps, beams and lit windows belong to the night: by day they leave every byte as it is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "airsim360/base/parallel.h"
@@ -14,8 +15,10 @@ using namespace test;
 
 Frame Picture(const std::shared_ptr<const Scene>& scene, const Environment& environment, Tier tier) {
   const auto renderer = MakeCpuRenderer(std::make_shared<const RayTracer>(scene), {.tier = tier, .environment = environment});
+  RenderRequest request = MakeRequest(Equirectangular{160, 80}, BodyPose({0, -6, 2}, 1.5, 0, 0) * CameraInBody(), tier);
+  request.products.radiance = true;
   Frame frame;
-  renderer->Render(MakeRequest(Equirectangular{160, 80}, BodyPose({0, -6, 2}, 1.5, 0, 0) * CameraInBody(), tier), frame);
+  renderer->Render(request, frame);
   return frame;
 }
 
@@ -34,19 +37,24 @@ TEST(NightRender, WindowsDifferByNightAndOneOrManyThreadsGiveTheSameBytes) {
     const ThreadLimit limit(1);
     EXPECT_EQ(Picture(MakeNightStreet(true), night, Tier::kFast).rgb, many.rgb);
   }
-  // The windows before the camera: dark ones, and lit ones of more than one hue.
-  int dark = 0, warm = 0, other = 0;
-  for (int y = 20; y < 40; ++y) {
-    for (int x = 50; x < 110; ++x) {
-      const Rgb8 c = many.rgb(x, y);
-      if (c.r < 30) ++dark;
-      else if (c.r > c.b + 60) ++warm;
-      else ++other;
+  // The windows before the camera: dark ones, and lit ones of more than one brightness and hue.
+  int dark = 0, lit = 0;
+  float dimmest = 1e9f, brightest = 0, warmest = 0, coolest = 1e9f;
+  for (int y = 24; y < 44; ++y) {
+    for (int x = 55; x < 95; ++x) {
+      const Rgb32f c = many.radiance(x, y);
+      const float light = 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+      if (light < 2 * kNit) ++dark;
+      if (light < 4 * kNit) continue;
+      ++lit;
+      dimmest = std::min(dimmest, light), brightest = std::max(brightest, light);
+      warmest = std::max(warmest, c.r / c.b), coolest = std::min(coolest, c.r / c.b);
     }
   }
   EXPECT_GT(dark, 20);
-  EXPECT_GT(warm, 20);
-  EXPECT_GT(other, 5);
+  EXPECT_GT(lit, 30);
+  EXPECT_GT(brightest, 3 * dimmest);
+  EXPECT_GT(warmest, 2 * coolest);
 }
 
 }  // namespace

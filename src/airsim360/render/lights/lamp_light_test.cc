@@ -128,7 +128,7 @@ struct HeadLamp {
 
 TEST(LampLight, AHeadLampLightsTheWallBeforeItByTheSquareOfTheDistanceAndItsBeam) {
   const Vec3f axis = Normalized(Vec3f{0, -1, kBeamDrop});
-  for (const float distance : {3.0f, 6.0f, 12.0f}) {
+  for (const float distance : {3.0f, 6.0f, 10.0f}) {
     const HeadLamp lamp(distance);
     // Straight ahead, down, up beyond the cut-off, to the side.
     std::vector<Vec3f> points;
