@@ -53,20 +53,11 @@ LampRecord Record(const Lamp& lamp) {
     record.center[k] = lamp.center[k];
     record.facing[k] = lamp.facing[k];
     record.color[k] = lamp.power[k] / (kPi * lamp.area);
-    record.beam[k] = lamp.beam[k];
   }
   record.radius = lamp.radius;
   record.body = std::max(0.0f, body);
   record.soft = facing / kPi;
   return record;
-}
-
-// Irradiance of a surface that faces a lamp in the direction `to` (not unit), per unit of the lamp's radiance.
-float FacedIrradiance(const LampRecord& lamp, Vec3f to) {
-  const float distance = std::max(Norm(to), 1e-4f);
-  const Vec3f w = to / -distance, facing{lamp.facing[0], lamp.facing[1], lamp.facing[2]}, beam{lamp.beam[0], lamp.beam[1], lamp.beam[2]};
-  return scalar::lamp_irradiance(lamp.body, Dot(facing, w), lamp.soft, lamp.radius, distance, lamp.reach) *
-         scalar::beam_shape(Norm(beam), Dot(beam, w), w.z);
 }
 
 // Whether a ray met a surface from behind.
@@ -119,10 +110,9 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
   for (uint32_t i = 0; i < lamps.size(); ++i) {
     const Lamp& lamp = lamps[i];
     if (i == 0 || lamps[i - 1].instance != lamp.instance) first_of_instance = merged.size();
-    const bool beam = Norm(lamp.beam) >= 1;  // head and tail lamps, however dim
-    if (lamps.size() > kFewLamps && !beam && Luminance(lamp.power) / (kPi * lamp.area) < kBrightLamp) continue;
+    if (lamps.size() > kFewLamps && Luminance(lamp.power) / (kPi * lamp.area) < kBrightLamp) continue;
     size_t at = std::max(first_of_instance, merged.size() - std::min(merged.size(), kMergeAmong));
-    while (at < merged.size() && !(Norm(merged[at].center - lamp.center) <= kMergeDistance && merged[at].beam == lamp.beam)) ++at;
+    while (at < merged.size() && Norm(merged[at].center - lamp.center) > kMergeDistance) ++at;
     if (at == merged.size()) {
       merged.push_back(lamp);
     } else {
@@ -152,8 +142,11 @@ Vec3f LampGrid::CornerPosition(uint32_t corner) const {
 }
 
 float LampGrid::Strength(const LampRecord& lamp, Vec3f p) const {
+  const Vec3f to = Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p;
+  const float distance = std::max(Norm(to), 1e-4f);
+  const float towards = -Dot(Vec3f{lamp.facing[0], lamp.facing[1], lamp.facing[2]}, to) / distance;
   return Luminance({lamp.color[0], lamp.color[1], lamp.color[2]}) *
-         FacedIrradiance(lamp, Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p);
+         scalar::lamp_irradiance(lamp.body, towards, lamp.soft, lamp.radius, distance, lamp.reach);
 }
 
 void LampGrid::PlaceCells(const RayTracer& tracer) {
@@ -428,7 +421,9 @@ Vec3f LampGrid::Irradiance(Vec3f p, Vec3f normal) const {
     if (lit <= 0) continue;
     float seen = 0;
     for (int c = 0; c < 8; ++c) seen += (cell.lamp[k] >> (24 + c) & 1) != 0 ? weight[c] : 0;
-    light += Vec3f{lamp.color[0], lamp.color[1], lamp.color[2]} * (FacedIrradiance(lamp, to) * lit * seen / sum);
+    const float towards = -Dot(Vec3f{lamp.facing[0], lamp.facing[1], lamp.facing[2]}, to) / distance;
+    const float e = scalar::lamp_irradiance(lamp.body, towards, lamp.soft, lamp.radius, distance, lamp.reach);
+    light += Vec3f{lamp.color[0], lamp.color[1], lamp.color[2]} * (e * lit * seen / sum);
   }
   return light;
 }

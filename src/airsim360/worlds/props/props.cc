@@ -77,9 +77,7 @@ const PropKind& FindPropKind(std::string_view name) {
   throw InputError(UnknownChoiceMessage("prop", name, names));
 }
 
-namespace {
-
-Model MakeByDay(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
+Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
   variant %= static_cast<uint32_t>(kind.variants);
   if (models && variant < kind.library.size() && !kind.library[variant].name.empty()) {
     if (std::optional<Model> model = models->Load(kind.library[variant].name)) {
@@ -90,31 +88,20 @@ Model MakeByDay(const PropKind& kind, uint32_t variant, uint64_t seed, const Mod
   return kind.make(variant, MixBits(seed ^ HashName(kind.name)) + variant);
 }
 
-}  // namespace
-
-Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
-  Model model = MakeByDay(kind, variant, seed, models);
-  if (kind.category.starts_with("vehicle/")) internal::AddVehicleLamps(model, kind.name == "bus");
-  return model;
-}
-
 PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed)
     : builder_(builder), models_(models), seed_(seed) {}
 
 EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale,
-                          Vec3f tint, Engine engine) {
+                          Vec3f tint) {
   const PropKind& found = FindPropKind(kind);
   const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
-  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint,
-                        internal::EveningGlow(found.name, found.category, p_W, engine)});
+  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint});
   return entity;
 }
 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant,
                         Vec3f tint) {
-  const PropKind& found = FindPropKind(kind);
-  builder_.AddInstance({Get(found, variant), X_WM, entity, tint,
-                        internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
+  builder_.AddInstance({Get(FindPropKind(kind), variant), X_WM, entity, tint});
 }
 
 MeshId PropShelf::Get(const PropKind& kind, uint32_t variant) {
