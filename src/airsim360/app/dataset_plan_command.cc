@@ -16,7 +16,6 @@ namespace {
 struct PlanArguments {
   std::string recipe, out, worlds, show;
   int64_t frames = 0;
-  bool list = false;
 };
 
 std::vector<std::string> SplitWords(const std::string& text) {
