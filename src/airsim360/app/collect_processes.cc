@@ -221,7 +221,7 @@ void RunWorker(const WriteFramesHere& write) {
   if (line != "end") throw RuntimeError("--worker: the process that knows the frames is gone");
   const CollectResult result = write(frames, [](int64_t frame) {
     std::printf("frame %lld\n", static_cast<long long>(frame));
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0) throw RuntimeError("--worker: the process that asked for frames is gone");
   });
   std::printf("total %.6f %.6f %llu\n", result.render_ms, result.write_ms, static_cast<unsigned long long>(result.rays));
 }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -22,12 +24,18 @@ bool IsTemporary(const fs::path& path) { return path.extension() == ".tmp"; }
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder)
-    : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+// Not O_CLOEXEC: processes that render for this one inherit the lock, so that those of a run that was killed still
+// hold it while they end.
+FolderLock::FolderLock(const fs::path& folder) : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY)) {
   if (fd_ < 0) throw RuntimeError(folder.string() + ": cannot open: " + std::strerror(errno));
-  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(fd_);
-    throw RuntimeError(folder.string() + ": another airsim360 is writing here");
+  constexpr auto kPatience = std::chrono::seconds(2);  // a killed run's processes end within it
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() >= deadline) {
+      ::close(fd_);
+      throw RuntimeError(folder.string() + ": another airsim360 is writing here");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
 

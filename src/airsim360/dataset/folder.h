@@ -10,10 +10,11 @@ namespace airsim360 {
 inline constexpr char kMetaName[] = "meta.json";
 inline constexpr char kChecksumsName[] = "SHA256SUMS";
 
-/// Holds the folder for one writer; nothing is left behind when the process ends in any way.
+/// Holds the folder for one writer and the processes that it starts; nothing is left behind when all have ended in
+/// any way.
 class FolderLock {
  public:
-  /// RuntimeError if another process holds it.
+  /// RuntimeError if others hold it for longer than a killed run takes to end (2 s).
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
