@@ -12,7 +12,7 @@ import sys
 OWNERS = {  # third-party header prefix -> modules whose .cc files may include it
     "embree3/": {"trace"},
     "tbb/": {"base"},
-    "yaml-cpp/": {"base", "assets", "people"},
+    "yaml-cpp/": {"base", "assets", "people", "projection"},
     "openssl/": {"base"},
     "nlohmann/": {"assets", "dataset", "opening", "sim", "tasks", "app"},
     "boost/": {"tasks", "worlds"},

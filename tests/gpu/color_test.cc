@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/render/frame/test_room.h"
 #include "airsim360/worlds/worlds.h"
 #include "color_compare.h"
 
@@ -46,6 +47,11 @@ TEST(GpuColor, OfARoomByDayIsTheCpus) {
 TEST(GpuColor, OfARoomByNightIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   ExpectTheCpus(BuildWorld("sunlit_room", {.seed = 1}), ClearSky(-12), "sunlit_room by night");
+}
+
+TEST(GpuColor, OfWindowsAndHeadLampsByNightIsTheCpus) {
+  AIRSIM360_NEEDS_GPU();
+  ExpectTheCpus(MakeNightStreet(true), ClearSky(-25), "street by night");
 }
 
 TEST(GpuColor, OfRainIsTheCpus) {

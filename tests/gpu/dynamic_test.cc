@@ -63,8 +63,9 @@ TEST(GpuDynamic, WhatMovesHidesAndBendsIsSeenAsByTheCpu) {
 TEST(GpuDynamic, FlowIsTheCpus) {
   AIRSIM360_NEEDS_GPU();
   Pair pair;
-  const Camera cameras[] = {Equirectangular{128, 64}, CubeFace{CubeFaceName::kPosX, 64},
-                            Pinhole{96, 64, 60, 60, 48, 32}, Fisheye::Equidistant(64, 64, 3)};
+  std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kPosX, 64},
+                              Pinhole{96, 64, 60, 60, 48, 32}, Fisheye::Equidistant(64, 64, 3)};
+  for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
   for (const Camera& camera : cameras) {
     RenderRequest request = SquareRequest(128, 0.5, 0.3);
     request.camera = camera;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/projection/camera_model.h"
 #include "airsim360/render/vulkan/gpu.h"
 #include "airsim360/worlds/worlds.h"
 
@@ -32,6 +33,23 @@ inline std::vector<std::string> WorldsAskedFor() {
   const char* names = std::getenv("AIRSIM360_GPU_WORLDS");
   std::istringstream words(names ? names : "");
   return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// A calibrated lens of every law, with tangential and prism terms in two.
+inline std::vector<Camera> CalibratedLenses() {
+  const auto lens = [](const char* model, const std::vector<double>& rest, double f, double fov_deg) {
+    std::vector<double> parameters{f, 1.02 * f, 41, 31};
+    parameters.insert(parameters.end(), rest.begin(), rest.end());
+    return MakeCamera(model, 80, 64, parameters, fov_deg);
+  };
+  return {lens("OPENCV_THIN_PRISM", {-0.2, 0.05, 0.002, -0.001, 0, 0, 0, 0, 0.004, -0.001, -0.003, 0.002}, 60, 90),
+          lens("THIN_PRISM_FISHEYE", {0.02, -0.004, 0.0012, -0.0008, 0.0007, -0.0001, 0.0011, -0.0009}, 24, 170),
+          lens("RAD_TAN_THIN_PRISM_FISHEYE", {-0.02, 0.1, -0.06, 0.01, 0.002, -0.0006, 0.0004, -0.0002, 0.0003, 0, 0.0002, 0}, 30, 150),
+          lens("FOV", {0.92}, 35, 150),
+          lens("EUCM", {0.62, 1.1}, 30, 180),
+          lens("DOUBLE_SPHERE", {-0.18, 0.59}, 20, 190),
+          lens("OMNI", {1.27, -0.21, 0.13, 0.0006, -0.0004}, 85, 120),
+          lens("F_THETA", {28, -0.6, 0.4, -1.5, 0.5, -0.1}, 1, 150)};
 }
 
 /// A world, kept until another one is asked for.

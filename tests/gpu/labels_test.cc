@@ -49,12 +49,13 @@ TEST(GpuLabels, AreTheCpusThroughEveryCamera) {
   AIRSIM360_NEEDS_GPU();
   Pair pair(test::MakeRoom());
   RngStream rng(3, "gpu");
-  const Camera cameras[] = {Equirectangular{128, 64},
+  std::vector<Camera> cameras{Equirectangular{128, 64},
                             CubeFace{CubeFaceName::kNegX, 64},
                             CubeFace{CubeFaceName::kPosY, 48},
                             Pinhole{100, 60, 70, 65, 51, 29},
                             Fisheye::Equidistant(64, 64, kPi * 1.1),
                             Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
+  for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
   for (const Camera& camera : cameras) {
     const RenderRequest request = LabelRequest(camera, test::RandomPose(rng));
     Frame cpu, gpu;
@@ -96,8 +97,9 @@ TEST(GpuLabels, SharesOfEntitiesInAPixelAreTheCpusThroughEveryCamera) {
   AIRSIM360_NEEDS_GPU();
   Pair pair(test::MakeRoom());
   RngStream rng(5, "gpu");
-  const Camera cameras[] = {Equirectangular{128, 64}, CubeFace{CubeFaceName::kNegY, 64}, Pinhole{100, 60, 70, 65, 51, 29},
+  std::vector<Camera> cameras{Equirectangular{128, 64}, CubeFace{CubeFaceName::kNegY, 64}, Pinhole{100, 60, 70, 65, 51, 29},
                             Fisheye{80, 64, 20, 20, 40, 32, {0.01, -0.002, 0, 0}, 1.5}};
+  for (const Camera& lens : test::CalibratedLenses()) cameras.push_back(lens);
   int edges = 0;
   for (const Camera& camera : cameras) {
     RenderRequest request = LabelRequest(camera, test::RandomPose(rng));

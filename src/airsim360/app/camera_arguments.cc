@@ -8,7 +8,8 @@ void CameraArguments::AddTo(CLI::App& command) {
   command.add_option("--fov", fov_deg,
                      "field of view in degrees: pinhole across the width (90), fisheye across the shorter side (180)");
   command.add_option("--cameras", cameras,
-                     "instead: a rig of several cameras, a YAML or JSON file with their places (docs/reference/dataset_format.md)");
+                     "instead: a rig of several cameras, a YAML or JSON file with their places and lenses, or a calibration of Kalibr, "
+                     "COLMAP, OpenCV or ROS (docs/reference/cameras.md)");
 }
 
 }  // namespace airsim360

@@ -45,7 +45,7 @@ double Median(std::vector<double> values) {
 void CheckCameraPlaces(const RayTracer& tracer, const DatasetSpec& spec, const Flight& flight) {
   const std::vector<View> views = Views(spec);
   std::vector<Whereabouts> found(flight.shots.size() * views.size());
-  const auto place = [&](size_t i) { return flight.shots[i / views.size()].body.X_WB * views[i % views.size()].X_BC.p; };
+  const auto place = [&](size_t i) { return CameraPose(views[i % views.size()], flight.shots[i / views.size()].body.X_WB).p; };
   ParallelFor(static_cast<int64_t>(found.size()), [&](int64_t i) {
     const auto k = static_cast<size_t>(i);
     // The faces of a cube are in one place.

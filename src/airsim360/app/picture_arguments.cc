@@ -38,7 +38,11 @@ DatasetSpec PictureArguments::Spec() const {
 }
 
 void PictureArguments::Check(const DatasetSpec& spec) {
-  for (const View& view : Views(spec)) CheckPictureSettings(spec, view.camera, "--");
+  for (const View& view : Views(spec)) {
+    CheckPictureSettings(spec, view.camera, "--");
+    if (view.gimbal && spec.pano_frame == PanoFrame::kLevel)
+      throw InputError("--pano-frame: 'level' would turn camera '" + view.name + "', which a gimbal turns already; use body");
+  }
 }
 
 const std::vector<std::string>& PictureFlagNames() {

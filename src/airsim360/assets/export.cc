@@ -117,6 +117,7 @@ ordered_json Exporter::MaterialExtras(const Material& m) const {
   if (m.macro_variation != 0) extras[kExtraMacroVariation] = m.macro_variation;
   if (m.interior) extras[kExtraInterior] = true;
   if (m.lamp) extras[kExtraLamp] = true;
+  if (m.beam != 0) extras[kExtraBeam] = m.beam;
   return extras;
 }
 
@@ -238,6 +239,7 @@ void Exporter::AddInstances() {
         node["matrix"] = {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, p.x, p.y, p.z, 1};
       node["extras"] = {{kExtraEntity, id}, {kExtraCategory, scene_.tree[scene_.entity(id).category].path}};
       if (!(instance.tint == Vec3f{1, 1, 1})) node["extras"][kExtraTint] = ToJson(instance.tint);
+      if (!(instance.glow == Vec3f{1, 1, 1})) node["extras"][kExtraGlow] = ToJson(instance.glow);
       node["extras"][kExtraNode] = nodes.size() + 1;
       seen_[id] = true;
       nodes.emplace_back(id, std::move(node));

@@ -134,7 +134,11 @@ void ReadNodeExtras(const JsonRef& json, ImportedNode& node, std::map<uint64_t, 
   const std::string whole = CleanName(extras->TextOr(kExtraName, "")), kept = node.name.substr(0, node.name.rfind('.'));
   if (node.copy == 0 && whole.size() > kBlenderName && kept.size() + 8 > kBlenderName && whole.starts_with(kept)) node.name = whole;
   const std::vector<double> tint = extras->NumbersOr(kExtraTint, {1, 1, 1});
-  for (int k = 0; k < 3; ++k) node.tint[k] = static_cast<float>(std::clamp(tint[k], 0.0, 1e3));
+  const std::vector<double> glow = extras->NumbersOr(kExtraGlow, {1, 1, 1});
+  for (int k = 0; k < 3; ++k) {
+    node.tint[k] = static_cast<float>(std::clamp(tint[k], 0.0, 1e3));
+    node.glow[k] = static_cast<float>(std::clamp(glow[k], 0.0, 1e3));
+  }
 }
 
 void GltfReader::AddNode(uint32_t i, int32_t parent) {

@@ -5,7 +5,7 @@
 
 namespace airsim360::internal {
 
-// Of nodes: entity id (nodes with the same one are one entity), category path, instance tint (linear RGB).
+// Of nodes: entity id (nodes with the same one are one entity), category path, instance tint and glow (linear RGB).
 inline constexpr char kExtraEntity[] = "airsim360_entity";
 // Number of the node, in the order of the world's instances: a second node with the same one is a copy that somebody made, and a thing of its own.
 inline constexpr char kExtraNode[] = "airsim360_node";
@@ -14,6 +14,7 @@ inline constexpr char kExtraName[] = "airsim360_name";
 inline constexpr size_t kBlenderName = 63;
 inline constexpr char kExtraCategory[] = "airsim360_category";
 inline constexpr char kExtraTint[] = "airsim360_tint";
+inline constexpr char kExtraGlow[] = "airsim360_glow";
 
 // Of materials: SurfaceKind by name, then fields of Material.
 inline constexpr char kExtraKind[] = "airsim360_kind";
@@ -21,6 +22,7 @@ inline constexpr char kExtraTransmission[] = "airsim360_transmission";
 inline constexpr char kExtraMacroVariation[] = "airsim360_macro_variation";
 inline constexpr char kExtraInterior[] = "airsim360_interior";
 inline constexpr char kExtraLamp[] = "airsim360_lamp";
+inline constexpr char kExtraBeam[] = "airsim360_beam";
 inline constexpr char kExtraGround[] = "airsim360_ground";
 inline constexpr char kExtraBlendTiles[] = "airsim360_blend_tiles";
 inline constexpr char kExtraUnits[] = "airsim360_units";

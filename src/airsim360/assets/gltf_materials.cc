@@ -74,6 +74,7 @@ void ReadExtras(const JsonRef& json, GltfMaterial& out) {
   m.macro_variation = Unit(extras->NumberOr(kExtraMacroVariation, 0));
   m.interior = extras->BoolOr(kExtraInterior, false);
   m.lamp = extras->BoolOr(kExtraLamp, false);
+  m.beam = static_cast<float>(std::clamp(extras->NumberOr(kExtraBeam, 0), -1e3, 1e3));
 }
 
 }  // namespace

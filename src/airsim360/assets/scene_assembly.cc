@@ -118,6 +118,7 @@ class Assembler {
       instance.X_WM = node.X_WM;
       instance.entity = EntityFor(node, label, parts, groups.size() > 1);
       instance.tint = node.tint;
+      instance.glow = node.glow;
       instances_.emplace_back(node.number == 0 ? UINT64_MAX : node.number, instance);
     }
   }

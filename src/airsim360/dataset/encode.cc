@@ -142,7 +142,7 @@ EncodedFrame Encode(const EncodeContext& context, int64_t index, const std::vect
           context.views[v].suffix, captures[v].X_WC, captures[v].X_WC_next,
           FindSegments(image.entity, image.semantic, context.scene, context.solid_angles[v],
                        {.wraps = projection == Projection::kErp,
-                        .allows_void = projection == Projection::kFisheye})};
+                        .allows_void = MayLackRays(projection)})};
       frame.record.views[v].photo = captures[v].photo;
     } else {
       FillRangeFigures(captures, frame.record);

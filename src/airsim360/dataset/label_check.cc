@@ -56,7 +56,8 @@ std::vector<std::string> SuffixesWithVoid(const fs::path& folder) {
   if (!meta.is_object()) return suffixes;
   if (meta.contains(cameras) && meta[cameras].is_array()) {
     for (const Json& camera : meta[cameras]) {
-      if (camera.is_object() && camera.value("projection", Json()) == "fisheye" && camera.value("name", Json()).is_string())
+      if (!camera.is_object() || !camera.value("name", Json()).is_string()) continue;
+      if (const Json kind = camera.value("projection", Json()); kind == "fisheye" || kind == "lens")
         suffixes.push_back("_" + camera["name"].get<std::string>() + ".png");
     }
   } else if (meta.contains(projection) && meta[projection] == "fisheye") {

@@ -1,6 +1,7 @@
 // meta.json: what a dataset is, for people and programs.
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "airsim360/dataset/record/config_json.h"
 #include "airsim360/dataset/record/intrinsics.h"
@@ -13,6 +14,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json PoseJson(const RigidTransform& X) {
+  const Quaternion q = ToQuaternion(X.R);
+  return {{"p", {X.p.x, X.p.y, X.p.z}}, {"q_wxyz", {q.w, q.x, q.y, q.z}}};
+}
+
+Json GimbalJson(const GimbalMount& gimbal) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  Json json;
+  AddConfig([spec = gimbal.spec](ConfigVisitor& v) mutable { spec.Visit(v); }, json);
+  json.erase("max_rate_deg");
+  json["yaw_deg"] = gimbal.command.yaw * kDegrees;
+  json["pitch_deg"] = gimbal.command.pitch * kDegrees;
+  json["roll_deg"] = gimbal.command.roll * kDegrees;
+  return json;
+}
+
 Json RigJson(const DatasetSpec& spec) {
   Json list = Json::array();
   for (const RigCamera& camera : spec.cameras) {
@@ -24,8 +41,14 @@ Json RigJson(const DatasetSpec& spec) {
                  {"yaw_deg", camera.yaw_deg},
                  {"pitch_deg", camera.pitch_deg},
                  {"roll_deg", camera.roll_deg}};
-    if (camera.projection == Projection::kPinhole || camera.projection == Projection::kFisheye)
+    if (camera.lens) {
+      json["K"] = IntrinsicsJson(*camera.lens);
+      if (const auto* fisheye = std::get_if<Fisheye>(&*camera.lens)) json["max_theta"] = fisheye->max_theta;
+      json["X_IC"] = PoseJson(camera.X_IC);
+    } else if (camera.projection == Projection::kPinhole || camera.projection == Projection::kFisheye) {
       json["fov_deg"] = camera.fov_deg;
+    }
+    if (camera.gimbal) json["gimbal"] = GimbalJson(*camera.gimbal);
     list.push_back(json);
   }
   return list;
@@ -37,12 +60,10 @@ Json CamerasJson(const DatasetSpec& spec) {
   for (const View& view : Views(spec)) {
     const Json K = IntrinsicsJson(view.camera);
     if (K.is_null() && spec.cameras.empty()) continue;
-    const Quaternion q = ToQuaternion(view.X_BC.R);
-    const Vec3d p = view.X_BC.p;
     Json json = {{"name", view.name},
                  {"suffix", view.suffix},
                  {"projection", kProjectionNames[static_cast<int>(view.projection)]},
-                 {"X_BC", {{"p", {p.x, p.y, p.z}}, {"q_wxyz", {q.w, q.x, q.y, q.z}}}}};
+                 {view.gimbal ? "X_GC" : "X_BC", PoseJson(view.X_BC)}};
     if (!K.is_null()) json["K"] = K;
     list.push_back(json);
   }
@@ -98,7 +119,7 @@ Json ConventionsJson() {
        "ray = (cos phi sin theta, -sin phi, cos phi cos theta)"},
       {"K",
        "of pinhole (COLMAP PINHOLE) and fisheye pictures (OPENCV_FISHEYE, angle in radians = radius / f): x = fx X / Z + cx "
-       "in pixels, the centre of the first pixel at (0.5, 0.5)"},
+       "in pixels, the centre of the first pixel at (0.5, 0.5); of lenses the model's own formula (docs/reference/cameras.md)"},
       {"pano_frame", "body: the panorama turns with the body; level: only with its heading, up is world up"},
       {"cube",
        "faces STEM_+x, -x, +y, -y, +z, -z: 90 degree pinholes along the axes of C, +z forward, -y up; the "

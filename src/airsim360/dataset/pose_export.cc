@@ -23,7 +23,9 @@ struct ExportedView {
   View view;
   Json K;
   size_t id;
-  bool fisheye() const { return view.projection == Projection::kFisheye; }
+  // nerfstudio's camera_model, or nothing.
+  bool opencv() const { return K["model"] == "PINHOLE" || K["model"] == "OPENCV"; }
+  bool fisheye() const { return K["model"] == "OPENCV_FISHEYE"; }
 };
 
 std::vector<ExportedView> ExportedViews(const DatasetSpec& spec) {
@@ -31,7 +33,7 @@ std::vector<ExportedView> ExportedViews(const DatasetSpec& spec) {
   if (spec.tier == Tier::kLabels) return views;
   for (const View& view : Views(spec)) {
     const Json K = IntrinsicsJson(view.camera);
-    if (!K.is_null()) views.push_back({view, K, views.size() + 1});
+    if (!K.is_null() && IsColmapModel(view.camera)) views.push_back({view, K, views.size() + 1});
   }
   return views;
 }
@@ -79,8 +81,9 @@ Json NerfstudioFrame(const ExportedView& view, const RigidTransform& X_WC, const
   const Json& K = view.K;
   Json json = {{"file_path", "rgb/" + name}, {"fl_x", K["fx"]}, {"fl_y", K["fy"]}, {"cx", K["cx"]},
                {"cy", K["cy"]},              {"w", K["width"]}, {"h", K["height"]}};
-  constexpr const char* kNames[] = {"k1", "k2", "k3", "k4"};
-  for (size_t i = 0; i < K["distortion"].size(); ++i) json[kNames[i]] = K["distortion"][i];
+  const bool fisheye = view.fisheye();
+  const char* const names[] = {"k1", "k2", fisheye ? "k3" : "p1", fisheye ? "k4" : "p2"};
+  for (size_t i = 0; i < K["distortion"].size(); ++i) json[names[i]] = K["distortion"][i];
   json["transform_matrix"] = OpenGlMatrix(X_WC);
   return json;
 }
@@ -95,10 +98,9 @@ struct TransformsNames {
   std::string pinhole, fisheye;
 };
 TransformsNames NamesOf(const std::vector<ExportedView>& views) {
-  const auto fisheyes = static_cast<size_t>(std::ranges::count_if(views, &ExportedView::fisheye));
   TransformsNames names;
-  if (fisheyes < views.size()) names.pinhole = "transforms.json";
-  if (fisheyes > 0) names.fisheye = names.pinhole.empty() ? "transforms.json" : "transforms_fisheye.json";
+  if (std::ranges::any_of(views, &ExportedView::opencv)) names.pinhole = "transforms.json";
+  if (std::ranges::any_of(views, &ExportedView::fisheye)) names.fisheye = names.pinhole.empty() ? "transforms.json" : "transforms_fisheye.json";
   return names;
 }
 
@@ -125,7 +127,7 @@ std::vector<ExportedFile> ExportPoses(const std::string& frames_jsonl, const Dat
       const std::string name = PictureName(frame, spec, view.view);
       const size_t image = frame["index"].get<size_t>() * views.size() + view.id;
       images += ColmapImage(image, view.id, X_WC, name);
-      (view.fisheye() ? fisheyes : pinholes).push_back(NerfstudioFrame(view, X_WC, name));
+      if (view.opencv() || view.fisheye()) (view.fisheye() ? fisheyes : pinholes).push_back(NerfstudioFrame(view, X_WC, name));
     }
   });
   std::vector<ExportedFile> files = {{"cameras.txt", ColmapCameras(views)},

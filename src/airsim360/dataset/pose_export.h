@@ -1,4 +1,4 @@
-// Poses and intrinsics of pinhole and fisheye pictures as COLMAP and nerfstudio read them.
+// Poses and intrinsics of pinholes, fisheyes and calibrated lenses as COLMAP and nerfstudio read them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace airsim360 {
 
-/// Names of the files that ExportPoses makes; none if no view has intrinsics or there are no colour pictures.
+/// Names of the files that ExportPoses makes; none if no view has intrinsics of COLMAP or there are no colour pictures.
+/// Lenses that COLMAP has no model of are left out, of nerfstudio's files those that are not OPENCV or OPENCV_FISHEYE.
 std::vector<std::string> PoseFileNames(const DatasetSpec& spec);
 
 /// COLMAP's text model (cameras.txt, images.txt, an empty points3D.txt): poses map W to the camera, axes right, down,

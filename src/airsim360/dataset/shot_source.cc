@@ -56,6 +56,7 @@ std::shared_ptr<const SceneState> ShotSource::Take(size_t frame, const std::vect
   for (size_t v = 0; v < views.size(); ++v) {
     PanoramicRig rig{input_.spec, views[v].camera, views[v].X_BC, products};
     rig.state = state;
+    rig.gimbal = views[v].gimbal;
     CaptureRig(rig, shot.body, shot.t_ns, renderer, captures[v], &next);
   }
   return state;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "airsim360/base/error.h"
+#include "airsim360/projection/calibrated_lens.h"
 #include "airsim360/projection/fisheye_radius.h"
 
 namespace airsim360 {
@@ -71,6 +72,13 @@ std::optional<Vec2d> Pixel(const Fisheye& c, Vec3d ray) {
   return Inside(pixel, c.width, c.height) ? std::optional(pixel) : std::nullopt;
 }
 
+std::optional<Vec3d> Ray(const CalibratedLens& c, Vec2d pixel) { return internal::LensRay(c, pixel); }
+
+std::optional<Vec2d> Pixel(const CalibratedLens& c, Vec3d ray) {
+  const std::optional<Vec2d> pixel = internal::ProjectLens(c, ray);
+  return pixel && Inside(*pixel, c.width, c.height) ? pixel : std::nullopt;
+}
+
 struct Size {
   int width, height;
 };
@@ -105,6 +113,11 @@ void CheckFocal(const C& c) {
 }
 
 void Check(const Pinhole& c) { CheckFocal(c); }
+
+void Check(const CalibratedLens& c) {
+  CheckFocal(c);
+  internal::CheckLens(c);
+}
 
 void Check(const Fisheye& c) {
   CheckFocal(c);

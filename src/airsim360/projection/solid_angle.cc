@@ -87,6 +87,38 @@ double Of(const Fisheye& c, int i, int j) {
   return std::max(0.0, Edge(c, a, b) + Edge(c, b, e) + Edge(c, e, f) + Edge(c, f, a));
 }
 
+// Solid angle of the triangle of three unit vectors (van Oosterom and Strackee 1983), from differences, which do not
+// cancel where it is small.
+double Triangle(Vec3d a, Vec3d b, Vec3d c) {
+  return 2 * std::atan2(Dot(a, Cross(b - a, c - a)), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a));
+}
+
+// Of a rectangle of the picture whose corners have rays; nullopt where one has none.
+std::optional<double> Quadrangle(const CalibratedLens& c, Vec2d p, double side) {
+  const Camera camera = c;
+  const auto a = PixelToRay(camera, p), b = PixelToRay(camera, p + Vec2d{side, 0}), d = PixelToRay(camera, p + Vec2d{0, side}),
+             e = PixelToRay(camera, p + Vec2d{side, side});
+  if (!a || !b || !d || !e) return std::nullopt;
+  return Triangle(*a, *b, *e) + Triangle(*a, *e, *d);
+}
+
+double Of(const CalibratedLens& c, int i, int j) {
+  const Vec2d corner{static_cast<double>(i), static_cast<double>(j)};
+  if (const auto whole = Quadrangle(c, corner, 1)) return *whole;
+  // Where the field ends: the part of the pixel whose points have rays, all of the size of one that has its corners too.
+  constexpr int kParts = 8;
+  const Camera camera = c;
+  int seen = 0;
+  std::optional<double> part;
+  for (int k = 0; k < kParts * kParts; ++k) {
+    const Vec2d at = corner + Vec2d{k % kParts / 8.0, k / kParts / 8.0};
+    if (!PixelToRay(camera, at + Vec2d{0.5 / kParts, 0.5 / kParts})) continue;
+    ++seen;
+    if (!part) part = Quadrangle(c, at, 1.0 / kParts);
+  }
+  return seen * part.value_or(0);
+}
+
 }  // namespace
 
 double SolidAngle(const Camera& camera, int i, int j) {

@@ -14,6 +14,9 @@ namespace airsim360 {
 /// One cd/m^2 (or one lx of irradiance) in the units of emission and sky: 20 units are 133.3 klx.
 inline constexpr float kNit = 20.0f / 133300.0f;
 
+/// Material::beam of lamps that are cut off above the horizon, as low beams are.
+inline constexpr float kLowBeam = 10;
+
 using TextureId = int32_t;
 inline constexpr TextureId kNoTexture = -1;
 
@@ -72,7 +75,10 @@ struct Material {
   float clear_coat = 0;  ///< 0 … 1: a smooth dielectric layer (n = 1.5) over everything, as on car paint
   float clear_coat_roughness = 0.03f;
   bool interior = false;  ///< kGlass: a furnished room is seen behind each pane (interior mapping)
-  bool lamp = false;      ///< emission shines only while Environment::lamps_on()
+  bool lamp = false;      ///< emission shines only while Environment::lamps_on(); with kGlass and without `beam` it is that of a
+                          ///< window, behind each pane of which something else shines (evening_light of shading_interior.h)
+  float beam = 0;         ///< emission is thrown along the front (-Y) of the mesh, for negative values its back: 1 / (1 + |beam| (1 - cos))^2
+                          ///< of it at an angle from there; beyond kLowBeam little above the horizon. 0 = the same in all directions
   float macro_variation =
       0;  ///< amplitude of brightness variation over 2..40 m of world, hides tiling of grounds
   TextureId base_color_texture = kNoTexture;          ///< sRGB, alpha = opacity

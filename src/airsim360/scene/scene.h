@@ -32,6 +32,7 @@ struct Instance {
   AffineTransform X_WM;         ///< mesh frame to W
   EntityId entity = kNoEntity;  ///< for the parts that carry none of their own
   Vec3f tint{1, 1, 1};          ///< multiplies base colour (linear)
+  Vec3f glow{1, 1, 1};          ///< multiplies emission (linear): colour and strength of its lamps, black = switched off
 };
 
 /// Triangles, instances and entities of a scene as counted by `airsim360 worlds` and `--json` outputs.

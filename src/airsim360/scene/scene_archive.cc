@@ -13,7 +13,7 @@ namespace {
 
 // Kept as their memory: no padding whose bytes would be anything.
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8 && sizeof(Vec3u) == 12 && sizeof(Rgba8) == 4);
-static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 68 && sizeof(Box3f) == 24);
+static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 80 && sizeof(Box3f) == 24);
 static_assert(sizeof(VertexColor) == 8);
 // A field added to these belongs into the lists below.
 static_assert(sizeof(Material) == 152 && sizeof(Environment) == 176 && sizeof(Scene) == 552);
@@ -44,7 +44,7 @@ template <class Archive, class T>
 void VisitMaterial(Archive& archive, T& m) {
   archive(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic, m.roughness,
           m.emission, m.normal_scale, m.transmission, m.clear_coat, m.clear_coat_roughness, m.interior,
-          m.lamp, m.macro_variation, m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
+          m.lamp, m.beam, m.macro_variation, m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
           m.emission_texture, m.uv_scale, m.uv_offset, m.uv_rotation, m.ground, m.blend_tiles, m.units);
 }
 

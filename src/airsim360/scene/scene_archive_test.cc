@@ -24,6 +24,7 @@ Material OddMaterial() {
           0.05f,
           true,
           true,
+          -3.5f,
           0.15f,
           0,
           1,

@@ -63,6 +63,10 @@ void StepGimbal(const GimbalSpec& spec, const Mat3d& R_WB, double dt, GimbalStat
                   turn(state.joints.pitch, wanted.pitch), turn(state.joints.roll, wanted.roll)};
 }
 
+RigidTransform GimbalMount::AtRest(const Mat3d& R_WB) const {
+  return GimbalPose(spec, StartGimbal(spec, command, R_WB));
+}
+
 RigidTransform GimbalPose(const GimbalSpec& spec, const GimbalState& state) {
   return BodyPose(spec.p_BG, state.joints.yaw, state.joints.pitch, state.joints.roll);
 }

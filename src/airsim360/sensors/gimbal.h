@@ -40,4 +40,12 @@ void StepGimbal(const GimbalSpec& spec, const Mat3d& R_WB, double dt, GimbalStat
 
 RigidTransform GimbalPose(const GimbalSpec& spec, const GimbalState& state);  ///< X_BG
 
+/// A gimbal and what it is told. One that has come to rest is a function of the body's attitude alone.
+struct GimbalMount {
+  GimbalSpec spec;
+  GimbalAngles command;
+
+  RigidTransform AtRest(const Mat3d& R_WB) const;  ///< X_BG
+};
+
 }  // namespace airsim360

@@ -48,6 +48,10 @@ void CheckPictureSettings(const PictureSettings& settings, const Camera& camera,
 }
 
 RigidTransform CameraPose(const PanoramicRig& rig, const RigidTransform& X_WB) {
+  if (rig.gimbal) {
+    if (rig.pano_frame == PanoFrame::kLevel) throw InputError("pano_frame: 'level' would turn what a gimbal turns already; use body");
+    return X_WB * rig.gimbal->AtRest(X_WB.R) * rig.X_BC;
+  }
   if (rig.pano_frame == PanoFrame::kBody) return X_WB * rig.X_BC;
   // The rig hangs in a gimbal: its place follows the body, its orientation only the body's heading.
   const RigidTransform level = BodyPose(X_WB * rig.X_BC.p, Heading(X_WB.R), 0, 0);

@@ -7,6 +7,7 @@
 
 #include "airsim360/render/look/photo.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/sensors/gimbal.h"
 #include "airsim360/sensors/lens.h"
 
 namespace airsim360 {
@@ -46,6 +47,7 @@ struct PanoramicRig : PictureSettings {
   Products products = {};
   Real360 real360 = {};
   std::shared_ptr<const SceneState> state = nullptr;  ///< what has moved; nullptr = nothing
+  std::optional<GimbalMount> gimbal = {};  ///< what the camera hangs on, X_BC being its pose there; not with kLevel
 };
 
 /// The next trigger of a rig, which optical flow leads to.

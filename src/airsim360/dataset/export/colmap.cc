@@ -6,6 +6,7 @@
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/dataset/export/range_points.h"
 #include "airsim360/image/codecs.h"
+#include "airsim360/projection/camera_model.h"
 #include "airsim360/projection/resample.h"
 
 namespace airsim360::internal {
@@ -32,6 +33,9 @@ std::string CameraLine(size_t id, const Camera& camera) {
   } else if (const auto* fisheye = std::get_if<Fisheye>(&camera)) {
     model = "OPENCV_FISHEYE";
     params = {fisheye->fx, fisheye->fy, fisheye->cx, fisheye->cy, fisheye->k[0], fisheye->k[1], fisheye->k[2], fisheye->k[3]};
+  } else if (const std::optional<CameraModel> lens = ModelOf(camera)) {
+    model = lens->name;
+    params = lens->parameters;
   }
   std::string line = std::to_string(id) + " " + model + " " + std::to_string(Width(camera)) + " " + std::to_string(Height(camera));
   for (const double value : params) line.append(" ").append(Number(value));
@@ -174,6 +178,10 @@ void AddFaces(Model& model, const NativeFrame& frame, const View& view, int size
 void ExportColmap(ExportJob& job) {
   job.NeedColour();
   const std::vector<View>& views = job.data.views();
+  for (const View& view : views) {
+    const std::optional<CameraModel> lens = ModelOf(view.camera);
+    job.Need(!lens || lens->colmap, "lenses that COLMAP has a model of (not " + (lens ? lens->name : "") + ")", "other --cameras");
+  }
   const bool faces = views.size() == 1 && views[0].projection == Projection::kErp;
   std::optional<FaceMaps> maps;
   if (faces) maps.emplace(Width(views[0].camera), views[0].camera);

@@ -22,10 +22,8 @@ RigidTransform OpticalInWorld(const NativeFrame& frame, const View& view) {
   return X;
 }
 
-RigidTransform BodyInWorld(const NativeFrame& frame, const View& view) { return frame.X_WC(view) * view.X_BC.inverse(); }
-
 std::string Odometry(const NativeFrame& frame, const View& view) {
-  const RigidTransform X = BodyInWorld(frame, view);
+  const RigidTransform X = frame.X_WB(view);
   Cdr cdr;
   cdr.Header(frame.t_ns, "map").Text("base_link").Vector(X.p).Rotation(X.R);
   for (int i = 0; i < 36; ++i) cdr.N(0.0);
@@ -40,7 +38,7 @@ std::string Transforms(const NativeFrame& frame, const std::vector<View>& views)
   const auto add = [&](const std::string& child, const RigidTransform& X) {
     cdr.Header(frame.t_ns, "map").Text(child).Vector(X.p).Rotation(X.R);
   };
-  add("base_link", BodyInWorld(frame, views.front()));
+  add("base_link", frame.X_WB(views.front()));
   for (const View& view : views) add(TopicName(view) + "_optical", OpticalInWorld(frame, view));
   return cdr.Take();
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "airsim360/base/choice.h"
 #include "airsim360/base/error.h"
@@ -12,6 +13,7 @@
 #include "airsim360/base/file_name.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/dataset/folder.h"
+#include "airsim360/dataset/record/intrinsics.h"
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/palette_png.h"
 
@@ -31,6 +33,21 @@ RigidTransform Pose(const Json& X) {
   return {ToMatrix({q.at(0), q.at(1), q.at(2), q.at(3)}), Vector(X.at("p"))};
 }
 
+GimbalMount GimbalOf(const Json& json) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  GimbalMount gimbal{.spec = {.p_BG = {json.at("x"), json.at("y"), json.at("z")},
+                              .stabilise_yaw = json.at("stabilise_yaw"),
+                              .stabilise_pitch = json.at("stabilise_pitch"),
+                              .stabilise_roll = json.at("stabilise_roll")},
+                     .command = {json.at("yaw_deg").get<double>() * kRadians, json.at("pitch_deg").get<double>() * kRadians,
+                                 json.at("roll_deg").get<double>() * kRadians}};
+  gimbal.spec.yaw_limit_deg = json.at("yaw_limit_deg");
+  gimbal.spec.pitch_low_deg = json.at("pitch_low_deg");
+  gimbal.spec.pitch_high_deg = json.at("pitch_high_deg");
+  gimbal.spec.roll_limit_deg = json.at("roll_limit_deg");
+  return gimbal;
+}
+
 RigCamera CameraOf(const Json& json) {
   RigCamera camera{.name = json.at("name"),
                    .projection = ParseChoice<Projection>("projection", json.at("projection").get<std::string>(),
@@ -42,6 +59,9 @@ RigCamera CameraOf(const Json& json) {
   camera.yaw_deg = json.value("yaw_deg", 0.0);
   camera.pitch_deg = json.value("pitch_deg", 0.0);
   camera.roll_deg = json.value("roll_deg", 0.0);
+  if (json.contains("K")) camera.lens = CameraOfIntrinsics(json["K"], json.value("max_theta", std::numbers::pi));
+  if (json.contains("X_IC")) camera.X_IC = Pose(json["X_IC"]);
+  if (json.contains("gimbal")) camera.gimbal = GimbalOf(json["gimbal"]);
   return camera;
 }
 
@@ -74,6 +94,9 @@ DatasetSpec SpecOf(const Json& meta) {
 RigidTransform NativeFrame::X_WC(const View& view) const {
   if (view.name.empty() || !json.contains("cameras")) return Pose(json.at("X_WC"));
   return Pose(json.at("cameras").at(view.name).at("X_WC"));
+}
+RigidTransform NativeFrame::X_WB(const View& view) const {
+  return json.contains("X_WB") ? Pose(json.at("X_WB")) : X_WC(view) * view.X_BC.inverse();
 }
 Vec3d NativeFrame::v_WB() const { return Vector(json.at("v_WB")); }
 Vec3d NativeFrame::w_WB_B() const { return Vector(json.at("w_WB_B")); }

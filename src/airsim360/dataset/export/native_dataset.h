@@ -29,6 +29,9 @@ struct NativeFrame {
 
   /// Pose of a view in W.
   RigidTransform X_WC(const View& view) const;
+  /// Pose of the body: that of rigs is written down, a camera without a rig is fixed to it. With pano_frame level such a
+  /// camera tells only the heading.
+  RigidTransform X_WB(const View& view) const;
   Vec3d v_WB() const;
   Vec3d w_WB_B() const;
 };

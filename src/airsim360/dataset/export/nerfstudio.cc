@@ -21,15 +21,16 @@ Json Intrinsics(const View& view) {
     return {{"camera_model", "EQUIRECTANGULAR"}, {"w", width}, {"h", height}, {"fl_x", height}, {"fl_y", height}, {"cx", width / 2.0}, {"cy", height / 2.0}};
   }
   const Json K = IntrinsicsJson(view.camera);
-  Json json = {{"camera_model", view.projection == Projection::kFisheye ? "OPENCV_FISHEYE" : "OPENCV"},
+  const bool fisheye = K["model"] == "OPENCV_FISHEYE";
+  Json json = {{"camera_model", fisheye ? "OPENCV_FISHEYE" : "OPENCV"},
                {"w", width},
                {"h", height},
                {"fl_x", K["fx"]},
                {"fl_y", K["fy"]},
                {"cx", K["cx"]},
                {"cy", K["cy"]}};
-  constexpr const char* kNames[] = {"k1", "k2", "k3", "k4"};
-  for (size_t i = 0; i < K["distortion"].size(); ++i) json[kNames[i]] = K["distortion"][i];
+  const char* const names[] = {"k1", "k2", fisheye ? "k3" : "p1", fisheye ? "k4" : "p2"};
+  for (size_t i = 0; i < K["distortion"].size(); ++i) json[names[i]] = K["distortion"][i];
   return json;
 }
 
@@ -45,6 +46,9 @@ void AppendVertex(std::string& ply, const RangePoint& point) {
 void ExportNerfstudio(ExportJob& job) {
   job.NeedColour();
   const View& view = job.OneView();
+  const Json K = IntrinsicsJson(view.camera);
+  const bool known = K.is_null() || K["model"] == "PINHOLE" || K["model"] == "OPENCV" || K["model"] == "OPENCV_FISHEYE";
+  job.Need(known, "a panorama, a pinhole, OPENCV or OPENCV_FISHEYE (nerfstudio has no other lenses)", "other --cameras");
   const int64_t count = PointsAPicture(job);
   std::string frames, vertices;
   int64_t points = 0;

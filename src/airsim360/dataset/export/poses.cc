@@ -3,6 +3,7 @@
 
 #include "airsim360/dataset/export/export_job.h"
 #include "airsim360/dataset/export/imu_log.h"
+#include "airsim360/projection/camera_model.h"
 
 namespace airsim360::internal {
 namespace {
@@ -21,12 +22,6 @@ std::string Joined(std::initializer_list<double> values, const char* separator) 
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : separator) + Number(value);
   return text;
-}
-
-// Pose of the body: frames.jsonl has it for rigs, else the camera sits at it. With pano_frame level only the heading is the
-// body's.
-RigidTransform BodyPoseOf(const NativeFrame& frame, const View& view) {
-  return frame.X_WC(view) * view.X_BC.inverse();
 }
 
 std::string EurocImu(const std::vector<ImuRow>& rows) {
@@ -53,7 +48,20 @@ std::string EurocCamera(const ExportJob& job, const View& view) {
     return text + "pinhole\nintrinsics: [" + Joined({pinhole->fx, pinhole->fy, pinhole->cx - 0.5, pinhole->cy - 0.5}, ", ") +
            "]\ndistortion_model: radial-tangential\ndistortion_coefficients: [0, 0, 0, 0]\n";
   }
-  return text + "equirectangular\n";
+  if (std::holds_alternative<Equirectangular>(view.camera)) return text + "equirectangular\n";
+  const CameraModel lens = *ModelOf(view.camera);
+  std::vector<double> p = lens.parameters;
+  p[2] -= 0.5, p[3] -= 0.5;  // pixel centres are whole numbers
+  return text + "pinhole\nintrinsics: [" + Joined({p[0], p[1], p[2], p[3]}, ", ") + "]\ndistortion_model: " +
+         (lens.name == "OPENCV" ? "radial-tangential" : "equidistant") + "\ndistortion_coefficients: [" +
+         Joined({p[4], p[5], p[6], p[7]}, ", ") + "]\n";
+}
+
+// Of what EuRoC's sensor.yaml can say.
+bool HasEurocModel(const View& view) {
+  const std::optional<CameraModel> lens = ModelOf(view.camera);
+  return std::holds_alternative<Equirectangular>(view.camera) ||
+         (lens && (lens->name == "PINHOLE" || lens->name == "OPENCV" || lens->name == "OPENCV_FISHEYE"));
 }
 
 }  // namespace
@@ -83,6 +91,8 @@ void ExportTum(ExportJob& job) {
 void ExportEuroc(ExportJob& job) {
   job.NeedColour();
   const View& view = job.OneView();
+  job.Need(HasEurocModel(view), "a panorama, a pinhole, OPENCV or OPENCV_FISHEYE (EuRoC has no other lenses)", "other --cameras");
+  job.Need(!view.gimbal, "a camera that is fixed to the body", "--cameras without gimbals");
   std::string pictures = "#timestamp [ns],filename\n";
   std::string states =
       "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m "
@@ -95,7 +105,7 @@ void ExportEuroc(ExportJob& job) {
         return name;
       },
       [&](const NativeFrame& frame, const std::string& name) {
-        const RigidTransform X = BodyPoseOf(frame, view);
+        const RigidTransform X = frame.X_WB(view);
         const Quaternion q = ToQuaternion(X.R);
         const Vec3d v = frame.v_WB();
         const std::string t = std::to_string(frame.t_ns);

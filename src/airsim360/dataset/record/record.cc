@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "airsim360/dataset/record/intrinsics.h"
+#include "airsim360/projection/camera_model.h"
 
 namespace airsim360 {
 namespace {
@@ -39,10 +40,29 @@ nlohmann::ordered_json IntrinsicsJson(const Camera& camera) {
   if (const auto* pinhole = std::get_if<Pinhole>(&camera)) return json("PINHOLE", *pinhole, {});
   if (const auto* fisheye = std::get_if<Fisheye>(&camera))
     return json("OPENCV_FISHEYE", *fisheye, {fisheye->k.begin(), fisheye->k.end()});
+  if (const auto* lens = std::get_if<CalibratedLens>(&camera)) {
+    const CameraModel model = *ModelOf(camera);
+    nlohmann::ordered_json K = json(model.name.c_str(), *lens, {model.parameters.begin() + 4, model.parameters.end()});
+    K["max_theta"] = lens->max_theta;
+    return K;
+  }
   return nullptr;
 }
 
 bool HasOwnExposure(const PictureSettings& picture) { return picture.auto_exposure && picture.look != Look::kPhoto; }
+
+Camera CameraOfIntrinsics(const nlohmann::ordered_json& K, double max_theta) {
+  std::vector<double> parameters = {K.at("fx"), K.at("fy"), K.at("cx"), K.at("cy")};
+  for (const auto& value : K.at("distortion")) parameters.push_back(value);
+  const std::string model = K.at("model");
+  if (model == "PINHOLE" && !K.contains("max_theta")) return MakeCamera(model, K.at("width"), K.at("height"), parameters);
+  return RestoreCamera(model, K.at("width"), K.at("height"), parameters, K.value("max_theta", max_theta));
+}
+
+bool IsColmapModel(const Camera& camera) {
+  const std::optional<CameraModel> model = ModelOf(camera);
+  return model && model->colmap;
+}
 
 std::string FrameJson(const FrameRecord& frame, const DatasetSpec& spec) {
   nlohmann::ordered_json sha256;

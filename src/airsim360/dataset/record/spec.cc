@@ -18,6 +18,7 @@ namespace {
 std::vector<View> ViewsOf(const RigCamera& spec) {
   const int w = spec.width, h = spec.height;
   const double fov = spec.fov_deg * kRadians;
+  if (spec.lens) return {{"", *spec.lens, spec.projection}};
   switch (spec.projection) {
     case Projection::kErp:
       return {{"", Equirectangular{w, h}, spec.projection}};
@@ -29,6 +30,7 @@ std::vector<View> ViewsOf(const RigCamera& spec) {
     case Projection::kFisheye:
       return {{"", Fisheye::Equidistant(w, h, fov), spec.projection}};
     case Projection::kCube:
+    case Projection::kLens:
       break;
   }
   std::vector<View> faces;
@@ -56,13 +58,20 @@ std::vector<View> Views(const DatasetSpec& spec) {
         BodyPose(camera.p_B, camera.yaw_deg * kRadians, camera.pitch_deg * kRadians, camera.roll_deg * kRadians);
     for (View& view : ViewsOf(camera)) {
       view.suffix = "_" + camera.name + view.suffix;
-      view.X_BC = X_BM * CameraInBody();
+      view.X_BC = X_BM * camera.X_IC;
       view.name = camera.name;
+      view.gimbal = camera.gimbal;
       views.push_back(std::move(view));
     }
   }
   return views;
 }
+
+RigidTransform CameraPose(const View& view, const RigidTransform& X_WB) {
+  return view.gimbal ? X_WB * view.gimbal->AtRest(X_WB.R) * view.X_BC : X_WB * view.X_BC;
+}
+
+bool MayLackRays(Projection projection) { return projection == Projection::kFisheye || projection == Projection::kLens; }
 
 bool IsPanoramic(const DatasetSpec& spec) {
   return std::ranges::all_of(Views(spec), [](const View& view) { return view.projection == Projection::kErp; });

@@ -11,8 +11,9 @@
 
 namespace airsim360 {
 
-enum class Projection { kErp, kCube, kPinhole, kFisheye };
-inline constexpr const char* kProjectionNames[] = {"erp", "cube", "pinhole", "fisheye"};
+/// kLens: a calibrated lens that is neither a pinhole nor a fisheye; only rigs have them.
+enum class Projection { kErp, kCube, kPinhole, kFisheye, kLens };
+inline constexpr const char* kProjectionNames[] = {"erp", "cube", "pinhole", "fisheye", "lens"};
 
 enum class RgbFormat { kPng, kJpeg };
 inline constexpr const char* kRgbFormatNames[] = {"png", "jpg"};
@@ -25,6 +26,9 @@ struct RigCamera {
   double fov_deg = 90;             ///< as DatasetSpec::fov_deg
   Vec3d p_B;                       ///< metres in B
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;  ///< of the forward axis, as BodyPose
+  std::optional<Camera> lens = {};  ///< calibrated, of these sides; `projection` is its kind, fov_deg not used
+  RigidTransform X_IC = CameraInBody();  ///< pose of the camera in what p_B and the angles place: of a calibration its frame
+  std::optional<GimbalMount> gimbal = {};  ///< p_B and the angles are on it
 };
 
 /// Parameters of a dataset. Two runs with equal parameters (and the same program and models) write the same
@@ -67,10 +71,17 @@ struct View {
   Projection projection = Projection::kErp;
   RigidTransform X_BC = CameraInBody();
   std::string name = {};  ///< of the rig's camera; "" without a rig
+  std::optional<GimbalMount> gimbal = {};  ///< X_BC is on it
 };
 
 /// The views of a capture, in the order in which they are written.
 std::vector<View> Views(const DatasetSpec& spec);
+
+/// Pose of a view's camera for a pose of the body; with pano_frame level only the place is right.
+RigidTransform CameraPose(const View& view, const RigidTransform& X_WB);
+
+/// Whether some pixels of a kind of picture may have no ray.
+bool MayLackRays(Projection projection);
 
 /// Whether every picture is an equirectangular panorama.
 bool IsPanoramic(const DatasetSpec& spec);

@@ -6,12 +6,14 @@
 #include <string>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/parallel.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
 constexpr double kAxisStep = 0x1p-32;
+constexpr size_t kMostTablePixels = size_t{1} << 24;
 constexpr int64_t kStepsPerColumn = int64_t{1} << 24;
 
 int Padded(int n) { return (n + kTileSize - 1) / kTileSize * kTileSize; }
@@ -50,27 +52,6 @@ Mat3d CanonicalFrame(Vec3d down) {
 
 double Rounded(double x) { return std::round(x / kAxisStep) * kAxisStep; }
 
-bool SameCamera(const Camera& a, const Camera& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* x = std::get_if<Equirectangular>(&a)) {
-    const auto& y = std::get<Equirectangular>(b);
-    return x->width == y.width && x->height == y.height;
-  }
-  if (const auto* x = std::get_if<CubeFace>(&a)) {
-    const auto& y = std::get<CubeFace>(b);
-    return x->face == y.face && x->size == y.size;
-  }
-  if (const auto* x = std::get_if<Pinhole>(&a)) {
-    const auto& y = std::get<Pinhole>(b);
-    return x->width == y.width && x->height == y.height && x->fx == y.fx && x->fy == y.fy && x->cx == y.cx &&
-           x->cy == y.cy;
-  }
-  const auto& x = std::get<Fisheye>(a);
-  const auto& y = std::get<Fisheye>(b);
-  return x.width == y.width && x.height == y.height && x.fx == y.fx && x.fy == y.fy && x.cx == y.cx &&
-         x.cy == y.cy && x.k == y.k && x.max_theta == y.max_theta;
-}
-
 }  // namespace
 
 void CameraRays::Update(const Camera& camera, const Mat3d& R_WC) {
@@ -79,14 +60,14 @@ void CameraRays::Update(const Camera& camera, const Mat3d& R_WC) {
     throw InputError("camera of " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
   }
   const auto* erp = std::get_if<Equirectangular>(&camera);
-  if (!SameCamera(camera, camera_)) {
+  if (camera != camera_) {
     field_ = RayField{};
     field_.width = width;
     field_.height = height;
     if (erp != nullptr)
       MakeSeparable(*erp);
     else
-      MakeTable(camera);
+      UseTable(camera);
     camera_ = camera;
   }
   column_shift_ = 0;
@@ -150,33 +131,55 @@ void CameraRays::TurnSeparable(const Mat3d& R_WC) {
   field_.row_z = rows_.data() + 3 * m;
 }
 
-void CameraRays::MakeTable(const Camera& camera) {
-  const int stride = Padded(field_.width), rows = Padded(field_.height);
-  const size_t n = static_cast<size_t>(stride) * rows;
-  rays_.assign(3 * n, 0);
-  std::fill(rays_.begin() + static_cast<std::ptrdiff_t>(2 * n), rays_.end(), 1.0f);
-  has_ray_.assign(n, 0);
-  for (int y = 0; y < field_.height; ++y) {
-    for (int x = 0; x < field_.width; ++x) {
+std::shared_ptr<const CameraRays::Table> CameraRays::MakeTable(const Camera& camera) {
+  const int width = Width(camera), height = Height(camera), stride = Padded(width);
+  const size_t n = static_cast<size_t>(stride) * Padded(height);
+  auto table = std::make_shared<Table>();
+  table->camera = camera;
+  table->rays.assign(3 * n, 0);
+  std::fill(table->rays.begin() + static_cast<std::ptrdiff_t>(2 * n), table->rays.end(), 1.0f);
+  table->has_ray.assign(n, 0);
+  ParallelFor(height, [&](int64_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width; ++x) {
       const std::optional<Vec3d> ray = PixelToRay(camera, {x + 0.5, y + 0.5});
       if (!ray) continue;
       const size_t i = static_cast<size_t>(y) * stride + x;
-      rays_[i] = static_cast<float>(ray->x);
-      rays_[n + i] = static_cast<float>(ray->y);
-      rays_[2 * n + i] = static_cast<float>(ray->z);
-      has_ray_[i] = -1;
+      table->rays[i] = static_cast<float>(ray->x);
+      table->rays[n + i] = static_cast<float>(ray->y);
+      table->rays[2 * n + i] = static_cast<float>(ray->z);
+      table->has_ray[i] = -1;
     }
-  }
-  field_.ray_x = rays_.data();
-  field_.ray_y = rays_.data() + n;
-  field_.ray_z = rays_.data() + 2 * n;
-  field_.has_ray = has_ray_.data();
-  field_.stride = stride;
+  });
 
   // Two neighbours at the image centre.
-  const Vec2d center{field_.width / 2.0, field_.height / 2.0};
+  const Vec2d center{width / 2.0, height / 2.0};
   const auto a = PixelToRay(camera, center), b = PixelToRay(camera, center + Vec2d{0, 1});
-  cone_angle_ = a && b ? std::atan2(Norm(Cross(*a, *b)), Dot(*a, *b)) : std::numbers::pi / field_.height;
+  table->cone_angle = a && b ? std::atan2(Norm(Cross(*a, *b)), Dot(*a, *b)) : std::numbers::pi / height;
+  return table;
+}
+
+void CameraRays::UseTable(const Camera& camera) {
+  const auto found = std::ranges::find_if(tables_, [&](const auto& table) { return table->camera == camera; });
+  if (found != tables_.end()) {
+    std::rotate(found, found + 1, tables_.end());
+  } else {
+    tables_.push_back(MakeTable(camera));
+    size_t pixels = 0;
+    for (const auto& table : tables_) pixels += table->has_ray.size();
+    while (pixels > kMostTablePixels && tables_.size() > 1) {
+      pixels -= tables_.front()->has_ray.size();
+      tables_.erase(tables_.begin());
+    }
+  }
+  const Table& table = *tables_.back();
+  const size_t n = table.has_ray.size();
+  field_.ray_x = table.rays.data();
+  field_.ray_y = table.rays.data() + n;
+  field_.ray_z = table.rays.data() + 2 * n;
+  field_.has_ray = table.has_ray.data();
+  field_.stride = Padded(field_.width);
+  cone_angle_ = table.cone_angle;
 }
 
 PixelOffset CameraRays::MakeOffset(double dx, double dy) const {

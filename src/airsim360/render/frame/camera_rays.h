@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "airsim360/projection/camera.h"
@@ -39,8 +40,8 @@ struct PixelOffset {
 
 class CameraRays {
  public:
-  /// Makes the tables of a camera (only when it differs from the last one) and turns them to a rotation.
-  /// InputError for a camera without pixels.
+  /// Makes the tables of a camera and turns them to a rotation. Tables of cameras that are no panoramas are kept, up to
+  /// 256 MiB (16 bytes a pixel): the cameras of a rig come round again. InputError for a camera without pixels.
   void Update(const Camera& camera, const Mat3d& R_WC);
 
   const RayField& field() const { return field_; }
@@ -54,8 +55,17 @@ class CameraRays {
   PixelOffset MakeOffset(double dx, double dy) const;
 
  private:
+  /// Rays of a camera that is no panorama.
+  struct Table {
+    Camera camera;
+    std::vector<float> rays;  // x, y, z planes
+    std::vector<int32_t> has_ray;
+    double cone_angle = 0;
+  };
+  static std::shared_ptr<const Table> MakeTable(const Camera& camera);
+
   void MakeSeparable(const Equirectangular& camera);
-  void MakeTable(const Camera& camera);
+  void UseTable(const Camera& camera);
   void TurnSeparable(const Mat3d& R_WC);
 
   Camera camera_ = Equirectangular{0, 0};
@@ -65,8 +75,7 @@ class CameraRays {
   Mat3d R0_;
   std::vector<double> sin_theta_, cos_theta_, sin_phi_, cos_phi_;
   std::vector<double> columns_, rows_;  // x, y, z planes; rows: scale, x, y, z
-  std::vector<float> rays_;             // x, y, z planes
-  std::vector<int32_t> has_ray_;
+  std::vector<std::shared_ptr<const Table>> tables_;  // the one used last at the end
 };
 
 }  // namespace airsim360::internal

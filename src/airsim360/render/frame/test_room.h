@@ -134,4 +134,37 @@ inline RigidTransform RandomPose(RngStream& rng) {
   return BodyPose(p, rng.Uniform(-3, 3), rng.Uniform(-1.2, 1.2), rng.Uniform(-3, 3)) * CameraInBody();
 }
 
+inline Mesh UprightQuad(float y, float half, float z0, float z1, MaterialId material) {
+  Mesh mesh;
+  mesh.positions = {{-half, y, z0}, {half, y, z0}, {half, y, z1}, {-half, y, z1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.parts = {{0, 2, material, kNoEntity}};
+  return mesh;
+}
+
+/// Ground, a wall of windows, and a box whose glass front faces it; `lamps`: they can shine.
+inline std::shared_ptr<const Scene> MakeNightStreet(bool lamps) {
+  SceneBuilder builder("street");
+  builder.AddSky();
+  const EntityId entity = builder.AddEntity("all", builder.tree().At("construction/building"));
+  const auto glass = [&](Vec3f color, Vec3f emission, float beam) {
+    Material m{.name = "glass", .kind = SurfaceKind::kGlass, .base_color = color, .roughness = 0.05f};
+    if (lamps) m.emission = emission, m.lamp = true, m.beam = beam;
+    return builder.AddMaterial(m);
+  };
+  const MaterialId ground = builder.AddMaterial({.name = "ground", .base_color = {0.2f, 0.2f, 0.2f}});
+  Mesh plane;
+  plane.positions = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}};
+  plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+  plane.parts = {{0, 2, ground, kNoEntity}};
+  builder.AddInstance({builder.AddMesh(plane), {}, entity});
+  const MeshId pane = builder.AddMesh(UprightQuad(0, 0.6f, 0, 1.6f, glass({0.3f, 0.2f, 0.1f}, {0.004f, 0.003f, 0.002f}, 0)));
+  for (int i = 0; i < 24; ++i)
+    builder.AddInstance({pane, PlaceUpright({-8.0f + 1.5f * static_cast<float>(i % 8), 6, 1 + 2.2f * static_cast<float>(i / 8)}, 0), entity});
+  const MeshId lens = builder.AddMesh(UprightQuad(0, 0.5f, -0.1f, 0.1f, glass({0.3f, 0.3f, 0.3f}, {3, 3, 3}, 30)));
+  for (float x : {-3.0f, 3.0f})
+    builder.AddInstance({lens, PlaceUpright({x, 0, 0.7f}, 3.14159f), entity, {1, 1, 1}, x < 0 && lamps ? Vec3f{} : Vec3f{1, 0.8f, 0.6f}});
+  return builder.Build();
+}
+
 }  // namespace airsim360::test

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/image/luminance.h"
+#include "airsim360/render/lights/lit_places.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
@@ -23,9 +25,8 @@ constexpr float kLeastLight = 0.05f * kLux, kLeastShare = 1e-4f, kNearShare = 2e
                 kFarthest = 150;
 constexpr float kFinestCell = 2.5f;
 constexpr int kMostCells = 150000;
+constexpr float kAboveGround = 1.2f;
 constexpr int kSeenLamps = 24;  // of a corner
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // Sixteen rays, all lanes finite.
 struct Packet {
@@ -53,11 +54,20 @@ LampRecord Record(const Lamp& lamp) {
     record.center[k] = lamp.center[k];
     record.facing[k] = lamp.facing[k];
     record.color[k] = lamp.power[k] / (kPi * lamp.area);
+    record.beam[k] = lamp.beam[k];
   }
   record.radius = lamp.radius;
   record.body = std::max(0.0f, body);
   record.soft = facing / kPi;
   return record;
+}
+
+// Irradiance of a surface that faces a lamp in the direction `to` (not unit), per unit of the lamp's radiance.
+float FacedIrradiance(const LampRecord& lamp, Vec3f to) {
+  const float distance = std::max(Norm(to), 1e-4f);
+  const Vec3f w = to / -distance, facing{lamp.facing[0], lamp.facing[1], lamp.facing[2]}, beam{lamp.beam[0], lamp.beam[1], lamp.beam[2]};
+  return scalar::lamp_irradiance(lamp.body, Dot(facing, w), lamp.soft, lamp.radius, distance, lamp.reach) *
+         scalar::beam_shape(Norm(beam), Dot(beam, w), w.z);
 }
 
 // Whether a ray met a surface from behind.
@@ -110,9 +120,10 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
   for (uint32_t i = 0; i < lamps.size(); ++i) {
     const Lamp& lamp = lamps[i];
     if (i == 0 || lamps[i - 1].instance != lamp.instance) first_of_instance = merged.size();
-    if (lamps.size() > kFewLamps && Luminance(lamp.power) / (kPi * lamp.area) < kBrightLamp) continue;
+    const bool beam = Norm(lamp.beam) >= 1;  // head and tail lamps, however dim
+    if (lamps.size() > kFewLamps && !beam && Luminance(lamp.power) / (kPi * lamp.area) < kBrightLamp) continue;
     size_t at = std::max(first_of_instance, merged.size() - std::min(merged.size(), kMergeAmong));
-    while (at < merged.size() && Norm(merged[at].center - lamp.center) > kMergeDistance) ++at;
+    while (at < merged.size() && !(Norm(merged[at].center - lamp.center) <= kMergeDistance && merged[at].beam == lamp.beam)) ++at;
     if (at == merged.size()) {
       merged.push_back(lamp);
     } else {
@@ -138,15 +149,30 @@ void LampGrid::Merge(const LightTable& table, float daylight) {
 
 Vec3f LampGrid::CornerPosition(uint32_t corner) const {
   const auto x = corner % (nx_ + 1), y = corner / (nx_ + 1) % (ny_ + 1), z = corner / ((nx_ + 1) * (ny_ + 1));
-  return origin_ + Vec3f{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)} * cell_;
+  return origin_ + Vec3f{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)} * cell_ + Vec3f{0, 0, raised_[corner]};
+}
+
+// Where cells are tall, corners below the ground and those above the street lights would be all there is: the former look
+// from just above the ground instead.
+void LampGrid::RaiseCorners(const RayTracer& tracer, const std::vector<uint32_t>& corners) {
+  if (cell_ <= kFinestCell) return;
+  ParallelFor((static_cast<int64_t>(corners.size()) + 15) / 16, [&](int64_t run) {
+    const FlushDenormals flush;
+    const size_t first = static_cast<size_t>(run) * 16, last = std::min(first + 16, corners.size());
+    Packet packet;
+    for (size_t i = first; i < last; ++i)
+      packet.Set(static_cast<int>(i - first), CornerPosition(corners[i]), Vec3f{0, 0, 1}, cell_);
+    tracer.Intersect16(packet.valid, packet.rays, false);
+    for (size_t i = first; i < last; ++i) {
+      const auto k = static_cast<int>(i - first);
+      if (MeetsBack(tracer, packet.rays, k)) raised_[corners[i]] = packet.rays.t_far[k] + kAboveGround;
+    }
+  });
 }
 
 float LampGrid::Strength(const LampRecord& lamp, Vec3f p) const {
-  const Vec3f to = Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p;
-  const float distance = std::max(Norm(to), 1e-4f);
-  const float towards = -Dot(Vec3f{lamp.facing[0], lamp.facing[1], lamp.facing[2]}, to) / distance;
   return Luminance({lamp.color[0], lamp.color[1], lamp.color[2]}) *
-         scalar::lamp_irradiance(lamp.body, towards, lamp.soft, lamp.radius, distance, lamp.reach);
+         FacedIrradiance(lamp, Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p);
 }
 
 void LampGrid::PlaceCells(const RayTracer& tracer) {
@@ -179,14 +205,14 @@ void LampGrid::PlaceCells(const RayTracer& tracer) {
       filled[k] = tracer.Clearance(center, reach * 1.01f) < reach;
     }
   });
+  raised_.assign(static_cast<size_t>(nx_ + 1) * (ny_ + 1) * (nz_ + 1), 0.0f);
   std::vector<uint32_t> places;
   std::vector<uint32_t> corner_of(static_cast<size_t>(nx_ + 1) * (ny_ + 1) * (nz_ + 1), 0);
   for (uint32_t k = 0; k < filled.size(); ++k) {
     if (filled[k] == 0) continue;
     places.push_back(k);
     for (uint32_t c = 0; c < 8; ++c) {
-      const uint32_t x = k % nx_ + (c & 1), y = k / nx_ % ny_ + (c >> 1 & 1), z = k / nx_ / ny_ + (c >> 2);
-      corner_of[(z * (ny_ + 1) + y) * (nx_ + 1) + x] = 1;
+      corner_of[CornerOf(k, c)] = 1;
     }
   }
   std::vector<uint32_t> used;
@@ -195,7 +221,9 @@ void LampGrid::PlaceCells(const RayTracer& tracer) {
     corner_of[c] = static_cast<uint32_t>(used.size());
     used.push_back(c);
   }
+  RaiseCorners(tracer, used);
   FillCells(places, SeeFromCorners(tracer, used), corner_of);
+  raised_ = {};
 }
 
 std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
@@ -289,9 +317,7 @@ void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<
       uint32_t open = 0;
       const uint32_t place = places[i];
       for (uint32_t c = 0; c < 8; ++c) {
-        const uint32_t x = place % nx_ + (c & 1), y = place / nx_ % ny_ + (c >> 1 & 1),
-                       z = place / nx_ / ny_ + (c >> 2);
-        const Corner& corner = corners[corner_of[(z * (ny_ + 1) + y) * (nx_ + 1) + x]];
+        const Corner& corner = corners[corner_of[CornerOf(place, c)]];
         if (!corner.solid) open |= 1u << c;
         for (int k = 0; k < corner.count; ++k) {
           const bool seen = (corner.seen >> k & 1) != 0;
@@ -323,10 +349,10 @@ void LampGrid::FillCells(const std::vector<uint32_t>& places, const std::vector<
   AverageCells();
 }
 
-Vec3f LampGrid::CellOrigin(size_t place) const {
-  return origin_ + Vec3f{static_cast<float>(place % nx_), static_cast<float>(place / nx_ % ny_),
-                         static_cast<float>(place / nx_ / ny_)} *
-                       cell_;
+uint32_t LampGrid::CornerOf(size_t place, uint32_t c) const {
+  const auto k = static_cast<uint32_t>(place);
+  const uint32_t x = k % nx_ + (c & 1), y = k / nx_ % ny_ + (c >> 1 & 1), z = k / nx_ / ny_ + (c >> 2);
+  return (z * (ny_ + 1) + y) * (nx_ + 1) + x;
 }
 
 // Light on six sides at the corners that are not in solids.
@@ -341,7 +367,7 @@ void LampGrid::AverageCells() {
     for (uint32_t c = 0; i > 0 && c < 8; ++c) {
       if ((cell.header >> (8 + c) & 1) == 0) continue;
       ++open;
-      const Vec3f p = CellOrigin(place[i]) + Vec3f{c & 1 ? cell_ : 0, c & 2 ? cell_ : 0, c & 4 ? cell_ : 0};
+      const Vec3f p = CornerPosition(CornerOf(place[i], c));
       for (uint32_t k = 0; k < (cell.header & 255); ++k) {
         if ((cell.lamp[k] >> (24 + c) & 1) == 0) continue;
         const LampRecord& lamp = records_[cell.lamp[k] & 0xffffffu];
@@ -376,14 +402,7 @@ Vec3f LampGrid::NearIrradiance(Vec3f p, Vec3f n) const {
 float LampGrid::TypicalLight() const {
   std::vector<float> light;
   for (size_t i = 1; i < sides_.size(); ++i) light.push_back(Luminance(sides_[i][4]));
-  std::sort(light.begin(), light.end());
-  double sum = 0, below = 0;
-  for (float e : light) sum += e;
-  for (float e : light) {
-    below += e;
-    if (2 * below >= sum) return e;
-  }
-  return 0;
+  return LightOfLitPlaces(std::move(light));
 }
 
 LampView LampGrid::view() const {
@@ -421,9 +440,7 @@ Vec3f LampGrid::Irradiance(Vec3f p, Vec3f normal) const {
     if (lit <= 0) continue;
     float seen = 0;
     for (int c = 0; c < 8; ++c) seen += (cell.lamp[k] >> (24 + c) & 1) != 0 ? weight[c] : 0;
-    const float towards = -Dot(Vec3f{lamp.facing[0], lamp.facing[1], lamp.facing[2]}, to) / distance;
-    const float e = scalar::lamp_irradiance(lamp.body, towards, lamp.soft, lamp.radius, distance, lamp.reach);
-    light += Vec3f{lamp.color[0], lamp.color[1], lamp.color[2]} * (e * lit * seen / sum);
+    light += Vec3f{lamp.color[0], lamp.color[1], lamp.color[2]} * (FacedIrradiance(lamp, to) * lit * seen / sum);
   }
   return light;
 }

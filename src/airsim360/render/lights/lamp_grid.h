@@ -50,13 +50,16 @@ class LampGrid {
   Vec3f CornerPosition(uint32_t corner) const;
   float Strength(const LampRecord& lamp, Vec3f p) const;
   void AverageCells();
-  Vec3f CellOrigin(size_t place) const;
+  void RaiseCorners(const RayTracer& tracer, const std::vector<uint32_t>& corners);
+  /// Index in the lattice of corners of corner c of a cell: x + 2 y + 4 z.
+  uint32_t CornerOf(size_t place, uint32_t c) const;
 
   std::vector<LampRecord> records_;
   std::vector<uint32_t> record_of_;  ///< by lamp of the table
   std::vector<LampCell> cells_;      ///< 0: none
   std::vector<uint32_t> cell_of_;
   std::vector<std::array<Vec3f, 6>> sides_;  ///< by cell: mean irradiance on surfaces that face +x, -x, +y …
+  std::vector<float> raised_;  ///< by corner, metres; while the grid is made
   Vec3f origin_;
   float cell_ = 2.5f;
   int nx_ = 0, ny_ = 0, nz_ = 0;

@@ -20,12 +20,15 @@ struct alignas(64) CellLanes {
   alignas(64) float x[kSlots], y[kSlots], z[kSlots], radius[kSlots];
   alignas(64) float fx[kSlots], fy[kSlots], fz[kSlots], body[kSlots];
   alignas(64) float r[kSlots], g[kSlots], b[kSlots], soft[kSlots], reach[kSlots];
+  alignas(64) float bx[kSlots], by[kSlots], bz[kSlots], sharp[kSlots];
   alignas(64) int32_t seen[kSlots];
   int count;
+  bool beams;  // some lamp has one
 };
 
 KERNEL void LoadCell(const LampView& view, const LampCell& cell, CellLanes& c) {
   c.count = static_cast<int>(cell.header & 255);
+  c.beams = false;
   for (int k = 0; k < kSlots; ++k) {
     const bool used = k < c.count;
     const LampRecord& lamp = view.lamps[used ? cell.lamp[k] & 0xffffffu : 0];
@@ -36,6 +39,10 @@ KERNEL void LoadCell(const LampView& view, const LampCell& cell, CellLanes& c) {
     c.r[k] = used ? lamp.color[0] : 0, c.g[k] = used ? lamp.color[1] : 0, c.b[k] = used ? lamp.color[2] : 0;
     c.soft[k] = lamp.soft;
     c.reach[k] = lamp.reach;
+    const float bx = lamp.beam[0], by = lamp.beam[1], bz = lamp.beam[2];
+    c.bx[k] = bx, c.by[k] = by, c.bz[k] = bz;
+    c.sharp[k] = __builtin_sqrtf(bx * bx + by * by + bz * bz);
+    c.beams |= c.sharp[k] > 0;
     c.seen[k] = used ? static_cast<int32_t>(cell.lamp[k] >> 24) : 0;
   }
 }
@@ -95,8 +102,12 @@ KERNEL void Evaluate(const SurfaceSet& s, const RaySet& rays, int i, const CellL
     const real3 w = to * (1.0f / distance);
     const real radius = load(c.radius + k);
     const real towards = zero - dot3(load3(c.fx + k, c.fy + k, c.fz + k), w);
-    const real light =
+    real light =
         lamp_irradiance(load(c.body + k), towards, load(c.soft + k), radius, distance, load(c.reach + k));
+    if (c.beams) {
+      const real along = zero - dot3(load3(c.bx + k, c.by + k, c.bz + k), w);
+      light = light * beam_shape(load(c.sharp + k), along, zero - w.z);
+    }
     const real3 color = load3(c.r + k, c.g + k, c.b + k) * light;
 
     // Front, back, highlight.

@@ -109,6 +109,51 @@ std::vector<Vec3f> Row() {
   return points;
 }
 
+// A lens of 0.2 m x 0.1 m at the origin that looks along -Y, 0.7 m above the ground, and a wall at y = -distance.
+struct HeadLamp {
+  static constexpr float kArea = 0.02f, kRadiance = 50, kSharp = 30, kHeight = 0.7f;
+  World world;
+  explicit HeadLamp(float distance, Vec3f glow = {1, 1, 1}, float turn = 0) {
+    world.Add(Quad({40, -distance, 0}, {-40, -distance, 0}, {-40, -distance, 20}, {40, -distance, 20}), 0.5f);
+    Material lens;
+    lens.base_color = {};
+    lens.emission = {kRadiance, kRadiance, kRadiance};
+    lens.beam = kSharp;
+    Mesh quad = Quad({-0.1f, 0, -0.05f}, {0.1f, 0, -0.05f}, {0.1f, 0, 0.05f}, {-0.1f, 0, 0.05f});
+    quad.parts = {{0, 2, world.builder.AddMaterial(lens), kNoEntity}};
+    world.builder.AddInstance({world.builder.AddMesh(quad), PlaceUpright({0, 0, kHeight}, turn), world.entity, {1, 1, 1}, glow});
+    world.Build();
+  }
+};
+
+TEST(LampLight, AHeadLampLightsTheWallBeforeItByTheSquareOfTheDistanceAndItsBeam) {
+  const Vec3f axis = Normalized(Vec3f{0, -1, kBeamDrop});
+  for (const float distance : {3.0f, 6.0f, 10.0f}) {
+    const HeadLamp lamp(distance);
+    // Straight ahead, down, up beyond the cut-off, to the side.
+    std::vector<Vec3f> points;
+    for (const Vec3f way : {Vec3f{0, -1, kBeamDrop}, Vec3f{0, -1, -0.05f}, Vec3f{0, -1, 0.2f}, Vec3f{0.2f, -1, -0.02f}, Vec3f{0.7f, -1, 0.01f}})
+      points.push_back(Vec3f{0, 0, HeadLamp::kHeight} + way * distance);
+    const std::vector<float> light = lamp.world.Light(points, 2, {0, 1, 0});
+    for (size_t i = 0; i < points.size(); ++i) {
+      const Vec3f to = points[i] - Vec3f{0, 0, HeadLamp::kHeight}, w = Normalized(to);
+      const double spread = 1 + HeadLamp::kSharp * (1 - Dot(axis, w)), cut = 0.06 + 0.94 * std::clamp(0.45 - 10 * w.z, 0.0, 1.0);
+      const double candela = HeadLamp::kRadiance * HeadLamp::kArea * -w.y * cut / (spread * spread);
+      EXPECT_NEAR(light[i] / (candela / Dot(to, to) * -w.y), 1, 0.01) << distance << " m, point " << i;
+    }
+  }
+}
+
+TEST(LampLight, LampsAreColouredAndSwitchedOffByInstanceAndTurnWithIt) {
+  const std::vector<Vec3f> ahead = {{0, -4, 0.5f}};
+  const float white = HeadLamp(4).world.Light(ahead, 2, {0, 1, 0})[0];
+  EXPECT_NEAR(HeadLamp(4, {1, 0.25f, 0}).world.Light(ahead, 2, {0, 1, 0})[0], 0.25f * white, 1e-3f * white);
+  const HeadLamp off(4, {});
+  EXPECT_EQ(off.world.lights->size(), 0u);
+  EXPECT_EQ(off.world.Light(ahead, 2, {0, 1, 0})[0], 0);
+  EXPECT_LT(HeadLamp(4, {1, 1, 1}, kPi / 3).world.Light(ahead, 2, {0, 1, 0})[0], 0.05f * white);
+}
+
 TEST(LampLight, ABallOverAPlaneFollowsTheInverseSquareLaw) {
   World world;
   const float radius = 0.1f, height = 3, radiance = 0.2f;

@@ -125,7 +125,8 @@ PlacedLamp PlaceLamp(const Scene& scene, const SurfaceTables& tables, uint32_t i
     lamp.area += t.area;
     lamp.center += (t.corner[0] + t.corner[1] + t.corner[2]) * (t.area / 3);
     lamp.facing += t.normal * t.area;
-    lamp.power += tables.mean_emissions[material] * (kPi * t.area);
+    lamp.power += tables.mean_emissions[material] * tables.GlowOf(instance) * (kPi * t.area);
+    lamp.beam = tables.BeamOf(tables.instances[instance], tables.materials[material]);
     normals.push_back(t.normal);
     for (Vec3f p : t.corner) out.box.Add(p);
   }

@@ -5,8 +5,10 @@
 #include <map>
 
 #include "airsim360/image/color.h"
+#include "airsim360/image/luminance.h"
 #include "airsim360/render/lights/lamp_parts.h"
 #include "airsim360/render/lights/light_tree.h"
+#include "airsim360/render/shared/shading_scalar.h"
 
 namespace airsim360::internal {
 namespace {
@@ -18,8 +20,6 @@ bool IsSimilarity(const Mat3f& A) {
   return std::fabs(Dot(b, b) - scale) < slack && std::fabs(Dot(c, c) - scale) < slack &&
          std::fabs(Dot(a, b)) < slack && std::fabs(Dot(b, c)) < slack && std::fabs(Dot(c, a)) < slack;
 }
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // Bilinear look-up of the finest level, as shading_texture.h does.
 Vec3f TexelsAt(const TextureRecord& texture, float u, float v) {
@@ -86,7 +86,7 @@ LightTable::Impl::Impl(const Scene& s, const SurfaceTables& t, const Environment
   std::vector<LightBounds> bounds;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    if (!shines[instance.mesh]) continue;
+    if (!shines[instance.mesh] || instance.glow == Vec3f{}) continue;
     const Mesh& mesh = scene.meshes[instance.mesh];
     const bool similar = IsSimilarity(instance.X_WM.A);
     const auto known = similar ? shared.find(instance.mesh) : shared.end();
@@ -139,7 +139,15 @@ LightSample LightTable::Sample(Vec3f p, Vec3f normal, Vec3f u) const {
       impl_->tables.triangles[impl_->tables.instances[lamp.instance].first_triangle + triangle];
   const Material& material = impl_->scene.materials[record.material & ~kMirroredUv];
   const MaterialRecord& look = impl_->tables.materials[record.material & ~kMirroredUv];
-  sample.radiance = material.emission;
+  sample.radiance = material.emission * impl_->tables.GlowOf(lamp.instance);
+  if (look.beam == kWindowBeam) {
+    const uint32_t bits = record.pane ^ impl_->tables.instances[lamp.instance].hash;
+    const float room = static_cast<float>((bits * 0x9e3779b1u) >> 8) * 0x1p-24f;  // HashLanes of lane_gather.h
+    sample.radiance = scalar::window_light(room, record.area) * Luminance(sample.radiance);
+  } else if (look.beam != 0) {
+    const Vec3f way = Normalized(p - sample.p);
+    sample.radiance = sample.radiance * scalar::beam_shape(Norm(lamp.beam), Dot(lamp.beam, way), way.z);
+  }
   if (look.emission_texture != 0) {
     const float u_at = record.uv[0] * (1 - root) + record.uv[2] * b1 + record.uv[4] * b2;
     const float v_at = record.uv[1] * (1 - root) + record.uv[3] * b1 + record.uv[5] * b2;

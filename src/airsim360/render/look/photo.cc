@@ -135,9 +135,9 @@ class Band {
   std::vector<Rgb8> canonical_;
 };
 
-// A fisheye's pixels without a ray are black.
+// Pixels without a ray, of fisheyes and of calibrated lenses, are black.
 void BlackenOutside(const Camera& camera, Image<Rgb8>& rgb) {
-  if (!std::holds_alternative<Fisheye>(camera)) return;
+  if (!std::holds_alternative<Fisheye>(camera) && !std::holds_alternative<CalibratedLens>(camera)) return;
   ParallelFor(rgb.height(), [&](int64_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < rgb.width(); ++x)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/image/luminance.h"
 #include "airsim360/render/reference/path_rays.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shared/shading_scalar.h"
@@ -19,8 +20,6 @@ constexpr float kLobeWidth = 0.25f, kWidestSpread = 0.2f;
 // In a closed room the light of a mirror is what is seen in it.
 constexpr float kMirrorPdf = 50;
 constexpr float kPi = 3.14159265f;
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // The normal that lamps are chosen for: leaves take light from both sides.
 Vec3f LampNormal(const SurfaceSet& s, int i) {

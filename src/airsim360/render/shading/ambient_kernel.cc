@@ -48,6 +48,9 @@ KERNEL void FetchMet(const ShadeView& view, const AmbientHits& hits, Met& met) {
         mean[k][i] = view.mean_colors[3 * id + k];
         met.emission[k][first + i] = shines * view.mean_emissions[3 * id + k];
       }
+      if (view.glows != nullptr && hit) {
+        for (uint32_t k = 0; k < 3; ++k) met.emission[k][first + i] *= view.glows[3 * hits.instance[first + i] + k];
+      }
     }
     if (colored != 0) TintMet(view, hits, instance, first, mean);
     const auto quad = [](const auto* const* records, int q) __attribute__((always_inline)) {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/image/luminance.h"
+#include "airsim360/render/lights/lit_places.h"
 #include "airsim360/render/shading/probe_rays.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
@@ -207,6 +209,18 @@ Vec3f LightProbes::Irradiance(Vec3f p, Vec3f n) const {
                            sum[4 * c + 7] * n.z * n.z) /
                               sum[3]);
   return e;
+}
+
+float LightProbes::TypicalLight() const {
+  std::vector<float> light;
+  for (size_t k = 0; k < valid_.size(); ++k) {
+    if (!valid_[k]) continue;
+    const float* t = &probes_[k * kFloats];
+    Vec3f e;
+    for (int c = 0; c < 3; ++c) e[c] = std::max(0.0f, (t[c] + t[12 + c] + t[4 * c + 7]) / t[3]);
+    light.push_back(Luminance(e));
+  }
+  return LightOfLitPlaces(std::move(light));
 }
 
 bool LightProbes::Covers(Vec3f p) const {

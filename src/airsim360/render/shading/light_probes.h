@@ -37,6 +37,8 @@ class LightProbes {
   /// The same from the nearest probe alone, half a cell in front of the surface; for light that bounces.
   Vec3f NearIrradiance(Vec3f p, Vec3f normal) const;
   bool Covers(Vec3f p) const;
+  /// As LampGrid::TypicalLight, of all light at the probes.
+  float TypicalLight() const;
   size_t size() const { return valid_.size(); }
 
   /// All fields, for the disk cache.

@@ -57,7 +57,7 @@ Met ResolveMet(const ProbeLight& world, const SurfaceRef& ref, Vec3f point, Vec3
   const auto kind = static_cast<SurfaceKind>(static_cast<int>(tables.materials[material].kind));
   const Vec3f tint{instance.tint[0], instance.tint[1], instance.tint[2]};
   // Emission, unless the grid of lamps brings it.
-  Vec3f emission = back ? Vec3f{} : tables.mean_emissions[material];
+  Vec3f emission = back ? Vec3f{} : tables.mean_emissions[material] * tables.GlowOf(ref.instance);
   if (emission != Vec3f{} && world.lamps != nullptr) {
     const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
     if (lamp != LightTable::kNoLamp && world.lamps->Holds(lamp)) emission = {};

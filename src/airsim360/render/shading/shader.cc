@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "airsim360/image/luminance.h"
 #include "airsim360/render/shading/light_cache.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
@@ -24,8 +25,6 @@ constexpr float kPi = 3.14159265f;
 constexpr float kGreyLevel = 0.38f;
 // Irradiance to which pictures get brighter: far below a moonless night.
 constexpr float kDarkest = 1e-8f;
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // An environment without what the light does not depend on: how wet and snowy surfaces are.
 Environment LightPart(Environment environment) {
@@ -86,7 +85,7 @@ void Shader::Impl::SetLight(const Environment& environment) {
   sky = last_lights.back().sky, lamps = last_lights.back().lamps, probes = last_lights.back().probes;
   view = internal::MakeShadeView(scene, tables, sky.get(), probes.get(), &environment);
   view.lamps = lamps->view();
-  exposure = ChooseExposure(scene);
+  exposure = ChooseExposure(scene, environment.lamps_on());
 }
 
 float Shader::Impl::Daylight() const {
@@ -96,12 +95,14 @@ float Shader::Impl::Daylight() const {
 
 // Grey ground in full light comes out the same by day; towards night the picture may get darker, but not as
 // fast as the light. Where lamps bring more than the sky the eye is used to their light.
-float Shader::Impl::ChooseExposure(const Scene& scene) const {
-  const float of_lamps = lamps->TypicalLight();
+float Shader::Impl::ChooseExposure(const Scene& scene, bool lamps_on) const {
+  float of_lamps = lamps->TypicalLight();
   if (!sky) {
     const float light = Luminance(scene.interior_light) + of_lamps / kPi;
     return light > 0 ? kGreyLevel / (0.30f * light) : 1.0f;
   }
+  // Signs and windows light streets too, which the probes alone have gathered.
+  if (lamps_on && probes) of_lamps = std::max(of_lamps, probes->TypicalLight());
   const float light = std::max(Daylight(), of_lamps);
   constexpr float kNoon = 14.0f;
   // A camera meters the sky too, which is far brighter than the ground where neither sun nor lamps throw

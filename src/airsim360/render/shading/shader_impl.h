@@ -36,7 +36,7 @@ struct Shader::Impl {
 
   /// The light that an environment brings about, and all that the kernels need to know of it.
   void SetLight(const Environment& environment);
-  float ChooseExposure(const Scene& scene) const;
+  float ChooseExposure(const Scene& scene, bool lamps_on) const;
   /// Irradiance of sun and sky on level ground.
   float Daylight() const;
   /// Fills lamp_* of surfaces, with `count` rays each.

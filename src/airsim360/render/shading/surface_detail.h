@@ -7,6 +7,8 @@
 
 namespace airsim360::internal::AIRSIM360_ISA {
 
+constexpr float kLowBeam = 10;  // of scene/material.h
+
 /// A function of its own: inlined into the kernel, these make it so large that compilers take minutes.
 #define SEPARATE static __attribute__((noinline))
 
@@ -194,13 +196,15 @@ SEPARATE RoomView LookInside(const ShadeView& view, const Fetched& f, real3 righ
   const real a = load(f.corner_a[0]) * w + load(f.corner_a[1]) * u + load(f.corner_a[2]) * v;
   const real b = load(f.corner_b[0]) * w + load(f.corner_b[1]) * u + load(f.corner_b[2]) * v;
   const real room = load(f.room);
-  const real lit = sel(hash_again(room, real(811.3f)) < view.lit_rooms, real(1.0f), real(0.0f));
+  const mask_t lit = (hash_again(room, real(811.3f)) < view.lit_rooms) || (load(f.emission[0]) > 0.0f);
+  const real3 light = view.evening > 0 ? evening_light(room, load(f.area)) : day_light(room);
+  const real3 dark = make3(real(0.0f), real(0.0f), real(0.0f));
   RoomView out;
   real back_a = a, back_b = b;
   // Seen from the back of the pane (from inside) right and left change places; the hash keeps the room.
   interior_room(a, b, load(f.half_a), load(f.half_b), dot3(d, right), dot3(d, up),
-                real(0.0f) - dot3(d, facing), room, lit, out.daylight, out.lamplight, out.front, back_a,
-                back_b);
+                real(0.0f) - dot3(d, facing), room, sel3(lit, light, dark), out.daylight, out.lamplight,
+                out.front, back_a, back_b);
   // A picture is as wide as its pane; beyond its edges it continues mirrored.
   const auto fold = [](real x, real half) __attribute__((always_inline)) {
     return sel(rabs(x) > half, sel(x > 0.0f, 2.0f * half - x, 0.0f - 2.0f * half - x), x);
@@ -220,10 +224,34 @@ KERNEL void FurnishPane(const ShadeView& view, const Fetched& f, const RoomView&
   const mask_t picture = to_real(ireal(f.base_id, stdx::vector_aligned)) > 0.5f;
   const mask_t plain = window && !picture;
   color = sel3(plain, room.daylight * glass + tint * real(0.15f), color);
-  emission = sel3(plain, emission + room.lamplight * glass * real(view.lamplight), emission);
+  emission = sel3(plain, room.lamplight * glass * real(view.lamplight), emission);
   const mask_t display = window && picture && (room.front > 0.5f);
   color = sel3(display, room.daylight * real(1.6f), color);
-  emission = sel3(display, emission * real(0.25f) + room.daylight * real(0.5f), emission);
+  // By night what is displayed stands in the light of the shop alone.
+  const real shown = real(view.evening > 0 ? 1.5f * view.lamplight : 0.5f);
+  emission = sel3(display, emission * real(0.25f) + room.daylight * shown, emission);
+}
+
+// ---- Lamps
+// --------------------------------------------------------------------------------------------------------
+
+/// Emission as the instance colours it, the beam throws it along the ray's way back, and the window shares it out.
+SEPARATE real3 Thrown(const ShadeView& view, const RaySet& rays, int begin, const Fetched& f, real3 d, real3 emission) {
+  if (view.glows != nullptr) {
+    alignas(64) float glow[3][kLanes];
+    for (int i = 0; i < kLanes; ++i) {
+      for (uint32_t k = 0; k < 3; ++k) glow[k][i] = view.glows[3 * rays.instance[begin + i] + k];
+    }
+    emission = emission * load3(glow[0], glow[1], glow[2]);
+  }
+  if (!f.any_beam) return emission;
+  const real beam = load(f.beam), zero = real(0.0f);
+  const mask_t window = beam == kWindowBeam;
+  const real sharp = sel(window, zero, rabs(beam));
+  const real3 axis = ToWorld(f, make3(zero, sel(beam > 0.0f, real(-1.0f), real(1.0f)), sel(beam > kLowBeam, real(kBeamDrop), zero)));
+  emission = emission * beam_shape(sharp, zero - sharp * dot3(axis, d), zero - d.z);
+  if (!stdx::any_of(window)) return emission;
+  return sel3(window, window_light(load(f.pane), load(f.area)) * luminance(emission), emission);
 }
 
 // ---- Water

@@ -27,7 +27,7 @@ struct alignas(64) Fetched {
   Lanes base[3], metallic, roughness, emission[3], transmission, macro, normal_scale, kind;
   int32_t base_id[kLanes], roughness_id[kLanes], normal_id[kLanes], emission_id[kLanes];
   Lanes clear_coat, clear_coat_roughness, mean[3], tile, blend, columns, rows, ground;
-  Lanes room_material, unused_material;
+  Lanes room_material, beam;
 
   Lanes mirrored, pane, color[3];
   Lanes facet[3];  ///< the triangle's own normal in W
@@ -38,7 +38,7 @@ struct alignas(64) Fetched {
   int32_t corner_words[8][kLanes];
   bool any_smooth;  ///< some corner's normal is not the triangle's own
   bool any_normal, any_roughness, any_emission, any_macro, any_glass, any_water, any_base, any_blend,
-      any_unit, any_ground, any_window, any_leaf, any_colored;
+      any_unit, any_ground, any_window, any_leaf, any_colored, any_beam;
   bool any_picture;  ///< something that needs texture coordinates
   /// All lanes lie on one triangle, this one.
   bool one = false;
@@ -57,6 +57,7 @@ static_assert(offsetof(MaterialRecord, interior) == 26 * kWord &&
               offsetof(Fetched, room_material) == (32 + 26) * kRow &&
               offsetof(MaterialRecord, base_texture) == 12 * kWord &&
               offsetof(Fetched, base_id) == (32 + 12) * kRow &&
+              offsetof(MaterialRecord, beam) == 27 * kWord && offsetof(Fetched, beam) == (32 + 27) * kRow &&
               offsetof(MaterialRecord, tile) == 21 * kWord && offsetof(Fetched, tile) == (32 + 21) * kRow);
 
 /// Brings the records of the next vector into the cache while this one is worked on.
@@ -176,6 +177,7 @@ KERNEL void TakeMaterials(const MaterialRecord* const* material, const MaterialR
   f.any_blend = stdx::any_of(load(f.blend) != 0.0f);
   f.any_unit = stdx::any_of(load(f.columns) != 0.0f);
   f.any_ground = stdx::any_of(load(f.ground) != 0.0f);
+  f.any_beam = stdx::any_of(load(f.beam) != 0.0f);
   f.any_picture =
       f.any_base || f.any_normal || f.any_roughness || f.any_emission || f.any_blend || f.any_unit;
 }

@@ -127,6 +127,8 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
   }
   if (f.any_emission)
     emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true);
+  if (f.any_beam || (view.glows != nullptr && stdx::any_of(emission.x + emission.y + emission.z > 0.0f)))
+    emission = Thrown(view, rays, i, f, d, emission);
   Noises noises;
   if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
     noises = LookUpNoises(view, f, p, n, width);

@@ -150,13 +150,53 @@ TEST(Interior, NeverReflectsMoreThanAWhiteWallWould) {
     float front, back_a, back_b;
     const float ha = uniform(0.2, 2), hb = uniform(0.2, 1.6);
     const Vec3f d = Normalized(Vec3f{uniform(-1, 1), uniform(-1, 1), uniform(0.03, 1)});
-    scalar::interior_room(uniform(-1, 1) * ha, uniform(-1, 1) * hb, ha, hb, d.x, d.y, d.z, uniform(0, 1), 0,
+    scalar::interior_room(uniform(-1, 1) * ha, uniform(-1, 1) * hb, ha, hb, d.x, d.y, d.z, uniform(0, 1), Vec3f{},
                           day, lamp, front, back_a, back_b);
     for (int c = 0; c < 3; ++c) {
       ASSERT_GE(day[c], 0);
       ASSERT_LE(day[c], 0.5f);
       ASSERT_EQ(lamp[c], 0);  // its lamps are off
     }
+  }
+}
+
+// Correlated colour temperature of a linear sRGB colour: McCamy (1992), within 2 K of Planck's locus to 8000 K.
+double TemperatureOf(Vec3f c) {
+  const double x = 0.4124 * c.x + 0.3576 * c.y + 0.1805 * c.z, y = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z,
+               z = 0.0193 * c.x + 0.1192 * c.y + 0.9505 * c.z, sum = x + y + z;
+  const double n = (x / sum - 0.3320) / (0.1858 - y / sum);
+  return ((449 * n + 3525) * n + 6823.3) * n + 5520.33;
+}
+
+TEST(Interior, WhitesOfLampsHaveTheirTemperatureAndLuminanceOne) {
+  for (float kelvin = 2200; kelvin <= 8000; kelvin += 100) {
+    const Vec3f white = scalar::lamp_white(1e6f / kelvin);
+    EXPECT_NEAR(0.2126f * white.x + 0.7152f * white.y + 0.0722f * white.z, 1, 1e-5);
+    EXPECT_NEAR(TemperatureOf(white) / kelvin, 1, 0.065) << kelvin;
+  }
+}
+
+TEST(Interior, LitRoomsInTheEveningSpreadOverADecadeOfLightAndFromWarmToBluish) {
+  constexpr int kRooms = 20000;
+  for (const float area : {0.8f, 1.5f, 4.0f}) {
+    std::vector<double> light, kelvin;
+    double windows = 0;
+    for (int k = 0; k < kRooms; ++k) {
+      const float room = (static_cast<float>(k) + 0.5f) / kRooms;
+      const Vec3f c = scalar::evening_light(room, area), w = scalar::window_light(room, area);
+      light.push_back(0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
+      kelvin.push_back(TemperatureOf(c));
+      windows += (0.2126 * w.x + 0.7152 * w.y + 0.0722 * w.z) / kRooms;
+      ASSERT_GT(light.back(), 10.0 / 500 * 0.9);
+      ASSERT_LE(light.back(), 1.001);
+    }
+    std::sort(light.begin(), light.end()), std::sort(kelvin.begin(), kelvin.end());
+    const auto at = [](const std::vector<double>& v, double share) { return v[static_cast<size_t>(share * kRooms)]; };
+    EXPECT_GT(at(light, 0.95) / at(light, 0.07), 10);
+    // Homes by far the most where panes are small, offices where they are large.
+    EXPECT_NEAR(at(kelvin, 0.4), area < 2 ? 2850 : 4100, 450) << area;
+    EXPECT_GT(at(kelvin, 0.97), 6500);
+    if (area < 2) EXPECT_NEAR(windows, 1, 0.3) << area;
   }
 }
 

@@ -68,7 +68,12 @@ struct alignas(64) MaterialRecord {
   float unit_columns, unit_rows;  ///< bricks or slabs per uv unit, tinted one by one; 0 = none
   float ground;                   ///< GroundWear as a number
   float interior;                 ///< 1: rooms behind panes
+  float beam;                     ///< Material::beam; kWindowBeam: a lit window without a room
 };
+
+inline constexpr float kWindowBeam = 1e6f;
+/// z of the axis (0, -1, z) of low beams, in the mesh frame.
+inline constexpr float kBeamDrop = -0.06f;
 
 /// One level of a mip chain.
 struct TextureLevel {
@@ -113,6 +118,7 @@ struct alignas(64) LampRecord {
   float color[3];   ///< radiance
   float soft;       ///< m^2 added to squared distances: a disc of that area over pi is then exact on its axis
   float reach;      ///< m; beyond it the lamp is left out, from 3/4 of it on it fades
+  float beam[3];    ///< axis times sharpness, see beam_shape; 0 = none
 };
 
 /// The strongest lamps of one cell of space: one cache line.
@@ -171,6 +177,7 @@ struct ShadeView {
   float mean_ambient[3];        ///< radiance where there are no probes
   const float* mean_colors;     ///< of a material: base colour with the mean of its texture, r g b
   const float* mean_emissions;  ///< likewise
+  const float* glows;           ///< Instance::glow, r g b; nullptr = white everywhere
   LampView lamps;
   AirView air;
   CloudShadowView cloud_shadow;
@@ -179,7 +186,10 @@ struct ShadeView {
   const TriangleColors* colors;  ///< the first is white; nullptr where no mesh has any
   float wetness, snow, rain;  ///< Environment: 0 … 1, 0 … 1, drops on puddles 0 … 1
   float lit_rooms;            ///< share of rooms whose lamps are on
+  float evening;              ///< 1: rooms have evening_light, 0: day_light
   float lamplight;            ///< radiance of a white surface in a lit room
+  float moon_light[3];        ///< from the moon to the sun; matters where moon_gain is not 0
+  float moon_gain;            ///< the disc at to_sun is the moon's: moon_face times this has the mean 1; 0 = the sun's
   float sun_seen;             ///< share of the sun's disc that clouds leave to the eye
   float open_sky;             ///< luminance of the irradiance of the whole sky on level ground; 0 = no sky
 };

@@ -38,14 +38,52 @@ SHARED real3 furnishing(real h1, real h2) {
   return lerp3(c, pale, sel(h1 > 0.80f, real(1.0f), real(0.0f))) * (0.7f + 0.5f * h2);
 }
 
+// White of luminance 1 at 1e6 / `mired` kelvin, 110 to 500 (9000 to 2000 K), in linear sRGB: lines through Planck's
+// locus, within 6 per cent of the temperature.
+SHARED real3 lamp_white(real mired) {
+  real r = 1.0f + 0.0045f * (mired - 154.0f);
+  real b = rmax(0.985f - 0.0040f * (mired - 154.0f), real(0.01f));
+  return make3(r, (1.0f - 0.2126f * r - 0.0722f * b) * (1.0f / 0.7152f), b);
+}
+
+// Light in a room whose lamps are on, by day: warm to neutral white.
+SHARED real3 day_light(real hash) {
+  real h4 = hash_again(hash, real(521.3f));
+  real warm = 0.45f + 0.55f * h4;
+  return lerp3(make3(real(1.0f), real(0.66f), real(0.36f)), make3(real(1.0f), real(0.92f), real(0.82f)), h4 * warm);
+}
+
+// Light in a lit room in the evening, luminance 1 for 500 lx: homes of 20 to 200 lx at 2600 to 4000 K, offices (the
+// likelier the larger the pane, `area` in m^2) of 225 to 500 lx at 3700 to 5000 K (EN 12464-1 asks for 300 to 500), and
+// rooms in the bluish light of a screen alone, 10 to 25 lx.
+SHARED real3 evening_light(real hash, real area) {
+  real kind = hash_again(hash, real(947.9f));
+  real u = hash_again(hash, real(389.3f));
+  real v = hash_again(hash, real(173.1f));
+  real offices = rmin(rmax(0.10f + 0.22f * (area - 1.2f), real(0.10f)), real(0.75f));
+  mask_t office = kind < offices;
+  mask_t screen = kind > 0.94f;
+  real v2 = v * v;
+  real mired = sel(office, 200.0f + 70.0f * v, sel(screen, 118.0f + 25.0f * v, 385.0f - 45.0f * v - 90.0f * (v2 * v2)));
+  real light = sel(office, 0.45f + 0.55f * u, sel(screen, 0.02f + 0.03f * u, exp2_approx(-1.3f - 3.3f * u)));
+  return lamp_white(mired) * light;
+}
+
+// What a lit window whose room is not seen (a curtain hangs before it) sends, over the mean of all such windows:
+// behind some nobody is at home.
+SHARED real3 window_light(real hash, real area) {
+  real lit = sel(hash_again(hash, real(811.3f)) < 0.55f, real(1.0f), real(0.0f));
+  return evening_light(hash, area) * (lit * (1.0f / (0.55f * 0.25f)));
+}
+
 // What the ray through (a, b) of a pane of half size (half_a, half_b) meets; (da, db, dn) its direction,
-// dn > 0 inwards. `lit`: 1 if the room's lamps are on. Out: `daylight`, the radiance towards the viewer over
+// dn > 0 inwards. `light`: day_light or evening_light, black if the room's lamps are off. Out: `daylight`, the radiance towards the viewer over
 // that of a white surface in the pane's place (day factor times albedo), `lamplight`, the radiance of a lit
 // room in cd-like units where a surface of albedo 1 under its lamps has 1, and the point of the back wall
 // that the ray aims at, for pictures (`back_a`, `back_b`); `front` is 1 where the nearer furniture, a curtain
 // or a blind hides it.
 SHARED void interior_room(real a, real b, real half_a, real half_b, real da, real db, real dn, real hash,
-                          real lit, INOUT(real3) daylight, INOUT(real3) lamplight, INOUT(real) front,
+                          real3 light, INOUT(real3) daylight, INOUT(real3) lamplight, INOUT(real) front,
                           INOUT(real) back_a, INOUT(real) back_b) {
   real h1 = hash_again(hash, real(61.7f));
   real h2 = hash_again(hash, real(137.3f));
@@ -118,11 +156,7 @@ SHARED void interior_room(real a, real b, real half_a, real half_b, real da, rea
   real fall = 0.03f + 0.26f * exp2_approx(0.0f - 0.75f * z);
   real share = fall * clamp01(0.35f + 0.5f * rmin(half_a * half_b, real(1.3f)));
   real3 day = albedo * share;
-  real warm = 0.45f + 0.55f * h4;
-  real3 lamp_color = lerp3(make3(real(1.0f), real(0.66f), real(0.36f)),
-                           make3(real(1.0f), real(0.92f), real(0.82f)), h4 * warm);
-  real3 glow = (albedo * (0.75f + 0.25f * clamp01(1.2f - y * 0.3f)) + make3(lamp, lamp, lamp) * 9.0f) *
-               lamp_color * lit;
+  real3 glow = (albedo * (0.75f + 0.25f * clamp01(1.2f - y * 0.3f)) + make3(lamp, lamp, lamp) * 9.0f) * light;
 
   // Curtains at the sides, or a blind from above, 8 cm behind the glass.
   real c = 0.08f / into;
@@ -140,7 +174,7 @@ SHARED void interior_room(real a, real b, real half_a, real half_b, real da, rea
   real3 screen = lerp3(make3(real(0.58f), real(0.56f), real(0.52f)) * slats, cloth, curtain);
   real hung = rmax(curtain, blind);
   daylight = lerp3(day, screen * real(0.42f), hung);
-  lamplight = lerp3(glow, screen * lamp_color * (0.35f * lit), hung);
+  lamplight = lerp3(glow, screen * light * 0.35f, hung);
   front = rmax(near, hung);
   back_a = rmin(rmax(a + da * tn * 0.4f, left), right);
   back_b = rmin(rmax(b + db * tn * 0.4f, low), high);

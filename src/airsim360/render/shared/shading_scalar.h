@@ -49,6 +49,7 @@ SHARED real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
 // clang-format on
 #undef SHARED

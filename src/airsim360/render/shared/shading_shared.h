@@ -229,6 +229,16 @@ SHARED real lamp_irradiance(real body, real towards, real soft, real radius, rea
   return rmax(body + towards, real(0.0f)) * lamp_fade(distance, reach) / rmax(d2, real(1e-8f));
 }
 
+// Share of a lamp's light that a beam throws into a direction w: `sharp` is |Material::beam|, `along` sharp times
+// the cosine between w and the beam's axis, `rise` the z of w. Half the light at the angle of 1 - cos =
+// 0.41 / sharp. Low beams are cut off above the horizon over 5 degrees, a sixteenth is scattered beyond (the cut-off of
+// UN Regulation 149 without its asymmetry). 1 for sharp = 0.
+SHARED real beam_shape(real sharp, real along, real rise) {
+  real spread = 1.0f + (sharp - along);
+  real cut = sel(sharp > 10.0f, 0.06f + 0.94f * clamp01(0.45f - 10.0f * rise), real(1.0f));
+  return cut / (spread * spread);
+}
+
 // ---- geometry
 // ---------------------------------------------------------------------------------------------------
 

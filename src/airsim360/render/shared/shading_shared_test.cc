@@ -255,7 +255,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
     std::ofstream out(stem + ".comp");
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
         << read("shading_glsl.h") << shared << read("shading_tone.h") << read("shading_interior.h")
-        << read("shading_weather.h") << read("shading_ground.h")
+        << read("shading_weather.h") << read("shading_moon.h") << read("shading_ground.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
@@ -266,10 +266,12 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "0.5, 3.0, 0.1, 64.0) +\n  drops_cover(v[0], v[1], v[2], c, v[3], 0.1, 0.4, 0.5, 0.2, 0.01, 0.5, "
            "5.0, 1.0) + forward_phase(0.7, v[1]);\n"
            "  vec3 day, lamp; float front, a, b;\n"
-           "  interior_room(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], day, lamp, front, a, b);\n"
+           "  interior_room(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7],\n"
+           "                day_light(v[7]) + evening_light(v[7], v[8]) + window_light(v[7], v[8]) * beam_shape(v[0], v[1], v[2]), "
+           "day, lamp, front, a, b);\n"
            "  float sx, sy, tar, polish, gain; drop_rings(v[0], v[1], v[2], sx, sy);\n"
            "  asphalt_wear(v[0], v[1], v[2], v[3], n, c, day, v[4], v[5], gain, tar, polish);\n"
-           "  v[1] = lawn_life(day, a, b, n, c, lamp, v[2], v[3]).x + puddle_cover(v[0], v[1]) + sx + gain + "
+           "  v[1] = lawn_life(day, a, b, n, c, lamp, v[2], v[3]).x + puddle_cover(v[0], v[1]) + moon_face(n, c, day) + sx + gain + "
            "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]); }\n";
   }
   const int status = std::system(

@@ -136,6 +136,7 @@ SHARED void store3(float* x, float* y, float* z, real3 a) {
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
 // clang-format on
 #undef SHARED

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/image/luminance.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/cloud_shapes.h"
@@ -24,7 +25,6 @@ constexpr int kOctaves = 8;
 constexpr float kOctaveWeight = 0.77f, kOctaveAsymmetry = 0.55f;
 
 float Exp(float x) { return scalar::exp_approx(x); }
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 Vec3f Mix(Vec3f a, Vec3f b, float t) { return a + (b - a) * t; }
 
 // Henyey-Greenstein.

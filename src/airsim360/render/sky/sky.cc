@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/image/luminance.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/clouds.h"
@@ -18,8 +19,6 @@ namespace {
 constexpr float kPi = 3.14159265f;
 constexpr float kSunSolidAngle = 6.72e-5f;  // disc of 0.53 degrees
 constexpr float kSunRadius = 0.004625f;
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 Vec3f FromCompass(double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * (M_PI / 180), elevation = elevation_deg * (M_PI / 180);
@@ -52,6 +51,14 @@ Moon MoonOf(const Environment& environment) {
   return moon;
 }
 
+// Direction from the moon to the sun, so that the lit share of the disc is `phase` and lies on the sun's side.
+Vec3f LightOnMoon(Vec3f to_moon, Vec3f to_sun, double phase) {
+  const auto cosine = static_cast<float>(2 * std::clamp(phase, 0.0, 1.0) - 1);
+  const Vec3f beside = to_sun - to_moon * Dot(to_sun, to_moon);
+  const Vec3f side = Norm(beside) > 1e-4f ? Normalized(beside) : Normalized(Cross(to_moon, {0.6f, 0.3f, 0.74f}));
+  return side * std::sqrt(std::max(0.0f, 1 - cosine * cosine)) - to_moon * cosine;
+}
+
 }  // namespace
 
 Sky::Sky(const Environment& environment, Vec3f place, const Sky* like) : place_(place), sun_radius_(kSunRadius) {
@@ -71,7 +78,7 @@ Sky::Sky(const Environment& environment, Vec3f place, const Sky* like) : place_(
 
 // All that does not depend on haze and weather.
 void Sky::TakeTable(const Sky& like) {
-  to_sun_ = like.to_sun_;
+  to_sun_ = like.to_sun_, moon_light_ = like.moon_light_;
   sun_irradiance_ = clear_sun_ = like.clear_sun_;
   table_ = like.table_;
   below_ = like.below_;
@@ -107,6 +114,7 @@ void Sky::BakeSky(const Environment& environment) {
   const bool by_moon =
       Luminance(atmosphere.SunIrradiance()) < moon.share * Luminance(moonlit.SunIrradiance());
   to_sun_ = by_moon ? moon.direction : sun;
+  if (by_moon) moon_light_ = LightOnMoon(moon.direction, sun, environment.moon_phase);
   const auto light_at = [&](float height) {
     return by_moon ? moonlit.SunIrradiance(height) * moon.share : atmosphere.SunIrradiance(height);
   };

@@ -43,6 +43,9 @@ class Sky {
   /// Mean radiance of the sun's disc (0.53 degrees wide); darker towards the limb.
   Vec3f sun_radiance() const;
   SunLight sun() const;
+  /// Whether the light is the moon's, and the direction from there to the sun: its lit limb looks to where the sun stands.
+  bool is_moon() const { return moon_light_ != Vec3f{}; }
+  Vec3f moon_light() const { return moon_light_; }
   /// Share of the sun's disc that is seen from the place through the clouds: exp(-depth), while light from about it counts as direct
   /// on surfaces, see Clouds::SunAt.
   float sun_seen() const;
@@ -84,7 +87,7 @@ class Sky {
   /// All fields, for the disk cache.
   template <class Archive, class Self>
   static void Visit(Archive& archive, Self& s) {
-    archive(s.place_, s.to_sun_, s.sun_irradiance_, s.clear_sun_, s.extinction_, s.ground_radiance_, s.sun_radius_);
+    archive(s.place_, s.to_sun_, s.sun_irradiance_, s.clear_sun_, s.extinction_, s.ground_radiance_, s.sun_radius_, s.moon_light_);
     SkyTable::Visit(archive, s.table_);
     SkyTable::Visit(archive, s.below_);
     for (auto& level : s.blurred_) SkyTable::Visit(archive, level);
@@ -106,6 +109,7 @@ class Sky {
 
   Vec3f place_, to_sun_, sun_irradiance_, extinction_, ground_radiance_;
   Vec3f clear_sun_;  // irradiance before weather
+  Vec3f moon_light_;
   float sun_radius_ = 0;
   SkyTable table_, below_;
   std::array<SkyTable, kBlurLevels> blurred_;

@@ -12,7 +12,7 @@ float MoonShare(double phase);
 
 /// Radiance of the moonless night sky: airglow, zodiacal light and faint stars (22 mag/arcsec^2 at the
 /// zenith, 1.7e-4 cd/m^2, brighter towards the horizon after van Rhijn), and with `lamps` the glow of a town
-/// (19.5 mag/arcsec^2).
+/// (18 mag/arcsec^2, 6.8e-3 cd/m^2, at the zenith as over the middle of large cities; six times that at the horizon).
 Vec3f NightGlow(Vec3f direction, bool lamps);
 
 /// Adds the stars of the upper hemisphere down to magnitude 6.5: about 4,500 at invented places, their number

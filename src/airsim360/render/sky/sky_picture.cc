@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/image/luminance.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kPi = 3.14159265f, kDegrees = kPi / 180, kBrightest = 65504;
-
-float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 // The picture with its orientation.
 class Picture {

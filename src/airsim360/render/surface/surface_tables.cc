@@ -182,6 +182,8 @@ MaterialRecord MakeMaterial(const Material& m, const Scene& scene) {
   record.unit_rows = m.units.y;
   record.ground = static_cast<float>(m.ground);
   record.interior = m.interior && m.kind == SurfaceKind::kGlass ? 1.0f : 0.0f;
+  const bool window = m.kind == SurfaceKind::kGlass && m.lamp && record.emission_texture == 0;
+  record.beam = m.beam == 0 && window && record.interior == 0 ? kWindowBeam : m.beam;
   return record;
 }
 
@@ -260,6 +262,7 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   for (const Material& material : scene.materials) {
     MaterialRecord record = MakeMaterial(material, scene);
     if (material.lamp && !lamps_on) std::fill(std::begin(record.emission), std::end(record.emission), 0.0f);
+    if (!lamps_on) record.beam = 0;  // by day no beam stands out
     materials.push_back(record);
     mean_colors.push_back(material.base_color * MeanTexel(material.base_color_texture, scene));
     mean_emissions.push_back(Vec3f{record.emission[0], record.emission[1], record.emission[2]} *
@@ -285,6 +288,17 @@ SurfaceTables::SurfaceTables(const Scene& scene, bool lamps_on) {
   AddColors(scene);
   for (size_t i = 0; i < scene.instances.size(); ++i)
     instances.push_back(Place(scene.instances[i], scene.instances[i].X_WM, static_cast<uint32_t>(i)));
+  if (std::ranges::any_of(scene.instances, [](const Instance& i) { return !(i.glow == Vec3f{1, 1, 1}); })) {
+    for (const Instance& instance : scene.instances) glows.push_back(instance.glow);
+  }
+}
+
+Vec3f SurfaceTables::BeamOf(const InstanceRecord& instance, const MaterialRecord& material) const {
+  if (material.beam == 0 || material.beam == kWindowBeam) return {};
+  const Vec3f axis{0, material.beam > 0 ? -1.0f : 1.0f, material.beam > kLowBeam ? kBeamDrop : 0.0f};
+  const float* m = instance.normal_matrix;
+  const Vec3f row[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+  return Normalized(Vec3f{Dot(row[0], axis), Dot(row[1], axis), Dot(row[2], axis)}) * std::fabs(material.beam);
 }
 
 InstanceRecord SurfaceTables::Place(const Instance& instance, const AffineTransform& X_WM,

@@ -43,6 +43,11 @@ struct SurfaceTables {
   std::vector<Vec3f> mean_colors;
   /// Likewise emission; 0 where it is off.
   std::vector<Vec3f> mean_emissions;
+  /// Instance::glow by instance; empty where all are white.
+  std::vector<Vec3f> glows;
+  Vec3f GlowOf(uint32_t instance) const { return glows.empty() ? Vec3f{1, 1, 1} : glows[instance]; }
+  /// Axis in W, times sharpness, of the beam that a material throws; zero without one.
+  Vec3f BeamOf(const InstanceRecord& instance, const MaterialRecord& material) const;
 
  private:
   void SetTriangles(const Scene& scene, MeshId id, const Mesh& shape);

@@ -23,6 +23,17 @@ bool IsFinite(const RigidTransform& X) {
   return std::isfinite(sum);
 }
 
+// Of a lens, as GpuCamera::lens has them.
+std::vector<double> Coefficients(const CalibratedLens& lens) {
+  std::vector<double> all(lens.shape.begin(), lens.shape.end());
+  all.insert(all.end(), lens.radial.begin(), lens.radial.end());
+  all.insert(all.end(), lens.divisor.begin(), lens.divisor.end());
+  all.insert(all.end(), lens.tangential.begin(), lens.tangential.end());
+  all.insert(all.end(), lens.prism.begin(), lens.prism.end());
+  all.push_back(2 * std::tan(lens.shape[0] / 2));
+  return all;
+}
+
 // All that makes a camera, in one list.
 std::vector<double> KeyOf(const Camera& camera) {
   std::vector<double> key{static_cast<double>(camera.index()), static_cast<double>(Width(camera)),
@@ -32,6 +43,11 @@ std::vector<double> KeyOf(const Camera& camera) {
   if (const auto* c = std::get_if<Fisheye>(&camera)) {
     key.insert(key.end(), {c->fx, c->fy, c->cx, c->cy, c->max_theta});
     key.insert(key.end(), c->k.begin(), c->k.end());
+  }
+  if (const auto* c = std::get_if<CalibratedLens>(&camera)) {
+    key.insert(key.end(), {static_cast<double>(c->law), c->fx, c->fy, c->cx, c->cy, c->max_theta});
+    const std::vector<double> coefficients = Coefficients(*c);
+    key.insert(key.end(), coefficients.begin(), coefficients.end());
   }
   return key;
 }
@@ -69,6 +85,11 @@ void PutProjection(const Camera& camera, GpuCamera& out) {
     pinhole(f->fx, f->fy, f->cx, f->cy);
     for (size_t i = 0; i < 4; ++i) out.distortion[i] = static_cast<float>(f->k[i]);
     out.max_theta = static_cast<float>(f->max_theta);
+  } else if (const auto* l = std::get_if<CalibratedLens>(&camera)) {
+    out.projection = kProjectLens;
+    pinhole(l->fx, l->fy, l->cx, l->cy);
+    out.max_theta = static_cast<float>(l->max_theta);
+    out.law = static_cast<uint32_t>(l->law);
   }
 }
 
@@ -115,6 +136,7 @@ size_t GpuCameras::Size(const RenderRequest& request) {
   const Camera& camera = request.camera;
   if (std::holds_alternative<Equirectangular>(camera))
     size += sizeof(float) * 5 * static_cast<size_t>(Padded(Width(camera)) + Padded(Height(camera)));
+  if (std::holds_alternative<CalibratedLens>(camera)) size += 128;
   if (request.tier == Tier::kHigh) size += 64 + 2 * sizeof(float) * static_cast<size_t>(Height(camera));
   return size;
 }
@@ -171,6 +193,10 @@ void GpuCameras::Fill(const RenderRequest& request, uint64_t frames, UploadCurso
               upload.Take(20 * static_cast<size_t>(rows), out.rows));
   } else {
     out.rays = Table(request.camera, field);
+    if (const auto* lens = std::get_if<CalibratedLens>(&request.camera)) {
+      const std::vector<double> coefficients = Coefficients(*lens);
+      PutPlanes({coefficients.data()}, static_cast<int>(coefficients.size()), upload.Take(4 * coefficients.size(), out.lens));
+    }
   }
   if (const int points = PointsOfPixel(request); points > 1) FillOffsets(points, upload, out);
   out.samples = static_cast<uint32_t>(ColorSamples(request));

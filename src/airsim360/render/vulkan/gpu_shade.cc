@@ -116,6 +116,8 @@ GpuShadeTables::GpuShadeTables(GpuDevice& device, const Shader& shader, const Sc
   s.colors = arena_.Put(impl.tables.colors).address;
   s.mean_colors = arena_.Put(impl.tables.mean_colors).address;
   s.mean_emissions = arena_.Put(impl.tables.mean_emissions).address;
+  s.glows = arena_.Put(impl.tables.glows).address;
+  s.has_glows = v.glows != nullptr ? 1 : 0;
   s.textures = PutTextures(arena_, impl.tables.textures);
   s.has_sky = v.has_sky > 0.5f ? 1 : 0;
   s.sky = PutSky(arena_, v.sky);
@@ -131,7 +133,8 @@ GpuShadeTables::GpuShadeTables(GpuDevice& device, const Shader& shader, const Sc
   Copy(v.ground, s.ground), Copy(v.sky_irradiance, s.sky_irradiance), Copy(v.mean_ambient, s.mean_ambient);
   s.ground_z = v.ground_z;
   s.wetness = v.wetness, s.lying_snow = v.snow, s.drops = v.rain, s.lit_rooms = v.lit_rooms;
-  s.lamplight = v.lamplight, s.open_sky = v.open_sky, s.sun_seen = v.sun_seen;
+  s.lamplight = v.lamplight, s.open_sky = v.open_sky, s.sun_seen = v.sun_seen, s.evening = v.evening;
+  Copy(v.moon_light, s.moon_light), s.moon_gain = v.moon_gain;
   for (uint32_t tone = 0; tone < views_.size(); ++tone) {
     s.tone = tone;
     views_[tone] = arena_.Put(std::as_bytes(std::span<const GpuShade>(&s, 1)));

@@ -141,18 +141,23 @@ std::vector<Vec3u> BodyTriangles(const BodyLevel& level) {
 // Share of the box of the projected corners that is outside the picture (KITTI's truncation).
 double Truncation(const Camera& camera, std::span<const Vec3f> p_C) {
   const auto* pinhole = std::get_if<Pinhole>(&camera);
-  if (pinhole == nullptr) return 0;
+  const auto* lens = std::get_if<CalibratedLens>(&camera);
+  if (pinhole == nullptr && lens == nullptr) return 0;
   constexpr float kNear = 0.05f;  // metres
+  const auto project = [&](const Vec3f& p) {
+    if (lens != nullptr) return ProjectBeyond(*lens, VecCast<double>(p));
+    return Vec2d{pinhole->fx * p.x / p.z + pinhole->cx, pinhole->fy * p.y / p.z + pinhole->cy};
+  };
   double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
   for (const Vec3f& p : p_C) {
-    if (p.z < kNear) continue;
-    const double x = pinhole->fx * p.x / p.z + pinhole->cx, y = pinhole->fy * p.y / p.z + pinhole->cy;
+    if (pinhole != nullptr && p.z < kNear) continue;
+    const auto [x, y] = project(p);
     x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
   }
   const double all = (x1 - x0) * (y1 - y0);
   if (!(all > 0)) return 1;
-  const double w = std::min<double>(x1, pinhole->width) - std::max(x0, 0.0),
-               h = std::min<double>(y1, pinhole->height) - std::max(y0, 0.0);
+  const double w = std::min<double>(x1, Width(camera)) - std::max(x0, 0.0),
+               h = std::min<double>(y1, Height(camera)) - std::max(y0, 0.0);
   return w > 0 && h > 0 ? 1 - w * h / all : 1;
 }
 

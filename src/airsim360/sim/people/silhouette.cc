@@ -76,6 +76,7 @@ class WindowFinder {
   // Where the plane of the picture, continued beyond its borders, sees a point; nullopt behind it.
   std::optional<Vec2d> Project(Vec3d p) const {
     constexpr double kNear = 1e-3;
+    if (const auto* lens = std::get_if<CalibratedLens>(&camera_)) return ProjectBeyond(*lens, p);
     if (const auto* fisheye = std::get_if<Fisheye>(&camera_)) {
       const double across = std::hypot(p.x, p.y);
       if (across < 1e-12) return Vec2d{fisheye->cx, fisheye->cy};

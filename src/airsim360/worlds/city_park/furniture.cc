@@ -70,7 +70,8 @@ void PutTraffic(Park& park, const Curve& road, float half, bool parking, RngStre
   const auto car = [&](float s, float d, bool forward) {
     const Vec2f p = road.At(s, d), v = road.Along(s);
     const float z = park.layout.Base(p) + (parking ? 0.02f : 0.04f);
-    park.placer.Try(rng.Chance(0.88) ? "car" : "van", {p.x, p.y, z}, FacingYaw(forward ? v : v * -1.0f));
+    park.placer.Try(rng.Chance(0.88) ? "car" : "van", {p.x, p.y, z}, FacingYaw(forward ? v : v * -1.0f), 1, {1, 1, 1}, {},
+                    parking ? Engine::kOff : Engine::kOn);
   };
   if (parking) {
     for (float hand : {-1.0f, 1.0f}) {

@@ -53,7 +53,7 @@ void ParkAndDrive(District& d, const FarStretch& street, bool avenue, double tra
     for (float lane : avenue ? std::vector<float>{2.0f, 5.45f} : std::vector<float>{2.1f}) {
       for (float s = s0 + uniform(0, 25); s < s1 && traffic > 0.05; s += uniform(9, 38) / static_cast<float>(traffic)) {
         const double pick = rng.Uniform();
-        d.placer.Try(pick < 0.4 ? "taxi" : pick < 0.9 ? "car" : "van", street.At(s, side * lane + uniform(-0.2, 0.2)), yaw);
+        d.placer.Drive(pick < 0.4 ? "taxi" : pick < 0.9 ? "car" : "van", street.At(s, side * lane + uniform(-0.2, 0.2)), yaw);
       }
     }
   }

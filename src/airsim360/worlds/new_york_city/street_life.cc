@@ -263,13 +263,13 @@ void FurnishNewYorkStreets(District& d, const std::vector<StreetStretch>& street
         while (s > s0 + 2.5f && s < s1 - 2.5f) {
           const double pick = rng.Uniform();
           const char* kind = pick < 0.40 ? "taxi" : pick < 0.88 ? "car" : pick < 0.97 ? "van" : "bus";
-          d.placer.Try(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f),
-                       FacingYaw(heading) + uniform(-0.02, 0.02));
+          d.placer.Drive(kind, street.At(s, lane + uniform(-0.2, 0.2), -0.004f),
+                         FacingYaw(heading) + uniform(-0.02, 0.02));
           s += back * (kind[0] == 'b' ? 15.0f : rng.Chance(0.5) ? uniform(6.5, 9) : gaps * uniform(14, 38));
         }
       }
       if (boulevard && side > 0 && rng.Chance(0.7))
-        d.placer.Try("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
+        d.placer.Drive("bus", street.At((s0 + s1) / 2 + 6, 11.1f, -0.004f), FacingYaw(heading));
     }
     for (int k = 0; k < (avenue ? 5 : 3); ++k) {
       const float at = uniform(avenue ? 2.6 : 0.9, hw - 3.2) * (rng.Chance(0.5) ? 1.0f : -1.0f);

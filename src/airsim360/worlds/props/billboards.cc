@@ -273,24 +273,22 @@ Model MakeMural(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
-// A board with a frame, its face a little in front.
+// A board with a frame, its face a little in front; `glow`: luminance of its whites by night, cd/m^2.
 void AddBoard(PropBuilder& b, float w, float h, Texture face, float glow) {
   b.Use(Paint({0.025f, 0.026f, 0.028f}, 0.5f));
   b.BevelBox({-w / 2 - 0.12f, -0.40f, 0}, {w / 2 + 0.12f, 0.0f, h + 0.24f}, 0.04f);
   Material picture = Paint({1, 1, 1}, 0.55f);
   picture.name = "billboard face";
+  picture.emission = Vec3f{1, 1, 1} * (glow * kNit);
+  picture.lamp = true;
   b.Use(picture, face);
-  if (glow > 0) {
-    picture.emission = Vec3f{1, 1, 1} * (glow * kNit);
-    b.Use(picture, face);
-  }
   b.Picture({-w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f}, {w / 2, -0.405f, 0.12f + h},
             {-w / 2, -0.405f, 0.12f + h});
 }
 
 Model MakeBillboard(uint32_t variant, uint64_t) {
   PropBuilder b("billboard");
-  AddBoard(b, 10, 6, Board(variant), 0);
+  AddBoard(b, 10, 6, Board(variant), 130);
   return b.Finish();
 }
 
@@ -334,7 +332,7 @@ Texture Banner(uint32_t variant) {
 
 Model MakeBanner(uint32_t variant, uint64_t) {
   PropBuilder b("banner");
-  AddBoard(b, 4, 11, Banner(variant), 0);
+  AddBoard(b, 4, 11, Banner(variant), 100);
   return b.Finish();
 }
 
@@ -346,7 +344,7 @@ Model MakeLightBox(uint32_t variant, uint64_t) {
                                {0.75f, 0.05f, 0.45f}, {0.80f, 0.55f, 0.04f}, {0.70f, 0.72f, 0.80f}};
   Canvas c(576, 128, {0.010f, 0.010f, 0.012f});
   c.Letters(kWords[variant], {0.5f, 0.5f}, 0.60f, kColors[variant], 0.85f);
-  AddBoard(b, 9, 1.9f, c.Finish("light box " + std::to_string(variant)), 0);
+  AddBoard(b, 9, 1.9f, c.Finish("light box " + std::to_string(variant)), 350);
   return b.Finish();
 }
 

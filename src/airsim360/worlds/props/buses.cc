@@ -58,6 +58,8 @@ Model MakeBus(uint32_t variant, uint64_t) {
   Canvas sign(256, 48, {0.008f, 0.008f, 0.008f});
   sign.Letters(variant ? "24 GROVE AVE" : "7 MARKET ST", {0.5f, 0.5f}, 0.62f, {0.90f, 0.38f, 0.02f});
   Material display = Paint({1, 1, 1}, 0.5f);
+  display.emission = Vec3f{1, 1, 1} * (900 * kNit);
+  display.lamp = true;
   b.Use(display, sign.Finish(variant ? "line 24" : "line 7"));
   b.Picture({-0.80f, -kHalfLength - 0.002f, 2.52f}, {0.80f, -kHalfLength - 0.002f, 2.52f},
             {0.80f, -kHalfLength - 0.002f, 2.80f}, {-0.80f, -kHalfLength - 0.002f, 2.80f});

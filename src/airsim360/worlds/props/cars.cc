@@ -69,7 +69,8 @@ void Append(Model& model, Model more) {
     model.mesh.parts.push_back(part);
   }
   for (Material m : more.materials) {
-    if (m.base_color_texture != kNoTexture) m.base_color_texture += textures;
+    for (TextureId* id : {&m.base_color_texture, &m.emission_texture})
+      if (*id != kNoTexture) *id += textures;
     model.materials.push_back(std::move(m));
   }
   join(model.textures, more.textures);
@@ -106,7 +107,10 @@ Model MakeTaxi(uint32_t variant, uint64_t) {
   canvas.Letters("TAXI", {0.5f, 0.5f}, 0.6f, {0.02f, 0.02f, 0.02f});
   b.Use(Plastic({0.02f, 0.02f, 0.02f}));
   b.BevelBox({-0.40f, 0.05f, roof - 0.03f}, {0.40f, 0.25f, roof + 0.20f}, 0.02f);
-  b.Use(Paint({1, 1, 1}), canvas.Finish("taxi sign"));
+  Material sign = Paint({1, 1, 1});
+  sign.emission = Vec3f{1, 1, 1} * (250 * kNit);
+  sign.lamp = true;
+  b.Use(sign, canvas.Finish("taxi sign"));
   b.Picture({-0.36f, 0.046f, roof}, {0.36f, 0.046f, roof}, {0.36f, 0.046f, roof + 0.18f},
             {-0.36f, 0.046f, roof + 0.18f});
   b.Picture({0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof}, {-0.36f, 0.254f, roof + 0.18f},

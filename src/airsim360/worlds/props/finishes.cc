@@ -68,6 +68,12 @@ Material Glow(Vec3f color, float nits, Burns burns) {
   return m;
 }
 
+Material WhiteGlow(Vec3f color, float nits) {
+  Material m = Glow(color, nits);
+  m.emission = Vec3f{1, 1, 1} * (nits * kNit);
+  return m;
+}
+
 Material Leaf(Vec3f color, float transmission) {
   Material m = Make("leaf", color, 0.52f);
   m.kind = SurfaceKind::kFoliage;

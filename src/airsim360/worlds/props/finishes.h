@@ -21,6 +21,8 @@ Material Glass(Vec3f color = {0.03f, 0.035f, 0.04f});  ///< pane in front of som
 /// Lamp glass of that luminance, cd/m^2, in the dark hours or always; by day it is white or tinted glass.
 enum class Burns { kAtNight, kAlways };
 Material Glow(Vec3f color, float nits, Burns burns = Burns::kAtNight);
+/// The same at night, but its light is white of that luminance: Instance::glow colours it.
+Material WhiteGlow(Vec3f color, float nits);
 Material Stone(Vec3f color, float roughness = 0.85f);  ///< concrete, stone, terracotta, soil: matt
 Material Leaf(Vec3f color = {1, 1, 1}, float transmission = 0.8f);
 

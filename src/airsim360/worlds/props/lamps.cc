@@ -37,8 +37,8 @@ Model MakeLampPost(uint32_t variant, uint64_t) {
     b.Lathe(cup, 16, at(0.48f, 3.49f));
     globes.push_back(at(0.48f, 3.70f));
   }
-  // 90 cd each: 5 to 10 lx on the path around the post.
-  b.Use(Glow({1.0f, 0.80f, 0.56f}, 800));
+  // 75 cd each: 5 to 10 lx on the path around the post.
+  b.Use(WhiteGlow({1.0f, 0.80f, 0.56f}, 660));
   for (Vec3f c : globes) b.mesh().Sphere(c, {0.19f, 0.19f, 0.19f}, 14, 24);
   b.Use(Paint(kGreenBlack, 0.35f));
   for (Vec3f c : globes) {
@@ -80,8 +80,8 @@ Model MakeStreetLight(uint32_t variant, uint64_t) {
   b.Prism(crown, 0.034f, 0.06f);
   b.Use(Plastic({0.72f, 0.72f, 0.68f}, 0.25f));
   b.BevelBox({-0.10f, -0.30f, -0.045f}, {0.10f, 0.02f, -0.029f}, 0.012f);
-  // The light itself faces the road alone: 1300 cd straight down, 18 lx from 8.6 m.
-  b.Use(Glow({1.0f, 0.80f, 0.56f}, 25000));
+  // The light itself faces the road alone: 1000 cd straight down, 14 lx from 8.6 m.
+  b.Use(WhiteGlow({1.0f, 0.80f, 0.56f}, 20500));
   b.mesh().Quad({-0.085f, -0.285f, -0.046f}, {-0.085f, 0.005f, -0.046f}, {0.085f, 0.005f, -0.046f},
                 {0.085f, -0.285f, -0.046f});
   return b.Finish();
@@ -108,7 +108,8 @@ Model MakeCrookLamp(uint32_t variant, uint64_t) {
   const Vec2f shade[] = {{0.24f, -0.42f}, {0.235f, -0.36f}, {0.21f, -0.26f}, {0.165f, -0.16f},
                          {0.10f, -0.09f}, {0.07f, -0.05f},  {0.06f, 0.0f},   {0.045f, 0.06f}, {0, 0.07f}};
   b.Lathe(shade, 24, tip);
-  b.Use(Glow({0.86f, 0.84f, 0.78f}, 0.2f));
+  // 150 cd straight down: 6 lx from 5 m.
+  b.Use(WhiteGlow({0.86f, 0.84f, 0.78f}, 1200));
   const Vec2f lens[] = {{0, -0.47f}, {0.10f, -0.455f}, {0.17f, -0.43f}, {0.20f, -0.405f}, {0, -0.40f}};
   b.Lathe(lens, 18, tip);
   return b.Finish();
@@ -130,7 +131,8 @@ Model MakeBollardLamp(uint32_t variant, uint64_t) {
     const Vec3f d{0.088f * std::cos(a), 0.088f * std::sin(a), 0};
     b.mesh().Tube(d + Vec3f{0, 0, neck + 0.06f}, d + Vec3f{0, 0, neck + 0.30f}, 0.006f, 0.006f, 6);
   }
-  b.Use(Glow({0.88f, 0.86f, 0.80f}, 0.22f));
+  // 25 cd to all sides.
+  b.Use(WhiteGlow({0.88f, 0.86f, 0.80f}, 800));
   b.mesh().Tube({0, 0, neck + 0.07f}, {0, 0, neck + 0.29f}, 0.066f, 0.078f, 16);
   return b.Finish();
 }

@@ -88,11 +88,11 @@ Footprint FootprintOf(std::string_view kind, Vec2f at, float yaw, float scale) {
 }
 
 std::optional<EntityId> Placer::Try(std::string_view kind, Vec3f p, float yaw, float scale, Vec3f tint,
-                                    std::optional<uint32_t> variant) {
+                                    std::optional<uint32_t> variant, Engine engine) {
   const Footprint footprint = FootprintOf(kind, {p.x, p.y}, yaw, scale);
   if (!occupancy_.IsFree(footprint)) return std::nullopt;
   occupancy_.Add(footprint);
-  const EntityId entity = shelf_.Place(kind, p, yaw, Pick(kind, variant), scale, tint);
+  const EntityId entity = shelf_.Place(kind, p, yaw, Pick(kind, variant), scale, tint, engine);
   placements_.push_back({FindPropKind(kind).name, entity, p, footprint});
   return entity;
 }

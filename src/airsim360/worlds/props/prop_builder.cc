@@ -14,7 +14,7 @@ constexpr float kCreaseCosine = 0.766f;  // corners sharper than 40 degrees stay
 
 auto Fields(const Material& m) {
   return std::tie(m.name, m.kind, m.alpha_mode, m.alpha_cutoff, m.base_color, m.base_alpha, m.metallic,
-                  m.roughness, m.emission, m.lamp, m.normal_scale, m.transmission, m.macro_variation,
+                  m.roughness, m.emission, m.lamp, m.beam, m.normal_scale, m.transmission, m.macro_variation,
                   m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
                   m.uv_scale, m.uv_offset, m.uv_rotation);
 }
@@ -80,6 +80,7 @@ void PropBuilder::Use(Material material, const Texture& base_color, Vec2f tile, 
   };
   material.name += " " + base_color.name;
   material.base_color_texture = add(base_color);
+  if (material.emission != Vec3f{}) material.emission_texture = material.base_color_texture;
   if (normal) material.normal_texture = add(*normal);
   material.uv_scale = {1 / tile.x, 1 / tile.y};
   Use(material);

@@ -27,7 +27,7 @@ class PropBuilder {
   void Place(const AffineTransform& X) { mesh_.SetTransform(X); }
   /// What the following shapes are made of.
   void Use(const Material& material);
-  /// Same, with a base colour texture (and a normal map) whose tile is `tile` metres wide and high.
+  /// Same, with a base colour texture (and a normal map) whose tile is `tile` metres wide and high; what shines shines in it.
   void Use(Material material, const Texture& base_color, Vec2f tile = {1, 1},
            const Texture* normal = nullptr);
 

@@ -77,7 +77,9 @@ const PropKind& FindPropKind(std::string_view name) {
   throw InputError(UnknownChoiceMessage("prop", name, names));
 }
 
-Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
+namespace {
+
+Model MakeByDay(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
   variant %= static_cast<uint32_t>(kind.variants);
   if (models && variant < kind.library.size() && !kind.library[variant].name.empty()) {
     if (std::optional<Model> model = models->Load(kind.library[variant].name)) {
@@ -88,20 +90,31 @@ Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const Mode
   return kind.make(variant, MixBits(seed ^ HashName(kind.name)) + variant);
 }
 
+}  // namespace
+
+Model MakeProp(const PropKind& kind, uint32_t variant, uint64_t seed, const ModelSource* models) {
+  Model model = MakeByDay(kind, variant, seed, models);
+  if (kind.category.starts_with("vehicle/")) internal::AddVehicleLamps(model, kind.name == "bus");
+  return model;
+}
+
 PropShelf::PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed)
     : builder_(builder), models_(models), seed_(seed) {}
 
 EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t variant, float scale,
-                          Vec3f tint) {
+                          Vec3f tint, Engine engine) {
   const PropKind& found = FindPropKind(kind);
   const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
-  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint});
+  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint,
+                        internal::EveningGlow(found.name, found.category, p_W, engine)});
   return entity;
 }
 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant,
                         Vec3f tint) {
-  builder_.AddInstance({Get(FindPropKind(kind), variant), X_WM, entity, tint});
+  const PropKind& found = FindPropKind(kind);
+  builder_.AddInstance({Get(found, variant), X_WM, entity, tint,
+                        internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
 }
 
 MeshId PropShelf::Get(const PropKind& kind, uint32_t variant) {

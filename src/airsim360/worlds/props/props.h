@@ -11,6 +11,7 @@
 #include "airsim360/math/transform.h"
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/worlds/props/evening.h"
 
 namespace airsim360 {
 
@@ -50,9 +51,9 @@ class PropShelf {
  public:
   PropShelf(SceneBuilder& builder, const ModelSource* models, uint64_t seed);
   /// Places one prop as an entity of its own, named after the kind, and returns it. `variant` is taken modulo
-  /// the kind's variants.
+  /// the kind's variants. `engine` matters to vehicles alone.
   EntityId Place(std::string_view kind, Vec3f p_W, float yaw = 0, uint32_t variant = 0, float scale = 1,
-                 Vec3f tint = {1, 1, 1});
+                 Vec3f tint = {1, 1, 1}, Engine engine = Engine::kOff);
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
   void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0,
                Vec3f tint = {1, 1, 1});

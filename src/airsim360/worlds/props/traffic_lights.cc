@@ -21,7 +21,9 @@ void SignalHead(PropBuilder& b, const AffineTransform& X, int lit) {
   const Vec3f colors[3] = {{0.90f, 0.03f, 0.02f}, {0.90f, 0.45f, 0.02f}, {0.05f, 0.80f, 0.45f}};
   for (int i = 0; i < 3; ++i) {
     const Vec3f c{0, -0.20f, -0.19f - 0.345f * static_cast<float>(i)};
-    b.Use(i == lit ? Glow(colors[i], 10000, Burns::kAlways) : Plastic(colors[i] * 0.10f, 0.3f));
+    Material lamp = Glow(colors[i], 10000, Burns::kAlways);
+    lamp.beam = 6;  // lenses throw it along the street by night: a third of it 30 degrees aside (EN 12368)
+    b.Use(i == lit ? lamp : Plastic(colors[i] * 0.10f, 0.3f));
     b.mesh().Tube(c, c + Vec3f{0, -0.02f, 0}, 0.14f, 0.12f, 24, false);
     // Visor: three quarters of a tube, open below, seen from both sides.
     b.Use(Paint(kBlackPaint, 0.6f));

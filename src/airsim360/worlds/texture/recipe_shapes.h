@@ -51,6 +51,8 @@ Texel Stripes(float u, float v);
 Texel FarWalls(float u, float v);
 Texel FarPiers(float u, float v);
 Texel FarRibbons(float u, float v);
+/// What shines behind the panes of one of the three by night, 1 at most; `columns`, `rows`: bays of its tile.
+Vec3f FarLights(Texel (*wall)(float u, float v), int columns, int rows, float u, float v);
 Texel Shop(float u, float v, uint32_t kind);
 Texel Sign(float u, float v);
 

@@ -195,4 +195,24 @@ Texel FarRibbons(float u, float v) {
   return std::abs(bay.x - 0.5f) > 0.455f || bay.y < 0.03f ? FarStone(0.30f) : FarPane(bay, bay.y / 0.52f);
 }
 
+namespace {
+
+// Light behind the panes of a bay by night: a third of the rooms of homes one by one, of offices floors as a whole. The
+// whites are those of lamps of 2700, 3000 and 4500 K.
+Vec3f LightBehind(uint32_t bay, uint32_t floor, bool offices) {
+  constexpr Vec3f kWarm{1.0f, 0.40f, 0.10f}, kSoft{1.0f, 0.46f, 0.15f}, kCool{1.0f, 0.70f, 0.50f};
+  const bool late = offices && HashUnit(floor, 31) < 0.30f, lit = HashUnit(bay, 32) < (late ? 0.85f : offices ? 0.10f : 0.34f);
+  if (!lit) return {};
+  const float pick = HashUnit(bay, 33), spread = std::exp2(-3.0f * HashUnit(bay, 34));
+  return (late ? kCool : pick < 0.5f ? kWarm : pick < 0.85f ? kSoft : kCool) * (late ? 0.5f + 0.5f * spread : spread);
+}
+
+}  // namespace
+
+Vec3f FarLights(Texel (*wall)(float u, float v), int columns, int rows, float u, float v) {
+  const bool pane = wall(u, v).height < 0;
+  const Unit bay = Bond(u, v, 24.0f, columns, rows, 0), floor = Bond(0, v, 24.0f, 1, rows, 0);
+  return pane ? LightBehind(bay.id, floor.id, columns > 8) : Vec3f{};
+}
+
 }  // namespace airsim360::internal

@@ -1,5 +1,10 @@
 #include "airsim360/worlds/texture/surface_recipes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "airsim360/image/color.h"
 #include "airsim360/worlds/texture/recipe_shapes.h"
 
 namespace airsim360::internal {
@@ -42,6 +47,26 @@ TextureRecipe Painted(const char* name, float tile, Recipe recipe, void (*paint)
 }  // namespace
 
 std::span<const MaterialTarget> MaterialTargets() { return kTargets; }
+
+std::optional<Texture> MakeNightLights(Recipe recipe) {
+  struct Wall {
+    Recipe recipe;
+    Texel (*texel)(float u, float v);
+    int columns, rows;
+  };
+  static constexpr Wall kWalls[] = {{R::kFarWalls, FarWalls, 8, 8}, {R::kFarPiers, FarPiers, 12, 7}, {R::kFarRibbons, FarRibbons, 16, 7}};
+  const auto* wall = std::find_if(std::begin(kWalls), std::end(kWalls), [&](const Wall& w) { return w.recipe == recipe; });
+  if (wall == std::end(kWalls)) return std::nullopt;
+  constexpr int kSize = 512;
+  Image<Rgba8> lights(kSize, kSize);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const Vec3f c = FarLights(wall->texel, wall->columns, wall->rows, (static_cast<float>(x) + 0.5f) / kSize, (static_cast<float>(y) + 0.5f) / kSize);
+      lights(x, y) = {LinearToSrgb8(c.x), LinearToSrgb8(c.y), LinearToSrgb8(c.z), 255};
+    }
+  }
+  return Texture::FromImage("night lights", std::move(lights), true);
+}
 
 int SizeOf(Recipe recipe) {
   switch (recipe) {

@@ -1,6 +1,7 @@
 // Recipes of the tiling textures; albedo, roughness and slope follow measured scans of the same materials.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,8 @@ enum class Recipe {
 
 /// The recipe of a texture; kNone is not allowed.
 TextureRecipe MakeRecipe(Recipe recipe);
+/// What shines on the tile by night, for emission; nullopt for recipes of which nothing does but their own picture.
+std::optional<Texture> MakeNightLights(Recipe recipe);
 /// Texels a side that the worlds use: 2 to 6 mm a texel for grounds and walls.
 int SizeOf(Recipe recipe);
 

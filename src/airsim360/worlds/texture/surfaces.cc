@@ -154,7 +154,7 @@ constexpr Row kRows[] = {
 static_assert(std::size(kRows) == static_cast<size_t>(S::kCount));
 
 struct TextureIds {
-  TextureId color = kNoTexture, normal = kNoTexture, roughness = kNoTexture;
+  TextureId color = kNoTexture, normal = kNoTexture, roughness = kNoTexture, lights = kNoTexture;
   float tile = 1;
 };
 
@@ -209,6 +209,7 @@ std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
     if (IsPicture(static_cast<Recipe>(i))) continue;
     ids[i].normal = builder.AddTexture(std::move(sets[i]->normal));
     ids[i].roughness = builder.AddTexture(std::move(sets[i]->roughness));
+    if (auto lights = internal::MakeNightLights(static_cast<Recipe>(i))) ids[i].lights = builder.AddTexture(*std::move(lights));
   }
   return ids;
 }
@@ -241,14 +242,20 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
       material.uv_scale = {1 / ids.tile, 1 / ids.tile};
       // Shops and their signs shine in the evening.
       if (IsPicture(row.recipe)) {
-        material.emission = Vec3f{1.0f, 0.88f, 0.70f} * ((row.recipe == R::kSigns ? 60 : 350) * kNit);
+        material.emission = Vec3f{1.0f, 0.88f, 0.70f} * ((row.recipe == R::kSigns ? 45 : 120) * kNit);
         material.emission_texture = ids.color;
         material.lamp = true;
       }
+      if (ids.lights != kNoTexture) {
+        material.emission = Vec3f{1, 1, 1} * (90 * kNit);
+        material.emission_texture = ids.lights;
+        material.lamp = true;
+      }
     }
-    // Somebody is at home behind these: warm light, through a curtain less of it.
-    if (row.surface == S::kGlassLit || row.surface == S::kGlassCurtain) {
-      material.emission = row.surface == S::kGlassLit ? Vec3f{72, 52, 30} * kNit : Vec3f{20, 13, 6.5f} * kNit;
+    // Somebody is at home behind these; through a curtain or a blind less of it comes out. In the mean over all panes.
+    if (row.surface == S::kGlassLit || row.surface == S::kGlassCurtain || row.surface == S::kGlassBlind) {
+      const Vec3f lamps{1.43f, 0.94f, 0.50f};
+      material.emission = lamps * ((row.surface == S::kGlassLit ? 22 : row.surface == S::kGlassCurtain ? 10 : 7) * kNit);
       material.lamp = true;
     }
     surfaces.materials_[static_cast<size_t>(row.surface)] = builder.AddMaterial(std::move(material));

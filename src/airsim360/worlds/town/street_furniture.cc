@@ -148,7 +148,7 @@ void DriveAcross(District& d, std::string_view cab, double traffic) {
         const std::string_view kind = pick < 0.33 ? cab : pick < 0.9 ? "car" : "van";
         if (!rng.Chance(std::min(1.0, traffic))) return;
         const Vec2f p{ns.center + x, ew.center + y};
-        d.placer.Try(kind, {p.x, p.y, fan.Height(p) - 0.004f}, FacingYaw(heading) + uniform(-0.02, 0.02));
+        d.placer.Drive(kind, {p.x, p.y, fan.Height(p) - 0.004f}, FacingYaw(heading) + uniform(-0.02, 0.02));
       };
       // Traffic keeps right: eastbound south of the middle.
       for (float side : {-1.0f, 1.0f}) {
@@ -228,10 +228,10 @@ void FurnishStreets(District& d, const std::vector<StreetStretch>& streets) {
       }
       const float lane = side * (hw - 2.35f) * 0.52f;
       if (rng.Chance(0.75))
-        d.placer.Try("car", street.At(static_cast<float>(rng.Uniform(s0, s1)), lane, -0.004f),
-                     FacingYaw(heading));
+        d.placer.Drive("car", street.At(static_cast<float>(rng.Uniform(s0, s1)), lane, -0.004f),
+                       FacingYaw(heading));
       if (i % 5 == 2 && side > 0)
-        d.placer.Try("bus", street.At((s0 + s1) / 2, lane, -0.004f), FacingYaw(heading));
+        d.placer.Drive("bus", street.At((s0 + s1) / 2, lane, -0.004f), FacingYaw(heading));
     }
     for (int k = 0; k < 3; ++k) {
       const float d0 = static_cast<float>(rng.Uniform(0.9, hw - 3.2)) * (rng.Chance(0.5) ? 1.0f : -1.0f);

@@ -28,6 +28,43 @@ float FisheyeRadius(GpuCamera camera, float theta) {
                              t * (camera.distortion[2] + t * camera.distortion[3]))));
 }
 
+/// Radius in the plane of a lens (CalibratedLens) of a direction: LensLaw's formulas.
+float LawRadius(GpuCamera camera, vec3 d, float theta) {
+  Floats h = camera.lens;
+  const float across = length(d.xy);
+  if (camera.law == 0) return across / d.z;
+  if (camera.law == 1) {
+    const float t = theta * theta;
+    return theta * (1.0 + t * (h.v[0] + t * (h.v[1] + t * (h.v[2] + t * (h.v[3] + t * (h.v[4] + t * h.v[5]))))));
+  }
+  if (camera.law == 2) return atan2_approx(h.v[19] * across, d.z) / h.v[0];
+  if (camera.law == 3) return across / (h.v[0] * length(d) + d.z);
+  if (camera.law == 4) {
+    const float z = h.v[0] * length(d) + d.z;
+    return across / (h.v[1] * length(vec2(across, z)) + (1.0 - h.v[1]) * z);
+  }
+  if (camera.law == 5) return across / (h.v[0] * sqrt(h.v[1] * across * across + d.z * d.z) + (1.0 - h.v[0]) * d.z);
+  return theta * (h.v[0] + theta * (h.v[1] + theta * (h.v[2] + theta * (h.v[3] + theta * (h.v[4] + theta * h.v[5])))));
+}
+
+/// Distortion of a point of that plane.
+vec2 Distort(GpuCamera camera, vec2 m) {
+  Floats c = camera.lens;
+  const float q = dot(m, m), p1 = c.v[13], p2 = c.v[14];
+  const float radial = (1.0 + q * (c.v[6] + q * (c.v[7] + q * (c.v[8] + q * c.v[9])))) /
+                       (1.0 + q * (c.v[10] + q * (c.v[11] + q * c.v[12])));
+  return m * radial + vec2(2.0 * p1 * m.x * m.y + p2 * (q + 2.0 * m.x * m.x) + q * (c.v[15] + q * c.v[16]),
+                           p1 * (q + 2.0 * m.y * m.y) + 2.0 * p2 * m.x * m.y + q * (c.v[17] + q * c.v[18]));
+}
+
+/// Where the plane of a lens's picture, continued beyond its borders, shows a direction.
+vec2 LensPixel(GpuCamera camera, vec3 d) {
+  const float across = length(d.xy);
+  const vec2 along = across > 0.0 ? d.xy / across : vec2(1.0, 0.0);
+  return vec2(camera.focal[0], camera.focal[1]) * Distort(camera, LawRadius(camera, d, atan2_approx(across, d.z)) * along) +
+         vec2(camera.center[0], camera.center[1]);
+}
+
 /// Pixel position that sees a direction of the frame of the projection; false = none.
 bool Project(GpuCamera camera, vec3 d, out vec2 pixel) {
   pixel = vec2(0.0);
@@ -43,7 +80,8 @@ bool Project(GpuCamera camera, vec3 d, out vec2 pixel) {
   } else {
     const float across = length(d.xy), theta = atan2_approx(across, d.z);
     if (!(theta <= camera.max_theta)) return false;
-    pixel = focal * FisheyeRadius(camera, theta) * (across > 0.0 ? d.xy / across : vec2(1.0, 0.0)) + center;
+    if (camera.projection == 3) pixel = LensPixel(camera, d);
+    else pixel = focal * FisheyeRadius(camera, theta) * (across > 0.0 ? d.xy / across : vec2(1.0, 0.0)) + center;
   }
   return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= float(camera.width) && pixel.y <= float(camera.height);
 }

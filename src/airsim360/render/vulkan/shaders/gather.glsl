@@ -81,6 +81,7 @@ vec3 Gathered(Hit h, vec3 origin, vec3 d) {
   const uint id = t.material & ~kMirroredUv;
   const GpuMaterial m = view.materials.v[id];
   vec3 emission = Load3(view.mean_emissions, id);
+  if (view.has_glows != 0) emission *= Load3(view.glows, h.instance);
   if (emission != vec3(0.0) && (ShowsBack(h.instance, met) || IsGridLamp(h.instance, met.triangle))) emission = vec3(0.0);
   const vec3 glow = Vec(view.mean_ambient);
   if (glow.x + glow.y + glow.z > 0.0) {

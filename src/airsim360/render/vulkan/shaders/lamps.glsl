@@ -12,8 +12,10 @@ LampEffect EffectOfLamp(GpuLamp lamp, Ray ray, Shaded s) {
   const vec3 to = Vec(lamp.center) - s.p;
   const float distance_ = sqrt(max(dot(to, to), 1e-8));
   const vec3 w = to * (1.0 / distance_);
+  const vec3 beam = Vec(lamp.beam);
   const float light =
-      lamp_irradiance(lamp.body, -dot(Vec(lamp.facing), w), lamp.soft, lamp.radius, distance_, lamp.reach);
+      lamp_irradiance(lamp.body, -dot(Vec(lamp.facing), w), lamp.soft, lamp.radius, distance_, lamp.reach) *
+      beam_shape(sqrt(dot(beam, beam)), -dot(beam, w), -w.z);
   const vec3 color = Vec(lamp.color) * light;
   const float n_dot_l = dot(s.n, w);
   e.front = color * (leaf || dot(s.g, w) > 0.0 ? max(n_dot_l, 0.0) : 0.0);

@@ -133,6 +133,13 @@ LightRay SampleLamp(vec3 p, vec3 normal, vec3 u) {
     radiance *= SampleLevel(id, 0, FoldCoordinate(t.uv[0] * b0 + t.uv[2] * b1 + t.uv[4] * b2, view.textures.v[id].wrap_u),
                             FoldCoordinate(t.uv[1] * b0 + t.uv[3] * b1 + t.uv[5] * b2, view.textures.v[id].wrap_v));
   }
+  radiance *= Vec(lamp.glow);
+  if (m.beam == 1e6) {  // kWindowBeam
+    radiance = window_light(HashOf(t.pane ^ lamp.hash), t.area) * luminance(radiance);
+  } else if (m.beam != 0.0) {
+    const vec3 beam = Vec(lamp.beam);
+    radiance *= beam_shape(sqrt(dot(beam, beam)), -dot(beam, d), -d.z);
+  }
   return LightRay(d, radiance, probability / lamp.area * distance_ * distance_ / cosine, distance_);
 }
 

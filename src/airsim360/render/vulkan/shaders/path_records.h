@@ -10,6 +10,8 @@ struct GpuPathLamp {
   uint first, count;              // of its parts
   uint leaf;                      // its node
   float area;
+  float glow[3], beam[3];         // Instance::glow; Lamp::beam
+  uint hash;                      // of the instance
 };
 
 struct GpuLampPart {

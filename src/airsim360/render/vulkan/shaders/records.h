@@ -38,6 +38,7 @@ struct GpuCamera {
   ADDRESS(Floats) columns;      // equirectangular: x y z sin cos planes of `stride` columns ...
   ADDRESS(Floats) rows;         // ... and scale x y z sin planes of `stride_rows` rows
   ADDRESS(Floats) rays;         // others: x y z of every pixel in C; 0 0 0 = no ray
+  ADDRESS(Floats) lens;         // of kProjectLens: shape 6, radial 4, divisor 3, tangential 2, prism 4, 2 tan(shape0 / 2)
   ADDRESS(Floats) range;        // the pictures; 0 = not wanted
   ADDRESS(Uints) entity;
   ADDRESS(Shorts) semantic;
@@ -67,6 +68,7 @@ struct GpuCamera {
   float focal[2], center[2];
   float distortion[4];
   float max_theta;
+  uint law;                     // LensLaw of kProjectLens
   float projection_R[9];        // from the frame of the projection (of cube faces: the face's) to W
   float exposure;
   uint samples;                 // of a pixel on an edge; 0, 1 = no antialiasing

@@ -31,6 +31,31 @@ vec3 ProjectionRay(GpuCamera camera, vec2 at) {
   return vec3(q * (r > 0.0 ? sin_approx(theta) / r : 1.0), sin_approx(theta + 0.5 * SHADE_PI));
 }
 
+/// Ray of a lens half a pixel or less from a pixel's centre; 0 0 0 = none, also where the centre has none. The rays of the
+/// neighbours tell how it turns with the position, two steps of Newton the rest.
+vec3 LensRayNear(GpuCamera camera, uvec2 pixel, vec2 at) {
+  const uint w = camera.width, i = pixel.y * w + pixel.x;
+  const vec3 c = Load3(camera.rays, i);
+  if (c == vec3(0.0)) return c;
+  vec3 turn[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    const uint step = axis == 0 ? 1 : w, place = axis == 0 ? pixel.x : pixel.y, last = (axis == 0 ? w : camera.height) - 1;
+    vec3 before = place > 0 ? Load3(camera.rays, i - step) : vec3(0.0);
+    vec3 after = place < last ? Load3(camera.rays, i + step) : vec3(0.0);
+    // On a border the next one continues the two that there are.
+    if (before == vec3(0.0)) before = after == vec3(0.0) ? c : 2.0 * c - after;
+    if (after == vec3(0.0)) after = 2.0 * c - before;
+    turn[axis] = 0.5 * (after - before);
+  }
+  vec3 ray = normalize(c + at.x * turn[0] + at.y * turn[1]);
+  const vec2 wanted = vec2(pixel) + 0.5 + at;
+  for (int k = 0; k < 2; ++k) {
+    const vec2 off = wanted - LensPixel(camera, ray);
+    ray = normalize(ray + off.x * turn[0] + off.y * turn[1]);
+  }
+  return atan2_approx(length(ray.xy), ray.z) <= camera.max_theta ? ray : vec3(0.0);
+}
+
 /// Direction in W through the point (dx, dy) from a canonical pixel's centre, with the sines and cosines of the angles that makes
 /// in a panorama: of the azimuth, of the elevation. 0 0 0: there is no ray.
 vec3 RayThrough(GpuCamera camera, uvec2 pixel, vec2 at, vec4 turn) {
@@ -41,6 +66,7 @@ vec3 RayThrough(GpuCamera camera, uvec2 pixel, vec2 at, vec4 turn) {
     const float st = st0 * ca + ct0 * sa, ct = ct0 * ca - st0 * sa, sp = sp0 * cb + cp0 * sb, cp = cp0 * cb - sp0 * sb;
     return Turn(camera.R, vec3(cp * st, -sp, cp * ct));
   }
+  if (camera.projection == 3) return Turn(camera.projection_R, LensRayNear(camera, pixel, at));
   return Turn(camera.projection_R, ProjectionRay(camera, vec2(pixel) + 0.5 + at));
 }
 

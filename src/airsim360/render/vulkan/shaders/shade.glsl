@@ -25,6 +25,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { Gpu
 #include "airsim360/render/shared/shading_tone.h"
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"
+#include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
 
 const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;

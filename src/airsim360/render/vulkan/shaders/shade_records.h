@@ -29,8 +29,8 @@ struct GpuMaterial {
   uint base_texture, roughness_texture, normal_texture, emission_texture;
   float clear_coat, clear_coat_roughness;
   float mean[3];
-  float tile, blend, unit_columns, unit_rows, ground, interior;
-  uint pad[5];
+  float tile, blend, unit_columns, unit_rows, ground, interior, beam;
+  uint pad[4];
 };
 
 struct GpuPane {
@@ -59,8 +59,7 @@ struct GpuLamp {
   float facing[3];
   float body;
   float color[3];
-  float soft, reach;
-  uint pad[3];
+  float soft, reach, beam[3];
 };
 
 struct GpuShade {
@@ -71,6 +70,7 @@ struct GpuShade {
   ADDRESS(Panes) panes;
   ADDRESS(TriangleColors) colors;   // by GpuShaded::first_color
   ADDRESS(Floats) mean_colors, mean_emissions;
+  ADDRESS(Floats) glows;            // 3 an instance, where has_glows
   ADDRESS(Floats) probes;           // 16 floats each
   ADDRESS(Floats) layer_of_height;
   ADDRESS(Floats) cloud_texels;
@@ -78,7 +78,7 @@ struct GpuShade {
   ADDRESS(Uints) lamp_cells;        // 16 words each
   ADDRESS(Uints) lamp_cell_of;
   GpuSky sky, blurred[3], below;
-  uint has_sky, has_probes, has_clouds, has_below, has_lamps, has_panes;
+  uint has_sky, has_probes, has_clouds, has_below, has_lamps, has_panes, has_glows, pad_glows;
   float probe_origin[2], probe_cells_per_metre, probe_max[3];
   int probe_stride_y, probe_stride_z;
   float height_origin, height_scale, height_last;
@@ -95,7 +95,7 @@ struct GpuShade {
   // Cloud shadows.
   int cloud_size;
   float cloud_slant[2], cloud_origin[2], cloud_cells_per_metre, cloud_plane_z;
-  float wetness, lying_snow, drops, lit_rooms, lamplight, open_sky;
+  float wetness, lying_snow, drops, lit_rooms, lamplight, open_sky, evening;
   uint tone;
-  float sun_seen;
+  float sun_seen, moon_light[3], moon_gain;
 };

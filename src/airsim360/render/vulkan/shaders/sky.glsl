@@ -165,7 +165,9 @@ vec3 LookUpSky(float z, vec3 d, bool sun_disc) {
   if (sun_disc) {
     const vec3 off = d - Vec(view.to_sun);
     const float x2 = dot(off, off) * (1.0 / (0.004625 * 0.004625));
-    if (x2 < 1.0) c += Vec(view.sun_radiance) * ((0.4 + 0.6 * sqrt(max(1.0 - x2, 0.0))) * (1.25 * view.sun_seen));
+    if (x2 < 1.0 && view.moon_gain > 0.0)
+      c += Vec(view.sun_radiance) * (moon_face(off * (1.0 / 0.004625), Vec(view.to_sun), Vec(view.moon_light)) * (view.moon_gain * view.sun_seen));
+    else if (x2 < 1.0) c += Vec(view.sun_radiance) * ((0.4 + 0.6 * sqrt(max(1.0 - x2, 0.0))) * (1.25 * view.sun_seen));
   }
   return c;
 }

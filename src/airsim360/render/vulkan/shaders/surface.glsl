@@ -253,6 +253,16 @@ void LieWeather(GpuMaterial m, Noises s, vec3 p, vec3 facing, float width, float
   }
 }
 
+/// Emission as the instance colours it, the beam throws it along the ray's way back, and the window shares it out.
+vec3 Thrown(GpuMaterial m, GpuTriangle t, float matrix[9], uint instance, float pane, vec3 d, vec3 emission) {
+  if (view.has_glows != 0) emission *= Load3(view.glows, instance);
+  if (m.beam == 0.0) return emission;
+  if (m.beam == 1e6) return window_light(pane, t.area) * luminance(emission);  // kWindowBeam
+  const vec3 axis = Row3(matrix, vec3(0.0, m.beam > 0.0 ? -1.0 : 1.0, m.beam > 10.0 ? -0.06 : 0.0));  // kLowBeam, kBeamDrop
+  const float sharp = abs(m.beam);
+  return emission * beam_shape(sharp, -sharp * dot(axis, d), -d.z);
+}
+
 Shaded Prepare(Ray ray) {
   const uint instance = ray.instance;
   GpuInstance placed = push.frame.v.instances.v[instance];
@@ -317,10 +327,12 @@ Shaded Prepare(Ray ray) {
     const GpuPane q = view.panes.v[t.window - 1];
     const float a = q.a[0] * w + q.a[1] * u + q.a[2] * v, b = q.b[0] * w + q.b[1] * u + q.b[2] * v;
     const float room = HashOf((q.hash ^ own.hash) * 0x85ebca6bu + 77u);
-    const float lit = hash_again(room, 811.3) < view.lit_rooms ? 1.0 : 0.0;
+    const bool lit = hash_again(room, 811.3) < view.lit_rooms || emission.x > 0.0;
+    const vec3 light = view.evening > 0.0 ? evening_light(room, t.area) : day_light(room);
     float back_a = a, back_b = b;
     interior_room(a, b, q.half_a, q.half_b, dot(d, Row3(matrix, UnpackDirection(q.right))),
-                  dot(d, Row3(matrix, UnpackDirection(q.up))), -dot(d, facing), room, lit, daylight, lamplight, room_front,
+                  dot(d, Row3(matrix, UnpackDirection(q.up))), -dot(d, facing), room, lit ? light : vec3(0.0), daylight,
+                  lamplight, room_front,
                   back_a, back_b);
     tu += (FoldPicture(back_a, q.half_a) - a) * q.u_per_a;
     tv += (min(max(back_b, -q.half_b), q.half_b) - b) * q.v_per_b;
@@ -332,6 +344,7 @@ Shaded Prepare(Ray ray) {
   color *= sampled.texel[0];
   roughness *= sampled.texel[1].y, metallic *= sampled.texel[1].z;
   emission *= sampled.texel[3];
+  if (emission != vec3(0.0)) emission = Thrown(m, t, matrix, ray.instance, pane, d, emission);
   const bool wear = m.ground > 0.5;
   Noises noises;
   const bool weather = view.wetness > 0.0 || view.lying_snow > 0.0;
@@ -375,10 +388,11 @@ Shaded Prepare(Ray ray) {
     const vec3 glass = lerp3(vec3(0.86, 0.87, 0.86), tint * (0.8 / most), 0.5);
     if (m.base_texture == 0) {
       color = daylight * glass + tint * 0.15;
-      emission += lamplight * glass * view.lamplight;
+      emission = lamplight * glass * view.lamplight;
     } else if (room_front > 0.5) {
       color = daylight * 1.6;
-      emission = emission * 0.25 + daylight * 0.5;
+      // By night what is displayed stands in the light of the shop alone.
+      emission = emission * 0.25 + daylight * (view.evening > 0.0 ? 1.5 * view.lamplight : 0.5);
     }
   }
   if (m.kind == kWater && facing.z > 0.5) {
