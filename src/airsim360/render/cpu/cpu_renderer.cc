@@ -199,7 +199,7 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
 
   // Linear light to display colours, at the picture's own exposure if asked.
   if (color && request.auto_exposure) {
-    request.exposure_ev += AutoExposureEv(RadianceOf(frame), request.camera, shader_->Exposure());
+    request.exposure_ev += AutoExposureEv(RadianceOf(frame), request.camera, shader_->Exposure(), shader_->MostExposure());
     frame.exposure = ExposureOf(request);
   }
   if (high || paths || (color && request.auto_exposure)) Develop(request.tone, RadianceOf(frame), frame);

@@ -45,7 +45,7 @@ double TrimmedMean(const Histogram& histogram, double total) {
 
 }  // namespace
 
-double AutoExposureEv(const Image<Rgb32f>& radiance, const Camera& camera, float exposure) {
+double AutoExposureEv(const Image<Rgb32f>& radiance, const Camera& camera, float exposure, double most) {
   const int height = radiance.height();
   std::vector<Counts> rows(static_cast<size_t>(height));
   ParallelFor(height,
@@ -62,7 +62,7 @@ double AutoExposureEv(const Image<Rgb32f>& radiance, const Camera& camera, float
   }
   if (histogram[0] > (1 - kTrimmed) * total || total == 0) return 0;
   const double stops = std::log2(kAutoGrey / exposure) - TrimmedMean(histogram, total);
-  return std::clamp(stops, -kMost, kMost);
+  return std::min(std::clamp(stops, -kMost, kMost), std::log2(most / exposure));
 }
 
 }  // namespace airsim360::internal

@@ -14,6 +14,10 @@ inline constexpr const char* kLookNames[] = {"clean", "photo"};
 /// Look of a name; InputError naming the nearest if there is none.
 Look ParseLook(std::string_view name);
 
+/// Luminance that no exposure of a picture's own makes whiter than white, cd/m2, so that nights stay dark: f/2, 1/20 s and
+/// ISO 3200 to 6400 of a small sensor.
+inline constexpr double kDimmestWhite = 1.5;
+
 /// A camera's effects, each with its strength; 0 switches one off. "White" is the light that comes out as 255 where
 /// nothing compresses highlights. Typical of such cameras, chosen by us beside photographed panoramas; not the
 /// figures of a product.
@@ -21,10 +25,10 @@ struct CameraLook {
   // Exposure
   double metering = 0.56;          ///< mean of the sRGB-encoded picture that exposure aims at, 0 … 1; 0: fixed daylight exposure
   double metering_spread = 0.03;   ///< standard deviation of that aim, drawn
-  double dimmest_white = 4;        ///< cd/m2 that exposure makes white at the most: nights stay dark
+  double dimmest_white = kDimmestWhite;  ///< cd/m2 that exposure makes white at the most: nights stay dark
 
   // Lens
-  double glare = 0.055;     ///< share of the light that the lens scatters
+  double glare = 0.04;      ///< share of the light that the lens scatters
   double glare_deg = 2;     ///< about half of that stays within so many degrees
   double softness_px = 0.6; ///< standard deviation of the blur by lens and demosaicing, pixels, at most 0.8
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "airsim360/image/luminance.h"
+#include "airsim360/render/look/camera_look.h"
 #include "airsim360/render/shading/light_cache.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
@@ -125,6 +127,10 @@ void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
 }
 
 float Shader::Exposure() const { return impl_->exposure; }
+
+double Shader::MostExposure() const {
+  return impl_->sky ? 1 / (kDimmestWhite * kNit) : std::numeric_limits<double>::infinity();
+}
 
 void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s, const SunNeighbours* around,
                               SunPixel* sun) const {

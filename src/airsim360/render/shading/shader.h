@@ -51,6 +51,9 @@ class Shader {
   /// Factor from radiance to the input of the tone curve: fixed by the environment's daylight, the same for
   /// the whole sphere.
   float Exposure() const;
+  /// What a picture's own exposure goes up to: kDimmestWhite comes out white. Infinite in scenes without a sky, whose
+  /// light may have any unit.
+  double MostExposure() const;
   /// Display colours of `count` radiances: exposure * 2^exposure_ev, tone curve, sRGB.
   void ToneMap(const float* r, const float* g, const float* b, int count, double exposure_ev, Rgb8* out,
                ToneCurve tone = ToneCurve::kFilmic) const;

@@ -168,7 +168,7 @@ class VulkanRenderer : public GpuRenderer {
     const GpuFrame frame = Wait(ticket).front();
     Take(frame.radiance, frame.width, frame.height, radiance);
     Release(ticket);
-    return AutoExposureEv(radiance, request.camera, shader_->Exposure());
+    return AutoExposureEv(radiance, request.camera, shader_->Exposure(), shader_->MostExposure());
   }
   // The radiance that came is the light; that of pixel centres, if wanted too, is rendered again where it differs.
   void TakeLight(RenderRequest request, Frame& frame) {
