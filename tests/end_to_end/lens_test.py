@@ -174,6 +174,38 @@ class LensTest(Rigs):
             self.assertLess(norm(sub(rotate(X["q_wxyz"], (0, 0, 1)), forward)) + norm(sub(rotate(X["q_wxyz"], (0, -1, 0)), up)), 1e-9)
         self.assertEqual([frame["cameras"][n]["K"]["model"] for n in ("cam0", "cam1")], ["OPENCV", "OPENCV_FISHEYE"])
 
+    def test_chains_go_by_number_and_openvins_poses_are_inverse(self):
+        def chain(numbers, first=""):
+            head = "  camera_model: pinhole\n  intrinsics: [20, 20, 11.5, 7.5]\n  distortion_model: none\n  resolution: [24, 16]\n"
+            step = "  T_cn_cnm1: [[1, 0, 0, -0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n"
+            return "".join(f"cam{n}:\n{head}{step if n else first}" for n in numbers)
+
+        # As programs that sort keys as text write it.
+        out = self.render("chain", chain([0, 1, 10, 2, 3, 4, 5, 6, 7, 8, 9]), pose="0,0,2")
+        frame = lines(out / "frames.jsonl")[0]["cameras"]
+        for n in range(11):
+            self.assertLess(norm(sub(frame[f"cam{n}"]["X_WC"]["p"], (0, -0.1 * n, 2))), 1e-9, n)
+        forward = "[[0, 0, 1, 0.3], [-1, 0, 0, 0], [0, -1, 0, 0.2], [0, 0, 0, 1]]"
+        out = self.render("openvins", "%YAML:1.0\n" + chain([0], f"  T_imu_cam: {forward}\n  line_delay: 2.0e-05\n"), pose="0,0,2")
+        self.assertLess(norm(sub(lines(out / "frames.jsonl")[0]["cameras"]["cam0"]["X_WC"]["p"], (0.3, 0, 2.2))), 1e-9)
+        (self.folder / "gap.yaml").write_text(chain([0, 2]))
+        self.run_bad(2, "render", "--world", "box_room", "--cameras", self.folder / "gap.yaml", "--out", self.folder / "gap", says=["gap.yaml:6", "no cam1"])
+
+    def test_ros_names_odd_sizes_and_xml_are_read(self):
+        ros = ("image_width: 97\nimage_height: 65\ncamera_name: Head-Left\ncamera_matrix: {rows: 3, cols: 3, data: [60, 0, 47, 0, 61, 32.5, 0, 0, 1]}\n"
+               "distortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [-0.1, 0.02, 0, 0, 0]}\n")
+        out = self.render("ros", ros)
+        self.assertTrue((out / "range/000000_head_left.exr").exists())
+        xml = ("<?xml version=\"1.0\"?>\n<opencv_storage><image_width>97</image_width><image_height>65</image_height>\n<camera_matrix type_id=\"opencv-matrix\">"
+               "<rows>3</rows><cols>3</cols><dt>d</dt><data>\n60. 0. 47. 0. 61. 32.5 0. 0. 1.</data></camera_matrix>\n<distortion_coefficients type_id=\"opencv-matrix\">"
+               "<rows>5</rows><cols>1</cols><dt>d</dt><data>-0.1 0.02 0. 0. 0.</data></distortion_coefficients></opencv_storage>\n")
+        (self.folder / "lens.xml").write_text(xml)
+        both = self.render("both", "cameras:\n  - {name: head_left, calibration: lens.xml}\n  - {name: odd, calibration: lens.xml, size: 49x33}\n")
+        self.assertEqual(tree(both)["range/000000_head_left.exr"], tree(out)["range/000000_head_left.exr"])
+        K = lines(both / "frames.jsonl")[0]["cameras"]["odd"]["K"]
+        for key, want in (("fx", 60 * 49 / 97), ("fy", 61 * 33 / 65), ("cx", 47.5 * 49 / 97), ("cy", 33 * 33 / 65)):
+            self.assertAlmostEqual(K[key], want, 9)
+
     def test_two_lenses_see_the_ring_between_them_from_two_places(self):
         rig = (ROOT / "data/rigs/two_lens_360.yaml").read_text().replace("1024x1024", "64x64")
         out = self.render("two", rig, pose="1,-2,2,40")
@@ -216,10 +248,18 @@ class LensTest(Rigs):
                             ("calibration: two.yaml", ["bad.yaml:2", "cam0, cam1"]),
                             ("calibration: two.yaml, camera: cam2", ["bad.yaml:2", "'cam2'"]),
                             ("calibration: two.yaml, camera: cam0, size: 376x200", ["bad.yaml:2", "376x200"]),
+                            ("calibration: two.yml, camera: cam0", ["bad.yaml:2", "no such file", "two.yaml'?"]),
+                            ("calibration: two.yaml, camera: cam0, fov_deg: 0", ["bad.yaml:2", "fov_deg", "from 0.001 to 360", "'0'"]),
+                            ("model: PINHOLE, size: 64x48, parameters: [1e308, 50, 32, 24]", ["bad.yaml:2", "fx 1e+308"]),
+                            ("model: PINHOLE, size: 64x48, parameters: [50, 50, 1e7, 24]", ["bad.yaml:2", "cx 10000000", "-640 … 704"]),
+                            ("model: OPENCV_FISHEYE, size: 64x48, parameters: [5, 5, 600, 24, 0, 0, 0, 0]", ["bad.yaml:2", "no pixel has a ray"]),
                             ("projection: lens", ["bad.yaml:2", "'lens'"]),
                             ("gimbal: nose", ["bad.yaml:2", "gimbal"])]:
             file.write_text(f"cameras:\n  - {{name: a, {entry}}}\n")
             self.run_bad(2, "render", "--world", "box_room", "--cameras", file, "--out", out, says=says)
+        self.run_bad(2, "render", "--world", "box_room", "--cameras", self.folder / "two.yml", "--out", out, says=["no such file", "two.yaml'?"])
+        file.write_text("Camera.type: PinHole\nCamera.fx: 400\n")
+        self.run_bad(2, "render", "--world", "box_room", "--cameras", file, "--out", out, says=["bad.yaml:1", "ORB-SLAM", "OPENCV"])
         file.write_text("cameras:\n  - {name: a, gimbal: nos}\ngimbals:\n  - {name: nose}\n")
         self.run_bad(2, "render", "--world", "box_room", "--cameras", file, "--out", out, says=["bad.yaml:2", "did you mean 'nose'"])
         file.write_text("cameras:\n  - {name: a, gimbal: nose}\ngimbals:\n  - {name: nose}\n")

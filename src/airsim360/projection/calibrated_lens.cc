@@ -182,7 +182,8 @@ double MostPlaneShift(const CalibratedLens& lens, double rim) {
 // The point of the plane within `rim` of its middle that is distorted to m, from a guess: Newton, with steps halved
 // while they do not help.
 std::optional<Vec2d> Undistort(const CalibratedLens& lens, Vec2d m, Vec2d guess, double rim) {
-  const double enough = 1e-14 * (1 + std::hypot(m.x, m.y));
+  // Of focal lengths beyond 25,000 pixels more is needed for 1e-9 of one.
+  const double enough = std::min(1e-14 * (1 + std::hypot(m.x, m.y)), 2.5e-10 / std::max(lens.fx, lens.fy));
   Vec2d at = guess;
   Distorted d = Distort(lens, at);
   double error = std::hypot(d.at.x - m.x, d.at.y - m.y);
@@ -253,15 +254,18 @@ LensLimit FindLensLimit(const CalibratedLens& lens) {
   const int azimuths = IsSymmetric(lens) ? 1 : 72;
   std::array<Vec2d, 72> along;
   for (int i = 0; i < azimuths; ++i) along[static_cast<size_t>(i)] = {std::cos(i * kPi / 36), std::sin(i * kPi / 36)};
-  const double limit = Scan(law, [&](double theta) {
+  const auto good = [&](double theta, Vec2d a) {
     const Radius radius = OfLaw(lens, theta);
     if (!(radius.slope > 0) || !std::isfinite(radius.r)) return false;
-    return std::all_of(along.begin(), along.begin() + azimuths, [&](Vec2d a) {
-      const Distorted d = Distort(lens, a * radius.r);
-      return d.divisor > 0 && d.Determinant() > 0 && std::isfinite(d.at.x + d.at.y) && d.xx + d.yy > 0;
-    });
+    const Distorted d = Distort(lens, a * radius.r);
+    return d.divisor > 0 && d.Determinant() > 0 && std::isfinite(d.at.x + d.at.y) && d.xx + d.yy > 0;
+  };
+  const auto end = along.begin() + azimuths;
+  const double limit = Scan(law, [&](double theta) {
+    return std::all_of(along.begin(), end, [&](Vec2d a) { return good(theta, a); });
   });
-  return {limit, limit < law};
+  const auto first = std::find_if(along.begin(), end, [&](Vec2d a) { return !good(limit * (1 + 1e-12), a); });
+  return {limit, limit < law, first == end ? 0 : std::atan2(first->y, first->x)};
 }
 
 std::optional<Vec2d> ProjectLens(const CalibratedLens& lens, Vec3d ray) {

@@ -11,6 +11,7 @@ namespace airsim360::internal {
 struct LensLimit {
   double theta = 0;    ///< radians; the largest that max_theta may be
   bool folds = false;  ///< it is the distortion that ends there: beyond it the picture folds over itself
+  double azimuth = 0;  ///< radians from +x towards +y; a direction in which it ends first
 };
 /// The cone around the axis within which the picture of a direction moves outwards with its angle and never turns over:
 /// radius of the law and determinant of the distortion's Jacobian grow and stay positive, along 72 azimuths (one for a

@@ -244,10 +244,72 @@ TEST(CalibratedLens, WrongNumbersAreRefusedByName) {
   };
   says("OPENCV", {500, 500, 320, 240, 0, 0, 0}, "8 parameters (fx fy cx cy k1 k2 p1 p2), not 7");
   says("OPENCVV", {}, "did you mean 'OPENCV'");
-  says("OPENCV", {-500, 500, 320, 240, 0, 0, 0, 0}, "fx and fy");
-  says("OPENCV", {500, 500, 320, 240, NAN, 0, 0, 0}, "finite");
+  says("OPENCV", {-500, 500, 320, 240, 0, 0, 0, 0}, "fx -500 is not in 0.64 … 640000");
+  says("OPENCV", {500, 0, 320, 240, 0, 0, 0, 0}, "fy 0 is not in");
+  says("OPENCV", {500, 1e308, 320, 240, 0, 0, 0, 0}, "fy 1e+308 is not in");
+  says("SIMPLE_PINHOLE", {1e-300, 320, 240}, "f 1e-300 is not in");
+  says("F_THETA", {1, 1, 320, 240, 1e8, 0, 0, 0, 0, 0}, "fx 1 is not in");
+  says("OPENCV", {500, 500, 1e7, 240, 0, 0, 0, 0}, "cx 10000000 is not in -6400 … 7040");
+  says("OPENCV", {500, 500, 320, -4801, 0, 0, 0, 0}, "cy -4801 is not in -4800 … 5280");
+  says("OPENCV", {500, 500, 320, 240, NAN, 0, 0, 0}, "k1 must be finite");
   says("DOUBLE_SPHERE", {158, 159, 255, 257, 0, 1.2}, "alpha 1.2");
-  says("FOV", {250, 250, 320, 240, 0}, "omega 0");
+  says("FOV", {250, 250, 320, 240, 1e-4}, "omega 0.0001");
+}
+
+TEST(CalibratedLens, TheParameterToBlameIsSaid) {
+  const auto blamed = [](const char* model, const Numbers& parameters) {
+    try {
+      MakeCamera(model, 1024, 768, parameters);
+    } catch (const LensError& error) {
+      return static_cast<int>(error.parameter);
+    }
+    return -1;
+  };
+  EXPECT_EQ(blamed("OPENCV", {400, -1, 512, 384, 0, 0, 0, 0}), 1);
+  EXPECT_EQ(blamed("OPENCV", {400, 400, 512, 384, 0, -0.5, 0, 0}), 5);
+  EXPECT_EQ(blamed("DOUBLE_SPHERE", {400, 400, 512, 384, 0.1, 1.5}), 4);
+  EXPECT_EQ(blamed("OMNI", {400, 400, 512, 384, 1, -0.9, 0, 0, 0}), 5);
+}
+
+TEST(CalibratedLens, ALensThatNoPixelSeesThroughIsRefused) {
+  // An axis 20 focal lengths beside the picture: a fisheye of 360 degrees ends after pi of them.
+  const Numbers parameters{50, 50, 1640, 240, 0, 0, 0, 0};
+  try {
+    MakeCamera("OPENCV_FISHEYE", 640, 480, parameters);
+    FAIL() << "a black picture is taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no pixel has a ray"), std::string::npos) << error.what();
+  }
+  // A pinhole sees there.
+  EXPECT_TRUE(PixelToRay(MakeCamera("PINHOLE", 640, 480, Numbers{50, 50, 1640, 240}), {320, 240}));
+  EXPECT_TRUE(PixelToRay(MakeCamera("OPENCV_FISHEYE", 640, 480, Numbers{500, 500, 1640, 240, 0, 0, 0, 0}), {600, 240}));
+}
+
+TEST(CalibratedLens, TheLongestLensesHaveARayForEveryPixel) {
+  const double f = 999 * 640;
+  const Camera camera = MakeCamera("OPENCV", 640, 480, Numbers{f, f, -3000, 240, 0.3, 0.1, 0.001, -0.002});
+  for (int y = 0; y < 480; y += 13) {
+    for (int x = 0; x < 640; x += 13) {
+      const auto ray = PixelToRay(camera, {x + 0.5, y + 0.5});
+      ASSERT_TRUE(ray);
+      const Vec2d m = RadTan({0.3, 0.1, 0.001, -0.002}, ray->x / ray->z, ray->y / ray->z);
+      EXPECT_LT(std::hypot(m.x * f - 3000 - x - 0.5, m.y * f + 240 - y - 0.5), 1e-8);
+    }
+  }
+}
+
+TEST(CalibratedLens, FovWithoutOmegaIsThePinhole) {
+  EXPECT_EQ(MakeCamera("FOV", 640, 480, Numbers{500, 510, 320, 240, 0}), Camera(Pinhole{640, 480, 500, 510, 320, 240}));
+}
+
+TEST(CalibratedLens, ALensThatFoldsOnOneSideSaysSo) {
+  // u - 0.2 u^2 folds over at u = 2.5 to the right alone; the picture is to the left of it.
+  try {
+    MakeCamera("OPENCV_THIN_PRISM", 160, 20, Numbers{30, 30, 150, 10, 0, 0, 0, 0, 0, 0, 0, 0, -0.2, 0, 0, 0});
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("folds over 68.1986 degrees from its axis on a side that is outside of the picture"), std::string::npos) << error.what();
+  }
 }
 
 TEST(CalibratedLens, SolidAnglesSumToThoseOfTheWholeField) {
@@ -288,6 +350,18 @@ TEST(CalibratedLens, HalfThePixelsSeeTheSameRays) {
   const Camera half = Resized(whole, 376, 240);
   EXPECT_LT(Norm(*PixelToRay(whole, {100, 60}) - *PixelToRay(half, {50, 30})), 1e-14);
   EXPECT_THROW(Resized(whole, 376, 300), InputError);
+}
+
+TEST(CalibratedLens, AnOddSizeScalesEachSideByItself) {
+  const Numbers p{1000, 1010, 970, 540, -0.1, 0.02, 0.001, -0.002};
+  const Camera whole = MakeCamera("OPENCV", 1957, 1091, p);
+  const double across = 489 / 1957.0, down = 273 / 1091.0;
+  const Camera odd = Resized(whole, 489, 273);
+  EXPECT_LT(Norm(*PixelToRay(whole, {100 / across, 60 / down}) - *PixelToRay(odd, {100, 60})), 1e-13);
+  EXPECT_LT(Norm(*PixelToRay(whole, {1957, 1091}) - *PixelToRay(odd, {489, 273})), 1e-13);
+  // Rounded down, to the nearest and up; not by more.
+  for (const int height : {272, 273}) EXPECT_NO_THROW(Resized(whole, 489, height));
+  for (const int height : {271, 274}) EXPECT_THROW(Resized(whole, 489, height), InputError);
 }
 
 }  // namespace

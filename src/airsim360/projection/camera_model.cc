@@ -85,7 +85,11 @@ double& Slot(CalibratedLens& lens, std::string_view slot) {
 const ModelRow& FindModel(std::string_view name) {
   std::vector<std::string> names;
   for (const ModelRow& row : kModels) names.emplace_back(row.name);
-  return kModels[ParseChoice("camera model", name, names, "model")];
+  try {
+    return kModels[ParseChoice("camera model", name, names, "model")];
+  } catch (const InputError& error) {
+    throw LensError(error.what(), LensError::kNone);
+  }
 }
 
 bool AllZero(std::span<const double> values) {
@@ -114,36 +118,100 @@ CalibratedLens LensOf(std::string_view model, int width, int height, std::span<c
   const ModelRow& row = FindModel(model);
   const std::vector<std::string_view> slots = Words(row.slots);
   if (parameters.size() != slots.size()) {
-    throw InputError("camera: " + std::string(row.name) + " has " + std::to_string(slots.size()) + " parameters (" + row.names +
-                     "), not " + std::to_string(parameters.size()));
+    throw LensError(std::string(row.name) + " has " + std::to_string(slots.size()) + " parameters (" + row.names + "), not " +
+                        std::to_string(parameters.size()),
+                    LensError::kNone);
   }
   CalibratedLens lens{.law = row.law, .width = width, .height = height};
   for (size_t i = 0; i < slots.size(); ++i) {
     Slot(lens, slots[i]) = parameters[i];
     if (slots[i] == "f") lens.fy = parameters[i];
   }
+  // The limit of the law, which has no formula there: Kalibr and COLMAP write lenses without distortion so.
+  if (lens.law == LensLaw::kFieldOfView && lens.shape[0] == 0) lens.law = kTan;
   return lens;
 }
 
-// Sets max_theta and refuses a lens that folds over within the picture, or within `fov_deg`.
-void SetField(CalibratedLens& lens, std::optional<double> fov_deg) {
+// Further off or longer, its rays are parallel to the precision of a renderer, or its picture is a few points.
+constexpr double kMostPictures = 10, kMostSides = 1000;
+
+// InputError for a parameter that no lens has; MakeCamera's alone, as datasets of before may have any.
+void CheckParameters(const CalibratedLens& lens, std::string_view model, std::span<const double> parameters) {
+  const ModelRow& row = FindModel(model);
+  const std::vector<std::string_view> names = Words(row.names), slots = Words(row.slots);
+  const double side = std::max(lens.width, lens.height);
+  for (size_t i = 0; i < slots.size(); ++i) {
+    const std::string name(names[i]);
+    const double value = parameters[i];
+    const auto within = [&](double low, double high, const char* why) {
+      if (value >= low && value <= high) return;
+      char text[200];
+      std::snprintf(text, sizeof text, "%s %.10g is not in %.6g … %.6g, %s", name.c_str(), value, low, high, why);
+      throw LensError(text, i);
+    };
+    if (slots[i] == "cx") within(-kMostPictures * lens.width, (kMostPictures + 1) * lens.width, "10 widths of the picture from it");
+    if (slots[i] == "cy") within(-kMostPictures * lens.height, (kMostPictures + 1) * lens.height, "10 heights of the picture from it");
+    if (slots[i].starts_with('f')) {
+      // Of F_THETA the pixels are those of fx a1, of which one may be 1.
+      const double a1 = lens.law == LensLaw::kAngleToRadius ? lens.shape[0] : 1;
+      if (!(a1 > 0 && std::isfinite(a1))) continue;
+      within(side / kMostSides / a1, side * kMostSides / a1, "a thousandth to a thousand times the longer side of the picture");
+    } else if (!(std::abs(value) < 1e30)) {
+      throw LensError(name + " must be finite, and below 1e30", i);
+    }
+  }
+}
+
+// The parameter to blame for a law or a distortion: the first one of `slots` that is not zero, else the first of the law.
+size_t Blamed(std::string_view model, std::span<const double> parameters, std::string_view kinds) {
+  const std::vector<std::string_view> slots = Words(FindModel(model).slots);
+  for (size_t i = 0; i < slots.size(); ++i) {
+    if (kinds.find(slots[i][0]) != std::string_view::npos && slots[i].size() == 2 && slots[i][0] != 'f' && slots[i][0] != 'c' && parameters[i] != 0) return i;
+  }
+  for (size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i][0] == 'h') return i;
+  }
+  return LensError::kNone;
+}
+
+// Sets max_theta; `blamed` is the parameter for a lens that folds over within the picture.
+void SetField(CalibratedLens& lens, std::optional<double> fov_deg, size_t blamed) {
   const internal::LensLimit limit = internal::FindLensLimit(lens);
-  char text[200];
+  const double most_deg = std::floor(limit.theta * 360 / kPi * 1e4) / 1e4;
+  char text[400];
   if (fov_deg) {
     lens.max_theta = *fov_deg / 2 * kPi / 180;
     if (*fov_deg > 0 && lens.max_theta <= limit.theta) return;
-    std::snprintf(text, sizeof text, "camera: fov_deg %g is not in 0 … %.6g, where the lens %s", *fov_deg,
-                  std::floor(limit.theta * 360 / kPi * 1e4) / 1e4, limit.folds ? "folds over" : "ends");
+    std::snprintf(text, sizeof text, "fov_deg %g is not above 0 and at most %.6g, where the lens %s", *fov_deg, most_deg,
+                  limit.folds ? "folds over" : "ends");
     throw InputError(text);
   }
   // Just before a fold, where the picture still grows.
   lens.max_theta = limit.folds ? limit.theta * (1 - 1e-9) : limit.theta;
   if (!limit.folds || internal::FillsPicture(lens)) return;
+  // Tangential and prism terms fold one side before the others, perhaps beside the picture. The field is a cone around the axis all
+  // the same: a direction beyond the fold would be seen twice.
+  const double sine = std::sin(lens.max_theta);
+  const Vec2d at = ProjectBeyond(lens, {sine * std::cos(limit.azimuth), sine * std::sin(limit.azimuth), std::cos(lens.max_theta)});
+  const bool inside = at.x >= 0 && at.x <= lens.width && at.y >= 0 && at.y <= lens.height;
+  const bool round = AllZero(lens.tangential) && AllZero(lens.prism);
   std::snprintf(text, sizeof text,
-                "camera: the lens folds over %.6g degrees from its axis, inside of the picture; correct its coefficients, or "
-                "give fov_deg, at most %.6g, beyond which nothing is seen",
-                limit.theta * 180 / kPi, std::floor(limit.theta * 360 / kPi * 1e4) / 1e4);
-  throw InputError(text);
+                "the lens folds over %.6g degrees from its axis%s; correct its coefficients, or give fov_deg in a rig, at most %.6g, "
+                "beyond which nothing is seen",
+                limit.theta * 180 / kPi,
+                inside || round ? ", inside of the picture" : " on a side that is outside of the picture, and on another the picture reaches further", most_deg);
+  throw LensError(text, blamed);
+}
+
+// InputError unless some pixel sees something. A lens grows outwards from its principal point: the pixel nearest to that is the
+// last one to lose its ray.
+void CheckSees(const CalibratedLens& lens) {
+  const Vec2d nearest{std::clamp(std::floor(lens.cx) + 0.5, 0.5, lens.width - 0.5), std::clamp(std::floor(lens.cy) + 0.5, 0.5, lens.height - 0.5)};
+  if (internal::LensRay(lens, nearest)) return;
+  char text[200];
+  std::snprintf(text, sizeof text, "no pixel has a ray: of %dx%d pixels with the axis at (%.6g, %.6g) none is within %.4g degrees of it",
+                lens.width, lens.height, lens.cx, lens.cy, lens.max_theta * 180 / kPi);
+  throw LensError(text, 0);
 }
 
 }  // namespace
@@ -151,10 +219,16 @@ void SetField(CalibratedLens& lens, std::optional<double> fov_deg) {
 Camera MakeCamera(std::string_view model, int width, int height, std::span<const double> parameters,
                   std::optional<double> fov_deg) {
   CalibratedLens lens = LensOf(model, width, height, parameters);
+  CheckParameters(lens, model, parameters);
   // Numbers first: the limit is of a lens that makes sense.
   lens.max_theta = 1e-9;
-  CheckCamera(lens);
-  SetField(lens, fov_deg);
+  try {
+    CheckCamera(lens);
+  } catch (const InputError& error) {
+    throw LensError(error.what(), Blamed(model, parameters, "h"));
+  }
+  SetField(lens, fov_deg, Blamed(model, parameters, lens.law == LensLaw::kEquidistant ? "hkdts" : "kdts"));
+  CheckSees(lens);
   return Simplified(lens, fov_deg.has_value());
 }
 
@@ -198,14 +272,16 @@ std::optional<CameraModel> ModelOf(const Camera& camera) {
 Camera Resized(const Camera& camera, int width, int height) {
   const int w = Width(camera), h = Height(camera);
   if (w == width && h == height) return camera;
-  const double scale = static_cast<double>(width) / w;
-  if (!(std::abs(height - scale * h) <= 0.5)) {
+  // Programs round both sides, up, down or to the nearest.
+  const double across = static_cast<double>(width) / w, down = static_cast<double>(height) / h;
+  if (!(std::abs(height - across * h) <= 1)) {
     throw InputError("size: " + std::to_string(width) + "x" + std::to_string(height) + " has not the shape of the calibrated " +
-                     std::to_string(w) + "x" + std::to_string(h));
+                     std::to_string(w) + "x" + std::to_string(h) + ": " + std::to_string(width) + " wide it is " +
+                     std::to_string(std::lround(across * h)) + " high");
   }
   const auto scaled = [&](auto lens) {
     lens.width = width, lens.height = height;
-    lens.fx *= scale, lens.fy *= scale, lens.cx *= scale, lens.cy *= scale;
+    lens.fx *= across, lens.fy *= down, lens.cx *= across, lens.cy *= down;
     return Camera(lens);
   };
   if (const auto* pinhole = std::get_if<Pinhole>(&camera)) return scaled(*pinhole);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -46,11 +47,13 @@ void VisitMount(ConfigVisitor& v, Mount& m) {
   v.Field("roll_deg", "right side down", m.roll_deg, -360, 360);
 }
 
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+
 // An entry of `cameras` as it is read.
 struct CameraEntry {
   std::string name, projection, size, model, calibration, camera, gimbal;
   std::vector<std::string> parameters;
-  double fov_deg = 0;
+  double fov_deg = kNotGiven;
   Mount mount;
   size_t line = 0;
 };
@@ -60,7 +63,7 @@ void VisitCamera(ConfigVisitor& v, CameraEntry& c) {
   v.Field("name", "in file names: letters, digits and _", c.name);
   v.Field("projection", "erp, cube, pinhole or fisheye", c.projection);
   v.Field("size", "WxH", c.size);
-  v.Field("fov_deg", "of pinhole and fisheye; 0: 90 and 180. Of a lens: nothing beyond is seen", c.fov_deg, 0, 360);
+  v.Field("fov_deg", "of pinhole (90) and fisheye (180). Of a lens: nothing beyond is seen", c.fov_deg, 0.001, 360);
   v.Field("model", "instead of projection: a camera model, as OPENCV", c.model);
   v.Field("parameters", "of the model, in its order", c.parameters);
   v.Field("calibration", "instead of projection: a file of Kalibr, COLMAP, OpenCV or ROS", c.calibration);
@@ -131,9 +134,8 @@ Projection ProjectionOf(const Camera& camera) {
 }
 
 // A camera of a calibration, in pictures of `size` if that is not empty.
-RigCamera FromCalibration(const Calibration& calibration, const std::string& size, double fov_deg) {
-  Camera lens = MakeCamera(calibration.model, calibration.width, calibration.height, calibration.parameters,
-                           fov_deg > 0 ? std::optional(fov_deg) : std::nullopt);
+RigCamera FromCalibration(const Calibration& calibration, const std::string& size, std::optional<double> fov_deg) {
+  const Camera lens = MakeCamera(calibration, fov_deg);
   RigCamera camera{.name = calibration.name, .width = calibration.width, .height = calibration.height, .p_B = {}};
   if (!size.empty()) SetSize(size, camera);
   camera.lens = Resized(lens, camera.width, camera.height);
@@ -141,9 +143,24 @@ RigCamera FromCalibration(const Calibration& calibration, const std::string& siz
   return camera;
 }
 
+// InputError naming the file that was meant, if one beside it is near.
+void CheckIsThere(const fs::path& file) {
+  constexpr size_t kMostNames = 4096;
+  std::error_code error;
+  if (fs::exists(file, error)) return;
+  std::vector<std::string> names;
+  for (fs::directory_iterator it(file.has_parent_path() ? file.parent_path() : ".", error), end; !error && it != end && names.size() < kMostNames;
+       it.increment(error))
+    names.push_back(it->path().filename().string());
+  std::ranges::sort(names);
+  const std::string near = NearestChoice(file.filename().string(), names);
+  throw InputError(file.string() + ": no such file" + (near.empty() ? "" : "; did you mean '" + (file.parent_path() / near).string() + "'?"));
+}
+
 // The one that an entry means of its calibration file.
 Calibration FindCalibration(const CameraEntry& entry, const fs::path& rig) {
   const fs::path path = fs::path(entry.calibration).is_absolute() ? fs::path(entry.calibration) : rig.parent_path() / entry.calibration;
+  CheckIsThere(path);
   const std::vector<Calibration> found = ReadCalibrations(path);
   if (entry.camera.empty() && found.size() == 1) return found.front();
   std::vector<std::string> names;
@@ -159,6 +176,7 @@ Calibration FindCalibration(const CameraEntry& entry, const fs::path& rig) {
 // What an entry looks through, without its name and place; X_IC of its calibration goes to `X_IC`.
 RigCamera LensOf(const CameraEntry& entry, const fs::path& rig, RigidTransform& X_IC) {
   X_IC = CameraInBody();
+  const std::optional<double> fov_deg = std::isnan(entry.fov_deg) ? std::nullopt : std::optional(entry.fov_deg);
   const int given = !entry.projection.empty() + !entry.model.empty() + !entry.calibration.empty();
   if (given > 1) throw InputError("give one of projection, model and calibration");
   if (entry.model.empty() && !entry.parameters.empty()) throw InputError("parameters: they are those of a model; add it");
@@ -166,14 +184,14 @@ RigCamera LensOf(const CameraEntry& entry, const fs::path& rig, RigidTransform& 
   if (!entry.calibration.empty()) {
     const Calibration calibration = FindCalibration(entry, rig);
     if (calibration.X_IC) X_IC = *calibration.X_IC;
-    return FromCalibration(calibration, entry.size, entry.fov_deg);
+    return FromCalibration(calibration, entry.size, fov_deg);
   }
-  if (entry.model.empty()) return MakeRigCamera(entry.projection.empty() ? "pinhole" : entry.projection, entry.size, entry.fov_deg);
+  if (entry.model.empty()) return MakeRigCamera(entry.projection.empty() ? "pinhole" : entry.projection, entry.size, fov_deg.value_or(0));
   if (entry.size.empty()) throw InputError("size: a model needs the size of its pictures, for example 752x480");
   RigCamera sized;
   SetSize(entry.size, sized);
   return FromCalibration({.model = entry.model, .width = sized.width, .height = sized.height, .parameters = ParseParameters(entry.parameters)},
-                         "", entry.fov_deg);
+                         "", fov_deg);
 }
 
 void Place(const Mount& mount, RigCamera& camera) {
@@ -240,12 +258,12 @@ std::vector<RigCamera> RigOfCalibration(const fs::path& file) {
   for (const Calibration& calibration : ReadCalibrations(file)) {
     try {
       CheckName(calibration.name, names, "cameras");
-      RigCamera camera = FromCalibration(calibration, "", 0);
-      camera.X_IC = calibration.X_IC.value_or(CameraInBody());
-      rig.push_back(camera);
     } catch (const InputError& error) {
       throw InputError(file.string() + ":" + std::to_string(calibration.line) + ": camera '" + calibration.name + "': " + error.what());
     }
+    RigCamera camera = FromCalibration(calibration, "", std::nullopt);
+    camera.X_IC = calibration.X_IC.value_or(CameraInBody());
+    rig.push_back(camera);
   }
   return rig;
 }
@@ -273,6 +291,7 @@ RigCamera MakeRigCamera(const std::string& projection, const std::string& size_t
 }
 
 std::vector<RigCamera> ReadRigFile(const fs::path& file) {
+  CheckIsThere(file);
   return IsCalibration(ReadTextFile(file, kMostBytes), file) ? RigOfCalibration(file) : ReadOwnRig(file);
 }
 

@@ -5,10 +5,10 @@
 #include <map>
 
 #include "airsim360/image/color.h"
-#include "airsim360/image/luminance.h"
 #include "airsim360/render/lights/lamp_parts.h"
 #include "airsim360/render/lights/light_tree.h"
 #include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "airsim360/base/config.h"
+#include "airsim360/render/shared/dimmest_white.h"
 
 namespace airsim360 {
 
@@ -13,10 +14,6 @@ enum class Look { kClean, kPhoto };
 inline constexpr const char* kLookNames[] = {"clean", "photo"};
 /// Look of a name; InputError naming the nearest if there is none.
 Look ParseLook(std::string_view name);
-
-/// Luminance that no exposure of a picture's own makes whiter than white, cd/m2, so that nights stay dark: f/2, 1/20 s and
-/// ISO 3200 to 6400 of a small sensor.
-inline constexpr double kDimmestWhite = 1.5;
 
 /// A camera's effects, each with its strength; 0 switches one off. "White" is the light that comes out as 255 where
 /// nothing compresses highlights. Typical of such cameras, chosen by us beside photographed panoramas; not the

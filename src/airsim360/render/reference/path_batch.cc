@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "airsim360/image/luminance.h"
 #include "airsim360/render/reference/path_rays.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

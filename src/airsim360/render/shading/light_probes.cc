@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/image/luminance.h"
 #include "airsim360/render/lights/lit_places.h"
 #include "airsim360/render/shading/probe_rays.h"
 #include "airsim360/render/shared/shading_scalar.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

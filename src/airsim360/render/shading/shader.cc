@@ -5,12 +5,12 @@
 #include <limits>
 #include <utility>
 
-#include "airsim360/image/luminance.h"
-#include "airsim360/render/look/camera_look.h"
 #include "airsim360/render/shading/light_cache.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
 #include "airsim360/render/shading/shader_impl.h"
+#include "airsim360/render/shared/dimmest_white.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360 {
 namespace {

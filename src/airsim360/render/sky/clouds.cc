@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
-#include "airsim360/image/luminance.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/cloud_geometry.h"
 #include "airsim360/render/sky/cloud_shapes.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/image/luminance.h"
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/clouds.h"
 #include "airsim360/render/sky/noise.h"
 #include "airsim360/render/sky/sky_layers.h"
 #include "airsim360/render/sky/sky_picture.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

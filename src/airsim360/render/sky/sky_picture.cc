@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "airsim360/base/parallel.h"
-#include "airsim360/image/luminance.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/image/color.h"
-#include "airsim360/image/luminance.h"
+#include "airsim360/scene/luminance.h"
 
 namespace airsim360::internal {
 namespace {

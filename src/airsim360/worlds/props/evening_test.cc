@@ -1,4 +1,3 @@
-#include "airsim360/image/luminance.h"
 #include "airsim360/worlds/props/evening.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "airsim360/scene/luminance.h"
 #include "airsim360/worlds/props/props.h"
 
 namespace airsim360::internal {
