@@ -27,6 +27,8 @@ class ReferenceRelease(ProgramTest):
         made = json.loads(plan.read_text())
         self.assertEqual(made["hash"], documented.pop("the plan"))
         manifest = documented.pop("`SHA256SUMS`")
+        if "avx512f" not in pathlib.Path("/proc/cpuinfo").read_text():
+            self.skipTest("the hashes of frames are of processors with AVX-512: Embree's hits differ in their last bits")
         worlds = set()
         for name, digest in documented.items():
             frame = int(re.fullmatch(r"`frames.jsonl` of `--shard (\d+)/200`", name)[1])
