@@ -17,8 +17,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr uint64_t kMostBytes = uint64_t{1} << 20;
-constexpr size_t kMostCameras = 64;
 constexpr int kMostPixels = 16384;  // of a side
 constexpr int kFurthest = 100;      // metres, as of the places in a rig
 
@@ -257,7 +255,7 @@ std::vector<Calibration> ReadKalibr(const std::string& file, const YAML::Node& r
     if (of_last.IsDefined()) pose.from_last = in.Pose(of_last, "T_cn_cnm1");
     if (!poses.emplace(number, pose).second) in.Fail(entry.first, "there are two cameras of the number " + std::to_string(number));
     cameras.push_back(camera);
-    if (cameras.size() > kMostCameras) in.Fail(node, "more than " + std::to_string(kMostCameras) + " cameras");
+    if (cameras.size() > kMostRigCameras) in.Fail(node, "more than " + std::to_string(kMostRigCameras) + " cameras");
   }
   ChainPoses(file, poses, cameras);
   return cameras;
@@ -357,7 +355,7 @@ std::vector<Calibration> ReadColmap(const std::string& file, const std::string& 
       (i == 2 ? camera.width : camera.height) = static_cast<int>(value);
     }
     cameras.push_back(camera);
-    if (cameras.size() > kMostCameras) in.Fail(number, "more than " + std::to_string(kMostCameras) + " cameras");
+    if (cameras.size() > kMostRigCameras) in.Fail(number, "more than " + std::to_string(kMostRigCameras) + " cameras");
   }
   return cameras;
 }
@@ -395,7 +393,7 @@ bool IsCalibration(std::string_view text, const std::filesystem::path& file) {
 }
 
 std::vector<Calibration> ReadCalibrations(const std::filesystem::path& path) {
-  const std::string text = ReadTextFile(path, kMostBytes), file = path.string();
+  const std::string text = ReadTextFile(path, kMostRigBytes), file = path.string();
   std::vector<Calibration> cameras;
   internal::CheckIsText(text, path);
   if (IsColmap(WithoutMark(text), path)) {

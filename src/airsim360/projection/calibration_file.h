@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,10 @@
 #include "airsim360/projection/camera_model.h"
 
 namespace airsim360 {
+
+/// Of a calibration and of a rig of our own: bytes of the file, cameras in it.
+inline constexpr uint64_t kMostRigBytes = uint64_t{1} << 20;
+inline constexpr size_t kMostRigCameras = 64;
 
 /// A camera as a file has it.
 struct Calibration {

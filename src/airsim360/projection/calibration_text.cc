@@ -171,13 +171,9 @@ class XmlReader {
     std::vector<std::string> words;
     std::istringstream stream{std::string(text)};
     for (std::string word; stream >> word;) words.push_back(word);
-    if (text.starts_with('"')) {
-      yaml_ += Quoted(text);
-      yaml_.append(static_cast<size_t>(std::ranges::count(text, '\n')), '\n');
-      return;
-    }
-    if (words.size() == 1) {
-      yaml_ += Quoted(words[0]);
+    const bool quoted = text.starts_with('"');
+    if (quoted || words.size() == 1) {
+      yaml_ += Quoted(quoted ? text : words[0]);
       yaml_.append(static_cast<size_t>(std::ranges::count(text, '\n')), '\n');
       return;
     }

@@ -166,7 +166,7 @@ void CheckParameters(const CalibratedLens& lens, std::string_view model, std::sp
 size_t Blamed(std::string_view model, std::span<const double> parameters, std::string_view kinds) {
   const std::vector<std::string_view> slots = Words(FindModel(model).slots);
   for (size_t i = 0; i < slots.size(); ++i) {
-    if (kinds.find(slots[i][0]) != std::string_view::npos && slots[i].size() == 2 && slots[i][0] != 'f' && slots[i][0] != 'c' && parameters[i] != 0) return i;
+    if (kinds.find(slots[i][0]) != std::string_view::npos && parameters[i] != 0) return i;
   }
   for (size_t i = 0; i < slots.size(); ++i) {
     if (slots[i][0] == 'h') return i;

@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostCameras = 64;
-constexpr uint64_t kMostBytes = uint64_t{1} << 20;
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr const char* kDefaultSizes[] = {"2048x1024", "512x512", "1024x768", "1024x1024"};
 // Projections that a name alone makes; a calibrated lens needs numbers.
@@ -220,9 +218,9 @@ std::vector<RigCamera> ReadOwnRig(const fs::path& file) {
     v.List("cameras", "of the rig", entries, VisitCamera);
     v.List("gimbals", "that cameras hang on", gimbals, VisitGimbal);
   });
-  if (entries.empty() || entries.size() > kMostCameras) {
+  if (entries.empty() || entries.size() > kMostRigCameras) {
     throw InputError(file.string() + ": key 'cameras' has " + std::to_string(entries.size()) + " entries, not 1 … " +
-                     std::to_string(kMostCameras));
+                     std::to_string(kMostRigCameras));
   }
   const auto at = [&](size_t line, const std::string& what, const auto& read) {
     try {
@@ -292,7 +290,7 @@ RigCamera MakeRigCamera(const std::string& projection, const std::string& size_t
 
 std::vector<RigCamera> ReadRigFile(const fs::path& file) {
   CheckIsThere(file);
-  return IsCalibration(ReadTextFile(file, kMostBytes), file) ? RigOfCalibration(file) : ReadOwnRig(file);
+  return IsCalibration(ReadTextFile(file, kMostRigBytes), file) ? RigOfCalibration(file) : ReadOwnRig(file);
 }
 
 }  // namespace airsim360
