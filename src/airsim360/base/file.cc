@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -20,10 +21,27 @@ std::string_view AsText(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+namespace {
+
+// "; did you mean 'x'?" for a file beside `path` whose name is near, or "".
+std::string NearFile(const fs::path& path) {
+  constexpr size_t kMaxNames = 4096;  // a folder of frames is not listed whole
+  std::vector<std::string> names;
+  std::error_code error;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (fs::directory_iterator it(folder, error), end; !error && it != end && names.size() < kMaxNames; it.increment(error))
+    names.push_back(it->path().filename().string());
+  std::ranges::sort(names);
+  const std::string near = NearestChoice(path.filename().string(), names);
+  return near.empty() ? "" : "; did you mean '" + (path.parent_path() / near).string() + "'?";
+}
+
+}  // namespace
+
 Bytes ReadFile(const fs::path& path, uint64_t max_size) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (error || !fs::exists(status)) throw InputError(path.string() + ": no such file");
+  if (error || !fs::exists(status)) throw InputError(path.string() + ": no such file" + NearFile(path));
   if (!fs::is_regular_file(status)) throw InputError(path.string() + ": not a regular file");
   const uint64_t size = fs::file_size(path, error);
   if (error) throw InputError(path.string() + ": " + error.message());

@@ -17,8 +17,8 @@ using Bytes = std::vector<std::byte>;
 std::span<const std::byte> AsBytes(std::string_view text);
 std::string_view AsText(std::span<const std::byte> bytes);
 
-/// The whole file. InputError if it does not exist, is not a regular file, cannot be read or is larger than
-/// `max_size`.
+/// The whole file. InputError if it does not exist (naming a file beside it whose name is near), is not a regular
+/// file, cannot be read or is larger than `max_size`.
 Bytes ReadFile(const std::filesystem::path& path, uint64_t max_size = uint64_t{4} << 30);
 std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_size = uint64_t{256} << 20);
 

@@ -141,24 +141,9 @@ RigCamera FromCalibration(const Calibration& calibration, const std::string& siz
   return camera;
 }
 
-// InputError naming the file that was meant, if one beside it is near.
-void CheckIsThere(const fs::path& file) {
-  constexpr size_t kMostNames = 4096;
-  std::error_code error;
-  if (fs::exists(file, error)) return;
-  std::vector<std::string> names;
-  for (fs::directory_iterator it(file.has_parent_path() ? file.parent_path() : ".", error), end; !error && it != end && names.size() < kMostNames;
-       it.increment(error))
-    names.push_back(it->path().filename().string());
-  std::ranges::sort(names);
-  const std::string near = NearestChoice(file.filename().string(), names);
-  throw InputError(file.string() + ": no such file" + (near.empty() ? "" : "; did you mean '" + (file.parent_path() / near).string() + "'?"));
-}
-
 // The one that an entry means of its calibration file.
 Calibration FindCalibration(const CameraEntry& entry, const fs::path& rig) {
   const fs::path path = fs::path(entry.calibration).is_absolute() ? fs::path(entry.calibration) : rig.parent_path() / entry.calibration;
-  CheckIsThere(path);
   const std::vector<Calibration> found = ReadCalibrations(path);
   if (entry.camera.empty() && found.size() == 1) return found.front();
   std::vector<std::string> names;
@@ -289,7 +274,6 @@ RigCamera MakeRigCamera(const std::string& projection, const std::string& size_t
 }
 
 std::vector<RigCamera> ReadRigFile(const fs::path& file) {
-  CheckIsThere(file);
   return IsCalibration(ReadTextFile(file, kMostRigBytes), file) ? RigOfCalibration(file) : ReadOwnRig(file);
 }
 
