@@ -96,6 +96,21 @@ class PaperClasses(FormatTest):
         alpha = read_png(out / "semantic" / "panorama_0.png")[..., 3]
         self.assertAlmostEqual(float(np.mean(alpha == 0)), self.report["notes"]["other_share"]["downtown_west"], places=12)
 
+        # Markings are of the road and kerbs of the pavement; nothing of the ground is left over.
+        class_of = {name: int(number) for name, number in (line.rsplit(" ", 1) for line in lines)}
+        ids = read_png(data / "semantic" / "000000.png")
+        seen = set()
+        for category in json.loads((data / "meta.json").read_text())["categories"]:
+            here = alpha[ids == category["id"]]
+            if not here.size or not category["path"].startswith("ground/"):
+                continue
+            seen.add(category["path"])
+            self.assertNotIn(0, here, category["path"])
+            for part, whole in (("ground/lane_marking", "Road"), ("ground/crosswalk", "Road"), ("ground/kerb", "Ground Mod")):
+                if category["path"].startswith(part):
+                    self.assertEqual(set(here), {class_of[whole]}, category["path"])
+        self.assertGreater(len(seen), 2)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -116,6 +116,26 @@ constexpr Row kRows[] = {
     {"new_york_city", "Sky", "sky"},
 };
 
+// Parts that we label apart and the paper's scenes do not: the surface that a part belongs to, the first one that the
+// scene has. Meshes of the paper's roads carry their markings.
+struct Part {
+  const char *part, *whole;
+};
+constexpr Part kParts[] = {{"ground/lane_marking", "ground/road"},
+                           {"ground/crosswalk", "ground/road"},
+                           {"ground/bike_lane", "ground/road"},
+                           {"ground/manhole", "ground/road"},
+                           {"ground/parking", "ground/road"},
+                           {"ground/kerb", "ground/sidewalk"},
+                           {"ground/kerb", "ground/pavement/modular"},
+                           {"ground/kerb", "ground/road"},
+                           {"ground/sidewalk", "ground/pavement/modular"},
+                           {"ground/pavement", "ground/sidewalk"},
+                           {"ground/grass", "ground/terrain/landscape"},
+                           {"ground/dirt", "ground/terrain/landscape"},
+                           {"ground/gravel", "ground/terrain/landscape"},
+                           {"ground/sand", "ground/terrain/landscape"}};
+
 struct SceneNames {
   const char *world, *record, *list;
 };
@@ -144,6 +164,24 @@ SceneClasses OwnClasses(const std::string& world, const NativeDataset& data) {
   return classes;
 }
 
+using Classes = std::map<std::string, uint8_t>;
+
+// That of the nearest ancestor of `path`, itself included; 0 if none has one.
+uint8_t ClassOfAncestor(const Classes& of_path, std::string path) {
+  for (; !path.empty(); path = ParentPath(path))
+    if (const auto found = of_path.find(path); found != of_path.end()) return found->second;
+  return 0;
+}
+
+uint8_t ClassOfWhole(const Classes& of_path, const std::string& path) {
+  for (const Part& part : kParts) {
+    const bool within = path == part.part || path.starts_with(std::string(part.part) + "/");
+    const auto whole = of_path.find(part.whole);
+    if (within && whole != of_path.end()) return whole->second;
+  }
+  return 0;
+}
+
 }  // namespace
 
 uint8_t SceneClasses::IdOf(CategoryId category) const {
@@ -155,19 +193,16 @@ SceneClasses ClassesOf(const std::string& world, const NativeDataset& data) {
   const auto scene = std::ranges::find(kScenes, world, [](const SceneNames& s) { return std::string(s.world); });
   if (scene == std::end(kScenes)) return OwnClasses(world, data);
   SceneClasses classes{.record = scene->record, .list = scene->list, .names = {}, .id_of = {}};
-  std::map<std::string, uint8_t> of_path;
+  Classes of_path;
   for (const Row& row : kRows) {
     if (world != row.world) continue;
     classes.names.push_back(row.name);
     of_path.emplace(row.path, static_cast<uint8_t>(classes.names.size()));
   }
   for (const auto& [id, category] : data.categories()) {
-    for (std::string path = category.path; !path.empty(); path = ParentPath(path)) {
-      if (const auto found = of_path.find(path); found != of_path.end()) {
-        classes.id_of[id] = found->second;
-        break;
-      }
-    }
+    uint8_t found = ClassOfAncestor(of_path, category.path);
+    if (found == 0) found = ClassOfWhole(of_path, category.path);
+    if (found != 0) classes.id_of[id] = found;
   }
   return classes;
 }

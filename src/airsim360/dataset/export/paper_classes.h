@@ -19,8 +19,9 @@ struct SceneClasses {
   uint8_t IdOf(CategoryId category) const;
 };
 
-/// Those of a world. A category is of the class of its nearest ancestor (or itself) that the paper names. Worlds that the
-/// paper does not have: their own categories, by path. InputError for more than 255 of them.
+/// Those of a world. A category is of the class of its nearest ancestor (or itself) that the paper names; where there
+/// is none, parts of the ground (markings, kerbs, lawns) are of the surface that they belong to. Worlds that the paper
+/// does not have: their own categories, by path. InputError for more than 255 of them.
 SceneClasses ClassesOf(const std::string& world, const NativeDataset& data);
 
 }  // namespace airsim360::internal
