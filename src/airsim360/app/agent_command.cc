@@ -8,6 +8,7 @@
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/app/world_flags.h"
@@ -26,6 +27,7 @@ struct AgentArguments {
   bool realtime = false;
   EnvironmentFlags environment;
   PeopleArguments people;
+  TrafficArguments traffic;
 };
 
 double SteadySeconds() {
@@ -35,7 +37,8 @@ double SteadySeconds() {
 AgentApiOptions OptionsOf(const AgentArguments& arguments, const GlobalOptions& globals) {
   AgentApiOptions api{.world = arguments.world, .world_seed = globals.seed};
   for (const WorldInfo& world : ListWorlds()) api.worlds.push_back(world.name);
-  StageOptions options = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
+  StageOptions options = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                             arguments.traffic.Request(globals.seed));
   options.wind = ReadWindFile(arguments.wind);
   CheckRenderSettings(arguments.picture, "--");
   api.open = [picture = arguments.picture, options](const std::string& name, uint64_t seed) {
@@ -89,6 +92,7 @@ void AddAgentCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_flag("--realtime", arguments->realtime,
                     "what an agent takes to think passes in its episode too; else time passes in actions alone");
   arguments->people.AddTo(*command);
+  arguments->traffic.AddTo(*command);
   AddWindFlag(*command, arguments->wind);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);

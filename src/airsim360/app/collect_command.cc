@@ -12,6 +12,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/plan_file.h"
 #include "airsim360/app/session.h"
@@ -43,6 +44,7 @@ struct CollectArguments {
   CameraArguments camera;
   PictureArguments picture;
   PeopleArguments people;
+  TrafficArguments traffic;
   ProcessArguments processes;
 };
 
@@ -52,6 +54,7 @@ void SetFormats(const CollectArguments& arguments, DatasetSpec& spec) {
       "--format", arguments.format,
       {"native", "coco", "video", "coco_keypoints", "kitti", "nuscenes", "monoloco", "crops", "overlay"});
   spec.people = arguments.people.Describe();
+  spec.traffic = arguments.traffic.Describe();
   const auto wanted = [&](const std::string& name) { return std::ranges::count(formats, name) > 0; };
   for (const std::string format : kPeopleFormats) {
     const bool coco = format == "coco_keypoints" && wanted("coco") && !spec.people.empty();
@@ -231,8 +234,8 @@ void CheckRoute(const CollectArguments& arguments) {
 // A dataset for each subset of a table.
 void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) {
   if (arguments.route != "auto" || !arguments.plan.empty() || !arguments.poses.empty() ||
-      !arguments.people.people.empty())
-    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan, --poses and --people");
+      !arguments.people.people.empty() || arguments.traffic.count > 0)
+    throw InputError("--recipe: it has routes and people of its own; leave out --route, --plan, --poses, --people and --traffic");
   if (arguments.processes.processes > 1 || !globals.gpus.empty() || arguments.fps > 0)
     throw InputError("--recipe: it takes no --fps, --processes or several GPUs; use --shard I/N in several runs");
   CollectArguments with_people = arguments;
@@ -243,6 +246,7 @@ void RunRecipe(const CollectArguments& arguments, const GlobalOptions& globals) 
                     .subset = arguments.subset,
                     .frames = arguments.frames,
                     .spec = MakeSpec(with_people, globals),
+                    .has_camera = arguments.camera.projection != "erp" || !arguments.camera.size.empty() || arguments.camera.fov_deg != 0,
                     .environment = arguments.environment,
                     .people = arguments.people},
                    globals);
@@ -257,7 +261,8 @@ void RunCollect(const CollectArguments& arguments, GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded and anything is written.
   DatasetSpec spec = MakeSpec(arguments, globals);
   CheckRoute(arguments);
-  Stage stage(StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed)));
+  Stage stage(StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                             arguments.traffic.Request(globals.seed)));
   spec.environment = DescribeEnvironment(stage.environment());
   const SimModel model = stage.Model(kRouteStepNs);
   std::string trajectory_json;
@@ -313,6 +318,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "native,coco (default native, which includes COCO panoptic and people.jsonl), video (video.mp4, 360 degrees; "
                       "needs the program ffmpeg); of people also coco_keypoints,kitti,nuscenes,monoloco,crops,overlay");
   arguments->people.AddTo(*command);
+  arguments->traffic.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
   command->add_option("--shard", arguments->shard,

@@ -10,6 +10,7 @@
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/fly_run.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/video_arguments.h"
@@ -39,6 +40,7 @@ struct FlyArguments {
   bool record = false;
   EnvironmentFlags environment;
   PeopleArguments people;
+  TrafficArguments traffic;
   PictureArguments picture;
   bool pano_frame_given = false;
   VideoArguments encoding;
@@ -157,6 +159,7 @@ std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& g
         {"sensors", FileSum(arguments.sensors)},
         {"wind", FileSum(arguments.wind)},
         {"people", arguments.people.Describe()},
+        {"traffic", arguments.traffic.Describe()},
         {"environment", DescribeEnvironment(environment)}}}};
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -181,6 +184,7 @@ DatasetSpec SpecOf(const FlyArguments& arguments, const GlobalOptions& globals, 
   spec.frames = arguments.frames;
   spec.route = "flight of " + arguments.drone;
   spec.people = arguments.people.Describe();
+  spec.traffic = arguments.traffic.Describe();
   if (video && !arguments.pano_frame_given) spec.pano_frame = PanoFrame::kLevel;
   PictureArguments::Check(spec);
   return spec;
@@ -225,7 +229,8 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   CheckSensorLog(setup.sensors, longest);
   CheckVideoFlags(arguments, globals);
   StageOptions options =
-      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
+      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                             arguments.traffic.Request(globals.seed));
   options.wind = ReadWindFile(arguments.wind);
   if (!arguments.pose.empty()) {
     arguments.pose = WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals));
@@ -314,6 +319,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--fps", arguments->fps, "pictures a second of the video (default 30)")->check(CLI::Range(0.1, 240.0));
   arguments->encoding.AddTo(*command);
   arguments->people.AddTo(*command);
+  arguments->traffic.AddTo(*command);
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);
   command->add_flag("--record", arguments->record, "write run.a360: commands and state hashes, for replay");

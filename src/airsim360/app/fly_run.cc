@@ -9,6 +9,10 @@
 namespace airsim360 {
 namespace {
 
+Shot ShotOf(const SimState& state) {
+  return {.t_ns = state.t_ns, .body = state.vehicles[0].motion, .people = state.people, .traffic = state.traffic};
+}
+
 constexpr int64_t kRecordPeriodNs = 10'000'000;
 constexpr int64_t kLookPeriodNs = 5'000'000;  // how often a task may end; divides the period above
 constexpr float kClearanceRange = 50;         // metres: farther is not told
@@ -25,8 +29,8 @@ class Pilot {
     NotePicture();
   }
 
-  /// The people at each sample of the trajectory, if frames are wanted of it.
-  const std::vector<std::shared_ptr<const PeopleState>>& people() const { return people_; }
+  /// The world at each sample of the trajectory, if frames are wanted of it.
+  const std::vector<Shot>& samples() const { return samples_; }
 
   void Run() {
     for (const FlyTask& task : job_.tasks) RunTask(task);
@@ -83,14 +87,14 @@ class Pilot {
   void NotePicture() {
     if (job_.video_fps == 0) return;
     const auto state = loop_.Snapshot();
-    result_.video.push_back({state->t_ns, state->vehicles[0].motion, state->people});
+    result_.video.push_back(ShotOf(*state));
   }
 
   void Note(const SimState& state) {
     const Vehicle& drone = state.vehicles[0];
     if (state.t_ns % kRecordPeriodNs != 0) return;
     result_.flight.trajectory.push_back({state.t_ns, drone.motion, drone.a_WB});
-    if (job_.frames > 0) people_.push_back(state.people);
+    if (job_.frames > 0) samples_.push_back(ShotOf(state));
     if (!IsEnRoute(drone)) return;
     const float clearance =
         job_.model->tracer->Clearance(VecCast<float>(drone.motion.X_WB.p), kClearanceRange);
@@ -111,7 +115,7 @@ class Pilot {
 
   const FlyJob& job_;
   FlyResult& result_;
-  std::vector<std::shared_ptr<const PeopleState>> people_;
+  std::vector<Shot> samples_;
   SimLoop loop_;
   RealTimePacer pacer_;
   double squares_ = 0, largest_ = 0;
@@ -130,7 +134,10 @@ FlyResult RunFlight(const FlyJob& job) {
     const size_t last = trajectory.size() - 1;
     const size_t at =
         job.frames > 1 ? static_cast<size_t>(i) * last / static_cast<size_t>(job.frames - 1) : last;
-    result.flight.shots.push_back({trajectory[at].t_ns, trajectory[at].body, pilot.people()[at]});
+    Shot shot = pilot.samples()[at];
+    shot.t_ns = trajectory[at].t_ns;
+    shot.body = trajectory[at].body;
+    result.flight.shots.push_back(std::move(shot));
   }
   return result;
 }

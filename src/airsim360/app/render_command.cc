@@ -12,11 +12,13 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/picture_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/sim/people_survey.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -30,6 +32,7 @@ struct RenderArguments {
   CameraArguments camera;
   PictureArguments picture;
   PeopleArguments people;
+  TrafficArguments traffic;
   bool overlay = false;
 };
 
@@ -73,13 +76,15 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   spec.seed = globals.seed;
   spec.labels = DescribeLabels(globals);
   spec.people = arguments.people.Describe();
+  spec.traffic = arguments.traffic.Describe();
   spec.overlay = arguments.overlay;
   if (spec.overlay && (spec.people.empty() || spec.tier == Tier::kLabels))
     throw InputError("--overlay: draws the labels of people into the colours: it needs --people and a tier with colours");
   PoseArgument pose;
   if (!arguments.pose.empty()) pose = ParsePose(WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals)));
 
-  Stage stage(StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed)));
+  Stage stage(StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                             arguments.traffic.Request(globals.seed)));
   spec.environment = DescribeEnvironment(stage.environment());
   const SimModel model = stage.Model(kRouteStepNs);
   if (arguments.pose.empty()) pose = DefaultPose(model, spec);
@@ -89,6 +94,7 @@ void RunRender(const RenderArguments& arguments, const GlobalOptions& globals) {
   Flight flight =
       Hover(BodyPose(pose.p, pose.yaw_deg * kRadians, pose.pitch_deg * kRadians, pose.roll_deg * kRadians));
   if (stage.people()) flight.shots[0].people = stage.people()->start;
+  if (stage.traffic()) flight.shots[0].traffic = stage.traffic()->start;
   CheckCameraPlaces(*model.tracer, spec, flight);
   const CollectResult result = Collect(InputOf(stage, spec, flight, arguments.out), stage.renderer(spec.tier));
   ReportRun(stage, spec, result, arguments.out, globals.json);
@@ -111,6 +117,7 @@ void AddRenderCommand(CLI::App& app, GlobalOptions& globals) {
   arguments->camera.AddTo(*command);
   arguments->picture.AddTo(*command);
   arguments->people.AddTo(*command);
+  arguments->traffic.AddTo(*command);
   command->add_flag("--overlay", arguments->overlay, "overlay/000000.png: the picture with the labels of people drawn in");
   AddEnvironmentFlags(*command, arguments->environment);
   AddWorldFlags(*command, globals);

@@ -8,6 +8,7 @@
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
 #include "airsim360/app/people_arguments.h"
+#include "airsim360/app/traffic_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/app/world_flags.h"
@@ -26,6 +27,7 @@ struct ServeArguments {
   RenderSettings picture;
   std::optional<int> port;
   PeopleArguments people;
+  TrafficArguments traffic;
   bool realtime = false, lockstep = false;
   EnvironmentFlags environment;
 };
@@ -70,7 +72,8 @@ void Serve(const ServeArguments& arguments, const GlobalOptions& globals) {
   Check(arguments);
   const ServerOptions options = OptionsOf(arguments, globals);
   StageOptions world =
-      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed));
+      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                             arguments.traffic.Request(globals.seed));
   world.wind = ReadWindFile(arguments.wind);
   world.bodies = ServedBodies(options);
   const auto stage = std::make_shared<Stage>(world);
@@ -103,6 +106,7 @@ void AddServeCommand(CLI::App& app, GlobalOptions& globals) {
                       "TCP port, 0 = any free one (default: of the settings, 41451)");
   command->add_option("--host", arguments->host, "IPv4 address to listen on (default 127.0.0.1)");
   arguments->people.AddTo(*command);
+  arguments->traffic.AddTo(*command);
   AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->picture.Visit(v); });
   command->add_flag("--realtime", arguments->realtime, "time passes with the wall clock (default)");
   command->add_flag("--lockstep", arguments->lockstep,

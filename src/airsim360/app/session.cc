@@ -11,10 +11,11 @@
 namespace airsim360 {
 
 StageOptions StageOptionsOf(const std::string& world, const GlobalOptions& globals, const EnvironmentFlags& environment,
-                            const PeopleRequest& people) {
+                            const PeopleRequest& people, const TrafficRequest& traffic) {
   return {.world = RequestOf(world, globals),
           .environment = environment,
           .people = people,
+          .traffic = traffic,
           .device = {globals.device, globals.gpu}};
 }
 
@@ -23,6 +24,7 @@ CollectInput InputOf(Stage& stage, const DatasetSpec& spec, const Flight& flight
   CollectInput input{spec, stage.scene(), flight, out, std::move(trajectory_json)};
   input.people = stage.people();
   input.tracer = stage.tracer();
+  input.traffic = stage.traffic();
   return input;
 }
 

@@ -12,7 +12,7 @@ namespace airsim360 {
 
 /// A stage of the flags that all such commands have; seed, labels, cut and device are those of `globals`.
 StageOptions StageOptionsOf(const std::string& world, const GlobalOptions& globals, const EnvironmentFlags& environment = {},
-                            const PeopleRequest& people = {});
+                            const PeopleRequest& people = {}, const TrafficRequest& traffic = {});
 
 /// What a dataset of the stage is made of.
 CollectInput InputOf(Stage& stage, const DatasetSpec& spec, const Flight& flight, const std::filesystem::path& out,

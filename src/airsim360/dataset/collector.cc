@@ -15,6 +15,7 @@
 #include "airsim360/dataset/pose_export.h"
 #include "airsim360/dataset/shot_source.h"
 #include "airsim360/dataset/summaries.h"
+#include "airsim360/dataset/vehicle_lines.h"
 #include "airsim360/dataset/video.h"
 
 namespace airsim360 {
@@ -67,6 +68,7 @@ bool IsFinished(const CollectInput& input) {
     if (!fs::exists(folder / name)) return false;
   }
   if (!input.flight.trajectory.empty() && !fs::exists(folder / "trajectory.csv")) return false;
+  if (input.traffic && !fs::exists(folder / "vehicles.jsonl")) return false;
   if (spec.products.material && !fs::exists(folder / "materials.json")) return false;
   if (spec.products.part && !fs::exists(folder / "parts.json")) return false;
   if (spec.video && !fs::exists(folder / kVideoName)) return false;
@@ -142,6 +144,7 @@ void FinishDataset(const CollectInput& input) {
   write("panoptic.json", AsBytes(PanopticJson(index, input.spec, input.scene)));
   if (!input.flight.trajectory.empty()) write("trajectory.csv", AsBytes(TrajectoryCsv(input.flight)));
   for (const auto& [name, text] : input.further_files) write(name.c_str(), AsBytes(text));
+  if (input.traffic) write("vehicles.jsonl", AsBytes(VehiclesJsonl(*input.traffic, input.flight)));
   if (!input.trajectory_json.empty()) write("trajectory.json", AsBytes(input.trajectory_json));
   if (input.spec.video) {
     FilmDataset(input.out, input.out / kVideoName, {});

@@ -26,6 +26,7 @@ struct CollectInput {
   /// Of the scene, whose states the shots hold; null = nobody. `tracer` is of the scene too.
   std::shared_ptr<const SimPeople> people = nullptr;
   std::shared_ptr<const RayTracer> tracer = nullptr;
+  std::shared_ptr<const SimTraffic> traffic = nullptr;  ///< likewise; null = no vehicles drive
 
   // Datasets of a plan, whose frames are of several worlds and taken block by block.
   int64_t first_frame = 0;  ///< of the dataset: that of flight.shots[0]

@@ -96,6 +96,7 @@ Json ParametersJson(const DatasetSpec& spec) {
   AddConfig([picture = spec](ConfigVisitor& v) mutable { picture.Visit(v); }, json);
   if (spec.look != Look::kPhoto) json.erase("camera_look");
   if (spec.video) json["video"] = "libx264, crf 18";
+  if (!spec.traffic.empty()) json["traffic"] = spec.traffic;
   if (!spec.people.empty()) {
     json["people"] = spec.people;
     json["crops"] = spec.crops;

@@ -1,6 +1,9 @@
 #include "airsim360/dataset/shot_source.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360::internal {
 namespace {
@@ -74,7 +77,7 @@ FrameLabels ShotSource::TakeForDataset(int64_t frame, const std::vector<View>& v
 FrameLabels ShotSource::Label(size_t frame, const std::shared_ptr<const SceneState>& state, const std::vector<View>& views,
                               const std::vector<Capture>& captures) {
   FrameLabels labels;
-  if (!state) return labels;
+  if (!state || !input_.people || !input_.flight.shots.at(frame).people) return labels;
   const PeoplePoses poses = PosesOf(input_.flight.shots.at(frame));
   const std::shared_ptr<const RayTracer> tracer = dynamic_->At(state);
   for (size_t v = 0; v < captures.size(); ++v)
@@ -82,22 +85,29 @@ FrameLabels ShotSource::Label(size_t frame, const std::shared_ptr<const SceneSta
   return labels;
 }
 
-// The scene at a shot; nullptr without people.
+// The scene at a shot; nullptr if nothing moves.
 std::shared_ptr<const SceneState> ShotSource::StateOf(const Shot& shot) const {
-  if (!input_.people || !shot.people) return nullptr;
-  return Shown(PosesOf(shot), shot.t_ns);
+  std::optional<PeoplePoses> poses;
+  if (input_.people && shot.people) poses = PosesOf(shot);
+  return Shown(poses, input_.traffic ? shot.traffic : nullptr, shot.t_ns);
 }
 
-// The scene that flow leads to, with the same levels of detail: the next frame's, after the last one as people would go on.
+// The scene that flow leads to, with the same levels of detail: the next frame's, after the last one as people and traffic would
+// go on.
 std::shared_ptr<const SceneState> ShotSource::StateAfter(size_t frame) const {
   const std::vector<Shot>& shots = input_.flight.shots;
   const Shot& shot = shots[frame];
   const bool last = !Follows(shots, frame);
-  if (!input_.people || !shot.people || (!last && !shots[frame + 1].people)) return nullptr;
   const int64_t t_ns = last ? shot.t_ns + std::llround(NextSeconds(shots, frame) * 1e9) : shots[frame + 1].t_ns;
-  PeoplePoses poses = last ? PosesLater(*input_.people, *shot.people, t_ns + input_.people->epoch_ns) : PosesOf(shots[frame + 1]);
-  poses.levels = LevelsOf(shot);
-  return Shown(poses, t_ns);
+  std::optional<PeoplePoses> poses;
+  if (input_.people && shot.people && (last || shots[frame + 1].people)) {
+    poses = last ? PosesLater(*input_.people, *shot.people, t_ns + input_.people->epoch_ns) : PosesOf(shots[frame + 1]);
+    poses->levels = LevelsOf(shot);
+  }
+  std::shared_ptr<const TrafficState> traffic;
+  if (input_.traffic && shot.traffic)
+    traffic = last ? TrafficLater(*input_.traffic, shot.traffic, t_ns + input_.traffic->epoch_ns) : shots[frame + 1].traffic;
+  return Shown(poses, traffic, t_ns);
 }
 
 std::vector<uint8_t> ShotSource::LevelsOf(const Shot& shot) const {
@@ -110,10 +120,14 @@ PeoplePoses ShotSource::PosesOf(const Shot& shot) const {
   return poses;
 }
 
-std::shared_ptr<const SceneState> ShotSource::Shown(const PeoplePoses& poses, int64_t t_ns) const {
+std::shared_ptr<const SceneState> ShotSource::Shown(const std::optional<PeoplePoses>& poses,
+                                                    const std::shared_ptr<const TrafficState>& traffic, int64_t t_ns) const {
+  if (!poses && !traffic) return nullptr;
   auto state = std::make_shared<SceneState>();
   state->t_ns = t_ns;
-  ShowPeople(*input_.people, poses, *state);
+  if (poses) ShowPeople(*input_.people, *poses, *state);
+  if (traffic) ShowTraffic(*input_.traffic, *traffic, t_ns + input_.traffic->epoch_ns, *state);
+  std::ranges::sort(state->moved, {}, &MovedInstance::instance);
   return state;
 }
 

@@ -14,7 +14,7 @@ class ShotSource {
  public:
   /// `input` must outlive it.
   explicit ShotSource(const CollectInput& input);
-  /// Fills one capture for each of `views` at a shot of the flight and returns the state that they show (nullptr without people).
+  /// Fills one capture for each of `views` at a shot of the flight and returns the state that they show (nullptr if nothing moves).
   std::shared_ptr<const SceneState> Take(size_t frame, const std::vector<View>& views, const Products& products, Renderer& renderer,
                                          std::vector<Capture>& captures);
   /// Frame `frame` of the dataset as its files show it, and what is to be written of its people: entities have the ids that they
@@ -28,7 +28,8 @@ class ShotSource {
   std::shared_ptr<const SceneState> StateAfter(size_t frame) const;
   PeoplePoses PosesOf(const Shot& shot) const;
   std::vector<uint8_t> LevelsOf(const Shot& shot) const;
-  std::shared_ptr<const SceneState> Shown(const PeoplePoses& poses, int64_t t_ns) const;
+  std::shared_ptr<const SceneState> Shown(const std::optional<PeoplePoses>& poses, const std::shared_ptr<const TrafficState>& traffic,
+                                          int64_t t_ns) const;
 
   const CollectInput& input_;
   std::optional<DynamicTracer> dynamic_;

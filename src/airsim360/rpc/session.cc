@@ -6,6 +6,7 @@
 
 #include "airsim360/base/log.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
@@ -149,7 +150,7 @@ void Session::BuildVehicles(Stage& stage) {
     model->wind.mean_W = wind_W;
   SimState start;
   start.wind_W = model->wind.mean_W;
-  if (model->people) start.people = model->people->start;
+  StartLife(*model, start);
   loop_ = std::make_unique<SimLoop>(model, std::move(start));
   // Drones come first in the simulation, in the order of their names as AirSim has them.
   for (const bool drones : {true, false}) {

@@ -9,6 +9,7 @@
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/start_place.h"
 #include "airsim360/sim/people/people.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -30,6 +31,7 @@ void Session::ObjectsMoved() {
     scene_state->moved.push_back({body.instance, {}, true});
   }
   if (loop_->model().people) HidePeople(loop_->model().people->refs, *scene_state);
+  if (loop_->model().traffic) HideTraffic(*loop_->model().traffic, *scene_state);
   for (const auto& [entity, place] : world().places) {
     if (!drones.contains(entity)) objects_.Move(entity, place, scene_state->moved);
   }

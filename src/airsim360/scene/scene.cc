@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "airsim360/base/error.h"
+#include "airsim360/scene/road_network.h"
 
 namespace airsim360 {
 namespace {
@@ -248,6 +249,7 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   if (scene_.materials.empty()) scene_.materials.emplace_back();
   for (const Mesh& mesh : scene_.meshes) CheckMesh(mesh, scene_.materials.size());
   for (const Entity& entity : scene_.entities) static_cast<void>(scene_.tree[entity.category]);
+  if (scene_.roads) CheckRoads(*scene_.roads);
 
   // Instances: indices, entities of every part, bounds.
   const std::vector<Outline> outlines = OutlinesOf(scene_);

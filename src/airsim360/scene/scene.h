@@ -17,6 +17,8 @@
 
 namespace airsim360 {
 
+struct RoadNetwork;  // scene/road_network.h
+
 /// One thing (or one stuff region) that labels tell apart. Ids start at 1 and never change within a world and
 /// seed.
 struct Entity {
@@ -61,6 +63,7 @@ struct Scene {
   float spawn_yaw_deg = 0;                ///< where to look from `spawn`: 0 = +X, counter-clockwise
   std::string cache_key = {};  ///< stands for all of the above but `environment` in keys of the disk cache;
                                ///< empty = what is computed of the scene is not kept
+  std::shared_ptr<const RoadNetwork> roads = {};  ///< lanes that vehicles can drive on; null: none are known
 
   const Entity& entity(EntityId id) const { return entities[id - 1]; }
   /// SemanticTree::SettleIds, for the entities too. To be done before others see the scene.
@@ -90,6 +93,7 @@ class SceneBuilder {
     scene_.spawn_yaw_deg = yaw_deg;
   }
   void AddAttribution(std::string line);
+  void SetRoads(std::shared_ptr<const RoadNetwork> roads) { scene_.roads = std::move(roads); }
 
   const Mesh& mesh(MeshId id) const { return scene_.meshes[id]; }
   const Material& material(MaterialId id) const { return scene_.materials[id]; }

@@ -7,6 +7,7 @@
 
 #include "airsim360/base/archive.h"
 #include "airsim360/base/error.h"
+#include "airsim360/scene/road_network.h"
 
 namespace airsim360 {
 namespace {
@@ -14,9 +15,9 @@ namespace {
 // Kept as their memory: no padding whose bytes would be anything.
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8 && sizeof(Vec3u) == 12 && sizeof(Rgba8) == 4);
 static_assert(sizeof(MeshPart) == 16 && sizeof(Instance) == 80 && sizeof(Box3f) == 24);
-static_assert(sizeof(VertexColor) == 8);
+static_assert(sizeof(VertexColor) == 8 && sizeof(SignalPhase) == 16);
 // A field added to these belongs into the lists below.
-static_assert(sizeof(Material) == 152 && sizeof(Environment) == 176 && sizeof(Scene) == 552);
+static_assert(sizeof(Material) == 152 && sizeof(Environment) == 176 && sizeof(Scene) == 568);
 
 template <class Pixel>
 void VisitImage(ArchiveWriter& archive, const Image<Pixel>& image) {
@@ -121,6 +122,30 @@ void VisitSpawn(ArchiveReader& archive, std::optional<Vec3f>& spawn) {
 }
 
 template <class Archive, class T>
+void VisitRoadNetwork(Archive& archive, T& roads) {
+  archive.Each(roads.lanes, [&](auto& lane) {
+    archive(lane.points, lane.width, lane.speed, lane.next, lane.left, lane.right, lane.junction, lane.signal, lane.priority,
+            lane.bus);
+  });
+  archive.Each(roads.junctions,
+               [&](auto& junction) { archive(junction.center, junction.radius, junction.phases, junction.offset); });
+}
+
+void VisitRoads(ArchiveWriter& archive, const std::shared_ptr<const RoadNetwork>& roads) {
+  archive(roads != nullptr);
+  if (roads) VisitRoadNetwork(archive, *roads);
+}
+
+void VisitRoads(ArchiveReader& archive, std::shared_ptr<const RoadNetwork>& roads) {
+  bool present = false;
+  archive(present);
+  if (!present) return;
+  auto read = std::make_shared<RoadNetwork>();
+  VisitRoadNetwork(archive, *read);
+  roads = std::move(read);
+}
+
+template <class Archive, class T>
 void VisitScene(Archive& archive, T& scene) {
   archive(scene.name);
   VisitTree(archive, scene.tree);
@@ -135,6 +160,7 @@ void VisitScene(Archive& archive, T& scene) {
   VisitSpawn(archive, scene.spawn);
   archive.Each(scene.attributions, [&](auto& line) { archive(line); });
   archive(scene.spawn_yaw_deg);
+  VisitRoads(archive, scene.roads);
 }
 
 }  // namespace

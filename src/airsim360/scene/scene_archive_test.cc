@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "airsim360/scene/road_network.h"
+
 namespace airsim360 {
 namespace {
 
@@ -64,6 +66,11 @@ std::shared_ptr<const Scene> OddScene() {
   builder.SetInteriorLight({0.1f, 0, 0.2f});
   builder.SetSpawn({4, 5, 6}, 70);
   builder.AddAttribution("triangle, me, CC0");
+  RoadNetwork roads;
+  roads.lanes = {{.points = {{0, 0, 0}, {9, 0, 1}}, .width = 3, .speed = 8, .next = {1}, .left = 1, .right = 1, .priority = 2, .bus = true},
+                 {.points = {{9, 0, 1}, {0, 5, 0}, {0, 0, 0}}, .next = {0}, .junction = 0, .signal = 3}};
+  roads.junctions = {{{1, 2, 3}, 7, {{8, 10, 2, 1}}, 5}};
+  builder.SetRoads(std::make_shared<const RoadNetwork>(roads));
   Environment& environment = builder.environment();
   for (const EnvironmentField& field : EnvironmentFields()) environment.*field.value += 0.125;
   environment.lamps = Lamps::kOn, environment.cloud_type = CloudType::kStratus;

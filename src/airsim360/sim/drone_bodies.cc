@@ -6,6 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/flight/body/drone_body.h"
 #include "airsim360/sim/people/people.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -70,6 +71,8 @@ std::shared_ptr<const SceneState> SceneStateAt(const SimModel& model, const SimS
       poses.levels = LevelsFor(*model.people, seen.people->crowd.people, seen.vehicles[self].motion.X_WB.p);
     ShowPeople(*model.people, poses, *scene_state);
   }
+  if (model.traffic && state.traffic)
+    ShowTraffic(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, *scene_state);
   std::ranges::sort(scene_state->moved, {}, &MovedInstance::instance);
   return scene_state;
 }
@@ -126,12 +129,13 @@ NextTrigger InstantAfter(const SimModel& model, const SimState& now, size_t self
 
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
                                                std::span<const DroneBodyRef> bodies,
-                                               const SimPeople* people) {
+                                               const SimPeople* people, const SimTraffic* traffic) {
   const bool anybody = people != nullptr && !people->refs.empty();
-  if (bodies.empty() && !anybody) return base;
+  if (bodies.empty() && !anybody && traffic == nullptr) return base;
   auto state = std::make_shared<SceneState>();
   for (const DroneBodyRef& body : bodies) state->moved.push_back({body.instance, {}, true});
   if (anybody) HidePeople(people->refs, *state);
+  if (traffic != nullptr) HideTraffic(*traffic, *state);
   std::ranges::sort(state->moved, {}, &MovedInstance::instance);
   return DynamicTracer(base).At(state);
 }

@@ -48,10 +48,10 @@ std::shared_ptr<const SceneState> SceneStateOf(const SimModel& model, const SimS
 /// by steps taken beside the simulation. As SceneStateOf, people with the meshes that they have now, which flow needs.
 NextTrigger InstantAfter(const SimModel& model, const SimState& now, size_t self, double seconds);
 
-/// The scene of `base` without any of the bodies and people, for SimModel::tracer; `base` itself if there are
+/// The scene of `base` without any of the bodies, people and vehicles, for SimModel::tracer; `base` itself if there are
 /// none.
 std::shared_ptr<const RayTracer> WithoutBodies(const std::shared_ptr<const RayTracer>& base,
                                                std::span<const DroneBodyRef> bodies,
-                                               const SimPeople* people = nullptr);
+                                               const SimPeople* people = nullptr, const SimTraffic* traffic = nullptr);
 
 }  // namespace airsim360

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 
 namespace airsim360 {
@@ -33,7 +34,7 @@ Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
   const double duration = route->duration();
   const RoutePoint start = route->At(0);
   SimState state;
-  if (model.people) state.people = model.people->start;
+  StartLife(model, state);
   state.vehicles.push_back(VehicleAt(model, BodyPose(start.p, start.yaw, 0, 0)));
   Flight flight;
   flight.least_clearance = state.vehicles[0].clearance;
@@ -43,7 +44,7 @@ Flight FlyRoute(const SimModel& model, std::shared_ptr<const Route> route,
     // Take the shots that are nearer to this step than to the next one, and the record when it is due.
     const Vehicle& vehicle = state.vehicles[0];
     for (; next < shot_times_ns.size() && shot_times_ns[next] < state.t_ns + model.dt_ns / 2; ++next) {
-      flight.shots.push_back({state.t_ns, vehicle.motion, state.people});
+      flight.shots.push_back({.t_ns = state.t_ns, .body = vehicle.motion, .people = state.people, .traffic = state.traffic});
     }
     const bool landed = static_cast<double>(state.t_ns) * 1e-9 >= duration && next == shot_times_ns.size();
     if (state.t_ns % kRecordPeriodNs == 0 || landed)

@@ -16,6 +16,7 @@ struct Shot {
   Kinematics body;
   std::shared_ptr<const PeopleState> people = nullptr;  ///< SimState::people then
   bool last = false;  ///< of a take: the next shot does not follow in time, the body goes on as it moves
+  std::shared_ptr<const TrafficState> traffic = nullptr;  ///< SimState::traffic then
 };
 
 /// One moment of the recorded trajectory.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "airsim360/base/error.h"
+#include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/step_drone.h"
 
@@ -51,7 +52,7 @@ Vehicle DroneAt(const SimModel& model, const SimState& state, size_t i, const Ri
 SimState StartState(const SimModel& model) {
   SimState state;
   state.wind_W = model.wind.mean_W;
-  if (model.people) state.people = model.people->start;
+  StartLife(model, state);
   for (size_t i = 0; i < model.drones.size(); ++i) {
     const DroneSetup& setup = model.drones[i]->setup();
     state.vehicles.push_back(DroneAt(model, state, i, setup.X_WB, setup.airborne));

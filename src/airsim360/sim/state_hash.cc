@@ -3,6 +3,7 @@
 
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/step.h"
+#include "airsim360/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -91,6 +92,7 @@ uint64_t HashState(const SimState& state) {
   hasher.Add(state.wind_W);
   for (const Vehicle& vehicle : state.vehicles) Add(vehicle, hasher);
   if (state.people) hasher.Add(HashPeople(*state.people));
+  if (state.traffic) hasher.Add(HashTraffic(*state.traffic));
   return hasher.hash();
 }
 

@@ -6,8 +6,10 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/sim/living_world.h"
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/step_drone.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -17,12 +19,6 @@ constexpr size_t kVehiclesPerTask = 8;
 
 bool Flies(const SimModel& model, size_t i, const Vehicle& vehicle) {
   return i < model.drones.size() && !vehicle.following;
-}
-
-// The people of a state, to be changed: a copy if a snapshot has them too.
-PeopleState& OwnPeople(SimState& state) {
-  if (state.people.use_count() > 1) state.people = std::make_shared<PeopleState>(*state.people);
-  return const_cast<PeopleState&>(*state.people);
 }
 
 /// Applies one command; visits its kind.
@@ -57,7 +53,7 @@ struct CommandVisitor {
   }
   void operator()(const WindCommand& wind) const { state.wind_W = wind.wind_W; }
   void operator()(const PersonCommand& person) const {
-    CommandPerson(*model.people->crowd, OwnPeople(state).crowd, person.person, person.action);
+    CommandPerson(*model.people->crowd, internal::OwnPeople(state).crowd, person.person, person.action);
   }
 };
 
@@ -97,11 +93,26 @@ void AddPeopleBoxes(const SimModel& model, const SimState& state, std::vector<Dr
   }
 }
 
+// So can vehicles.
+void AddVehicleBoxes(const SimModel& model, const SimState& state, std::vector<DroneBox>& boxes) {
+  if (!state.traffic || !model.traffic) return;
+  constexpr double kReach = 6;  // metres: farther than drone and vehicle come in a step
+  const size_t count = std::min(model.drones.size(), state.vehicles.size());
+  for (size_t i = 0; i < count; ++i) {
+    for (const VehicleBox& vehicle : VehiclesNear(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns,
+                                                  state.vehicles[i].motion.X_WB.p, kReach)) {
+      const auto same = [&](const DroneBox& box) { return box.vehicle == kMiss && box.entity == vehicle.entity; };
+      if (std::ranges::any_of(boxes, same)) continue;
+      boxes.push_back({vehicle.X_WB, vehicle.half_size_B, vehicle.v_W, Norm(vehicle.half_size_B), kMiss, vehicle.entity, {}});
+    }
+  }
+}
+
 // What others meet of the drones: where they are now.
 DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
   std::vector<DroneBox> boxes;
   const size_t count = std::min(model.drones.size(), state.vehicles.size());
-  for (size_t i = 0; i < count && (count > 1 || model.people); ++i) {
+  for (size_t i = 0; i < count && (count > 1 || model.people || model.traffic); ++i) {
     const SimDrone& drone = *model.drones[i];
     const Kinematics& motion = state.vehicles[i].motion;
     const RotorWake wake =
@@ -110,37 +121,8 @@ DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
         {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity, wake});
   }
   AddPeopleBoxes(model, state, boxes);
+  AddVehicleBoxes(model, state, boxes);
   return DroneBoxes(std::move(boxes));
-}
-
-// Near passes, as the drones notice them.
-void ReportNearPasses(const SimModel& model, std::span<const CrowdEvent> happened, std::vector<SimEvent>& events) {
-  for (const CrowdEvent& crowd : happened) {
-    if (crowd.kind != CrowdEvent::Kind::kNearPass) continue;
-    SimEvent event{.kind = SimEvent::Kind::kNearPerson, .vehicle = crowd.drone, .person = crowd.person};
-    event.t_ns = crowd.t_ns - model.people->epoch_ns;
-    char text[64];
-    std::snprintf(text, sizeof text, " at %.2f m", crowd.value);
-    event.text = model.people->crowd->people[crowd.person].name + text;
-    events.push_back(std::move(event));
-  }
-}
-
-// Brings the people to the last tick of their time that is not after the end of this step.
-void StepPeople(const SimModel& model, SimState& state, std::vector<SimEvent>* events) {
-  if (!state.people || !model.people) return;
-  const int64_t end_ns = state.t_ns + model.dt_ns + model.people->epoch_ns;
-  if (state.people->crowd.t_ns + kCrowdTickNs > end_ns) return;
-  std::vector<CrowdDrone> drones;
-  for (size_t i = 0; i < state.vehicles.size(); ++i) {
-    const Kinematics& motion = state.vehicles[i].motion;
-    drones.push_back({motion.X_WB.p, motion.v_WB});
-    if (i < model.drones.size()) drones.back().radius = model.drones[i]->radius();
-  }
-  PeopleState& people = OwnPeople(state);
-  std::vector<CrowdEvent> happened;
-  while (people.crowd.t_ns + kCrowdTickNs <= end_ns) TickPeople(*model.people, drones, people, &happened);
-  if (events != nullptr) ReportNearPasses(model, happened, *events);
 }
 
 void RecordTrace(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
@@ -195,7 +177,7 @@ BodyMotion MotionOf(const Vehicle& vehicle) { return {vehicle.motion, vehicle.a_
 void Step(const SimModel& model, std::span<const SimCommand> commands, SimState& state,
           std::vector<SimEvent>* events) {
   ApplyCommands(model, commands, state);
-  StepPeople(model, state, events);
+  StepLife(model, state, events);
   const DroneBoxes boxes = BoxesOf(model, state);
   const internal::StepContext context{model, boxes, state.wind_W, state.t_ns};
   const size_t count = state.vehicles.size(), tasks = (count + kVehiclesPerTask - 1) / kVehiclesPerTask;

@@ -19,8 +19,10 @@
 
 namespace airsim360 {
 
-struct SimPeople;    // sim/people/people.h
-struct PeopleState;  // likewise
+struct SimPeople;     // sim/people/people.h
+struct PeopleState;   // likewise
+struct SimTraffic;    // sim/traffic/traffic.h
+struct TrafficState;  // likewise
 
 /// Length of a step of simulations with nothing but vehicles that follow routes.
 inline constexpr int64_t kRouteStepNs = 20'000'000;
@@ -36,6 +38,7 @@ struct SimModel {
   int64_t trace_period_ns = 100'000'000;  ///< between samples of a vehicle's trace
   size_t trace_samples = 0;               ///< newest samples that a vehicle keeps; 0 = no trace
   std::shared_ptr<const SimPeople> people = nullptr;  ///< null = nobody
+  std::shared_ptr<const SimTraffic> traffic = nullptr;  ///< null = no vehicles drive
 };
 
 /// Following a route from the step in which the command was applied.
@@ -102,6 +105,8 @@ struct SimState {
   /// Of SimModel::people, at the newest multiple of kCrowdTickNs of their time; null = nobody. Never changed
   /// while a snapshot shares it.
   std::shared_ptr<const PeopleState> people = nullptr;
+  /// Of SimModel::traffic, likewise; null = no vehicles drive.
+  std::shared_ptr<const TrafficState> traffic = nullptr;
 };
 
 /// What a vehicle, or the world, can be told. A drone that is given a Command flies; one that is given a

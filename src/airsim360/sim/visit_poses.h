@@ -9,7 +9,7 @@
 namespace airsim360 {
 
 /// One shot and one sample of the trajectory at each pose (at least one, ascending times from 0). Between them the people
-/// of the model live on, and see the body where it was last.
+/// and the traffic of the model go on; people see the body where it was last.
 Flight VisitPoses(const SimModel& model, std::span<const TimedPose> poses);
 
 }  // namespace airsim360

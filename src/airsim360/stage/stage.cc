@@ -2,6 +2,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/sim/traffic/traffic.h"
 
 namespace airsim360 {
 namespace {
@@ -28,14 +29,14 @@ Stage::Stage(const StageOptions& options) : options_(options) {
   const LongTask building("building " + options.world.world);
   scene_ = LoadWorld(options.world);
   environment_ = EnvironmentOf(*scene_, options);
-  Add(options.people, options.bodies);
+  Add(options.people, options.traffic, options.bodies);
   load_seconds_ = building.seconds();
 }
 
 Stage::Stage(std::shared_ptr<const Scene> scene, const StageOptions& options) : options_(options), scene_(std::move(scene)) {
   CheckStageOptions(options);
   environment_ = EnvironmentOf(*scene_, options);
-  Add(options.people, options.bodies);
+  Add(options.people, options.traffic, options.bodies);
 }
 
 Stage::Stage(const std::shared_ptr<Stage>& base, const PeopleRequest& people, const BodiesOfScene& bodies)
@@ -43,17 +44,23 @@ Stage::Stage(const std::shared_ptr<Stage>& base, const PeopleRequest& people, co
       scene_(base->scene_),
       environment_(base->environment_),
       people_(base->people_),
+      traffic_(base->traffic_),
       bodies_(base->bodies_) {
   if (people.any() && people_) throw InputError("people: the world '" + name() + "' has people already");
-  Add(people, bodies);
+  Add(people, {}, bodies);
   if (scene_ == base->scene_) base_ = base;
 }
 
-void Stage::Add(const PeopleRequest& people, const BodiesOfScene& bodies) {
+void Stage::Add(const PeopleRequest& people, const TrafficRequest& traffic, const BodiesOfScene& bodies) {
   if (people.any()) {
     PopulatedScene populated = Populate(std::move(scene_), people);
     scene_ = std::move(populated.scene);
     people_ = std::move(populated.people);
+  }
+  if (traffic.any()) {
+    TrafficScene driven = AddTraffic(std::move(scene_), traffic, people_ ? people_->epoch_ns : 0);
+    scene_ = std::move(driven.scene);
+    traffic_ = std::move(driven.traffic);
   }
   if (!bodies) return;
   const std::vector<DroneBodySpec> specs = bodies(*scene_);
@@ -82,7 +89,7 @@ std::shared_ptr<const RayTracer> Stage::solid() {
   if (base_) return base_->solid();
   const auto seen = tracer();
   const std::lock_guard lock(mutex_);
-  if (!solid_) solid_ = WithoutBodies(seen, bodies_, people_.get());
+  if (!solid_) solid_ = WithoutBodies(seen, bodies_, people_.get(), traffic_.get());
   return solid_;
 }
 
@@ -109,11 +116,12 @@ SimModel Stage::Model(int64_t dt_ns) {
   model.world.seed = seed();
   model.wind = options_.wind;
   model.people = people_;
+  model.traffic = traffic_;
   return model;
 }
 
 std::shared_ptr<const SceneState> Stage::StartState() {
-  if (!people_) return nullptr;
+  if (!people_ && !traffic_) return nullptr;
   const SimModel model = Model();
   const std::lock_guard lock(mutex_);
   if (!start_state_) start_state_ = SceneStateOf(model, airsim360::StartState(model), kNobody);

@@ -17,6 +17,7 @@
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/sim/people/populate.h"
 #include "airsim360/sim/step.h"
+#include "airsim360/sim/traffic/traffic_request.h"
 #include "airsim360/trace/ray_tracer.h"
 
 namespace airsim360 {
@@ -29,6 +30,7 @@ struct StageOptions {
   WorldRequest world = {};            ///< its seed is also that of the simulation
   EnvironmentFlags environment = {};  ///< over the world's own
   PeopleRequest people = {};          ///< nobody unless it asks for some; the seed of the crowd is its own
+  TrafficRequest traffic = {};        ///< no vehicles drive unless it asks for some
   WorldWind wind = {};
   DeviceChoice device = {};
   BodiesOfScene bodies = {};  ///< of drones, and of what is held ready to be put into the world
@@ -59,6 +61,7 @@ class Stage {
   const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   const Environment& environment() const { return environment_; }
   const std::shared_ptr<const SimPeople>& people() const { return people_; }  ///< null: nobody
+  const std::shared_ptr<const SimTraffic>& traffic() const { return traffic_; }  ///< null: no vehicles drive
   const std::vector<DroneBodyRef>& bodies() const { return bodies_; }
   const DeviceChoice& device() const { return options_.device; }
   double load_seconds() const;  ///< what loading, people, ray tracing structures and renderers have taken so far
@@ -76,17 +79,18 @@ class Stage {
 
   /// A simulation of it, with its people, wind and seed, and without drones.
   SimModel Model(int64_t dt_ns = SimModel{}.dt_ns);
-  /// What people make of the scene at the beginning, for pictures without a simulation; null: nobody.
+  /// What people and traffic make of the scene at the beginning, for pictures without a simulation; null: neither.
   std::shared_ptr<const SceneState> StartState();
 
  private:
-  void Add(const PeopleRequest& people, const BodiesOfScene& bodies);
+  void Add(const PeopleRequest& people, const TrafficRequest& traffic, const BodiesOfScene& bodies);
 
   StageOptions options_;
   std::shared_ptr<Stage> base_;  // whose ray tracing structure is this one's, where nothing was added
   std::shared_ptr<const Scene> scene_;
   Environment environment_;
   std::shared_ptr<const SimPeople> people_;
+  std::shared_ptr<const SimTraffic> traffic_;
   std::vector<DroneBodyRef> bodies_;
 
   mutable std::mutex mutex_;  // of what follows

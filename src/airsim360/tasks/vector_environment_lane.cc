@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/sim/living_world.h"
 #include "airsim360/tasks/vector_environment.h"
 
 namespace airsim360 {
@@ -27,7 +28,7 @@ void VectorEnvironment::Begin(size_t i, const NavigationEpisode& episode) {
   lane.ended = false;
   SimState state;
   state.wind_W = model_->wind.mean_W;
-  if (model_->people) state.people = model_->people->start;
+  StartLife(*model_, state);
   state.vehicles.push_back(DroneAt(*model_, state, 0, lane.episode.X_WB, true));
   lane.loop = std::make_unique<SimLoop>(model_, std::move(state));
   reward_[i] = 0;

@@ -84,6 +84,7 @@ DatasetSpec SpecOf(const Json& meta) {
   spec.pano_frame =
       ParseChoice<PanoFrame>("pano_frame", p.at("pano_frame").get<std::string>(), kPanoFrameNames);
   spec.people = p.value("people", std::string());
+  spec.traffic = p.value("traffic", std::string());
   spec.environment = p.value("environment", std::string());
   spec.products = WithProducts(spec.products, p.at("products").get<std::vector<std::string>>());
   return spec;

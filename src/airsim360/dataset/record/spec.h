@@ -48,6 +48,7 @@ struct DatasetSpec : PictureSettings {
   std::string labels = {};             ///< "sha256:…" of the label file given beside the world, or ""
   std::string environment = {};        ///< DescribeEnvironment of what was rendered
   std::string people = {};        ///< who they are, in words with the SHA-256 of their files; empty = nobody
+  std::string traffic = {};       ///< vehicles that drive, in words; empty = none
   bool crops = false;        ///< crops/*.png: a pinhole picture of everyone who can be seen
   bool overlay = false;      ///< overlay/*.png: the colour picture with the labels of people drawn in
   bool video = false;        ///< video.mp4: the colour pictures at their times

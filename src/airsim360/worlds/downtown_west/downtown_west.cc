@@ -5,6 +5,7 @@
 #include "airsim360/worlds/props/placed_models.h"
 #include "airsim360/worlds/town/buildings.h"
 #include "airsim360/worlds/town/district.h"
+#include "airsim360/worlds/town/street_lanes.h"
 
 namespace airsim360::internal {
 std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options) {
@@ -27,6 +28,7 @@ std::shared_ptr<const Scene> BuildDowntownWest(const WorldOptions& options,
 
   // Streets and pavements, then what fills the blocks.
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
+  builder.SetRoads(std::make_shared<const RoadNetwork>(RoadsOf(plan)));
   for (const Block& block : plan.blocks) {
     const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
     LayPavement(ground, block, open ? Surface::kSlabsWarm : Surface::kSlabs, "ground/pavement/modular",

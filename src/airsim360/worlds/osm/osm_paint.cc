@@ -67,12 +67,12 @@ void Zebra(Brush& brush, double s, double half, double width) {
   }
 }
 
+}  // namespace
+
 bool HasSignals(const OsmData& data, int64_t id) {
   const OsmNode* node = data.FindNode(id);
   return node && node->tags.Is("highway", "traffic_signals");
 }
-
-}  // namespace
 
 void PaintSegment(OsmScene& scene, MeshBuilder& mesh, const RoadGraph& graph, const RoadSegment& segment, double z) {
   const double length = segment.Length(), s0 = segment.start + 0.3, s1 = length - segment.end - 0.3;

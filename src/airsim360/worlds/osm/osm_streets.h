@@ -36,6 +36,8 @@ struct RoadGraph {
 
 /// Carriageways of cars that lie on the ground: no tunnels, no bridges.
 RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls);
+/// Whether traffic signals stand at a node of the map.
+bool HasSignals(const OsmData& data, int64_t node);
 /// Rank of a highway value, -1 for what cars do not use.
 int RoadRank(std::string_view highway);
 /// Half the width of a carriageway by its tags alone.

@@ -1,0 +1,208 @@
+#include "airsim360/sim/traffic/traffic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kMaxWarmUp = 3600;     // seconds
+constexpr size_t kMaxVehicles = 20000;
+constexpr float kInLane = 0.5f;         // of the width of a lane: nearer to its middle one stands in it
+
+// A vehicle of the scene that others can look like.
+struct Pattern {
+  MeshId mesh = 0;
+  CategoryId category = kVoid;
+  Vec3f tint, glow;
+  float scale = 1;
+  Box3f box;  // of the mesh
+  bool in_lane = false;
+};
+
+bool IsVehicle(const Scene& scene, const Instance& instance) {
+  if (instance.entity == kNoEntity) return false;
+  const std::string& path = scene.tree[scene.entity(instance.entity).category].path;
+  return std::ranges::any_of(std::array{"vehicle/car", "vehicle/van", "vehicle/bus", "vehicle/truck"},
+                             [&](const char* kind) { return path.starts_with(kind); });
+}
+
+// The middles of all lanes as points not far from each other, in a grid.
+class LaneGrid {
+ public:
+  explicit LaneGrid(const RoadNetwork& roads) {
+    for (const Lane& lane : roads.lanes)
+      for (size_t i = 1; i < lane.points.size(); ++i) AddSegment(lane.points[i - 1], lane.points[i], lane.width * kInLane);
+    std::ranges::sort(cells_, {}, &Cell::key);
+  }
+  bool Holds(Vec3f p) const {
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const auto found = std::ranges::equal_range(cells_, Key(p.x + 4.0f * static_cast<float>(dx), p.y + 4.0f * static_cast<float>(dy)), {}, &Cell::key);
+        for (const Cell& cell : found)
+          if (std::hypot(cell.p.x - p.x, cell.p.y - p.y) < cell.reach && std::abs(cell.p.z - p.z) < 2.5f) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  struct Cell {
+    uint64_t key;
+    Vec3f p;
+    float reach;
+  };
+  static uint64_t Key(float x, float y) {
+    const auto i = static_cast<int64_t>(std::floor(x / 4)), j = static_cast<int64_t>(std::floor(y / 4));
+    return (static_cast<uint64_t>(i) << 32) ^ (static_cast<uint64_t>(j) & 0xffffffffu);
+  }
+  void AddSegment(Vec3f a, Vec3f b, float reach) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(Norm(b - a))));
+    for (int k = 0; k < steps; ++k) {
+      const Vec3f p = a + (b - a) * (static_cast<float>(k) / static_cast<float>(steps));
+      cells_.push_back({Key(p.x, p.y), p, reach});
+    }
+  }
+  std::vector<Cell> cells_;
+};
+
+// Vehicles of the scene, and those of its instances that stand in lanes.
+std::vector<Pattern> FindPatterns(const Scene& scene, std::vector<uint32_t>& standing) {
+  const LaneGrid lanes(*scene.roads);
+  std::vector<Pattern> patterns;
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (!IsVehicle(scene, instance)) continue;
+    const bool in_lane = lanes.Holds(instance.X_WM.p);
+    if (in_lane) standing.push_back(i);
+    Pattern pattern{instance.mesh, scene.entity(instance.entity).category, instance.tint, instance.glow, Norm(instance.X_WM.A.column(2)), {}, in_lane};
+    for (const Vec3f& p : scene.meshes[instance.mesh].positions) pattern.box.Add(p);
+    if (pattern.box.empty()) continue;
+    const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
+    if (size.y > 2.5f && size.y < 20 && size.x > 1.2f && size.x < 3.5f) patterns.push_back(pattern);
+  }
+  // Those in lanes have their lamps on at night.
+  if (std::ranges::count(patterns, true, &Pattern::in_lane) >= 6) std::erase_if(patterns, [](const Pattern& p) { return !p.in_lane; });
+  return patterns;
+}
+
+Driver MakeDriver(RngStream& rng, bool heavy) {
+  Driver driver;
+  driver.speed_factor = std::clamp(1 + 0.08 * rng.Normal(), 0.8, 1.2);
+  driver.headway = rng.Uniform(1.1, 1.8);
+  driver.acceleration = heavy ? rng.Uniform(0.8, 1.0) : rng.Uniform(1.1, 1.7);
+  driver.braking = rng.Uniform(1.7, 2.3);
+  return driver;
+}
+
+std::string NameOf(size_t index) {
+  char name[32];
+  std::snprintf(name, sizeof name, "traffic/%03zu", index);
+  return name;
+}
+
+// The pose of its mesh: +Y of the mesh is backwards (PropKind).
+AffineTransform PlaceOf(const TrafficBody& body, const RigidTransform& X_WB) {
+  const Vec3f x = VecCast<float>(X_WB.R.column(0)), y = VecCast<float>(X_WB.R.column(1)), z = VecCast<float>(X_WB.R.column(2));
+  const Mat3f A = Mat3f::FromColumns(y * body.scale, -x * body.scale, z * body.scale);
+  return {A, VecCast<float>(X_WB.p) - A * body.offset_M};
+}
+
+TrafficVehicle VehicleOf(const Scene& scene, const Pattern& pattern, RngStream& rng) {
+  const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
+  TrafficVehicle vehicle;
+  vehicle.shape = {size.y, size.x, size.z, scene.tree[pattern.category].path.starts_with("vehicle/bus")};
+  vehicle.driver = MakeDriver(rng, size.y > 6.5f);
+  return vehicle;
+}
+
+void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, const TrafficState& state, Scene& scene, TrafficBody& body) {
+  body.name = NameOf(index);
+  body.kind = scene.tree[pattern.category].path;
+  body.scale = pattern.scale;
+  const Vec3f middle = pattern.box.center();
+  body.offset_M = {middle.x, middle.y, 0};
+  body.entity = static_cast<EntityId>(scene.entities.size() + 1);
+  body.instance = static_cast<uint32_t>(scene.instances.size());
+  const AffineTransform X_WM = PlaceOf(body, PoseOf(model, state, index, state.t_ns));
+  Box3f bounds;
+  for (const Vec3f& p : scene.meshes[pattern.mesh].positions) bounds.Add(X_WM * p);
+  scene.entities.push_back({body.entity, body.name, pattern.category, bounds});
+  scene.instances.push_back({pattern.mesh, X_WM, body.entity, pattern.tint, pattern.glow});
+}
+
+}  // namespace
+
+TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest& request, int64_t people_epoch_ns) {
+  if (!(request.warm_up >= 0 && request.warm_up <= kMaxWarmUp))
+    throw InputError("traffic: a warm-up of " + std::to_string(request.warm_up) + " s is not in 0 … 3600");
+  if (!request.any()) return {std::move(scene), nullptr};
+  if (request.count > kMaxVehicles)
+    throw InputError("traffic: " + std::to_string(request.count) + " vehicles are not in 0 … " + std::to_string(kMaxVehicles));
+  if (!scene->roads || scene->roads->lanes.empty()) throw InputError("traffic: the world '" + scene->name + "' has no roads to drive on");
+  auto traffic = std::make_shared<SimTraffic>(TrafficModel{LaneMap(scene->roads), {}, request.seed});
+  const std::vector<Pattern> patterns = FindPatterns(*scene, traffic->standing);
+  if (patterns.empty()) throw InputError("traffic: the world '" + scene->name + "' has no vehicles that others could look like");
+
+  std::vector<const Pattern*> chosen;
+  for (size_t i = 0; i < request.count; ++i) {
+    RngStream rng(request.seed, "traffic vehicle", i);
+    chosen.push_back(&patterns[rng.Index(static_cast<uint32_t>(patterns.size()))]);
+    traffic->model.vehicles.push_back(VehicleOf(*scene, *chosen.back(), rng));
+  }
+  traffic->epoch_ns = std::llround(request.warm_up * 1e9) / kTrafficTickNs * kTrafficTickNs;
+  traffic->model.signal_ns = people_epoch_ns - traffic->epoch_ns;
+  auto start = std::make_shared<TrafficState>(StartTraffic(traffic->model));
+  while (start->t_ns < traffic->epoch_ns) TickTraffic(traffic->model, {}, *start);
+
+  std::shared_ptr<Scene> own =
+      scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene)) : std::make_shared<Scene>(*scene);
+  own->cache_key.clear();  // what is kept on disk is of the scene without them
+  traffic->bodies.resize(request.count);
+  for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, *own, traffic->bodies[i]);
+  traffic->start = std::move(start);
+  return {std::move(own), std::move(traffic)};
+}
+
+void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, SceneState& scene_state) {
+  for (const uint32_t instance : traffic.standing) scene_state.moved.push_back({instance, {}, true});
+  for (size_t i = 0; i < traffic.bodies.size(); ++i) {
+    const TrafficBody& body = traffic.bodies[i];
+    scene_state.moved.push_back({body.instance, PlaceOf(body, PoseOf(traffic.model, state, i, t_ns)), false});
+  }
+}
+
+std::shared_ptr<const TrafficState> TrafficLater(const SimTraffic& traffic, std::shared_ptr<const TrafficState> state, int64_t t_ns) {
+  if (state->t_ns + kTrafficTickNs > t_ns) return state;
+  auto later = std::make_shared<TrafficState>(*state);
+  while (later->t_ns + kTrafficTickNs <= t_ns) TickTraffic(traffic.model, {}, *later);
+  return later;
+}
+
+void HideTraffic(const SimTraffic& traffic, SceneState& scene_state) {
+  for (const uint32_t instance : traffic.standing) scene_state.moved.push_back({instance, {}, true});
+  for (const TrafficBody& body : traffic.bodies) scene_state.moved.push_back({body.instance, {}, true});
+}
+
+std::vector<VehicleBox> VehiclesNear(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, Vec3d p_W, double reach) {
+  std::vector<VehicleBox> boxes;
+  for (size_t i = 0; i < state.vehicles.size(); ++i) {
+    const VehicleShape& shape = traffic.model.vehicles[i].shape;
+    const DrivingVehicle& vehicle = state.vehicles[i];
+    // Cheaper than its pose, and never nearer than the lane lets it be.
+    const Vec3d front = traffic.model.lanes.At(vehicle.lane, vehicle.s).p;
+    if (std::hypot(front.x - p_W.x, front.y - p_W.y) > reach + shape.length + 4) continue;
+    RigidTransform X = PoseOf(traffic.model, state, i, t_ns);
+    X.p = X.p + X.R.column(2) * (shape.height / 2);
+    if (Norm(X.p - p_W) > reach + shape.length / 2) continue;
+    boxes.push_back({X, {shape.length / 2, shape.width / 2, shape.height / 2}, X.R.column(0) * vehicle.v, traffic.bodies[i].entity});
+  }
+  return boxes;
+}
+
+}  // namespace airsim360

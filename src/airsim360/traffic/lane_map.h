@@ -1,0 +1,63 @@
+// A road network with what driving needs to look up: lengths, places along lanes, which ways cross each other.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "airsim360/scene/road_network.h"
+
+namespace airsim360 {
+
+/// Light that drivers see. kClearing: red, and everybody else's too, just after one's own amber.
+enum class SignalLight : uint8_t { kGreen, kAmber, kClearing, kRed };
+
+/// A place on a lane: centre line and direction of driving, both in W; the direction is a unit vector.
+struct LanePoint {
+  Vec3d p;
+  Vec3d direction;
+};
+
+/// Another way through the same junction that cannot be driven at the same time.
+struct LaneConflict {
+  LaneId other = kNoLane;
+  double clear = 0;  ///< metres along `other` past which the rear of a vehicle on it is out of the way
+};
+
+/// Constant.
+class LaneMap {
+ public:
+  /// InputError as CheckRoads.
+  explicit LaneMap(std::shared_ptr<const RoadNetwork> roads);
+
+  const RoadNetwork& roads() const { return *roads_; }
+  const Lane& lane(LaneId id) const { return roads_->lanes[id]; }
+  size_t size() const { return roads_->lanes.size(); }
+  double length(LaneId id) const { return tables_[id].lengths.back(); }
+  /// m/s, slower where the lane bends: 2 m/s^2 sideways at most.
+  double speed(LaneId id) const { return tables_[id].speed; }
+  /// Change of direction from beginning to end, radians in (-pi, pi], left positive.
+  double turn(LaneId id) const { return tables_[id].turn; }
+  /// At `s` metres from the beginning; before it and past the end the lane goes on straight.
+  LanePoint At(LaneId id, double s) const;
+  std::span<const LaneConflict> conflicts(LaneId id) const { return tables_[id].conflicts; }
+  /// Lanes that end where this one begins.
+  std::span<const LaneId> previous(LaneId id) const { return tables_[id].previous; }
+  /// Of lanes without a signal: green.
+  SignalLight LightAt(LaneId id, int64_t t_ns) const;
+
+ private:
+  struct Table {
+    std::vector<double> lengths;  // metres to each point
+    double speed = 0, turn = 0;
+    std::vector<LaneConflict> conflicts;
+    std::vector<LaneId> previous;
+  };
+
+  void FindConflicts();
+
+  std::shared_ptr<const RoadNetwork> roads_;
+  std::vector<Table> tables_;
+};
+
+}  // namespace airsim360

@@ -1,0 +1,203 @@
+#include "airsim360/traffic/traffic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
+#include "airsim360/base/state_hash.h"
+#include "airsim360/traffic/lane_changes.h"
+#include "airsim360/traffic/obstacles.h"
+#include "airsim360/traffic/right_of_way.h"
+#include "airsim360/traffic/turns.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::AlongWay;
+using internal::InFront;
+using internal::LaneChanges;
+using internal::Occupancy;
+using internal::ObstacleGrid;
+using internal::RightOfWay;
+
+constexpr double kStopBefore = 0.8;  // metres before a stop line
+constexpr double kStopGap = 1.5;     // metres before somebody in the way
+constexpr double kStands = 0.1;      // m/s
+constexpr double kTick = static_cast<double>(kTrafficTickNs) * 1e-9;
+constexpr double kSlot = 14;         // metres of lane for each vehicle at the start: a bus of 12
+
+// The speed that a driver wants here: slower before bends that come.
+double WantedSpeed(const TrafficModel& model, uint32_t vehicle, const DrivingVehicle& own) {
+  const Driver& driver = model.vehicles[vehicle].driver;
+  double wanted = model.lanes.speed(own.lane) * driver.speed_factor, distance = model.lanes.length(own.lane) - own.s;
+  for (const LaneId lane : own.ahead) {
+    if (lane == kNoLane) break;
+    const double v = model.lanes.speed(lane) * driver.speed_factor;
+    wanted = std::min(wanted, std::sqrt(v * v + 2 * 0.7 * driver.braking * std::max(0.0, distance)));
+    distance += model.lanes.length(lane);
+  }
+  return wanted;
+}
+
+// Acceleration towards something that stands `gap` metres ahead, to stop `before` metres from it.
+double StopFor(const Driver& driver, double v, double v0, double gap, double before) {
+  Driver stopping = driver;
+  stopping.gap = before;
+  return IdmAcceleration(stopping, v, v0, gap, 0);
+}
+
+// Everything that one vehicle looks at in a tick.
+struct Look {
+  const TrafficModel& model;
+  const TrafficState& state;
+  const Occupancy& occupancy;
+  const ObstacleGrid& obstacles;
+  RightOfWay& right_of_way;
+};
+
+double Accelerate(const Look& look, uint32_t i, DrivingVehicle& own) {
+  const Driver& driver = look.model.vehicles[i].driver;
+  const double v0 = WantedSpeed(look.model, i, own);
+  const InFront front = FindInFront(look.model, look.state, look.occupancy, i);
+  double a = IdmAcceleration(driver, own.v, v0, front.gap, front.v);
+
+  const double to_line = look.model.lanes.length(own.lane) - own.s;
+  if (look.model.lanes.lane(own.ahead[0]).junction >= 0 && !look.right_of_way.MayEnter(i, to_line, front.gap > to_line, own))
+    a = std::min(a, StopFor(driver, own.v, v0, to_line, kStopBefore));
+
+  const double reach = own.v * own.v / (2 * driver.braking) + own.v * driver.headway + 3;
+  if (const double gap = look.obstacles.GapAhead(look.model, look.state, i, reach); std::isfinite(gap))
+    a = std::min(a, StopFor(driver, own.v, v0, gap, kStopGap));
+  return a;
+}
+
+// Over the ends of lanes, as far as it has come.
+void EnterNextLanes(const TrafficModel& model, uint32_t i, DrivingVehicle& own) {
+  while (own.s > model.lanes.length(own.lane)) {
+    own.s -= model.lanes.length(own.lane);
+    own.behind = {own.lane, own.behind[0], own.behind[1]};
+    own.lane = own.ahead[0];
+    own.ahead[0] = own.ahead[1];
+    own.ahead[1] = internal::ChooseNext(model, i, own.ahead[0], own);
+    own.granted = false;
+    own.left_lane = kNoLane;
+  }
+}
+
+int8_t IndicatorOf(const TrafficModel& model, const DrivingVehicle& own, int64_t t_ns) {
+  constexpr double kTurns = 0.6, kSoon = 30;  // radians, metres
+  const auto side = [](double left) { return static_cast<int8_t>(left > 0 ? 1 : -1); };
+  if (t_ns - own.changed_ns < kLaneChangeNs) return side(-own.shift);
+  const double here = model.lanes.turn(own.lane), next = model.lanes.turn(own.ahead[0]);
+  if (model.lanes.lane(own.lane).junction >= 0) return std::abs(here) > kTurns ? side(here) : int8_t{0};
+  const bool soon = model.lanes.length(own.lane) - own.s < kSoon && model.lanes.lane(own.ahead[0]).junction >= 0;
+  return soon && std::abs(next) > kTurns ? side(next) : int8_t{0};
+}
+
+void Advance(const TrafficModel& model, uint32_t i, int64_t t_ns, DrivingVehicle& own) {
+  const double before = own.v;
+  own.v = std::max(0.0, own.v + own.a * kTick);
+  own.s += (before + own.v) / 2 * kTick;
+  EnterNextLanes(model, i, own);
+  if (own.left_lane != kNoLane && t_ns - own.changed_ns > kLaneChangeNs * 3 / 4) own.left_lane = kNoLane;
+  own.braking = own.a < -0.5 || (own.v < kStands && own.a <= 0);
+  own.indicator = IndicatorOf(model, own, t_ns);
+  if (own.v >= kStands) own.stopped_ns = -1;
+  if (own.v < kStands && own.stopped_ns < 0) own.stopped_ns = t_ns;
+}
+
+struct Slot {
+  LaneId lane;
+  double s;
+};
+
+std::vector<Slot> SlotsOf(const LaneMap& lanes) {
+  std::vector<Slot> slots;
+  for (LaneId id = 0; id < lanes.size(); ++id) {
+    if (lanes.lane(id).junction >= 0 || lanes.lane(id).bus) continue;
+    for (double s = kSlot; s + 2 < lanes.length(id); s += kSlot) slots.push_back({id, s});
+  }
+  return slots;
+}
+
+// Metres to the left of the lane, `late` seconds after the front axle.
+double ShiftAt(const DrivingVehicle& vehicle, int64_t t_ns, double late) {
+  const double t = (static_cast<double>(t_ns - vehicle.changed_ns) * 1e-9 - late) / (static_cast<double>(kLaneChangeNs) * 1e-9);
+  const double u = std::clamp(t, 0.0, 1.0);
+  return vehicle.shift * (1 - u * u * (3 - 2 * u));
+}
+
+Vec3d AxleAt(const TrafficModel& model, const DrivingVehicle& vehicle, int64_t t_ns, double ahead, double late) {
+  const LanePoint at = AlongWay(model, vehicle, ahead);
+  const double shift = ShiftAt(vehicle, t_ns, late);
+  return at.p + Vec3d{-at.direction.y * shift, at.direction.x * shift, 0};
+}
+
+}  // namespace
+
+size_t TrafficCapacity(const LaneMap& lanes) { return SlotsOf(lanes).size(); }
+
+TrafficState StartTraffic(const TrafficModel& model) {
+  std::vector<Slot> slots = SlotsOf(model.lanes);
+  const size_t count = model.vehicles.size();
+  if (count > slots.size())
+    throw InputError("traffic: " + std::to_string(count) + " vehicles; the roads of this world hold " + std::to_string(slots.size()));
+  RngStream rng(model.seed, "traffic start");
+  for (size_t i = 0; i < count; ++i) std::swap(slots[i], slots[i + rng.Index(static_cast<uint32_t>(slots.size() - i))]);
+  TrafficState state;
+  for (uint32_t i = 0; i < count; ++i) {
+    DrivingVehicle vehicle{.lane = slots[i].lane, .s = slots[i].s};
+    internal::ChooseAhead(model, i, vehicle);
+    state.vehicles.push_back(vehicle);
+  }
+  return state;
+}
+
+void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obstacles, TrafficState& state) {
+  // All look at the beginning of the tick; grants and lane changes go one after the other.
+  const TrafficState before = state;
+  const Occupancy occupancy(model, before);
+  const ObstacleGrid grid(obstacles);
+  RightOfWay right_of_way(model, before, occupancy);
+  LaneChanges lane_changes(model, before, occupancy);
+  const Look look{model, before, occupancy, grid, right_of_way};
+  const int64_t t_ns = state.t_ns + kTrafficTickNs;
+  for (uint32_t i = 0; i < state.vehicles.size(); ++i) {
+    DrivingVehicle& own = state.vehicles[i];
+    own.a = Accelerate(look, i, own);
+    lane_changes.Consider(i, own);
+    Advance(model, i, t_ns, own);
+  }
+  state.t_ns = t_ns;
+}
+
+RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size_t vehicle, int64_t t_ns) {
+  const DrivingVehicle& own = state.vehicles[vehicle];
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  const double moved = own.v * static_cast<double>(t_ns - state.t_ns) * 1e-9, front = moved - shape.front_overhang();
+  const double late = shape.wheelbase() / std::max(own.v, 2.0);
+  const Vec3d f = AxleAt(model, own, t_ns, front, 0), r = AxleAt(model, own, t_ns, front - shape.wheelbase(), late);
+  const Vec3d x = Normalized(f - r), left = Normalized(Vec3d{-x.y, x.x, 0});
+  return {Mat3d::FromColumns(x, left, Cross(x, left)), f - x * (shape.length / 2 - shape.front_overhang())};
+}
+
+Vec3d VelocityOf(const TrafficModel& model, const TrafficState& state, size_t vehicle) {
+  return PoseOf(model, state, vehicle, state.t_ns).R.column(0) * state.vehicles[vehicle].v;
+}
+
+uint64_t HashTraffic(const TrafficState& state) {
+  StateHasher hasher;
+  hasher.Add(state.t_ns);
+  for (const DrivingVehicle& v : state.vehicles) {
+    for (const LaneId lane : {v.lane, v.ahead[0], v.ahead[1], v.behind[0], v.behind[1], v.behind[2], v.left_lane}) hasher.Add(lane);
+    for (const double value : {v.s, v.v, v.a, v.shift}) hasher.Add(value);
+    for (const int64_t value : {v.changed_ns, v.stopped_ns, int64_t{v.indicator}}) hasher.Add(value);
+    for (const bool value : {v.granted, v.braking}) hasher.Add(value);
+    hasher.Add(v.choices);
+  }
+  return hasher.hash();
+}
+
+}  // namespace airsim360

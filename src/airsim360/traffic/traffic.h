@@ -1,0 +1,89 @@
+// Vehicles that drive: a constant model, a copyable state and a tick. Pure: nothing of scenes or bodies.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "airsim360/math/transform.h"
+#include "airsim360/traffic/car_following.h"
+#include "airsim360/traffic/lane_map.h"
+
+namespace airsim360 {
+
+/// Length of a tick: that of the crowd (kCrowdTickNs), so that both are at the same instant.
+inline constexpr int64_t kTrafficTickNs = 50'000'000;
+
+/// What drives.
+struct VehicleShape {
+  double length = 4.5, width = 1.8, height = 1.5;  ///< metres
+  bool bus = false;                                ///< may use lanes for buses
+  /// Metres from the front to the front axle and between the axles.
+  double front_overhang() const { return 0.19 * length; }
+  double wheelbase() const { return 0.6 * length; }
+};
+
+struct TrafficVehicle {
+  VehicleShape shape;
+  Driver driver;
+};
+
+/// What never changes.
+struct TrafficModel {
+  LaneMap lanes;
+  std::vector<TrafficVehicle> vehicles;
+  uint64_t seed = 0;
+  int64_t signal_ns = 0;  ///< time of the signals at traffic time 0
+};
+
+inline constexpr int64_t kLaneChangeNs = 3'500'000'000;
+
+/// One vehicle. Its front is `s` metres from the beginning of its lane.
+struct DrivingVehicle {
+  LaneId lane = 0;
+  std::array<LaneId, 2> ahead{kNoLane, kNoLane};   ///< lanes that it has chosen to take next
+  std::array<LaneId, 3> behind{kNoLane, kNoLane, kNoLane};  ///< lanes that it came from, the latest first
+  double s = 0, v = 0, a = 0;       ///< m, m/s, m/s^2
+  double shift = 0;                 ///< metres to the left at the beginning of its last lane change
+  LaneId left_lane = kNoLane;       ///< the lane that it is still moving away from
+  int64_t changed_ns = INT64_MIN / 2;  ///< beginning of its last lane change
+  int64_t stopped_ns = -1;          ///< since when it has stood; -1: it moves
+  uint32_t choices = 0;             ///< turns chosen so far: key of the next random number
+  bool granted = false;             ///< the junction ahead, or around it, is held free for it
+  bool braking = false;             ///< brake lamps
+  int8_t indicator = 0;             ///< +1 left, -1 right
+};
+
+struct TrafficState {
+  int64_t t_ns = 0;
+  std::vector<DrivingVehicle> vehicles;
+};
+
+/// Somebody or something in the street that vehicles stop for.
+struct TrafficObstacle {
+  Vec3d p;  ///< in W, at the height of the ground below it
+  Vec3d v;
+  double radius = 0.3;
+};
+
+/// Vehicles at their starts: spread over all lanes outside of junctions, at rest apart from each other. InputError for more
+/// than fit, naming how many do.
+TrafficState StartTraffic(const TrafficModel& model);
+/// How many vehicles of 5 m fit.
+size_t TrafficCapacity(const LaneMap& lanes);
+
+/// One tick. The same bytes for the same model, state and obstacles.
+void TickTraffic(const TrafficModel& model, std::span<const TrafficObstacle> obstacles, TrafficState& state);
+
+/// Body of a vehicle at t_ns, at most a tick after the state: origin on the ground below the middle, +X forward, +Z away
+/// from the ground, as both axles stand on their lanes.
+RigidTransform PoseOf(const TrafficModel& model, const TrafficState& state, size_t vehicle, int64_t t_ns);
+/// Velocity of the same point, m/s in W.
+Vec3d VelocityOf(const TrafficModel& model, const TrafficState& state, size_t vehicle);
+
+/// Hash of every number.
+uint64_t HashTraffic(const TrafficState& state);
+
+}  // namespace airsim360

@@ -1,0 +1,114 @@
+#include "airsim360/traffic/traffic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "airsim360/traffic/test_roads.h"
+
+namespace airsim360 {
+namespace {
+
+TEST(CarFollowing, AtTheEquilibriumGapNobodyAccelerates) {
+  const Driver driver;
+  for (const double v : {0.0, 1.0, 5.0, 10.0, 13.0})
+    EXPECT_NEAR(IdmAcceleration(driver, v, 13.9, EquilibriumGap(driver, v, 13.9), v), 0, 1e-12) << v;
+}
+
+TEST(CarFollowing, BrakesHarderForLessRoomAndNeverBeyondTheHardest) {
+  const Driver driver;
+  double before = INFINITY;
+  for (double gap = 200; gap > 0.01; gap *= 0.7) {
+    const double a = IdmAcceleration(driver, 13, 13.9, gap, 0);
+    EXPECT_LE(a, before);
+    EXPECT_GE(a, -kHardestBraking);
+    before = a;
+  }
+  EXPECT_EQ(IdmAcceleration(driver, 13, 13.9, -5, 0), -kHardestBraking);
+}
+
+TEST(LaneChange, PaysOnlyForMoreThanItCostsOthersAndNeverForcesHardBraking) {
+  const Driver driver{.politeness = 0.5};
+  EXPECT_TRUE(PaysToChange(driver, {.own_before = -1, .own_after = 0.5}));
+  EXPECT_FALSE(PaysToChange(driver, {.own_before = 0, .own_after = 0.1}));
+  EXPECT_FALSE(PaysToChange(driver, {.own_before = -1, .own_after = 0.5, .new_follower_before = 0, .new_follower_after = -2.8}));
+  EXPECT_FALSE(PaysToChange(driver, {.own_before = -9, .own_after = 1, .new_follower_before = 0, .new_follower_after = -3.5}));
+}
+
+// On a ring everybody comes to the same speed: that of which the equilibrium gap is the room that each has.
+TEST(Traffic, FlowOverDensityOnARingIsTheModelsFundamentalDiagram) {
+  constexpr double kLength = 1200;
+  for (const size_t count : {10u, 30u, 60u, 90u, 120u}) {
+    const TrafficModel model = ModelOf(RingRoad(kLength, 13.9f), count);
+    TrafficState state = StartTraffic(ModelOf(RingRoad(kLength * 2, 13.9f), count));
+    const double circumference = model.lanes.length(0) + model.lanes.length(1), room = circumference / static_cast<double>(count);
+    for (size_t i = 0; i < count; ++i) {
+      const double s = room * static_cast<double>(i);
+      const bool second = s >= model.lanes.length(0);
+      state.vehicles[i] = {.lane = second, .ahead = {!second, second}, .behind = {!second, second, !second}, .s = second ? s - model.lanes.length(0) : s};
+    }
+    Drive(model, 300, state);
+    // Bisection of the equilibrium speed.
+    double low = 0, high = 13.89;
+    const double gap = room - model.vehicles[0].shape.length;
+    for (int k = 0; k < 60; ++k) {
+      const double v = (low + high) / 2;
+      (EquilibriumGap(model.vehicles[0].driver, v, model.lanes.speed(0)) < gap ? low : high) = v;
+    }
+    double mean = 0;
+    for (const DrivingVehicle& vehicle : state.vehicles) mean += vehicle.v / static_cast<double>(count);
+    EXPECT_NEAR(mean, low, 0.02 * low + 0.02) << count;
+  }
+}
+
+TEST(Traffic, StopsBeforeARedLightAndGoesAtGreen) {
+  const TrafficModel model = ModelOf(Street(300, {{0, 40, 0, 0}, {1, 30, 3, 2}}), 1);
+  TrafficState state;
+  state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 100, .v = 13}};
+  double hardest = 0;
+  while (state.t_ns < 39'000'000'000) {
+    TickTraffic(model, {}, state);
+    hardest = std::min(hardest, state.vehicles[0].a);
+  }
+  EXPECT_EQ(state.vehicles[0].lane, 0u);
+  EXPECT_LT(state.vehicles[0].v, 0.05);
+  EXPECT_NEAR(state.vehicles[0].s, 299, 1.5);
+  EXPECT_GT(hardest, -3.5);
+  EXPECT_TRUE(state.vehicles[0].braking);
+  Drive(model, 10, state);
+  EXPECT_NE(state.vehicles[0].lane, 0u);
+}
+
+TEST(Traffic, AtAmberWhoCanStopStopsAndWhoCannotGoesOn) {
+  for (const double distance : {60.0, 15.0}) {
+    const TrafficModel model = ModelOf(Street(300, {{1, 1, 3, 60}}), 1);
+    TrafficState state;
+    state.t_ns = 1'000'000'000;
+    state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 300 - distance, .v = 13}};
+    Drive(model, 20, state);
+    EXPECT_EQ(state.vehicles[0].lane == 0, distance > 50) << distance;
+  }
+}
+
+TEST(Traffic, StopsForSomebodyInTheStreetAndNotForSomebodyBesideOrAboveIt) {
+  const TrafficModel model = ModelOf(Street(900, {}), 1);
+  const auto passes = [&](Vec3d p, Vec3d v = {}) {
+    TrafficState state;
+    state.vehicles = {{.lane = 0, .ahead = {1, 2}, .s = 100, .v = 12}};
+    const TrafficObstacle obstacle{p, v};
+    Drive(model, 40, state, std::span(&obstacle, 1));
+    if (state.vehicles[0].s < p.x) {
+      EXPECT_LT(state.vehicles[0].v, 0.05);
+      EXPECT_GT(state.vehicles[0].s, p.x - 4);
+    }
+    return state.vehicles[0].s > p.x;
+  };
+  EXPECT_FALSE(passes({200, 0, 0}));
+  EXPECT_FALSE(passes({200, 1, 0}));
+  EXPECT_TRUE(passes({200, 2.5, 0}));
+  EXPECT_TRUE(passes({200, 0, 6}));
+  EXPECT_FALSE(passes({200, 2.4, 0}, {0, -1.4, 0}));  // about to step into the lane
+}
+
+}  // namespace
+}  // namespace airsim360

@@ -1,0 +1,206 @@
+#include "airsim360/worlds/kit/road_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace airsim360 {
+namespace {
+
+using Height = std::function<float(Vec2f)>;
+
+constexpr float kMaxStep = 4;      // metres between points, so that lanes follow the ground
+constexpr float kTurn = 0.6f;      // radians: more is no longer straight on
+constexpr float kBack = 2.7f;      // radians: more is back
+constexpr float kWayStep = 1.2f;   // metres between points in junctions
+
+float Length(Vec2f v) { return std::hypot(v.x, v.y); }
+Vec2f Unit(Vec2f v) { return v * (1 / Length(v)); }
+
+// One end of the lanes of a road at a junction, from the inner to the outer one.
+struct Mouth {
+  size_t road = 0;
+  int32_t signal = -1;
+  std::vector<LaneId> in, out;
+};
+
+std::vector<Vec2f> Finer(const std::vector<Vec2f>& axis) {
+  std::vector<Vec2f> points{axis.front()};
+  for (size_t i = 1; i < axis.size(); ++i) {
+    const Vec2f a = axis[i - 1], d = axis[i] - a;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(Length(d) / kMaxStep)));
+    if (Length(d) < 1e-3f) continue;
+    for (int k = 1; k <= pieces; ++k) points.push_back(a + d * (static_cast<float>(k) / static_cast<float>(pieces)));
+  }
+  return points;
+}
+
+// The axis moved `offset` metres to its right.
+std::vector<Vec2f> Beside(const std::vector<Vec2f>& axis, float offset) {
+  std::vector<Vec2f> moved;
+  for (size_t i = 0; i < axis.size(); ++i) {
+    const Vec2f before = i > 0 ? Unit(axis[i] - axis[i - 1]) : Unit(axis[1] - axis[0]);
+    const Vec2f after = i + 1 < axis.size() ? Unit(axis[i + 1] - axis[i]) : before;
+    const Vec2f along = Unit(before + after);
+    const float miter = std::max(0.5f, along.x * before.x + along.y * before.y);
+    moved.push_back(axis[i] + Vec2f{along.y, -along.x} * (offset / miter));
+  }
+  return moved;
+}
+
+std::vector<Vec3f> OnGround(const std::vector<Vec2f>& points, const Height& height) {
+  std::vector<Vec3f> lane;
+  for (const Vec2f p : points) {
+    const Vec3f at{p.x, p.y, height(p)};
+    if (lane.empty() || !(lane.back() == at)) lane.push_back(at);
+  }
+  return lane;
+}
+
+// Adds the lanes of one direction; their ids from the inner to the outer one.
+std::vector<LaneId> AddLanes(const RoadSpec& road, std::vector<Vec2f> axis, const std::vector<RoadLane>& lanes, const Height& height,
+                             RoadNetwork& network) {
+  std::vector<LaneId> ids;
+  for (const RoadLane& lane : lanes) {
+    ids.push_back(static_cast<LaneId>(network.lanes.size()));
+    network.lanes.push_back({.points = OnGround(Beside(axis, lane.offset), height), .width = lane.width, .speed = road.speed,
+                             .next = {}, .priority = road.priority, .bus = lane.bus});
+  }
+  for (size_t k = 0; k + 1 < ids.size(); ++k) {
+    network.lanes[ids[k]].right = ids[k + 1];
+    network.lanes[ids[k + 1]].left = ids[k];
+  }
+  return ids;
+}
+
+Vec2f Flat(Vec3f p) { return {p.x, p.y}; }
+Vec2f EndDirection(const Lane& lane) { return Unit(Flat(lane.points.back()) - Flat(lane.points[lane.points.size() - 2])); }
+Vec2f StartDirection(const Lane& lane) { return Unit(Flat(lane.points[1]) - Flat(lane.points[0])); }
+
+float TurnOf(Vec2f from, Vec2f to) { return std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y); }
+
+// A curve from the end of one lane to the beginning of another that touches both: a cubic with the handles of a circular arc.
+std::vector<Vec3f> CurveBetween(const Lane& from, const Lane& to, const Height& height) {
+  const Vec2f a = Flat(from.points.back()), d = Flat(to.points.front()), u = EndDirection(from), w = StartDirection(to);
+  const float chord = Length(d - a), turn = std::max(std::abs(TurnOf(u, w)), 1e-3f);
+  const float handle = 4.0f / 3 * std::tan(turn / 4) * chord / (2 * std::sin(turn / 2));
+  const Vec2f b = a + u * handle, c = d - w * handle;
+  const int steps = std::max(6, static_cast<int>(std::ceil((chord + handle) / kWayStep)));
+  std::vector<Vec2f> points;
+  for (int i = 0; i <= steps; ++i) {
+    const float t = static_cast<float>(i) / static_cast<float>(steps), s = 1 - t;
+    points.push_back(a * (s * s * s) + b * (3 * s * s * t) + c * (3 * s * t * t) + d * (t * t * t));
+  }
+  std::vector<Vec3f> curve = OnGround(points, height);
+  curve.front() = from.points.back();
+  curve.back() = to.points.front();
+  return curve;
+}
+
+void Connect(LaneId from, LaneId to, size_t junction, int32_t signal, const Height& height, RoadNetwork& network) {
+  Lane way{.points = CurveBetween(network.lanes[from], network.lanes[to], height),
+           .width = std::min(network.lanes[from].width, network.lanes[to].width),
+           .speed = std::min(network.lanes[from].speed, network.lanes[to].speed),
+           .next = {to},
+           .junction = static_cast<int32_t>(junction),
+           .signal = signal,
+           .priority = network.lanes[from].priority,
+           .bus = network.lanes[from].bus && network.lanes[to].bus};
+  network.lanes[from].next.push_back(static_cast<LaneId>(network.lanes.size()));
+  network.lanes.push_back(std::move(way));
+}
+
+std::vector<LaneId> ForAllVehicles(const std::vector<LaneId>& lanes, const RoadNetwork& network) {
+  std::vector<LaneId> some;
+  std::ranges::copy_if(lanes, std::back_inserter(some), [&](LaneId id) { return !network.lanes[id].bus; });
+  return some.empty() ? lanes : some;
+}
+
+// From the lanes of one road into those of another.
+void ConnectRoads(const Mouth& from, const Mouth& to, size_t junction, const Height& height, RoadNetwork& network) {
+  if (from.in.empty() || to.out.empty()) return;
+  const std::vector<LaneId> in = ForAllVehicles(from.in, network), out = ForAllVehicles(to.out, network);
+  const float turn = TurnOf(EndDirection(network.lanes[in.front()]), StartDirection(network.lanes[out.front()]));
+  const auto connect = [&](LaneId a, LaneId b) { Connect(a, b, junction, from.signal, height, network); };
+  if (std::abs(turn) > kBack) return;
+  if (turn > kTurn) return connect(in.front(), out.front());
+  if (turn < -kTurn) return connect(in.back(), out.back());
+  // Straight on, the outer lanes side by side; where lanes end, into the one beside.
+  for (size_t k = 0; k < in.size(); ++k) connect(in[k], out[std::min(k, out.size() - 1)]);
+  if (network.lanes[from.in.back()].bus && network.lanes[to.out.back()].bus) connect(from.in.back(), to.out.back());
+}
+
+// Lanes that lead nowhere yet: to the road that turns least, side by side, back only where there is no other.
+void ConnectRest(const std::vector<Mouth>& mouths, size_t junction, const Height& height, RoadNetwork& network) {
+  for (const Mouth& from : mouths) {
+    for (size_t rank = 0; rank < from.in.size(); ++rank) {
+      const LaneId in = from.in[rank];
+      if (!network.lanes[in].next.empty()) continue;
+      const Mouth* best = nullptr;
+      float least = INFINITY;
+      for (const Mouth& to : mouths) {
+        if (to.out.empty()) continue;
+        const float turn = std::abs(TurnOf(EndDirection(network.lanes[in]), StartDirection(network.lanes[to.out.front()])));
+        const float cost = &to == &from ? turn + 10 : turn;
+        if (cost < least) least = cost, best = &to;
+      }
+      if (best == nullptr) continue;
+      const std::vector<LaneId> out = ForAllVehicles(best->out, network);
+      Connect(in, out[best == &from ? 0 : std::min(rank, out.size() - 1)], junction, from.signal, height, network);
+    }
+  }
+}
+
+// Without directions of roads that end where no lane begins: nobody could drive on from there.
+std::vector<RoadSpec> WithoutDeadEnds(std::vector<RoadSpec> roads, size_t junctions) {
+  for (bool changed = true; changed;) {
+    std::vector<bool> leads_on(junctions);
+    for (const RoadSpec& road : roads) {
+      if (!road.forward.empty()) leads_on[road.from] = true;
+      if (!road.backward.empty()) leads_on[road.to] = true;
+    }
+    changed = false;
+    for (RoadSpec& road : roads) {
+      const auto drop = [&](std::vector<RoadLane>& lanes, size_t end) {
+        if (lanes.empty() || leads_on[end]) return;
+        lanes.clear();
+        changed = true;
+      };
+      drop(road.forward, road.to);
+      drop(road.backward, road.from);
+    }
+  }
+  return roads;
+}
+
+}  // namespace
+
+size_t RoadBuilder::AddJunction(Vec2f center, float radius, std::vector<SignalPhase> phases, float offset) {
+  junctions_.push_back({{center.x, center.y, height_(center)}, radius, std::move(phases), offset});
+  return junctions_.size() - 1;
+}
+
+RoadNetwork RoadBuilder::Build() const {
+  RoadNetwork network;
+  network.junctions = junctions_;
+  std::vector<std::vector<Mouth>> mouths(junctions_.size());
+  const std::vector<RoadSpec> roads = WithoutDeadEnds(roads_, junctions_.size());
+  for (size_t i = 0; i < roads.size(); ++i) {
+    const RoadSpec& road = roads[i];
+    std::vector<Vec2f> axis = Finer(road.axis);
+    const std::vector<LaneId> forward = AddLanes(road, axis, road.forward, height_, network);
+    std::ranges::reverse(axis);
+    const std::vector<LaneId> backward = AddLanes(road, axis, road.backward, height_, network);
+    mouths[road.from].push_back({i, road.signal_from, backward, forward});
+    mouths[road.to].push_back({i, road.signal_to, forward, backward});
+  }
+  for (size_t j = 0; j < mouths.size(); ++j) {
+    for (const Mouth& from : mouths[j])
+      for (const Mouth& to : mouths[j])
+        if (&from != &to) ConnectRoads(from, to, j, height_, network);
+    ConnectRest(mouths[j], j, height_, network);
+  }
+  return network;
+}
+
+}  // namespace airsim360

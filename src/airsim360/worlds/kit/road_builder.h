@@ -1,0 +1,45 @@
+// Lanes from streets: beside an axis, round corners, back at dead ends.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "airsim360/scene/road_network.h"
+
+namespace airsim360 {
+
+/// One lane of a road.
+struct RoadLane {
+  float offset = 1.8f;  ///< metres from the axis to the middle of the lane, to the right of its own driving direction
+  float width = 3.2f;
+  bool bus = false;
+};
+
+/// A road between two junctions. Traffic keeps right.
+struct RoadSpec {
+  size_t from = 0, to = 0;    ///< junctions
+  std::vector<Vec2f> axis;    ///< from stop line to stop line, at least two points
+  std::vector<RoadLane> forward, backward;  ///< along the axis and against it, from the axis outwards
+  float speed = 13.9f;        ///< m/s
+  uint8_t priority = 0;
+  int32_t signal_to = -1, signal_from = -1;  ///< heads that those who come along the axis, and against it, obey
+};
+
+/// Joins roads at junctions: every lane leads straight on, left from the innermost and right from the outermost lane, back
+/// only where no other road begins.
+class RoadBuilder {
+ public:
+  /// `height`: of the carriageway at a place.
+  explicit RoadBuilder(std::function<float(Vec2f)> height) : height_(std::move(height)) {}
+
+  size_t AddJunction(Vec2f center, float radius, std::vector<SignalPhase> phases = {}, float offset = 0);
+  void AddRoad(RoadSpec road) { roads_.push_back(std::move(road)); }
+  RoadNetwork Build() const;
+
+ private:
+  std::function<float(Vec2f)> height_;
+  std::vector<Junction> junctions_;
+  std::vector<RoadSpec> roads_;
+};
+
+}  // namespace airsim360

@@ -1,0 +1,105 @@
+#include "airsim360/worlds/kit/road_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace airsim360 {
+namespace {
+
+const auto kFlat = [](Vec2f) { return 0.0f; };
+const std::vector<RoadLane> kOneLane = {{1.75f, 3.5f}}, kTwoLanes = {{1.75f, 3.5f}, {5.25f, 3.5f}};
+
+// Four roads of 80 m from a crossing at the origin; their outer ends are dead.
+RoadNetwork Crossing(const std::vector<RoadLane>& lanes, const std::function<float(Vec2f)>& height = kFlat) {
+  RoadBuilder builder(height);
+  const size_t middle = builder.AddJunction({0, 0}, 12);
+  for (const Vec2f d : {Vec2f{1, 0}, Vec2f{0, 1}, Vec2f{-1, 0}, Vec2f{0, -1}}) {
+    const size_t end = builder.AddJunction(d * 100, 5);
+    builder.AddRoad({.from = middle, .to = end, .axis = {d * 15, d * 95}, .forward = lanes, .backward = lanes});
+  }
+  return builder.Build();
+}
+
+float Turn(const Lane& lane) {
+  const auto heading = [](Vec3f d) { return std::atan2(d.y, d.x); };
+  const size_t n = lane.points.size();
+  return std::remainder(heading(lane.points[n - 1] - lane.points[n - 2]) - heading(lane.points[1] - lane.points[0]), 2 * static_cast<float>(M_PI));
+}
+
+TEST(RoadBuilder, EveryLaneOfACrossingLeadsLeftStraightAndRightAndBackAtDeadEnds) {
+  const RoadNetwork roads = Crossing(kOneLane);
+  ASSERT_NO_THROW(CheckRoads(roads));
+  int to_crossing = 0, to_end = 0;
+  for (const Lane& lane : roads.lanes) {
+    if (lane.junction >= 0) continue;
+    std::multiset<int> turns;
+    for (const LaneId next : lane.next) turns.insert(static_cast<int>(std::lround(Turn(roads.lanes[next]) / (M_PI / 2))));
+    const bool arrives = std::hypot(lane.points.back().x, lane.points.back().y) < 50;
+    (arrives ? to_crossing : to_end)++;
+    EXPECT_EQ(turns.size(), arrives ? 3u : 1u);
+    EXPECT_EQ(turns.count(0), arrives ? 1u : 0u);
+  }
+  EXPECT_EQ(to_crossing, 4);
+  EXPECT_EQ(to_end, 4);
+}
+
+TEST(RoadBuilder, TrafficKeepsRightOfTheAxis) {
+  for (const Lane& lane : Crossing(kTwoLanes).lanes) {
+    if (lane.junction >= 0) continue;
+    const Vec3f d = Normalized(lane.points[1] - lane.points[0]);
+    // The axes go through the origin: it lies to the left of everybody.
+    EXPECT_LT(d.x * lane.points[0].y - d.y * lane.points[0].x, -1.7f);
+  }
+}
+
+TEST(RoadBuilder, OnlyInnerLanesTurnLeftAndOuterOnesRight) {
+  const RoadNetwork roads = Crossing(kTwoLanes);
+  for (const Lane& lane : roads.lanes) {
+    if (lane.junction != 0 && lane.junction >= 0) continue;
+    if (lane.junction < 0 && std::hypot(lane.points.back().x, lane.points.back().y) < 50) {
+      const bool inner = lane.left == kNoLane;
+      for (const LaneId next : lane.next) {
+        const float turn = Turn(roads.lanes[next]);
+        EXPECT_TRUE(inner ? turn > -0.1f : turn < 0.1f) << turn;
+      }
+      EXPECT_EQ(lane.next.size(), 2u);
+    }
+  }
+}
+
+TEST(RoadBuilder, WaysThroughAJunctionTouchTheirLanesWithoutAKink) {
+  const RoadNetwork roads = Crossing(kTwoLanes);
+  for (const Lane& lane : roads.lanes) {
+    for (const LaneId next : lane.next) {
+      const Lane& after = roads.lanes[next];
+      EXPECT_EQ(lane.points.back(), after.points.front());
+      const Vec3f a = Normalized(lane.points.back() - lane.points[lane.points.size() - 2]), b = Normalized(after.points[1] - after.points[0]);
+      // The chord of the first step of a curve: half of its bend.
+      EXPECT_GT(Dot(a, b), 0.9f);
+    }
+  }
+}
+
+TEST(RoadBuilder, LanesLieOnTheGround) {
+  const auto hill = [](Vec2f p) { return 3 * std::sin(p.x / 20) + 0.1f * p.y; };
+  for (const Lane& lane : Crossing(kOneLane, hill).lanes)
+    for (const Vec3f p : lane.points) EXPECT_NEAR(p.z, hill({p.x, p.y}), 1e-4f);
+}
+
+TEST(RoadBuilder, OneWayRoadsThatEndNowhereAreLeftOut) {
+  RoadBuilder builder(kFlat);
+  const size_t a = builder.AddJunction({0, 0}, 5), b = builder.AddJunction({100, 0}, 5), c = builder.AddJunction({200, 0}, 5);
+  builder.AddRoad({.from = a, .to = b, .axis = {{5, 0}, {95, 0}}, .forward = kOneLane, .backward = kOneLane});
+  builder.AddRoad({.from = b, .to = c, .axis = {{105, 0}, {195, 0}}, .forward = kOneLane});
+  const RoadNetwork roads = builder.Build();
+  ASSERT_NO_THROW(CheckRoads(roads));
+  for (const Lane& lane : roads.lanes)
+    for (const Vec3f p : lane.points) EXPECT_LT(p.x, 106);
+  EXPECT_GE(roads.lanes.size(), 4u);
+}
+
+}  // namespace
+}  // namespace airsim360

@@ -1,0 +1,90 @@
+#include "airsim360/worlds/osm/osm_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/worlds/kit/road_builder.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kWorstRank = 5;          // service ways and worse are left to walkers
+constexpr double kStreetDepth = 0.13;  // metres below the pavements
+constexpr double kBend = 3;            // metres that even a bend without a junction takes of its arms
+constexpr double kCrossing = 5.5;      // metres more where a crossing with signals lies before the junction
+constexpr double kShortest = 4;        // metres of road
+constexpr double kMeeting = 4.4;       // metres of carriageway in which two cars pass each other
+constexpr int32_t kNorthSouth = 0, kEastWest = 1;  // heads
+
+std::vector<SignalPhase> Phases() { return {{1u << kEastWest, 17, 3, 2}, {1u << kNorthSouth, 17, 3, 2}}; }
+
+int32_t HeadOf(Vec2d along) { return std::abs(along.x) > std::abs(along.y) ? kEastWest : kNorthSouth; }
+
+// Width of the carriageway between the bays at the kerbs and the bike lanes, as PaintSegment has them.
+struct Carriageway {
+  double width = 0, shift = 0;
+  int lanes = 1;
+};
+Carriageway CarriagewayOf(const RoadSegment& segment) {
+  const OsmTags& tags = segment.way->tags;
+  const std::string_view cycle = tags.Get("cycleway");
+  const bool bikes = cycle == "lane" || cycle == "track" || tags.Is("cycleway:right", "lane") || tags.Is("cycleway:both", "lane");
+  const double parking = segment.rank >= 3 && segment.half > 4.2 ? 2.1 : 0;
+  Carriageway way{.width = 2 * (segment.half - parking) - (bikes ? 1.7 : 0), .shift = bikes && segment.oneway ? 0.85 : 0};
+  way.lanes = std::max(1, std::min(segment.lanes, static_cast<int>(way.width / 2.6)));
+  return way;
+}
+
+// Lanes to the right of the axis (or, on a one-way road, all over it) from left to right.
+std::vector<RoadLane> LanesOf(const Carriageway& way, bool oneway) {
+  std::vector<RoadLane> lanes;
+  const int count = oneway ? way.lanes : std::max(1, way.lanes / 2);
+  const double width = (oneway ? way.width : way.width / 2) / count;
+  for (int i = 0; i < count; ++i) {
+    const double offset = (oneway ? -way.width / 2 - way.shift : 0) + width * (i + 0.5);
+    lanes.push_back({static_cast<float>(offset), static_cast<float>(width)});
+  }
+  return lanes;
+}
+
+std::vector<Vec2f> Axis(const RoadSegment& segment, double s0, double s1) {
+  std::vector<Vec2f> axis;
+  for (const Vec2d p : Cut(segment.line, s0, s1)) axis.push_back(ToFloat(p));
+  return axis;
+}
+
+// By the class of the road, m/s: 50 km/h on main roads, 30 elsewhere.
+float SpeedOf(int rank) { return rank <= 3 ? 13.9f : 8.3f; }
+
+void AddSegment(const OsmScene& scene, const RoadGraph& graph, const RoadSegment& segment, RoadBuilder& builder) {
+  const Carriageway way = CarriagewayOf(segment);
+  const double length = segment.Length();
+  if (segment.rank > kWorstRank || length < kShortest || (!segment.oneway && way.width < kMeeting) || way.width < 2.4) return;
+  const bool signal0 = HasSignals(scene.data, graph.nodes[segment.from].id), signal1 = HasSignals(scene.data, graph.nodes[segment.to].id);
+  const double most = length / 2 - kShortest / 4;
+  const double s0 = std::min(std::max(segment.start, kBend) + (signal0 ? kCrossing : 0), most),
+               s1 = length - std::min(std::max(segment.end, kBend) + (signal1 ? kCrossing : 0), most);
+  const std::vector<Vec2f> axis = Axis(segment, s0, s1);
+  if (axis.size() < 2) return;
+  builder.AddRoad({.from = segment.from,
+                   .to = segment.to,
+                   .axis = axis,
+                   .forward = LanesOf(way, segment.oneway),
+                   .backward = segment.oneway ? std::vector<RoadLane>{} : LanesOf(way, false),
+                   .speed = SpeedOf(segment.rank),
+                   .priority = static_cast<uint8_t>(kWorstRank - segment.rank),
+                   .signal_to = signal1 ? HeadOf(PointAt(segment.line, s1).along) : -1,
+                   .signal_from = signal0 ? HeadOf(PointAt(segment.line, s0).along) : -1});
+}
+
+}  // namespace
+
+RoadNetwork OsmLanes(const OsmScene& scene, const RoadGraph& graph) {
+  RoadBuilder builder([&](Vec2f p) { return scene.On({p.x, p.y}, -kStreetDepth).z; });
+  for (const RoadNode& node : graph.nodes)
+    builder.AddJunction(ToFloat(node.p), 12, HasSignals(scene.data, node.id) ? Phases() : std::vector<SignalPhase>{});
+  for (const RoadSegment& segment : graph.segments) AddSegment(scene, graph, segment, builder);
+  return builder.Build();
+}
+
+}  // namespace airsim360::internal
