@@ -13,7 +13,8 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
 #include "airsim360/dataset/index.h"
-#include "airsim360/dataset/people/human_set.h"
+#include "airsim360/dataset/people/human_splits.h"
+#include "airsim360/dataset/record/rig_file.h"
 #include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
@@ -31,24 +32,27 @@ bool Exists(const std::string& world) {
 struct HumanWorld {
   std::shared_ptr<Stage> stage;
   std::shared_ptr<const NavMesh> mesh;
+  std::vector<PlacedSubset> placed;  ///< all subsets of the world, made now or not
 };
 
-HumanWorld OpenHumanWorld(const std::string& name, const HumanRun& run, const GlobalOptions& globals) {
+HumanWorld OpenHumanWorld(const std::string& name, std::span<const HumanSubset> subsets, const HumanRun& run, const GlobalOptions& globals) {
   HumanWorld world;
   world.stage = std::make_shared<Stage>(StageOptionsOf(name, globals, run.environment));
   world.mesh = NavMesh::Build(world.stage->scene());
+  std::vector<HumanSubset> of_world;
+  std::ranges::copy_if(subsets, std::back_inserter(of_world), [&](const HumanSubset& subset) { return subset.world == name; });
+  world.placed = PlaceSubsets(world.stage->scene(), *world.mesh, of_world, globals.seed);
   return world;
 }
 
-CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, const HumanSubset& subset,
+CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
                             const HumanWorld& world, uint64_t seed) {
-  const HumanArea area = PickArea(world.stage->scene(), *world.mesh, subset, seed);
   // The file that the people are made of is kept: the subset can be made again, or changed, by hand.
   const fs::path folder = fs::path(run.out) / subset.name;
   const fs::path people_file = folder.string() + ".people.yaml";
   CreateWritableFolder(folder);
   WriteFileAtomically(people_file, PeopleFileOf(area, subset.people));
-  PeopleRequest request = run.people.Request(seed);
+  PeopleRequest request = run.people.Request(PeopleSeedOf(subset, seed));
   request.file = people_file;
   request.navmesh = world.mesh;
   Stage stage(world.stage, request);
@@ -64,7 +68,32 @@ CollectResult CollectSubset(const HumanRun& run, const HumanRecipe& recipe, cons
   spec.people = std::to_string(subset.people) + " in the area";
   spec.environment = DescribeEnvironment(stage.environment());
   const Flight flight = FilmSubset(recipe, subset, area, *stage.people(), *world.stage->tracer(), seed);
-  return Collect(InputOf(stage, spec, flight, folder), stage.renderer(spec.tier));
+  const CollectResult result = Collect(InputOf(stage, spec, flight, folder), stage.renderer(spec.tier));
+  // What subsets.json says of it, also when other runs make the others.
+  WriteFileAtomically(folder.string() + ".subset.json",
+                      nlohmann::ordered_json{{"split", subset.split}, {"area", {area.low.x, area.low.y, area.high.x, area.high.y}}}.dump() + "\n");
+  return result;
+}
+
+// The recipe's rig, unless flags say what is looked through.
+void TakeCameras(const HumanRecipe& recipe, HumanRun& run) {
+  if (recipe.cameras.empty() || !run.spec.cameras.empty()) return;
+  if (run.has_camera) throw InputError("--projection, --size, --fov: the recipe has cameras of its own; give --cameras, or leave them out");
+  run.spec.cameras = ReadRigFile(recipe.cameras);
+}
+
+// The table as it was made: with splits and areas of the subsets that there are.
+nlohmann::ordered_json ListOf(std::span<const HumanSubset> subsets, const fs::path& out) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const HumanSubset& subset : subsets) {
+    nlohmann::ordered_json entry = {{"subset", subset.name}, {"world", subset.world}, {"exists", Exists(subset.world)}, {"width", subset.width},
+                                    {"depth", subset.depth}, {"people", subset.people}, {"pitch_deg", subset.pitch_deg}, {"frames", subset.frames},
+                                    {"split", subset.split}};
+    const fs::path made = (out / subset.name).string() + ".subset.json";
+    if (fs::exists(made)) entry.update(nlohmann::ordered_json::parse(ReadTextFile(made, 1 << 16)));
+    list.push_back(entry);
+  }
+  return list;
 }
 
 }  // namespace
@@ -76,33 +105,34 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
   for (const HumanSubset& subset : subsets) names.push_back(subset.name);
   if (!run.subset.empty() && std::ranges::count(names, run.subset) == 0)
     throw InputError("--subset: " + UnknownChoiceMessage("subset", run.subset, names));
+  HumanRun one = run;
+  one.spec.shard = 0, one.spec.shards = 1;
+  TakeCameras(recipe, one);
   CreateWritableFolder(run.out);
 
   std::map<std::string, HumanWorld> worlds;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  if (run.frames > 0) {
+    for (HumanSubset& subset : subsets) subset.frames = std::min(subset.frames, run.frames);
+  }
   int64_t frames = 0, written = 0, skipped = 0, people = 0;
   PeopleTotals seen;
   for (size_t i = 0; i < subsets.size(); ++i) {
-    HumanSubset& subset = subsets[i];
-    if (run.frames > 0) subset.frames = std::min(subset.frames, run.frames);
+    const HumanSubset& subset = subsets[i];
     const bool wanted = (run.subset.empty() || run.subset == subset.name) && (run.world.empty() || run.world == subset.world) &&
                         static_cast<int64_t>(i) % run.spec.shards == run.spec.shard;
-    const bool exists = Exists(subset.world);
-    list.push_back({{"subset", subset.name}, {"world", subset.world}, {"exists", exists}, {"width", subset.width},
-                    {"depth", subset.depth}, {"people", subset.people}, {"pitch_deg", subset.pitch_deg}, {"frames", subset.frames}});
     if (!wanted) continue;
-    if (!exists) {
+    if (!Exists(subset.world)) {
       ++skipped;
       continue;
     }
     if (!worlds.contains(subset.world)) {
       worlds.clear();  // one world at a time
-      worlds[subset.world] = OpenHumanWorld(subset.world, run, globals);
+      worlds[subset.world] = OpenHumanWorld(subset.world, subsets, run, globals);
     }
+    const HumanWorld& world = worlds.at(subset.world);
+    const PlacedSubset& placed = *std::ranges::find(world.placed, subset.name, [](const PlacedSubset& p) { return p.subset.name; });
     LogInfo(subset.name + ": " + std::to_string(subset.frames) + " frames, " + std::to_string(subset.people) + " people");
-    HumanRun one = run;
-    one.spec.shard = 0, one.spec.shards = 1;
-    const CollectResult result = CollectSubset(one, recipe, subset, worlds.at(subset.world), globals.seed);
+    const CollectResult result = CollectSubset(one, recipe, placed.subset, placed.area, world, globals.seed);
     frames += result.frames;
     written += result.written;
     const PeopleTotals totals = DatasetIndex(fs::path(run.out) / subset.name, DatasetIndex::Mode::kRead).CountPeople();
@@ -110,7 +140,7 @@ void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
     seen.persons_seen += totals.persons_seen;
     seen.persons_large += totals.persons_large;
   }
-  WriteFileAtomically(fs::path(run.out) / "subsets.json", list.dump(1) + "\n");
+  WriteFileAtomically(fs::path(run.out) / "subsets.json", ListOf(subsets, run.out).dump(1) + "\n");
   if (globals.json) {
     PrintJson({{"out", run.out}, {"subsets", subsets.size()}, {"subsets_without_world", skipped}, {"frames", frames}, {"frames_written", written},
                {"people", people}, {"people_seen", seen.persons_seen}, {"people_seen_100px", seen.persons_large}});

@@ -18,6 +18,7 @@ struct HumanRun {
   std::string subset;   ///< only this one ("downtown_west/03"); empty = all
   int64_t frames = 0;   ///< of each subset at most; 0 = as the table says
   DatasetSpec spec;     ///< size, tier, formats
+  bool has_camera = false;  ///< flags say what is looked through
   EnvironmentFlags environment;
   PeopleArguments people;
 };

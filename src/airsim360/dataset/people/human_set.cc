@@ -44,9 +44,10 @@ void VisitScene(ConfigVisitor& v, HumanScene& s) {
 
 HumanRecipe PaperHumanRecipe() {
   HumanRecipe recipe;
+  recipe.moving = 0.5;
   recipe.scenes = {{"New York City", "new_york_city", 14, 12, 12, 30, 30, 15, 45, 29000},
                    {"Lisbon Downtown", "lisbon_downtown", 10, 12, 12, 30, 50, 10, 45, 9000},
-                   {"Downtown City", "downtown_west", 17, 12, 12, 30, 30, 8, 30, 27000},
+                   {"Downtown City", "downtown_city", 17, 12, 12, 30, 30, 8, 30, 27000},
                    {"Roof", "roof", 7, 12, 12, 45, 20, 5, 30, 11200},
                    {"Rural Cabins", "rural_cabins", 2, 15, 15, 15, 30, 7, 14, 4000},
                    {"Rome", "rome", 11, 8, 10, 50, 30, 4, 30, 20500}};
@@ -62,12 +63,15 @@ HumanRecipe ReadHumanRecipe(const std::filesystem::path& file) {
     v.Field("lowest", "metres of the camera above the ground", recipe.lowest, 0.5, 200);
     v.Field("highest", "metres of the camera above the ground", recipe.highest, 0.5, 200);
     v.Field("frames_a_view", "before the camera goes elsewhere", recipe.frames_a_view);
+    v.Field("moving", "share of the views during which the camera flies", recipe.moving, 0, 1);
+    v.Field("cameras", "file of a rig instead of one camera, beside this file", recipe.cameras);
   });
   const std::string name = file.string();
   if (recipe.scenes.empty()) throw InputError(name + ": key 'scenes' is missing");
   if (recipe.pitches_deg.empty() || recipe.highest < recipe.lowest || recipe.frames_a_view == 0)
     throw InputError(name + ": needs a pitch, highest >= lowest and frames_a_view >= 1");
   for (const std::string& pitch : recipe.pitches_deg) PitchOf(pitch, name);
+  if (!recipe.cameras.empty()) recipe.cameras = (file.parent_path() / recipe.cameras).string();
   for (const HumanScene& scene : recipe.scenes) {
     if (scene.world.empty() || scene.subsets == 0 || scene.subsets > 10000 || scene.frames > 10'000'000 ||
         scene.most_people > 20000)
@@ -91,6 +95,7 @@ std::vector<HumanSubset> SubsetsOf(const HumanRecipe& recipe) {
       subset.people = static_cast<uint64_t>(std::llround(
           between(static_cast<double>(scene.least_people), static_cast<double>(scene.most_people))));
       subset.pitch_deg = PitchOf(recipe.pitches_deg[k % recipe.pitches_deg.size()], "recipe");
+      subset.split = k % 5 == 4 ? "test" : k % 10 == 2 ? "val" : "train";
       // Frames that do not divide evenly go to the first subsets.
       subset.frames = static_cast<int64_t>(scene.frames / scene.subsets + (k < scene.frames % scene.subsets ? 1 : 0));
       subsets.push_back(subset);
@@ -116,9 +121,31 @@ size_t Liveliness(const Scene& scene, Vec2d low, Vec2d high) {
   return kinds.size();
 }
 
+// Where areas are sought: over all ground that hangs together; around the world's beginning where that lies on ground
+// of its own, as on a roof.
+NavArea Gathering(const Scene& scene, const NavMesh& mesh) {
+  constexpr double kReaches[] = {36, 24, 14}, kLeast = 300;  // metres; m^2
+  NavArea everywhere = mesh.AreaOf({}, ~0u);
+  if (!scene.spawn) return everywhere;
+  const NavPoint start = mesh.Nearest(VecCast<double>(*scene.spawn));
+  if (!start.valid() || mesh.Component(start) == everywhere.component) return everywhere;
+  const Vec2d c{start.p_W.x, start.p_W.y};
+  for (const double reach : kReaches) {
+    const Vec2d outline[] = {c + Vec2d{-reach, -reach}, c + Vec2d{reach, -reach}, c + Vec2d{reach, reach}, c + Vec2d{-reach, reach}};
+    NavArea part = mesh.AreaOf(outline, ~0u);
+    if (part.component == mesh.Component(start) && part.square_metres > kLeast) return part;
+  }
+  return everywhere;
+}
+
+bool AreNear(const HumanArea& a, const HumanArea& b) {
+  return a.low.x < b.high.x + kSplitGap && b.low.x < a.high.x + kSplitGap && a.low.y < b.high.y + kSplitGap && b.low.y < a.high.y + kSplitGap;
+}
+
 }  // namespace
 
-HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& subset, uint64_t seed) {
+HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& subset, uint64_t seed,
+                   std::span<const HumanArea> apart) {
   constexpr int kTries = 96;
   constexpr double kRoom = 2;      // m^2 a person
   constexpr double kOpen = 0.6;    // of the most open rectangle's ground
@@ -127,7 +154,7 @@ HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& s
     double square_metres;
   };
   RngStream rng(seed, "omni360_human " + subset.name);
-  const NavArea everywhere = mesh.AreaOf({}, ~0u);
+  const NavArea everywhere = Gathering(scene, mesh);
   std::vector<Candidate> candidates;
   double most = 0;
   for (int i = 0; i < kTries; ++i) {
@@ -135,8 +162,11 @@ HumanArea PickArea(const Scene& scene, const NavMesh& mesh, const HumanSubset& s
     if (!center.valid()) continue;
     const Vec2d half{subset.width / 2, subset.depth / 2}, c{center.p_W.x, center.p_W.y};
     const Vec2d low = c - half, high = c + half;
+    if (std::ranges::any_of(apart, [&](const HumanArea& other) { return AreNear({low, high}, other); })) continue;
     const Vec2d outline[] = {low, {high.x, low.y}, high, {low.x, high.y}};
-    candidates.push_back({{low, high, center.p_W.z}, mesh.AreaOf(outline, ~0u).square_metres});
+    const NavArea area = mesh.AreaOf(outline, ~0u);
+    if (area.component != everywhere.component) continue;  // most of it lies elsewhere, perhaps on the street below
+    candidates.push_back({{low, high, center.p_W.z}, area.square_metres});
     most = std::max(most, candidates.back().square_metres);
   }
   if (most < kRoom * static_cast<double>(subset.people)) {
@@ -200,6 +230,22 @@ RigidTransform PickView(const HumanRecipe& recipe, const HumanSubset& subset, co
   throw InputError("subset " + subset.name + ": no free place for the camera around its area");
 }
 
+// A velocity at which the camera flies straight and level for `seconds` without coming near anything; zero if none is found.
+Vec3d PickVelocity(const RayTracer& world, Vec3d from, double seconds, RngStream& rng) {
+  constexpr int kTries = 24, kSteps = 12;
+  constexpr double kSlowest = 0.5, kFastest = 2;
+  constexpr float kFree = 1;
+  for (int i = 0; i < kTries; ++i) {
+    const double angle = rng.Uniform(0, 2 * std::numbers::pi), speed = rng.Uniform(kSlowest, kFastest);
+    const Vec3d velocity{speed * std::cos(angle), speed * std::sin(angle), 0};
+    bool free = !world.Occluded(VecCast<float>(from), VecCast<float>(from + velocity * seconds));
+    for (int k = 1; free && k <= kSteps; ++k)
+      free = world.Clearance(VecCast<float>(from + velocity * (seconds * k / kSteps)), kFree) >= kFree;
+    if (free) return velocity;
+  }
+  return {};
+}
+
 }  // namespace
 
 Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const HumanArea& area,
@@ -212,11 +258,16 @@ Flight FilmSubset(const HumanRecipe& recipe, const HumanSubset& subset, const Hu
   for (int64_t i = 0; i < subset.frames; ++i) {
     if (i % static_cast<int64_t>(recipe.frames_a_view) == 0) {
       body.X_WB = PickView(recipe, subset, area, world, PlacesOf(state), rng);
+      const auto view = static_cast<double>(i / static_cast<int64_t>(recipe.frames_a_view));
+      const bool moves = std::floor((view + 1) * recipe.moving) > std::floor(view * recipe.moving);
+      body.v_WB = moves ? PickVelocity(world, body.X_WB.p, static_cast<double>(recipe.frames_a_view) * recipe.interval, rng) : Vec3d{};
+    } else {
+      body.X_WB.p = body.X_WB.p + body.v_WB * (static_cast<double>(interval_ns) * 1e-9);
     }
     const int64_t t_ns = i * interval_ns;
     flight.shots.push_back({t_ns, body, std::make_shared<const PeopleState>(state)});
     flight.trajectory.push_back({t_ns, body, {}});
-    const CrowdDrone drone{body.X_WB.p, {}};
+    const CrowdDrone drone{body.X_WB.p, body.v_WB};
     for (int64_t t = 0; t < interval_ns; t += kCrowdTickNs) TickPeople(people, {&drone, 1}, state);
   }
   return flight;

@@ -33,7 +33,13 @@ TEST(HumanRecipe, TheFileOfTheRepositoryIsTheBuiltInOne) {
     EXPECT_EQ(file[i].people, built_in[i].people);
     EXPECT_EQ(file[i].frames, built_in[i].frames);
     EXPECT_EQ(file[i].pitch_deg, built_in[i].pitch_deg);
+    EXPECT_EQ(file[i].split, built_in[i].split);
   }
+  EXPECT_EQ(ReadHumanRecipe("data/omni360_human.yaml").moving, PaperHumanRecipe().moving);
+}
+
+TEST(HumanRecipe, ARigIsFoundBesideItsRecipe) {
+  EXPECT_EQ(ReadHumanRecipe("data/omni360_human_rigs.yaml").cameras, "data/rigs/pedestrian_rig.yaml");
 }
 
 TEST(HumanRecipe, ASubsetIsFilmedInFreeSpaceWithItsPeople) {

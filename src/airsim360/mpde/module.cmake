@@ -1,0 +1,1 @@
+airsim360_kernels(mpde)
