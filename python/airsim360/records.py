@@ -93,6 +93,29 @@ class Person(TypedDict):
     visible: bool
 
 
+class TrafficVehicle(TypedDict):
+    """A vehicle that drives now, from Simulation.vehicles."""
+
+    entity: int
+    """Entity id."""
+    name: str
+    """"traffic/000" and so on."""
+    category: str
+    """Path of its category: "vehicle/car"."""
+    position: _F64
+    """(3,) on the ground below its middle, metres in W."""
+    orientation: _F64
+    """(4,) unit quaternion w, x, y, z of the body in W: +X forward, +Z away from the ground."""
+    velocity: _F64
+    """(3,) m/s in W."""
+    size: _F64
+    """(3,) length, width and height, metres."""
+    indicator: Literal["left", "right", "off"]
+    braking: bool
+    """Brake lamps."""
+    stopped: bool
+
+
 class Event(TypedDict):
     """What happened to a drone, from Simulation.events(). The keys of a contact are there for contacts alone."""
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/sim/traffic/traffic.h"
 #include "airsim360/sim/trajectory_reference.h"
 
 namespace airsim360::python {
@@ -213,6 +214,31 @@ py::list Simulation::People() const {
     d["behaviour"] = BehaviourName(person.upper);
     d["locomotion"] = BehaviourName(person.lower);
     d["visible"] = person.visible;
+    list.append(std::move(d));
+  }
+  return list;
+}
+
+py::list Simulation::Vehicles() const {
+  py::list list;
+  const std::shared_ptr<const SimState> state = loop_->Snapshot();
+  if (!model_->traffic || !state->traffic) return list;
+  const SimTraffic& traffic = *model_->traffic;
+  for (size_t i = 0; i < traffic.bodies.size(); ++i) {
+    const DrivingVehicle& vehicle = state->traffic->vehicles[i];
+    const VehicleShape& shape = traffic.model.vehicles[i].shape;
+    const RigidTransform X_WB = PoseOf(traffic.model, *state->traffic, i, state->t_ns + traffic.epoch_ns);
+    py::dict d;
+    d["entity"] = traffic.bodies[i].entity;
+    d["name"] = traffic.bodies[i].name;
+    d["category"] = traffic.bodies[i].kind;
+    d["position"] = FromVec3(X_WB.p);
+    d["orientation"] = FromQuaternion(ToQuaternion(X_WB.R));
+    d["velocity"] = FromVec3(X_WB.R.column(0) * vehicle.v);
+    d["size"] = FromVec3({shape.length, shape.width, shape.height});
+    d["indicator"] = vehicle.indicator > 0 ? "left" : vehicle.indicator < 0 ? "right" : "off";
+    d["braking"] = vehicle.braking;
+    d["stopped"] = vehicle.stopped_ns >= 0;
     list.append(std::move(d));
   }
   return list;

@@ -30,6 +30,7 @@ class Simulation {
   py::list Events();
   /// Where everybody is.
   py::list People() const;
+  py::list Vehicles() const;
   /// With bodies of drones and people.
   const Scene& scene() const { return stage_->scene(); }
 

@@ -217,6 +217,9 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
           "people", &Simulation::People,
           "Everybody now: dictionaries with entity, position (3,) on the ground in W, velocity, "
           "yaw, behaviour, visible.")
+      .def_property_readonly("vehicles", &Simulation::Vehicles,
+                             "The traffic now: dictionaries with entity, name, category, position and orientation in W, velocity, size, "
+                             "indicator, braking, stopped.")
       .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
   BindCommands(sim);
 }

@@ -171,15 +171,21 @@ void CheckOptions(const StageOptions& options) {
   }
 }
 
+TrafficRequest ToTraffic(int64_t count, uint64_t seed) {
+  if (count < 0 || count > 20000) throw InputError("traffic: " + std::to_string(count) + " is not in 0 ... 20000");
+  return {.count = static_cast<size_t>(count), .seed = seed};
+}
+
 std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool models, const std::string& labels,
                                  const std::string& device, int gpu, const std::string& weather, const std::string& sun,
                                  const std::string& time, const std::string& place, const std::string& hdri,
                                  const std::string& environment, const std::string& clouds, const std::string& sky_seed,
                                  const std::string& bbox, const std::string& centre, double radius,
-                                 const py::object& people, const std::string& wind) {
+                                 const py::object& people, const std::string& wind, int64_t traffic) {
   StageOptions options{.world = {.world = name, .seed = seed, .labels = labels, .use_models = models},
                        .environment = {weather, sun, time, place, hdri, environment, clouds, sky_seed},
                        .people = ToPeople(people, seed),
+                       .traffic = ToTraffic(traffic, seed),
                        .device = {device, gpu}};
   options.world.cut = MapCutOf("", bbox, centre, radius);
   options.wind = ReadWindFile(wind);
@@ -203,7 +209,7 @@ void BindWorld(py::module_& m) {
 says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
 `weather`, `clouds`, `sky_seed`, `sun`, `time`, `place`, `hdri` and `environment` are the light instead of the world's own, as the
 flags of those names of `airsim360 render`. `bbox`, `centre` and `radius` cut a piece out of a map, likewise. `people`: a number, or the path of a
-people .yaml; they live in simulations of it, and captures of the world show them where they begin. `wind`: a wind file, for
+people .yaml; they live in simulations of it, and captures of the world show them where they begin. `traffic`: how many vehicles drive, likewise. `wind`: a wind file, for
 simulations.
 
 ValueError names the nearest world where there is none of that name.)")
@@ -211,7 +217,7 @@ ValueError names the nearest world where there is none of that name.)")
            py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "",
            py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "",
            py::arg("clouds") = "", py::arg("sky_seed") = "", py::arg("bbox") = "",
-           py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "")
+           py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "", py::arg("traffic") = 0)
       .def("__repr__",
            [](const World& w) {
              const SceneCounts counts = w.scene().Count();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "airsim360/base/base64.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
@@ -59,6 +60,30 @@ TEST(File, AnUnwritableTargetLeavesTheOldFileAndNoTemporary) {
   EXPECT_EQ(ReadTextFile(folder / "text"), "hello");
   EXPECT_THROW(ReadFile(folder / "text", 4), InputError);
   std::filesystem::remove_all(folder);
+}
+
+TEST(File, AMissingFileNamesTheNearOneBesideItAndNoneWhereNothingIsNear) {
+  const auto folder = std::filesystem::temp_directory_path() / "airsim360_near_file_test";
+  CreateWritableFolder(folder);
+  WriteFileAtomically(folder / "calibration.yaml", "x");
+  const auto message = [&](const char* name) {
+    try {
+      ReadFile(folder / name);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message("calibratoin.yaml"), (folder / "calibratoin.yaml").string() + ": no such file; did you mean '" +
+                                             (folder / "calibration.yaml").string() + "'?");
+  EXPECT_EQ(message("q"), (folder / "q").string() + ": no such file");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Base64, IsThatOfRfc4648) {
+  const std::pair<const char*, const char*> cases[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"},
+                                                       {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}};
+  for (const auto& [bytes, text] : cases) EXPECT_EQ(Base64(bytes), text);
 }
 
 }  // namespace
