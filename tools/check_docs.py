@@ -132,7 +132,7 @@ def check_command(ask, words):
     command = (words[0],)
     if not ask(command):
         return [f"no command {words[0]}"]
-    if words[0] in ("world", "eval", "environments", "dataset") and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
+    if words[0] in ("world", "eval", "environments", "dataset", "vln") and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
         command = (words[0], words[1])
         if not ask(command):
             return [f"no command {words[0]} {words[1]}"]

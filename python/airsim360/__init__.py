@@ -30,6 +30,7 @@ Names by purpose:
     flight        Simulation  DroneState  Snapshot  Recording  GeoFrame
     planning      plan_minimum_snap  Plan
     datasets      Dataset  Frame  Samples  read_png  read_exr
+    in a browser  show  Viewer
     on demand     data (Panoramas, Panorama: frames of a plan, drawn when asked for)
     scores        metrics (psnr, ws_psnr, ssim, flip, path_length, spl, ndtw)
     learning      gym (make, make_vec)  VectorEnvironment
@@ -61,12 +62,13 @@ import sys as _sys
 __version__ = "0.1.0"
 __all__ = ["Capture", "CudaCapture", "Dataset", "Drone", "DroneState", "Frame", "GeoFrame", "Lidar", "LidarScan", "PARTS",
            "PICTURE_SETTINGS", "PRODUCTS", "Plan", "Recording", "Rig", "Samples", "Simulation", "Snapshot", "Tensor", "Threads", "VectorEnvironment",
-           "VideoWriter", "World", "airsim", "data", "dataset", "drone_catalog", "gpus", "gym", "metrics", "pictures",
-           "plan_minimum_snap", "read_exr", "read_png", "records", "thread_count", "worlds"]
+           "VideoWriter", "Viewer", "World", "airsim", "data", "dataset", "drone_catalog", "gpus", "gym", "metrics", "pictures",
+           "plan_minimum_snap", "read_exr", "read_png", "records", "show", "thread_count", "viewer", "worlds"]
 
-_SUBMODULES = ("airsim", "data", "dataset", "gym", "metrics", "pictures", "records")
+_SUBMODULES = ("airsim", "data", "dataset", "gym", "metrics", "pictures", "records", "viewer")
 # Names that need NumPy alone, by module.
-_PURE = {"Dataset": "dataset", "Frame": "dataset", "Samples": "dataset", "read_exr": "pictures", "read_png": "pictures"}
+_PURE = {"Dataset": "dataset", "Frame": "dataset", "Samples": "dataset", "read_exr": "pictures", "read_png": "pictures",
+         "Viewer": "viewer", "show": "viewer"}
 
 
 def _load_native() -> object:

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from . import metrics as metrics
 from .records import (Certificate, Collision, Entity, Event, Gpu, Limits, Person, Replay, ResetOptions, Rotor, TaskOptions,
-                      TrajectorySamples, WorldInfo)
+                      TrafficVehicle, TrajectorySamples, WorldInfo)
 
 _F64 = npt.NDArray[np.float64]
 _F32 = npt.NDArray[np.float32]
@@ -291,7 +291,7 @@ class World:
     def __init__(self, name: str, seed: int = 0, models: bool = True, *, labels: str = "",
                  device: Literal["auto", "cpu", "vulkan"] = "auto", gpu: int = -1, weather: str = "", sun: str = "",
                  time: str = "", place: str = "", hdri: str = "", environment: str = "", clouds: str = "", sky_seed: str = "",
-                 bbox: str = "", centre: str = "", radius: float = 0.0, people: int | str = 0, wind: str = "") -> None:
+                 bbox: str = "", centre: str = "", radius: float = 0.0, people: int | str = 0, wind: str = "", traffic: int = 0) -> None:
         """name: one of worlds(), or a path. seed: of what is made at random. models: furniture from model files where they
         are installed. labels: a label file, categories by patterns of names (docs/guide/labels.md).
 
@@ -307,7 +307,8 @@ class World:
         each side.
 
         people: a number, 0 ... 10000, or the path of a people .yaml; they live in simulations of it, and captures of the
-        world show them where they begin. wind: a wind file, for simulations (docs/guide/flying.md).
+        world show them where they begin. wind: a wind file, for simulations (docs/guide/flying.md). traffic: how many
+        vehicles drive on its roads, 0 ... 20000, likewise (docs/guide/traffic.md).
 
         ValueError names the nearest choice, for instance the nearest world where there is none of that name."""
     @property
@@ -565,6 +566,9 @@ class Simulation:
     @property
     def people(self) -> list[Person]:
         """Everybody now: where they are and what they do."""
+    @property
+    def vehicles(self) -> list[TrafficVehicle]:
+        """The traffic now: where each vehicle is and what it is about to do."""
     def step(self, n: int = 1) -> None:
         """Takes n steps of dt."""
     def run(self, seconds: float) -> None:

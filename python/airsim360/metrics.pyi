@@ -1,4 +1,4 @@
-"""Scores of pictures and flights: pure functions of the compiled module.
+"""Scores of pictures, predictions and flights: pure functions of the compiled module, the same as of `airsim360 eval`.
 
 Pictures are (H, W, 3) uint8 sRGB of the same size, paths (N, 3) metres; anything else is a ValueError.
 """
@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 _Picture = npt.NDArray[np.uint8]
+_Numbers = npt.NDArray[Any]
 _Path = Sequence[Sequence[float]] | npt.NDArray[Any]
 
-__all__ = ["flip", "ndtw", "path_length", "psnr", "spl", "ssim", "ws_psnr"]
+__all__ = ["bfov_iou", "depth", "entity", "flip", "flow", "layout", "mpde", "ndtw", "panoptic", "path_length", "psnr", "semantic", "spl", "ssim", "tracking", "vln", "ws_psnr"]
 
 def psnr(a: _Picture, b: _Picture) -> float:
     """Peak signal-to-noise ratio, dB; infinity for equal pictures."""
@@ -32,3 +33,33 @@ def spl(success: bool, shortest: float, flown: float) -> float:
 
 def ndtw(path: _Path, reference: _Path, threshold: float) -> float:
     """Normalised dynamic time warping of paths (N, 3), (M, 3), in (0, 1]; threshold: metres that count as success."""
+
+def depth(prediction: _Numbers, truth: _Numbers, weights: str = "pixel", min_depth: float = 0.0, max_depth: float = ...) -> dict[str, float]:
+    """Errors of ranges (H, W), metres, as a dict: absrel, sqrel, rmse, rmselog, log10, mae, d1, d2, d3, silog, tau, valid. weights: pixel or solid_angle."""
+
+def semantic(prediction: _Numbers, truth: _Numbers, classes: Sequence[int], weights: str = "pixel") -> dict[str, Any]:
+    """Classes of pictures (H, W) or of a stack (N, H, W), in one table: miou, miou_present, pixel_accuracy, macc, fwiou, iou and acc by id, confusion (n, n + 1)."""
+
+def panoptic(prediction: _Numbers, truth: _Numbers, pred_categories: dict[int, int], categories: dict[int, int], crowds: Sequence[int] = ..., weights: str = "pixel") -> dict[int, dict[str, float]]:
+    """Panoptic quality of ids (H, W), 0 = void, whose categories are dicts id -> category: a dict category -> pq, sq, rq, iou, tp, fp, fn."""
+
+def entity(predictions: Sequence[_Numbers], scores: Sequence[_Numbers], truths: Sequence[_Numbers], weights: str = "pixel") -> dict[str, float]:
+    """COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,)."""
+
+def flow(prediction: _Numbers, truth: _Numbers, weights: str = "pixel") -> dict[str, float]:
+    """Errors of flow (H, W, 2), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid."""
+
+def vln(flown: _Path, reference: _Path, radius: float = 20.0, protocol: str = "ours", goal: Any = None, shortest: Any = None, stopped: bool = True, collided: bool = False) -> dict[str, float]:
+    """Scores of one flown path (N, 3): sr, osr, spl, spl_straight, ne, ndtw, sdtw, cls, path_length."""
+
+def mpde(distance: _Numbers, angle: _Numbers, true_distance: _Numbers, true_angle: _Numbers) -> dict[str, float]:
+    """Errors of distances (N,), metres, and angles (N,), radians: count, distance_mae_m, angle_mae_deg, angle_unwrapped_mae_deg."""
+
+def layout(prediction: _Numbers, truth: _Numbers, width: int = 1024) -> dict[str, float]:
+    """Errors of a room of corners (2 N, 2) in pixels, ceiling and floor in turn: iou2d, iou3d, corner_error_percent, pixel_error_percent, rmse, d1."""
+
+def tracking(pred_category: _Numbers, pred_instance: _Numbers, category: _Numbers, instance: _Numbers, things: Sequence[bool]) -> dict[str, float]:
+    """STEP's stq, aq, sq, tubes of one video: arrays (T, H, W), 0xffffffff = void; things: a flag a category."""
+
+def bfov_iou(a: _Numbers, b: _Numbers) -> float:
+    """Unbiased intersection over union of boxes (lon, lat, width, height[, turn]) on the sphere, radians."""

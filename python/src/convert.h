@@ -70,6 +70,7 @@ void BindState(py::module_& m);
 void BindSimulation(py::module_& m);
 void BindPlanning(py::module_& m);
 void BindMetrics(py::module_& m);
+void BindTaskMetrics(py::module_& metrics);
 void BindVideo(py::module_& m);
 void BindGeodesy(py::module_& m);
 void BindPictures(py::module_& m);

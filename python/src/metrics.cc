@@ -58,6 +58,7 @@ void BindMetrics(py::module_& m) {
       py::arg("path"), py::arg("reference"), py::arg("threshold"),
       "Normalised dynamic time warping of paths (N, 3), (M, 3), in (0, 1]; threshold: metres that count as "
       "success.");
+  BindTaskMetrics(metrics);
 }
 
 }  // namespace airsim360::python

@@ -8,6 +8,7 @@
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/app/commands.h"
+#include "airsim360/app/eval_commands.h"
 #include "airsim360/base/file.h"
 #include "airsim360/eval/image_metrics.h"
 #include "airsim360/eval/panorama_statistics.h"
@@ -87,6 +88,15 @@ void AddEvalCommand(CLI::App& app, GlobalOptions& globals) {
   const auto files = std::make_shared<std::vector<std::string>>();
   statistics->add_option("files", *files, "equirectangular pictures (PNG, JPEG, WebP), twice as wide as high")->required();
   statistics->callback([files, &globals] { RunStatistics(*files, globals); });
+  AddEvalDepth(*command, globals);
+  AddEvalSemantic(*command, globals);
+  AddEvalPanoptic(*command, globals);
+  AddEvalVideo(*command, globals);
+  AddEvalCoco(*command, globals);
+  AddEvalFlow(*command, globals);
+  AddEvalLayout(*command, globals);
+  AddEvalMpde(*command, globals);
+  AddEvalVln(*command, globals);
 }
 
 }  // namespace airsim360

@@ -39,10 +39,15 @@ constexpr auto kGroups = std::to_array<FlagGroup>({
     {"Look", ""},     // what CameraLook names, for --look photo
     {"Quality", ""},  // and what else RenderSettings names
     {"People", " --people --people-warmup --people-level --people-reserve --sockets --overlay "},
+    {"Traffic", " --traffic --traffic-warmup "},
     {"Weather", " --weather --clouds --sky-seed --sun --time --place --hdri --environment --latitude --min-sun --rural "},
+    {"Measuring",
+     " --weights --seam --latitude-bands --rolled --classes --ignore --open-world --protocol --type --kind --class-agnostic --max-detections "
+     "--min-depth --max-depth --clip --pred-scale --gt-scale --png-scale --h5-key --pred-dir --gt-dir --visible --windows --things --void --bootstrap --force "
+     "--worst --sheet "},
     {"Output",
      " --out --frames --fps --shard --products --normal --radiance --format --rgb-format --video --encoder "
-     "--quality --record --buildings --csv --count --dataset --routes --worlds --shard-mb --points --method --parallax --bits --model --apply --html --json "},
+     "--quality --record --buildings --csv --count --dataset --routes --worlds --shard-mb --points --method --parallax --bits --model --apply --html --export --json "},
     {"Further", ""},
     {"Machine", " --threads --device --gpu --processes --no-cache --host --port --help --version "},
 });
@@ -72,6 +77,10 @@ constexpr auto kExamples = std::to_array<CommandExample>({
      "the world from 16 places at four heights"},
     {"world sheet", "airsim360 world sheet box_room --poses 4 --heights 1.6,3 --out room.png",
      "from four, at two"},
+    {"world make", "airsim360 world make \"a small coastal town with a church and a marina, 40 ha, narrow streets\" --out town.yaml",
+     "a town from words, as --world town.yaml"},
+    {"world make", "airsim360 world make \"wooden cabins in a forest by a lake, no cars\" --seed 3 --out cabins.yaml",
+     "another draw of another place"},
     {"render", "airsim360 render --world downtown_west --pose -19,0,1.7,45 --out street",
      "a panorama from the street, looking north-east, with range, classes and entities"},
     {"render",
@@ -121,6 +130,40 @@ constexpr auto kExamples = std::to_array<CommandExample>({
     {"eval image", "airsim360 eval image mine.png reference.png --wrap --json", "of panoramas, for programs"},
     {"eval statistics", "airsim360 eval statistics panorama.png", "figures about one panorama"},
     {"eval statistics", "airsim360 eval statistics first.png second.png --json", "of two, for programs"},
+    {"eval depth", "airsim360 eval depth predictions town/range", "errors of predicted ranges, a file a picture"},
+    {"eval depth", "airsim360 eval depth predictions town --weights solid_angle --latitude-bands 6 --json",
+     "by steradians, and in six bands of latitude"},
+    {"eval semantic", "airsim360 eval semantic predictions town --classes town/meta.json", "mIoU of label pictures"},
+    {"eval semantic", "airsim360 eval semantic predictions labels --classes classes.txt --bootstrap 1000 --csv classes.csv",
+     "with 95 % intervals, and a table of classes"},
+    {"eval panoptic", "airsim360 eval panoptic predictions.json town/panoptic.json", "panoptic quality"},
+    {"eval panoptic", "airsim360 eval panoptic pred.json gt.json --pred-dir pred --gt-dir gt --json", "of pictures elsewhere, for programs"},
+    {"eval video", "airsim360 eval video predictions.json town/panoptic.json", "STQ and VPQ of frames that follow each other"},
+    {"eval video", "airsim360 eval video pred gt --things 11,13 --json", "of STEP's PNGs"},
+    {"eval entity", "airsim360 eval entity results.json instances.json --class-agnostic", "average precision of entities"},
+    {"eval entity", "airsim360 eval entity results.json instances.json --max-detections 1,10,300 --json", "with up to 300 detections a picture"},
+    {"eval keypoints", "airsim360 eval keypoints results.json person_keypoints.json", "average precision by OKS"},
+    {"eval keypoints", "airsim360 eval keypoints results.json person_keypoints.json --bootstrap 200 --json", "with 95 % intervals"},
+    {"eval boxes", "airsim360 eval boxes results.json boxes.json --kind bfov", "boxes on the sphere, by the unbiased IoU"},
+    {"eval boxes", "airsim360 eval boxes results.json boxes.json --wrap --json", "boxes in panoramas whose columns go round"},
+    {"eval flow", "airsim360 eval flow predictions town --visible", "end-point error and angle of what stays visible"},
+    {"eval flow", "airsim360 eval flow pred.flo gt.flo --json", "of one picture, for programs"},
+    {"eval layout", "airsim360 eval layout predictions corners", "IoU, corner and pixel errors of rooms"},
+    {"eval layout", "airsim360 eval layout room.json room.txt --size 2048x1024 --json", "of one room, for programs"},
+    {"eval mpde", "airsim360 eval mpde predictions.json people.json", "errors of distance and orientation of people"},
+    {"eval mpde", "airsim360 eval mpde predictions.jsonl people.jsonl --bootstrap 1000 --json", "with 95 % intervals"},
+    {"eval vln", "airsim360 eval vln episodes.jsonl results.jsonl", "scores of navigation by instruction"},
+    {"eval vln", "airsim360 eval vln results.json --radius 20 --protocol openfly --json", "by another benchmark's rules, of one file that holds both paths"},
+    {"mpde train", "airsim360 mpde train human --views kitti --out distance.safetensors",
+     "on people of a dataset, seen by cameras like KITTI's"},
+    {"mpde train", "airsim360 mpde train human joints.json@0.3 --views kitti --steps 4000 --out distance.safetensors",
+     "with real people in three of thirteen samples"},
+    {"mpde eval", "airsim360 mpde eval joints.json --networks distance.safetensors", "errors of distance and orientation"},
+    {"mpde eval", "airsim360 mpde eval human --views kitti --networks a.safetensors b.safetensors --json", "of two networks together, for programs"},
+    {"mpde splits", "airsim360 mpde splits human", "whether train and test share anything"},
+    {"mpde splits", "airsim360 mpde splits human --json", "the same, for programs"},
+    {"mpde table", "airsim360 mpde table human --out table.json", "the paper's four rows, three seeds each"},
+    {"mpde table", "airsim360 mpde table human --real kitti=joints.json --seeds 1", "with a real test set, one seed"},
     {"fly", "airsim360 fly --world box_room --script \"takeoff 2; goto 2,2,3; hover 2; return\" --out flight",
      "take off, go somewhere, come back"},
     {"fly",
@@ -133,6 +176,29 @@ constexpr auto kExamples = std::to_array<CommandExample>({
     {"agent", "airsim360 agent --world downtown_west", "episodes at http://127.0.0.1:8361"},
     {"agent", "airsim360 agent --world city_park --port 0 --tier high --weather overcast",
      "at any free port, with finer pictures"},
+    {"vln templates", "airsim360 vln templates", "the paper's instructions, and what they ask for"},
+    {"vln templates", "airsim360 vln templates --json", "the same, for programs"},
+    {"vln make", "airsim360 vln make --world downtown_west --seeds 3 --out episodes.jsonl", "the paper's instructions in three towns"},
+    {"vln make", "airsim360 vln make --world city_park --templates any --out park.jsonl", "instructions of the same style for another world"},
+    {"vln check", "airsim360 vln check episodes.jsonl", "whether each means one thing and can be reached, by a second method"},
+    {"vln check", "airsim360 vln check episodes.jsonl --json", "the same, for programs"},
+    {"vln import", "airsim360 vln import val_unseen.json --format aerialvln --world town.glb --out episodes.jsonl", "episodes of AerialVLN, flown in a world of yours"},
+    {"vln import", "airsim360 vln import uavon.json --format uavon --world downtown_west --out episodes.jsonl --json", "of UAV-ON, for programs"},
+    {"vln export", "airsim360 vln export episodes.jsonl --format aerialvln --out aerialvln.json", "for code written for AerialVLN"},
+    {"vln export", "airsim360 vln export episodes.jsonl --format citynav --out citynav.json", "for code written for CityNav"},
+    {"vln run", "airsim360 vln run episodes.jsonl --agent oracle --out oracle.jsonl", "along the reference paths"},
+    {"vln run", "airsim360 vln run episodes.jsonl --agent mask --view front --decisions yomo --out front.jsonl",
+     "a perfect recogniser behind a camera, that moves once"},
+    {"vln report", "airsim360 vln report oracle.jsonl front.jsonl --out report.html", "both side by side"},
+    {"vln report", "airsim360 vln report oracle.jsonl --out report.html --json", "of one, for programs"},
+    {"vln submit", "airsim360 vln submit episodes.jsonl oracle.jsonl --name oracle --out oracle.json", "one sealed file of a run"},
+    {"vln submit", "airsim360 vln submit episodes.jsonl model.jsonl --transcript model.transcript.jsonl --out model.json", "of a model's run"},
+    {"vln verify", "airsim360 vln verify oracle.json episodes.jsonl", "scores it again"},
+    {"vln verify", "airsim360 vln verify oracle.json episodes.jsonl --fly", "flies it again"},
+    {"view", "airsim360 view town", "a dataset, at http://127.0.0.1:8360"},
+    {"view", "airsim360 view town --compare other", "two, side by side"},
+    {"view", "airsim360 view town --export site", "the same page as files, for any server of files"},
+    {"view", "airsim360 view --world downtown_west --record kept", "a world to fly in; frames that are kept become datasets"},
     {"drone", "airsim360 drone \"a 250 g five-inch racing quad\" --out racer.yaml",
      "a drone from words, for fly --drone racer.yaml"},
     {"drone", "airsim360 drone --catalog", "the real drones that are known"},
@@ -177,6 +243,9 @@ constexpr std::pair<string_view, string_view> kFixedChoices[] = {
     {"--axes", "camera body opengl"},
     {"--dataset", "waypoint"},
     {"--recipe", "omni360-human"},
+    {"--weights", "pixel solid_angle"},
+    {"--type", "segm bbox"},
+    {"--kind", "bbox bfov box3d"},
     {"shell", "bash zsh fish"},
 };
 
@@ -219,6 +288,10 @@ std::vector<std::string> ChoicesOf(string_view command, string_view flag) {
     }
     return names;
   }
+  if (command.starts_with("eval") && flag == "--projection") return Words("erp cube tangent");
+  if (flag == "--protocol" && command == "eval depth") return Words("unik3d deep360 pano3d");
+  if (flag == "--protocol" && command == "eval entity") return Words("coco entityseg");
+  if (flag == "--protocol" && command == "eval vln") return Words("ours aerialvln openfly citynav-mgp citynav-vlnce traveluav uavon");
   for (const auto& [name, choices] : kFixedChoices) {
     if (name == flag) return Words(choices);
   }
@@ -229,7 +302,7 @@ bool TakesFiles(string_view flag) {
   return Holds(
       " --world --labels --heights --recipe --settings --drone --file --sensors --wind --waypoints --route "
       "--plan "
-      "--cube --people --sockets --hdri --out --video world file files first second DIR ",
+      "--cube --people --sockets --hdri --out --video --classes --sheet --csv --pred-dir --gt-dir world file files first second DIR pred gt episodes results ",
       flag);
 }
 

@@ -158,9 +158,12 @@ Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim
   AddDatasetCommand(app_, globals_);
   AddStitchCommand(app_, globals_);
   AddEvalCommand(app_, globals_);
+  AddMpdeCommand(app_, globals_);
   AddFlyCommand(app_, globals_);
   AddServeCommand(app_, globals_);
   AddAgentCommand(app_, globals_);
+  AddVlnCommand(app_, globals_);
+  AddViewCommand(app_, globals_);
   AddDroneCommand(app_, globals_);
   AddEnvironmentsCommand(app_, globals_);
   AddDoctorCommand(app_, globals_);

@@ -11,6 +11,7 @@
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
+#include "airsim360/app/world_make.h"
 #include "airsim360/app/world_sheet.h"
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
@@ -242,7 +243,7 @@ constexpr const char* kWorldHelp = "name (airsim360 worlds) or path of a model, 
 
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand(
-      "world", "worlds in and out: world export, world import, world entities, world sheet");
+      "world", "worlds in and out: world export, world import, world entities, world sheet, world make");
   command->require_subcommand(1);
   CLI::App* to_file = command->add_subcommand("export", "write a world with its names and labels as binary glTF");
   auto arguments = std::make_shared<ExportArguments>();
@@ -284,6 +285,11 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   AddConfigFlags(*sheet, [view](ConfigVisitor& v) { view->picture.Visit(v); });
   AddWorldFlags(*sheet, globals);
   sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
+  CLI::App* make = command->add_subcommand("make", "a town from words, as a world file");
+  auto town = std::make_shared<MakeArguments>();
+  make->add_option("words", town->words, "what town: \"a small coastal town with a church and a marina, 40 ha\"")->required();
+  make->add_option("--out", town->out, "the world file to write, NAME.yaml")->required();
+  make->callback([town, &globals] { RunWorldMake(*town, globals); });
 }
 
 }  // namespace airsim360

@@ -31,16 +31,19 @@ void VisitProp(ConfigVisitor& v, PropFile& prop) {
 
 }  // namespace
 
-bool WorldAdditions::empty() const {
-  WorldAdditions none;
-  const auto text = [](WorldAdditions additions) {
-    return DescribeConfig([&](ConfigVisitor& v) { VisitCity(v, additions.city); });
-  };
-  return props.empty() && text(*this) == text(none);
+bool WorldAdditions::no_city() const {
+  const auto text = [](CityOptions city) { return DescribeConfig([&](ConfigVisitor& v) { VisitCity(v, city); }); };
+  return text(city) == text({});
+}
+
+bool WorldAdditions::no_town() const {
+  const auto text = [](TownSpec town) { return DescribeConfig([&](ConfigVisitor& v) { town.Visit(v); }); };
+  return text(town) == text({});
 }
 
 void WorldAdditions::Visit(ConfigVisitor& v) {
   v.Group("city", "measures of new_york_city", [&](ConfigVisitor& group) { VisitCity(group, city); });
+  v.Group("town", "measures of the world town", [&](ConfigVisitor& group) { town.Visit(group); });
   v.List("props", "models of your own", props,
          [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });
 }
@@ -48,6 +51,7 @@ void WorldAdditions::Visit(ConfigVisitor& v) {
 void WorldAdditions::Resolve(const std::filesystem::path& file) {
   try {
     StylesOf(city.styles);
+    town.Check("town: ");
     for (PropFile& prop : props) {
       if (prop.model.empty()) throw InputError("props: an entry without 'model'");
       SemanticTree().Add(prop.label);
@@ -63,6 +67,7 @@ void WorldAdditions::Resolve(const std::filesystem::path& file) {
 void WorldAdditions::AddTo(CacheKey& key) const {
   WorldAdditions copy = *this;
   key.Add(DescribeConfig([&](ConfigVisitor& v) { VisitCity(v, copy.city); }));
+  key.Add(DescribeConfig([&](ConfigVisitor& v) { copy.town.Visit(v); }));
   for (PropFile& prop : copy.props) {
     key.Add(DescribeConfig([&](ConfigVisitor& v) { VisitProp(v, prop); }));
     key.AddFile(prop.model);

@@ -22,10 +22,13 @@ struct PropFile {
 
 struct WorldAdditions {
   CityOptions city;
+  TownSpec town;
   std::vector<PropFile> props;
 
-  bool empty() const;
-  /// Names the fields `city:` and `props:`.
+  /// Whether nothing is said of the city, or of the town.
+  bool no_city() const;
+  bool no_town() const;
+  /// Names the fields `city:`, `town:` and `props:`.
   void Visit(ConfigVisitor& v);
   /// Paths of the models start at `folder`; checks names and labels. InputError naming `file`.
   void Resolve(const std::filesystem::path& file);

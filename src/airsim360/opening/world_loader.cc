@@ -112,7 +112,8 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
     return BuildWorld(request.world, {.seed = request.seed,
                                       .models = models.get(),
                                       .city = request.additions.city,
-                                      .props = request.additions.LoadModels()});
+                                      .props = request.additions.LoadModels(),
+                                      .town = request.additions.town});
   }
   OsmOptions options{.seed = request.seed, .models = models.get(), .cut = request.cut, .fill = request.fill};
   if (!request.heights.empty())
@@ -143,12 +144,18 @@ std::shared_ptr<const Scene> WithOwnSky(std::shared_ptr<const Scene> scene, uint
   return WithEnvironment(std::move(scene), std::move(environment));
 }
 
-std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
-  const fs::path path = request.world;
-  if (!request.additions.empty() && request.world != "new_york_city" &&
-      (request.world != "downtown_west" || !WorldAdditions{request.additions.city, {}}.empty()))
+// What a world file adds goes with few worlds.
+void CheckAdditions(const WorldRequest& request) {
+  const bool new_york = request.world == "new_york_city", props = !request.additions.props.empty();
+  if ((!request.additions.no_city() && !new_york) || (props && !new_york && request.world != "downtown_west"))
     throw InputError("'" + request.world +
                      "': 'city' is for new_york_city, 'props' for it and downtown_west");
+  if (!request.additions.no_town() && request.world != "town") throw InputError("'" + request.world + "': 'town' is for the world town");
+}
+
+std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
+  const fs::path path = request.world;
+  CheckAdditions(request);
   if (request.cut && !IsOsmFile(path))
     throw InputError(request.cut->text + ": it cuts maps (.osm, .osm.pbf), not '" + request.world + "'");
   const bool model = IsPath(path) && !IsOsmFile(path);

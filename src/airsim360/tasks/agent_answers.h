@@ -17,7 +17,6 @@ Answer ScoreOf(const Episode& episode);
 Answer SpecOf(const Episode& episode);
 Answer GridOf(const RangeGrid& grid);
 Answer VectorOf(Vec3d v);
-std::string Base64(std::string_view bytes);
 std::string JpegOf(const Image<Rgb8>& image, int quality);
 /// {"error": …}
 std::string ErrorBody(const std::string& field, const std::string& message, const std::string& nearest);

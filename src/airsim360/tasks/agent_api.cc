@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "airsim360/base/base64.h"
 #include "airsim360/tasks/agent_slot.h"
 
 namespace airsim360 {
@@ -186,7 +187,7 @@ std::string AgentApi::HandleMessage(std::string_view text) {
   const std::string head = "{\"id\":" + request.id + ",\"status\":" + std::to_string(response.status);
   if (response.content_type == "application/json") return head + ",\"body\":" + response.body + "}";
   return head + ",\"content_type\":\"" + response.content_type + "\",\"data\":\"" +
-         internal::Base64(response.body) + "\"}";
+         Base64(response.body) + "\"}";
 }
 
 }  // namespace airsim360

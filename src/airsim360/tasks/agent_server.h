@@ -1,4 +1,4 @@
-// The agent interface over HTTP/1.1 and WebSocket. Boost.Beast lives in agent_server.cc alone.
+// The agent interface over HTTP/1.1 and WebSocket.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,8 @@
 #include "airsim360/tasks/agent_api.h"
 
 namespace airsim360 {
+
+class HttpServer;
 
 struct AgentServerOptions {
   std::string address = "127.0.0.1";  ///< IPv4
@@ -18,8 +20,7 @@ struct AgentServerOptions {
   int workers = 4;   ///< requests answered at a time
 };
 
-/// Serves from its construction to its end. A connection has one request in work at a time, so that no client
-/// can take more than its turn; reading, writing and answering are apart, so that a slow one holds up nobody.
+/// Serves from its construction to its end, as HttpServer does.
 class AgentServer {
  public:
   /// RuntimeError if the port cannot be had, InputError for an address that is none.
@@ -31,8 +32,7 @@ class AgentServer {
   int port() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<HttpServer> server_;
 };
 
 }  // namespace airsim360

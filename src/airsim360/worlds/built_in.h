@@ -43,8 +43,28 @@ std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options);
 std::shared_ptr<const Scene> BuildCityPark(const WorldOptions& options, std::vector<Placement>* placements);
 WorldInfo CityParkInfo();
 
+/// 36 blocks of San Francisco over hills and down to a boulevard of towers, with two parks and a bay.
+std::shared_ptr<const Scene> BuildSfCity(const WorldOptions& options);
+/// The same; `placements` as above, on the flat plan of the streets.
+std::shared_ptr<const Scene> BuildSfCity(const WorldOptions& options, std::vector<Placement>* placements);
+WorldInfo SfCityInfo();
+
 /// A town of wall-to-wall houses, drawn as a map (osm/town_map.h) and built as maps are.
 std::shared_ptr<const Scene> BuildMapTown(const WorldOptions& options);
 WorldInfo MapTownInfo();
+
+/// Towns of the town maker (town_maker/named_towns.cc): five by name, and one of the measures in options.town.
+std::shared_ptr<const Scene> BuildDowntownCity(const WorldOptions& options);
+WorldInfo DowntownCityInfo();
+std::shared_ptr<const Scene> BuildLisbonDowntown(const WorldOptions& options);
+WorldInfo LisbonDowntownInfo();
+std::shared_ptr<const Scene> BuildRome(const WorldOptions& options);
+WorldInfo RomeInfo();
+std::shared_ptr<const Scene> BuildRoof(const WorldOptions& options);
+WorldInfo RoofInfo();
+std::shared_ptr<const Scene> BuildRuralCabins(const WorldOptions& options);
+WorldInfo RuralCabinsInfo();
+std::shared_ptr<const Scene> BuildTown(const WorldOptions& options);
+WorldInfo TownInfo();
 
 }  // namespace airsim360::internal

@@ -15,10 +15,17 @@ struct BuiltIn {
 constexpr BuiltIn kBuiltIn[] = {
     {"box_room", internal::BoxRoomInfo, internal::BuildBoxRoom},
     {"city_park", internal::CityParkInfo, internal::BuildCityPark},
+    {"downtown_city", internal::DowntownCityInfo, internal::BuildDowntownCity},
     {"downtown_west", internal::DowntownWestInfo, internal::BuildDowntownWest},
+    {"lisbon_downtown", internal::LisbonDowntownInfo, internal::BuildLisbonDowntown},
     {"map_town", internal::MapTownInfo, internal::BuildMapTown},
     {"new_york_city", internal::NewYorkCityInfo, internal::BuildNewYorkCity},
+    {"rome", internal::RomeInfo, internal::BuildRome},
+    {"roof", internal::RoofInfo, internal::BuildRoof},
+    {"rural_cabins", internal::RuralCabinsInfo, internal::BuildRuralCabins},
+    {"sf_city", internal::SfCityInfo, internal::BuildSfCity},
     {"sunlit_room", internal::SunlitRoomInfo, internal::BuildSunlitRoom},
+    {"town", internal::TownInfo, internal::BuildTown},
 };
 
 }  // namespace

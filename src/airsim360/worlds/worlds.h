@@ -9,6 +9,7 @@
 
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/worlds/town_spec.h"
 
 namespace airsim360 {
 
@@ -49,6 +50,7 @@ struct WorldOptions {
   const ModelSource* models = nullptr;  ///< used where it has a model; every prop has a procedural fallback
   CityOptions city = {};
   std::vector<PlacedModel> props = {};
+  TownSpec town = {};  ///< of the world "town" alone
 };
 
 /// Builds a world; InputError naming the nearest if there is no such world.

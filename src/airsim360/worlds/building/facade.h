@@ -29,6 +29,8 @@ struct FacadeContext {
   EntityId building = kNoEntity;  ///< the one being built
   int next_sign = 0;              ///< picture of the last shop sign, so that neighbours differ
   float base = 0, stretch = 1, reach = 1;  ///< of the building: z of its ground, factors of FacadePen::SetScale
+  AffineTransform X_WB = {};  ///< where what is built in the mesh will lie: instances beside it go there at once
+  AffineTransform Place(const AffineTransform& X) const { return X_WB == AffineTransform{} ? X : X_WB * X; }
 };
 
 /// Walls of one building on all its edges, as `entity`; awnings and shop signs become entities of their own.

@@ -107,7 +107,7 @@ void BrickBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const 
   pen.Bar(b.middle() - 0.10f, b.middle() + 0.10f, o.z1 - 0.02f, o.z1 + 0.30f, -0.07f, 0);
   if (!rng.Chance(0.10)) return;
   context.builder.AddInstance(
-      {context.window_box, pen.X_WF() * AffineTransform{{}, {b.middle(), 0.42f * (1 - context.reach), o.z0}}, context.building});
+      {context.window_box, context.Place(pen.X_WF() * AffineTransform{{}, {b.middle(), 0.42f * (1 - context.reach), o.z0}}), context.building});
 }
 
 void ClassicBay(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {
@@ -161,7 +161,7 @@ void StuccoBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const
   X.A.m[0][0] = 1.75f;
   const EntityId entity =
       context.builder.AddEntity("balcony", context.builder.tree().At("construction/balcony"));
-  context.builder.AddInstance({context.balcony, pen.X_WF() * X, entity});
+  context.builder.AddInstance({context.balcony, context.Place(pen.X_WF() * X), entity});
 }
 
 void GridBay(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {

@@ -142,7 +142,7 @@ void BuildWallExtras(FacadeContext& context, FacadePen& pen, const BuildingPlan&
                        plan.first_storey() + metrics.floor_height * static_cast<float>(f)}};
     X.A.m[2][2] = metrics.floor_height / 3.2f;
     context.builder.AddInstance(
-        {(*context.fire_escape)[static_cast<size_t>(f % 2)], pen.X_WF() * X, context.building});
+        {(*context.fire_escape)[static_cast<size_t>(f % 2)], context.Place(pen.X_WF() * X), context.building});
   }
 }
 

@@ -13,6 +13,7 @@ constexpr float kMaxStep = 4;      // metres between points, so that lanes follo
 constexpr float kTurn = 0.6f;      // radians: more is no longer straight on
 constexpr float kBack = 2.7f;      // radians: more is back
 constexpr float kWayStep = 1.2f;   // metres between points in junctions
+constexpr float kLeastWay = 1.2f;  // metres of a way through a junction
 
 float Length(Vec2f v) { return std::hypot(v.x, v.y); }
 Vec2f Unit(Vec2f v) { return v * (1 / Length(v)); }
@@ -97,6 +98,9 @@ std::vector<Vec3f> CurveBetween(const Lane& from, const Lane& to, const Height& 
   return curve;
 }
 
+// Mouths of roads that meet at a sharp angle nearly touch: nobody turns there on the spot.
+bool Touch(const Lane& from, const Lane& to) { return Length(Flat(to.points.front()) - Flat(from.points.back())) < kLeastWay; }
+
 void Connect(LaneId from, LaneId to, size_t junction, int32_t signal, const Height& height, RoadNetwork& network) {
   Lane way{.points = CurveBetween(network.lanes[from], network.lanes[to], height),
            .width = std::min(network.lanes[from].width, network.lanes[to].width),
@@ -121,7 +125,9 @@ void ConnectRoads(const Mouth& from, const Mouth& to, size_t junction, const Hei
   if (from.in.empty() || to.out.empty()) return;
   const std::vector<LaneId> in = ForAllVehicles(from.in, network), out = ForAllVehicles(to.out, network);
   const float turn = TurnOf(EndDirection(network.lanes[in.front()]), StartDirection(network.lanes[out.front()]));
-  const auto connect = [&](LaneId a, LaneId b) { Connect(a, b, junction, from.signal, height, network); };
+  const auto connect = [&](LaneId a, LaneId b) {
+    if (!Touch(network.lanes[a], network.lanes[b])) Connect(a, b, junction, from.signal, height, network);
+  };
   if (std::abs(turn) > kBack) return;
   if (turn > kTurn) return connect(in.front(), out.front());
   if (turn < -kTurn) return connect(in.back(), out.back());
@@ -141,7 +147,9 @@ void ConnectRest(const std::vector<Mouth>& mouths, size_t junction, const Height
       for (const Mouth& to : mouths) {
         if (to.out.empty()) continue;
         const float turn = std::abs(TurnOf(EndDirection(network.lanes[in]), StartDirection(network.lanes[to.out.front()])));
-        const float cost = &to == &from ? turn + 10 : turn;
+        const std::vector<LaneId> there = ForAllVehicles(to.out, network);
+        const Lane& goal = network.lanes[there[&to == &from ? 0 : std::min(rank, there.size() - 1)]];
+        const float cost = turn + (&to == &from ? 10 : 0) + (Touch(network.lanes[in], goal) ? 20 : 0);
         if (cost < least) least = cost, best = &to;
       }
       if (best == nullptr) continue;

@@ -17,8 +17,6 @@ void LayMedians(District& district, const std::vector<StreetStretch>& streets);
 void LayBackYards(District& district, const Manhattan& city);
 /// The middle of the blocks, the plaza with its café, the building site.
 void BuildOpenLots(District& district, const Manhattan& city);
-/// The park with the lake, the island and the red bridge.
-void BuildLakePark(District& district, const Block& block);
 /// Chooses high bare walls for painted pictures, before the buildings are built.
 void MarkMurals(Manhattan& city, const GroundRect& reach, uint64_t seed);
 /// Corner walk-ups have either boards or fire escapes, before the buildings are built.

@@ -3,6 +3,7 @@
 #include "airsim360/worlds/new_york_city/city.h"
 #include "airsim360/worlds/props/placed_models.h"
 #include "airsim360/worlds/town/buildings.h"
+#include "airsim360/worlds/town/street_lanes.h"
 
 namespace airsim360::internal {
 
@@ -34,6 +35,7 @@ std::shared_ptr<const Scene> BuildNewYorkCity(const WorldOptions& options,
 
   // Ground, buildings, then what hangs on them and stands between them; the unique things first.
   const std::vector<StreetStretch> streets = LayStreets(ground, plan, options.seed);
+  builder.SetRoads(std::make_shared<const RoadNetwork>(RoadsOf(plan)));
   for (const Block& block : plan.blocks) LayPavement(ground, block, Surface::kSlabs, "ground/sidewalk", block.kind != BlockKind::kBackdrop);
   BuildBuildings(district, city.buildings, true);
   HangSigns(district, city, options.city.billboards);

@@ -13,6 +13,8 @@ constexpr double kTau = 2 * M_PI;
 
 // Along the streets: lamps and trees where the map has none at all, cars at the kerb, manholes.
 void Dresser::Fill() {
+  const double trees = scene_.dress ? scene_.dress->trees : 1;
+  const char* lamp = scene_.dress ? scene_.dress->lamp : "street_light";
   const bool lamps = HasAny("highway", "street_lamp"), bins = HasAny("amenity", "waste_basket"),
              hydrants = HasAny("emergency", "fire_hydrant");
   for (const RoadSegment& segment : near_.graph->segments) {
@@ -24,8 +26,8 @@ void Dresser::Fill() {
       const double pavement = segment.pavement[side > 0 ? 0 : 1];
       // Staggered, so that the nearest lamp is 19 to 20 m away, over the street.
       const double across = 2 * (segment.half + 0.55), stagger = std::sqrt(std::max(19.7 * 19.7 - across * across, 150.0));
-      if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : stagger), s1, 2 * stagger, side, 0.55, "street_light", rng);
-      if (trees_ == 0 && pavement > 2.6 && rng.Chance(0.8)) TreeRow(segment, s0 + 5, s1, side, rng);
+      if (!lamps && pavement > 1.2) Row(segment, s0 + (side > 0 ? 0 : stagger), s1, 2 * stagger, side, 0.55, lamp, rng);
+      if ((trees_ == 0 || scene_.dress) && trees > 0 && pavement > 2.6 && rng.Chance(0.8 * trees)) TreeRow(segment, s0 + 5, s1, side, rng);
       if (pavement > 2.2) {
         if (!bins) Row(segment, s0 + rng.Uniform(4, 60), s1, 80, side, 0.7, "trash_can", rng);
         if (!hydrants) Row(segment, s0 + rng.Uniform(4, 90), s1, 110, side, 0.55, "fire_hydrant", rng);
@@ -53,7 +55,7 @@ void Dresser::Car(const std::string& name, Vec2d p, Vec2d heading, double lift, 
 
 void Dresser::Cars(const RoadSegment& segment, double s0, double s1, int side, RngStream& rng) {
   int number = 0;
-  const double full = rng.Uniform(0.35, 0.8);
+  const double full = rng.Uniform(0.35, 0.8) * (scene_.dress ? scene_.dress->traffic : 1);
   for (double s = s0; s < s1; s += 6.1) {
     if (!rng.Chance(full)) continue;
     const LinePoint at = PointAt(segment.line, s);

@@ -325,7 +325,7 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   near.lawns = ground.Lawns();
   double built = 0;
   for (const OsmBuilding& building : buildings) built += Area(building.outline);
-  const bool town = built > 0.2 * scene.data.extent.width() * scene.data.extent.depth();
+  const bool town = built > 0.2 * scene.data.extent.width() * scene.data.extent.depth() && (!scene.dress || scene.dress->town_around);
   const std::vector<EdgeStretch> edge = EdgeOf(scene, ground, town);
   LayCountry(scene, ground, edge, town, sea);
   if (town && scene.options.fill) RaiseBackdrop(scene, ground.mesh(), buildings, edge);

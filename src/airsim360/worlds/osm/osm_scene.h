@@ -10,6 +10,7 @@
 
 #include "airsim360/worlds/kit/mesh_builder.h"
 #include "airsim360/worlds/osm/line_index.h"
+#include "airsim360/worlds/osm/map_dress.h"
 #include "airsim360/worlds/osm/osm_buildings.h"
 #include "airsim360/worlds/osm/osm_relief.h"
 #include "airsim360/worlds/osm/osm_world.h"
@@ -54,6 +55,7 @@ struct OsmScene {
   OsmOptions options;
   Vec2d focus;  ///< where the viewer starts; detail falls with the distance from it
   bool europe = false;
+  const MapDress* dress = nullptr;  ///< of drawn towns; real maps have none
 
   double Far(Vec2d p) const { return std::hypot(p.x - focus.x, p.y - focus.y); }
   Vec3f On(Vec2d p, double lift = 0) const {
@@ -97,9 +99,9 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
 /// The roof of a volume, and its walls above the eaves (as `walls`); `base` is the z of its foot.
 void BuildOsmRoof(MeshBuilder& mesh, const OsmVolume& volume, double base, EntityId walls, EntityId roof,
                   MaterialId wall, MaterialId cover);
-/// The world of a map that has been read or drawn.
+/// The world of a map that has been read or drawn. `dress`: what a drawn town has beyond its map.
 std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
-                                           const std::string& attribution, OsmReport* report = nullptr);
+                                           const std::string& attribution, OsmReport* report = nullptr, MapDress* dress = nullptr);
 /// What a roof is made of.
 MaterialId RoofCover(OsmScene& scene, const OsmVolume& volume, const OsmTags& building, uint64_t seed);
 

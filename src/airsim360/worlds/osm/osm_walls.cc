@@ -99,7 +99,8 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
   const std::string_view material = tag("building:material");
   const double walls = volume.top - volume.bottom - volume.roof_height;
   look.plain = HasNoWindows(building, volume);
-  look.plan.style = PickFacadeStyle(*building.tags, material, static_cast<int>(walls / 3.3), scene.europe, rng);
+  const MapWall* own_wall = scene.dress ? scene.dress->FindWall(material) : nullptr;
+  look.plan.style = own_wall ? own_wall->style : PickFacadeStyle(*building.tags, material, static_cast<int>(walls / 3.3), scene.europe, rng);
   look.plan.palette = static_cast<int>(rng.Index(static_cast<uint32_t>(MetricsOf(look.plan.style).palettes)));
   // The storeys that need the least stretching; the roof's parapet is not the facade's affair.
   look.plan.roof = RoofKind::kHipTile;
@@ -119,6 +120,11 @@ Look LookOf(OsmScene& scene, const OsmBuilding& building, const OsmVolume& volum
     const MaterialId own = gold ? scene.tints.Get(scene.surfaces[Surface::kMetal], *colour, 0.42f, 0.9f, 0.35f)
                                 : Coloured(scene, look.wall, *colour, material);
     look.surfaces = look.surfaces.With(look.wall, own).With(dress.party, own).With(dress.far, scene.tints.Get(scene.surfaces[Surface::kFarWalls1], *colour, 0.4f));
+  }
+  if (own_wall) {
+    const auto colour = ParseOsmColour(tag("building:colour"));
+    const MaterialId own = colour ? scene.tints.Get(own_wall->material, *colour, own_wall->mean) : own_wall->material;
+    look.surfaces = look.surfaces.With(look.wall, own).With(dress.party, own);
   }
   return look;
 }

@@ -6,6 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
+#include "airsim360/worlds/osm/osm_lanes.h"
 #include "airsim360/worlds/osm/osm_scene.h"
 #include "airsim360/worlds/osm/osm_sea.h"
 #include "airsim360/worlds/osm/osm_streets.h"
@@ -91,12 +92,13 @@ void ChooseSpawn(OsmScene& scene, const Neighbours& near) {
 }  // namespace
 
 std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
-                                           const std::string& attribution, OsmReport* report) {
+                                           const std::string& attribution, OsmReport* report, MapDress* dress) {
   SceneBuilder builder(std::filesystem::path(name).filename().string());
   builder.AddSky();
   builder.environment() = {.sun_azimuth_deg = 215, .sun_elevation_deg = 46, .turbidity = 2.8, .cloud_cover = 0.35};
   if (!attribution.empty()) builder.AddAttribution(attribution);
-  const Surfaces surfaces = AddSurfaces(builder);
+  Surfaces surfaces = AddSurfaces(builder);
+  if (dress && dress->paint) dress->paint(builder, surfaces, *dress);
   PropShelf shelf(builder, options.models, options.seed);
   Occupancy occupancy;
   Tints tints(builder);
@@ -107,7 +109,7 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
   WarnOfBroken(name, areas);
   const Vec2d middle{(data.extent.x0 + data.extent.x1) / 2, (data.extent.y0 + data.extent.y1) / 2};
   OsmScene scene{builder, surfaces, shelf, occupancy, tints, data, areas, sea.water, ReliefOf(data, options), options, middle,
-                 data.origin.longitude_deg > -30};
+                 data.origin.longitude_deg > -30, dress};
   const std::vector<OsmBuilding> buildings = PlanOsmBuildings(data, areas);
 
   // What stands where, for party walls, fronts and free places.
@@ -127,9 +129,11 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
       near.shops.Add(node.p, node.p, 0);
   }
   BuildOsmGround(scene, buildings, near);
+  if (RoadNetwork roads = OsmLanes(scene, *near.graph); !roads.lanes.empty()) builder.SetRoads(std::make_shared<const RoadNetwork>(std::move(roads)));
   const std::vector<EntityId> entities = BuildOsmBuildings(scene, buildings, near);
   BuildOsmProps(scene, near);
   ChooseSpawn(scene, near);
+  if (dress && dress->finish) dress->finish(scene, buildings, near);
   auto built = builder.Build();
   if (report) {
     static constexpr const char* kSources[] = {"tag", "levels", "guess"};

@@ -58,6 +58,7 @@ void Dresser::Yards() {
           if (!thing || !Here(p) || OnRoad(p, 3) || !Inside(patch, p) || InBuilding(p, thing->room) || paths_.Find(p, 2.2).owner != UINT32_MAX) continue;
           const bool tree = std::string_view(thing->kind).starts_with("tree");
           if (tree && planted_ >= kMostPlanted) continue;
+          if (scene_.dress && ((tree && !scene_.dress->yard_trees) || (std::string_view(thing->kind) == "car" && !scene_.dress->yard_cars))) continue;
           // Cars stand square to each other; everything else as it likes.
           const double turn = std::string_view(thing->kind) == "car" ? std::round(yaw) * (M_PI / 2) : yaw;
           const Footprint place = FootprintOf(thing->kind, ToFloat(p), static_cast<float>(turn), thing->scale);

@@ -57,7 +57,7 @@ const std::vector<PropKind>& PropKinds() {
                         LampKinds,    RockKinds,    RooftopKinds,      SeatingKinds,  ShadeKinds,
                         SignageKinds, StreetKinds,  TrafficLightKinds, UtilityKinds,  VendingKinds,
                         WasteKinds,   PlanterKinds, GroundPlantKinds,  ShrubKinds,    BroadleafKinds,
-                        ConiferKinds, ParkKinds,    BillboardKinds,    LandmarkKinds, NewYorkKinds}) {
+                        ConiferKinds, ParkKinds,    BillboardKinds,    LandmarkKinds, NewYorkKinds, SanFranciscoKinds}) {
       std::vector<PropKind> rows = family();
       std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
@@ -105,7 +105,8 @@ EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t 
                           Vec3f tint, Engine engine) {
   const PropKind& found = FindPropKind(kind);
   const EntityId entity = builder_.AddEntity(std::string(found.name), builder_.tree().At(found.category));
-  builder_.AddInstance({Get(found, variant), PlaceUpright(p_W, yaw, scale), entity, tint,
+  const AffineTransform placed = PlaceUpright(p_W, yaw, scale);
+  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, placed) : placed, entity, tint,
                         internal::EveningGlow(found.name, found.category, p_W, engine)});
   return entity;
 }
@@ -113,7 +114,7 @@ EntityId PropShelf::Place(std::string_view kind, Vec3f p_W, float yaw, uint32_t 
 void PropShelf::PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant,
                         Vec3f tint) {
   const PropKind& found = FindPropKind(kind);
-  builder_.AddInstance({Get(found, variant), X_WM, entity, tint,
+  builder_.AddInstance({Get(found, variant), lay_ ? lay_(found.name, X_WM) : X_WM, entity, tint,
                         internal::EveningGlow(found.name, found.category, X_WM.p, Engine::kOff)});
 }
 

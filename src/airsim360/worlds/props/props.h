@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -57,6 +58,9 @@ class PropShelf {
   /// Adds an instance of a kind to an existing entity (grass tufts of one lawn, say).
   void PlaceAs(EntityId entity, std::string_view kind, const AffineTransform& X_WM, uint32_t variant = 0,
                Vec3f tint = {1, 1, 1});
+  /// Everything placed from now on comes to stand where `lay` (kind, as placed) puts it: on a slope, say. Null = as placed.
+  using Lay = std::function<AffineTransform(std::string_view kind, const AffineTransform& placed)>;
+  void SetLay(Lay lay) { lay_ = std::move(lay); }
   /// Adds a model that is no kind of prop, with its materials and textures, for instances of the caller's own.
   MeshId Add(Model model);
 
@@ -68,6 +72,7 @@ class PropShelf {
   SceneBuilder& builder_;
   const ModelSource* models_;
   uint64_t seed_;
+  Lay lay_;
   std::map<std::string_view, std::vector<MeshId>> meshes_;  // kind -> one mesh a variant
   std::map<std::string, TextureId> textures_;               // by name and content
   std::multimap<std::string, MaterialId> materials_;        // by name, to find equal ones

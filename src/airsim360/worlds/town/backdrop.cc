@@ -82,6 +82,8 @@ void LayPlain(District& d) {
   }
 }
 
+}  // namespace
+
 // A ridge: an arc of mountains, its crest broken by noise, with spurs towards the city.
 void RaiseRidge(District& d, int index, float radius, float from, float to, float height, Surface surface) {
   d.ground.Begin("ridge", "nature/mountain", surface);
@@ -119,6 +121,8 @@ void RaiseRidge(District& d, int index, float radius, float from, float to, floa
     }
   }
 }
+
+namespace {
 
 void RaiseMountains(District& d) {
   struct RidgeRow {

@@ -44,6 +44,8 @@ bool InPolygon(const std::vector<Vec2f>& outline, Vec2f p);
 void RaiseIsland(District& district, std::string_view category, Vec2f c, Vec2f half, float water_z);
 /// An arched footbridge of red steel from south to north through c, `half` metres to either end.
 void BuildRedBridge(District& district, Vec2f c, float half);
+/// A park of one block: a lake with a wooded island and the red bridge, a walk around it, lawns with trees.
+void BuildLakePark(District& district, const Block& block);
 /// Distance from p to the nearest edge of the outline.
 float EdgeDistance(const std::vector<Vec2f>& outline, Vec2f p);
 
@@ -74,6 +76,8 @@ bool FacesCoreStreet(const StreetPlan& plan, const Block& block, int side);
 void FurnishPavements(District& district);
 /// Cars at the kerb and in the lanes, buses, manholes.
 void FurnishStreets(District& district, const std::vector<StreetStretch>& streets);
+/// An arc of mountains around the origin from angle `from` to `to` (radians), its crest about `height` high and broken by noise.
+void RaiseRidge(District& district, int index, float radius, float from, float to, float height, Surface surface);
 /// Far blocks to 640 m, the plain to the horizon, mountain ridges.
 void BuildBackdrop(District& district);
 

@@ -50,7 +50,8 @@ void Ground::Wall(std::span<const Vec2f> line, float z0, float z1) {
 
 void Ground::Finish(std::string name) {
   if (mesh_.empty()) return;
-  const MeshId mesh = builder_.AddMesh(mesh_.Finish(std::move(name)));
+  Mesh flat = mesh_.Finish(std::move(name));
+  const MeshId mesh = builder_.AddMesh(lay_ ? lay_(flat) : std::move(flat));
   builder_.AddInstance({mesh, {}, kNoEntity});
 }
 

@@ -2,6 +2,7 @@
 // polygons.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -35,10 +36,13 @@ class Ground {
   SceneBuilder& builder() { return builder_; }
   MeshBuilder& mesh() { return mesh_; }
   const Surfaces& surfaces() const { return surfaces_; }
+  /// Finish puts meshes into the scene as `lay` returns them: over hills, say. Null = as they are.
+  void SetLay(std::function<Mesh(const Mesh&)> lay) { lay_ = std::move(lay); }
   /// Adds everything so far to the scene as one mesh.
   void Finish(std::string name);
 
  private:
+  std::function<Mesh(const Mesh&)> lay_;
   SceneBuilder& builder_;
   const Surfaces& surfaces_;
   MeshBuilder mesh_;

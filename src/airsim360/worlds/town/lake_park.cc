@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "airsim360/base/random.h"
-#include "airsim360/worlds/new_york_city/city.h"
+#include "airsim360/worlds/town/district.h"
 
 namespace airsim360::internal {
 namespace {

@@ -1,0 +1,285 @@
+// airsim360.metrics: scores of tasks on arrays, the same functions as `airsim360 eval`.
+#include <cstring>
+#include <map>
+
+#include "airsim360/base/error.h"
+#include "airsim360/eval/coco/objects.h"
+#include "airsim360/eval/depth/depth_metrics.h"
+#include "airsim360/eval/flow/flow_metrics.h"
+#include "airsim360/eval/layout/layout_metrics.h"
+#include "airsim360/eval/mpde_metrics.h"
+#include "airsim360/eval/navigation/vln_scores.h"
+#include "airsim360/eval/panoptic/panoptic_quality.h"
+#include "airsim360/eval/panoptic/tracking_quality.h"
+#include "airsim360/eval/semantic/confusion.h"
+#include "airsim360/eval/sphere/pixel_view.h"
+#include "airsim360/eval/spherical_iou.h"
+#include "convert.h"
+
+namespace airsim360::python {
+namespace {
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+template <class T>
+Array<T> ToArray(const py::handle& value, const char* what) {
+  Array<T> array = Array<T>::ensure(value);
+  if (!array) {
+    PyErr_Clear();
+    throw InputError(std::string(what) + ": not an array of numbers");
+  }
+  return array;
+}
+
+template <class T>
+std::span<const T> Span(const Array<T>& array) {
+  return {array.data(), static_cast<size_t>(array.size())};
+}
+
+void CheckSameShape(const py::array& a, const py::array& b, const char* names) {
+  bool same = a.ndim() == b.ndim();
+  for (py::ssize_t i = 0; same && i < a.ndim(); ++i) same = a.shape(i) == b.shape(i);
+  if (!same) throw InputError(std::string(names) + ": arrays of different shape");
+}
+
+/// One weight a pixel of pictures (H, W), or of each of a stack (N, H, W); empty for pixels.
+std::vector<double> WeightsOf(const py::array& pictures, const std::string& name, py::ssize_t trailing = 0) {
+  const PixelWeight weight = ParsePixelWeight(name);
+  if (weight == PixelWeight::kPixel) return {};
+  const py::ssize_t last = pictures.ndim() - trailing;
+  if (last < 2) throw InputError("weights: pictures must be (H, W)");
+  const auto height = static_cast<int>(pictures.shape(last - 2)), width = static_cast<int>(pictures.shape(last - 1));
+  const std::vector<double> one = WholeView(width, height, weight).weights;
+  std::vector<double> all;
+  for (py::ssize_t n = 0, count = last == 3 ? pictures.shape(0) : 1; n < count; ++n) all.insert(all.end(), one.begin(), one.end());
+  return all;
+}
+
+template <class Names, class Values>
+py::dict ToDict(const Names& names, const Values& values) {
+  py::dict dict;
+  for (size_t i = 0; i < names.size(); ++i) dict[py::str(std::string(names[i]))] = values[i];
+  return dict;
+}
+
+py::dict Depth(const py::object& prediction, const py::object& truth, const std::string& weights, double min_depth, double max_depth) {
+  const auto p = ToArray<double>(prediction, "prediction"), g = ToArray<double>(truth, "truth");
+  CheckSameShape(p, g, "prediction, truth");
+  const std::vector<double> w = WeightsOf(g, weights);
+  DepthErrors errors;
+  {
+    const py::gil_scoped_release release;
+    errors = MeasureDepth(Span(p), Span(g), w, {.min_depth = min_depth, .max_depth = max_depth});
+  }
+  py::dict dict = ToDict(kDepthFigures, Figures(errors));
+  dict["valid"] = errors.valid;
+  return dict;
+}
+
+std::vector<uint16_t> Classes(const Array<int64_t>& ids, const std::vector<int64_t>& classes) {
+  std::map<int64_t, uint16_t> index;
+  for (size_t c = 0; c < classes.size(); ++c) index[classes[c]] = static_cast<uint16_t>(c);
+  std::vector<uint16_t> result;
+  result.reserve(static_cast<size_t>(ids.size()));
+  for (const int64_t id : Span(ids)) {
+    const auto found = index.find(id);
+    result.push_back(found == index.end() ? Confusion::kOther : found->second);
+  }
+  return result;
+}
+
+py::dict Semantic(const py::object& prediction, const py::object& truth, const std::vector<int64_t>& classes, const std::string& weights) {
+  const auto p = ToArray<int64_t>(prediction, "prediction"), g = ToArray<int64_t>(truth, "truth");
+  CheckSameShape(p, g, "prediction, truth");
+  if (classes.empty() || classes.size() >= Confusion::kOther) throw InputError("classes: must be 1 to 65534 ids");
+  Confusion confusion(classes.size());
+  confusion.Add(Classes(p, classes), Classes(g, classes), WeightsOf(g, weights));
+  py::dict iou, acc;
+  const auto n = static_cast<py::ssize_t>(classes.size());
+  py::array_t<double> table({n, n + 1});
+  for (size_t t = 0; t < classes.size(); ++t) {
+    iou[py::int_(classes[t])] = confusion.Iou(t);
+    acc[py::int_(classes[t])] = confusion.Accuracy(t);
+    for (size_t c = 0; c <= classes.size(); ++c) table.mutable_at(static_cast<py::ssize_t>(t), static_cast<py::ssize_t>(c)) = confusion.At(t, c);
+  }
+  py::dict dict;
+  dict["miou"] = confusion.MeanIou();
+  dict["miou_present"] = confusion.MeanIouOfPresent();
+  dict["pixel_accuracy"] = confusion.PixelAccuracy();
+  dict["macc"] = confusion.MeanAccuracy();
+  dict["fwiou"] = confusion.FrequencyWeightedIou();
+  dict["iou"] = iou;
+  dict["acc"] = acc;
+  dict["confusion"] = table;
+  return dict;
+}
+
+py::dict Panoptic(const py::object& prediction, const py::object& truth, const std::map<uint32_t, int64_t>& predicted, const std::map<uint32_t, int64_t>& real,
+                  const std::vector<uint32_t>& crowds, const std::string& weights) {
+  const auto p = ToArray<uint32_t>(prediction, "prediction"), g = ToArray<uint32_t>(truth, "truth");
+  CheckSameShape(p, g, "prediction, truth");
+  std::map<int64_t, size_t> categories;
+  for (const auto* segments : {&predicted, &real}) {
+    for (const auto& [id, category] : *segments) categories.emplace(category, categories.size());
+  }
+  std::vector<PanopticSegment> ps, gs;
+  for (const auto& [id, category] : predicted) ps.push_back({id, categories[category], false});
+  for (const auto& [id, category] : real) gs.push_back({id, categories[category], std::find(crowds.begin(), crowds.end(), id) != crowds.end()});
+  PanopticOverlap overlap;
+  overlap.Add(Span(p), Span(g), WeightsOf(g, weights));
+  std::vector<PanopticCount> counts(categories.size());
+  overlap.Count(ps, gs, counts);
+  py::dict dict;
+  for (const auto& [category, index] : categories) {
+    const PanopticQuality q = QualityOf(counts[index]);
+    py::dict one;
+    one["pq"] = q.pq, one["sq"] = q.sq, one["rq"] = q.rq, one["iou"] = counts[index].iou;
+    one["tp"] = counts[index].tp, one["fp"] = counts[index].fp, one["fn"] = counts[index].fn;
+    dict[py::int_(category)] = one;
+  }
+  return dict;
+}
+
+// The masks (K, H, W) of one picture.
+void AddMasks(const py::handle& masks, int64_t image, const char* what, std::vector<CocoObject>& objects, CocoImage& size) {
+  const auto array = ToArray<uint8_t>(masks, what);
+  if (array.size() == 0) return;
+  if (array.ndim() != 3) throw InputError(std::string(what) + ": masks of a picture are (K, H, W)");
+  size.height = static_cast<int>(array.shape(1));
+  size.width = static_cast<int>(array.shape(2));
+  const size_t pixels = static_cast<size_t>(size.height) * static_cast<size_t>(size.width);
+  for (py::ssize_t k = 0; k < array.shape(0); ++k) {
+    CocoObject object{.image = image, .category = 1};
+    object.mask = EncodeMask(Span(array).subspan(static_cast<size_t>(k) * pixels, pixels), size.width, size.height);
+    object.area = static_cast<double>(MaskArea(object.mask));
+    objects.push_back(std::move(object));
+  }
+}
+
+py::dict Entity(const py::sequence& predictions, const py::sequence& scores, const py::sequence& truths, const std::string& weights) {
+  if (predictions.size() != truths.size() || scores.size() != truths.size()) throw InputError("predictions, scores, truths: one entry a picture each");
+  CocoTruths all{{}, {{1, "entity"}}, {}, {}};
+  std::vector<CocoObject> results;
+  for (size_t i = 0; i < truths.size(); ++i) {
+    CocoImage image{.id = static_cast<int64_t>(i), .name = ""};
+    const size_t first = results.size();
+    AddMasks(truths[i], image.id, "truths", all.objects, image);
+    AddMasks(predictions[i], image.id, "predictions", results, image);
+    const auto score = ToArray<double>(scores[i], "scores");
+    if (static_cast<size_t>(score.size()) != results.size() - first) throw InputError("scores: one a predicted mask");
+    for (size_t k = first; k < results.size(); ++k) results[k].score = Finite(score.data()[k - first], "scores");
+    all.images.push_back(image);
+  }
+  CocoRun run{.class_agnostic = true, .solid_angle = ParsePixelWeight(weights) == PixelWeight::kSolidAngle};
+  const auto matches = MatchAll(all, results, run);
+  const CocoTable table = AccumulateCoco(matches, run.options, 1);
+  py::dict dict;
+  const auto all_t = CocoTable::kAll;
+  dict["ap"] = table.MeanPrecision(all_t, all_t, 0, 2), dict["ap50"] = table.MeanPrecision(0, all_t, 0, 2), dict["ap75"] = table.MeanPrecision(5, all_t, 0, 2);
+  dict["ap_small"] = table.MeanPrecision(all_t, all_t, 1, 2), dict["ap_medium"] = table.MeanPrecision(all_t, all_t, 2, 2), dict["ap_large"] = table.MeanPrecision(all_t, all_t, 3, 2);
+  dict["ar1"] = table.MeanRecall(all_t, all_t, 0, 0), dict["ar10"] = table.MeanRecall(all_t, all_t, 0, 1), dict["ar100"] = table.MeanRecall(all_t, all_t, 0, 2);
+  dict["ar_small"] = table.MeanRecall(all_t, all_t, 1, 2), dict["ar_medium"] = table.MeanRecall(all_t, all_t, 2, 2), dict["ar_large"] = table.MeanRecall(all_t, all_t, 3, 2);
+  return dict;
+}
+
+py::dict FlowOf(const py::object& prediction, const py::object& truth, const std::string& weights) {
+  const auto p = ToArray<double>(prediction, "prediction"), g = ToArray<double>(truth, "truth");
+  CheckSameShape(p, g, "prediction, truth");
+  if (g.ndim() != 3 || g.shape(2) != 2) throw InputError("flow is (H, W, 2)");
+  const FlowErrors errors = MeasureFlow(Span(p), Span(g), static_cast<int>(g.shape(1)), static_cast<int>(g.shape(0)), {}, WeightsOf(g, weights, 1));
+  py::dict dict = ToDict(kFlowFigures, Figures(errors));
+  dict["valid"] = errors.valid;
+  return dict;
+}
+
+py::dict Vln(const py::object& flown, const py::object& reference, double radius, const std::string& protocol, const py::object& goal, const py::object& shortest, bool stopped,
+             bool collided) {
+  VlnEpisode episode{ToPoints(reference, "reference"), ToPoints(flown, "flown"), {}, {}, stopped, collided};
+  if (!goal.is_none()) episode.goal = ToVec3(goal, "goal");
+  if (!shortest.is_none()) episode.shortest = Finite(shortest.cast<double>(), "shortest");
+  return ToDict(kVlnFigures, Figures(ScoreVln(episode, radius, FindVlnProtocol(protocol))));
+}
+
+py::dict Mpde(const py::object& distance, const py::object& angle, const py::object& true_distance, const py::object& true_angle) {
+  const auto d = ToArray<double>(distance, "distance"), a = ToArray<double>(angle, "angle"), td = ToArray<double>(true_distance, "true_distance"),
+             ta = ToArray<double>(true_angle, "true_angle");
+  CheckSameShape(d, a, "distance, angle");
+  CheckSameShape(d, td, "distance, true_distance");
+  CheckSameShape(d, ta, "distance, true_angle");
+  std::vector<PersonPose> prediction, truth;
+  for (py::ssize_t i = 0; i < d.size(); ++i) {
+    prediction.push_back({d.data()[i], a.data()[i]});
+    truth.push_back({td.data()[i], ta.data()[i]});
+  }
+  const MpdeErrors e = MeasureMpde(prediction, truth);
+  py::dict dict;
+  dict["count"] = e.count, dict["distance_mae_m"] = e.distance_mae_m, dict["angle_mae_deg"] = e.angle_mae_deg, dict["angle_unwrapped_mae_deg"] = e.angle_unwrapped_mae_deg;
+  return dict;
+}
+
+RoomLayout ToRoom(const py::object& corners, const char* what) {
+  const auto array = ToArray<double>(corners, what);
+  if (array.ndim() != 2 || array.shape(1) != 2 || array.shape(0) % 2 != 0) throw InputError(std::string(what) + ": corners are (2 N, 2), ceiling and floor in turn");
+  RoomLayout room;
+  for (py::ssize_t i = 0; i < array.shape(0); i += 2) {
+    room.ceiling.push_back({array.at(i, 0), array.at(i, 1)});
+    room.floor.push_back({array.at(i + 1, 0), array.at(i + 1, 1)});
+  }
+  return room;
+}
+
+py::dict Layout(const py::object& prediction, const py::object& truth, int width) {
+  if (width < 8 || width > 16384 || width % 2 != 0) throw InputError("width " + std::to_string(width) + ": must be even, 8 to 16384");
+  return ToDict(kLayoutFigures, Figures(MeasureLayout(ToRoom(prediction, "prediction"), ToRoom(truth, "truth"), width, width / 2)));
+}
+
+py::dict Tracking(const py::object& pred_category, const py::object& pred_instance, const py::object& category, const py::object& instance, const std::vector<bool>& things) {
+  const auto pc = ToArray<uint32_t>(pred_category, "pred_category"), pi = ToArray<uint32_t>(pred_instance, "pred_instance"), c = ToArray<uint32_t>(category, "category"),
+             i = ToArray<uint32_t>(instance, "instance");
+  CheckSameShape(pc, pi, "pred_category, pred_instance");
+  CheckSameShape(pc, c, "pred_category, category");
+  CheckSameShape(pc, i, "pred_category, instance");
+  if (things.empty()) throw InputError("things: a flag a category");
+  TrackingQuality quality(things);
+  quality.Add({Span(pc), Span(pi)}, {Span(c), Span(i)});
+  const TrackingScore s = quality.Score();
+  py::dict dict;
+  dict["stq"] = s.stq, dict["aq"] = s.aq, dict["sq"] = s.sq, dict["tubes"] = s.tubes;
+  return dict;
+}
+
+SphericalBox ToBfov(const py::object& box, const char* what) {
+  const auto a = ToArray<double>(box, what);
+  if (a.ndim() != 1 || (a.size() != 4 && a.size() != 5)) throw InputError(std::string(what) + ": a box is (lon, lat, width, height[, turn])");
+  return {a.data()[0], a.data()[1], a.data()[2], a.data()[3], a.size() == 5 ? a.data()[4] : 0};
+}
+
+}  // namespace
+
+void BindTaskMetrics(py::module_& metrics) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  metrics.def("depth", &Depth, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel", py::arg("min_depth") = 0.0, py::arg("max_depth") = kInfinity,
+              "Errors of ranges (H, W), metres, as a dict: absrel, sqrel, rmse, rmselog, log10, mae, d1, d2, d3, silog, tau, valid. weights: pixel or solid_angle.");
+  metrics.def("semantic", &Semantic, py::arg("prediction"), py::arg("truth"), py::arg("classes"), py::arg("weights") = "pixel",
+              "Classes of pictures (H, W) or of a stack (N, H, W), in one table: miou, miou_present, pixel_accuracy, macc, fwiou, iou and acc by id, confusion (n, n + 1).");
+  metrics.def("panoptic", &Panoptic, py::arg("prediction"), py::arg("truth"), py::arg("pred_categories"), py::arg("categories"), py::arg("crowds") = std::vector<uint32_t>{},
+              py::arg("weights") = "pixel", "Panoptic quality of ids (H, W), 0 = void, whose categories are dicts id -> category: a dict category -> pq, sq, rq, iou, tp, fp, fn.");
+  metrics.def("entity", &Entity, py::arg("predictions"), py::arg("scores"), py::arg("truths"), py::arg("weights") = "pixel",
+              "COCO's twelve figures of masks without categories: of each picture masks (K, H, W) and scores (K,).");
+  metrics.def("flow", &FlowOf, py::arg("prediction"), py::arg("truth"), py::arg("weights") = "pixel",
+              "Errors of flow (H, W, 2), NaN = unknown: epe, fl_all, below1, below3, below5, angle_error_deg, valid.");
+  metrics.def("vln", &Vln, py::arg("flown"), py::arg("reference"), py::arg("radius") = 20.0, py::arg("protocol") = "ours", py::arg("goal") = py::none(),
+              py::arg("shortest") = py::none(), py::arg("stopped") = true, py::arg("collided") = false,
+              "Scores of one flown path (N, 3): sr, osr, spl, spl_straight, ne, ndtw, sdtw, cls, path_length.");
+  metrics.def("mpde", &Mpde, py::arg("distance"), py::arg("angle"), py::arg("true_distance"), py::arg("true_angle"),
+              "Errors of distances (N,), metres, and angles (N,), radians: count, distance_mae_m, angle_mae_deg, angle_unwrapped_mae_deg.");
+  metrics.def("layout", &Layout, py::arg("prediction"), py::arg("truth"), py::arg("width") = 1024,
+              "Errors of a room of corners (2 N, 2) in pixels, ceiling and floor in turn: iou2d, iou3d, corner_error_percent, pixel_error_percent, rmse, d1.");
+  metrics.def("tracking", &Tracking, py::arg("pred_category"), py::arg("pred_instance"), py::arg("category"), py::arg("instance"), py::arg("things"),
+              "STEP's stq, aq, sq, tubes of one video: arrays (T, H, W), 0xffffffff = void; things: a flag a category.");
+  metrics.def("bfov_iou", [](const py::object& a, const py::object& b) { return SphericalIou(ToBfov(a, "a"), ToBfov(b, "b")); }, py::arg("a"), py::arg("b"),
+              "Unbiased intersection over union of boxes (lon, lat, width, height[, turn]) on the sphere, radians.");
+}
+
+}  // namespace airsim360::python

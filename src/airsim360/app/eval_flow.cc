@@ -1,0 +1,112 @@
+// airsim360 eval flow: errors of optical flow.
+#include <limits>
+#include <memory>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/eval_commands.h"
+#include "airsim360/app/eval_views.h"
+#include "airsim360/base/error.h"
+#include "airsim360/eval/files/picture_files.h"
+#include "airsim360/eval/flow/flow_metrics.h"
+
+namespace airsim360 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Result = std::vector<FlowErrors>;  // one a view
+
+struct Arguments {
+  std::string pred, gt;
+  bool visible = false;
+  ViewOptions view;
+  ReportOptions report;
+};
+
+Result MeasurePair(const FilePair& pair, const Arguments& a, ViewCache& cache) {
+  const NumberPicture pred = ReadFlowPicture(pair.prediction, false), gt = ReadFlowPicture(pair.truth, a.visible);
+  if (pred.width != gt.width || pred.height != gt.height)
+    throw InputError(pair.prediction.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " + pair.truth.string() + " has " +
+                     std::to_string(gt.width) + "x" + std::to_string(gt.height));
+  Result result;
+  for (const PixelView& view : *cache.Of(gt.width, gt.height)) {
+    try {
+      std::vector<double> p, g;
+      for (const uint32_t i : view.source) {
+        p.insert(p.end(), {pred.values[2 * size_t{i}], pred.values[2 * size_t{i} + 1]});
+        g.insert(g.end(), {gt.values[2 * size_t{i}], gt.values[2 * size_t{i} + 1]});
+      }
+      const bool all = view.source.empty();
+      result.push_back(MeasureFlow(all ? pred.values : p, all ? gt.values : g, gt.width, gt.height, view.source, view.weights));
+    } catch (const InputError& error) {
+      throw InputError(pair.prediction.string() + ": " + error.what());
+    }
+  }
+  return result;
+}
+
+std::vector<double> MeanFigures(const std::vector<Result>& results, size_t view, std::span<const uint32_t> draws = {}) {
+  std::vector<double> sums(kFlowFigures.size(), 0);
+  double count = 0;
+  for (size_t i = 0; i < results.size(); ++i) {
+    const double times = draws.empty() ? 1 : draws[i];
+    if (results[i][view].valid == 0 || times == 0) continue;
+    const auto figures = Figures(results[i][view]);
+    for (size_t f = 0; f < sums.size(); ++f) sums[f] += times * figures[f];
+    count += times;
+  }
+  for (double& sum : sums) sum = count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+  return sums;
+}
+
+Json ViewJson(const std::vector<Result>& results, size_t view) {
+  const std::vector<double> means = MeanFigures(results, view);
+  Json json;
+  int64_t valid = 0;
+  for (size_t f = 0; f < means.size(); ++f) json[std::string(kFlowFigures[f])] = means[f];
+  for (const Result& result : results) valid += result[view].valid;
+  json["valid"] = valid;
+  return json;
+}
+
+void Run(const Arguments& a, const GlobalOptions& globals) {
+  CheckViewOptions(a.view);
+  if (!a.view.rolled.empty()) throw InputError("--rolled is not for flow: it moves between pictures");
+  const FilePairs files = PairFiles(a.pred, a.gt, {".flo", ".npy", ".exr", ".png"}, "flow");
+  ViewCache cache(a.view);
+  const auto results = MeasureAll<Result>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });
+  Json json = ViewJson(results, 0);
+  if (json["valid"].get<int64_t>() == 0) throw InputError(a.gt + ": no pixel has a flow");
+  json["pictures"] = results.size();
+  json["weights"] = a.view.weights;
+  json["projection"] = a.view.projection;
+  AppendViews(json, a.view, [&](size_t view) { return ViewJson(results, view); });
+  const std::vector<std::string> names(kFlowFigures.begin(), kFlowFigures.end());
+  AppendIntervals(json, a.report, globals.seed, results.size(), names, [&](std::span<const uint32_t> draws) { return MeanFigures(results, 0, draws); });
+  std::vector<std::vector<std::string>> rows = {{"picture", "valid"}};
+  rows[0].insert(rows[0].end(), names.begin(), names.end());
+  for (size_t i = 0; i < results.size(); ++i) {
+    auto& row = rows.emplace_back(std::vector<std::string>{files.pairs[i].name, std::to_string(results[i][0].valid)});
+    for (const double value : Figures(results[i][0])) row.push_back(NumberText(value));
+  }
+  WriteCsv(a.report.csv, rows);
+  Json notes = files.notes;
+  notes.push_back("figures of each picture, then their mean; in panoramas dx is taken the shorter way round");
+  json["notes"] = notes;
+  if (globals.json) PrintJson(json);
+  else PrintFigures(json);
+}
+
+}  // namespace
+
+void AddEvalFlow(CLI::App& command, GlobalOptions& globals) {
+  CLI::App* flow = command.add_subcommand("flow", "errors of optical flow: EPE, Fl-all, angle on the sphere");
+  const auto a = std::make_shared<Arguments>();
+  flow->add_option("pred", a->pred, ".flo, .npy, .exr or KITTI's .png, a folder of them, or a dataset of ours (its flow)")->required();
+  flow->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
+  flow->add_flag("--visible", a->visible, "leave out what the truth's channel `occluded` says is hidden in the next picture (.exr)");
+  AddViewFlags(*flow, a->view);
+  AddReportFlags(*flow, a->report, "a row a picture");
+  flow->callback([a, &globals] { Run(*a, globals); });
+}
+
+}  // namespace airsim360

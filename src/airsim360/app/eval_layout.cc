@@ -1,0 +1,148 @@
+// airsim360 eval layout and eval mpde: rooms told by corners; distance and orientation of people.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/eval_commands.h"
+#include "airsim360/app/eval_views.h"
+#include "airsim360/base/error.h"
+#include "airsim360/eval/files/layout_file.h"
+#include "airsim360/eval/files/person_file.h"
+#include "airsim360/eval/files/picture_files.h"
+
+namespace airsim360 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct LayoutArguments {
+  std::string pred, gt, size = "1024x512";
+  ReportOptions report;
+};
+struct MpdeArguments {
+  std::string pred, gt, protocol;
+  ReportOptions report;
+};
+
+constexpr int kMostWidth = 16384;
+
+// Means, each over the rooms that have the figure.
+std::vector<double> LayoutMeans(const std::vector<LayoutErrors>& errors, std::span<const uint32_t> draws = {}) {
+  std::vector<double> sums(kLayoutFigures.size(), 0), counts(sums.size(), 0);
+  for (size_t i = 0; i < errors.size(); ++i) {
+    const auto figures = Figures(errors[i]);
+    for (size_t f = 0; f < sums.size(); ++f) {
+      if (std::isnan(figures[f])) continue;
+      const double times = draws.empty() ? 1 : draws[i];
+      sums[f] += times * figures[f];
+      counts[f] += times;
+    }
+  }
+  for (size_t f = 0; f < sums.size(); ++f) sums[f] = counts[f] > 0 ? sums[f] / counts[f] : std::numeric_limits<double>::quiet_NaN();
+  return sums;
+}
+
+void RunLayout(const LayoutArguments& a, const GlobalOptions& globals) {
+  int width = 0, height = 0;
+  char after = 0;
+  if (std::sscanf(a.size.c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 8 || width > kMostWidth || height != width / 2 || width % 2 != 0)
+    throw InputError("--size: '" + a.size + "' is no WIDTHxHEIGHT of a panorama, twice as wide as high, 8 to " + std::to_string(kMostWidth) + " columns");
+  const FilePairs files = PairFiles(a.pred, a.gt, {".txt", ".json"}, "layout");
+  const auto errors = MeasureAll<LayoutErrors>("eval layout", files.pairs.size(), [&](size_t i) {
+    const FilePair& pair = files.pairs[i];
+    try {
+      return MeasureLayout(ReadLayoutFile(pair.prediction, width, height), ReadLayoutFile(pair.truth, width, height), width, height);
+    } catch (const InputError& error) {
+      throw InputError("room " + pair.name + ": " + error.what());
+    }
+  });
+  const std::vector<std::string> names(kLayoutFigures.begin(), kLayoutFigures.end());
+  Json json;
+  const std::vector<double> means = LayoutMeans(errors);
+  for (size_t f = 0; f < names.size(); ++f) json[names[f]] = means[f];
+  json["rooms"] = errors.size();
+  AppendIntervals(json, a.report, globals.seed, errors.size(), names, [&](std::span<const uint32_t> draws) { return LayoutMeans(errors, draws); });
+  std::vector<std::vector<std::string>> rows = {{"room"}};
+  rows[0].insert(rows[0].end(), names.begin(), names.end());
+  for (size_t i = 0; i < errors.size(); ++i) {
+    auto& row = rows.emplace_back(std::vector<std::string>{files.pairs[i].name});
+    for (const double value : Figures(errors[i])) row.push_back(NumberText(value));
+  }
+  WriteCsv(a.report.csv, rows);
+  Json notes = files.notes;
+  notes.push_back("definitions of HorizonNet's evaluation for a camera 1.6 m above the floor; surfaces are exact where that code joins rounded columns");
+  json["notes"] = notes;
+  if (globals.json) PrintJson(json);
+  else PrintFigures(json);
+}
+
+Json MpdeJson(const MpdeErrors& e) {
+  return {{"count", e.count}, {"distance_mae_m", e.distance_mae_m}, {"angle_mae_deg", e.angle_mae_deg}, {"angle_unwrapped_mae_deg", e.angle_unwrapped_mae_deg}};
+}
+
+// A ratio near 100 or 1000 of most persons is a unit, no error.
+void RefuseUnits(const PersonPairs& pairs, const std::string& path) {
+  for (const double factor : {100.0, 1000.0, 0.01, 0.001}) {
+    size_t close = 0;
+    for (size_t i = 0; i < pairs.truth.size(); ++i) {
+      const double ratio = pairs.prediction[i].distance / pairs.truth[i].distance;
+      close += ratio > 0.7 * factor && ratio < 1.4 * factor;
+    }
+    if (2 * close > pairs.truth.size())
+      throw InputError(path + ": distances are about " + NumberText(factor) + " times the truth: are they in " +
+                       (factor == 100 ? "centimetres" : factor == 1000 ? "millimetres" : "metres, and the truth is not") + "?");
+  }
+}
+
+void RunMpde(const MpdeArguments& a, const GlobalOptions& globals) {
+  if (!a.protocol.empty() && a.protocol != "monoloco")
+    throw InputError("--protocol: " + UnknownChoiceMessage("protocol of distances of people", a.protocol, std::vector<std::string>{"monoloco"}));
+  const PersonPairs pairs = ReadPersonFiles(a.pred, a.gt);
+  RefuseUnits(pairs, a.pred);
+  Json json = MpdeJson(MeasureMpde(pairs.prediction, pairs.truth));
+  const auto groups = MeasureMpdeGroups(pairs.prediction, pairs.truth);
+  constexpr std::array<const char*, 4> kGroups = {"below_10_m", "10_to_20_m", "20_to_30_m", "from_30_m"};
+  for (size_t g = 0; g < groups.size(); ++g) json["by_distance"][kGroups[g]] = MpdeJson(groups[g]);
+  const std::vector<std::string> names = {"distance_mae_m", "angle_mae_deg", "angle_unwrapped_mae_deg"};
+  std::vector<MpdeErrors> single;
+  for (size_t i = 0; i < pairs.ids.size(); ++i) single.push_back(MeasureMpde({&pairs.prediction[i], 1}, {&pairs.truth[i], 1}));
+  AppendIntervals(json, a.report, globals.seed, single.size(), names, [&](std::span<const uint32_t> draws) {
+    std::vector<MpdeErrors> drawn = single;
+    for (size_t i = 0; i < drawn.size(); ++i) drawn[i].count = draws[i];
+    const MpdeErrors pooled = PoolMpde(drawn);
+    return std::vector<double>{pooled.distance_mae_m, pooled.angle_mae_deg, pooled.angle_unwrapped_mae_deg};
+  });
+  std::vector<std::vector<std::string>> rows = {{"id", "distance_m", "true_distance_m", "distance_error_m", "angle_error_deg"}};
+  for (size_t i = 0; i < single.size(); ++i)
+    rows.push_back({pairs.ids[i], NumberText(pairs.prediction[i].distance), NumberText(pairs.truth[i].distance), NumberText(single[i].distance_mae_m), NumberText(single[i].angle_mae_deg)});
+  WriteCsv(a.report.csv, rows);
+  json["notes"].push_back("angle_mae_deg is the shorter way round; angle_unwrapped_mae_deg is MonoLoco's: angles are not wrapped after the difference, and degrees are rad * 180 / 3.14");
+  if (globals.json) PrintJson(json);
+  else PrintFigures(json);
+}
+
+}  // namespace
+
+void AddEvalLayout(CLI::App& command, GlobalOptions& globals) {
+  CLI::App* layout = command.add_subcommand("layout", "errors of room layouts: 2D and 3D IoU, corners, pixels");
+  const auto a = std::make_shared<LayoutArguments>();
+  layout->add_option("pred", a->pred, "corners: .txt of lines \"x y\", ceiling and floor in turn, .json with uv, or a folder of them")->required();
+  layout->add_option("gt", a->gt, "the truth: the same, with the same names")->required();
+  layout->add_option("--size", a->size, "WIDTHxHEIGHT of the panoramas (default 1024x512)");
+  AddReportFlags(*layout, a->report, "a row a room");
+  layout->callback([a, &globals] { RunLayout(*a, globals); });
+}
+
+void AddEvalMpde(CLI::App& command, GlobalOptions& globals) {
+  CLI::App* mpde = command.add_subcommand("mpde", "errors of distance and orientation of people");
+  const auto a = std::make_shared<MpdeArguments>();
+  mpde->add_option("pred", a->pred, ".json or .jsonl of persons: id, distance or xyz (metres), angle_deg or yaw_deg")->required();
+  mpde->add_option("gt", a->gt, "the truth: the same ids")->required();
+  mpde->add_option("--protocol", a->protocol, "monoloco: its figures are always among those given");
+  AddReportFlags(*mpde, a->report, "a row a person");
+  mpde->callback([a, &globals] { RunMpde(*a, globals); });
+}
+
+}  // namespace airsim360

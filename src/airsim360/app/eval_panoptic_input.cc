@@ -1,0 +1,126 @@
+#include "airsim360/app/eval_panoptic_input.h"
+
+#include <map>
+
+#include "airsim360/app/eval_views.h"
+#include "airsim360/base/error.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path JsonPath(const std::string& path) { return fs::is_directory(path) ? fs::path(path) / "panoptic.json" : fs::path(path); }
+
+}  // namespace
+
+void AddPanopticPaths(CLI::App& command, PanopticPaths& paths) {
+  command.add_option("pred", paths.pred, "COCO panoptic JSON, or a dataset of ours")->required();
+  command.add_option("gt", paths.gt, "the truth: the same")->required();
+  command.add_option("--pred-dir", paths.pred_dir, "folder of the prediction's PNGs (default: named as the file, or entity beside it, or its own)");
+  command.add_option("--gt-dir", paths.gt_dir, "folder of the truth's PNGs");
+}
+
+PanopticInput::PanopticInput(const PanopticPaths& paths)
+    : truth(ReadPanopticFile(JsonPath(paths.gt))),
+      prediction_(ReadPanopticFile(JsonPath(paths.pred), &truth.categories)),
+      pred_dir_(paths.pred_dir.empty() ? PanopticFolder(JsonPath(paths.pred)) : fs::path(paths.pred_dir)),
+      gt_dir_(paths.gt_dir.empty() ? PanopticFolder(JsonPath(paths.gt)) : fs::path(paths.gt_dir)) {
+  std::map<int64_t, size_t> predictions;
+  for (size_t i = 0; i < prediction_.frames.size(); ++i) predictions[prediction_.frames[i].image] = i;
+  size_t missing = 0;
+  int64_t first = 0;
+  for (const PanopticFrame& frame : truth.frames) {
+    const auto found = predictions.find(frame.image);
+    if (found != predictions.end()) {
+      by_truth_.push_back(found->second);
+    } else if (missing++ == 0) {
+      first = frame.image;
+    }
+  }
+  if (truth.frames.empty()) throw InputError(paths.gt + ": has no annotations");
+  if (missing > 0)
+    throw InputError(paths.pred + ": has no annotation for " + std::to_string(missing) + " of " + std::to_string(truth.frames.size()) + " pictures, image_id " +
+                     std::to_string(first) + " first" + (missing == truth.frames.size() ? ": are pictures numbered otherwise?" : ""));
+  if (prediction_.frames.size() > truth.frames.size())
+    notes.push_back(std::to_string(prediction_.frames.size() - truth.frames.size()) + " predicted pictures have no truth and are left out");
+}
+
+std::pair<LabelPicture, LabelPicture> PanopticInput::Read(size_t i) const {
+  const fs::path pred_path = pred_dir_ / Prediction(i).file, gt_path = gt_dir_ / truth.frames[i].file;
+  LabelPicture pred = ReadIdPicture(pred_path), gt = ReadIdPicture(gt_path);
+  if (pred.width != gt.width || pred.height != gt.height)
+    throw InputError(pred_path.string() + " has " + std::to_string(pred.width) + "x" + std::to_string(pred.height) + " pixels, " + gt_path.string() + " has " +
+                     std::to_string(gt.width) + "x" + std::to_string(gt.height) + ": resize the predictions (nearest pixel)");
+  return {std::move(pred), std::move(gt)};
+}
+
+std::vector<uint32_t> CategoriesOf(const LabelPicture& ids, const PanopticFrame& frame) {
+  std::unordered_map<uint32_t, uint32_t> category;
+  for (const PanopticSegment& segment : frame.segments) category[segment.id] = static_cast<uint32_t>(segment.category) + 1;
+  std::vector<uint32_t> categories;
+  categories.reserve(ids.ids.size());
+  uint32_t last = 0, last_category = 0;
+  for (const uint32_t id : ids.ids) {
+    if (id != last) {
+      const auto found = category.find(id);
+      last = id;
+      last_category = found == category.end() ? 0 : found->second;
+    }
+    categories.push_back(last_category);
+  }
+  return categories;
+}
+
+std::vector<std::pair<std::string, std::vector<bool>>> PanopticGroups(const std::vector<PanopticCategory>& categories) {
+  std::vector<bool> all(categories.size(), true), things, stuff;
+  for (const PanopticCategory& category : categories) {
+    things.push_back(category.thing);
+    stuff.push_back(!category.thing);
+  }
+  return {{"all", all}, {"things", things}, {"stuff", stuff}};
+}
+
+std::vector<bool> ChooseCategories(const std::vector<PanopticCategory>& categories, const std::vector<std::string>& names, const char* flag) {
+  std::vector<bool> chosen(categories.size(), false);
+  std::vector<std::string> known;
+  for (const PanopticCategory& category : categories) known.push_back(category.name);
+  for (const std::string& name : names) {
+    bool found = false;
+    for (size_t c = 0; c < categories.size(); ++c) {
+      if (categories[c].name == name || std::to_string(categories[c].id) == name) found = chosen[c] = true;
+    }
+    if (!found) throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("category", name, known));
+  }
+  return chosen;
+}
+
+nlohmann::ordered_json QualityJson(const PanopticQuality& q) { return {{"pq", q.pq}, {"sq", q.sq}, {"rq", q.rq}, {"n", q.categories}}; }
+
+void AppendPanoptic(nlohmann::ordered_json& json, const std::vector<PanopticCount>& counts, const std::vector<PanopticCategory>& categories, bool per_class) {
+  for (const auto& [group, chosen] : PanopticGroups(categories)) json[group] = QualityJson(MeanQuality(counts, chosen));
+  if (!per_class) return;
+  json["per_class"] = nlohmann::ordered_json::object();
+  for (size_t c = 0; c < counts.size(); ++c) {
+    const PanopticQuality q = QualityOf(counts[c]);
+    json["per_class"][std::to_string(categories[c].id)] = {{"name", categories[c].name}, {"isthing", categories[c].thing}, {"pq", q.pq},           {"sq", q.sq},          {"rq", q.rq},
+                                                          {"iou", counts[c].iou},        {"tp", counts[c].tp},             {"fp", counts[c].fp}, {"fn", counts[c].fn}};
+  }
+}
+
+void PrintPanoptic(const nlohmann::ordered_json& json) {
+  std::printf("%-30s %8s %8s %8s\n", "", "PQ", "SQ", "RQ");
+  const auto number = [](const nlohmann::ordered_json& value) { return value.is_number() ? value.get<double>() : std::nan(""); };
+  const auto line = [&](const std::string& name, const nlohmann::ordered_json& q) {
+    std::printf("%-30s %8.4f %8.4f %8.4f\n", name.c_str(), number(q["pq"]), number(q["sq"]), number(q["rq"]));
+  };
+  for (const char* group : {"all", "things", "stuff"}) line(group, json[group]);
+  if (json.contains("per_class")) {
+    for (const auto& [id, q] : json["per_class"].items()) {
+      if (q["tp"].get<int64_t>() + q["fp"].get<int64_t>() + q["fn"].get<int64_t>() > 0) line("  " + q["name"].get<std::string>(), q);
+    }
+  }
+  PrintFigures(json);
+}
+
+}  // namespace airsim360

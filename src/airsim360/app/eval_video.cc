@@ -1,0 +1,272 @@
+// airsim360 eval video: STQ and VPQ of panoptic video.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/eval_commands.h"
+#include "airsim360/app/eval_panoptic_input.h"
+#include "airsim360/app/eval_views.h"
+#include "airsim360/base/error.h"
+#include "airsim360/eval/files/step_video.h"
+#include "airsim360/eval/panoptic/tracking_quality.h"
+
+namespace airsim360 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct Arguments {
+  PanopticPaths paths;
+  std::string protocol, weights = "pixel";
+  std::vector<int> windows = {1, 2, 3, 4};
+  int classes = 19, void_class = 255;
+  std::vector<int> things = {11, 13};
+  ReportOptions report;
+};
+
+// One frame, whatever the layout of its files.
+struct Frame {
+  LabelPicture prediction, truth;
+  std::vector<PanopticSegment> predicted, real;
+};
+struct Sequence {
+  std::string name;
+  std::vector<std::function<Frame()>> frames;
+};
+struct Video {
+  std::vector<PanopticCategory> categories;
+  std::vector<Sequence> sequences;
+  std::vector<std::string> notes;
+};
+
+// What one sequence gives.
+struct Result {
+  std::shared_ptr<TrackingQuality> tracking;
+  std::map<int, std::vector<PanopticCount>> windows;
+};
+
+Video PanopticVideo(const Arguments& a) {
+  auto input = std::make_shared<PanopticInput>(a.paths);
+  Video video{input->truth.categories, {}, input->notes};
+  std::map<std::string, size_t> index;
+  for (size_t i = 0; i < input->truth.frames.size(); ++i) {
+    const std::string& name = input->truth.frames[i].sequence;
+    const auto [at, fresh] = index.emplace(name, video.sequences.size());
+    if (fresh) video.sequences.push_back({name, {}});
+    video.sequences[at->second].frames.push_back([input, i] {
+      auto [pred, gt] = input->Read(i);
+      return Frame{std::move(pred), std::move(gt), input->Prediction(i).segments, input->truth.frames[i].segments};
+    });
+  }
+  return video;
+}
+
+Video StepVideo(const Arguments& a) {
+  if (a.classes < 1 || a.classes > 254) throw InputError("--classes " + std::to_string(a.classes) + ": must be 1 to 254");
+  const StepClasses classes{a.classes, a.void_class, {a.things.begin(), a.things.end()}};
+  Video video;
+  for (int c = 0; c < a.classes; ++c) video.categories.push_back({c, std::to_string(c), classes.things.contains(c)});
+  const FilePairs files = PairFiles(a.paths.pred, a.paths.gt, {".png"}, "");
+  video.notes = files.notes;
+  // Sorted by path: a folder is a sequence, and its files are in order.
+  for (const FilePair& pair : files.pairs) {
+    const std::string name = fs::path(pair.name).parent_path().string();
+    if (video.sequences.empty() || video.sequences.back().name != name) video.sequences.push_back({name, {}});
+    video.sequences.back().frames.push_back([pair, classes] {
+      StepFrame pred = ReadStepFrame(pair.prediction, classes, false), gt = ReadStepFrame(pair.truth, classes, true);
+      if (pred.ids.width != gt.ids.width || pred.ids.height != gt.ids.height)
+        throw InputError(pair.prediction.string() + " and " + pair.truth.string() + " are of different size");
+      return Frame{std::move(pred.ids), std::move(gt.ids), std::move(pred.segments), std::move(gt.segments)};
+    });
+  }
+  return video;
+}
+
+// Category and instance of every pixel, as the tracking term sees them.
+struct Labels {
+  std::vector<uint32_t> category, instance;
+};
+Labels LabelsOf(const LabelPicture& picture, const std::vector<PanopticSegment>& segments, const std::vector<bool>& things, const std::string& name) {
+  std::unordered_map<uint32_t, std::pair<uint32_t, uint32_t>> of_id = {{0, {TrackingQuality::kVoid, 0}}};
+  for (const PanopticSegment& s : segments) of_id[s.id] = {static_cast<uint32_t>(s.category), things[s.category] && !s.crowd ? s.id : 0};
+  Labels labels;
+  labels.category.reserve(picture.ids.size());
+  labels.instance.reserve(picture.ids.size());
+  for (const uint32_t id : picture.ids) {
+    const auto found = of_id.find(id);
+    if (found == of_id.end()) throw InputError(name + ": pixels have the id " + std::to_string(id) + ", but no segment of it is listed");
+    labels.category.push_back(found->second.first);
+    labels.instance.push_back(found->second.second);
+  }
+  return labels;
+}
+
+// Segments of a window of frames: an id is one thing throughout.
+void MergeSegments(const std::vector<PanopticSegment>& more, std::map<uint32_t, PanopticSegment>& all, const char* whose) {
+  for (const PanopticSegment& s : more) {
+    const auto [at, fresh] = all.emplace(s.id, s);
+    if (!fresh && at->second.category != s.category) throw InputError(std::string(whose) + " segment " + std::to_string(s.id) + " changes its category within a window of video");
+    at->second.crowd |= s.crowd;
+  }
+}
+
+std::vector<PanopticSegment> Values(const std::map<uint32_t, PanopticSegment>& segments) {
+  std::vector<PanopticSegment> list;
+  for (const auto& [id, segment] : segments) list.push_back(segment);
+  return list;
+}
+
+struct SeenFrame {
+  PanopticOverlap overlap;
+  std::vector<PanopticSegment> predicted, real;
+};
+
+void CountWindows(const std::vector<SeenFrame>& frames, int window, std::vector<PanopticCount>& counts) {
+  // A sequence shorter than a window is one window.
+  const size_t length = std::min(static_cast<size_t>(window), frames.size());
+  for (size_t first = 0; first + length <= frames.size(); ++first) {
+    PanopticOverlap overlap;
+    std::map<uint32_t, PanopticSegment> predicted, real;
+    for (size_t f = first; f < first + length; ++f) {
+      overlap.Add(frames[f].overlap);
+      MergeSegments(frames[f].predicted, predicted, "predicted");
+      MergeSegments(frames[f].real, real, "true");
+    }
+    overlap.Count(Values(predicted), Values(real), counts);
+  }
+}
+
+Result MeasureSequence(const Sequence& sequence, const Arguments& a, const std::vector<PanopticCategory>& categories, ViewCache& cache) {
+  std::vector<bool> things;
+  for (const PanopticCategory& category : categories) things.push_back(category.thing);
+  Result result{std::make_shared<TrackingQuality>(things), {}};
+  std::vector<SeenFrame> frames;
+  try {
+    for (size_t f = 0; f < sequence.frames.size(); ++f) {
+      const Frame frame = sequence.frames[f]();
+      const std::string name = "frame " + std::to_string(f);
+      const Labels pred = LabelsOf(frame.prediction, frame.predicted, things, name), gt = LabelsOf(frame.truth, frame.real, things, name);
+      const auto views = cache.Of(frame.truth.width, frame.truth.height);
+      const std::vector<double>& weights = views->front().weights;
+      result.tracking->Add({pred.category, pred.instance}, {gt.category, gt.instance}, weights);
+      SeenFrame& seen = frames.emplace_back();
+      seen.overlap.Add(frame.prediction.ids, frame.truth.ids, weights);
+      seen.predicted = frame.predicted;
+      seen.real = frame.real;
+    }
+    for (const int window : a.windows) {
+      auto& counts = result.windows[window];
+      counts.resize(categories.size());
+      CountWindows(frames, window, counts);
+    }
+  } catch (const InputError& error) {
+    throw InputError("sequence '" + sequence.name + "': " + error.what());
+  }
+  return result;
+}
+
+struct Scores {
+  TrackingScore tracking;
+  std::map<int, std::vector<PanopticCount>> windows;
+};
+
+Scores Pool(const std::vector<Result>& results, size_t categories, std::span<const uint32_t> draws = {}) {
+  Scores scores;
+  std::vector<const TrackingQuality*> tracking;
+  for (size_t i = 0; i < results.size(); ++i) {
+    for (uint32_t draw = 0; draw < (draws.empty() ? 1 : draws[i]); ++draw) {
+      tracking.push_back(results[i].tracking.get());
+      for (const auto& [window, counts] : results[i].windows) {
+        auto& sum = scores.windows[window];
+        sum.resize(categories);
+        for (size_t c = 0; c < categories; ++c) {
+          sum[c].iou += counts[c].iou;
+          sum[c].tp += counts[c].tp;
+          sum[c].fp += counts[c].fp;
+          sum[c].fn += counts[c].fn;
+        }
+      }
+    }
+  }
+  scores.tracking = TrackingQuality::Pool(tracking);
+  return scores;
+}
+
+double MeanVpq(const Scores& scores, const std::vector<bool>& chosen) {
+  double sum = 0;
+  for (const auto& [window, counts] : scores.windows) sum += MeanQuality(counts, chosen).pq;
+  return sum / static_cast<double>(scores.windows.size());
+}
+
+std::vector<Figure> FiguresOf(const Scores& scores, const std::vector<PanopticCategory>& categories) {
+  std::vector<Figure> figures = {{"stq", scores.tracking.stq}, {"aq", scores.tracking.aq}, {"sq", scores.tracking.sq}};
+  for (const auto& [group, chosen] : PanopticGroups(categories)) figures.emplace_back(group == "all" ? "vpq" : "vpq_" + group, MeanVpq(scores, chosen));
+  return figures;
+}
+
+void Run(const Arguments& a, const GlobalOptions& globals) {
+  if (!a.protocol.empty() && a.protocol != "step") throw InputError("--protocol: " + UnknownChoiceMessage("protocol of video", a.protocol, std::vector<std::string>{"step"}));
+  std::set<int> windows;
+  for (const int window : a.windows) {
+    if (window < 1 || window > 1000) throw InputError("--windows: " + std::to_string(window) + " frames; must be 1 to 1000");
+    windows.insert(window);
+  }
+  if (windows.empty()) throw InputError("--windows: names none");
+  ViewOptions view;
+  view.weights = a.weights;
+  CheckViewOptions(view);
+  ViewCache cache(view);
+  const bool pictures = fs::is_directory(a.paths.gt) && !fs::exists(fs::path(a.paths.gt) / "panoptic.json");
+  const Video video = pictures ? StepVideo(a) : PanopticVideo(a);
+  const auto results = MeasureAll<Result>("eval video", video.sequences.size(), [&](size_t i) { return MeasureSequence(video.sequences[i], a, video.categories, cache); });
+
+  const Scores scores = Pool(results, video.categories.size());
+  const std::vector<Figure> main = FiguresOf(scores, video.categories);
+  Json json = ToJson(main);
+  json["tubes"] = scores.tracking.tubes;
+  json["frames"] = scores.tracking.frames;
+  json["weights"] = a.weights;
+  for (const auto& [window, counts] : scores.windows) AppendPanoptic(json["windows"][std::to_string(window)], counts, video.categories, false);
+  std::vector<std::vector<std::string>> rows = {{"sequence", "frames", "tubes", "stq", "aq", "sq"}};
+  for (size_t i = 0; i < results.size(); ++i) {
+    const TrackingScore s = results[i].tracking->Score();
+    json["per_sequence"].push_back({{"sequence", video.sequences[i].name}, {"stq", s.stq}, {"aq", s.aq}, {"sq", s.sq}, {"frames", s.frames}, {"tubes", s.tubes}});
+    rows.push_back({video.sequences[i].name, std::to_string(s.frames), std::to_string(s.tubes), NumberText(s.stq), NumberText(s.aq), NumberText(s.sq)});
+  }
+  std::vector<std::string> names;
+  for (const Figure& figure : main) names.push_back(figure.first);
+  AppendIntervals(json, a.report, globals.seed, results.size(), names, [&](std::span<const uint32_t> draws) {
+    std::vector<double> values;
+    for (const Figure& figure : FiguresOf(Pool(results, video.categories.size(), draws), video.categories)) values.push_back(figure.second);
+    return values;
+  });
+  WriteCsv(a.report.csv, rows);
+  json["notes"].push_back("step: tubes and confusions of all sequences are pooled; where a class is predicted as void, void is a class of IoU 0, as in STEP's code; crowds of the truth do not count for AQ");
+  json["notes"].push_back("vpq: mean over --windows of the panoptic quality of windows of so many frames, each taken as one large picture (Kim et al., CVPR 2020)");
+  for (const std::string& note : video.notes) json["notes"].push_back(note);
+  if (globals.json) PrintJson(json);
+  else PrintFigures(json);
+}
+
+}  // namespace
+
+void AddEvalVideo(CLI::App& command, GlobalOptions& globals) {
+  CLI::App* video = command.add_subcommand("video", "segmentation and tracking of panoptic video: STQ, AQ, SQ, VPQ");
+  const auto a = std::make_shared<Arguments>();
+  AddPanopticPaths(*video, a->paths);
+  video->get_option("pred")->description("COCO panoptic JSON whose ids are the same over frames (images may have video_id), a dataset of ours, or a folder of STEP's PNGs");
+  video->add_option("--windows", a->windows, "N,…: lengths of windows for VPQ, frames (default 1,2,3,4)")->delimiter(',');
+  video->add_option("--protocol", a->protocol, "step: its figures are always among those given");
+  video->add_option("--weights", a->weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
+  video->add_option("--classes", a->classes, "STEP's PNGs: number of classes (default 19)");
+  video->add_option("--things", a->things, "STEP's PNGs: classes whose instances are followed (default 11,13)")->delimiter(',');
+  video->add_option("--void", a->void_class, "STEP's PNGs: class of ignored pixels (default 255)");
+  AddReportFlags(*video, a->report, "a row a sequence");
+  video->callback([a, &globals] { Run(*a, globals); });
+}
+
+}  // namespace airsim360

@@ -1,0 +1,227 @@
+#include "airsim360/app/eval_views.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/eval/statistics/bootstrap.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr int kMostBands = 1000;
+
+void CheckChoice(const char* flag, const std::string& text, const std::vector<std::string>& choices) {
+  if (std::find(choices.begin(), choices.end(), text) == choices.end())
+    throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("choice", text, choices));
+}
+
+}  // namespace
+
+void AddReportFlags(CLI::App& command, ReportOptions& options, const char* csv_rows) {
+  command.add_option("--bootstrap", options.bootstrap, "95 % intervals from so many draws of the pictures with replacement, by --seed; 0 = none");
+  command.add_option("--csv", options.csv, std::string("also write a table, ") + csv_rows);
+}
+
+void AddViewFlags(CLI::App& command, ViewOptions& options) {
+  command.add_option("--weights", options.weights, "what a pixel counts: pixel (1, the default) or solid_angle (its steradians, panoramas)");
+  command.add_option("--projection", options.projection, "where pixels are counted: erp (as they are, the default), cube or tangent (the nearest pixels of a panorama)");
+  command.add_option("--seam", options.seam, "also within so many columns of the panorama's seam, and apart from it");
+  command.add_option("--latitude-bands", options.bands, "also in so many bands of equal latitude");
+  command.add_option("--rolled", options.rolled, "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
+  command.add_flag("--force", options.force, "measure in spite of what looks like a mistake of units, axes or orientation");
+}
+
+void CheckViewOptions(const ViewOptions& options) {
+  const PixelWeight weight = ParsePixelWeight(options.weights);
+  CheckChoice("--projection", options.projection, {"erp", "cube", "tangent"});
+  if (options.projection != "erp" && weight != PixelWeight::kPixel)
+    throw InputError("--weights " + options.weights + " and --projection " + options.projection + " exclude each other: both say what a direction counts");
+  if (options.seam < 0) throw InputError("--seam " + std::to_string(options.seam) + ": must be at least 1");
+  if (options.bands < 0 || options.bands > kMostBands) throw InputError("--latitude-bands " + std::to_string(options.bands) + ": must be 1 to " + std::to_string(kMostBands));
+  ParseRolled(options);
+}
+
+std::shared_ptr<const PictureViews> ViewCache::Of(int width, int height) {
+  const std::lock_guard lock(mutex_);
+  auto& views = views_[{width, height}];
+  if (views) return views;
+  const PixelWeight weight = options_.cos_latitude ? PixelWeight::kCosLatitude : ParsePixelWeight(options_.weights);
+  auto made = std::make_shared<PictureViews>();
+  if (options_.resize_width > 0) {
+    made->push_back(ResizedView(width, height, options_.resize_width, options_.resize_height));
+  } else if (options_.projection == "cube") {
+    made->push_back(CubeView(width, height));
+  } else if (options_.projection == "tangent") {
+    made->push_back(TangentView(width, height));
+  } else {
+    made->push_back(WholeView(width, height, weight));
+  }
+  if (options_.seam > 0) {
+    made->push_back(SeamView(width, height, options_.seam, true, weight));
+    made->push_back(SeamView(width, height, options_.seam, false, weight));
+  }
+  for (int band = 0; band < options_.bands; ++band) made->push_back(BandView(width, height, band, options_.bands, weight));
+  views = std::move(made);
+  return views;
+}
+
+std::vector<Rolled> ParseRolled(const ViewOptions& options) {
+  std::vector<Rolled> list;
+  for (const std::string& text : options.rolled) {
+    const size_t equals = text.find('=');
+    Rolled one;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + std::min(equals, text.size()), one.columns);
+    if (equals == std::string::npos || error != std::errc() || end != text.data() + equals || equals + 1 == text.size())
+      throw InputError("--rolled: '" + text + "' is not COLUMNS=PRED");
+    one.path = text.substr(equals + 1);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+void AppendViews(nlohmann::ordered_json& json, const ViewOptions& options, const std::function<nlohmann::ordered_json(size_t)>& of_view) {
+  size_t view = 1;
+  if (options.seam > 0) {
+    json["seam"] = {{"columns", options.seam}, {"near", of_view(view)}, {"far", of_view(view + 1)}};
+    view += 2;
+  }
+  for (int band = 0; band < options.bands; ++band) {
+    nlohmann::ordered_json one = {{"latitude_deg", {90 - 180.0 * band / options.bands, 90 - 180.0 * (band + 1) / options.bands}}};
+    one.update(of_view(view + static_cast<size_t>(band)));
+    json["latitude_bands"].push_back(std::move(one));
+  }
+}
+
+void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, const std::vector<std::vector<Figure>>& figures, const std::vector<Figure>& main) {
+  if (rolled.empty()) return;
+  std::vector<Figure> spread;
+  for (size_t f = 0; f < main.size(); ++f) {
+    double low = main[f].second, high = low;
+    for (const auto& one : figures) low = std::min(low, one[f].second), high = std::max(high, one[f].second);
+    spread.emplace_back(main[f].first, high - low);
+  }
+  for (size_t r = 0; r < rolled.size(); ++r) {
+    nlohmann::ordered_json one = {{"columns", rolled[r].columns}, {"pred", rolled[r].path}};
+    one.update(ToJson(figures[r]));
+    json["rolled"].push_back(std::move(one));
+  }
+  json["spread"] = ToJson(spread);
+}
+
+void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items, const std::vector<std::string>& names,
+                     const std::function<std::vector<double>(std::span<const uint32_t>)>& statistic) {
+  if (options.bootstrap == 0) return;
+  const std::vector<Interval> intervals = BootstrapIntervals(items, options.bootstrap, seed, statistic);
+  json["bootstrap"] = {{"draws", options.bootstrap}, {"seed", seed}, {"level", 0.95}};
+  for (size_t f = 0; f < names.size(); ++f) json["intervals"][names[f]] = {intervals[f].low, intervals[f].high};
+}
+
+void JudgeMistakes(const std::vector<std::pair<std::string, std::string>>& files_and_mistakes, bool force, nlohmann::ordered_json& json) {
+  size_t count = 0, first = 0;
+  for (size_t i = files_and_mistakes.size(); i-- > 0;) {
+    if (!files_and_mistakes[i].second.empty()) ++count, first = i;
+  }
+  if (2 * count <= files_and_mistakes.size()) return;
+  std::string text = files_and_mistakes[first].first + ": " + files_and_mistakes[first].second;
+  if (files_and_mistakes.size() > 1) text += " (" + std::to_string(count) + " of " + std::to_string(files_and_mistakes.size()) + " pictures)";
+  if (!force) throw InputError(text + "; --force measures it as it is");
+  json["warnings"].push_back(text);
+}
+
+nlohmann::ordered_json ToJson(const std::vector<Figure>& figures) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : figures) json[name] = value;
+  return json;
+}
+
+namespace {
+
+// "  near: absrel 0.1, rmse 0.4": the first figures of a part; of groups of figures those of the first group.
+void PrintPart(const std::string& name, const nlohmann::ordered_json& part) {
+  constexpr int kShown = 4;
+  const nlohmann::ordered_json& figures = part.contains("all") ? part["all"] : part;
+  std::string text;
+  int shown = 0;
+  for (const auto& [key, value] : figures.items()) {
+    if (!value.is_number_float() || shown++ == kShown) continue;
+    char number[40];
+    std::snprintf(number, sizeof(number), " %.6g", value.get<double>());
+    text += (text.empty() ? " " : ", ") + key + number;
+    if (shown == kShown) break;
+  }
+  std::printf("  %s:%s\n", name.c_str(), text.c_str());
+}
+
+void PrintParts(const nlohmann::ordered_json& json) {
+  if (json.contains("seam")) {
+    PrintPart("near the seam", json["seam"]["near"]);
+    PrintPart("away from the seam", json["seam"]["far"]);
+  }
+  if (json.contains("latitude_bands")) {
+    for (const auto& band : json["latitude_bands"]) {
+      char name[48];
+      std::snprintf(name, sizeof(name), "latitude %.4g to %.4g", band["latitude_deg"][0].get<double>(), band["latitude_deg"][1].get<double>());
+      PrintPart(name, band);
+    }
+  }
+  if (json.contains("rolled")) {
+    for (const auto& one : json["rolled"]) PrintPart("rolled by " + std::to_string(one["columns"].get<int>()), one);
+    PrintPart("spread", json["spread"]);
+  }
+  if (json.contains("worst")) {
+    for (const auto& one : json["worst"]) PrintPart("worst: " + one["picture"].get<std::string>(), one);
+  }
+}
+
+}  // namespace
+
+void PrintFigures(const nlohmann::ordered_json& json) {
+  for (const auto& [name, value] : json.items()) {
+    if (value.is_number_float()) std::printf("%-24s %.6g\n", name.c_str(), value.get<double>());
+    if (value.is_number_integer()) std::printf("%-24s %lld\n", name.c_str(), static_cast<long long>(value.get<int64_t>()));
+    if (value.is_string()) std::printf("%-24s %s\n", name.c_str(), value.get<std::string>().c_str());
+  }
+  if (json.contains("intervals")) {
+    for (const auto& [name, value] : json["intervals"].items()) {
+      if (value[0].is_number()) std::printf("%-24s %.6g to %.6g (95 %%)\n", name.c_str(), value[0].get<double>(), value[1].get<double>());
+    }
+  }
+  PrintParts(json);
+  for (const char* list : {"notes", "warnings"}) {
+    if (!json.contains(list)) continue;
+    for (const auto& text : json[list]) std::printf("%s %s\n", std::string_view(list) == "notes" ? "note:" : "warning:", text.get<std::string>().c_str());
+  }
+}
+
+std::string NumberText(double value) {
+  if (!std::isfinite(value)) return "";
+  char text[32];
+  const auto result = std::to_chars(text, text + sizeof(text), value);
+  return {text, result.ptr};
+}
+
+void WriteCsv(const std::string& path, const std::vector<std::vector<std::string>>& rows) {
+  if (path.empty()) return;
+  std::string text;
+  for (const auto& row : rows) {
+    for (size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) text += ',';
+      if (row[i].find_first_of(",\"\n") == std::string::npos) {
+        text += row[i];
+        continue;
+      }
+      text += '"';
+      for (const char c : row[i]) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+      text += '"';
+    }
+    text += '\n';
+  }
+  WriteFileAtomically(path, std::string_view(text));
+}
+
+}  // namespace airsim360

@@ -1,0 +1,153 @@
+// airsim360 view: datasets and worlds in the browser, until SIGINT or SIGTERM; or as files.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/config_flags.h"
+#include "airsim360/app/environment_flags.h"
+#include "airsim360/app/people_arguments.h"
+#include "airsim360/app/session.h"
+#include "airsim360/app/stop_signals.h"
+#include "airsim360/app/traffic_arguments.h"
+#include "airsim360/app/world_flags.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+#include "airsim360/view/view_site.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ViewArguments {
+  std::string what, compare, world, record, drone = "hummingbird", out, wind;
+  RenderSettings picture;
+  EnvironmentFlags environment;
+  PeopleArguments people;
+  TrafficArguments traffic;
+  int port = 8360;
+};
+
+constexpr std::chrono::milliseconds kLastJob{800};  // that a picture has to end when the server is stopped
+
+double SteadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// The next folder of a record that is not there yet: DIR/000, DIR/001, …
+fs::path NextFolder(const fs::path& record) {
+  for (int i = 0;; ++i) {
+    const std::string digits = std::to_string(i);
+    const fs::path folder = record / (std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits);
+    if (!fs::exists(folder)) return folder;
+  }
+}
+
+// What was kept in the browser becomes a dataset like any other.
+std::string Save(Stage& stage, const ViewArguments& arguments, const GlobalOptions& globals, const Flight& kept, const Environment& environment) {
+  DatasetSpec spec;
+  static_cast<RenderSettings&>(spec) = arguments.picture;
+  spec.command = "view";
+  spec.world = DescribeWorld(arguments.world, globals);
+  spec.seed = globals.seed;
+  spec.labels = DescribeLabels(globals);
+  spec.people = arguments.people.Describe();
+  spec.traffic = arguments.traffic.Describe();
+  spec.environment = DescribeEnvironment(environment);
+  spec.pano_frame = PanoFrame::kLevel;
+  spec.frames = static_cast<int64_t>(kept.shots.size());
+  spec.route = "flown by hand";
+  const fs::path out = NextFolder(arguments.record);
+  Collect(InputOf(stage, spec, kept, out), *stage.NewRenderer(spec.tier, environment));
+  return out.string();
+}
+
+std::shared_ptr<LiveWorld> OpenLive(const std::shared_ptr<const ViewArguments>& arguments, const GlobalOptions& globals) {
+  CheckRenderSettings(arguments->picture, "--");
+  StageOptions wanted = StageOptionsOf(arguments->world, globals, arguments->environment, arguments->people.Request(globals.seed),
+                                       arguments->traffic.Request(globals.seed));
+  wanted.wind = ReadWindFile(arguments->wind);
+  const auto stage = std::make_shared<Stage>(wanted);
+  LiveOptions options{.picture = arguments->picture, .drone = arguments->drone, .clock = SteadySeconds};
+  if (!arguments->record.empty()) {
+    options.save = [stage, arguments, &globals](const Flight& kept, const Environment& environment) {
+      return Save(*stage, *arguments, globals, kept, environment);
+    };
+  }
+  return std::make_shared<LiveWorld>(stage, std::move(options));
+}
+
+// A folder is a dataset; everything else is a world, as for all commands.
+void Understand(ViewArguments& arguments) {
+  if (arguments.port < 0 || arguments.port > 65535)
+    throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
+  if (!arguments.what.empty() && !arguments.world.empty()) throw InputError("--world: give a dataset or a world, not both");
+  if (arguments.what.ends_with(".json") && !arguments.what.ends_with(".city.json"))
+    throw InputError("'" + arguments.what + "': a plan has no pictures yet; draw them with 'airsim360 dataset run " + arguments.what + " --out DIR' and view DIR");
+  if (!arguments.what.empty() && !fs::is_directory(arguments.what)) std::swap(arguments.what, arguments.world);
+  if (arguments.what.empty() && arguments.world.empty())
+    throw InputError("view: what? Give the folder of a dataset, a file of a world, or --world W");
+  if (arguments.what.empty() && !arguments.compare.empty()) throw InputError("--compare: needs a dataset to compare with");
+  if (arguments.what.empty() && !arguments.out.empty()) throw InputError("--export: writes datasets; a live world needs the server");
+  if (arguments.world.empty() && !arguments.record.empty()) throw InputError("--record: records a live world; give --world W");
+}
+
+ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
+  if (!arguments->world.empty()) return ViewSite({}, OpenLive(arguments, globals), NewToken());
+  std::vector<std::shared_ptr<ViewedDataset>> datasets{std::make_shared<ViewedDataset>(arguments->what)};
+  if (!arguments->compare.empty()) datasets.push_back(std::make_shared<ViewedDataset>(arguments->compare));
+  return ViewSite(std::move(datasets));
+}
+
+void Serve(const ViewSite& site, const ViewArguments& arguments, bool json) {
+  HttpHandlers handlers{.request = [&site](const HttpRequest& request) { return site.Answer(request); }};
+  HttpServerOptions options = ViewServerOptions(arguments.port);
+  if (arguments.world.empty()) options.socket_target.clear();
+  else handlers.message = [&site](const std::string& message) { return site.AnswerMessage(message); };
+  // Not before the world is there: until then Ctrl-C ends the program at once.
+  const StopSignals stop;
+  const HttpServer server(std::move(handlers), options);
+  if (json) {
+    PrintJson({{"address", "127.0.0.1"}, {"port", server.port()}});
+  } else {
+    std::printf("listening on http://127.0.0.1:%d\n", server.port());
+  }
+  std::fflush(stdout);
+  stop.Wait();
+  EndWithin(kLastJob);
+}
+
+void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
+  Understand(*arguments);
+  const ViewSite site = SiteOf(arguments, globals);
+  if (arguments->out.empty()) return Serve(site, *arguments, globals.json);
+  site.Write(arguments->out);
+  if (globals.json) PrintJson({{"out", arguments->out}});
+  else std::printf("%s\n", (fs::path(arguments->out) / "index.html").c_str());
+}
+
+}  // namespace
+
+void AddViewCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand("view", "datasets and worlds in the browser (docs/guide/viewer.md)");
+  auto arguments = std::make_shared<ViewArguments>();
+  command->add_option("WHAT", arguments->what, "folder of a dataset or of a flight, or a file of a world (.glb, .osm, .yaml, …)");
+  command->add_option("--compare", arguments->compare, "folder of a second dataset, side by side");
+  command->add_option("--world", arguments->world, "name or file of a world to fly in");
+  command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8360)");
+  command->add_option("--export", arguments->out, "write the page and the datasets into this new folder, for any server of files, and end");
+  command->add_option("--record", arguments->record, "folder into which frames kept in the browser are saved, a dataset each time");
+  command->add_option("--drone", arguments->drone, "name of the drone that is flown (default hummingbird)");
+  AddConfigFlags(*command, [arguments](ConfigVisitor& v) { arguments->picture.Visit(v); });
+  arguments->people.AddTo(*command);
+  arguments->traffic.AddTo(*command);
+  AddWindFlag(*command, arguments->wind);
+  AddEnvironmentFlags(*command, arguments->environment);
+  AddWorldFlags(*command, globals);
+  command->callback([arguments, &globals] { RunView(arguments, globals); });
+}
+
+}  // namespace airsim360

@@ -1,0 +1,353 @@
+// airsim360 vln: vision-and-language navigation. Episodes with proofs, agents that fly them, scores.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "airsim360/app/arguments.h"
+#include "airsim360/app/commands.h"
+#include "airsim360/app/config_flags.h"
+#include "airsim360/app/session.h"
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/base/hash.h"
+#include "airsim360/base/log.h"
+#include "airsim360/dataset/record/version.h"
+#include "airsim360/vln/episodes/exchange.h"
+#include "airsim360/vln/episodes/make_episodes.h"
+#include "airsim360/vln/report/submission.h"
+#include "airsim360/vln/report/vln_report.h"
+
+namespace airsim360 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+PeopleRequest PeopleOf(int64_t count, uint64_t seed) {
+  PeopleRequest people;
+  if (count > 0) people.count = static_cast<size_t>(count);
+  people.seed = seed;
+  return people;
+}
+
+std::shared_ptr<Stage> Open(const GlobalOptions& globals, const std::string& world, uint64_t seed, int64_t people) {
+  GlobalOptions of_seed = globals;
+  of_seed.seed = seed;
+  const auto stage = std::make_shared<Stage>(StageOptionsOf(world, of_seed, {}, PeopleOf(people, seed)));
+  LogInfo(world + " of seed " + std::to_string(seed) + ": ready after " + ClockText(stage->load_seconds()));
+  return stage;
+}
+
+// ------------------------------------------------------------------------------------------------ make
+
+struct MakeArguments {
+  VlnMakeOptions options;
+  std::string out;
+};
+
+void PrintMade(const VlnMade& made, const std::string& out, const GlobalOptions& globals) {
+  Json difficulty = {{"easy", 0}, {"medium", 0}, {"hard", 0}}, unbound = Json::array();
+  for (const LanguageEpisode& e : made.episodes) difficulty[e.difficulty] = difficulty[e.difficulty].get<int>() + 1;
+  for (const Unbound& u : made.unbound)
+    unbound.push_back({{"template", u.template_id}, {"world", u.world}, {"world_seed", u.world_seed}, {"start", u.start}, {"why", u.why}});
+  if (globals.json) {
+    PrintJson({{"out", out}, {"episodes", made.episodes.size()}, {"difficulty", difficulty}, {"unbound", unbound}});
+    return;
+  }
+  std::printf("%zu episodes in %s (%d easy, %d medium, %d hard)\n", made.episodes.size(), out.c_str(), difficulty["easy"].get<int>(),
+              difficulty["medium"].get<int>(), difficulty["hard"].get<int>());
+  for (const Unbound& u : made.unbound)
+    std::printf("not bound: %s, start %d, seed %llu: %s\n", u.template_id.c_str(), u.start, static_cast<unsigned long long>(u.world_seed), u.why.c_str());
+}
+
+void Make(MakeArguments& arguments, const GlobalOptions& globals) {
+  VlnMakeOptions& options = arguments.options;
+  options.seed = globals.seed;
+  if (!options.weather.empty() && options.weather != "mix") ApplyFlags({.weather = options.weather}, {});
+  options.open = [&](uint64_t seed) { return Open(globals, options.world, seed, 0); };
+  const VlnMade made = MakeEpisodes(options);
+  if (made.episodes.empty()) throw RuntimeError("no instruction could be bound to " + options.world + ": " + made.unbound.front().why);
+  std::string text;
+  for (const LanguageEpisode& e : made.episodes) text += EpisodeLine(e) + "\n";
+  WriteFileAtomically(arguments.out, text);
+  PrintMade(made, arguments.out, globals);
+}
+
+void AddMake(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("make", "episodes: instructions bound to a world, each with the proof that it means one thing");
+  const auto a = std::make_shared<MakeArguments>();
+  command->add_option("--world", a->options.world, "name or file of the world")->required();
+  command->add_option("--templates", a->options.templates, "paper37, any (the same style over whatever a world has), or a JSON file (default paper37)");
+  command->add_option("--starts", a->options.starts, "starts of each instruction (default 3)");
+  command->add_option("--seeds", a->options.seeds, "worlds, of the seeds from --seed on (default 1)");
+  command->add_option("--people", a->options.people, "people in the world when episodes are flown (default 0)");
+  command->add_option("--weather", a->options.weather, "of pictures, or mix: another one an episode");
+  command->add_option("--limit", a->options.limit, "episodes of a seed at most (default all)");
+  command->add_option("--out", a->out, "episodes.jsonl")->required();
+  command->callback([a, &globals] { Make(*a, globals); });
+}
+
+// ------------------------------------------------------------------------------------------------ check, templates
+
+void Check(const std::string& file, const GlobalOptions& globals) {
+  const std::vector<LanguageEpisode> episodes = ReadEpisodes(file);
+  const auto complaints = CheckEpisodes(episodes, [&](const std::string& world, uint64_t seed) { return Open(globals, world, seed, 0); });
+  Json list = Json::array();
+  size_t ambiguous = 0, unreachable = 0;
+  for (const VlnComplaint& c : complaints) {
+    list.push_back({{"id", c.id}, {"what", c.what}});
+    ambiguous += c.what.starts_with("not unique");
+    unreachable += c.what.starts_with("not reachable");
+    if (!globals.json) std::printf("%s: %s\n", c.id.c_str(), c.what.c_str());
+  }
+  if (globals.json)
+    PrintJson({{"episodes", episodes.size()}, {"not_unique", ambiguous}, {"not_reachable", unreachable}, {"wrong", complaints.size()}, {"complaints", list}});
+  else
+    std::printf("%zu episodes: %zu not unique, %zu not reachable, %zu otherwise wrong\n", episodes.size(), ambiguous, unreachable,
+                complaints.size() - ambiguous - unreachable);
+  std::fflush(stdout);
+  if (!complaints.empty()) throw RuntimeError("vln check: " + complaints[0].id + ": " + complaints[0].what);
+}
+
+void AddCheck(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("check", "proves episodes again by a second, brute-force method; exit status 1 if one is wrong");
+  const auto file = std::make_shared<std::string>();
+  command->add_option("file", *file, "episodes.jsonl")->required();
+  command->callback([file, &globals] { Check(*file, globals); });
+}
+
+void AddTemplates(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("templates", "the instructions of the paper, word for word, and what they ask for");
+  command->callback([&globals] {
+    if (globals.json) {
+      PrintJson(Json::parse(PaperTemplatesText()));
+      return;
+    }
+    for (const InstructionTemplate& t : PaperTemplates()) {
+      std::string predicates;
+      for (const Predicate& p : t.query.predicates) predicates += (predicates.empty() ? "" : ", ") + std::string(kPredicateNames[static_cast<int>(p.kind)]);
+      std::printf("%s  %s\n            %s\n", t.id.c_str(), t.text.c_str(), predicates.c_str());
+    }
+  });
+}
+
+// ------------------------------------------------------------------------------------------------ import, export
+
+struct ExchangeArguments {
+  std::string file, format, world, out;
+};
+
+void Import(const ExchangeArguments& a, const GlobalOptions& globals) {
+  const auto episodes = ImportEpisodes(ReadTextFile(a.file, uint64_t{2} << 30), a.file, a.format, a.world);
+  std::string text;
+  for (const LanguageEpisode& e : episodes) text += EpisodeLine(e) + "\n";
+  WriteFileAtomically(a.out, text);
+  if (globals.json) PrintJson({{"out", a.out}, {"episodes", episodes.size()}});
+  else std::printf("%zu episodes in %s\n", episodes.size(), a.out.c_str());
+}
+
+void Export(const ExchangeArguments& a, const GlobalOptions& globals) {
+  const auto episodes = ReadEpisodes(a.file);
+  WriteFileAtomically(a.out, ExportEpisodes(episodes, a.format));
+  if (globals.json) PrintJson({{"out", a.out}, {"episodes", episodes.size()}});
+  else std::printf("%zu episodes in %s\n", episodes.size(), a.out.c_str());
+}
+
+void AddImportAndExport(CLI::App& parent, GlobalOptions& globals) {
+  const char* formats = "aerialvln, openfly, citynav, traveluav or uavon";
+  CLI::App* import = parent.add_subcommand("import", "episodes of public benchmarks; they can be flown, but nothing is proved of them");
+  const auto a = std::make_shared<ExchangeArguments>();
+  import->add_option("file", a->file, "JSON of the benchmark")->required();
+  import->add_option("--format", a->format, formats)->required();
+  import->add_option("--world", a->world, "name or file of the world that they are to be flown in")->required();
+  import->add_option("--out", a->out, "episodes.jsonl")->required();
+  import->callback([a, &globals] { Import(*a, globals); });
+  CLI::App* exported = parent.add_subcommand("export", "episodes in the form of a public benchmark");
+  const auto b = std::make_shared<ExchangeArguments>();
+  exported->add_option("file", b->file, "episodes.jsonl")->required();
+  exported->add_option("--format", b->format, formats)->required();
+  exported->add_option("--out", b->out, "JSON of the benchmark")->required();
+  exported->callback([b, &globals] { Export(*b, globals); });
+}
+
+// ------------------------------------------------------------------------------------------------ run
+
+struct RunArguments {
+  std::string file, agent = "oracle", view = "erp", decisions, protocol = "ours", program, out;
+  VlnRunOptions options;
+};
+
+template <class Kind, size_t kCount>
+Kind ChoiceOf(const char* flag, const std::string& text, const char* const (&names)[kCount]) {
+  for (size_t i = 0; i < kCount; ++i)
+    if (text == names[i]) return static_cast<Kind>(i);
+  throw InputError(std::string(flag) + ": " + UnknownChoiceMessage("choice", text, std::vector<std::string>(std::begin(names), std::end(names))));
+}
+
+void PrintScores(const std::vector<VlnResult>& results, const std::string& out, const GlobalOptions& globals) {
+  Json scores = Json::parse(ScoresJson(results));
+  scores["out"] = out;
+  if (globals.json) {
+    PrintJson(scores);
+    return;
+  }
+  std::printf("%zu episodes, %s, %s, %s, %s\n", results.size(), results[0].agent.c_str(), results[0].view.c_str(), results[0].decisions_by.c_str(),
+              results[0].protocol.c_str());
+  for (const auto& [name, interval] : scores["intervals"].items())
+    if (scores[name].is_number() && interval[0].is_number())
+      std::printf("%-20s %10.4f   [%.4f, %.4f]\n", name.c_str(), scores[name].get<double>(), interval[0].get<double>(), interval[1].get<double>());
+}
+
+void Run(RunArguments& a, const GlobalOptions& globals) {
+  VlnRunOptions& options = a.options;
+  ChoiceOf<int>("--agent", a.agent, kAgentNames);
+  options.agent = a.agent;
+  options.view = ChoiceOf<VlnView>("--view", a.view, kViewNames);
+  if (!a.decisions.empty()) options.decisions = ChoiceOf<Decisions>("--decisions", a.decisions, kDecisionNames);
+  options.protocol = a.protocol;
+  options.out = a.out;
+  CheckRenderSettings(options.picture, "--");
+  if (a.agent == "exec") {
+    std::istringstream words(a.program);
+    for (std::string word; words >> word;) options.exec.command.push_back(word);
+  } else if (!a.program.empty()) {
+    throw InputError("--program: only --agent exec runs a program");
+  }
+  if (a.agent == "openai") {
+    const ChatOptions given = options.chat;
+    options.chat = ChatOptionsFromEnvironment();
+    options.chat.seconds = given.seconds;
+    options.chat.tries = given.tries;
+    options.chat.first_wait = given.first_wait;
+    options.chat.per_minute = given.per_minute;
+  }
+  options.exec.seconds = options.chat.seconds;
+  if (!(options.chat.seconds > 0 && options.chat.seconds <= 3600)) throw InputError("--timeout: is not in 0 … 3600 s");
+  if (options.chat.tries < 1 || options.chat.tries > 20) throw InputError("--tries: " + std::to_string(options.chat.tries) + " is not in 1 … 20");
+  if (!(options.chat.first_wait >= 0 && options.chat.first_wait <= 60)) throw InputError("--retry-wait: is not in 0 … 60 s");
+  if (!(options.chat.per_minute >= 0 && options.chat.per_minute <= 1e6)) throw InputError("--per-minute: is not in 0 … 1000000");
+  options.open = [&](const std::string& world, uint64_t seed, int64_t people) { return Open(globals, world, seed, people); };
+  PrintScores(RunEpisodes(ReadEpisodes(a.file), options), a.out, globals);
+}
+
+void AddRun(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("run", "flies episodes with an agent and scores it; the same line again goes on after an interruption");
+  const auto a = std::make_shared<RunArguments>();
+  command->add_option("file", a->file, "episodes.jsonl")->required();
+  command->add_option("--agent", a->agent, "oracle, random, forward, heuristic, mask, exec or openai (default oracle)");
+  command->add_option("--view", a->view, "erp, front or cube6 (default erp)");
+  command->add_option("--decisions", a->decisions, "yomo, discrete or waypoints (default: the protocol's)");
+  command->add_option("--protocol", a->protocol, "ours, aerialvln, openfly, citynav, traveluav or uavon (default ours)");
+  command->add_option("--program", a->program, "of agent exec: program and arguments, apart by spaces");
+  command->add_option("--limit", a->options.limit, "the first N episodes (default all)");
+  command->add_option("--workers", a->options.workers, "episodes at a time, each with a renderer (default 1)");
+  command->add_flag("--realtime", a->options.realtime, "what an agent takes to think passes in its episode too");
+  command->add_option("--width", a->options.width, "of panoramas, pixels (default 1024)");
+  command->add_option("--timeout", a->options.chat.seconds, "seconds for one answer of a program or a server (default 120)");
+  command->add_option("--tries", a->options.chat.tries, "of a request where a server is busy (default 4)");
+  command->add_option("--retry-wait", a->options.chat.first_wait, "seconds before a request is tried again, doubled each time (default 1)");
+  command->add_option("--per-minute", a->options.chat.per_minute, "requests at most (default no limit)");
+  AddConfigFlags(*command, [a](ConfigVisitor& v) { a->options.picture.Visit(v); });
+  command->add_option("--out", a->out, "results.jsonl")->required();
+  command->callback([a, &globals] { Run(*a, globals); });
+}
+
+// ------------------------------------------------------------------------------------------------ report
+
+void Report(const std::vector<std::string>& files, const std::string& out, const GlobalOptions& globals) {
+  std::vector<VlnRun> runs;
+  for (const std::string& file : files) runs.push_back({std::filesystem::path(file).stem().string(), ReadResults(file)});
+  const std::string stem = std::filesystem::path(out).replace_extension("").string();
+  WriteFileAtomically(stem + ".html", ReportHtml(runs));
+  WriteFileAtomically(stem + ".md", ReportMarkdown(runs));
+  if (globals.json) PrintJson({{"html", stem + ".html"}, {"markdown", stem + ".md"}, {"runs", runs.size()}});
+  else std::printf("%s.html\n%s.md\n", stem.c_str(), stem.c_str());
+}
+
+void AddReport(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("report", "a page about runs, in HTML and Markdown: scores, decisions, maps, failures");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  const auto out = std::make_shared<std::string>();
+  command->add_option("files", *files, "results.jsonl of one or more runs")->required();
+  command->add_option("--out", *out, "report.html; report.md lies beside it")->required();
+  command->callback([files, out, &globals] { Report(*files, *out, globals); });
+}
+
+// ------------------------------------------------------------------------------------------------ submit, verify
+
+struct SubmitArguments {
+  std::string episodes, results, transcript, name, out;
+};
+
+void Submit(const SubmitArguments& a, const GlobalOptions& globals) {
+  const SubmissionFacts facts{a.name, std::string(kVersion), Sha256HexOfFile("/proc/self/exe")};
+  WriteFileAtomically(a.out, PackSubmission(a.episodes, a.results, a.transcript, facts));
+  if (globals.json) PrintJson({{"out", a.out}});
+  else std::printf("%s\n", a.out.c_str());
+}
+
+void AddSubmit(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("submit", "packs a run into one sealed file for a table of results");
+  const auto a = std::make_shared<SubmitArguments>();
+  command->add_option("episodes", a->episodes, "episodes.jsonl")->required();
+  command->add_option("results", a->results, "results.jsonl")->required();
+  command->add_option("--transcript", a->transcript, "RESULTS.transcript.jsonl, whose hash is kept");
+  command->add_option("--name", a->name, "of the entry");
+  command->add_option("--out", a->out, "submission.json")->required();
+  command->callback([a, &globals] { Submit(*a, globals); });
+}
+
+struct VerifyArguments {
+  std::string submission, episodes;
+  bool fly = false;
+};
+
+// The same flights once more.
+std::vector<VlnResult> FlyAgain(const std::vector<LanguageEpisode>& episodes, const VlnResult& like, const GlobalOptions& globals) {
+  if (like.agent == "exec" || like.agent == "openai") throw InputError("--fly: agent '" + like.agent + "' is not part of the program; its flights are scored again alone");
+  VlnRunOptions options;
+  options.agent = like.agent;
+  options.view = ChoiceOf<VlnView>("view", like.view, kViewNames);
+  options.decisions = ChoiceOf<Decisions>("decisions_by", like.decisions_by, kDecisionNames);
+  options.protocol = like.protocol;
+  options.open = [&](const std::string& world, uint64_t seed, int64_t people) { return Open(globals, world, seed, people); };
+  return RunEpisodes(episodes, options);
+}
+
+void Verify(const VerifyArguments& a, const GlobalOptions& globals) {
+  std::function<std::vector<VlnResult>(const std::vector<LanguageEpisode>&, const VlnResult&)> fly;
+  if (a.fly) fly = [&](const std::vector<LanguageEpisode>& episodes, const VlnResult& like) { return FlyAgain(episodes, like, globals); };
+  const std::vector<std::string> problems = VerifySubmission(a.submission, a.episodes, fly);
+  if (globals.json) PrintJson({{"submission", a.submission}, {"flown_again", a.fly}, {"problems", problems}});
+  else if (problems.empty()) std::printf("%s: all holds\n", a.submission.c_str());
+  for (const std::string& problem : problems)
+    if (!globals.json) std::printf("%s\n", problem.c_str());
+  std::fflush(stdout);
+  if (!problems.empty()) throw RuntimeError("vln verify: " + problems[0]);
+}
+
+void AddVerify(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("verify", "scores a submission again, or flies it again; exit status 1 where it does not hold");
+  const auto a = std::make_shared<VerifyArguments>();
+  command->add_option("submission", a->submission, "submission.json")->required();
+  command->add_option("episodes", a->episodes, "episodes.jsonl")->required();
+  command->add_flag("--fly", a->fly, "also fly again and compare byte for byte");
+  command->callback([a, &globals] { Verify(*a, globals); });
+}
+
+}  // namespace
+
+void AddVlnCommand(CLI::App& app, GlobalOptions& globals) {
+  CLI::App* command = app.add_subcommand("vln", "vision-and-language navigation: episodes with proofs, agents, scores (docs/guide/vln.md)");
+  command->require_subcommand(1);
+  AddTemplates(*command, globals);
+  AddMake(*command, globals);
+  AddCheck(*command, globals);
+  AddImportAndExport(*command, globals);
+  AddRun(*command, globals);
+  AddReport(*command, globals);
+  AddSubmit(*command, globals);
+  AddVerify(*command, globals);
+}
+
+}  // namespace airsim360

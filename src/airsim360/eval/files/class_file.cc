@@ -1,0 +1,94 @@
+#include "airsim360/eval/files/class_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/file.h"
+#include "airsim360/eval/files/json_cursor.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::JsonCursor;
+using internal::JsonFile;
+
+constexpr uint32_t kMostId = 65534;
+constexpr uint64_t kMostBytes = 16 << 20;
+
+bool ParseId(std::string_view word, uint32_t& id) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+std::string_view Trimmed(std::string_view text) {
+  constexpr const char* kBlank = " \t\r,:;";
+  const size_t first = text.find_first_not_of(kBlank);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<LabelClass> FromLines(std::string_view text) {
+  std::vector<LabelClass> classes;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = Trimmed(text.substr(at, end - at));
+    at = end + 1;
+    if (line.empty() || line[0] == '#') continue;
+    constexpr const char* kBetween = " \t,:;";
+    const size_t first = line.find_first_of(kBetween), last = line.find_last_of(kBetween);
+    uint32_t id = static_cast<uint32_t>(classes.size());
+    std::string_view name = line;
+    if (first != std::string_view::npos && ParseId(line.substr(0, first), id)) {
+      name = Trimmed(line.substr(first));
+    } else if (last != std::string_view::npos && ParseId(line.substr(last + 1), id)) {
+      name = Trimmed(line.substr(0, last));
+    }
+    classes.push_back({id, std::string(name)});
+  }
+  return classes;
+}
+
+std::vector<LabelClass> FromJson(const JsonCursor& top) {
+  std::vector<LabelClass> classes;
+  const auto add = [&](const JsonCursor& id, const std::string& name) {
+    const int64_t number = id.Integer();
+    if (number < 0 || number > kMostId) id.Fail(std::to_string(number) + " is no id of a class (0 to 65534)");
+    classes.push_back({static_cast<uint32_t>(number), name});
+  };
+  if (top.is_object() && !top.Has("categories")) {
+    for (const std::string& name : top.Names()) add(top[name.c_str()], name);
+    std::stable_sort(classes.begin(), classes.end(), [](const LabelClass& a, const LabelClass& b) { return a.id < b.id; });
+    return classes;
+  }
+  const JsonCursor list = top.is_object() ? top["categories"] : top;
+  for (size_t i = 0; i < list.size(); ++i) {
+    if (list[i].is_string()) {
+      classes.push_back({static_cast<uint32_t>(i), list[i].Text()});
+    } else {
+      add(list[i]["id"], list[i].Has("name") ? list[i]["name"].Text() : list[i]["path"].Text());
+    }
+  }
+  return classes;
+}
+
+}  // namespace
+
+std::vector<LabelClass> ParseClassFile(std::string_view text, const std::string& name, bool json) {
+  const std::vector<LabelClass> classes = json ? FromJson(JsonFile::Parse(text, name).top()) : FromLines(text);
+  if (classes.empty()) throw InputError(name + ": has no classes");
+  std::set<uint32_t> ids;
+  std::set<std::string> names;
+  for (const LabelClass& c : classes) {
+    if (c.id > kMostId) throw InputError(name + ": " + std::to_string(c.id) + " is no id of a class (0 to 65534)");
+    if (!ids.insert(c.id).second) throw InputError(name + ": the id " + std::to_string(c.id) + " occurs twice");
+    if (!names.insert(c.name).second) throw InputError(name + ": the class '" + c.name + "' occurs twice");
+  }
+  return classes;
+}
+
+std::vector<LabelClass> ReadClassFile(const std::filesystem::path& path) {
+  return ParseClassFile(ReadTextFile(path, kMostBytes), path.string(), path.extension() == ".json");
+}
+
+}  // namespace airsim360

@@ -1,0 +1,91 @@
+#include "airsim360/eval/files/panoptic_file.h"
+
+#include <set>
+
+#include "airsim360/base/error.h"
+#include "airsim360/eval/files/json_cursor.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::JsonCursor;
+using internal::JsonFile;
+
+std::vector<PanopticCategory> Categories(const JsonCursor& list) {
+  std::vector<PanopticCategory> categories;
+  std::set<int64_t> ids;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonCursor one = list[i];
+    categories.push_back({one["id"].Integer(), one.Has("name") ? one["name"].Text() : "", one["isthing"].Flag()});
+    if (!ids.insert(categories.back().id).second) one.Fail("the id " + std::to_string(categories.back().id) + " occurs twice");
+  }
+  return categories;
+}
+
+std::map<int64_t, std::string> Sequences(const JsonCursor& top) {
+  std::map<int64_t, std::string> sequences;
+  if (!top.Has("images")) return sequences;
+  const JsonCursor list = top["images"];
+  for (size_t i = 0; i < list.size(); ++i) {
+    const char* field = list[i].Has("video_id") ? "video_id" : "sequence";
+    if (list[i].Has(field)) sequences[list[i]["id"].Integer()] = list[i][field].IdText();
+  }
+  return sequences;
+}
+
+std::vector<PanopticSegment> Segments(const JsonCursor& list, const std::map<int64_t, size_t>& categories) {
+  std::vector<PanopticSegment> segments;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonCursor one = list[i];
+    const int64_t id = one["id"].Integer(), category = one["category_id"].Integer();
+    if (id < 1 || id > 0xffffffff) one.Fail(std::to_string(id) + " is no id of a segment");
+    const auto found = categories.find(category);
+    if (found == categories.end()) one.Fail("category_id " + std::to_string(category) + " is not among the categories");
+    segments.push_back({static_cast<uint32_t>(id), found->second, one.FlagOr("iscrowd", false)});
+  }
+  return segments;
+}
+
+std::string FileName(const JsonCursor& value) {
+  const fs::path path = value.Text();
+  for (const fs::path& part : path) {
+    if (part == "..") value.Fail("'" + path.string() + "' leads out of the folder");
+  }
+  if (path.empty() || path.is_absolute()) value.Fail("'" + path.string() + "' is no name of a file in the folder");
+  return path.string();
+}
+
+PanopticFile Read(const JsonCursor& top, const std::vector<PanopticCategory>* known) {
+  PanopticFile file;
+  file.categories = known ? *known : Categories(top["categories"]);
+  std::map<int64_t, size_t> categories;
+  for (size_t c = 0; c < file.categories.size(); ++c) categories[file.categories[c].id] = c;
+  const auto sequences = Sequences(top);
+  const JsonCursor list = top["annotations"];
+  std::set<int64_t> images;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonCursor one = list[i];
+    PanopticFrame frame{one["image_id"].Integer(), FileName(one["file_name"]), "", Segments(one["segments_info"], categories)};
+    if (!images.insert(frame.image).second) one.Fail("image_id " + std::to_string(frame.image) + " occurs twice");
+    if (const auto sequence = sequences.find(frame.image); sequence != sequences.end()) frame.sequence = sequence->second;
+    file.frames.push_back(std::move(frame));
+  }
+  return file;
+}
+
+}  // namespace
+
+PanopticFile ReadPanopticFile(const fs::path& path, const std::vector<PanopticCategory>* known) { return Read(JsonFile::Read(path).top(), known); }
+
+PanopticFile ParsePanopticFile(std::string_view text, const std::string& name, const std::vector<PanopticCategory>* known) {
+  return Read(JsonFile::Parse(text, name).top(), known);
+}
+
+fs::path PanopticFolder(const fs::path& json) {
+  const fs::path own = fs::path(json).replace_extension(), entity = json.parent_path() / "entity";
+  if (fs::is_directory(own)) return own;
+  return fs::is_directory(entity) ? entity : json.parent_path();
+}
+
+}  // namespace airsim360

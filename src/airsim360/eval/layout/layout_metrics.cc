@@ -1,0 +1,113 @@
+#include "airsim360/eval/layout/layout_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "airsim360/base/error.h"
+#include "airsim360/eval/boxes/box_overlap.h"
+#include "airsim360/math/triangulate.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kCameraHeight = 1.6;
+
+double Azimuth(double x, int width) { return ((x + 0.5) / width - 0.5) * 2 * kPi; }
+double Down(double y, int height) { return ((y + 0.5) / height - 0.5) * kPi; }
+
+struct Room {
+  std::vector<Vec2d> plan;  // x to the right, y ahead, metres
+  double ceiling = 0;       // above the camera
+};
+
+Room Raise(const RoomLayout& layout, int width, int height, const char* whose) {
+  const std::string name(whose);
+  if (layout.floor.size() < 3 || layout.ceiling.size() != layout.floor.size()) throw InputError(name + ": a room has at least three pairs of a ceiling and a floor corner");
+  Room room;
+  for (size_t i = 0; i < layout.floor.size(); ++i) {
+    const double down = Down(layout.floor[i].y, height), up = -Down(layout.ceiling[i].y, height), azimuth = Azimuth(layout.floor[i].x, width);
+    if (!(down > 0 && down < kPi / 2 && up > 0 && up < kPi / 2))
+      throw InputError(name + ": pair " + std::to_string(i) + " is not a ceiling corner above the horizon, then a floor corner below it");
+    if (std::abs(std::remainder(layout.floor[i].x - layout.ceiling[i].x, static_cast<double>(width))) > 1)
+      throw InputError(name + ": pair " + std::to_string(i) + " has its corners in different columns");
+    const double distance = kCameraHeight / std::tan(down);
+    room.plan.push_back({distance * std::sin(azimuth), distance * std::cos(azimuth)});
+    room.ceiling += distance * std::tan(up) / static_cast<double>(layout.floor.size());
+  }
+  return room;
+}
+
+// Distance of the nearest wall in a direction; 0 where there is none.
+double WallDistance(const Room& room, double azimuth) {
+  const Vec2d d{std::sin(azimuth), std::cos(azimuth)};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < room.plan.size(); ++i) {
+    const Vec2d a = room.plan[i], edge = room.plan[(i + 1) % room.plan.size()] - a;
+    const double across = d.x * edge.y - d.y * edge.x;
+    if (across == 0) continue;
+    const double distance = (a.x * edge.y - a.y * edge.x) / across, along = (a.x * d.y - a.y * d.x) / across;
+    if (distance > 0 && along >= 0 && along <= 1) nearest = std::min(nearest, distance);
+  }
+  return std::isfinite(nearest) ? nearest : 0;
+}
+
+enum Surface { kCeiling, kWall, kFloor };
+
+struct Seen {
+  Surface surface;
+  double range;
+};
+
+Seen Look(const Room& room, double wall, double down) {
+  const double lower = std::atan2(kCameraHeight, wall), upper = -std::atan2(room.ceiling, wall);
+  if (down > lower) return {kFloor, kCameraHeight / std::sin(down)};
+  if (down < upper) return {kCeiling, -room.ceiling / std::sin(down)};
+  return {kWall, wall / std::cos(down)};
+}
+
+double CornerError(const RoomLayout& a, const RoomLayout& b, int width, int height) {
+  if (a.floor.size() != b.floor.size()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (size_t i = 0; i < a.floor.size(); ++i)
+    sum += std::hypot(a.floor[i].x - b.floor[i].x, a.floor[i].y - b.floor[i].y) + std::hypot(a.ceiling[i].x - b.ceiling[i].x, a.ceiling[i].y - b.ceiling[i].y);
+  return 100 * sum / (2 * static_cast<double>(a.floor.size())) / std::hypot(width, height);
+}
+
+void MeasurePixels(const Room& p, const Room& g, int width, int height, LayoutErrors& errors) {
+  double wrong = 0, square = 0, near = 0;
+  for (int x = 0; x < width; ++x) {
+    const double wall_p = WallDistance(p, Azimuth(x, width)), wall_g = WallDistance(g, Azimuth(x, width));
+    if (wall_p == 0 || wall_g == 0) throw InputError(std::string(wall_p == 0 ? "the prediction" : "the truth") + ": the camera is outside the room");
+    for (int y = 0; y < height; ++y) {
+      const Seen a = Look(p, wall_p, Down(y, height)), b = Look(g, wall_g, Down(y, height));
+      wrong += a.surface != b.surface;
+      square += (a.range - b.range) * (a.range - b.range);
+      near += std::max(a.range / b.range, b.range / a.range) < 1.25;
+    }
+  }
+  const double pixels = static_cast<double>(width) * height;
+  errors.pixel_error = 100 * wrong / pixels;
+  errors.rmse = std::sqrt(square / pixels);
+  errors.delta1 = near / pixels;
+}
+
+}  // namespace
+
+std::array<double, kLayoutFigures.size()> Figures(const LayoutErrors& e) { return {e.iou2d, e.iou3d, e.corner_error, e.pixel_error, e.rmse, e.delta1}; }
+
+LayoutErrors MeasureLayout(const RoomLayout& prediction, const RoomLayout& truth, int width, int height) {
+  const Room p = Raise(prediction, width, height, "the prediction"), g = Raise(truth, width, height, "the truth");
+  const double shared = SharedPolygonArea(p.plan, g.plan), area_p = std::abs(SignedArea(p.plan)), area_g = std::abs(SignedArea(g.plan));
+  const double high_p = p.ceiling + kCameraHeight, high_g = g.ceiling + kCameraHeight, shared_volume = shared * std::min(high_p, high_g);
+  LayoutErrors errors;
+  errors.iou2d = shared / (area_p + area_g - shared);
+  errors.iou3d = shared_volume / (area_p * high_p + area_g * high_g - shared_volume);
+  errors.corner_error = CornerError(prediction, truth, width, height);
+  MeasurePixels(p, g, width, height, errors);
+  return errors;
+}
+
+}  // namespace airsim360

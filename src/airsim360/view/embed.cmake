@@ -1,0 +1,12 @@
+# cmake -DOUT=FILE.cc -DFILES=A|B|… -P embed.cmake: the files as the table that page_files.h declares.
+string(REPLACE "|" ";" files "${FILES}")
+list(SORT files)
+set(text "// Made by embed.cmake of the files of page/.\n#include \"airsim360/view/page_files.h\"\n\nnamespace airsim360 {\n\n")
+string(APPEND text "std::span<const PageFile> PageFiles() {\n  static constexpr PageFile kFiles[] = {\n")
+foreach(file IN LISTS files)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" content)
+  string(APPEND text "{\"${name}\", R\"airsim360page(${content})airsim360page\"},\n")
+endforeach()
+string(APPEND text "};\n  return kFiles;\n}\n\n}  // namespace airsim360\n")
+file(WRITE "${OUT}" "${text}")

@@ -1,0 +1,298 @@
+#include "airsim360/view/live_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "airsim360/base/error.h"
+#include "airsim360/flight/drones/catalog.h"
+#include "airsim360/scene/category_colors.h"
+#include "airsim360/sim/drone_bodies.h"
+#include "airsim360/view/planes.h"
+
+namespace airsim360 {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr double kMostPassed = 0.25;         // seconds that pass between two pictures at most
+constexpr int64_t kSilenceNs = 500'000'000;  // after which the drone stops
+constexpr double kFlowSeconds = 0.1;
+constexpr double kMostSpeed = 15, kTurnRate = 1.5;  // m/s, rad/s
+constexpr size_t kKeptFrames = 4, kMostKept = 1000, kMostMessage = 4096;
+constexpr int kSmallest = 128, kLargest = 4096;  // columns
+constexpr const char* kShown[] = {"range", "semantic", "entity", "normal", "albedo", "material", "position", "coverage", "flow"};
+constexpr double kNear = 0.5, kFar = 200;  // metres, ends of the scale of ranges
+
+std::string TimeOfDay(double hour) {
+  const int minutes = static_cast<int>(std::lround(hour * 60)) % (24 * 60);
+  char text[64];
+  std::snprintf(text, sizeof text, "2026-06-21T%02d:%02d", minutes / 60, minutes % 60);
+  return text;
+}
+
+SocketMessage Said(const Json& json) { return {json.dump()}; }
+SocketMessage Problem(const std::string& message) { return Said({{"error", message}}); }
+
+double Number(const Json& message, const char* key, double low, double high, double otherwise) {
+  if (!message.contains(key)) return otherwise;
+  const Json& value = message[key];
+  const double number = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(number >= low && number <= high))
+    throw InputError(std::string(key) + ": " + value.dump() + " is not in " + Json(low).dump() + " ... " + Json(high).dump());
+  return number;
+}
+
+Products ProductsOf(const Json& message, std::vector<std::string>& names) {
+  Products products;
+  const Json wanted = message.value("products", Json::array());
+  if (!wanted.is_array()) throw InputError("products: a list of names");
+  for (const Json& name : wanted) {
+    const auto found = std::ranges::find_if(kProducts, [&](const ProductInfo& p) { return name == p.name; });
+    if (found == std::end(kProducts) || std::ranges::find(kShown, name) == std::end(kShown)) throw InputError("products: " + name.dump() + " is none of them");
+    products.*found->wanted = true;
+    names.push_back(found->name);
+  }
+  return products;
+}
+
+DroneSetup SetupOf(const Scene& scene, const std::string& drone) {
+  DroneSetup setup{.name = "drone", .model = CatalogModel(drone)};
+  const Vec3d spawn = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  setup.X_WB = BodyPose(spawn, scene.spawn_yaw_deg * std::numbers::pi / 180, 0, 0);
+  setup.airborne = true;
+  setup.crash_disarms = false;  // who bumps into something flies on
+  return setup;
+}
+
+std::shared_ptr<const SimModel> ModelOf(Stage& stage, const std::string& drone) {
+  SimModel model = stage.Model();
+  model.drones.push_back(std::make_shared<const SimDrone>(SetupOf(stage.scene(), drone), model.dt_ns));
+  return std::make_shared<const SimModel>(std::move(model));
+}
+
+// A picture that may still be asked about.
+struct Seen {
+  int64_t number = 0;
+  Frame frame;
+};
+
+}  // namespace
+
+struct LiveWorld::Impl {
+  Impl(std::shared_ptr<Stage> given, LiveOptions wanted)
+      : stage(std::move(given)), options(std::move(wanted)), loop(ModelOf(*stage, options.drone)), environment(stage->environment()) {
+    told_at = options.clock();
+    renderer = &stage->renderer(options.picture.tier);
+  }
+
+  SocketMessage Do(const Json& message, bool may_fly);
+  SocketMessage Picture(const Json& message, bool may_fly);
+  SocketMessage Planes(const Json& message);
+  SocketMessage Set(const Json& message);
+  SocketMessage Keep();
+  SocketMessage Save();
+  SocketMessage Reset();
+  void Fly(const Json& input);
+  void PassTime();
+  std::string StateFields(const Capture& capture) const;
+
+  std::shared_ptr<Stage> stage;
+  LiveOptions options;
+  SimLoop loop;
+  std::mutex changes;  // of what follows; taken before `mutex`
+  std::string weather;
+  double hour = -1;
+  std::mutex mutex;  // of the rest
+  Environment environment;
+  std::unique_ptr<Renderer> own_renderer;  // of another environment than the stage's
+  Renderer* renderer = nullptr;
+  double told_at = 0;
+  int64_t next_number = 1;
+  std::deque<Seen> seen;  // newest last
+  Flight kept;
+};
+
+void LiveWorld::Impl::Fly(const Json& input) {
+  if (!input.is_array() || input.size() != 4) throw InputError("input: four numbers in -1 ... 1: forward, left, up, turn left");
+  double stick[4];
+  for (size_t i = 0; i < 4; ++i) {
+    stick[i] = input[i].is_number() ? input[i].get<double>() : std::nan("");
+    if (!(std::abs(stick[i]) <= 1)) throw InputError("input: " + input[i].dump() + " is not in -1 ... 1");
+  }
+  VelocityCommand command{.v = Vec3d{stick[0], stick[1], stick[2]} * kMostSpeed, .body_heading = true};
+  command.yaw = {YawTarget::Mode::kRate, stick[3] * kTurnRate};
+  loop.Post({0, FlightCommand{command, kSilenceNs}});
+}
+
+void LiveWorld::Impl::PassTime() {
+  const double now = options.clock(), passed = std::clamp(now - told_at, 0.0, kMostPassed);
+  told_at = now;
+  loop.Advance(std::llround(passed * 1e9 / static_cast<double>(loop.model().dt_ns)));
+}
+
+std::string LiveWorld::Impl::StateFields(const Capture& capture) const {
+  const Vehicle& vehicle = loop.state().vehicles[0];
+  const Quaternion q = ToQuaternion(capture.X_WC.R);
+  const Vec3d p = capture.X_WC.p, v = vehicle.motion.v_WB;
+  Json fields{{"number", next_number}, {"t", 1e-9 * static_cast<double>(capture.t_ns)}, {"p", {p.x, p.y, p.z}}, {"q", {q.w, q.x, q.y, q.z}},
+              {"v", {v.x, v.y, v.z}}, {"render_ms", capture.stats.render_ms}, {"collisions", vehicle.collision.count},
+              {"charge", vehicle.drone.charge}, {"kept", kept.shots.size()}};
+  if (vehicle.collision.count > 0 && vehicle.collision.entity != kNoEntity) fields["touched"] = stage->scene().entity(vehicle.collision.entity).name;
+  const std::string text = fields.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.substr(1, text.size() - 2);
+}
+
+SocketMessage LiveWorld::Impl::Picture(const Json& message, bool may_fly) {
+  const std::lock_guard lock(mutex);
+  const int width = static_cast<int>(Number(message, "width", kSmallest, kLargest, 1024)) / 2 * 2;
+  std::vector<std::string> names;
+  const Products products = ProductsOf(message, names);
+  if (message.contains("input")) {
+    if (!may_fly) throw InputError("token: flying needs the page's token");
+    Fly(message["input"]);
+  }
+  PassTime();
+  const std::shared_ptr<const SimState> state = loop.Snapshot();
+  PanoramicRig rig;
+  static_cast<RenderSettings&>(rig) = options.picture;
+  rig.camera = Equirectangular{width, width / 2};
+  rig.pano_frame = PanoFrame::kLevel;
+  rig.products = products;
+  rig.state = SceneStateOf(loop.model(), *state, 0);
+  NextTrigger next;
+  if (products.flow) next = InstantAfter(loop.model(), *state, 0, kFlowSeconds);
+  Capture capture;
+  if (seen.size() == kKeptFrames) {
+    capture.frame = std::move(seen.front().frame);  // its memory
+    seen.pop_front();
+  }
+  CaptureRig(rig, state->vehicles[0].motion, state->t_ns, *renderer, capture, products.flow ? &next : nullptr);
+  PlaneMessage planes;
+  planes.AddPicture(capture.frame.rgb);
+  for (const std::string& name : names) planes.AddProduct(capture.frame, name);
+  SocketMessage answer{planes.Finish(StateFields(capture)), true};
+  seen.push_back({next_number++, std::move(capture.frame)});
+  return answer;
+}
+
+SocketMessage LiveWorld::Impl::Planes(const Json& message) {
+  const std::lock_guard lock(mutex);
+  const auto number = static_cast<int64_t>(Number(message, "number", 0, 9e15, 0));
+  const auto found = std::ranges::find(seen, number, &Seen::number);
+  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone; ask about one of the newest " + std::to_string(kKeptFrames));
+  PlaneMessage planes;
+  for (const char* name : {"range", "semantic", "entity"}) planes.AddProduct(found->frame, name);
+  return {planes.Finish("\"number\":" + std::to_string(number)), true};
+}
+
+// Pictures go on while the renderer of the other light is made.
+SocketMessage LiveWorld::Impl::Set(const Json& message) {
+  const std::lock_guard one_at_a_time(changes);
+  const std::string wanted = message.contains("weather") ? message["weather"].get<std::string>() : weather;
+  const double wanted_hour = Number(message, "hour", -1, 24, hour);
+  EnvironmentFlags flags{.weather = wanted};
+  if (wanted_hour >= 0) {
+    flags.time = TimeOfDay(wanted_hour);
+    flags.place = "45,0";
+  }
+  const Environment next = ApplyFlags(flags, stage->environment());
+  auto made = stage->NewRenderer(options.picture.tier, next);
+  weather = wanted;
+  hour = wanted_hour;
+  const std::lock_guard lock(mutex);
+  own_renderer = std::move(made);
+  renderer = own_renderer.get();
+  environment = next;
+  return Said({{"done", "set"}, {"sun_elevation_deg", next.sun_elevation_deg}});
+}
+
+SocketMessage LiveWorld::Impl::Keep() {
+  const std::lock_guard lock(mutex);
+  if (!options.save) throw InputError("keep: start 'airsim360 view' with --record DIR to keep frames");
+  if (kept.shots.size() >= kMostKept) throw InputError("keep: " + std::to_string(kMostKept) + " frames are kept already; save them");
+  const SimState& state = loop.state();
+  if (!kept.shots.empty() && kept.shots.back().t_ns >= state.t_ns) throw InputError("keep: this instant is kept already");
+  kept.shots.push_back({.t_ns = state.t_ns, .body = state.vehicles[0].motion, .people = state.people, .traffic = state.traffic});
+  kept.trajectory.push_back({state.t_ns, state.vehicles[0].motion, state.vehicles[0].a_WB});
+  return Said({{"done", "keep"}, {"kept", kept.shots.size()}});
+}
+
+SocketMessage LiveWorld::Impl::Save() {
+  const std::lock_guard one_at_a_time(changes);
+  Flight flight;
+  Environment now;
+  {
+    const std::lock_guard lock(mutex);
+    if (kept.shots.empty()) throw InputError("save: no frame is kept");
+    flight = std::exchange(kept, {});
+    now = environment;
+  }
+  const std::string where = options.save(flight, now);
+  return Said({{"done", "save"}, {"folder", where}, {"frames", flight.shots.size()}});
+}
+
+SocketMessage LiveWorld::Impl::Reset() {
+  loop.Post({0, ResetCommand{}});
+  return Said({{"done", "reset"}});
+}
+
+SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
+  const std::string what = message.value("do", "");
+  if (what == "picture") return Picture(message, may_fly);
+  if (what == "planes") return Planes(message);
+  if (!may_fly) throw InputError("token: '" + what + "' needs the page's token");
+  if (what == "set") return Set(message);
+  if (what == "keep") return Keep();
+  if (what == "save") return Save();
+  if (what == "reset") return Reset();
+  throw InputError("do: '" + what + "' is none of picture, planes, set, keep, save, reset");
+}
+
+LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(std::make_unique<Impl>(std::move(stage), std::move(options))) {}
+LiveWorld::~LiveWorld() = default;
+
+SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token) {
+  if (text.size() > kMostMessage) return Problem("a message has at most " + std::to_string(kMostMessage) + " bytes");
+  // Depth is bounded by the length; nothing nests in what is asked for.
+  const Json message = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16 ? Json() : Json::parse(text, nullptr, false);
+  if (!message.is_object()) return Problem("a message is a JSON object");
+  try {
+    const bool may_fly = message.contains("token") && message["token"] == token;
+    return impl_->Do(message, may_fly);
+  } catch (const std::exception& error) {
+    return Problem(error.what());
+  }
+}
+
+std::string LiveWorld::DescriptionJson() const {
+  const Scene& scene = impl_->stage->scene();
+  Json about{{"world", impl_->stage->name()}, {"products", kShown}, {"scale", {kNear, kFar}}, {"weathers", EnvironmentPresetNames()},
+             {"keeps", static_cast<bool>(impl_->options.save)}, {"categories", Json::array()}};
+  for (const auto& [id, category] : scene.tree.categories()) {
+    const Rgb8 color = CategoryColor(scene.tree, id);
+    about["categories"].push_back({{"id", id}, {"path", category.path}, {"color", {color.r, color.g, color.b}}, {"thing", category.thing}});
+  }
+  return about.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string LiveWorld::EntitiesJson() const {
+  const Scene& scene = impl_->stage->scene();
+  Json entities = Json::object();
+  for (const Entity& entity : scene.entities) {
+    const Category& category = scene.tree[entity.category];
+    Json& said = entities[std::to_string(entity.id)];
+    said = {{"name", entity.name}, {"category_path", category.path}, {"kind", category.thing ? "thing" : "stuff"}};
+    const Box3f& box = entity.bounds;
+    if (box.empty()) continue;
+    said["low"] = {box.min.x, box.min.y, box.min.z};
+    said["high"] = {box.max.x, box.max.y, box.max.z};
+  }
+  return entities.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace airsim360

@@ -1,0 +1,92 @@
+// The flight from above: north up, with where one is and looks, people, and the chosen thing.
+import {turn} from "./sphere.js";
+
+const MARGIN = 14, MOST_POINTS = 4000;
+
+export class Minimap {
+  constructor(canvas, onChoose) {
+    Object.assign(this, {canvas, onChoose, points: [], people: [], box: null, here: null});
+    canvas.addEventListener("click", e => this.click(e));
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+  /// Places of the frames, in W.
+  setFlight(points) {
+    this.points = points;
+    this.fit();
+  }
+  fit() {
+    let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (const p of this.points) for (const a of [0, 1]) { low[a] = Math.min(low[a], p[a]); high[a] = Math.max(high[a], p[a]); }
+    const least = 10;  // metres, of a flight that stands still
+    for (const a of [0, 1]) if (high[a] - low[a] < least) { const m = (high[a] + low[a]) / 2; low[a] = m - least / 2; high[a] = m + least / 2; }
+    Object.assign(this, {low, high});
+    this.draw();
+  }
+  scale() {
+    const {width, height} = this.canvas.getBoundingClientRect();
+    return Math.min((width - 2 * MARGIN) / (this.high[0] - this.low[0]), (height - 2 * MARGIN) / (this.high[1] - this.low[1]));
+  }
+  at([x, y]) {
+    const {width, height} = this.canvas.getBoundingClientRect(), s = this.scale();
+    return [width / 2 + s * (x - (this.low[0] + this.high[0]) / 2), height / 2 - s * (y - (this.low[1] + this.high[1]) / 2)];
+  }
+  /// `here`: {p, R, yaw, fov, index}.
+  show(here, people, box) {
+    Object.assign(this, {here, people, box});
+    this.draw();
+  }
+  click(e) {
+    const box = this.canvas.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
+    let best = -1, least = Infinity;
+    this.points.forEach((p, i) => { const [px, py] = this.at(p), d = Math.hypot(px - x, py - y); if (d < least) { least = d; best = i; } });
+    if (best >= 0) this.onChoose(best);
+  }
+  draw() {
+    const {width, height} = this.canvas.getBoundingClientRect(), ratio = devicePixelRatio || 1;
+    if (!width || !this.points.length) return;
+    this.canvas.width = width * ratio;
+    this.canvas.height = height * ratio;
+    const g = this.canvas.getContext("2d");
+    g.scale(ratio, ratio);
+    this.drawFlight(g);
+    if (this.box) this.drawBox(g);
+    g.fillStyle = "#ffb000";
+    for (const person of this.people) if (person.position_world) { const [x, y] = this.at(person.position_world); g.fillRect(x - 2, y - 2, 4, 4); }
+    if (this.here) this.drawHere(g);
+    this.drawScale(g, height);
+  }
+  drawFlight(g) {
+    const step = Math.max(1, Math.ceil(this.points.length / MOST_POINTS));
+    g.strokeStyle = "#5b8bd0";
+    g.fillStyle = "#8ab4f8";
+    g.beginPath();
+    for (let i = 0; i < this.points.length; i += step) g.lineTo(...this.at(this.points[i]));
+    g.stroke();
+    if (this.points.length <= 400) for (const p of this.points) { const [x, y] = this.at(p); g.fillRect(x - 1.5, y - 1.5, 3, 3); }
+  }
+  drawBox(g) {
+    const [x0, y0] = this.at(this.box.low), [x1, y1] = this.at(this.box.high);
+    g.strokeStyle = "#ffff00";
+    g.strokeRect(x0 - 1, y1 - 1, Math.max(3, x1 - x0 + 2), Math.max(3, y0 - y1 + 2));
+  }
+  drawHere(g) {
+    const {p, R, yaw, fov} = this.here, [x, y] = this.at(p), d = turn(R, [Math.sin(yaw), 0, Math.cos(yaw)]);
+    const heading = Math.atan2(-d[1], d[0]);
+    g.fillStyle = "rgba(255,255,255,.35)";
+    g.beginPath();
+    g.moveTo(x, y);
+    g.arc(x, y, 26, heading - fov / 2, heading + fov / 2);
+    g.fill();
+    g.fillStyle = "#ff5252";
+    g.beginPath();
+    g.arc(x, y, 4.5, 0, 7);
+    g.fill();
+  }
+  drawScale(g, height) {
+    const s = this.scale(), raw = 60 / s, p = 10 ** Math.floor(Math.log10(raw)), metres = raw / p < 2 ? p : raw / p < 5 ? 2 * p : 5 * p;
+    g.fillStyle = g.strokeStyle = "#e8eaed";
+    g.font = "11px sans-serif";
+    g.fillRect(8, height - 8, metres * s, 2);
+    g.fillText(`${metres} m`, 8, height - 12);
+  }
+}

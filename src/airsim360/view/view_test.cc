@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "airsim360/view/folder_file.h"
+#include "airsim360/view/live_world.h"
+#include "airsim360/view/page_files.h"
+#include "airsim360/view/planes.h"
+
+namespace airsim360 {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class FolderFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    room_ = fs::path(testing::TempDir()) / ("folder_file_" + std::to_string(::getpid()));
+    fs::create_directories(room_ / "in/sub");
+    std::ofstream(room_ / "secret") << "secret";
+    std::ofstream(room_ / "in/a.txt") << "a";
+    std::ofstream(room_ / "in/sub/b.txt") << "b";
+    fs::create_symlink(room_ / "secret", room_ / "in/link");
+    fs::create_symlink(room_, room_ / "in/up");
+    fs::create_symlink("a.txt", room_ / "in/inside");
+    ::mkfifo((room_ / "in/fifo").c_str(), 0600);
+  }
+  void TearDown() override { fs::remove_all(room_); }
+
+  // What the descriptor reads; "-" = there is none.
+  std::string Read(std::string_view path) const {
+    const int file = OpenInFolder(room_ / "in", path);
+    if (file < 0) return "-";
+    char text[16];
+    const ssize_t size = ::read(file, text, sizeof text);
+    ::close(file);
+    return {text, static_cast<size_t>(size)};
+  }
+
+  fs::path room_;
+};
+
+TEST_F(FolderFile, FilesBelowTheFolderAreRead) {
+  EXPECT_EQ(Read("a.txt"), "a");
+  EXPECT_EQ(Read("sub/b.txt"), "b");
+}
+
+TEST_F(FolderFile, NothingElseIs) {
+  const std::string absolute = (room_ / "secret").string();
+  for (const std::string_view path : {std::string_view("../secret"), std::string_view("sub/../../secret"), std::string_view("sub/../a.txt"), std::string_view("./a.txt"),
+                                      std::string_view("link"), std::string_view("up/secret"), std::string_view("inside"), std::string_view("fifo"), std::string_view("sub"),
+                                      std::string_view("sub/"), std::string_view(""), std::string_view("/"), std::string_view("//a.txt"), std::string_view("a.txt/"),
+                                      std::string_view("a.txt\0b", 7), std::string_view("missing"), std::string_view(absolute)}) {
+    EXPECT_EQ(Read(path), "-") << path;
+  }
+  EXPECT_EQ(Read(std::string(1 << 20, 'a')), "-");
+}
+
+TEST(PercentDecoded, IsTheInverseOfPercentEncoding) {
+  std::string all, encoded;
+  for (int c = 0; c < 256; ++c) {
+    all += static_cast<char>(c);
+    char text[4];
+    std::snprintf(text, sizeof text, "%%%02x", c);
+    encoded += text;
+  }
+  EXPECT_EQ(PercentDecoded(encoded), all);
+  EXPECT_EQ(PercentDecoded("/a-b_c.png"), "/a-b_c.png");
+  for (const char* text : {"%", "%2", "%zz", "a%+1", "%-1", "100%"}) EXPECT_EQ(PercentDecoded(text), "") << text;
+}
+
+TEST(PageFiles, AreWholeAndLoadNothingFromElsewhere) {
+  ASSERT_NE(FindPageFile("index.html"), nullptr);
+  EXPECT_EQ(FindPageFile("../index.html"), nullptr);
+  for (const PageFile& file : PageFiles()) {
+    EXPECT_FALSE(file.text.empty()) << file.name;
+    EXPECT_NE(ContentType(file.name), "application/octet-stream") << file.name;
+    std::string text(file.text);
+    for (size_t at; (at = text.find("http://www.w3.org/2000/svg")) != text.npos;) text.erase(at, 26);
+    EXPECT_EQ(text.find("://"), text.npos) << file.name;
+  }
+}
+
+struct Parts {
+  Json header;
+  std::string data;
+};
+
+Parts Read(const std::string& message) {
+  uint32_t length = 0;
+  EXPECT_EQ(message.substr(0, 4), "A360");
+  std::memcpy(&length, message.data() + 4, 4);
+  return {Json::parse(message.substr(8, length)), message.substr(8 + length)};
+}
+
+TEST(PlaneMessage, HoldsEveryPlaneAtAMultipleOfFourBytes) {
+  Frame frame;
+  frame.range = Image<float>(3, 1);
+  frame.semantic = Image<CategoryId>(3, 1);
+  frame.entity = Image<EntityId>(3, 1);
+  for (int x = 0; x < 3; ++x) {
+    frame.range(x, 0) = 1.5f * static_cast<float>(x);
+    frame.semantic(x, 0) = static_cast<CategoryId>(300 + x);
+    frame.entity(x, 0) = 70000u + static_cast<EntityId>(x);
+  }
+  PlaneMessage message;
+  for (const char* name : {"semantic", "range", "entity"}) EXPECT_TRUE(message.AddProduct(frame, name));
+  EXPECT_FALSE(message.AddProduct(frame, "nothing"));
+  const std::string bytes = message.Finish("\"number\":7");
+  const Parts parts = Read(bytes);
+  EXPECT_EQ(parts.header["number"], 7);
+  EXPECT_EQ((bytes.size() - parts.data.size()) % 4, 0u);
+  ASSERT_EQ(parts.header["planes"].size(), 3u);
+  for (const Json& plane : parts.header["planes"]) EXPECT_EQ(plane["at"].get<size_t>() % 4, 0u);
+  uint16_t semantic = 0;
+  float range = 0;
+  uint32_t entity = 0;
+  std::memcpy(&semantic, parts.data.data() + parts.header["planes"][0]["at"].get<size_t>() + 4, sizeof semantic);
+  std::memcpy(&range, parts.data.data() + parts.header["planes"][1]["at"].get<size_t>() + 8, sizeof range);
+  std::memcpy(&entity, parts.data.data() + parts.header["planes"][2]["at"].get<size_t>() + 4, sizeof entity);
+  EXPECT_EQ(semantic, 302);
+  EXPECT_EQ(range, 3.0f);
+  EXPECT_EQ(entity, 70001u);
+}
+
+class Live : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { stage_ = std::make_shared<Stage>(StageOptions{.world = {.world = "box_room"}, .device = {.device = "cpu"}}); }
+  static void TearDownTestSuite() { stage_.reset(); }
+
+  // Flies half a second forward and up, told ten times; all pictures one after the other.
+  static std::string Fly() {
+    double now = 0;
+    LiveWorld world(stage_, {.clock = [&] { return now; }});
+    std::string all;
+    for (int i = 0; i < 10; ++i) {
+      now += 0.05;
+      Json message{{"do", "picture"}, {"width", 128}, {"products", {"range"}}, {"token", "t"}, {"input", {0.2, 0, 0.1, 0.3}}};
+      std::string bytes = world.Answer(message.dump(), "t").bytes;
+      // How long rendering took is of no account.
+      const size_t at = bytes.find("\"render_ms\":"), end = bytes.find(',', at);
+      EXPECT_NE(at, bytes.npos) << bytes.substr(0, 200);
+      const Parts parts = airsim360::Read(bytes);
+      all += bytes.substr(8, at - 8) + bytes.substr(end, bytes.find(']', end) - end) + parts.data;
+      last_ = parts.header;
+    }
+    return all;
+  }
+
+  static std::shared_ptr<Stage> stage_;
+  static Json last_;
+};
+std::shared_ptr<Stage> Live::stage_;
+Json Live::last_;
+
+TEST_F(Live, TheSameHandsAtTheSameTimesFlyTheSameWay) {
+  const std::string first = Fly();
+  EXPECT_GT(last_["p"][0].get<double>(), 0.05);
+  EXPECT_NEAR(last_["t"].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(Fly(), first);
+}
+
+TEST_F(Live, TimeStandsWhileTheClockDoesAndNeverJumps) {
+  double now = 0;
+  LiveWorld world(stage_, {.clock = [&] { return now; }});
+  const auto time = [&] { return airsim360::Read(world.Answer(R"({"do":"picture","width":128})", "t").bytes).header["t"].get<double>(); };
+  EXPECT_EQ(time(), 0);
+  EXPECT_EQ(time(), 0);
+  now = 1e6;
+  EXPECT_NEAR(time(), 0.25, 1e-9);
+  now = -5;
+  EXPECT_NEAR(time(), 0.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace airsim360

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/planning/search.h"
+#include "airsim360/routes/roadmap.h"
+#include "airsim360/vln/agents/vln_agent.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kRoom = 0.45;      // metres free around a step
+constexpr double kOnLeg = 0.01;     // metres from a straight leg that rounding makes
+constexpr double kBetter = 1;       // metres less to go that make steps worth it
+constexpr int kMostExpanded = 400;  // places looked at for that
+constexpr double kSpacing = 1;      // metres between points of the way that progress is measured on
+constexpr double kPi = std::numbers::pi;
+
+std::vector<Vec3d> Dense(const std::vector<Vec3d>& way) {
+  std::vector<Vec3d> points = {way.front()};
+  for (size_t i = 1; i < way.size(); ++i) {
+    const int parts = std::max(1, static_cast<int>(std::ceil(Norm(way[i] - way[i - 1]) / kSpacing)));
+    for (int k = 1; k <= parts; ++k) points.push_back(way[i - 1] + (way[i] - way[i - 1]) * (static_cast<double>(k) / parts));
+  }
+  return points;
+}
+
+// Without the points that lie on straight legs.
+std::vector<Vec3d> Corners(const std::vector<Vec3d>& way) {
+  std::vector<Vec3d> corners = {way.front()};
+  for (size_t i = 1; i + 1 < way.size(); ++i) {
+    const Vec3d along = Normalized(way[i + 1] - corners.back());
+    if (Norm(Cross(way[i] - corners.back(), along)) > kOnLeg) corners.push_back(way[i]);
+  }
+  corners.push_back(way.back());
+  return corners;
+}
+
+class OracleAgent : public VlnAgent {
+ public:
+  Decision Decide(VlnSituation& s) override {
+    if (way_.empty()) {
+      way_ = Dense(s.episode.ref);
+      corners_ = Corners(s.episode.ref);
+    }
+    switch (s.decisions) {
+      case Decisions::kWaypoints:
+        return Waypoints();
+      case Decisions::kYomo:
+        return OneMove(s);
+      case Decisions::kDiscrete:
+        return Step(s);
+    }
+    return {};
+  }
+
+ private:
+  bool IsFreeWay(const VlnSituation& s, Vec3d a, Vec3d b) const { return IsFree(s.solid, a, b, kRoom); }
+
+  // Corner by corner: legs are proved clear, what a drone that does not stop makes of corners is not.
+  Decision Waypoints() {
+    if (next_ >= corners_.size()) return {{.stop = true}};
+    const bool last = next_ + 1 == corners_.size();
+    return {{WaypointsAction{.points = {corners_[next_++]}}, last}};
+  }
+
+  // The farthest place of the way that one straight move reaches.
+  Decision OneMove(VlnSituation& s) const {
+    const Viewpoint view = s.Pose();
+    for (size_t i = way_.size(); i-- > 1;) {
+      if (!IsFreeWay(s, view.p_W, way_[i])) continue;
+      const Vec3d d = way_[i] - view.p_W;
+      const double flat = std::hypot(d.x, d.y);
+      return {{RelativeGoalAction{.azimuth = std::remainder(view.yaw - std::atan2(d.y, d.x), 2 * kPi), .elevation = std::atan2(d.z, flat), .distance = Norm(d)},
+               true}};
+    }
+    return {{.stop = true}};
+  }
+
+  // Metres to go from a place: to the way, and along it.
+  double ToGo(Vec3d p) const {
+    double best = 1e9, behind = 0;
+    for (size_t i = way_.size(); i-- > 0;) {
+      best = std::min(best, 1.5 * Norm(p - way_[i]) + behind);
+      if (i > 0) behind += Norm(way_[i] - way_[i - 1]);
+    }
+    return best;
+  }
+
+  // A place that steps lead to, on the way of a search.
+  struct Node {
+    Vec3d p;
+    double yaw = 0, to_go = 0;
+    int parent = -1, turns = 0;  ///< turns to the right, then `last`
+    Preset last = Preset::kForward;
+  };
+
+  // Where one step, after some turns, can lead.
+  std::vector<Node> StepsFrom(const VlnSituation& s, const Node& from, int parent, double room) const {
+    const PresetSizes& sizes = s.flight.spec().presets;
+    std::vector<Node> steps;
+    const auto add = [&](Vec3d step, int turns, Preset last) {
+      const double yaw = from.yaw - turns * sizes.turn;
+      const Vec3d p = from.p + RotationZ(yaw) * step;
+      if (IsFree(s.solid, from.p, p, room)) steps.push_back({p, yaw, ToGo(p) + 0.1 * std::abs(turns), parent, turns, last});
+    };
+    const int half = static_cast<int>(std::lround(kPi / sizes.turn));
+    for (int turns = 1 - half; turns <= half; ++turns) add({sizes.forward, 0, 0}, turns, Preset::kForward);
+    add({0, sizes.lateral, 0}, 0, Preset::kLeft);
+    add({0, -sizes.lateral, 0}, 0, Preset::kRight);
+    add({-sizes.forward, 0, 0}, 0, Preset::kBackward);
+    add({0, 0, sizes.vertical}, 0, Preset::kUp);
+    add({0, 0, -sizes.vertical}, 0, Preset::kDown);
+    return steps;
+  }
+
+  // Steps to the first place found from which clearly less is to go than from here; mostly one, more around a corner that
+  // steps of fixed lengths do not fit. Empty: there is none within the effort.
+  std::vector<Preset> PlanSteps(const VlnSituation& s, double to_go) const {
+    const Viewpoint view = s.Pose();
+    // A drone that came to rest a little off may have less room than is kept from things on the way.
+    const double room = std::clamp(static_cast<double>(s.solid.Clearance(VecCast<float>(view.p_W), 1)) - 0.02, 0.25, kRoom);
+    std::vector<Node> nodes = {{view.p_W, view.yaw, to_go}};
+    std::vector<bool> looked = {false};
+    for (int expanded = 0; expanded < kMostExpanded; ++expanded) {
+      int best = -1;
+      for (size_t i = 0; i < nodes.size(); ++i)
+        if (!looked[i] && (best < 0 || nodes[i].to_go < nodes[static_cast<size_t>(best)].to_go)) best = static_cast<int>(i);
+      if (best < 0) return {};
+      const Node from = nodes[static_cast<size_t>(best)];
+      if (best > 0 && from.to_go < to_go - kBetter) return StepsTo(nodes, best);
+      looked[static_cast<size_t>(best)] = true;
+      for (Node& next : StepsFrom(s, from, best, room)) {
+        if (std::ranges::any_of(nodes, [&](const Node& n) { return Norm(n.p - next.p) < 0.8; })) continue;
+        nodes.push_back(std::move(next));
+        looked.push_back(false);
+      }
+    }
+    return {};
+  }
+
+  static std::vector<Preset> StepsTo(const std::vector<Node>& nodes, int at) {
+    std::vector<Preset> steps;
+    for (; nodes[static_cast<size_t>(at)].parent >= 0; at = nodes[static_cast<size_t>(at)].parent) {
+      const Node& node = nodes[static_cast<size_t>(at)];
+      steps.push_back(node.last);
+      steps.insert(steps.end(), static_cast<size_t>(std::abs(node.turns)), node.turns > 0 ? Preset::kTurnRight : Preset::kTurnLeft);
+    }
+    std::ranges::reverse(steps);
+    return steps;
+  }
+
+  Decision Step(VlnSituation& s) {
+    const Vec3d p = s.Pose().p_W;
+    const double here = Norm(s.episode.goal - p);
+    if (planned_.empty()) {
+      if (here <= 0.3 * s.radius) return {{.stop = true}};
+      planned_ = PlanSteps(s, ToGo(p));
+      if (planned_.empty()) return {{.stop = true}};
+    }
+    const Preset preset = planned_.front();
+    planned_.erase(planned_.begin());
+    return {{PresetAction{preset}}};
+  }
+
+  std::vector<Vec3d> way_, corners_;
+  std::vector<Preset> planned_;
+  size_t next_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<VlnAgent> MakeOracleAgent() { return std::make_unique<OracleAgent>(); }
+
+}  // namespace airsim360

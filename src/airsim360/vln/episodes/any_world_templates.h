@@ -1,0 +1,11 @@
+// Instructions in the style of the paper's for whatever a world has: its own categories and names, five lengths.
+#pragma once
+
+#include "airsim360/vln/episodes/instruction_template.h"
+
+namespace airsim360 {
+
+/// A pure function of the scene. InputError if it names nothing of everyday size.
+std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene);
+
+}  // namespace airsim360

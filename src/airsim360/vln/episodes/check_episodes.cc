@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+#include "airsim360/planning/search.h"
+#include "airsim360/routes/roadmap.h"
+#include "airsim360/vln/episodes/make_episodes.h"
+#include "airsim360/vln/predicates/brute_force.h"
+
+namespace airsim360 {
+namespace {
+
+constexpr double kFree = 0.45;     // metres around the way
+constexpr double kSame = 2e-3;     // metres: points of a file are rounded
+constexpr double kAtThing = 12;    // metres from a goal to the thing that it belongs to
+
+std::string NameOf(const Scene& scene, const std::vector<EntityId>& entities) {
+  return "'" + scene.entity(entities.front()).name + "' (entity " + std::to_string(entities.front()) + ")";
+}
+
+class Checker {
+ public:
+  explicit Checker(const std::shared_ptr<Stage>& stage) : stage_(stage), brute_(stage->shared_scene()) {}
+
+  /// Empty if all is well.
+  std::string Problem(const LanguageEpisode& e) {
+    const Scene& scene = stage_->scene();
+    if (!IsBound(e)) return "not unique: it was imported, and no query says what is meant";
+    for (const EntityId id : e.entities)
+      if (id > scene.entities.size()) return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
+    for (const Predicate& predicate : e.query.predicates)
+      if (predicate.at_turn && !e.turn) return "a predicate is seen from where the instruction turns, but 'turn' is missing";
+    std::string what = Uniqueness(e);
+    if (what.empty()) what = Way(e);
+    return what.empty() ? Place(e) : what;
+  }
+
+ private:
+  std::string Uniqueness(const LanguageEpisode& e) {
+    const auto answers = brute_.Answers(e.query, {e.start, e.turn});
+    if (answers.empty()) return "not unique: no " + e.query.noun.word + " answers the instruction";
+    if (answers.size() > 1) {
+      std::string names;
+      for (size_t i = 0; i < std::min<size_t>(answers.size(), 4); ++i) names += (i ? ", " : "") + NameOf(stage_->scene(), answers[i]);
+      return "not unique: " + std::to_string(answers.size()) + " compete: " + names;
+    }
+    if (answers[0] != e.entities) return "not unique: the instruction means " + NameOf(stage_->scene(), answers[0]) + ", not " + NameOf(stage_->scene(), e.entities);
+    return "";
+  }
+
+  std::string Way(const LanguageEpisode& e) const {
+    if (Norm(e.ref.front() - e.start.p_W) > kSame) return "not reachable: the way does not begin at the start";
+    if (Norm(e.ref.back() - e.goal) > kSame) return "not reachable: the way does not end at the goal";
+    for (size_t i = 1; i < e.ref.size(); ++i)
+      if (!IsFree(*stage_->solid(), e.ref[i - 1], e.ref[i], kFree))
+        return "not reachable: leg " + std::to_string(i) + " of the way comes nearer than " + std::to_string(kFree).substr(0, 4) + " m to a surface";
+    if (std::abs(PolylineLength(e.ref) - e.geodesic_length) > 0.01) return "geodesic_length is not the length of the way";
+    return "";
+  }
+
+  std::string Place(const LanguageEpisode& e) {
+    const bool beyond = e.goal_kind == GoalKind::kStreetBeyond || e.goal_kind == GoalKind::kPathBeyond || e.goal_kind == GoalKind::kFarEnd ||
+                        e.goal_kind == GoalKind::kOtherSide;
+    if (beyond) return brute_.Passes(e.entities, e.start.p_W, e.goal) ? "" : "the goal is not beyond " + NameOf(stage_->scene(), e.entities);
+    const double off = brute_.Distance(e.entities, e.goal);
+    return off <= kAtThing ? "" : "the goal is " + std::to_string(off) + " m from " + NameOf(stage_->scene(), e.entities);
+  }
+
+  std::shared_ptr<Stage> stage_;
+  BruteForce brute_;
+};
+
+}  // namespace
+
+std::vector<VlnComplaint> CheckEpisodes(const std::vector<LanguageEpisode>& episodes,
+                                        const std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed)>& open) {
+  // One world at a time.
+  std::map<std::pair<std::string, uint64_t>, std::vector<size_t>> by_world;
+  for (size_t i = 0; i < episodes.size(); ++i) by_world[{episodes[i].world, episodes[i].world_seed}].push_back(i);
+  std::map<size_t, VlnComplaint> complaints;
+  ProgressBar bar("vln check", static_cast<int64_t>(episodes.size()));
+  int64_t done = 0;
+  for (const auto& [world, members] : by_world) {
+    Checker checker(open(world.first, world.second));
+    for (const size_t i : members) {
+      std::string what = checker.Problem(episodes[i]);
+      if (!what.empty()) complaints[i] = {episodes[i].id, std::move(what)};
+      bar.Update(++done);
+    }
+  }
+  std::vector<VlnComplaint> list;
+  for (auto& [i, complaint] : complaints) list.push_back(std::move(complaint));
+  return list;
+}
+
+}  // namespace airsim360

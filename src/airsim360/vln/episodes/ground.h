@@ -1,0 +1,41 @@
+// What is where in a world, asked with rays. For the .cc files of this folder.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "airsim360/routes/world_clearance.h"
+#include "airsim360/trace/ray_tracer.h"
+
+namespace airsim360::internal {
+
+struct GroundHit {
+  double z = 0;
+  EntityId entity = kNoEntity;
+};
+
+/// Of a tracer without people and bodies. Immutable.
+class VlnGround {
+ public:
+  explicit VlnGround(std::shared_ptr<const RayTracer> tracer);
+  const std::shared_ptr<const RayTracer>& tracer() const { return tracer_; }
+  const Scene& scene() const { return tracer_->scene(); }
+  const Box3d& flight_box() const { return box_; }
+  /// The first surface below a point; nullopt where there is none.
+  std::optional<GroundHit> Below(Vec3d p) const;
+  /// The first surface seen from high above a place.
+  std::optional<GroundHit> At(double x, double y) const { return Below({x, y, top_}); }
+  bool Is(EntityId entity, const char* category) const;
+  /// A ball of `radius` is free there, inside where flights are.
+  bool IsFree(Vec3d p, double radius) const;
+  /// What the segment meets first; kNoEntity: nothing.
+  EntityId Meets(Vec3d from, Vec3d to) const;
+
+ private:
+  std::shared_ptr<const RayTracer> tracer_;
+  Box3d box_;
+  double top_;
+};
+
+}  // namespace airsim360::internal

@@ -1,0 +1,61 @@
+// Instructions before they are bound to a world: the words, what they ask for, where one stands and what counts as done.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "airsim360/vln/predicates/query.h"
+
+namespace airsim360 {
+
+/// From where an instruction is given.
+enum class StartFrame {
+  kAround,    ///< anywhere in the open around the thing
+  kRoad,      ///< above a road, looking along it
+  kTurn,      ///< on a road that leads to a junction at which the instruction turns
+  kCrossing,  ///< before one end of the thing's long side, looking along it
+  kFacing,    ///< before the middle of its long side, looking across it
+  kBeside,    ///< left of it, looking along it
+};
+inline constexpr const char* kStartFrameNames[] = {"around", "road", "turn", "crossing", "facing", "beside"};
+
+/// Where one has arrived.
+enum class GoalKind {
+  kNear,          ///< beside the thing, in sight of it
+  kRoof,          ///< above its top
+  kLand,          ///< close above its surface
+  kBelow,         ///< on the ground at its foot
+  kShore,         ///< before the edge that faces the start
+  kStreetBeyond,  ///< above a road on its far side
+  kPathBeyond,    ///< above a path on its far side
+  kFarEnd,        ///< beyond its far end, on the line ahead
+  kOtherSide,     ///< on the other side of its long axis, as far from it as the start
+  kOver,          ///< above its middle
+};
+inline constexpr const char* kGoalKindNames[] = {"near",          "roof",        "land",    "below",      "shore",
+                                                 "street_beyond", "path_beyond", "far_end", "other_side", "over"};
+
+struct InstructionTemplate {
+  std::string id;    ///< "paper37/01"
+  std::string text;  ///< the instruction
+  Query query;
+  StartFrame frame = StartFrame::kAround;
+  std::string heading = "any";  ///< around: the sector that the thing is to be in, or any
+  double nearest = 24, farthest = 150;  ///< metres between start and thing, seen from above
+  double lowest = 2, highest = 8;       ///< metres of the start above what is below it
+  GoalKind goal = GoalKind::kNear;
+  double distance = 4;  ///< metres that the goal keeps from the thing
+};
+
+/// The 37 instructions of the appendix of the AirSim360 paper ("List of Prompts", Table of prompts), word for word, bound to
+/// what New York City and Downtown West hold.
+const std::vector<InstructionTemplate>& PaperTemplates();
+/// JSON as in docs/guide/vln.md: a list of templates. InputError naming `name` and the field.
+std::vector<InstructionTemplate> ParseTemplates(const std::string& text, const std::string& name);
+/// "paper37", "any", or a file. InputError naming --templates.
+std::vector<InstructionTemplate> FindTemplates(const std::string& name, const Scene& scene);
+
+/// The same as JSON.
+std::string_view PaperTemplatesText();
+}  // namespace airsim360

@@ -1,0 +1,54 @@
+// One episode of panoramic vision-and-language navigation, as a line of episodes.jsonl holds it
+// (docs/reference/vln_episode.schema.json).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "airsim360/vln/episodes/instruction_template.h"
+
+namespace airsim360 {
+
+/// What a level panorama at the start shows of the goal's things.
+struct SeenAtStart {
+  int64_t pixels = 0;      ///< of kSeenWidth * kSeenWidth / 2
+  double azimuth_deg = 0;  ///< of their middle, positive to the right; 0 if there are none
+  double elevation_deg = 0;
+  double range = 0;  ///< metres to the nearest of them
+};
+inline constexpr int kSeenWidth = 512;
+
+struct LanguageEpisode {
+  std::string id, template_id, instruction, world;
+  uint64_t world_seed = 0, seed = 0;  ///< `seed`: of gusts and of agents that draw
+  std::string weather = {};           ///< --weather of the pictures; "" = the world's own
+  int64_t people = 0;
+  Viewpoint start;
+  std::optional<Viewpoint> turn = {};
+  Query query;
+  std::vector<EntityId> entities;  ///< the one thing that answers the query; empty, as the query, where it was imported
+  std::string name;                ///< of it
+  GoalKind goal_kind = GoalKind::kNear;
+  Vec3d goal;          ///< the place to stop at
+  double radius = 20;  ///< metres around it that count as there, of protocol `ours`
+  SeenAtStart seen;
+  std::vector<Vec3d> ref;  ///< from start to goal, proved clear
+  double geodesic_length = 0;
+  std::string difficulty, split;
+  std::string proof = {};   ///< JSON
+  std::string source = {};  ///< JSON: the form that it was imported from, and its record there
+};
+
+/// Whether it has a query, so that there is something to prove.
+bool IsBound(const LanguageEpisode& episode);
+/// One line, without its end.
+std::string EpisodeLine(const LanguageEpisode& episode);
+/// InputError "FILE:LINE.field: …".
+LanguageEpisode ParseEpisodeLine(const std::string& line, const std::string& where);
+/// All of a file. InputError for one that is none, holds none, more than 1,000,000, or an id twice.
+std::vector<LanguageEpisode> ReadEpisodes(const std::filesystem::path& file);
+
+}  // namespace airsim360

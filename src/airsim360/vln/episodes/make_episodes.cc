@@ -1,0 +1,213 @@
+#include "airsim360/vln/episodes/make_episodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/log.h"
+#include "airsim360/planning/search.h"
+#include "airsim360/tasks/shortest_way.h"
+#include "airsim360/vln/episodes/places.h"
+#include "airsim360/vln/predicates/query_json.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::VlnGround;
+
+constexpr int kDraws = 3000, kWays = 12;      // starts drawn for an episode; ways looked for
+constexpr double kSpacing = 2.5;             // metres between points of the reference path, at most
+constexpr double kWayRadius = 0.6;           // metres free around the reference path
+constexpr double kOpenRadius = 20, kRoomRadius = 1;  // metres around the goal that count as there
+constexpr double kLeastWay = 1.25;           // radii between start and goal
+constexpr double kEasy = 50, kHard = 100;    // metres: shorter, longer ways
+constexpr int64_t kVisible = 6;              // pixels that show a thing
+constexpr const char* kWeathers[] = {"clear", "partly_cloudy", "overcast", "rain", "fog"};
+constexpr double kDegree = std::numbers::pi / 180;
+
+double Milli(double value) { return std::round(value * 1000) / 1000; }
+Vec3d Milli(Vec3d p) { return {Milli(p.x), Milli(p.y), Milli(p.z)}; }
+Viewpoint Milli(Viewpoint view) { return {Milli(view.p_W), Milli(view.yaw / kDegree) * kDegree}; }
+
+// With points on its legs too, so that paths can be compared point by point (nDTW counts them).
+std::vector<Vec3d> Spaced(const std::vector<Vec3d>& way) {
+  std::vector<Vec3d> points = {Milli(way.front())};
+  for (size_t i = 1; i < way.size(); ++i) {
+    const int parts = std::max(1, static_cast<int>(std::ceil(Norm(way[i] - way[i - 1]) / kSpacing)));
+    for (int k = 1; k <= parts; ++k) points.push_back(Milli(way[i - 1] + (way[i] - way[i - 1]) * (static_cast<double>(k) / parts)));
+  }
+  return points;
+}
+
+SeenAtStart Look(Stage& stage, const Viewpoint& start, const std::vector<EntityId>& entities) {
+  const RigidTransform X_WC = BodyPose(start.p_W, start.yaw, 0, 0) * CameraInBody();
+  RenderRequest request = MakeRequest(Equirectangular{kSeenWidth, kSeenWidth / 2}, X_WC, Tier::kLabels,
+                                      {.rgb = false, .range = true, .semantic = false, .entity = true});
+  Frame frame;
+  stage.renderer(Tier::kLabels).Render(request, frame);
+  SeenAtStart seen;
+  double sine = 0, cosine = 0, elevation = 0;
+  for (int y = 0; y < kSeenWidth / 2; ++y) {
+    for (int x = 0; x < kSeenWidth; ++x) {
+      if (!std::ranges::binary_search(entities, frame.entity(x, y))) continue;
+      const double azimuth = 2 * std::numbers::pi * ((x + 0.5) / kSeenWidth - 0.5), range = frame.range(x, y);
+      if (range > 0 && (seen.range == 0 || range < seen.range)) seen.range = range;
+      sine += std::sin(azimuth);
+      cosine += std::cos(azimuth);
+      elevation += 180 * (0.5 - 2 * (y + 0.5) / kSeenWidth);
+      ++seen.pixels;
+    }
+  }
+  if (seen.pixels == 0) return seen;
+  seen.azimuth_deg = std::atan2(sine, cosine) / kDegree;
+  seen.elevation_deg = elevation / static_cast<double>(seen.pixels);
+  return seen;
+}
+
+std::string DifficultyOf(const LanguageEpisode& e) {
+  const bool visible = e.seen.pixels >= kVisible;
+  if (e.geodesic_length > kHard || (!visible && e.geodesic_length > kEasy)) return "hard";
+  return visible && e.geodesic_length <= kEasy ? "easy" : "medium";
+}
+
+// The last of several seeds is a town that training has not seen.
+std::string SplitOf(const LanguageEpisode& e, const VlnMakeOptions& options) {
+  if (options.seeds > 1 && e.world_seed == options.seed + static_cast<uint64_t>(options.seeds) - 1) return "val_unseen";
+  return MixBits(HashName(e.id)) % 5 == 0 ? "val_seen" : "train";
+}
+
+class Maker {
+ public:
+  Maker(const VlnMakeOptions& options, uint64_t world_seed)
+      : options_(options), world_seed_(world_seed), stage_(options.open(world_seed)), graph_(stage_->shared_scene()), ground_(stage_->solid()),
+        templates_(FindTemplates(options.templates, stage_->scene())) {}
+
+  int64_t count() const {
+    const auto all = static_cast<int64_t>(templates_.size()) * options_.starts;
+    return options_.limit > 0 ? std::min(all, options_.limit) : all;
+  }
+
+  void Make(VlnMade& made, ProgressBar& bar, int64_t& done) {
+    int64_t left = count();
+    for (const InstructionTemplate& wanted : templates_) {
+      for (int k = 0; k < options_.starts && left > 0; ++k, --left) {
+        std::string why;
+        if (auto episode = Bind(wanted, k, why)) {
+          made.episodes.push_back(std::move(*episode));
+        } else {
+          made.unbound.push_back({wanted.id, options_.world, world_seed_, k, std::move(why)});
+        }
+        bar.Update(++done);
+      }
+    }
+  }
+
+ private:
+  std::optional<LanguageEpisode> Bind(const InstructionTemplate& wanted, int k, std::string& why) {
+    RngStream random(world_seed_, "vln " + wanted.id + " " + options_.world, static_cast<uint64_t>(k));
+    // The k-th of three starts lies in the k-th third of the distances; what finds no place there may lie anywhere.
+    const double ratio = std::cbrt(wanted.farthest / std::max(wanted.nearest, 1.0));
+    const double least = wanted.nearest * std::pow(ratio, k % 3);
+    int ways = 0;
+    std::map<std::string, int> whys;
+    std::optional<LanguageEpisode> hidden;
+    for (int draw = 0; draw < kDraws && ways < kWays; ++draw) {
+      const bool anywhere = draw > kDraws / 2;
+      auto stands = DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
+      if (!stands) continue;
+      stands->start = Milli(stands->start);
+      if (stands->turn) stands->turn = Milli(*stands->turn);
+      const Verdict verdict = Decide(graph_, wanted.query, *stands);
+      if (!verdict.decided) {
+        ++whys[verdict.why];
+        continue;
+      }
+      const auto goal = FindGoal(ground_, wanted, verdict.answers[0], stands->start);
+      if (!goal) {
+        ++whys["no free place to stop at '" + verdict.answers[0].name + "'"];
+        continue;
+      }
+      if (Norm(*goal - stands->start.p_W) < kLeastWay * radius()) continue;
+      ++ways;
+      auto episode = Finish(wanted, k, *stands, verdict, Milli(*goal));
+      if (!episode) {
+        ++whys["no way was found to '" + verdict.answers[0].name + "'"];
+        continue;
+      }
+      // The first of three starts is in sight of the thing, where there is such a place.
+      if (k % 3 != 0 || episode->seen.pixels >= kVisible) return episode;
+      if (!hidden) hidden = std::move(episode);
+    }
+    if (hidden) return hidden;
+    why = "no start could be drawn: no open place of that kind around a " + wanted.query.noun.word;
+    if (graph_.Find(wanted.query.noun).empty()) why = "the world has no " + wanted.query.noun.word;
+    const auto most = std::ranges::max_element(whys, {}, [](const auto& entry) { return entry.second; });
+    if (most != whys.end()) why = most->first;
+    return std::nullopt;
+  }
+
+  // Closed rooms are small.
+  double radius() const { return stage_->scene().sky_entity == kNoEntity ? kRoomRadius : kOpenRadius; }
+
+  std::optional<LanguageEpisode> Finish(const InstructionTemplate& wanted, int k, const Standpoint& stands, const Verdict& verdict, Vec3d goal) {
+    const ShortestWay way = FindShortestWay(ground_.tracer(), stands.start.p_W, goal, kWayRadius);
+    if (!way.found) return std::nullopt;
+    LanguageEpisode e;
+    e.id = options_.world.substr(options_.world.rfind('/') + 1) + "/" + std::to_string(world_seed_) + "/" + wanted.id + "/" + std::to_string(k);
+    e.template_id = wanted.id;
+    e.instruction = wanted.text;
+    e.world = options_.world;
+    e.world_seed = world_seed_;
+    e.seed = MixBits(HashName(e.id)) >> 12;
+    e.weather = options_.weather == "mix" ? kWeathers[MixBits(e.seed) % std::size(kWeathers)] : options_.weather;
+    e.people = options_.people;
+    e.start = stands.start;
+    e.turn = stands.turn;
+    e.query = wanted.query;
+    e.entities = verdict.answers[0].entities;
+    e.name = verdict.answers[0].name;
+    e.goal_kind = wanted.goal;
+    e.goal = goal;
+    e.radius = radius();
+    e.ref = Spaced(way.points);
+    e.geodesic_length = PolylineLength(e.ref);
+    e.seen = Look(*stage_, e.start, e.entities);
+    e.difficulty = DifficultyOf(e);
+    e.split = SplitOf(e, options_);
+    e.proof = internal::ToJson(verdict).dump();
+    return e;
+  }
+
+  const VlnMakeOptions& options_;
+  uint64_t world_seed_;
+  std::shared_ptr<Stage> stage_;
+  SceneGraph graph_;
+  VlnGround ground_;
+  std::vector<InstructionTemplate> templates_;
+};
+
+}  // namespace
+
+VlnMade MakeEpisodes(const VlnMakeOptions& options) {
+  const auto in = [](const char* flag, int64_t value, int64_t low, int64_t high) {
+    if (value < low || value > high)
+      throw InputError(std::string(flag) + ": " + std::to_string(value) + " is not in " + std::to_string(low) + " … " + std::to_string(high));
+  };
+  in("--starts", options.starts, 1, 1000);
+  in("--seeds", options.seeds, 1, 1000);
+  in("--people", options.people, 0, 10'000);
+  in("--limit", options.limit, 0, 1'000'000);
+  if (options.templates == "paper37") PaperTemplates();
+  VlnMade made;
+  for (int k = 0; k < options.seeds; ++k) {
+    Maker maker(options, options.seed + static_cast<uint64_t>(k));
+    ProgressBar bar("vln make " + options.world + " seed " + std::to_string(options.seed + static_cast<uint64_t>(k)), maker.count());
+    int64_t done = 0;
+    maker.Make(made, bar, done);
+  }
+  return made;
+}
+
+}  // namespace airsim360

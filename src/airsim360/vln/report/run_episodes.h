@@ -1,0 +1,58 @@
+// Flying episodes and writing down what came of them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "airsim360/stage/stage.h"
+#include "airsim360/vln/agents/told_agents.h"
+#include "airsim360/vln/report/protocol.h"
+
+namespace airsim360 {
+
+struct VlnRunOptions {
+  std::string agent = "oracle";
+  VlnView view = VlnView::kErp;
+  std::optional<Decisions> decisions = {};  ///< none: the protocol's
+  std::string protocol = "ours";
+  int64_t limit = 0;   ///< of episodes; 0 = all
+  int workers = 1;     ///< episodes at a time, each with renderers of its own
+  bool realtime = false;  ///< what an agent takes to think passes in its episode
+  int width = 1024;    ///< of panoramas, pixels
+  RenderSettings picture = {};
+  ExecOptions exec = {};
+  ChatOptions chat = {};
+  std::filesystem::path out = {};  ///< results.jsonl; beside it NAME.transcript.jsonl of agent openai
+  /// Opens a world with its people.
+  std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed, int64_t people)> open = {};
+};
+
+/// What came of one episode: a line of results.jsonl.
+struct VlnResult {
+  std::string id, template_id, world, difficulty, agent, view, decisions_by, protocol;
+  std::string end;          ///< stopped, collision, max_steps, max_seconds, gave_up, not_flown
+  std::string explanation;  ///< why it is no success, or what faults there were
+  bool success = false, oracle_success = false, collided = false, stopped = false;
+  double radius = 0, distance = 0;  ///< of the protocol; metres from the last place to the goal
+  double path_length = 0, geodesic_length = 0, straight_length = 0;
+  int64_t decisions = 0, faults = 0, moves = 0;
+  double yaw_turned_deg = 0, seconds = 0;
+  std::vector<Vec3d> ref, pred;
+};
+
+/// Flies what `out` does not hold yet, in the order of the file, and gives the results of all. Killed at any time and run
+/// again it ends with the same bytes. InputError where `out` holds results of another run.
+std::vector<VlnResult> RunEpisodes(const std::vector<LanguageEpisode>& episodes, const VlnRunOptions& options);
+
+/// By the protocol that it was flown under.
+VlnScore ScoreOf(const VlnResult& result);
+std::string ResultLine(const VlnResult& result);
+/// InputError "FILE:LINE.field: …".
+VlnResult ParseResultLine(const std::string& line, const std::string& where);
+std::vector<VlnResult> ReadResults(const std::filesystem::path& file);
+
+}  // namespace airsim360

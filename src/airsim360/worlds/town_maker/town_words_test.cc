@@ -1,0 +1,124 @@
+#include "airsim360/worlds/town_maker/town_words.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/random.h"
+
+namespace airsim360 {
+namespace {
+
+TownSpec SpecOf(const char* words) { return TownFromWords(words).spec; }
+
+// The message of the error, "" if there was none.
+std::string Refusal(const std::string& words) {
+  try {
+    TownFromWords(words);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TownWords, TheContractsExampleIsUnderstood) {
+  const TownSpec spec = SpecOf("a small coastal town with a church and a marina, 40 ha, narrow streets");
+  EXPECT_EQ(spec.water, TownWater::kSea);
+  EXPECT_TRUE(spec.church);
+  EXPECT_TRUE(spec.harbour);
+  EXPECT_NEAR(spec.width * spec.depth, 4e5, 2e3);
+  EXPECT_LT(spec.street, SpecOf("a small coastal town").street);
+}
+
+TEST(TownWords, EveryWordComesBackWithWhatBecameOfIt) {
+  for (const char* words : {"a small coastal town with a church and a marina, 40 ha, narrow streets", "medieval hilltop village without cars or trees, 2 to 3 storeys",
+                            "Large grid city of brick buildings; 120 people, many trees, two parks", "300 m by 200 m of log cabins in a forest by a lake, foggy"}) {
+    std::string back;
+    for (const UnderstoodWords& row : TownFromWords(words).words) {
+      EXPECT_FALSE(row.as.empty()) << row.words;
+      back += row.words + " ";
+    }
+    std::string plain;
+    for (const char* c = words; *c; ++c) plain += std::isalnum(static_cast<unsigned char>(*c)) ? std::string(1, static_cast<char>(std::tolower(*c))) : "";
+    std::erase(back, ' ');
+    EXPECT_EQ(back, plain);
+  }
+}
+
+TEST(TownWords, AWordThatMeansNothingIsRefusedWithTheNearest) {
+  EXPECT_NE(Refusal("a town with a chruch").find("did you mean 'church'"), std::string::npos);
+  EXPECT_NE(Refusal("a costal town").find("did you mean 'coastal'"), std::string::npos);
+  EXPECT_NE(Refusal("a town with a spaceport").find("'spaceport'"), std::string::npos);
+  EXPECT_NE(Refusal("a town with 7 of them").find("a number of what"), std::string::npos);
+}
+
+TEST(TownWords, WordsThatExcludeEachOtherAreRefusedByBothNames) {
+  for (const auto& [words, one, other] : {std::array<const char*, 3>{"a flat town on a hill", "flat", "hill"}, {"a town with a church and without a church", "church", "without a church"},
+                                          {"a village and a city", "village", "city"}, {"narrow and wide streets", "narrow", "wide"},
+                                          {"low houses of 12 storeys", "low", "12 storeys"}, {"many trees, few trees", "many trees", "few trees"},
+                                          {"wooden stone houses", "wooden", "stone"}, {"20 ha, 300 m by 300 m", "20 ha", "300 m by 300 m"}}) {
+    const std::string refusal = Refusal(words);
+    EXPECT_NE(refusal.find("exclude each other"), std::string::npos) << words << ": " << refusal;
+    EXPECT_NE(refusal.find(one), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find(other), std::string::npos) << refusal;
+  }
+  EXPECT_NE(Refusal("a town with a marina and no water"), "");
+}
+
+TEST(TownWords, NumbersAreBounded) {
+  for (const char* words : {"2e18 ha", "a town of 0 houses", "a town of 99999999 houses", "a 61 storey city", "a 0 storey city", "5 to 2 storeys", "a town of 3.5 houses", "119 m by 300 m",
+                            "300 m by 1201 m", "9000 ha", "a town of 12 parks", "80 % slope", "a town with 1e308 people"})
+    EXPECT_NE(Refusal(words), "") << words;
+  EXPECT_EQ(SpecOf("a town of 5 storeys").most_floors, 5);
+  EXPECT_EQ(SpecOf("a two-storey suburb").least_floors, 2);
+  EXPECT_EQ(SpecOf("a hamlet of 12 houses").houses, 12u);
+  EXPECT_EQ(SpecOf("a town with three parks").parks, 3u);
+  EXPECT_NEAR(SpecOf("a village, 300 m by 400 m, 10 % slope").climb, 40, 1);
+  EXPECT_EQ(TownFromWords("a town with 30 people").people, 30u);
+  EXPECT_EQ(TownFromWords("a town of 3000 people").people, 150u);
+}
+
+TEST(TownWords, WhatIsDeniedIsNotThere) {
+  EXPECT_EQ(SpecOf("a town without trees").trees, 0);
+  EXPECT_EQ(SpecOf("a town with no cars").traffic, 0);
+  EXPECT_EQ(SpecOf("a resort with no palms").palms, false);
+  EXPECT_EQ(SpecOf("a town with no parks and no squares").parks, 0u);
+}
+
+TEST(TownWords, MoreOfAWordMeansMoreOfTheThing) {
+  EXPECT_GT(SpecOf("a town with many trees").trees, SpecOf("a town with few trees").trees);
+  EXPECT_GT(SpecOf("a town with heavy traffic").traffic, SpecOf("a town with light traffic").traffic);
+  EXPECT_GT(SpecOf("a large town").width, SpecOf("a small town").width);
+  EXPECT_GT(SpecOf("a steep town").climb, SpecOf("a gentle town").climb);
+}
+
+TEST(TownWords, TheOrderOfWordsDoesNotMatter) {
+  const TownSpec a = SpecOf("a small medieval town on a hill with a market"), b = SpecOf("market, hill, town, small, medieval");
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.relief, b.relief);
+  EXPECT_EQ(a.style, b.style);
+  EXPECT_EQ(a.street, b.street);
+}
+
+TEST(TownWords, AnyTextIsUnderstoodOrRefusedAndNeverBreaksTheBounds) {
+  RngStream rng(7, "words");
+  const char* pieces[] = {"no", "town", "9", "ha", "x", "%", "\xc3", "é", "m", "by", "-1", "storeys", "people", "to", ".", "1e400", "nan", "church", "or", "hardly", "any", "park", "steep", "2", "without"};
+  for (int i = 0; i < 500; ++i) {
+    std::string words;
+    for (uint32_t k = rng.Index(9); k > 0; --k) words += std::string(pieces[rng.Index(std::size(pieces))]) + (rng.Chance(0.8) ? " " : "");
+    try {
+      const TownRequest request = TownFromWords(words);
+      EXPECT_NO_THROW(request.spec.Check(""));
+      EXPECT_LE(request.spec.width, TownSpec::kMostSide) << words;
+      EXPECT_GE(request.spec.depth, TownSpec::kLeastSide - 1) << words;
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_NE(Refusal(std::string(1001, 'a')), "");
+  EXPECT_NE(Refusal(""), "");
+}
+
+}  // namespace
+}  // namespace airsim360

@@ -1,0 +1,232 @@
+"""`eval entity`, `eval keypoints`, `eval boxes` against numpy: ties, crowds, empty pictures, areas, limits, every way to write a mask."""
+import unittest
+
+import numpy as np
+
+from references import AREAS, EvalTest, average_precision, coco_summary, compressed, mask_overlap, row_areas, runs
+
+SIGMAS = np.array([26, 25, 25, 35, 35, 79, 79, 72, 72, 62, 62, 107, 107, 87, 87, 89, 89]) / 1000
+
+
+def rectangle(width, height, x, y, w, h):
+    mask = np.zeros((height, width), bool)
+    mask[y : y + h, x : x + w] = True
+    return mask
+
+
+class Masks(EvalTest):
+    NAMES = ["ap", "ap50", "ap75", "ap_small", "ap_medium", "ap_large", "ar1", "ar10", "ar100", "ar_small", "ar_medium", "ar_large"]
+
+    def case(self, seed, size=(150, 120), categories=2, pictures=4):
+        """Truths and detections with their masks; written as files."""
+        random = np.random.default_rng(seed)
+        width, height = size
+        truths, detections, images = [], [], []
+        for image in random.permutation(pictures):
+            image = int(image) * 5 + 2
+            images.append({"id": image, "width": width, "height": height})
+            for _ in range(random.integers(0, 6)):
+                x, y, w, h = random.integers(0, width - 2), random.integers(0, height - 2), random.integers(2, width), random.integers(2, height)
+                mask = rectangle(width, height, x, y, w, h)
+                # A pixel-aligned rectangle is its own polygon; other masks are run lengths.
+                way = random.integers(0, 3)
+                if way == 0:
+                    right, bottom = min(x + w, width), min(y + h, height)
+                    segmentation = [[float(v) for v in (x, y, x, bottom, right, bottom, right, y)]]
+                else:
+                    mask &= random.random(mask.shape) < 0.95
+                    segmentation = {"size": [height, width], "counts": compressed(mask) if way == 1 else runs(mask)}
+                category = int(random.integers(1, categories + 1))
+                truths.append({"id": len(truths) + 1, "image_id": image, "category_id": category, "segmentation": segmentation, "area": int(mask.sum()),
+                               "iscrowd": int(random.random() < 0.2), "mask": mask})
+                for _ in range(random.integers(0, 3)):
+                    moved = np.roll(mask, (random.integers(-3, 4), random.integers(-3, 4)), (0, 1))
+                    detections.append((image, category if random.random() < 0.9 else 1, float(random.integers(0, 5)) / 4, moved))
+            if random.random() < 0.7:
+                detections.append((image, 1, float(random.random()), rectangle(width, height, 1, 1, *random.integers(1, 90, 2))))
+        strip = lambda t: {k: v for k, v in t.items() if k != "mask"}
+        gt = {"images": images, "annotations": [strip(t) for t in truths], "categories": [{"id": c, "name": f"c{c}"} for c in range(1, categories + 1)]}
+        results = [{"image_id": i, "category_id": c, "score": s, "segmentation": {"size": [height, width], "counts": compressed(m)}} for i, c, s, m in detections]
+        self.write("gt.json", gt)
+        self.write("pred.json", results)
+        return sorted(i["id"] for i in images), truths, detections
+
+    def cells(self, images, truths, detections, categories, area=np.sum, overlap=mask_overlap):
+        result = []
+        for c in categories:
+            cells = []
+            for image in images:
+                t = [x for x in truths if x["image_id"] == image and x["category_id"] in c]
+                d = [x for x in detections if x[0] == image and x[1] in c]
+                table = [[overlap(x[3], y["mask"], y["iscrowd"]) for y in t] for x in d]
+                cells.append((table, [(area(y["mask"]), y["iscrowd"], False) for y in t], [(x[2], area(x[3])) for x in d]))
+            result.append(cells)
+        return result
+
+    def check(self, found, wanted, what):
+        for name, a, b in zip(self.NAMES, found["summary"], wanted):
+            self.assertSame(a, float(b), f"{what} {name}")
+            self.assertEqual(a, found[name])
+
+    def test_twelve_figures_equal_the_definition(self):
+        for seed in range(8):
+            images, truths, detections = self.case(seed)
+            found = self.eval("entity", self.folder / "pred.json", self.folder / "gt.json")
+            self.check(found, coco_summary(self.cells(images, truths, detections, [[1], [2]])), seed)
+            found = self.eval("entity", self.folder / "pred.json", self.folder / "gt.json", "--class-agnostic", "--threads", 1)
+            self.check(found, coco_summary(self.cells(images, truths, detections, [[1, 2]])), f"{seed} agnostic")
+
+    def test_limits_of_detections(self):
+        images, truths, detections = self.case(20, pictures=2)
+        found = self.eval("entity", self.folder / "pred.json", self.folder / "gt.json", "--max-detections", "1,2")
+        cells = self.cells(images, truths, detections, [[1], [2]])
+        wanted = coco_summary(cells, (1, 2))
+        self.assertSame(found["ap"], wanted[0])
+        self.assertSame(found["ar1"], wanted[6])
+        self.assertSame(found["ar2"], wanted[7])
+        self.assertSame(found["ap_all"], coco_summary(cells)[0])
+
+    def test_overlaps_by_solid_angle(self):
+        images, truths, detections = self.case(31, size=(128, 64), pictures=3)
+        w = row_areas(64, 128)[:, None]
+
+        def overlap(d, t, crowd):
+            shared = (w * (d & t)).sum()
+            return shared / ((w * d).sum() if crowd else (w * (d | t)).sum()) if shared else 0.0
+
+        found = self.eval("entity", self.folder / "pred.json", self.folder / "gt.json", "--weights", "solid_angle")
+        area = lambda mask: (w * mask).sum() / w[32, 0]
+        self.check(found, coco_summary(self.cells(images, truths, detections, [[1], [2]], area, overlap)), "solid angle")
+
+    def test_places_in_the_panorama(self):
+        images, truths, detections = self.case(41, size=(128, 64), pictures=6, categories=1)
+        found = self.eval("entity", self.folder / "pred.json", self.folder / "gt.json", "--seam", 9, "--latitude-bands", 3)
+
+        def columns(mask):
+            filled = np.flatnonzero(mask.any(0))
+            return min(filled[0], 127 - filled[-1])
+
+        def latitude(mask):
+            filled = np.flatnonzero(mask.any(1))
+            return 90 - 180 * (filled[0] + filled[-1] + 1) / 2 / 64
+
+        for place, ranges, got in ((columns, [(0, 8), (9, 64)], [found["seam"]["near"]["ap"], found["seam"]["far"]["ap"]]),
+                                   (latitude, [(30, 90), (-30, 29.999), (-90, -30.001)], [b["ap"] for b in found["latitude_bands"]])):
+            for span, ap in zip(ranges, got):
+                wanted = average_precision(self.cells(images, truths, detections, [[1]], place)[0], span, 100)
+                self.assertSame(ap, float(wanted[0].mean()) if wanted else -1, str(span))
+
+    def test_nothing_to_find_is_minus_one(self):
+        self.write("gt.json", {"images": [{"id": 1, "width": 10, "height": 10}], "annotations": [], "categories": [{"id": 1, "name": "a"}]})
+        self.write("pred.json", [])
+        self.assertEqual(self.eval("entity", self.folder / "pred.json", self.folder / "gt.json")["summary"], [-1] * 12)
+
+    def test_held_out_categories_and_intervals(self):
+        images, truths, detections = self.case(5)
+        found = self.eval("entity", self.folder / "pred.json", self.folder / "gt.json", "--open-world", "c2", "--bootstrap", 60, "--csv", self.folder / "t.csv")
+        first, second = (coco_summary(self.cells(images, truths, detections, [[c]]))[0] for c in (1, 2))
+        self.assertSame(found["open_world"]["ap_known"], first)
+        self.assertSame(found["open_world"]["ap_held_out"], second)
+        self.assertSame(found["per_class"]["c1"]["ap"], first)
+        self.assertLessEqual(found["intervals"]["ap"][0], found["intervals"]["ap"][1])
+        self.assertEqual(len((self.folder / "t.csv").read_text().splitlines()), 3)
+
+    def test_bad_files_are_refused(self):
+        self.case(1)
+        good = self.folder / "gt.json"
+        mask = {"size": [120, 150], "counts": [18000]}
+        for text, says in (('[{"image_id": 999, "category_id": 1, "score": 1, "segmentation": []}]', "999"), ('[{"image_id": 2, "category_id": 1, "score": "x"}]', "score"),
+                           ([{"image_id": 2, "category_id": 1, "score": 1, "segmentation": {**mask, "size": [60, 75]}}], "75x60"),
+                           ([{"image_id": 2, "category_id": 1, "score": 1, "segmentation": {**mask, "counts": [5, 5]}}], "sum to 10"),
+                           ([{"image_id": 2, "category_id": 1, "score": 1, "segmentation": {**mask, "counts": [-4, 18004]}}], "-4"),
+                           ([{"image_id": 2, "category_id": 1, "score": 1, "segmentation": {**mask, "counts": "PP\x7f"}}], "segmentation"),
+                           ([{"image_id": 2, "category_id": 1, "score": 1, "segmentation": [[0, 0, 1e9, 0, 1e9, 1e9]]}], "pixels away"),
+                           ("{", "pred.json:1:2"), ('{"a": 1}', "annotations")):
+            self.write("pred.json", text)
+            self.refuse("entity", self.folder / "pred.json", good, says=[says])
+        self.write("gt.json", {"images": [{"id": 1, "width": 2000000000, "height": 2000000000}], "annotations": [], "categories": []})
+        self.refuse("entity", self.folder / "pred.json", good, says=["gt.json"])
+
+
+class Keypoints(EvalTest):
+    def test_ten_figures_equal_the_definition(self):
+        for seed in range(6):
+            random = np.random.default_rng(seed)
+            truths, detections = [], []
+            for image in range(1, 5):
+                for _ in range(random.integers(0, 5)):
+                    scale, x, y = random.uniform(20, 160), *random.uniform(0, 300, 2)
+                    points = np.stack([x + scale * random.random(17), y + 2 * scale * random.random(17), random.integers(0, 3, 17)], 1)
+                    if random.random() < 0.2:
+                        points[:] = 0
+                    truths.append({"id": len(truths) + 1, "image_id": image, "category_id": 1, "keypoints": points.ravel().tolist(), "bbox": [x, y, scale, 2 * scale],
+                                   "area": 1.2 * scale**2, "iscrowd": 0, "num_keypoints": int((points[:, 2] > 0).sum())})
+                    for _ in range(random.integers(0, 3)):
+                        moved = points.copy()
+                        moved[:, :2] += random.normal(0, 0.06 * scale, (17, 2))
+                        detections.append({"image_id": image, "category_id": 1, "keypoints": moved.ravel().tolist(), "score": float(random.integers(0, 8)) / 7})
+            self.write("gt.json", {"images": [{"id": i} for i in range(1, 5)], "annotations": truths, "categories": [{"id": 1, "name": "person"}]})
+            self.write("pred.json", detections)
+
+            def similarity(d, t):
+                d, g = np.reshape(d["keypoints"], (17, 3)), np.reshape(t["keypoints"], (17, 3))
+                known = g[:, 2] > 0
+                if known.any():
+                    distance = ((d[:, :2] - g[:, :2]) ** 2).sum(1)
+                else:
+                    x, y, w, h = t["bbox"]
+                    low, high = np.array([x - w, y - h]), np.array([x + 2 * w, y + 2 * h])
+                    distance = ((np.maximum(0, low - d[:, :2]) + np.maximum(0, d[:, :2] - high)) ** 2).sum(1)
+                    known[:] = True
+                return np.exp(-distance / (2 * (t["area"] + np.spacing(1)) * (2 * SIGMAS) ** 2))[known].mean()
+
+            cells = []
+            for image in range(1, 5):
+                t, d = ([x for x in some if x["image_id"] == image] for some in (truths, detections))
+                extent = lambda x: np.prod(np.ptp(np.reshape(x["keypoints"], (17, 3))[:, :2], axis=0))
+                cells.append(([[similarity(a, b) for b in t] for a in d], [(b["area"], False, b["num_keypoints"] == 0) for b in t], [(a["score"], extent(a)) for a in d]))
+            found, wanted = self.eval("keypoints", self.folder / "pred.json", self.folder / "gt.json"), []
+            full, medium, large = (average_precision(cells, AREAS[a], 20) for a in ("all", "medium", "large"))
+            for part in (0, 1):
+                wanted += [full[part].mean(), full[part][0].mean(), full[part][5].mean()] if full else [-1] * 3
+                wanted += [f[part].mean() if f else -1 for f in (medium, large)]
+            for a, b in zip(found["summary"], wanted):
+                self.assertSame(a, float(b), str(seed))
+
+
+class Boxes(EvalTest):
+    def files(self, key, truths, detections, size=(400, 200)):
+        self.write("gt.json", {"images": [{"id": 1, "width": size[0], "height": size[1]}], "categories": [{"id": 1, "name": "a"}],
+                               "annotations": [{"id": i + 1, "image_id": 1, "category_id": 1, key: t} for i, t in enumerate(truths)]})
+        self.write("pred.json", [{"image_id": 1, "category_id": 1, "score": s, key: d} for s, d in detections])
+        return self.folder / "pred.json", self.folder / "gt.json"
+
+    def test_boxes_meet_over_the_seam(self):
+        # The halves of one thing on both sides of the seam.
+        pred, gt = self.files("bbox", [[380, 50, 60, 40]], [(0.9, [-20, 50, 60, 40])])
+        self.assertEqual(self.eval("boxes", pred, gt)["ap"], 0)
+        self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap"], 1)
+        pred, gt = self.files("bbox", [[380, 50, 60, 40]], [(0.9, [385, 50, 60, 40])])
+        self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap"], 0.7)  # IoU 55 / 65: thresholds up to 0.80
+        self.assertSame(self.eval("boxes", pred, gt, "--wrap")["ap75"], 1)
+
+    def test_boxes_on_the_sphere_by_their_solid_angle(self):
+        # Two boxes on the equator, one twice as high: A = 4 asin(sin(w / 2) sin(h / 2)), one within the other.
+        area = lambda w, h: 4 * np.arcsin(np.sin(np.radians(w) / 2) * np.sin(np.radians(h) / 2))
+        for ratio in (1.3, 1.7):
+            iou = area(40, 40) / area(40, 40 * ratio)
+            pred, gt = self.files("bfov", [[100, 0, 40, 40]], [(0.5, [100, 0, 40, 40 * ratio])])
+            self.assertSame(self.eval("boxes", pred, gt, "--kind", "bfov")["ap"], float(np.mean(iou >= np.linspace(0.5, 0.95, 10))))
+        self.refuse("boxes", *self.files("bfov", [[0, 0, 190, 10]], []), "--kind", "bfov", says=["180"])
+
+    def test_boxes_in_space_by_their_volume(self):
+        # Turned by 45 degrees about the same centre, two squares share a regular octagon: 8 (sqrt 2 - 1) r² of side 2 r.
+        iou = 8 * (np.sqrt(2) - 1) / (8 - 8 * (np.sqrt(2) - 1))
+        pred, gt = self.files("box3d", [{"center": [5, 1, 2], "size": [2, 2, 3], "yaw_deg": 10}], [(0.5, {"center": [5, 1, 2], "size": [2, 2, 3], "yaw_deg": 55})])
+        self.assertSame(self.eval("boxes", pred, gt, "--kind", "box3d")["ap"], float(np.mean(iou >= np.linspace(0.5, 0.95, 10))))
+        pred, gt = self.files("box3d", [[0, 0, 0, 4, 2, 1, 30]], [(0.5, [0, 0, 0.2, 4, 2, 1, 30])])
+        self.assertSame(self.eval("boxes", pred, gt, "--kind", "box3d")["ap"], float(np.mean(0.8 / 1.2 >= np.linspace(0.5, 0.95, 10))))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,324 @@
+"""The page of `airsim360 view` in a real browser: clicks against the label files, keys, names for screen readers, both modes."""
+import functools
+import http.server
+import json
+import math
+import pathlib
+import random
+import shutil
+import sys
+import tempfile
+import threading
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end"))
+from browser import Browser
+from program import read_ids, read_json
+from viewer import Viewer, make_dataset, run
+
+ROOM = pathlib.Path(tempfile.mkdtemp(prefix="airsim360_browser_test_"))
+BROWSER = None
+
+
+def setUpModule():
+    global BROWSER
+    make_dataset(ROOM / "data")
+    make_dataset(ROOM / "other", "--seed", 3)
+    BROWSER = Browser()
+
+
+def tearDownModule():
+    BROWSER.close()
+    shutil.rmtree(ROOM)
+
+
+class PageTest(unittest.TestCase):
+    arguments = ()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.viewer = Viewer(*cls.arguments)
+        cls.page = BROWSER
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.viewer.stop()
+
+    def open(self, hash=""):
+        self.page.said.clear()
+        self.page.open(f"{self.viewer.address}/{hash}")
+        self.page.wait("window.airsim360?.first")
+
+    def set(self, id, value):
+        self.page.run(f"{{ const e = document.getElementById('{id}'); e.type === 'checkbox' ? e.checked = {json.dumps(value)} : e.value = {json.dumps(value)};"
+                      "e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change')); }")
+        self.settle()
+
+    def settle(self):
+        self.page.run("airsim360.refresh()")
+        self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def text(self, id):
+        return self.page.run(f"document.getElementById('{id}').textContent")
+
+    def canvas(self):
+        return self.page.run("(b => ({x: b.x, y: b.y, width: b.width, height: b.height}))(document.querySelector('#pane-a canvas').getBoundingClientRect())")
+
+    def color(self, dx=0, dy=0):
+        """Of the pixel of the screen beside the middle of the canvas."""
+        return self.page.run(f"(c => {{ const g = c.getContext('webgl2'), p = new Uint8Array(4); g.readPixels(c.width / 2 + {dx}, c.height / 2 - {dy}, 1, 1, g.RGBA, g.UNSIGNED_BYTE, p); return [...p]; }})"
+                             "(document.querySelector('#pane-a canvas'))")
+
+
+class RecordedTest(PageTest):
+    arguments = (ROOM / "data",)
+
+    def test_a_hundred_clicks_give_the_entities_of_the_label_files(self):
+        self.open()
+        random.seed(7)
+        box = self.canvas()
+        wrong = []
+        for n in range(100):
+            frame = random.randrange(6)
+            # Every tenth at the seam, every tenth at a pole, the rest anywhere on the picture.
+            x, y = random.randrange(256), random.randrange(128)
+            if n % 10 == 0:
+                x = random.choice([0, 255])
+            if n % 10 == 1:
+                y = random.choice([0, 1, 126, 127])
+            fov = random.uniform(0.3, 1.6)
+            flat = n % 4 == 3
+            theta, phi = 2 * math.pi * ((x + 0.5) / 256 - 0.5), math.pi * (0.5 - (y + 0.5) / 128)
+            # The pixel lies somewhere off the middle of the screen: where, by the equations of the lens.
+            yaw, pitch = theta + random.uniform(-0.2, 0.2) * fov, max(-math.pi / 2, min(math.pi / 2, phi + random.uniform(-0.2, 0.2) * fov))
+            ray = (math.cos(phi) * math.sin(theta - yaw), math.sin(phi), math.cos(phi) * math.cos(theta - yaw))
+            right, up, ahead = ray[0], ray[1] * math.cos(pitch) - ray[2] * math.sin(pitch), ray[2] * math.cos(pitch) + ray[1] * math.sin(pitch)
+            focal = box["height"] / 2 / math.tan(fov / 2)
+            sx, sy = box["width"] / 2 + focal * right / ahead, box["height"] / 2 - focal * up / ahead
+            if flat:
+                yaw, pitch, sx, sy = theta, phi, box["width"] / 2, box["height"] / 2
+            self.page.run(f"airsim360.picked = null; document.getElementById('flat').checked = {str(flat).lower()}; airsim360.main.panorama.flat = {str(flat).lower()};"
+                          f"airsim360.main.look.set({yaw}, {pitch}, {fov}); airsim360.showFrame({frame})")
+            self.page.click(box["x"] + sx, box["y"] + sy)
+            picked = self.page.wait("airsim360.picked")
+            labels = read_ids(ROOM / f"data/entity/{frame:06}.png")
+            if (picked["x"], picked["y"]) != (x, y) or picked["id"] != labels[y][x]:
+                wrong.append((n, frame, (x, y), picked, labels[y][x]))
+        self.assertEqual(wrong, [])
+        entities = read_json(ROOM / "data/entities.json")
+        self.assertIn(entities[str(picked["id"])]["name"], self.text("card"))
+        self.assertEqual(self.page.problems(), [])
+
+    def test_the_screen_shows_the_pixel_that_a_click_names(self):
+        self.open("#show=entity&fov=0.3")
+        self.set("opacity", "1")
+        random.seed(11)
+        for _ in range(12):
+            x, y = random.randrange(256), random.randrange(3, 125)
+            yaw, pitch = 2 * math.pi * ((x + 0.5) / 256 - 0.5), math.pi * (0.5 - (y + 0.5) / 128)
+            self.page.run(f"airsim360.main.look.set({yaw}, {pitch}, 0.3); airsim360.refresh()")
+            self.settle()
+            id = read_ids(ROOM / "data/entity/000000.png")[y][x]
+            wanted = self.page.run(f"import('./overlay.js').then(o => o.idColor({id}))")
+            self.assertEqual(self.color()[:3], wanted, (x, y))
+
+    def test_the_horizon_is_no_exception(self):
+        # Where a driver's arc tangent of 0 is wrong, a line of the sky goes through the middle of the screen.
+        self.open("#show=entity&yaw=0&pitch=0&fov=0.3")
+        self.set("opacity", "1")
+        labels = read_ids(ROOM / "data/entity/000000.png")
+        near = {labels[y][x] for y in (63, 64) for x in range(110, 146)}
+        wanted = self.page.run(f"import('./overlay.js').then(o => {sorted(near)}.map(o.idColor))")
+        for dy in range(-2, 3):
+            for dx in range(-200, 201, 40):
+                self.assertIn(self.color(dx, dy)[:3], wanted, (dx, dy))
+
+    def test_every_product_is_an_overlay_and_nothing_comes_from_elsewhere(self):
+        self.open()
+        products = self.page.run("[...document.getElementById('product').options].map(o => o.value)")
+        self.assertEqual(set(products), {"", "range", "semantic", "entity", "normal", "flow", "coverage"})
+        seen = set()
+        for product in products:
+            self.set("product", product)
+            seen.add(tuple(self.color(40, 30)))
+            self.assertNotEqual(self.text("legend"), "", product)
+        self.assertGreaterEqual(len(seen), 6)
+        self.assertEqual(self.page.problems(), [])
+        self.assertTrue(all(a.startswith((self.viewer.address, "data:")) for a in self.page.addresses()))
+
+    def test_a_search_finds_the_frames_that_the_labels_and_ranges_say(self):
+        self.open()
+        entities = read_json(ROOM / "data/entities.json")
+        box = next(int(id) for id, e in entities.items() if e["name"] == "box")
+        # Nearest range of the box of each frame, by the library that wrote nothing of the page.
+        self.set("question", "box within 100 m")
+        self.page.run("document.getElementById('search-form').requestSubmit()")
+        self.page.wait("/^\\d+ frames$/.test(document.getElementById('search-state').textContent)")
+        wanted = [i for i in range(6) if any(box in row for row in read_ids(ROOM / f"data/entity/{i:06}.png"))]
+        self.assertEqual(self.page.run("airsim360.list.rows"), wanted)
+        least = self.page.run("[...document.querySelectorAll('#hits button')].map(b => Number(/([\\d.]+) m$/.exec(b.textContent)[1]))")
+        # The box is the unit cube about (3, 0, 0.5): no pixel is nearer than its nearest point, nor much farther.
+        for frame, metres in zip(wanted, least):
+            p = json.loads((ROOM / "data/frames.jsonl").read_text().splitlines()[frame])["X_WC"]["p"]
+            true = math.dist(p, [max(2.5, min(3.5, p[0])), max(-0.5, min(0.5, p[1])), max(0, min(1, p[2]))])
+            self.assertGreaterEqual(metres, true - 0.06)
+            self.assertLess(metres, true + 0.35)
+        self.set("question", "dragon within 2 m")
+        self.page.run("document.getElementById('search-form').requestSubmit()")
+        self.page.wait("document.getElementById('search-state').textContent.includes('dragon')")
+
+    def test_everyday_words_are_understood(self):
+        self.open()
+        for text, words, within in [("mailbox within 20 m", ["post", "box"], 20), ("frames with a red bench", ["red", "bench"], None), ("People < 3.5 m", ["person"], 3.5), ("", [], None)]:
+            said = self.page.run(f"import('./search.js').then(s => s.parseQuestion({json.dumps(text)}))")
+            self.assertEqual((said["words"], said.get("within") or None), (words, within), text)
+
+    def test_the_box_of_a_thing_is_where_the_world_has_it(self):
+        self.open()
+        labels = read_ids(ROOM / "data/entity/000000.png")
+        entities = read_json(ROOM / "data/entities.json")
+        box = next(int(id) for id, e in entities.items() if e["name"] == "box")
+        x, y = next((x, y) for y in range(128) for x in range(256) if labels[y][x] == box)
+        self.page.run(f"airsim360.pick(airsim360.main, {x}, {y})")
+        self.page.wait("airsim360.box?.known")
+        low, high = self.page.run("[airsim360.box.low, airsim360.box.high]")
+        for a, (least, most) in enumerate([(2.5, 3.5), (-0.5, 0.5), (0, 1)]):
+            self.assertGreaterEqual(low[a], least - 0.02)
+            self.assertLessEqual(high[a], most + 0.02)
+
+    def test_filters_darken_what_they_leave_out(self):
+        self.open("#show=semantic")
+        self.set("opacity", "1")
+        before = self.color()
+        self.page.run("document.querySelector('#legend input').click()")
+        for box in range(self.page.run("document.querySelectorAll('#legend input').length")):
+            self.page.run(f"{{ const b = document.querySelectorAll('#legend input')[{box}]; if (b.checked) b.click(); }}")
+            self.settle()
+        self.assertNotEqual(self.color(), before)
+        self.open()
+        self.set("low", "100")
+        self.assertLess(sum(self.color()[:3]), 3 * 110)
+
+    def test_everything_is_reached_by_keys(self):
+        self.open()
+        self.page.run("document.querySelector('#pane-a canvas').focus()")
+        yaw = self.page.run("airsim360.main.look.yaw")
+        self.page.key("ArrowRight")
+        self.assertGreater(self.page.run("airsim360.main.look.yaw"), yaw)
+        fov = self.page.run("airsim360.main.look.fov")
+        self.page.key("+")
+        self.assertLess(self.page.run("airsim360.main.look.fov"), fov)
+        self.page.key("Enter")
+        self.page.wait("airsim360.chosen")
+        self.page.key(".")
+        self.page.wait("airsim360.frame === 1")
+        self.page.run("document.getElementById('frame-list').focus()")
+        self.page.key("End")
+        self.page.wait("airsim360.frame === 5")
+        self.page.key("ArrowUp")
+        self.page.wait("airsim360.frame === 4")
+        # Tab comes by every control that is shown, once, and out again.
+        self.page.run("document.activeElement.blur()")
+        wanted = self.page.run("[...document.querySelectorAll('a[href], button, input, select, summary, canvas[tabindex], [role=listbox]')].filter(e => e.checkVisibility() && !e.disabled).length")
+        reached = set()
+        for _ in range(wanted + 5):
+            self.page.key("Tab")
+            reached.add(self.page.run("(e => e === document.body ? '' : e.tagName + e.id + [...document.querySelectorAll('*')].indexOf(e))(document.activeElement)"))
+        self.assertEqual(len(reached - {""}), wanted)
+
+    def test_every_control_has_a_name_that_a_screen_reader_says(self):
+        self.open()
+        self.page.call("Accessibility.enable")
+        nodes = self.page.call("Accessibility.getFullAXTree")["nodes"]
+        for node in nodes:
+            role = node.get("role", {}).get("value")
+            if not node.get("ignored") and role in {"button", "checkbox", "combobox", "slider", "searchbox", "spinbutton", "listbox", "option", "application", "image", "DisclosureTriangle", "link"}:
+                self.assertTrue(node.get("name", {}).get("value"), node)
+        self.assertEqual(self.page.run("document.documentElement.lang"), "en")
+        self.page.call("Accessibility.disable")
+
+    def test_at_phone_width_and_at_200_percent_nothing_is_cut_off(self):
+        for width, height in [(360, 740), (640, 400)]:
+            self.page.resize(width, height)
+            try:
+                self.open()
+                self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), width)
+                self.assertGreater(self.canvas()["height"], 150)
+            finally:
+                self.page.resize(1280, 800)
+
+    def test_the_address_brings_back_what_was_seen(self):
+        self.open("#frame=3&yaw=1.2&pitch=-0.3&fov=0.9&show=range")
+        self.assertEqual(self.page.run("[airsim360.frame, airsim360.product]"), [3, "range"])
+        self.assertAlmostEqual(self.page.run("airsim360.main.look.yaw"), 1.2, 3)
+        self.open("#frame=99999&yaw=x&pitch=1e999&fov=-3&show=nothing")
+        self.assertEqual(self.page.run("[airsim360.frame, airsim360.product, airsim360.main.look.pitch]"), [5, "", 0])
+
+
+class CompareTest(PageTest):
+    arguments = (ROOM / "data", "--compare", ROOM / "other")
+
+    def test_two_datasets_are_looked_at_together(self):
+        self.open()
+        self.page.run("airsim360.panes[1].panorama.turnTo(0.7, 0.2, 0.8)")
+        self.assertEqual(self.page.run("[airsim360.main.look.yaw, airsim360.main.look.pitch, airsim360.main.look.fov]"), [0.7, 0.2, 0.8])
+        self.set("product", "difference")
+        self.assertEqual(self.page.problems(), [])
+        self.assertEqual(self.page.run("airsim360.panes.map(p => p.box.querySelector('.pane-name').textContent)"), ["data", "other"])
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+class ExportTest(unittest.TestCase):
+    def test_the_export_works_from_a_server_of_files(self):
+        done = run("view", ROOM / "data", "--export", ROOM / "site")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=ROOM / "site"))
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            BROWSER.said.clear()
+            BROWSER.open(f"http://127.0.0.1:{server.server_port}/index.html#show=range")
+            BROWSER.wait("window.airsim360?.first")
+            BROWSER.run("airsim360.pick(airsim360.main, 128, 64)")
+            BROWSER.wait("airsim360.picked")
+            self.assertEqual(BROWSER.problems(), [])
+        finally:
+            server.shutdown()
+            server.server_close()
+
+
+class LiveTest(PageTest):
+    arguments = ("--world", "box_room", "--record", ROOM / "kept")
+
+    def test_a_key_flies_the_drone_and_a_click_names_what_is_there(self):
+        self.open()
+        self.page.wait("airsim360.live.frames.length > 3")
+        start = self.page.run("airsim360.live.picture.p[2]")
+        self.page.call("Input.dispatchKeyEvent", type="keyDown", key="r", windowsVirtualKeyCode=82)
+        self.page.wait(f"airsim360.live.picture.p[2] > {start} + 0.3")
+        self.page.call("Input.dispatchKeyEvent", type="keyUp", key="r", windowsVirtualKeyCode=82)
+        box = self.canvas()
+        self.page.run("airsim360.main.panorama.turnTo(0, -1.5)")
+        self.page.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        picked = self.page.wait("airsim360.picked")
+        self.assertIn("floor", self.text("card"))
+        # Almost straight down the range is the height of the picture that was clicked.
+        self.assertAlmostEqual(picked["range"] * math.sin(1.5), picked["p"][2], delta=0.02)
+        self.assertEqual(self.page.problems(), [])
+
+    def test_products_are_switched_while_it_flies(self):
+        self.open()
+        for product in self.page.run("[...document.getElementById('product').options].map(o => o.value)"):
+            self.page.run(f"document.getElementById('product').value = '{product}'; document.getElementById('product').dispatchEvent(new Event('change'))")
+            before = self.page.run("airsim360.live.picture.number")
+            self.page.wait(f"airsim360.live.picture.number > {before} + 2")
+            if product:
+                self.assertTrue(self.page.run(f"Boolean(airsim360.live.picture.planes['{product}'])"), product)
+        self.assertEqual(self.page.problems(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

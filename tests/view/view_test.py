@@ -1,0 +1,346 @@
+"""`airsim360 view` over plain sockets: what it serves and what it refuses; the export; the live world."""
+import base64
+import json
+import os
+import pathlib
+import shutil
+import socket
+import sqlite3
+import struct
+import tempfile
+import time
+import unittest
+
+from viewer import Viewer, make_dataset, run
+
+ROOM = pathlib.Path(tempfile.mkdtemp(prefix="airsim360_view_"))
+
+
+def setUpModule():
+    make_dataset(ROOM / "data")
+
+
+def tearDownModule():
+    shutil.rmtree(ROOM)
+
+
+class WebSocket:
+    """The least of RFC 6455 that a client needs."""
+
+    def __init__(self, port, headers=""):
+        self.socket = socket.create_connection(("127.0.0.1", port), 60)
+        self.socket.sendall(b"GET /live HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n" + headers.encode() +
+                            b"Sec-WebSocket-Key: " + base64.b64encode(os.urandom(16)) + b"\r\nSec-WebSocket-Version: 13\r\n\r\n")
+        self.file = self.socket.makefile("rb")
+        self.status = int(self.file.readline().split()[1])
+        while self.file.readline() not in (b"\r\n", b""):
+            pass
+
+    def send(self, data, first=0x81):
+        mask = os.urandom(4)
+        size = bytes([0x80 | len(data)]) if len(data) < 126 else b"\xfe" + struct.pack(">H", len(data)) if len(data) < 65536 else b"\xff" + struct.pack(">Q", len(data))
+        self.socket.sendall(bytes([first]) + size + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(data)))
+
+    def read(self):
+        """Kind and bytes of a message, however many frames it came in; None at the end."""
+        kind, data = None, b""
+        while True:
+            head = self.file.read(2)
+            if len(head) < 2:
+                return None
+            size = head[1] & 127
+            size = struct.unpack(">H", self.file.read(2))[0] if size == 126 else struct.unpack(">Q", self.file.read(8))[0] if size == 127 else size
+            kind, data = kind or head[0] & 15, data + self.file.read(size)
+            if head[0] & 0x80:
+                return kind, data
+
+    def ask(self, message):
+        """Decoded JSON, or (header, bytes of the planes) of pictures."""
+        self.send(json.dumps(message).encode() if isinstance(message, dict) else message)
+        kind, data = self.read()
+        if kind == 1:
+            return json.loads(data)
+        assert data[:4] == b"A360"
+        length = struct.unpack("<I", data[4:8])[0]
+        return json.loads(data[8:8 + length]), data[8 + length:]
+
+    def close(self):
+        self.file.close()
+        self.socket.close()
+
+
+def raw(port, text, size=1 << 16):
+    """The first line of the answer to these bytes; "" if the connection is closed without one."""
+    with socket.create_connection(("127.0.0.1", port), 20) as client:
+        client.settimeout(20)
+        try:
+            client.sendall(text)
+            return client.recv(size).split(b"\r\n")[0].decode("latin1")
+        except ConnectionError:
+            return ""
+
+
+class RecordedTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.viewer = Viewer(ROOM / "data")
+
+    @classmethod
+    def tearDownClass(cls):
+        assert cls.viewer.stop() == 0
+
+    def test_the_page_and_its_files_are_served_with_a_policy_that_loads_nothing_from_elsewhere(self):
+        for path, kind in {"/": "text/html", "/app.js": "text/javascript", "/style.css": "text/css", "/session.json": "application/json"}.items():
+            status, headers, body = self.viewer.get(path)
+            self.assertEqual(status, 200, path)
+            self.assertTrue(headers["Content-Type"].startswith(kind), headers)
+            self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+            self.assertNotIn("unsafe", headers["Content-Security-Policy"])
+            self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+            self.assertNotRegex(body.decode().replace("http://www.w3.org/2000/svg", ""), r"(src|href)=\"?(https?:)?//")
+
+    def test_the_index_says_what_the_frames_file_says(self):
+        index = self.viewer.json("/data/0/index.json")
+        lines = [json.loads(line) for line in (ROOM / "data/frames.jsonl").read_text().splitlines()]
+        self.assertEqual(index["frames"]["stem"], [line["stem"] for line in lines])
+        for i, line in enumerate(lines):
+            self.assertAlmostEqual(index["frames"]["t"][i], 1e-9 * line["t_ns"], 5)
+            for mine, theirs in zip(index["views"][0]["p"][i], line["X_WC"]["p"]):
+                self.assertAlmostEqual(mine, theirs, 3)
+            # The same turn: q and -q are one.
+            dot = sum(a * b for a, b in zip(index["views"][0]["q"][i], line["X_WC"]["q_wxyz"]))
+            self.assertAlmostEqual(abs(dot), 1, 6)
+
+    def test_appearances_are_the_segments_of_the_index(self):
+        seen = self.viewer.json("/data/0/appearances.json")
+        with sqlite3.connect(ROOM / "data/index.sqlite") as index:
+            rows = index.execute("SELECT entity, frame, area FROM segments ORDER BY entity, frame").fetchall()
+        wanted = {}
+        for entity, frame, area in rows:
+            wanted.setdefault(str(entity), []).extend([frame, area])
+        self.assertEqual(seen, wanted)
+
+    def test_pictures_are_the_files_themselves(self):
+        for name in ["rgb/000003.png", "range/000000.exr", "entity/000005.png", "flow/000001.exr", "entities.json"]:
+            self.assertEqual(self.viewer.get("/data/0/" + name)[2], (ROOM / "data" / name).read_bytes(), name)
+
+    def test_nothing_outside_the_folder_is_served(self):
+        secret = ROOM / "secret.txt"
+        secret.write_text("secret")
+        link, folder_link = ROOM / "data/link.txt", ROOM / "data/up"
+        for path, target in {link: secret, folder_link: ROOM}.items():
+            if not path.is_symlink():
+                path.symlink_to(target)
+        try:
+            for path in ["../secret.txt", "..%2fsecret.txt", "%2e%2e/secret.txt", "rgb/../../secret.txt", "/etc/passwd", "//etc/passwd", "rgb//000000.png", "rgb/./000000.png",
+                         "link.txt", "up/secret.txt", "rgb", "rgb/", "", ".", "..", "%00", "entities.json%00.png", "%", "%zz", "a" * 4000, "people/../entities.json", "people/000000.json"]:
+                line = raw(self.viewer.port, f"GET /data/0/{path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
+                self.assertRegex(line, r"HTTP/1.1 (400|404)", path)
+            for path in ["/data/1/index.json", "/data/-1/index.json", "/data/99999999999999999999/index.json", "/data/0", "/data", "/data/0x/index.json", "/nothing", "/page/app.js"]:
+                self.assertEqual(self.viewer.get(path)[0], 404, path)
+        finally:
+            link.unlink()
+            folder_link.unlink()
+
+    def test_pages_of_other_sites_and_names_that_only_point_here_are_refused(self):
+        for headers in [{"Origin": "http://evil.example"}, {"Origin": "null"}, {"Origin": "http://127.0.0.1:1"}, {"Host": "evil.example"}, {"Host": f"evil.example:{self.viewer.port}"},
+                        {"Host": "127.0.0.1.evil.example"}]:
+            self.assertEqual(self.viewer.get("/session.json", headers)[0], 403, headers)
+        self.assertEqual(self.viewer.get("/session.json", {"Origin": self.viewer.address})[0], 200)
+
+    def test_only_this_machine_can_connect(self):
+        with open(f"/proc/{self.viewer.process.pid}/net/tcp") as table:
+            listening = [line.split()[1] for line in table if line.split()[3] == "0A"]
+        mine = [address for address in listening if int(address.split(":")[1], 16) == self.viewer.port]
+        self.assertEqual([address.split(":")[0] for address in mine], ["0100007F"])
+
+    def test_methods_other_than_get_and_malformed_requests_change_nothing(self):
+        for method in ["POST", "PUT", "DELETE", "HEAD", "OPTIONS"]:
+            self.assertEqual(self.viewer.get("/session.json", method=method)[0], 405, method)
+        for text in [b"\x00" * 100, b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
+                     b"GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999999999999\r\n\r\n", b"GET /" + b"a" * 100000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                     b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000000\r\n\r\n" + b"x" * 100]:
+            self.assertNotIn("200", raw(self.viewer.port, text)[:12], text[:60])
+        self.assertEqual(self.viewer.get("/")[0], 200)
+
+    def test_a_thousand_silent_connections_keep_nobody_out(self):
+        clients = []
+        try:
+            for _ in range(1000):
+                clients.append(socket.create_connection(("127.0.0.1", self.viewer.port), 20))
+            self.assertEqual(self.viewer.get("/")[0], 200)
+        finally:
+            for client in clients:
+                client.close()
+        self.assertEqual(self.viewer.get("/")[0], 200)
+
+    def test_reading_the_same_pictures_again_and_again_takes_no_more_memory(self):
+        def read_all():
+            for i in range(6):
+                for name in ["rgb/{:06}.png", "range/{:06}.exr", "entity/{:06}.png"]:
+                    self.viewer.get("/data/0/" + name.format(i))
+        for _ in range(3):
+            read_all()
+        before = self.viewer.memory()
+        for _ in range(15):
+            read_all()
+        self.assertLess(self.viewer.memory(), 1.1 * before)
+
+    def test_a_recorded_dataset_has_no_socket(self):
+        client = WebSocket(self.viewer.port)
+        self.assertEqual(client.status, 404)
+        client.close()
+
+
+class ExportTest(unittest.TestCase):
+    def test_the_export_answers_as_the_server_does(self):
+        out = ROOM / "site"
+        done = run("view", ROOM / "data", "--compare", ROOM / "data", "--export", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        viewer = Viewer(ROOM / "data", "--compare", ROOM / "data")
+        try:
+            files = [path for path in out.rglob("*") if path.is_file()]
+            self.assertGreater(len(files), 80)
+            for path in files:
+                status, _, body = viewer.get("/" + str(path.relative_to(out)))
+                self.assertEqual((status, body), (200, path.read_bytes()), path)
+        finally:
+            viewer.stop()
+
+    def test_an_export_overwrites_nothing_and_leaves_nothing_half_written(self):
+        full = ROOM / "full"
+        full.mkdir()
+        (full / "mine").write_text("mine")
+        done = run("view", ROOM / "data", "--export", full)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(str(full), done.stderr)
+        self.assertEqual([path.name for path in full.iterdir()], ["mine"])
+        self.assertEqual(list(ROOM.glob("*.partial")), [])
+
+
+class InputTest(unittest.TestCase):
+    def test_what_cannot_be_viewed_is_refused_by_name(self):
+        for arguments, said in {(): "--world", (ROOM,): "not a dataset", ("plan.json",): "dataset run plan.json", (ROOM / "nothing",): "nothing", (ROOM / "data", "--world", "box_room"): "--world",
+                                ("--world", "box_rom"): "box_room", ("--world", "box_room", "--compare", ROOM / "data"): "--compare",
+                                (ROOM / "data", "--port", "99999"): "99999", (ROOM / "data", "--compare", ROOM): "not a dataset", (ROOM / "data", "--record", ROOM / "r"): "--record",
+                                ("--world", "box_room", "--export", ROOM / "e"): "--export", ("--world", "box_room", "--drone", "humingbird"): "hummingbird"}.items():
+            done = run("view", *arguments)
+            self.assertEqual(done.returncode, 2, (arguments, done.stderr))
+            self.assertIn(said, done.stderr, arguments)
+
+
+class LiveTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.viewer = Viewer("--world", "box_room", "--record", ROOM / "kept")
+        cls.token = cls.viewer.json("/session.json")["live"]["token"]
+
+    @classmethod
+    def tearDownClass(cls):
+        assert cls.viewer.stop() == 0
+
+    def setUp(self):
+        self.client = WebSocket(self.viewer.port)
+        self.assertEqual(self.client.status, 101)
+
+    def tearDown(self):
+        self.client.close()
+
+    def picture(self, **more):
+        return self.client.ask({"do": "picture", "width": 128, **more})
+
+    def planes(self, header, data):
+        kinds = {"f32": "f", "u32": "I", "u16": "H", "u8": "B"}
+        return {p["product"]: struct.unpack(f"<{p['bytes'] // struct.calcsize(kinds[p['type']])}{kinds[p['type']]}", data[p["at"]:p["at"] + p["bytes"]])
+                for p in header["planes"] if p["type"] in kinds}
+
+    def test_the_range_of_a_picture_is_that_of_the_room_around_it(self):
+        header, data = self.picture(products=["range", "entity"])
+        planes = self.planes(header, data)
+        x, y, z = header["p"]
+        # box_room: walls at 5 m, floor at 0, ceiling at 6 m; the poles look straight up and down.
+        self.assertAlmostEqual(planes["range"][0], 6 - z, delta=0.01)
+        self.assertAlmostEqual(planes["range"][-1], z, delta=0.01)
+        names = json.loads(self.viewer.get("/entities.json")[2])
+        self.assertEqual({names[str(i)]["category_path"] for i in planes["entity"]} - {"structure/ceiling"} != set(), True)
+        self.assertEqual(data[header["planes"][0]["at"]:][:2], b"\xff\xd8")
+
+    def test_a_drone_that_is_told_to_climb_climbs_and_one_that_is_told_nothing_stops(self):
+        self.client.ask({"do": "reset", "token": self.token})
+        start = self.picture()[0]["p"][2]
+        end = time.monotonic() + 1.5
+        while time.monotonic() < end:
+            header, _ = self.picture(input=[0, 0, 0.1, 0], token=self.token)
+        self.assertGreater(header["p"][2], start + 0.5)
+        end = time.monotonic() + 2.5
+        while time.monotonic() < end:
+            header, _ = self.picture()
+        self.assertLess(abs(header["v"][2]), 0.1)
+
+    def test_without_the_token_nothing_is_changed(self):
+        for message in [{"do": "picture", "input": [0, 0, 1, 0]}, {"do": "picture", "input": [0, 0, 1, 0], "token": "0" * 32}, {"do": "set", "weather": "rain"}, {"do": "keep"},
+                        {"do": "save"}, {"do": "reset", "token": None}, {"do": "reset", "token": [self.token]}]:
+            self.assertIn("token", self.client.ask(message)["error"], message)
+        self.assertFalse((ROOM / "kept").exists())
+
+    def test_malformed_messages_are_answered_and_survived(self):
+        for message in [b"", b"{", b"[]", b"1e999", b"[" * 3000, b'{"do":"picture","width":"x"}', b'{"do":"picture","width":1e308}', b'{"do":"picture","width":-1}',
+                        b'{"do":"picture","products":["nothing"]}', b'{"do":"picture","products":{}}', b'{"do":"picture","products":[[[]]]}', b'{"do":1}', b'{"do":"planes","number":-5}',
+                        b'{"do":"planes","number":123456789}', b"x" * 5000]:
+            self.assertTrue("error" in self.client.ask(message), message[:60])
+        for stick in [[0, 0, 0], [2, 0, 0, 0], [None] * 4, ["1"] * 4, 7]:
+            self.assertIn("input", self.client.ask({"do": "picture", "input": stick, "token": self.token})["error"], stick)
+        for change in [{"weather": "frogs"}, {"weather": 3}, {"hour": 25}, {"hour": "noon"}]:
+            self.assertIn("error", self.client.ask({"do": "set", "token": self.token, **change}), change)
+        self.assertEqual(self.picture()[0]["planes"][0]["product"], "rgb")
+
+    def test_messages_that_are_no_frames_or_too_long_end_the_connection_alone(self):
+        for data, first in [(b"x" * 100000, 0x81), (b"\xff\xfe", 0x81), (b"x", 0xFF), (b"x", 0x80)]:
+            client = WebSocket(self.viewer.port)
+            client.send(data, first)
+            try:
+                answer = client.read()
+            except ConnectionError:
+                answer = None
+            self.assertTrue(answer is None or answer[0] == 8, answer)
+            client.close()
+        self.assertEqual(self.picture()[0]["planes"][0]["product"], "rgb")
+
+    def test_sockets_of_other_sites_are_refused(self):
+        client = WebSocket(self.viewer.port, "Origin: http://evil.example\r\n")
+        self.assertEqual(client.status, 403)
+        client.close()
+
+    def test_planes_of_a_picture_are_asked_for_later(self):
+        header, data = self.picture(products=["entity", "range"])
+        now = self.planes(header, data)
+        self.picture()
+        later = self.planes(*self.client.ask({"do": "planes", "number": header["number"]}))
+        self.assertEqual(later["entity"], now["entity"])
+        self.assertEqual(later["range"], now["range"])
+
+    def test_weather_and_hour_change_the_light_and_not_the_labels(self):
+        self.client.ask({"do": "reset", "token": self.token})
+        self.assertEqual(self.client.ask({"do": "set", "hour": 12, "token": self.token})["done"], "set")
+        noon = self.client.ask({"do": "set", "hour": 12, "token": self.token})["sun_elevation_deg"]
+        night = self.client.ask({"do": "set", "hour": 0, "token": self.token})["sun_elevation_deg"]
+        # 21 June at 45 degrees north: 90 - 45 + 23.4 degrees at noon, as far below at midnight as 23.4 - 45.
+        self.assertAlmostEqual(noon, 68.4, delta=0.5)
+        self.assertAlmostEqual(night, -21.6, delta=0.5)
+
+    def test_frames_that_are_kept_become_a_dataset(self):
+        for _ in range(3):
+            self.picture()
+            time.sleep(0.05)
+            self.assertEqual(self.client.ask({"do": "keep", "token": self.token}).get("done"), "keep")
+            self.picture()
+        said = self.client.ask({"do": "save", "token": self.token})
+        self.assertEqual(said.get("frames"), 3, said)
+        self.assertEqual(run("verify", said["folder"]).returncode, 0)
+        self.assertEqual(len((pathlib.Path(said["folder"]) / "frames.jsonl").read_text().splitlines()), 3)
+        self.assertIn("no frame", self.client.ask({"do": "save", "token": self.token})["error"])
+        shutil.rmtree(ROOM / "kept")
+
+
+if __name__ == "__main__":
+    unittest.main()
