@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that every #include between modules follows the layer table of docs/internals/architecture.md, and between the
-folders of a module its second table.
+folders of a module that of docs/internals/rooms.md.
 
 Usage: check_layers.py [ROOT]. Prints one line per violation and exits 1 if there is any.
 Also refuses third-party headers outside the modules that own them, and in headers that another module includes.
@@ -56,9 +56,9 @@ def read_table(root):
 
 
 def read_folders(root):
-    """Folder -> set of folders of its module that it may include, from the second table."""
+    """Folder -> set of folders of its module that it may include, from the table of docs/internals/rooms.md."""
     allowed = {}
-    for line in (root / "docs/internals/architecture.md").read_text().splitlines():
+    for line in (root / "docs/internals/rooms.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
         if len(cells) == 3 and re.fullmatch(r"[a-z_/]+", cells[0]) and re.fullmatch(r"—|[a-z_/ ]+", cells[2]):
             if cells[0] != "folder":
@@ -67,7 +67,7 @@ def read_folders(root):
 
 
 def check_folders(root):
-    """Includes between folders of one module follow the second table, and that table has no cycle."""
+    """Includes between folders of one module follow the table of rooms, and that table has no cycle."""
     allowed, errors, done = read_folders(root), [], set()
 
     def visit(folder, path):

@@ -294,7 +294,7 @@ void AddCollectCommand(CLI::App& app, GlobalOptions& globals) {
                       "with --recipe only its subsets");
   command->add_option("--recipe", arguments->recipe,
                       "omni360-human, or a file like data/omni360_human.yaml: a dataset for each subset of its table");
-  command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_west/03");
+  command->add_option("--subset", arguments->subset, "with --recipe: only this one, for example downtown_city/03");
   command->add_option("--out", arguments->out, "folder of the dataset")->required();
   command->add_option("--route", arguments->route,
                       "auto (a survey through free space; near people if there are any), or a file (CSV x,y,z[,yaw_deg][,t], YAML, GPX or "
