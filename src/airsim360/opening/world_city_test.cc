@@ -33,8 +33,9 @@ TEST(WorldAdditions, AreReadFromAWorldFile) {
   ASSERT_EQ(read.props.size(), 1u);
   EXPECT_EQ(read.props[0].label, "vehicle/car");
   EXPECT_EQ(read.props[0].x, 3);
-  EXPECT_FALSE(read.empty());
-  EXPECT_TRUE(WorldAdditions().empty());
+  EXPECT_FALSE(read.no_city());
+  EXPECT_TRUE(read.no_town());
+  EXPECT_TRUE(WorldAdditions().no_city() && WorldAdditions().no_town());
 }
 
 TEST(WorldAdditions, MistakesAreNamedWithLineAndNearestKey) {

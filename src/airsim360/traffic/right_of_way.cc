@@ -11,6 +11,7 @@ constexpr double kCriticalGap = 4.5;  // seconds: Highway Capacity Manual 2010, 
 constexpr int64_t kPatienceNs = 25'000'000'000;  // after so long at the line others let one go
 constexpr double kAtLine = 6;         // metres
 constexpr double kLeftTurn = 0.6;     // radians
+constexpr double kFirmBraking = 3;    // m/s^2
 
 }  // namespace
 
@@ -75,8 +76,11 @@ bool RightOfWay::HasRoomBehind(uint32_t vehicle) const {
   const LaneId exit = state_.vehicles[vehicle].ahead[1];
   if (exit == kNoLane) return true;
   double room = INFINITY;
-  if (const Occupant* last = occupancy_.Ahead(exit, -INFINITY, vehicle))
-    room = std::max(0.0, last->rear) + 2 * state_.vehicles[last->vehicle].v;
+  if (const Occupant* last = occupancy_.Ahead(exit, -INFINITY, vehicle)) {
+    // As far as it comes if it brakes now.
+    const double v = state_.vehicles[last->vehicle].v;
+    room = std::max(0.0, last->rear) + v * v / (2 * kFirmBraking);
+  }
   const auto take = [&](uint32_t other) { room -= model_.vehicles[other].shape.length + model_.vehicles[other].driver.gap; };
   for (const LaneId before : model_.lanes.previous(exit)) {
     for (const uint32_t other : granted_[before]) take(other);

@@ -96,6 +96,16 @@ int8_t IndicatorOf(const TrafficModel& model, const DrivingVehicle& own, int64_t
   return soon && std::abs(next) > kTurns ? side(next) : int8_t{0};
 }
 
+// Who has waited at the line for long takes another way where there is one: else a ring of full roads would stand for ever.
+void TryAnotherWay(const TrafficModel& model, uint32_t i, int64_t t_ns, DrivingVehicle& own) {
+  constexpr int64_t kPatienceNs = 30'000'000'000, kEveryNs = 5'000'000'000;
+  constexpr double kAtLine = 6;  // metres
+  const int64_t waited = t_ns - own.stopped_ns;
+  if (own.stopped_ns < 0 || own.granted || waited < kPatienceNs || waited % kEveryNs != 0) return;
+  if (model.lanes.lane(own.lane).junction >= 0 || model.lanes.length(own.lane) - own.s > kAtLine) return;
+  internal::ChooseAhead(model, i, own);
+}
+
 void Advance(const TrafficModel& model, uint32_t i, int64_t t_ns, DrivingVehicle& own) {
   const double before = own.v;
   own.v = std::max(0.0, own.v + own.a * kTick);
@@ -106,6 +116,7 @@ void Advance(const TrafficModel& model, uint32_t i, int64_t t_ns, DrivingVehicle
   own.indicator = IndicatorOf(model, own, t_ns);
   if (own.v >= kStands) own.stopped_ns = -1;
   if (own.v < kStands && own.stopped_ns < 0) own.stopped_ns = t_ns;
+  TryAnotherWay(model, i, t_ns, own);
 }
 
 struct Slot {

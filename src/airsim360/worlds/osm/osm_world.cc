@@ -89,6 +89,17 @@ void ChooseSpawn(OsmScene& scene, const Neighbours& near) {
   scene.builder.SetSpawn(scene.On(road.point, 4.5), static_cast<float>(std::atan2(along.y, along.x) * 180 / M_PI));
 }
 
+// A map whose streets make no sense as lanes is still a world; only nobody drives in it.
+void SetLanes(const std::string& name, RoadNetwork roads, SceneBuilder& builder) {
+  if (roads.lanes.empty()) return;
+  try {
+    CheckRoads(roads);
+  } catch (const InputError& error) {
+    return LogWarning(name + ": no traffic can drive here: " + error.what());
+  }
+  builder.SetRoads(std::make_shared<const RoadNetwork>(std::move(roads)));
+}
+
 }  // namespace
 
 std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmData& data, const OsmOptions& options,
@@ -129,7 +140,7 @@ std::shared_ptr<const Scene> BuildMapScene(const std::string& name, const OsmDat
       near.shops.Add(node.p, node.p, 0);
   }
   BuildOsmGround(scene, buildings, near);
-  if (RoadNetwork roads = OsmLanes(scene, *near.graph); !roads.lanes.empty()) builder.SetRoads(std::make_shared<const RoadNetwork>(std::move(roads)));
+  SetLanes(name, OsmLanes(scene, *near.graph), builder);
   const std::vector<EntityId> entities = BuildOsmBuildings(scene, buildings, near);
   BuildOsmProps(scene, near);
   ChooseSpawn(scene, near);
