@@ -33,7 +33,7 @@ inline double IdmAcceleration(const Driver& driver, double v, double v0, double 
   return std::max(std::min(free, driver.acceleration * (1 - ratio * ratio * ratio * ratio - q * q)), -kHardestBraking);
 }
 
-/// The speed at which all drive evenly with `gap` metres between them: where IdmAcceleration is 0.
+/// The gap in metres at which all drive evenly at `v` < `v0`: where IdmAcceleration is 0.
 inline double EquilibriumGap(const Driver& driver, double v, double v0) {
   const double ratio = v / v0;
   return (driver.gap + v * driver.headway) / std::sqrt(1 - ratio * ratio * ratio * ratio);

@@ -1,0 +1,106 @@
+"""vehicles.jsonl against the pictures: labelled pixels lie in the boxes of their vehicles, velocities are differences of places."""
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import numpy as np
+
+from readers import read_exr, read_ids, rotation, run
+
+
+def rays(width, height):
+    """Directions of an equirectangular picture in the camera's frame (docs/reference/frames.md)."""
+    theta = 2 * np.pi * ((np.arange(width) + 0.5) / width - 0.5)
+    phi = np.pi * (0.5 - (np.arange(height) + 0.5) / height)
+    theta, phi = np.meshgrid(theta, phi)
+    return np.stack([np.cos(phi) * np.sin(theta), -np.sin(phi), np.cos(phi) * np.cos(theta)], axis=-1)
+
+
+class Traffic(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.data = cls.folder / "town"
+        poses = cls.folder / "poses.csv"
+        poses.write_text("t,x,y,z,yaw_deg\n" + "".join(f"{k * 0.2},53,-53,6,90\n" for k in range(4)))
+        done = run("collect", "--world", "downtown_west", "--traffic", 150, "--poses", poses, "--size", "512x256", "--tier", "labels", "--out", cls.data)
+        assert done.returncode == 0, done.stderr
+        cls.frames = [json.loads(line) for line in (cls.data / "frames.jsonl").read_text().splitlines()]
+        cls.lines = [json.loads(line) for line in (cls.data / "vehicles.jsonl").read_text().splitlines()]
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_labelled_pixels_lie_in_the_boxes_of_their_vehicles(self):
+        seen = 0
+        for frame, line in zip(self.frames, self.lines):
+            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
+            distance = read_exr(self.data / "range" / f"{frame['stem']}.exr")["Y"]
+            points = rays(512, 256) * distance[..., None]
+            points = points @ rotation(frame["X_WC"]["q_wxyz"]).T + frame["X_WC"]["p"]
+            for vehicle in line["vehicles"]:
+                here = points[entity == vehicle["entity"]]
+                if len(here) < 10:
+                    continue
+                seen += 1
+                inside = (here - vehicle["X_WB"]["p"]) @ rotation(vehicle["X_WB"]["q_wxyz"])
+                length, width, height = vehicle["size"]
+                self.assertLess(np.abs(inside[:, 0]).max(), length / 2 + 0.02)
+                self.assertLess(np.abs(inside[:, 1]).max(), width / 2 + 0.02)
+                self.assertLess(inside[:, 2].max(), height + 0.05)
+                self.assertGreater(inside[:, 2].min(), -0.05)
+        self.assertGreater(seen, 8)
+
+    def test_velocities_are_differences_of_places(self):
+        moving = 0
+        for before, after in zip(self.lines, self.lines[1:]):
+            places = {vehicle["name"]: vehicle for vehicle in before["vehicles"]}
+            seconds = (after["t_ns"] - before["t_ns"]) * 1e-9
+            for vehicle in after["vehicles"]:
+                old = places.get(vehicle["name"])
+                if old is None:
+                    continue
+                moved = (np.array(vehicle["X_WB"]["p"]) - old["X_WB"]["p"]) / seconds
+                mean = (np.array(vehicle["velocity"]) + old["velocity"]) / 2
+                self.assertLess(np.linalg.norm(moved - mean), 0.15 + 0.12 * np.linalg.norm(mean))
+                moving += np.linalg.norm(mean) > 2
+        self.assertGreater(moving, 20)
+
+    def test_nobody_drives_through_what_stands_there(self):
+        for frame, line in zip(self.frames, self.lines):
+            entity = read_ids(self.data / "entity" / f"{frame['stem']}.png")
+            distance = read_exr(self.data / "range" / f"{frame['stem']}.exr")["Y"]
+            driving = [vehicle["entity"] for vehicle in line["vehicles"]]
+            solid = np.isfinite(distance) & ~np.isin(entity, driving)
+            points = rays(512, 256)[solid] * distance[solid][:, None] @ rotation(frame["X_WC"]["q_wxyz"]).T + frame["X_WC"]["p"]
+            for vehicle in line["vehicles"]:
+                inside = (points - vehicle["X_WB"]["p"]) @ rotation(vehicle["X_WB"]["q_wxyz"])
+                length, width, height = vehicle["size"]
+                # Between the tyres' tread and the roof; mirrors and the slope of the road are allowed for.
+                through = (np.abs(inside[:, 0]) < length / 2 - 0.1) & (np.abs(inside[:, 1]) < width / 2 - 0.15) & (inside[:, 2] > 0.35) & (inside[:, 2] < height)
+                self.assertEqual(np.count_nonzero(through), 0, vehicle["name"])
+
+    def test_the_same_again_with_one_thread_and_other_traffic_with_another_seed(self):
+        first = (self.data / "vehicles.jsonl").read_bytes()
+        for flags, same in ((("--threads", 1), True), (("--seed", 9), False)):
+            out = self.folder / "again"
+            done = run("render", "--world", "downtown_west", "--traffic", 150, *flags, "--pose", "53,-53,6,90", "--size", "64x32", "--tier", "labels", "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            start = json.loads((out / "vehicles.jsonl").read_text())["vehicles"]
+            self.assertEqual(start == json.loads(first.splitlines()[0])["vehicles"], same)
+            shutil.rmtree(out)
+
+    def test_worlds_without_roads_and_numbers_out_of_range_are_refused(self):
+        for arguments, words in ((("--world", "box_room", "--traffic", 3), "no roads"), (("--world", "downtown_west", "--traffic", 19999), "hold"),
+                                 (("--world", "downtown_west", "--traffic", -1), "--traffic"), (("--world", "downtown_west", "--traffic", 2 * 10**18), "--traffic")):
+            done = run("render", *arguments, "--size", "64x32", "--tier", "labels", "--out", self.folder / "never")
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(words, done.stderr)
+            self.assertFalse((self.folder / "never").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
