@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BarometerReading", "Category", "Certificate", "Collision", "Entity", "EntityRecord", "EpisodeInfo", "Event", "FrameRecord",
            "GnssReading", "Gpu", "ImuReading", "Limits", "MagnetometerReading", "Meta", "Person", "PersonRecord", "PlannedFrame", "Pose",
-           "Replay", "ResetOptions", "Rotor", "TaskOptions", "TrajectorySamples",
+           "Replay", "ResetOptions", "Rotor", "TaskOptions", "TrafficVehicle", "TrajectorySamples",
            "VectorInfo", "WorldInfo"]
 
 Kind = Literal["thing", "stuff"]

@@ -160,14 +160,20 @@ void VisitScene(Archive& archive, T& scene) {
   VisitSpawn(archive, scene.spawn);
   archive.Each(scene.attributions, [&](auto& line) { archive(line); });
   archive(scene.spawn_yaw_deg);
-  VisitRoads(archive, scene.roads);
 }
 
 }  // namespace
 
+Bytes ArchivePictured(const Scene& scene) {
+  ArchiveWriter archive;
+  VisitScene(archive, scene);
+  return archive.Take();
+}
+
 Bytes ArchiveScene(const Scene& scene) {
   ArchiveWriter archive;
   VisitScene(archive, scene);
+  VisitRoads(archive, scene.roads);
   return archive.Take();
 }
 
@@ -176,6 +182,7 @@ std::optional<Scene> SceneFromArchive(std::span<const std::byte> bytes) {
     ArchiveReader archive(bytes);
     Scene scene;
     VisitScene(archive, scene);
+    VisitRoads(archive, scene.roads);
     if (archive.done()) return scene;
   } catch (const InputError&) {  // rejected below
   }

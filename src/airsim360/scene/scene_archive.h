@@ -14,6 +14,9 @@ namespace airsim360 {
 /// can read them.
 Bytes ArchiveScene(const Scene& scene);
 
+/// What of it can be seen in pictures: everything but its cache_key and its roads.
+Bytes ArchivePictured(const Scene& scene);
+
 /// The scene that ArchiveScene was given, exactly; nullopt where the bytes are cut off or too many. Bytes
 /// changed in other ways are for a checksum to find, as DiskCache has.
 std::optional<Scene> SceneFromArchive(std::span<const std::byte> bytes);

@@ -241,6 +241,8 @@ constexpr Row kRows[] = {
     {"ground/rail", false, -1, 10, 147},
     {"furniture/utility/camera", true, -1, 5, -1},
     {"furniture/vending/machine", true, -1, 4, -1},
+    {"furniture/utility/wire", true, -1, -1, -1},
+    {"vegetation/tree/conifer/cypress", true, 4, 21, 184},
 };
 // clang-format on
 static_assert(std::size(kRows) < kFirstCustomId);

@@ -52,13 +52,13 @@ class ScratchFile {
 
 // Hashing a city takes seconds: kept beside the city.
 std::string HashOfScene(const Scene& scene) {
-  CacheKey key("scene_hash", 1);
+  CacheKey key("scene_hash", 2);
   key.Add(scene.cache_key);
   const DiskCache cache = DiskCache::OfUser();
   if (!scene.cache_key.empty()) {
     if (const auto bytes = cache.Load(key); bytes && bytes->size() == 64) return std::string(AsText(*bytes));
   }
-  const std::string hash = Sha256Hex(ArchiveScene(scene));
+  const std::string hash = Sha256Hex(ArchivePictured(scene));
   if (!scene.cache_key.empty() && !cache.folder().empty()) cache.Store(key, AsBytes(hash));
   return hash;
 }

@@ -16,7 +16,7 @@ namespace airsim360 {
 
 /// A vehicle in the scene.
 struct TrafficBody {
-  std::string name;  ///< of its entity: "traffic/000"
+  std::string name;  ///< of its entity: traffic/000
   std::string kind;  ///< path of its category: "vehicle/car"
   uint32_t instance = 0;
   EntityId entity = kNoEntity;

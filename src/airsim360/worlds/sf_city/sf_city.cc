@@ -101,6 +101,7 @@ WorldInfo SfCityInfo() {
            "furniture/utility/electric_box",
            "furniture/utility/fire_hydrant",
            "furniture/utility/parking_meter",
+           "furniture/utility/wire",
            "furniture/waste/recycle_bin",
            "furniture/waste/trash",
            "furniture/waste/trash_can",

@@ -41,7 +41,7 @@ void HangSfWires(District& d, const Hills& hills) {
   const SlopeLay lay(hills);
   MeshBuilder mesh;
   mesh.SetMaterial(d.surfaces[Surface::kIronBlack]);
-  const CategoryId mast = d.builder.tree().At("construction/mast");
+  const CategoryId mast = d.builder.tree().At("construction/mast"), wire = d.builder.tree().At("furniture/utility/wire");
   // Along the southern pavements of the hills' streets.
   for (const Block& block : d.plan.blocks) {
     if (block.kind != BlockKind::kBuilt || QuarterOf(block) != Quarter::kHouses) continue;
@@ -59,7 +59,7 @@ void HangSfWires(District& d, const Hills& hills) {
         if (!at) continue;
         const AffineTransform pole = lay("utility_pole", PlaceUpright({at->x, at->y, 0}, FacingYaw(side.along)));
         if (before) {
-          if (wires == kNoEntity) wires = d.builder.AddEntity("overhead wires", mast);
+          if (wires == kNoEntity) wires = d.builder.AddEntity("overhead wires", wire);
           mesh.SetEntity(wires);
           HangBetweenPoles(mesh, *before, pole, 0.45f);
         }
@@ -75,7 +75,7 @@ void HangSfWires(District& d, const Hills& hills) {
   // Trolley wires over the cross avenue, on span wires between masts at both kerbs.
   const StreetLine& line = d.plan.east_west[4];
   const float x0 = d.plan.north_south[1].center + 8, x1 = d.plan.north_south[7].center - 8;
-  mesh.SetEntity(d.builder.AddEntity("trolley wires", mast));
+  mesh.SetEntity(d.builder.AddEntity("trolley wires", wire));
   constexpr float kPitch = 30.5f, kHeight = 6.1f;
   const auto point = [&](float x, float y, float z) { return hills.drape().At({x, y, z}); };
   for (float x = x0; x + kPitch <= x1; x += kPitch) {
@@ -89,7 +89,7 @@ void HangSfWires(District& d, const Hills& hills) {
       mesh.Tube(point(x, side * kerb, -0.2f), point(x, side * kerb, 7.2f), 0.11f, 0.075f, 10, false, true);
       d.placer.Reserve({{x, side * kerb}, {0.25f, 0.25f}, 0});
     }
-    mesh.SetEntity(d.builder.AddEntity("span wire", mast));
+    mesh.SetEntity(d.builder.AddEntity("span wire", wire));
   }
   d.builder.AddInstance({d.builder.AddMesh(mesh.Finish("overhead wires")), {}, kNoEntity});
 }
