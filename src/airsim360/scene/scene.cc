@@ -6,6 +6,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/scene/road_network.h"
+#include "airsim360/scene/scene_additions.h"
 
 namespace airsim360 {
 namespace {
@@ -275,16 +276,6 @@ std::shared_ptr<const Scene> SceneBuilder::Build() {
   name_uses_.clear();
   return built;
 }
-
-namespace {
-
-// Made by SceneBuilder as a plain Scene, so it may be changed while nobody else looks.
-std::shared_ptr<Scene> OwnScene(std::shared_ptr<const Scene> scene) {
-  return scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene))
-                                : std::make_shared<Scene>(*scene);
-}
-
-}  // namespace
 
 std::shared_ptr<const Scene> WithCacheKey(std::shared_ptr<const Scene> scene, std::string key) {
   const auto own = OwnScene(std::move(scene));

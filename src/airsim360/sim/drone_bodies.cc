@@ -5,6 +5,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/body/drone_body.h"
+#include "airsim360/scene/scene_additions.h"
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/traffic/traffic.h"
 
@@ -16,12 +17,6 @@ AffineTransform PlaceOf(const RigidTransform& X_WB) {
   return {Mat3f::FromColumns(VecCast<float>(R.column(0)), VecCast<float>(R.column(1)),
                              VecCast<float>(R.column(2))),
           VecCast<float>(X_WB.p)};
-}
-
-// The scene to change: the given one if nobody else has it.
-std::shared_ptr<Scene> Own(std::shared_ptr<const Scene> scene) {
-  if (scene.use_count() == 1) return std::const_pointer_cast<Scene>(std::move(scene));
-  return std::make_shared<Scene>(*scene);
 }
 
 std::string UniqueName(const Scene& scene, const std::string& name) {
@@ -46,12 +41,7 @@ MeshId AddMesh(const DroneBodySpec& body, Scene& scene) {
 }
 
 DroneBodyRef AddBody(const DroneBodySpec& body, MeshId mesh, Scene& scene) {
-  const auto entity = static_cast<EntityId>(scene.entities.size() + 1);
-  const AffineTransform X_WM = PlaceOf(body.X_WB);
-  Box3f bounds;
-  for (const Vec3f& p : scene.meshes[mesh].positions) bounds.Add(X_WM * p);
-  scene.entities.push_back({entity, UniqueName(scene, body.name), scene.tree.At(body.category), bounds});
-  scene.instances.push_back({mesh, X_WM, entity});
+  const EntityId entity = AddInstanceEntity(scene, UniqueName(scene, body.name), scene.tree.At(body.category), {mesh, PlaceOf(body.X_WB)});
   return {static_cast<uint32_t>(scene.instances.size() - 1), entity};
 }
 
@@ -104,7 +94,7 @@ std::shared_ptr<const Scene> AddDroneBodies(std::shared_ptr<const Scene> scene,
                                             std::vector<DroneBodyRef>& refs) {
   refs.clear();
   if (bodies.empty()) return scene;
-  const std::shared_ptr<Scene> own = Own(std::move(scene));
+  const std::shared_ptr<Scene> own = OwnScene(std::move(scene));
   // What is kept on disk of a scene is of the scene without bodies.
   own->cache_key.clear();
   std::vector<MeshId> meshes;

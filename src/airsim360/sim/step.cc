@@ -77,35 +77,24 @@ void MoveAlong(const SimModel& model, int64_t t_ns, Vehicle& vehicle) {
   vehicle.clearance = model.tracer->Clearance(VecCast<float>(point.p), model.contact_range);
 }
 
-// People near a drone can be touched by it; they stand like drones without rotors.
-void AddPeopleBoxes(const SimModel& model, const SimState& state, std::vector<DroneBox>& boxes) {
-  if (!state.people || !model.people) return;
-  constexpr double kReach = 4;  // metres: far more than a drone flies in a step
-  const size_t count = std::min(model.drones.size(), state.vehicles.size());
-  const int64_t t_ns = state.t_ns + model.people->epoch_ns;
-  for (size_t i = 0; i < count; ++i) {
-    for (const PersonBox& person :
-         PeopleNear(*model.people, *state.people, t_ns, state.vehicles[i].motion.X_WB.p, kReach)) {
-      const auto same = [&](const DroneBox& box) { return box.vehicle == kMiss && box.entity == person.entity; };
-      if (std::ranges::any_of(boxes, same)) continue;
-      boxes.push_back({person.X_WB, person.half_size_B, person.v_W, Norm(person.half_size_B), kMiss, person.entity, {}});
-    }
+// Those that are not there yet.
+template <class Box>
+void AddBoxes(const std::vector<Box>& near, std::vector<DroneBox>& boxes) {
+  for (const Box& met : near) {
+    const auto same = [&](const DroneBox& box) { return box.vehicle == kMiss && box.entity == met.entity; };
+    if (std::ranges::any_of(boxes, same)) continue;
+    boxes.push_back({met.X_WB, met.half_size_B, met.v_W, Norm(met.half_size_B), kMiss, met.entity, {}});
   }
 }
 
-// So can vehicles.
-void AddVehicleBoxes(const SimModel& model, const SimState& state, std::vector<DroneBox>& boxes) {
-  if (!state.traffic || !model.traffic) return;
-  constexpr double kReach = 6;  // metres: farther than drone and vehicle come in a step
+// People and vehicles near a drone can be touched by it; they stand like drones without rotors.
+void AddBoxesOfLife(const SimModel& model, const SimState& state, std::vector<DroneBox>& boxes) {
+  constexpr double kPeopleReach = 4, kVehicleReach = 6;  // metres: far more than both come nearer in a step
   const size_t count = std::min(model.drones.size(), state.vehicles.size());
-  for (size_t i = 0; i < count; ++i) {
-    for (const VehicleBox& vehicle : VehiclesNear(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns,
-                                                  state.vehicles[i].motion.X_WB.p, kReach)) {
-      const auto same = [&](const DroneBox& box) { return box.vehicle == kMiss && box.entity == vehicle.entity; };
-      if (std::ranges::any_of(boxes, same)) continue;
-      boxes.push_back({vehicle.X_WB, vehicle.half_size_B, vehicle.v_W, Norm(vehicle.half_size_B), kMiss, vehicle.entity, {}});
-    }
-  }
+  for (size_t i = 0; state.people && model.people && i < count; ++i)
+    AddBoxes(PeopleNear(*model.people, *state.people, state.t_ns + model.people->epoch_ns, state.vehicles[i].motion.X_WB.p, kPeopleReach), boxes);
+  for (size_t i = 0; state.traffic && model.traffic && i < count; ++i)
+    AddBoxes(VehiclesNear(*model.traffic, *state.traffic, state.t_ns + model.traffic->epoch_ns, state.vehicles[i].motion.X_WB.p, kVehicleReach), boxes);
 }
 
 // What others meet of the drones: where they are now.
@@ -120,8 +109,7 @@ DroneBoxes BoxesOf(const SimModel& model, const SimState& state) {
     boxes.push_back(
         {motion.X_WB, drone.model().half_size_B, motion.v_WB, drone.radius(), i, drone.setup().entity, wake});
   }
-  AddPeopleBoxes(model, state, boxes);
-  AddVehicleBoxes(model, state, boxes);
+  AddBoxesOfLife(model, state, boxes);
   return DroneBoxes(std::move(boxes));
 }
 

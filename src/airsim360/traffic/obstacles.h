@@ -2,9 +2,8 @@
 #pragma once
 
 #include <span>
-#include <utility>
-#include <vector>
 
+#include "airsim360/traffic/disc_grid.h"
 #include "airsim360/traffic/traffic.h"
 
 namespace airsim360::internal {
@@ -12,20 +11,12 @@ namespace airsim360::internal {
 class ObstacleGrid {
  public:
   explicit ObstacleGrid(std::span<const TrafficObstacle> obstacles);
-  bool empty() const { return cells_.empty(); }
   /// Metres from the front of a vehicle to the nearest in its way within `reach`, now or within the next 1.6 s; infinite:
   /// nothing.
   double GapAhead(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, double reach) const;
 
  private:
-  struct Place {
-    uint64_t cell = 0;
-    Vec3d p;
-    double radius = 0;
-  };
-  bool Meets(Vec3d p, double half_width) const;
-
-  std::vector<Place> cells_;  // by cell
+  DiscGrid discs_;
 };
 
 /// The place `ahead` metres (negative: behind) of the front of a vehicle along its way.

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "airsim360/base/parallel.h"
+#include "airsim360/scene/scene_additions.h"
 
 namespace airsim360 {
 namespace {
@@ -148,8 +149,7 @@ std::shared_ptr<const Scene> AddPeople(std::shared_ptr<const Scene> scene, std::
                                        std::vector<PersonRef>& refs) {
   refs.clear();
   if (people.empty()) return scene;
-  std::shared_ptr<Scene> own = scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene))
-                                                      : std::make_shared<Scene>(*scene);
+  const std::shared_ptr<Scene> own = OwnScene(std::move(scene));
   // What is kept on disk of a scene is of the scene without people.
   own->cache_key.clear();
   TextureIds known;

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
+#include "airsim360/scene/scene_additions.h"
+#include "airsim360/traffic/disc_grid.h"
 
 namespace airsim360 {
 namespace {
@@ -32,56 +35,40 @@ bool IsVehicle(const Scene& scene, const Instance& instance) {
                              [&](const char* kind) { return path.starts_with(kind); });
 }
 
-// The middles of all lanes as points not far from each other, in a grid.
-class LaneGrid {
- public:
-  explicit LaneGrid(const RoadNetwork& roads) {
-    for (const Lane& lane : roads.lanes)
-      for (size_t i = 1; i < lane.points.size(); ++i) AddSegment(lane.points[i - 1], lane.points[i], lane.width * kInLane);
-    std::ranges::sort(cells_, {}, &Cell::key);
-  }
-  bool Holds(Vec3f p) const {
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        const auto found = std::ranges::equal_range(cells_, Key(p.x + 4.0f * static_cast<float>(dx), p.y + 4.0f * static_cast<float>(dy)), {}, &Cell::key);
-        for (const Cell& cell : found)
-          if (std::hypot(cell.p.x - p.x, cell.p.y - p.y) < cell.reach && std::abs(cell.p.z - p.z) < 2.5f) return true;
-      }
+// Where one stands in a lane: discs along the middles of all.
+DiscGrid LanesOf(const RoadNetwork& roads) {
+  DiscGrid grid;
+  for (const Lane& lane : roads.lanes) {
+    for (size_t i = 1; i < lane.points.size(); ++i) {
+      const Vec3d a = VecCast<double>(lane.points[i - 1]), step = VecCast<double>(lane.points[i]) - a;
+      const int steps = std::max(1, static_cast<int>(std::ceil(Norm(step))));
+      for (int k = 0; k < steps; ++k) grid.Add(a + step * (static_cast<double>(k) / steps), lane.width * kInLane);
     }
-    return false;
   }
+  grid.Sort();
+  return grid;
+}
 
- private:
-  struct Cell {
-    uint64_t key;
-    Vec3f p;
-    float reach;
-  };
-  static uint64_t Key(float x, float y) {
-    const auto i = static_cast<int64_t>(std::floor(x / 4)), j = static_cast<int64_t>(std::floor(y / 4));
-    return (static_cast<uint64_t>(i) << 32) ^ (static_cast<uint64_t>(j) & 0xffffffffu);
-  }
-  void AddSegment(Vec3f a, Vec3f b, float reach) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(Norm(b - a))));
-    for (int k = 0; k < steps; ++k) {
-      const Vec3f p = a + (b - a) * (static_cast<float>(k) / static_cast<float>(steps));
-      cells_.push_back({Key(p.x, p.y), p, reach});
-    }
-  }
-  std::vector<Cell> cells_;
-};
+Box3f BoxOf(const Mesh& mesh) {
+  Box3f box;
+  for (const Vec3f& p : mesh.positions) box.Add(p);
+  return box;
+}
 
 // Vehicles of the scene, and those of its instances that stand in lanes.
 std::vector<Pattern> FindPatterns(const Scene& scene, std::vector<uint32_t>& standing) {
-  const LaneGrid lanes(*scene.roads);
+  constexpr double kHeight = 2.5;  // metres between lanes that cross above each other
+  const DiscGrid lanes = LanesOf(*scene.roads);
+  std::map<MeshId, Box3f> boxes;
   std::vector<Pattern> patterns;
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     if (!IsVehicle(scene, instance)) continue;
-    const bool in_lane = lanes.Holds(instance.X_WM.p);
+    const bool in_lane = lanes.Meets(VecCast<double>(instance.X_WM.p), 0, kHeight);
     if (in_lane) standing.push_back(i);
-    Pattern pattern{instance.mesh, scene.entity(instance.entity).category, instance.tint, instance.glow, Norm(instance.X_WM.A.column(2)), {}, in_lane};
-    for (const Vec3f& p : scene.meshes[instance.mesh].positions) pattern.box.Add(p);
+    const auto [box, fresh] = boxes.try_emplace(instance.mesh);
+    if (fresh) box->second = BoxOf(scene.meshes[instance.mesh]);
+    const Pattern pattern{instance.mesh, scene.entity(instance.entity).category, instance.tint, instance.glow, Norm(instance.X_WM.A.column(2)), box->second, in_lane};
     if (pattern.box.empty()) continue;
     const Vec3f size = (pattern.box.max - pattern.box.min) * pattern.scale;
     if (size.y > 2.5f && size.y < 20 && size.x > 1.2f && size.x < 3.5f) patterns.push_back(pattern);
@@ -127,13 +114,9 @@ void AddBody(const Pattern& pattern, size_t index, const TrafficModel& model, co
   body.scale = pattern.scale;
   const Vec3f middle = pattern.box.center();
   body.offset_M = {middle.x, middle.y, 0};
-  body.entity = static_cast<EntityId>(scene.entities.size() + 1);
   body.instance = static_cast<uint32_t>(scene.instances.size());
   const AffineTransform X_WM = PlaceOf(body, PoseOf(model, state, index, state.t_ns));
-  Box3f bounds;
-  for (const Vec3f& p : scene.meshes[pattern.mesh].positions) bounds.Add(X_WM * p);
-  scene.entities.push_back({body.entity, body.name, pattern.category, bounds});
-  scene.instances.push_back({pattern.mesh, X_WM, body.entity, pattern.tint, pattern.glow});
+  body.entity = AddInstanceEntity(scene, body.name, pattern.category, {pattern.mesh, X_WM, kNoEntity, pattern.tint, pattern.glow});
 }
 
 }  // namespace
@@ -160,13 +143,12 @@ TrafficScene AddTraffic(std::shared_ptr<const Scene> scene, const TrafficRequest
   auto start = std::make_shared<TrafficState>(StartTraffic(traffic->model));
   while (start->t_ns < traffic->epoch_ns) TickTraffic(traffic->model, {}, *start);
 
-  std::shared_ptr<Scene> own =
-      scene.use_count() == 1 ? std::const_pointer_cast<Scene>(std::move(scene)) : std::make_shared<Scene>(*scene);
+  const std::shared_ptr<Scene> own = OwnScene(std::move(scene));
   own->cache_key.clear();  // what is kept on disk is of the scene without them
   traffic->bodies.resize(request.count);
   for (size_t i = 0; i < request.count; ++i) AddBody(*chosen[i], i, traffic->model, *start, *own, traffic->bodies[i]);
   traffic->start = std::move(start);
-  return {std::move(own), std::move(traffic)};
+  return {own, std::move(traffic)};
 }
 
 void ShowTraffic(const SimTraffic& traffic, const TrafficState& state, int64_t t_ns, SceneState& scene_state) {
