@@ -183,6 +183,8 @@ std::vector<RoadSpec> WithoutDeadEnds(std::vector<RoadSpec> roads, size_t juncti
 
 }  // namespace
 
+std::vector<SignalPhase> CrossStreetSignals() { return {{1u << kEastWestHead, 17, 3, 2}, {1u << kNorthSouthHead, 17, 3, 2}}; }
+
 size_t RoadBuilder::AddJunction(Vec2f center, float radius, std::vector<SignalPhase> phases, float offset) {
   junctions_.push_back({{center.x, center.y, height_(center)}, radius, std::move(phases), offset});
   return junctions_.size() - 1;

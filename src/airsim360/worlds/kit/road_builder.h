@@ -8,6 +8,12 @@
 
 namespace airsim360 {
 
+/// Heads of the signals of two streets that cross.
+inline constexpr int32_t kNorthSouthHead = 0, kEastWestHead = 1;
+/// Their phases: east-west and north-south by turns in a cycle of 44 s, so that each drives while those walk who walk along
+/// it (people/crowd).
+std::vector<SignalPhase> CrossStreetSignals();
+
 /// One lane of a road.
 struct RoadLane {
   float offset = 1.8f;  ///< metres from the axis to the middle of the lane, to the right of its own driving direction

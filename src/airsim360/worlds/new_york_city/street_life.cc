@@ -6,27 +6,12 @@
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/building/facade.h"
 #include "airsim360/worlds/new_york_city/city.h"
+#include "airsim360/worlds/town/pavement_side.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-
-struct Side {
-  BlockSide line;
-  float s0, s1, depth;
-  Vec2f street() const { return line.inward * -1.0f; }
-  Vec3f At(float s, float d) const {
-    const Vec2f p = line.At(s, d);
-    return {p.x, p.y, 0};
-  }
-};
-
-Side SideBetweenRamps(const Block& block, int k) {
-  const BlockSide line = SideOf(block, k);
-  const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-  return {line, end, line.length - end, block.pavement};
-}
 
 // What stands along every side: kind, spacing, depth from the kerb, looks at the street.
 struct Rule {
@@ -44,7 +29,7 @@ constexpr Rule kRules[] = {
     {"parking_meter", 14, 0.5f, false, 1},  {"trash_bags", 17, 1.0f, true, 1},
 };
 
-void FurnishSide(District& d, const Side& side, bool avenue, const Density& density, const std::vector<float>& lamps,
+void FurnishSide(District& d, const PavementSide& side, bool avenue, const Density& density, const std::vector<float>& lamps,
                  RngStream& rng) {
   const auto uniform = [&](double a, double b) { return static_cast<float>(rng.Uniform(a, b)); };
   for (float s : lamps) d.placer.Try("street_light", side.At(s, 0.6f), FacingYaw(side.street()));
@@ -99,26 +84,8 @@ void FurnishSide(District& d, const Side& side, bool avenue, const Density& dens
   }
 }
 
-// Tables under umbrellas by the wall.
-void PlaceCafe(District& d, const Side& side, float s, RngStream& rng) {
-  static constexpr Vec3f kCloths[] = {
-      {0.55f, 0.04f, 0.035f}, {0.05f, 0.22f, 0.10f}, {0.05f, 0.10f, 0.35f}, {0.65f, 0.62f, 0.55f}};
-  const Vec3f cloth = kCloths[rng.Index(4)];
-  const uint32_t style = rng.Index(4);
-  for (int i = 0; i < 4; ++i) {
-    const Vec3f p = side.At(s + 2.7f * static_cast<float>(i), side.depth - 1.45f);
-    if (!d.placer.Try("street_table", p, 0, 1, {1, 1, 1}, style)) continue;
-    d.placer.Put("umbrella", p, 0, 0.9f, cloth, 0u);
-    for (float a : {-0.9f, 0.9f}) {
-      const Vec2f along = side.line.along * a;
-      d.placer.Put("dining_chair", {p.x + along.x, p.y + along.y, 0}, FacingYaw(along * -1.0f), 1, {1, 1, 1},
-                   style);
-    }
-  }
-}
-
 // A sidewalk shed of `bays` sections against the wall.
-void PlaceShed(District& d, const Side& side, float s, int bays) {
+void PlaceShed(District& d, const PavementSide& side, float s, int bays) {
   for (int i = 0; i < bays; ++i) {
     const Vec3f p = side.At(s + 2.4f * static_cast<float>(i), side.depth - 1.65f);
     d.placer.Try("scaffold", p, FacingYaw(side.street()), 1, {1, 1, 1}, 0u);
@@ -128,7 +95,7 @@ void PlaceShed(District& d, const Side& side, float s, int bays) {
 bool OnAvenue(int side) { return side % 2 == 1; }
 
 // A free place on a side for a landmark: tries along s from `from`.
-EntityId PutLandmark(District& d, const Side& side, std::string name, std::string_view kind, float from,
+EntityId PutLandmark(District& d, const PavementSide& side, std::string name, std::string_view kind, float from,
                      float depth, bool to_street) {
   const float yaw = FacingYaw(to_street ? side.street() : side.line.inward);
   const Vec3f p = side.At(from, depth);
@@ -143,7 +110,7 @@ void PlaceLandmarks(District& d, const Manhattan& city) {
     return d.plan.blocks[static_cast<size_t>(row * 5 + column)];
   };
   // Sides: 0 south, 1 east, 2 north, 3 west of a block.
-  const Side ne_west = SideBetweenRamps(block(2, 2), 3), ne_south = SideBetweenRamps(block(2, 2), 0),
+  const PavementSide ne_west = SideBetweenRamps(block(2, 2), 3), ne_south = SideBetweenRamps(block(2, 2), 0),
              se_west = SideBetweenRamps(block(2, 1), 3), sw_east = SideBetweenRamps(block(1, 1), 1),
              nw_east = SideBetweenRamps(block(1, 2), 1), se_north = SideBetweenRamps(block(2, 1), 2);
   PutLandmark(d, ne_south, "red telephone booth", "phone_booth", ne_south.s0 + 3, 1.0f, false);
@@ -204,11 +171,11 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
     for (int k = 0; k < 4; ++k) {
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "new york pavement", i * 4 + static_cast<size_t>(k));
-      const Side side = SideBetweenRamps(block, k);
+      const PavementSide side = SideBetweenRamps(block, k);
       if (reach.Contains(side.line.At(side.line.length - 1, 3)))
         FurnishCorner(d, block, side.line, "road_column");
       if (block.kind == BlockKind::kBuilt && OnAvenue(k) && rng.Chance(0.6))
-        PlaceCafe(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 12)), rng);
+        PlaceCafeRow(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 12)), {}, rng);
       if (block.kind == BlockKind::kBuilt && k == static_cast<int>(i % 4)) {
         const Vec3f p = side.At((side.s0 + side.s1) / 2 + 3, 1.35f);
         d.placer.Try("bus_stop", p, FacingYaw(side.street()));
@@ -222,7 +189,7 @@ void FurnishNewYorkPavements(District& d, const Manhattan& city, const Density& 
       return b.block == lot.block && b.base == 0 && !b.awnings && lot.rect.Contains(b.bounds().center());
     });
     if (plan == city.buildings.end() || !reach.Contains(lot.rect.center())) continue;
-    const Side side = SideBetweenRamps(d.plan.blocks[lot.block], lot.row == 0 ? 0 : 2);
+    const PavementSide side = SideBetweenRamps(d.plan.blocks[lot.block], lot.row == 0 ? 0 : 2);
     const float x = lot.row == 0 ? lot.rect.x0 - side.line.origin.x : side.line.origin.x - lot.rect.x1;
     PlaceShed(d, side, x + 1.6f, std::max(2, static_cast<int>((lot.rect.width() - 1) / 2.4f)));
   }

@@ -14,26 +14,8 @@ constexpr double kBend = 3;            // metres that even a bend without a junc
 constexpr double kCrossing = 5.5;      // metres more where a crossing with signals lies before the junction
 constexpr double kShortest = 4;        // metres of road
 constexpr double kMeeting = 4.4;       // metres of carriageway in which two cars pass each other
-constexpr int32_t kNorthSouth = 0, kEastWest = 1;  // heads
 
-std::vector<SignalPhase> Phases() { return {{1u << kEastWest, 17, 3, 2}, {1u << kNorthSouth, 17, 3, 2}}; }
-
-int32_t HeadOf(Vec2d along) { return std::abs(along.x) > std::abs(along.y) ? kEastWest : kNorthSouth; }
-
-// Width of the carriageway between the bays at the kerbs and the bike lanes, as PaintSegment has them.
-struct Carriageway {
-  double width = 0, shift = 0;
-  int lanes = 1;
-};
-Carriageway CarriagewayOf(const RoadSegment& segment) {
-  const OsmTags& tags = segment.way->tags;
-  const std::string_view cycle = tags.Get("cycleway");
-  const bool bikes = cycle == "lane" || cycle == "track" || tags.Is("cycleway:right", "lane") || tags.Is("cycleway:both", "lane");
-  const double parking = segment.rank >= 3 && segment.half > 4.2 ? 2.1 : 0;
-  Carriageway way{.width = 2 * (segment.half - parking) - (bikes ? 1.7 : 0), .shift = bikes && segment.oneway ? 0.85 : 0};
-  way.lanes = std::max(1, std::min(segment.lanes, static_cast<int>(way.width / 2.6)));
-  return way;
-}
+int32_t HeadOf(Vec2d along) { return std::abs(along.x) > std::abs(along.y) ? kEastWestHead : kNorthSouthHead; }
 
 // Lanes to the right of the axis (or, on a one-way road, all over it) from left to right.
 std::vector<RoadLane> LanesOf(const Carriageway& way, bool oneway) {
@@ -82,7 +64,7 @@ void AddSegment(const OsmScene& scene, const RoadGraph& graph, const RoadSegment
 RoadNetwork OsmLanes(const OsmScene& scene, const RoadGraph& graph) {
   RoadBuilder builder([&](Vec2f p) { return scene.On({p.x, p.y}, -kStreetDepth).z; });
   for (const RoadNode& node : graph.nodes)
-    builder.AddJunction(ToFloat(node.p), 12, HasSignals(scene.data, node.id) ? Phases() : std::vector<SignalPhase>{});
+    builder.AddJunction(ToFloat(node.p), 12, HasSignals(scene.data, node.id) ? CrossStreetSignals() : std::vector<SignalPhase>{});
   for (const RoadSegment& segment : graph.segments) AddSegment(scene, graph, segment, builder);
   return builder.Build();
 }

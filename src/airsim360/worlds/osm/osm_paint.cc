@@ -69,6 +69,17 @@ void Zebra(Brush& brush, double s, double half, double width) {
 
 }  // namespace
 
+Carriageway CarriagewayOf(const RoadSegment& segment) {
+  const OsmTags& tags = segment.way->tags;
+  const std::string_view cycle = tags.Get("cycleway");
+  Carriageway way{.bikes = cycle == "lane" || cycle == "track" || tags.Is("cycleway:right", "lane") || tags.Is("cycleway:both", "lane"),
+                  .parking = segment.rank >= 3 && segment.half > 4.2 ? 2.1 : 0};
+  way.width = 2 * (segment.half - way.parking) - (way.bikes ? 1.7 : 0);
+  way.shift = way.bikes && segment.oneway ? 0.85 : 0;
+  way.lanes = std::max(1, std::min(segment.lanes, static_cast<int>(way.width / 2.6)));
+  return way;
+}
+
 bool HasSignals(const OsmData& data, int64_t id) {
   const OsmNode* node = data.FindNode(id);
   return node && node->tags.Is("highway", "traffic_signals");
@@ -84,10 +95,8 @@ void PaintSegment(OsmScene& scene, MeshBuilder& mesh, const RoadGraph& graph, co
   Brush brush(scene, mesh, segment.line, z);
   const double half = segment.half;
   // Bike lanes at the right-hand kerb (and the left one of two-way streets).
-  const std::string_view cycle = tags.Get("cycleway");
-  const bool lane = cycle == "lane" || cycle == "track" || tags.Is("cycleway:right", "lane") || tags.Is("cycleway:both", "lane");
-  const double parking = segment.rank >= 3 && half > 4.2 ? 2.1 : 0;
-  if (lane) {
+  const auto [bikes, parking, usable, shift, lanes] = CarriagewayOf(segment);
+  if (bikes) {
     mesh.SetEntity(scene.builder.AddEntity(segment.id + "/bike_lane", tree.At("ground/bike_lane")));
     brush.Use(Surface::kBikeLane);
     brush.Strip(s0, s1, -half + parking + 0.1, -half + parking + 1.6);
@@ -111,9 +120,6 @@ void PaintSegment(OsmScene& scene, MeshBuilder& mesh, const RoadGraph& graph, co
   }
   // Dashes between lanes of one direction.
   brush.Use(Surface::kPaintWhite);
-  const double usable = 2 * (half - parking) - (lane ? 1.7 : 0);
-  const int lanes = std::max(1, std::min(segment.lanes, static_cast<int>(usable / 2.6)));
-  const double shift = lane && segment.oneway ? 0.85 : 0;
   for (int i = 1; i < lanes; ++i) {
     const double d = -usable / 2 + usable * i / lanes + shift;
     if (divided && std::abs(d) < 1) continue;

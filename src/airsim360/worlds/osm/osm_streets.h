@@ -36,6 +36,15 @@ struct RoadGraph {
 
 /// Carriageways of cars that lie on the ground: no tunnels, no bridges.
 RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls);
+/// How the width of a carriageway is shared out.
+struct Carriageway {
+  bool bikes = false;  ///< a lane for them at the right-hand kerb, and the left one of two-way streets
+  double parking = 0;  ///< width of the bays at each kerb
+  double width = 0;    ///< between them, for all lanes
+  double shift = 0;    ///< of their middle, to the left
+  int lanes = 1;       ///< both directions together
+};
+Carriageway CarriagewayOf(const RoadSegment& segment);
 /// Whether traffic signals stand at a node of the map.
 bool HasSignals(const OsmData& data, int64_t node);
 /// Rank of a highway value, -1 for what cars do not use.

@@ -4,27 +4,14 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/sf_city/city.h"
+#include "airsim360/worlds/town/pavement_side.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 6.2831853f;
 
-struct Side {
-  BlockSide line;
-  float s0, s1, depth;
-  Vec2f street() const { return line.inward * -1.0f; }
-  Vec3f At(float s, float d) const {
-    const Vec2f p = line.At(s, d);
-    return {p.x, p.y, 0};
-  }
-};
-
-Side SideBetweenRamps(const Block& block, int k) {
-  const BlockSide line = SideOf(block, k);
-  const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-  return {line, end, line.length - end, block.pavement};
-}
+constexpr CafeRow kCafe{.tables = 3, .pitch = 2.6f, .from_wall = 1.0f, .umbrella = 0.85f, .to_chair = 0.85f};
 
 // What stands along every side: kind, spacing, depth from the kerb, whether it looks at the street, how many stand together.
 struct Rule {
@@ -45,7 +32,7 @@ constexpr Rule kHouseRules[] = {
     {"fire_hydrant", 55, 0.55f, true, 1}, {"traffic_sign", 38, 0.5f, true, 1}, {"electric_box", 70, 0.85f, false, 1}, {"wheelie_bin", 30, 0.6f, true, 2},
     {"mailbox", 140, 0.8f, false, 1},     {"trash_can", 95, 0.8f, false, 1},   {"bicycle", 80, 1.1f, true, 1}};
 
-void PlaceByRule(District& d, const Side& side, std::span<const Rule> rules, RngStream& rng) {
+void PlaceByRule(District& d, const PavementSide& side, std::span<const Rule> rules, RngStream& rng) {
   for (const Rule& rule : rules) {
     for (float s = side.s0 + static_cast<float>(rng.Uniform(0.05, 0.9)) * rule.spacing; s < side.s1; s += rule.spacing * static_cast<float>(rng.Uniform(0.85, 1.15)))
       for (int i = 0; i < rule.group; ++i)
@@ -53,7 +40,7 @@ void PlaceByRule(District& d, const Side& side, std::span<const Rule> rules, Rng
   }
 }
 
-void PlantTrees(District& d, const Side& side, float pitch, double chance, float size, RngStream& rng) {
+void PlantTrees(District& d, const PavementSide& side, float pitch, double chance, float size, RngStream& rng) {
   struct Tree {
     const char* kind;
     uint32_t variant;
@@ -74,23 +61,8 @@ void PlantTrees(District& d, const Side& side, float pitch, double chance, float
   }
 }
 
-void PlaceCafe(District& d, const Side& side, float s, RngStream& rng) {
-  static constexpr Vec3f kCloths[] = {{0.55f, 0.04f, 0.035f}, {0.05f, 0.22f, 0.10f}, {0.05f, 0.10f, 0.35f}, {0.65f, 0.62f, 0.55f}};
-  const Vec3f cloth = kCloths[rng.Index(4)];
-  const uint32_t style = rng.Index(4);
-  for (int i = 0; i < 3; ++i) {
-    const Vec3f p = side.At(s + 2.6f * static_cast<float>(i), side.depth - 1.0f);
-    if (!d.placer.Try("street_table", p, 0, 1, {1, 1, 1}, style)) continue;
-    d.placer.Put("umbrella", p, 0, 0.85f, cloth, 0u);
-    for (float a : {-0.85f, 0.85f}) {
-      const Vec2f along = side.line.along * a;
-      d.placer.Put("dining_chair", {p.x + along.x, p.y + along.y, 0}, FacingYaw(along * -1.0f), 1, {1, 1, 1}, style);
-    }
-  }
-}
-
 // Queues before doors: ropes along the wall; barriers where a crowd was expected.
-void PlaceQueues(District& d, const Side& side, RngStream& rng) {
+void PlaceQueues(District& d, const PavementSide& side, RngStream& rng) {
   const auto s = static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 18));
   if (rng.Chance(0.45)) {
     const Vec3f a = side.At(s, side.depth - 1.2f), b = side.At(s + 6, side.depth - 1.2f);
@@ -100,7 +72,7 @@ void PlaceQueues(District& d, const Side& side, RngStream& rng) {
     for (int i = 0; i < 5; ++i) d.placer.Try("metal_barricade", side.At(s + 8 + 2.05f * static_cast<float>(i), 0.45f), FacingYaw(side.street()));
 }
 
-void FurnishSide(District& d, const Block& block, int k, const Side& side, RngStream& rng) {
+void FurnishSide(District& d, const Block& block, int k, const PavementSide& side, RngStream& rng) {
   const Quarter quarter = QuarterOf(block);
   const std::vector<float> lamps = LampsAlong(d.plan, block, k, side.s0, side.s1, rng);
   const bool boulevard = (k == 1 && block.column == 3) || (k == 3 && block.column == 4) || (k == 2 && block.row == 3) || (k == 0 && block.row == 4);
@@ -114,7 +86,7 @@ void FurnishSide(District& d, const Block& block, int k, const Side& side, RngSt
   if (quarter == Quarter::kTowers || quarter == Quarter::kShops) {
     if (k == static_cast<int>((block.column + block.row) % 4) || boulevard) d.placer.Try("bus_stop", side.At((side.s0 + side.s1) / 2 + 3, 1.3f), FacingYaw(side.street()));
     PlantTrees(d, side, boulevard ? 8.6f : 10.4f, boulevard ? 0.97 : 0.8, boulevard ? 0.9f : 1.0f, rng);
-    if (quarter == Quarter::kShops && rng.Chance(0.75)) PlaceCafe(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 10)), rng);
+    if (quarter == Quarter::kShops && rng.Chance(0.75)) PlaceCafeRow(d, side, static_cast<float>(rng.Uniform(side.s0 + 4, side.s1 - 10)), kCafe, rng);
     if (quarter == Quarter::kTowers) PlaceQueues(d, side, rng);
     PlaceByRule(d, side, quarter == Quarter::kTowers ? std::span<const Rule>(kTowerRules) : std::span<const Rule>(kShopRules), rng);
     for (float s = side.s0 + 2; s < side.s1 - 2; s += static_cast<float>(rng.Uniform(7, 13)))
@@ -167,7 +139,7 @@ void FurnishSfPavements(District& d, const Hills&, const SfPlan& city) {
     for (int k = 0; k < 4; ++k) {
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "sf pavement", i * 4 + static_cast<size_t>(k));
-      const Side side = SideBetweenRamps(block, k);
+      const PavementSide side = SideBetweenRamps(block, k);
       if (reach.Contains(side.line.At(side.line.length - 1, 3))) {
         if (QuarterOf(block) == Quarter::kHouses) {
           const Vec2f p = side.line.At(side.line.length - 1.6f, 1.6f);

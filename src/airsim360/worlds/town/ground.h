@@ -61,6 +61,9 @@ struct StreetStretch {
 /// Returns the stretches of the core streets, out to the edge of the backdrop ring, for cars and manholes.
 std::vector<StreetStretch> LayStreets(Ground& ground, const StreetPlan& plan, uint64_t seed);
 
+/// Radius of the kerb returns of crossings, where stretches end.
+inline constexpr float kCornerRadius = 6;
+
 /// Where a crosswalk meets the kerb, measured along a block side from the end of the kerb return.
 inline constexpr float kCrosswalkStart = 0.9f, kCrosswalkWidth = 3.0f;
 

@@ -5,6 +5,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/town/district.h"
+#include "airsim360/worlds/town/pavement_side.h"
 #include "airsim360/worlds/town/street_markings.h"
 
 namespace airsim360::internal {
@@ -12,17 +13,13 @@ namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
-// The part of a side between the ramps at its ends.
-struct Strip {
-  BlockSide side;
-  float s0, s1, depth;
+struct Strip : PavementSide {
   std::vector<float> lamps;  // where along it
-  Vec2f outward() const { return side.inward * -1.0f; }
 };
 
 void PutAt(District& d, const Strip& strip, const char* kind, float s, float depth, Vec2f front,
            float scale = 1) {
-  const Vec2f p = strip.side.At(s, depth);
+  const Vec2f p = strip.line.At(s, depth);
   d.placer.Try(kind, {p.x, p.y, 0}, FacingYaw(front), scale);
 }
 
@@ -45,7 +42,7 @@ void PlantStreetTrees(District& d, const Strip& strip, bool open, RngStream& rng
     const bool at_lamp = std::any_of(strip.lamps.begin(), strip.lamps.end(), [&](float lamp) { return std::abs(s - lamp) < 3; });
     const float at = at_lamp ? s + 3.2f : s;
     const StreetTree& tree = kStreetTrees[species + rng.Index(3)];
-    const Vec2f p = strip.side.At(at, 1.15f);
+    const Vec2f p = strip.line.At(at, 1.15f);
     const auto turn = static_cast<float>(rng.Uniform(0, kTau));
     const float scale = tree.scale * static_cast<float>(rng.Uniform(0.85, 1.0));
     if (d.placer.Try(tree.kind, {p.x, p.y, 0}, turn, scale, {1, 1, 1}, tree.variant)) LayTreePit(d.ground, p);
@@ -54,13 +51,13 @@ void PlantStreetTrees(District& d, const Strip& strip, bool open, RngStream& rng
 
 // Lamps, trees between them, then smaller things where there is room.
 void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream& rng) {
-  const Vec2f street = strip.outward();
+  const Vec2f street = strip.street();
   const bool open = block.kind == BlockKind::kPlaza || block.kind == BlockKind::kPark;
   for (size_t i = 0; i < strip.lamps.size(); ++i)
     PutAt(d, strip, open && i % 2 ? "lamp_post" : "street_light", strip.lamps[i], 0.65f, street);
   PlantStreetTrees(d, strip, open, rng);
   for (float s = strip.s0 + 3.1f; s < strip.s1 - 2; s += 12.4f)
-    PutAt(d, strip, "parking_meter", s, 0.5f, strip.side.inward);
+    PutAt(d, strip, "parking_meter", s, 0.5f, strip.line.inward);
   struct Rule {
     const char* kind;
     float spacing, depth;
@@ -74,7 +71,7 @@ void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream&
   for (const Rule& rule : kRules) {
     for (float s = strip.s0 + static_cast<float>(rng.Uniform(0.05, 0.9)) * rule.spacing; s < strip.s1;
          s += rule.spacing) {
-      PutAt(d, strip, rule.kind, s, rule.depth, rule.faces_street ? street : strip.side.inward);
+      PutAt(d, strip, rule.kind, s, rule.depth, rule.faces_street ? street : strip.line.inward);
       if (rule.kind == std::string_view("bicycle")) {
         PutAt(d, strip, rule.kind, s + 0.8f, rule.depth, street);
         PutAt(d, strip, rule.kind, s + 1.6f, rule.depth, street);
@@ -91,12 +88,12 @@ void FurnishSide(District& d, const Strip& strip, const Block& block, RngStream&
 void PlaceCafe(District& d, const Strip& strip, float s) {
   RngStream& rng = d.placer.rng();
   for (int i = 0; i < 4; ++i) {
-    const Vec2f p = strip.side.At(s + 2.6f * static_cast<float>(i), strip.depth - 1.4f);
+    const Vec2f p = strip.line.At(s + 2.6f * static_cast<float>(i), strip.depth - 1.4f);
     const auto style = static_cast<uint32_t>(rng.Index(4));
     if (!d.placer.Try("dining_table", {p.x, p.y, 0}, 0, 1, {1, 1, 1}, style)) continue;
     if (i % 2 == 0) d.placer.Put("umbrella", {p.x, p.y, 0});
     for (float a : {0.0f, 1.0f}) {
-      const Vec2f along = strip.side.along * (a > 0 ? 0.9f : -0.9f), q = p + along;
+      const Vec2f along = strip.line.along * (a > 0 ? 0.9f : -0.9f), q = p + along;
       d.placer.Put("dining_chair", {q.x, q.y, 0}, FacingYaw(along * -1.0f), 1, {1, 1, 1}, style);
     }
   }
@@ -193,17 +190,15 @@ void FurnishPavements(District& d) {
   for (size_t i = 0; i < d.plan.blocks.size(); ++i) {
     const Block& block = d.plan.blocks[i];
     for (int k = 0; k < 4; ++k) {
-      const BlockSide side = SideOf(block, k);
       if (!FacesCoreStreet(d.plan, block, k)) continue;
       RngStream rng(d.seed, "pavement", i * 4 + static_cast<size_t>(k));
-      const float end = block.corner_radius + kCrosswalkStart + kCrosswalkWidth + 1.2f;
-      const std::vector<float> lamps = LampsAlong(d.plan, block, k, end, side.length - end, rng);
-      const Strip strip{side, end, side.length - end, block.pavement, lamps};
-      if (reach.Contains(side.At(side.length - 1, 3))) FurnishCorner(d, block, side, "car_pillar");
+      Strip strip{SideBetweenRamps(block, k), {}};
+      strip.lamps = LampsAlong(d.plan, block, k, strip.s0, strip.s1, rng);
+      if (reach.Contains(strip.line.At(strip.line.length - 1, 3))) FurnishCorner(d, block, strip.line, "car_pillar");
       if (block.kind == BlockKind::kBuilt && rng.Chance(0.45))
         PlaceCafe(d, strip, static_cast<float>(rng.Uniform(strip.s0, strip.s1 - 10)));
       if (block.kind == BlockKind::kBuilt && k == static_cast<int>(i % 4))
-        PutAt(d, strip, "bus_stop", (strip.s0 + strip.s1) / 2 + 3, 1.35f, strip.outward());
+        PutAt(d, strip, "bus_stop", (strip.s0 + strip.s1) / 2 + 3, 1.35f, strip.street());
       FurnishSide(d, strip, block, rng);
     }
   }

@@ -9,11 +9,9 @@
 namespace airsim360 {
 namespace {
 
-constexpr float kCornerRadius = 6;     // Block::corner_radius: streets end at their kerb returns
 constexpr float kStopLine = 5.8f;      // metres from the end of a stretch: just before the bar (street_markings.cc)
 constexpr float kParking = 2.35f;      // metres of bay at the kerb
 constexpr float kStreetSpeed = 8.9f, kAvenueSpeed = 11.2f;  // m/s: 20 and 25 mph
-constexpr int32_t kNorthSouth = 0, kEastWest = 1;           // heads of signals
 
 // Lanes of one side as LayMarkings paints them: `d` of StreetStretch, whose sign is the side's.
 std::vector<RoadLane> LanesOf(const StreetLine& line, bool with_axis, bool bike_lane) {
@@ -48,9 +46,6 @@ float HeightAt(const StreetPlan& plan, Vec2f p) {
   return std::abs(x) <= ns.half_width ? CarriagewayHeight(ns, x) : CarriagewayHeight(ew, y);
 }
 
-// North-south and east-west by turns; walkers along x have green in the first 15 s.
-std::vector<SignalPhase> Phases() { return {{1u << kEastWest, 17, 3, 2}, {1u << kNorthSouth, 17, 3, 2}}; }
-
 }  // namespace
 
 RoadNetwork RoadsOf(const StreetPlan& plan) {
@@ -61,7 +56,7 @@ RoadNetwork RoadsOf(const StreetPlan& plan) {
       const StreetLine &ns = plan.north_south[i], &ew = plan.east_west[k];
       const bool four_ways = i > 0 && k > 0 && i + 1 < columns && k + 1 < rows;
       builder.AddJunction({ns.center, ew.center}, std::max(ns.half_width, ew.half_width) + kCornerRadius + kStopLine,
-                          four_ways ? Phases() : std::vector<SignalPhase>{});
+                          four_ways ? CrossStreetSignals() : std::vector<SignalPhase>{});
     }
   }
   const auto add = [&](const StreetLine& line, bool along_x, bool bike_lane, const StreetLine& start, const StreetLine& end, size_t from,
@@ -70,7 +65,7 @@ RoadNetwork RoadsOf(const StreetPlan& plan) {
                 s1 = end.center - end.half_width - kCornerRadius - kStopLine;
     const auto at = [&](float s) { return along_x ? Vec2f{s, line.center} : Vec2f{line.center, s}; };
     const bool wide = line.kind != StreetKind::kTwoWay;
-    const int32_t head = along_x ? kEastWest : kNorthSouth;
+    const int32_t head = along_x ? kEastWestHead : kNorthSouthHead;
     builder.AddRoad({.from = from, .to = to, .axis = {at(s0), at(s1)}, .forward = LanesOf(line, true, bike_lane),
                      .backward = LanesOf(line, false, bike_lane), .speed = wide ? kAvenueSpeed : kStreetSpeed,
                      .priority = static_cast<uint8_t>(wide), .signal_to = head, .signal_from = head});
