@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "airsim360/base/base64.h"
+#include "airsim360/base/json_depth.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
@@ -78,6 +79,12 @@ TEST(File, AMissingFileNamesTheNearOneBesideItAndNoneWhereNothingIsNear) {
                                              (folder / "calibration.yaml").string() + "'?");
   EXPECT_EQ(message("q"), (folder / "q").string() + ": no such file");
   std::filesystem::remove_all(folder);
+}
+
+TEST(JsonDepth, CountsOpenBracketsOutsideOfStrings) {
+  const std::pair<const char*, int> cases[] = {{"", 0}, {"7", 0}, {"[]", 1}, {R"({"a": [1, {"b": []}]})", 4}, {R"("[[[")", 0},
+                                               {R"(["\"[[", {}])", 2}, {R"(["\\", [[]]])", 3}, {"]]][", 0}, {"[[[", 3}};
+  for (const auto& [text, depth] : cases) EXPECT_EQ(JsonDepth(text), depth) << text;
 }
 
 TEST(Base64, IsThatOfRfc4648) {

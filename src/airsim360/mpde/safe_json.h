@@ -6,25 +6,14 @@
 #include <string_view>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/json_depth.h"
 
 namespace airsim360 {
 
 /// The value of a text. InputError naming `where` for bad syntax and for more than 32 levels, found before the parser recurses.
 inline nlohmann::json ParseBoundedJson(std::string_view text, const std::string& where) {
   constexpr int kDeepest = 32;
-  int depth = 0;
-  bool quoted = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\') {
-      ++i;
-    } else if (text[i] == '"') {
-      quoted = !quoted;
-    } else if (!quoted && (text[i] == '[' || text[i] == '{')) {
-      if (++depth > kDeepest) throw InputError(where + ": nests deeper than " + std::to_string(kDeepest) + " levels");
-    } else if (!quoted && (text[i] == ']' || text[i] == '}')) {
-      --depth;
-    }
-  }
+  if (JsonDepth(text) > kDeepest) throw InputError(where + ": nests deeper than " + std::to_string(kDeepest) + " levels");
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {

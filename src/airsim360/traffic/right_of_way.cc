@@ -13,16 +13,14 @@ constexpr double kAtLine = 6;         // metres
 constexpr double kLeftTurn = 0.6;     // radians
 constexpr double kFirmBraking = 3;    // m/s^2
 
+bool Stops(const DrivingVehicle& own, double distance, double braking) { return own.v * own.v / (2 * braking) < distance; }
+
 }  // namespace
 
 RightOfWay::RightOfWay(const TrafficModel& model, const TrafficState& state, const Occupancy& occupancy)
     : model_(model), state_(state), occupancy_(occupancy), granted_(model.lanes.size()) {
   for (uint32_t i = 0; i < state.vehicles.size(); ++i)
     if (state.vehicles[i].granted) granted_[state.vehicles[i].ahead[0]].push_back(i);
-}
-
-bool RightOfWay::Stops(const DrivingVehicle& own, double distance, double braking) const {
-  return own.v * own.v / (2 * braking) < distance;
 }
 
 bool RightOfWay::IsBusy(LaneId way) const {

@@ -17,7 +17,6 @@ class RightOfWay {
   bool MayEnter(uint32_t vehicle, double distance, bool first, DrivingVehicle& own);
 
  private:
-  bool Stops(const DrivingVehicle& own, double distance, double braking) const;
   bool IsBusy(LaneId way) const;
   bool MustYield(uint32_t vehicle, LaneId way) const;
   bool HasRoomBehind(uint32_t vehicle) const;

@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/base/json_depth.h"
 
 namespace airsim360::internal {
 namespace {
@@ -16,21 +17,7 @@ constexpr size_t kLongestShown = 60;
 
 // Files of others could be nested so deep that walking them overflows the stack.
 void CheckDepth(std::string_view text, const std::string& name) {
-  int depth = 0;
-  bool quoted = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      quoted = c != '"';
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kDeepest) throw InputError(name + ": JSON nested deeper than " + std::to_string(kDeepest));
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
+  if (JsonDepth(text) > kDeepest) throw InputError(name + ": JSON nested deeper than " + std::to_string(kDeepest));
 }
 
 Json ParseText(std::string_view text, const std::string& name, size_t line) {
