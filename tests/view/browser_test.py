@@ -209,7 +209,7 @@ class RecordedTest(PageTest):
         self.page.key("+")
         self.assertLess(self.page.run("airsim360.main.look.fov"), fov)
         self.page.key("Enter")
-        self.page.wait("airsim360.chosen")
+        self.page.wait("!document.getElementById('only-frames').hidden")  # the card's last button, which waits for the index
         self.page.key(".")
         self.page.wait("airsim360.frame === 1")
         self.page.run("document.getElementById('frame-list').focus()")
@@ -219,12 +219,14 @@ class RecordedTest(PageTest):
         self.page.wait("airsim360.frame === 4")
         # Tab comes by every control that is shown, once, and out again.
         self.page.run("document.activeElement.blur()")
-        wanted = self.page.run("[...document.querySelectorAll('a[href], button, input, select, summary, canvas[tabindex], [role=listbox]')].filter(e => e.checkVisibility() && !e.disabled).length")
+        name = "const name = e => e === document.body ? '' : e.tagName + e.id + [...document.querySelectorAll('*')].indexOf(e);"
+        wanted = self.page.run(f"(() => {{ {name} return [...document.querySelectorAll('a[href], button, input, select, summary, canvas[tabindex], [role=listbox]')]"
+                               ".filter(e => e.checkVisibility() && !e.disabled).map(name); })()")
         reached = set()
-        for _ in range(wanted + 5):
+        for _ in range(len(wanted) + 5):
             self.page.key("Tab")
-            reached.add(self.page.run("(e => e === document.body ? '' : e.tagName + e.id + [...document.querySelectorAll('*')].indexOf(e))(document.activeElement)"))
-        self.assertEqual(len(reached - {""}), wanted)
+            reached.add(self.page.run(f"(() => {{ {name} return name(document.activeElement); }})()"))
+        self.assertEqual(reached - {""}, set(wanted))
 
     def test_every_control_has_a_name_that_a_screen_reader_says(self):
         self.open()
