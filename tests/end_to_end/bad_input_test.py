@@ -83,6 +83,24 @@ class Outputs(ProgramTest):
         for check in checks:
             self.assertEqual(bool(check["fix"]), not check["present"])
 
+    def test_bench_tells_what_it_timed(self):
+        report = json.loads(self.run_ok("bench", "--world", "box_room", "--size", "64x32", "--tiers", "fast,labels", "--frames", "2",
+                                        "--seconds", "0.1", "--json").stdout)
+        self.assertEqual([tier["tier"] for tier in report["tiers"]], ["fast", "labels"])
+        for tier in report["tiers"]:
+            self.assertLessEqual(tier["render_ms_least"], tier["render_ms"])
+            self.assertAlmostEqual(tier["frames_per_second"] * tier["render_ms"], 1000, delta=1e-6)
+        # A ray a pixel, of labels no other.
+        labels = report["tiers"][1]
+        self.assertLessEqual(labels["mrays_per_second"] * 1e3 * labels["render_ms_least"], 64 * 32 * 1.001)
+        self.assertEqual(report["entities"], 7)
+        # Its steps are those of the simulation, a millisecond each.
+        simulation = report["simulation"]
+        self.assertAlmostEqual(simulation["steps_per_second"], 1000 * simulation["real_time_factor"], delta=1e-3 * simulation["steps_per_second"])
+        self.run_bad(2, "bench", "--tiers", "fats", says=["--tiers", "did you mean 'fast'"])
+        self.run_bad(2, "bench", "--frames", "0", says=["--frames: 0 is not in 1 ... 10000"])
+        self.run_bad(2, "bench", "--seconds", "1e9", says=["--seconds", "more than a day"])
+
     def test_existing_file_or_foreign_folder_is_refused(self):
         (self.folder / "file").write_text("x")
         self.run_bad(2, "collect", *ROOM, "--out", self.folder / "file", says=["not a folder"])

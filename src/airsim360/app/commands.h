@@ -41,6 +41,7 @@ void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddVideoCommand(CLI::App& app, GlobalOptions& globals);
 void AddEnvironmentsCommand(CLI::App& app, GlobalOptions& globals);
 void AddDatasetCommand(CLI::App& app, GlobalOptions& globals);
+void AddBenchCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
 /// About the program itself: `app` with all its commands, once they are there.
 void AddCompletionCommand(CLI::App& app);

@@ -42,7 +42,7 @@ constexpr auto kGroups = std::to_array<FlagGroup>({
     {"Traffic", " --traffic --traffic-warmup "},
     {"Weather", " --weather --clouds --sky-seed --sun --time --place --hdri --environment --latitude --min-sun --rural "},
     {"Measuring",
-     " --weights --seam --latitude-bands --rolled --classes --ignore --open-world --protocol --type --kind --class-agnostic --max-detections "
+     " --tiers --seconds --weights --seam --latitude-bands --rolled --classes --ignore --open-world --protocol --type --kind --class-agnostic --max-detections "
      "--min-depth --max-depth --clip --pred-scale --gt-scale --png-scale --h5-key --pred-dir --gt-dir --visible --windows --things --void --bootstrap --force "
      "--worst --sheet "},
     {"Output",
@@ -205,6 +205,8 @@ constexpr auto kExamples = std::to_array<CommandExample>({
     {"environments sample", "airsim360 environments sample 24 --seed 7", "24 skies of a temperate year, by day"},
     {"environments sample", "airsim360 environments sample 5 --latitude -23 --min-sun 10 --json",
      "of the tropic of Capricorn, with month, hour and kind of sky"},
+    {"bench", "airsim360 bench", "milliseconds a panorama by tier, and steps of the simulation a second"},
+    {"bench", "airsim360 bench --world new_york_city --people 100 --traffic 100 --json", "of a busy city, for programs"},
     {"doctor", "airsim360 doctor", "what is missing on this machine, and the command that installs it"},
     {"doctor", "airsim360 doctor --json", "the same, for programs"},
     {"completion", "airsim360 completion bash > ~/.local/share/bash-completion/completions/airsim360",

@@ -166,6 +166,7 @@ Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim
   AddViewCommand(app_, globals_);
   AddDroneCommand(app_, globals_);
   AddEnvironmentsCommand(app_, globals_);
+  AddBenchCommand(app_, globals_);
   AddDoctorCommand(app_, globals_);
   for (CLI::App* command : app_.get_subcommands(Any)) {
     const auto nested = command->get_subcommands(Any);
