@@ -53,7 +53,9 @@ void GroundSource::AddInstance(uint32_t index) {
   for (const MeshPart& part : mesh.parts) {
     const EntityId entity = part.entity != kNoEntity ? part.entity : instance.entity;
     const GroundKind kind = entity < kinds_.size() ? kinds_[entity] : GroundKind::kNone;
-    if (kind != GroundKind::kCount) AddRun({index, part.first_triangle, part.triangle_count, kind}, box, split);
+    // Grass that belongs to its lawn: the lawn below it is the ground.
+    const bool blades = kind != GroundKind::kNone && scene_.materials[part.material].kind == SurfaceKind::kFoliage;
+    if (kind != GroundKind::kCount && !blades) AddRun({index, part.first_triangle, part.triangle_count, kind}, box, split);
   }
 }
 

@@ -42,6 +42,26 @@ TEST(NavMesh, AWayGoesAroundAWallAndIsAsLongAsTheTautString) {
   EXPECT_TRUE(mesh->Straight(mesh->Nearest({10, 10, 0}), {10, 39}));
 }
 
+// A lawn's blades are part of the lawn, whatever they rise to: feet go through them.
+TEST(NavMesh, BladesOfALawnAreNeitherGroundNorObstacle) {
+  TestGround ground;
+  const EntityId lawn = ground.Floor("ground/grass", 0, 0, 30, 30);
+  Mesh blades;
+  for (int i = 0; i < 400; ++i) {
+    const auto first = static_cast<uint32_t>(blades.positions.size());
+    const Vec3f p{15 + 0.01f * static_cast<float>(i % 20), 0.075f * static_cast<float>(i), 0};
+    blades.positions.insert(blades.positions.end(), {p, p + Vec3f{0, 0.1f, 0}, p + Vec3f{0, 0.05f, 1.2f}});
+    blades.triangles.push_back({first, first + 1, first + 2});
+  }
+  Material grass;
+  grass.kind = SurfaceKind::kFoliage;
+  blades.parts = {{0, static_cast<uint32_t>(blades.triangles.size()), ground.builder().AddMaterial(grass), kNoEntity}};
+  ground.builder().AddInstance({.mesh = ground.builder().AddMesh(std::move(blades)), .X_WM = {}, .entity = lawn});
+  const auto mesh = NavMesh::Build(*ground.Build());
+  EXPECT_TRUE(mesh->Straight(mesh->Nearest({5, 15, 0}), {25, 15}));
+  EXPECT_NEAR(mesh->Nearest({15.1, 15, 0}).p_W.z, 0, 0.05);
+}
+
 TEST(NavMesh, NobodyMovesThroughWalls) {
   TestGround ground;
   ground.Floor("ground/floor", 0, 0, 30, 30);

@@ -11,6 +11,7 @@
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
+#include "airsim360/worlds/vegetation/turf.h"
 
 namespace airsim360::internal::park {
 namespace {
@@ -45,7 +46,6 @@ struct PatchShape {
   int blades;
   float low, high, width;
 };
-constexpr PatchShape kNear{"lawn near", 0.44f, 400, 0.045f, 0.135f, 0.0075f};
 constexpr PatchShape kMiddle{"lawn middle", 1.0f, 620, 0.05f, 0.14f, 0.016f};
 constexpr PatchShape kFar{"lawn far", 2.3f, 1500, 0.06f, 0.15f, 0.030f};
 constexpr PatchShape kTuft{"tuft", 0.13f, 70, 0.12f, 0.34f, 0.008f};
@@ -77,6 +77,22 @@ Model MakePatch(const PatchShape& shape, uint64_t seed) {
              shape.width * static_cast<float>(rng.Uniform(0.7, 1.3)), lean, a + 1.57f, cell);
   }
   return JoinLayers(shape.name, layers);
+}
+
+// Near the spawn: as many blades as a lawn has, 12,000 a square metre where patches lie beside each other.
+Model MakeNearPatch(uint64_t seed) {
+  constexpr Turf kLawn{.low = 0.045f, .high = 0.125f, .mown = 0.085f};
+  constexpr float kRadius = 0.44f;
+  RngStream rng(seed, "lawn near");
+  std::array<PlantLayer, 1> layers = {BladeLayer()};
+  AddTurf(
+      layers[0], kLawn, 2500,
+      [&] {
+        const Vec2f p = OnDisc(kRadius, rng);
+        return Vec3f{p.x, p.y, -0.02f};
+      },
+      [](Vec3f p) { return 1.1f - 0.4f * std::hypot(p.x, p.y) / kRadius; }, rng);
+  return JoinLayers("lawn near", layers);
 }
 
 // Clover: three leaflets on a stalk, some daisies; blades between.
@@ -179,7 +195,7 @@ class Grower {
  public:
   explicit Grower(Park& park) : park_(park) {
     PropShelf& shelf = park.placer.shelf();
-    for (uint64_t k = 0; k < 4; ++k) near_.push_back(shelf.Add(MakePatch(kNear, park.seed + k)));
+    for (uint64_t k = 0; k < 4; ++k) near_.push_back(shelf.Add(MakeNearPatch(park.seed + k)));
     for (uint64_t k = 0; k < 4; ++k) middle_.push_back(shelf.Add(MakePatch(kMiddle, park.seed + k)));
     for (uint64_t k = 0; k < 4; ++k) far_.push_back(shelf.Add(MakePatch(kFar, park.seed + k)));
     for (uint64_t k = 0; k < 3; ++k) tufts_.push_back(shelf.Add(MakePatch(kTuft, park.seed + k)));

@@ -30,15 +30,18 @@ Model MakeGeneric(uint32_t variant, uint64_t seed) {
                      0.40f,
                      5200,
                      {},
-                     {0.195f, 0.132f, 0.12f, 0.25f},
+                     {0.108f, 0.074f, 0.12f, 0.25f},
                      0,
                      0.75f,
-                     {0.17f, 0.14f, 0.11f}};
+                     {0.17f, 0.14f, 0.11f},
+                     LeafOrder::kAlternate,
+                     0.04f,
+                     0.32f};
   s.growth.step = 0.20f;
   s.min_branch = 0.012f;
   s.growth.influence = 1.7f;
   s.growth.kill = 0.42f * b.radius / 4.0f;
-  s.leaves = static_cast<int>(17000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
+  s.leaves = static_cast<int>(42000 * std::min(1.0f, b.radius / 4.0f * b.radius / 4.0f * 1.15f + 0.1f));
   return GrowBroadleaf(s, atlases[variant % 2], seed);
 }
 
@@ -64,10 +67,15 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
                      0.52f,
                      4600,
                      {},
-                     {0.210f, 0.059f, 0.15f, 0.2f},
-                     20000,
+                     {0.115f, 0.034f, 0.15f, 0.2f},
+                     46000,
                      0.6f,
-                     {0.20f, 0.18f, 0.15f}};
+                     {0.20f, 0.18f, 0.15f},
+                     LeafOrder::kSpiral,
+                     0.035f,
+                     0.30f,
+                     7,
+                     0.12f};
   s.growth.step = 0.20f;
   s.min_branch = 0.012f;
   s.growth.influence = 1.5f;
@@ -80,9 +88,9 @@ Model MakeNarrowleaf(uint32_t variant, uint64_t seed) {
 
 std::vector<PropKind> BroadleafKinds() {
   return {
-      {"tree_generic", "vegetation/tree/broadleaf/generic", 6, MakeGeneric, 1.0f, 6.5f, 14.0f, 100000},
+      {"tree_generic", "vegetation/tree/broadleaf/generic", 6, MakeGeneric, 1.0f, 6.5f, 14.0f, 130000},
       {"tree_narrowleaf", "vegetation/tree/broadleaf/narrowleaf", 4, MakeNarrowleaf, 0.8f, 9.0f, 16.0f,
-       100000},
+       130000},
   };
 }
 

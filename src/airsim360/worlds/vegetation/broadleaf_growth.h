@@ -9,6 +9,13 @@
 
 namespace airsim360::internal {
 
+/// How leaves stand along a shoot.
+enum class LeafOrder {
+  kSpiral,     ///< each a golden angle on
+  kAlternate,  ///< left and right in turn, in flat sprays
+  kOpposite,   ///< in pairs, each pair across the one before
+};
+
 /// One individual of a species; metres.
 struct BroadleafSpecies {
   std::string_view name;
@@ -22,6 +29,11 @@ struct BroadleafSpecies {
   int leaves;
   float clumping;  ///< 0 even … 1 leaves in clumps with gaps between
   Vec3f bark;
+  LeafOrder order = LeafOrder::kSpiral;
+  float internode = 0.04f;  ///< metres of shoot between leaves or pairs
+  float shoot = 0.30f;      ///< length of the longest shoots
+  int holes = 11;           ///< balls without branches in the crown, through which the sky is seen
+  float open_side = 0.25f;  ///< how much farther the crown reaches to the side that it leans to, in radii
   float lean = 0.03f;          ///< of the trunk's top, standard deviation in heights
   float dead = 0;              ///< share of the limbs that carry no leaves any more
   float min_branch = 0.0075f;  ///< thinnest branch that is drawn
@@ -29,7 +41,7 @@ struct BroadleafSpecies {
   float transmission = 0.8f;  ///< of the leaves
 };
 
-/// The crown: ellipsoids scattered round its axis, wider below the middle than above.
+/// The crown: ellipsoids scattered round its axis, wider below the middle than above and farther to one side, less holes.
 class Crown {
  public:
   Crown(const BroadleafSpecies& species, RngStream& random);
@@ -40,7 +52,8 @@ class Crown {
 
  private:
   float height_, radius_;
-  std::vector<std::pair<Vec3f, float>> lobes_;
+  bool InOneOf(const std::vector<std::pair<Vec3f, float>>& balls, Vec3f p) const;
+  std::vector<std::pair<Vec3f, float>> lobes_, holes_;  // centres, and radii in crown radii
 };
 
 /// Trunk, limbs that leave it at different heights, and branches that fill the crown; thickened.

@@ -61,6 +61,8 @@ void AddBranch(std::vector<BranchNode>& nodes, int from, float azimuth, float le
 // Needles all around the outer part of every branchlet, pointing forwards.
 void AddNeedles(const std::vector<Branchlet>& branchlets, int total, Sparse sparse,
                 std::vector<PlantLayer>& layers, RngStream& random) {
+  // What stands for many needles is as long and wide as they are together.
+  const float needle = sparse.detail < 1 ? 0.14f : 0.095f, width = sparse.detail < 1 ? 0.018f : 0.008f;
   float length = 0;
   for (const Branchlet& b : branchlets) length += Norm(b.to - b.from) + 0.06f;
   const float per_metre = static_cast<float>(total) * sparse.detail / length;
@@ -83,10 +85,10 @@ void AddNeedles(const std::vector<Branchlet>& branchlets, int total, Sparse spar
       const Vec3f d = Normalized(spoke + axis * static_cast<float>(random.Uniform(0.45, 1.1)));
       const Vec3f base = b.from + axis * (reach * t);
       const float size =
-          0.14f * std::min(2.5f, sparse.size()) * static_cast<float>(random.Uniform(0.75, 1.2));
+          needle * std::min(2.5f, sparse.size()) * static_cast<float>(random.Uniform(0.75, 1.2));
       const Vec3f across = Normalized(Cross(d, spoke + RandomDirection(random) * 0.5f));
       AddNeedle(LeavesAt(layers, b.openness + 0.12f * static_cast<float>(random.Normal())), base,
-                base + d * size, across, 0.018f * std::min(6.0f, sparse.size() * sparse.size()),
+                base + d * size, across, width * std::min(6.0f, sparse.size() * sparse.size()),
                 Normalized(spoke + Vec3f{0, 0, 0.7f}),
                 random.Chance(0.7) ? tone : static_cast<int>(random.Index(kLeafCells - 1)));
     }
@@ -133,7 +135,7 @@ Model BuildPine(const Build& b, Sparse sparse, uint64_t seed) {
         std::min(nodes[i].radius, 0.012f + b.trunk_radius * (1 - std::max(0.0f, nodes[i].p.z) / b.height));
   std::vector<PlantLayer> layers = PlantLayers({0.20f, 0.13f, 0.09f}, atlas, 0.35f);
   AddBark(layers[0], nodes, sparse.detail >= 1 ? 0.0072f : sparse.detail > 0.1f ? 0.02f : 0.05f, 0.4f);
-  AddNeedles(branchlets, 76000, sparse, layers, random);
+  AddNeedles(branchlets, sparse.detail < 1 ? 76000 : 105000, sparse, layers, random);
   return JoinLayers("tree_pine", layers);
 }
 
@@ -157,7 +159,7 @@ Model GrowPine(int individual, float detail, uint64_t seed) {
 }
 
 std::vector<PropKind> ConiferKinds() {
-  return {{"tree_pine", "vegetation/tree/conifer/pine", 4, MakePine, 0.8f, 8.5f, 17.0f, 110000}};
+  return {{"tree_pine", "vegetation/tree/conifer/pine", 4, MakePine, 0.8f, 8.5f, 17.0f, 160000}};
 }
 
 }  // namespace airsim360::internal

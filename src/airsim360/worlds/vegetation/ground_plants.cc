@@ -5,11 +5,13 @@
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
 #include "airsim360/worlds/vegetation/plant_mesh.h"
+#include "airsim360/worlds/vegetation/turf.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 6.2831853f;
+constexpr float kLawnDensity = 10500;  // blades a square metre
 
 const Texture& GrassBlades() {
   static const Vec3f tones[] = {
@@ -40,27 +42,15 @@ Model MakeGrassTuft(uint32_t variant, uint64_t seed) {
   return JoinLayers("grass_tuft", layers);
 }
 
-// A blade of mown lawn: some bend over, the others are a single triangle, which traces three times as fast.
-void AddMownBlade(PlantLayer& layer, Vec3f p, float shorter, RngStream& random) {
-  const float a = kTau * static_cast<float>(random.Uniform()), height = static_cast<float>(random.Uniform(0.045, 0.095)) * shorter,
-              width = static_cast<float>(random.Uniform(0.006, 0.010)), bend = static_cast<float>(random.Uniform(0.2, 1.0));
-  const Vec3f lean = Vec3f{std::cos(a), std::sin(a), 0} * bend;
-  const auto cell = static_cast<int>(random.Index(kLeafCells));
-  if (random.Chance(0.35)) return AddBlade(layer, p, height, width, lean, a + 1.57f, cell);
-  const Vec3f side{-lean.y / bend, lean.x / bend, 0}, tip = p + Vec3f{0, 0, height * (1 - 0.3f * bend)} + lean * (height * 0.6f);
-  Vec3f n = Normalized(Cross(side, tip - p));
-  if (n.z < 0) n = -n;
-  AddNeedle(layer, p, tip, side, 1.4f * width, Normalized(n + Vec3f{0, 0, 0.6f}), cell);
-}
+constexpr Turf kMownTurf{.low = 0.035f, .high = 0.075f, .mown = 0.055f};
 
-// A round patch of mown lawn, thinning out towards its rim: for the borders of lawns.
+// A round patch of mown lawn, lower towards its rim: for the borders of lawns.
 Model MakeLawnPatch(uint32_t, uint64_t seed) {
   RngStream random(seed, "lawn_patch");
   std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
-  for (int i = 0; i < 420; ++i) {
-    const Vec3f p = OnDisc(0.50f, random) - Vec3f{0, 0, 0.008f};
-    AddMownBlade(layers[0], p, 1 - 0.5f * std::hypot(p.x, p.y), random);
-  }
+  AddTurf(
+      layers[0], kMownTurf, 3600, [&] { return OnDisc(0.49f, random) - Vec3f{0, 0, 0.008f}; },
+      [](Vec3f p) { return 1 - 0.5f * std::hypot(p.x, p.y); }, random);
   return JoinLayers("lawn_patch", layers);
 }
 
@@ -68,10 +58,14 @@ Model MakeLawnPatch(uint32_t, uint64_t seed) {
 Model MakeLawnTile(uint32_t, uint64_t seed) {
   RngStream random(seed, "lawn_tile");
   std::array<PlantLayer, 1> layers = {LeafLayer(GrassBlades(), 0.7f)};
-  for (int i = 0; i < 1700; ++i) {
-    const auto x = static_cast<float>(random.Uniform(-0.5, 0.5)), y = static_cast<float>(random.Uniform(-0.5, 0.5));
-    AddMownBlade(layers[0], {x * kLawnTile, y * kLawnTile, -0.008f}, 0.95f, random);
-  }
+  const auto coordinate = [&] { return kLawnTile * static_cast<float>(random.Uniform(-0.5, 0.5)); };
+  AddTurf(
+      layers[0], kMownTurf, static_cast<int>(kLawnDensity * kLawnTile * kLawnTile),
+      [&] {
+        const float x = coordinate(), y = coordinate();
+        return Vec3f{x, y, -0.008f};
+      },
+      [](Vec3f) { return 1.0f; }, random);
   return JoinLayers("lawn_tile", layers);
 }
 
@@ -152,8 +146,8 @@ Model MakeFlowerBed(uint32_t variant, uint64_t seed) {
 std::vector<PropKind> GroundPlantKinds() {
   return {
       {"grass_tuft", "vegetation/grass_tuft", 4, MakeGrassTuft, 0.1f, 0.05f, 0.35f, 150},
-      {"lawn_patch", "vegetation/grass_tuft", 3, MakeLawnPatch, 0.1f, 0.04f, 0.10f, 1300},
-      {"lawn_tile", "vegetation/grass_tuft", 4, MakeLawnTile, 0.1f, 0.04f, 0.10f, 5000},
+      {"lawn_patch", "vegetation/grass_tuft", 3, MakeLawnPatch, 0.1f, 0.03f, 0.09f, 11000},
+      {"lawn_tile", "vegetation/grass_tuft", 4, MakeLawnTile, 0.1f, 0.03f, 0.09f, 52000},
       {"leaf_litter", "vegetation/plant", 3, MakeLeafLitter, 0.1f, 0.01f, 0.08f, 150},
       {"flower_bed", "vegetation/flower", 4, MakeFlowerBed, 0.5f, 0.15f, 0.40f, 4000},
   };

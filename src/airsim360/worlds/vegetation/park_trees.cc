@@ -27,10 +27,10 @@ static_assert(std::size(kInfos) == static_cast<size_t>(ParkTree::kCount));
 
 // Individual 0 is the solitary of 16.5 m; then a middle-aged one, an old one with dead limbs, a leaning one.
 BroadleafSpecies Elm(int individual) {
-  constexpr Build builds[4] = {{16.5f, 3.4f, 8.2f, 0.46f, 0.55f, 0.015f, 0.02f, 76000},
-                               {14.5f, 3.2f, 5.8f, 0.29f, 0.60f, 0.03f, 0.04f, 36000},
-                               {17.5f, 4.4f, 6.4f, 0.36f, 0.55f, 0.03f, 0.14f, 42000},
-                               {12.0f, 3.0f, 4.9f, 0.23f, 0.50f, 0.09f, 0.06f, 28000}};
+  constexpr Build builds[4] = {{16.5f, 3.4f, 8.2f, 0.46f, 0.55f, 0.015f, 0.02f, 120000},
+                               {14.5f, 3.2f, 5.8f, 0.29f, 0.60f, 0.03f, 0.04f, 58000},
+                               {17.5f, 4.4f, 6.4f, 0.36f, 0.55f, 0.03f, 0.14f, 66000},
+                               {12.0f, 3.0f, 4.9f, 0.23f, 0.50f, 0.09f, 0.06f, 45000}};
   const Build& b = builds[individual % 4];
   BroadleafSpecies s{.name = "elm",
                      .height = b.height,
@@ -42,11 +42,13 @@ BroadleafSpecies Elm(int individual) {
                      .lobe_radius = individual == 0 ? 0.34f : 0.37f,
                      .attractors = individual == 0 ? 12000 : 8000,
                      .growth = {},
-                     .leaf = {0.165f, 0.100f, 0.12f, 0.25f},
+                     .leaf = {0.115f, 0.068f, 0.12f, 0.25f},
                      .leaves = b.leaves,
                      .clumping = 0.72f,
-                     .bark = {0.205f, 0.170f, 0.138f}};
-  s.leaf.form = individual == 0 ? LeafForm::kOval : LeafForm::kKite;
+                     .bark = {0.205f, 0.170f, 0.138f},
+                     .order = LeafOrder::kAlternate,
+                     .internode = 0.035f,
+                     .shoot = 0.34f};
   s.growth = {.step = 0.23f, .influence = 2.1f, .kill = 0.47f, .max_nodes = 14000};
   s.lean = b.lean;
   s.dead = b.dead;
@@ -55,10 +57,10 @@ BroadleafSpecies Elm(int individual) {
 
 // Round crowns with lobed leaves; the last one is young.
 BroadleafSpecies Maple(int individual) {
-  constexpr Build builds[4] = {{13.0f, 3.0f, 5.2f, 0.24f, 0.55f, 0.02f, 0.02f, 34000},
-                               {11.0f, 2.6f, 4.3f, 0.20f, 0.60f, 0.04f, 0.03f, 29000},
-                               {14.5f, 3.4f, 5.0f, 0.27f, 0.62f, 0.03f, 0.10f, 33000},
-                               {8.0f, 2.0f, 2.9f, 0.11f, 0.66f, 0.03f, 0.00f, 17000}};
+  constexpr Build builds[4] = {{13.0f, 3.0f, 5.2f, 0.24f, 0.55f, 0.02f, 0.02f, 64000},
+                               {11.0f, 2.6f, 4.3f, 0.20f, 0.60f, 0.04f, 0.03f, 55000},
+                               {14.5f, 3.4f, 5.0f, 0.27f, 0.62f, 0.03f, 0.10f, 62000},
+                               {8.0f, 2.0f, 2.9f, 0.11f, 0.66f, 0.03f, 0.00f, 32000}};
   const Build& b = builds[individual % 4];
   BroadleafSpecies s{.name = "maple",
                      .height = b.height,
@@ -70,10 +72,13 @@ BroadleafSpecies Maple(int individual) {
                      .lobe_radius = 0.39f,
                      .attractors = 7500,
                      .growth = {},
-                     .leaf = {0.20f, 0.20f, 0.08f, 0.20f},
+                     .leaf = {0.125f, 0.125f, 0.08f, 0.20f},
                      .leaves = b.leaves,
                      .clumping = 0.66f,
-                     .bark = {0.19f, 0.165f, 0.14f}};
+                     .bark = {0.19f, 0.165f, 0.14f},
+                     .order = LeafOrder::kOpposite,
+                     .internode = 0.055f,
+                     .shoot = 0.30f};
   s.leaf.form = LeafForm::kLobed;
   s.growth = {.step = 0.20f, .influence = 1.9f, .kill = 0.42f * b.radius / 5.0f + 0.04f, .max_nodes = 12000};
   s.lean = b.lean;
@@ -83,9 +88,9 @@ BroadleafSpecies Maple(int individual) {
 
 // Wide, open crowns with corky, light bark.
 BroadleafSpecies Cork(int individual) {
-  constexpr Build builds[3] = {{10.5f, 2.2f, 5.0f, 0.26f, 0.40f, 0.05f, 0.06f, 22000},
-                               {9.0f, 1.9f, 4.4f, 0.22f, 0.35f, 0.07f, 0.04f, 19000},
-                               {12.0f, 2.8f, 5.6f, 0.30f, 0.45f, 0.04f, 0.12f, 24000}};
+  constexpr Build builds[3] = {{10.5f, 2.2f, 5.0f, 0.26f, 0.40f, 0.05f, 0.06f, 44000},
+                               {9.0f, 1.9f, 4.4f, 0.22f, 0.35f, 0.07f, 0.04f, 38000},
+                               {12.0f, 2.8f, 5.6f, 0.30f, 0.45f, 0.04f, 0.12f, 48000}};
   const Build& b = builds[individual % 3];
   BroadleafSpecies s{.name = "amur_cork",
                      .height = b.height,
@@ -97,10 +102,13 @@ BroadleafSpecies Cork(int individual) {
                      .lobe_radius = 0.36f,
                      .attractors = 6000,
                      .growth = {},
-                     .leaf = {0.185f, 0.082f, 0.12f, 0.30f},
+                     .leaf = {0.112f, 0.050f, 0.12f, 0.30f},
                      .leaves = b.leaves,
                      .clumping = 0.80f,
-                     .bark = {0.27f, 0.235f, 0.19f}};
+                     .bark = {0.27f, 0.235f, 0.19f},
+                     .order = LeafOrder::kOpposite,
+                     .internode = 0.06f,
+                     .shoot = 0.36f};
   s.growth = {.step = 0.21f, .influence = 1.9f, .kill = 0.46f, .tropism = {0, 0, 0.02f}, .max_nodes = 10000};
   s.lean = b.lean;
   s.dead = b.dead;
@@ -108,9 +116,9 @@ BroadleafSpecies Cork(int individual) {
 }
 
 BroadleafSpecies Poplar(int individual) {
-  constexpr Build builds[3] = {{15.5f, 2.2f, 2.2f, 0.20f, 0.86f, 0.01f, 0.02f, 22000},
-                               {13.0f, 2.0f, 2.4f, 0.18f, 0.80f, 0.02f, 0.03f, 20000},
-                               {17.5f, 2.8f, 2.6f, 0.25f, 0.86f, 0.015f, 0.06f, 26000}};
+  constexpr Build builds[3] = {{15.5f, 2.2f, 2.2f, 0.20f, 0.86f, 0.01f, 0.02f, 44000},
+                               {13.0f, 2.0f, 2.4f, 0.18f, 0.80f, 0.02f, 0.03f, 40000},
+                               {17.5f, 2.8f, 2.6f, 0.25f, 0.86f, 0.015f, 0.06f, 52000}};
   const Build& b = builds[individual % 3];
   BroadleafSpecies s{.name = "narrowleaf",
                      .height = b.height,
@@ -122,10 +130,14 @@ BroadleafSpecies Poplar(int individual) {
                      .lobe_radius = 0.52f,
                      .attractors = 5000,
                      .growth = {},
-                     .leaf = {0.19f, 0.062f, 0.15f, 0.2f},
+                     .leaf = {0.114f, 0.039f, 0.15f, 0.2f},
                      .leaves = b.leaves,
                      .clumping = 0.6f,
-                     .bark = {0.20f, 0.18f, 0.15f}};
+                     .bark = {0.20f, 0.18f, 0.15f},
+                     .internode = 0.035f,
+                     .shoot = 0.32f,
+                     .holes = 7,
+                     .open_side = 0.12f};
   s.growth = {.step = 0.20f, .influence = 1.5f, .kill = 0.35f, .tropism = {0, 0, 0.45f}, .max_nodes = 9000};
   s.lean = b.lean;
   s.dead = b.dead;
@@ -154,7 +166,7 @@ const Texture& LeavesOf(ParkTree species) {
 }
 
 // Leaves that a tree keeps at each level of detail.
-constexpr float kMiddleShare = 0.16f;
+constexpr float kMiddleShare = 0.09f;
 constexpr float kFarLeaves = 1300;
 
 }  // namespace

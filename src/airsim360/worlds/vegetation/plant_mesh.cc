@@ -146,27 +146,20 @@ void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const Lea
     layer.triangles.push_back({a, a + 2, a + 3});
     return;
   }
-  // Two points a side: the belly and the shoulder of an oval, or the side lobe and the notch of a lobed leaf.
-  const bool oval = shape.form == LeafForm::kOval;
-  const float low = oval ? 0.26f : 0.52f, high = oval ? 0.64f : 0.56f;
-  const float wide = oval ? 0.43f : 0.5f, narrow = oval ? 0.42f : 0.20f;
+  // Two points a side: the side lobe and the notch.
+  constexpr float kLow = 0.52f, kHigh = 0.56f, kWide = 0.5f, kNarrow = 0.20f;
   const Vec3f slack = n * (-0.35f * shape.droop * shape.length);
   const auto rim = [&](float along, float out) {
     return base + direction * (along * shape.length) + side * (out * shape.width) + lift +
            slack * (along * along);
   };
-  layer.Add(rim(low, wide), shading, {u1, 1 - low});
-  layer.Add(rim(high, narrow), shading, {oval ? u1 : 0.3f * u0 + 0.7f * u1, 1 - high});
+  layer.Add(rim(kLow, kWide), shading, {u1, 1 - kLow});
+  layer.Add(rim(kHigh, kNarrow), shading, {0.3f * u0 + 0.7f * u1, 1 - kHigh});
   layer.Add(tip, shading, {u, 0});
-  layer.Add(rim(high, -narrow), shading, {oval ? u0 : 0.7f * u0 + 0.3f * u1, 1 - high});
-  layer.Add(rim(low, -wide), shading, {u0, 1 - low});
-  if (oval) {
-    layer.triangles.insert(layer.triangles.end(),
-                           {{a, a + 1, a + 2}, {a, a + 2, a + 3}, {a, a + 3, a + 4}, {a, a + 4, a + 5}});
-  } else {
-    layer.triangles.insert(layer.triangles.end(),
-                           {{a, a + 1, a + 2}, {a, a + 2, a + 4}, {a + 2, a + 3, a + 4}, {a, a + 4, a + 5}});
-  }
+  layer.Add(rim(kHigh, -kNarrow), shading, {0.7f * u0 + 0.3f * u1, 1 - kHigh});
+  layer.Add(rim(kLow, -kWide), shading, {u0, 1 - kLow});
+  layer.triangles.insert(layer.triangles.end(),
+                         {{a, a + 1, a + 2}, {a, a + 2, a + 4}, {a + 2, a + 3, a + 4}, {a, a + 4, a + 5}});
 }
 
 void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f lean, float turn, int cell) {

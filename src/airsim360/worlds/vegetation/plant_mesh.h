@@ -43,7 +43,6 @@ Texture LeafAtlas(std::string name, std::span<const Vec3f> tones);
 
 enum class LeafForm {
   kKite,   ///< two triangles that meet at the rib
-  kOval,   ///< four triangles
   kLobed,  ///< four triangles: three lobes, as maple
 };
 

@@ -1,0 +1,55 @@
+#include "airsim360/worlds/vegetation/turf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kTau = 6.2831853f;
+
+// A blade that the mower has cut: two triangles that end flat.
+void AddCutBlade(PlantLayer& layer, Vec3f base, float cut, float width, Vec3f lean, float turn, int cell) {
+  const Vec3f side = Vec3f{std::cos(turn), std::sin(turn), 0} * (width / 2), top = base + Vec3f{0, 0, cut} + lean * (0.7f * cut);
+  const Vec3f facing = Normalized(Cross(side, top - base));
+  const bool upwards = facing.z >= 0;
+  const Vec3f n = Normalized((upwards ? facing : -facing) + Vec3f{0, 0, 0.6f});
+  const float u0 = (static_cast<float>(cell) + 0.08f) / kLeafCells, u1 = (static_cast<float>(cell) + 0.92f) / kLeafCells;
+  const uint32_t a = layer.Add(base - side, n, {u0, 1});
+  layer.Add(base + side, n, {u1, 1});
+  layer.Add(top + side * 0.85f, n, {u1, 0.1f});
+  layer.Add(top - side * 0.85f, n, {u0, 0.1f});
+  for (const Vec3u t : {Vec3u{a, a + 1, a + 2}, Vec3u{a, a + 2, a + 3}}) layer.triangles.push_back(upwards ? t : Vec3u{t.x, t.z, t.y});
+}
+
+// One blade of a tuft: upright in its middle, leaning outwards at its rim, all a little to one side.
+void AddTuftBlade(PlantLayer& layer, const Turf& turf, Vec3f middle, float radius, float comb, float shorter, RngStream& random) {
+  const float r = std::sqrt(static_cast<float>(random.Uniform())), a = kTau * static_cast<float>(random.Uniform());
+  const Vec3f out{std::cos(a), std::sin(a), 0}, p = middle + out * (radius * r);
+  const Vec3f lean = (out * (0.15f + 0.6f * r) + Vec3f{std::cos(comb), std::sin(comb), 0} * 0.2f) * static_cast<float>(random.Uniform(0.5, 1.3));
+  const float height = static_cast<float>(random.Uniform(turf.low, turf.high)) * shorter,
+              width = turf.width * static_cast<float>(random.Uniform(0.6, 1.5)),
+              turn = a + 1.57f + 0.6f * static_cast<float>(random.Normal());
+  const int cell = random.Chance(turf.straw) ? kLeafCells - 1 : static_cast<int>(random.Index(kLeafCells - 1));
+  const float cut = turf.mown * shorter * static_cast<float>(random.Uniform(0.85, 1.15));
+  if (turf.mown > 0 && height > cut) return AddCutBlade(layer, p, cut, width, lean, turn, cell);
+  AddBlade(layer, p, height, width, lean, turn, cell);
+}
+
+}  // namespace
+
+void AddTurf(PlantLayer& layer, const Turf& turf, int count, const std::function<Vec3f()>& place,
+             const std::function<float(Vec3f)>& shorter, RngStream& random) {
+  for (int left = count; left > 0;) {
+    // Many small tufts and few large ones.
+    const auto share = static_cast<float>(random.Uniform());
+    const int blades = std::min(left, 6 + static_cast<int>(46 * share * share));
+    const Vec3f middle = place();
+    const float radius = 0.006f + 0.0011f * static_cast<float>(blades), comb = kTau * static_cast<float>(random.Uniform()),
+                size = shorter(middle);
+    for (int i = 0; i < blades; ++i) AddTuftBlade(layer, turf, middle, radius, comb, size, random);
+    left -= blades;
+  }
+}
+
+}  // namespace airsim360::internal
