@@ -36,5 +36,6 @@ std::vector<PropKind> NewYorkKinds();   // road works, newspaper boxes, fences, 
 std::vector<PropKind> SanFranciscoKinds();  // its lamps, poles, bins, ropes and barriers
 std::vector<PropKind> BroadleafKinds();
 std::vector<PropKind> ConiferKinds();
+std::vector<PropKind> FurnishingKinds();  // worlds/furnishings: furniture and fittings of interiors
 
 }  // namespace airsim360::internal

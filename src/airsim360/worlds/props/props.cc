@@ -57,7 +57,8 @@ const std::vector<PropKind>& PropKinds() {
                         LampKinds,    RockKinds,    RooftopKinds,      SeatingKinds,  ShadeKinds,
                         SignageKinds, StreetKinds,  TrafficLightKinds, UtilityKinds,  VendingKinds,
                         WasteKinds,   PlanterKinds, GroundPlantKinds,  ShrubKinds,    BroadleafKinds,
-                        ConiferKinds, ParkKinds,    BillboardKinds,    LandmarkKinds, NewYorkKinds, SanFranciscoKinds}) {
+                        ConiferKinds, ParkKinds,    BillboardKinds,    LandmarkKinds, NewYorkKinds, SanFranciscoKinds,
+                        FurnishingKinds}) {
       std::vector<PropKind> rows = family();
       std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
