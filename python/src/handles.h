@@ -37,7 +37,9 @@ struct Rig;
 class World {
  public:
   /// InputError for what makes no sense.
-  explicit World(const StageOptions& options) : stage_(std::make_shared<Stage>(options)) {}
+  explicit World(const StageOptions& options) : request_(options.world), stage_(std::make_shared<Stage>(options)) {}
+  /// Where W's origin lies on the Earth; none for worlds that are no maps.
+  std::optional<GeoPoint> earth() const { return OriginOfWorld(request_); }
   const std::shared_ptr<Stage>& stage() const { return stage_; }
   const Scene& scene() const { return stage_->scene(); }
   const std::string& name() const { return stage_->name(); }
@@ -50,6 +52,7 @@ class World {
   std::shared_ptr<LidarScan> Scan(const Lidar& lidar, const Kinematics& body);
 
  private:
+  WorldRequest request_;
   std::shared_ptr<Stage> stage_;
   std::mutex labels_mutex_;  // of labels_; held for a moment only
   std::shared_ptr<const EntityLabels> labels_;

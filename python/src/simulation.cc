@@ -116,8 +116,9 @@ void Simulation::Post(const py::object& drone, Command command, double timeout) 
   loop_->Post({i, FlightCommand{std::move(command), std::llround(timeout * 1e9)}});
 }
 
-void Simulation::CaptureLocked(const Rig& given, size_t i, const EntityLabels* labels, Renderer& renderer, Capture& capture) {
-  const std::shared_ptr<const SimState> state = loop_->Snapshot();
+void Simulation::CaptureLocked(const Rig& given, size_t i, const EntityLabels* labels, Renderer& renderer, Capture& capture,
+                               std::shared_ptr<const SimState> state) {
+  if (!state) state = loop_->Snapshot();
   PanoramicRig rig = Rendered(given, labels);
   rig.state = SceneStateOf(*model_, *state, i);
   NextTrigger next;
@@ -125,11 +126,11 @@ void Simulation::CaptureLocked(const Rig& given, size_t i, const EntityLabels* l
   CaptureRig(rig, state->vehicles[i].motion, state->t_ns, renderer, capture, rig.products.flow ? &next : nullptr);
 }
 
-std::shared_ptr<Capture> Simulation::Take(const Rig& rig, size_t i) {
+std::shared_ptr<Capture> Simulation::TakeAt(const Rig& rig, size_t i, std::shared_ptr<const SimState> state) {
   auto capture = std::make_shared<Capture>();
   const std::lock_guard lock(render_mutex_);
   const auto labels = world_->labels();
-  CaptureLocked(rig, i, labels.get(), stage_->renderer(rig.rig.tier), *capture);
+  CaptureLocked(rig, i, labels.get(), stage_->renderer(rig.rig.tier), *capture, std::move(state));
   FinishCapture(rig, scene(), labels.get(), *capture);
   return capture;
 }

@@ -20,7 +20,9 @@ class Simulation {
   /// InputError for a command that the drone cannot fly.
   void Post(const py::object& drone, Command command, double timeout);
   /// Without the GIL.
-  std::shared_ptr<Capture> Take(const Rig& rig, size_t i);
+  std::shared_ptr<Capture> Take(const Rig& rig, size_t i) { return TakeAt(rig, i, nullptr); }
+  /// As it was in a snapshot of the loop; null: now.
+  std::shared_ptr<Capture> TakeAt(const Rig& rig, size_t i, std::shared_ptr<const SimState> state);
   /// The same with the pictures left in memory of the GPU, for CUDA; without the GIL.
   std::shared_ptr<CudaCapture> TakeCuda(const Rig& rig, size_t i);
   /// One turn of a lidar now, with bodies of others; without the GIL.
@@ -46,10 +48,13 @@ class Simulation {
   std::unique_ptr<CudaRenderer> cuda_;  // made when first asked for
   std::unique_ptr<SnapshotSensors> sensors_;
   SnapshotSensors& SensorsLocked();
-  void CaptureLocked(const Rig& rig, size_t i, const EntityLabels* labels, Renderer& renderer, Capture& capture);
+  void CaptureLocked(const Rig& rig, size_t i, const EntityLabels* labels, Renderer& renderer, Capture& capture,
+                     std::shared_ptr<const SimState> state = nullptr);
 };
 
 /// The commands of Simulation (simulation_commands.cc).
 void BindCommands(py::class_<Simulation>& simulation);
+/// Its missions (simulation_mission.cc).
+void BindMissions(py::class_<Simulation>& simulation);
 
 }  // namespace airsim360::python

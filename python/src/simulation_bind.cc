@@ -222,6 +222,7 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
                              "indicator, braking, stopped.")
       .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
   BindCommands(sim);
+  BindMissions(sim);
 }
 
 }  // namespace airsim360::python

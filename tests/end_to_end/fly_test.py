@@ -4,8 +4,9 @@ import json
 import math
 import struct
 import unittest
+import xml.etree.ElementTree
 
-from program import ProgramTest, read_png, tree
+from program import ProgramTest, read_png, run, tree
 
 
 def clearance(p):
@@ -196,6 +197,101 @@ cameras:
         self.run_bad(2, *fly, "--controller", "pid", says=["pid", "px4"])
         self.run_bad(2, *fly, "--drone", "a submarine", says=["submarine", "multirotor"])
         self.assertFalse(out.exists())
+
+
+MISSION = """<root BTCPP_format="4">
+  <BehaviorTree ID="survey">
+    <Sequence>
+      <Takeoff height="1.5"/>
+      <Goto to="-2;2;2" name="corner"/>
+      <Capture to="walls" count="3" every_s="0.5" products="normal"/>
+      <Capture/>
+      <Land/>
+    </Sequence>
+  </BehaviorTree>
+</root>
+"""
+
+
+class MissionTest(ProgramTest):
+    def mission(self, text=MISSION):
+        path = self.folder / "mission.xml"
+        path.write_text(text)
+        return path
+
+    def fly(self, out, *arguments):
+        return run("fly", "--world", "box_room", "--pose=-2,-2,0.5", "--mission", self.folder / "mission.xml", "--size", "64x32", "--tier", "labels", "--json", "--out", self.folder / out, *arguments)
+
+    def test_captures_become_datasets_beside_the_flight_and_the_same_bytes_come_again(self):
+        self.mission()
+        trees = []
+        for out, threads in [("a", 1), ("b", 2)]:
+            result = self.fly(out, "--record", "--threads", threads)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            report = json.loads(result.stdout)
+            self.assertEqual(report["mission"]["result"], "success")
+            self.assertEqual(report["mission"]["captures"], {"walls": 3, "captures": 1})
+            trees.append(tree(self.folder / out))
+        self.assertEqual(trees[0], trees[1])
+        self.assertIn("run.a360", trees[0])
+        for name, count in [("walls", 3), ("captures", 1)]:
+            self.assertEqual(run("verify", self.folder / "a" / name).returncode, 0)
+            frames = [json.loads(line) for line in (self.folder / "a" / name / "frames.jsonl").read_text().splitlines()]
+            self.assertEqual(len(frames), count)
+            self.assertEqual((self.folder / "a" / name / "normal").exists(), name == "walls")
+            for frame in frames:
+                for got, wanted in zip(frame["X_WC"]["p"], [-2, 2, 2]):
+                    self.assertAlmostEqual(got, wanted, delta=0.15)
+        times = [json.loads(line)["t_ns"] for line in (self.folder / "a/walls/frames.jsonl").read_text().splitlines()]
+        self.assertEqual([b - a for a, b in zip(times, times[1:])], [500_000_000] * 2)
+
+    def test_a_mission_that_fails_or_takes_too_long_has_status_1_and_its_files(self):
+        for text, flags, words in [(MISSION.replace("-2;2;2", "-2;2;9"), [], ["the mission has failed", "line 5, corner: "]), (MISSION, ["--longest", 3], ["stopped after 3 s"])]:
+            self.mission(text)
+            result = self.fly("bad" + str(len(flags)), *flags)
+            self.assertEqual(result.returncode, 1)
+            for word in words:
+                self.assertIn(word, result.stderr)
+            self.assertTrue((self.folder / ("bad" + str(len(flags))) / "trajectory.csv").exists())
+
+    def test_mistakes_are_named_by_file_line_and_value_before_anything_flies(self):
+        for text, wanted in [(MISSION.replace("<Land/>", "<Lnd/>"), "mission.xml:8: unknown node 'Lnd'; did you mean 'Land'"),
+                             (MISSION.replace("-2;2;2", "bux"), "mission.xml:5: Goto to: no thing, person or vehicle 'bux' in the world; did you mean 'box'?"),
+                             (MISSION.replace('count="3"', 'count="1e308"'), "mission.xml:6: Capture count: 1e+308 is not in 1 … 100000"),
+                             (MISSION[:200], "malformed XML"), ("", "malformed XML"), ("<" * 100000, "malformed XML"),
+                             (MISSION.replace("<Land/>", "<Inverter>" * 100 + "<Land/>" + "</Inverter>" * 100), "64 deep")]:
+            path = self.mission(text)
+            result = self.fly("none")
+            self.assertEqual(result.returncode, 2, text[:80])
+            self.assertIn(wanted, result.stderr)
+            self.assertIn(str(path), result.stderr)
+            self.assertFalse((self.folder / "none").exists())
+        self.mission()
+        result = self.fly("none", "--script", "land")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("give one of --waypoints, --script and --mission", result.stderr)
+
+
+class TreesTest(ProgramTest):
+    def test_the_palette_and_the_trees_are_files_that_editors_read(self):
+        for flags, leaf in [([], "WanderTo"), (["--mission"], "Orbit")]:
+            model = xml.etree.ElementTree.fromstring(self.run_ok("people", "nodes", "--xml", *flags).stdout)
+            self.assertEqual((model.tag, model.get("BTCPP_format"), model[0].tag), ("root", "4", "TreeNodesModel"))
+            self.assertIn(leaf, [node.get("ID") for node in model[0]])
+            nodes = json.loads(self.run_ok("people", "nodes", "--json", *flags).stdout)["nodes"]
+            self.assertIn(leaf, [node["name"] for node in nodes])
+        report = json.loads(self.run_ok("people", "trees", "--json", "--out", self.folder / "trees.xml").stdout)
+        self.assertIn("walker", report["trees"])
+        again = self.run_ok("people", "trees", self.folder / "trees.xml").stdout
+        self.assertEqual(again, (self.folder / "trees.xml").read_text())
+        # However it was laid out by another editor, and with a palette in it.
+        other = again.replace("\n", "\n\n  ").replace("</root>", "<!-- by hand --></root>")
+        (self.folder / "other.xml").write_text(other)
+        self.assertEqual(self.run_ok("people", "trees", self.folder / "other.xml").stdout, again)
+        (self.folder / "bad.xml").write_text(again.replace("<WanderTo", "<WandrTo", 1))
+        result = run("people", "trees", self.folder / "bad.xml")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("did you mean 'WanderTo'", result.stderr)
 
 
 if __name__ == "__main__":

@@ -685,6 +685,58 @@ class Metrics(unittest.TestCase):
                 airsim360.metrics.psnr(a, other)
 
 
+class Missions(unittest.TestCase):
+    TREE = """<root BTCPP_format="4"><BehaviorTree ID="m"><Sequence>
+<Takeoff height="1.5"/><Goto to="-2;2;2"/><Capture count="3" every_s="0.5"/><Land/>
+</Sequence></BehaviorTree></root>"""
+
+    def simulation(self, **options):
+        return Simulation(ROOM, drones=Drone("hummingbird", position=(-2, -2, 0.5)), **options)
+
+    def test_a_mission_ends_with_the_pictures_of_its_instants(self):
+        sim = self.simulation()
+        done = sim.fly_mission(self.TREE, rig=Rig(width=64))
+        self.assertEqual((done["result"], done["log"], done["active"]), ("success", [], []))
+        self.assertEqual([b["t_ns"] - a["t_ns"] for a, b in zip(done["captures"], done["captures"][1:])], [500_000_000] * 2)
+        for capture in done["captures"]:
+            self.assertEqual(capture["picture"].t_ns, capture["t_ns"])
+            np.testing.assert_allclose(capture["position"], [-2, 2, 2], atol=0.15)
+            np.testing.assert_allclose(capture["picture"].pose[:3, 3], capture["position"], atol=1e-9)
+        self.assertAlmostEqual(sim.state().position[2], self.simulation().state().position[2], delta=0.02)  # it stands again
+
+    def test_it_flies_as_the_command_does_and_as_its_recording_says(self):
+        sim = self.simulation()
+        start = sim.snapshot()
+        sim.start_recording("mission")
+        done = sim.fly_mission(self.TREE)
+        self.assertIsNone(done["captures"][0]["picture"])
+        replay = sim.replay(sim.stop_recording(), start)
+        self.assertTrue(replay["same"])
+        self.assertEqual(replay["hash"], sim.hash())
+        if "AIRSIM360" not in os.environ:
+            return
+        with tempfile.TemporaryDirectory() as place:
+            path = os.path.join(place, "m.xml")
+            with open(path, "w") as file:
+                file.write(self.TREE)
+            subprocess.run([os.environ["AIRSIM360"], "fly", "--world", "box_room", "--pose=-2,-2,0.5", "--mission", path, "--size", "32x16", "--tier", "labels", "--out", place + "/out"],
+                           check=True, capture_output=True)
+            frames = airsim360.Dataset(place + "/out/captures")
+            for frame, capture in zip(frames, done["captures"]):
+                np.testing.assert_allclose(frame.pose[:3, 3], capture["position"], atol=1e-9)
+
+    def test_mistakes_and_missing_files_are_value_errors(self):
+        sim = self.simulation()
+        with self.assertRaisesRegex(ValueError, "mission:2: Goto to: no thing, person or vehicle 'bux' in the world; did you mean 'box'"):
+            sim.fly_mission(self.TREE.replace("-2;2;2", "bux"))
+        with self.assertRaisesRegex(ValueError, "nothing.xml"):
+            sim.fly_mission("nothing.xml")
+        for timeout in (0, -1, math.nan, 1e300):
+            with self.assertRaises(ValueError):
+                sim.fly_mission(self.TREE, timeout=timeout)
+        self.assertEqual(sim.fly_mission(self.TREE, timeout=1)["result"], "stopped")
+
+
 class Package(unittest.TestCase):
     def test_every_name_of_the_module_is_one_of_the_package(self):
         for name in dir(airsim360._native):

@@ -101,6 +101,8 @@ FUNCTIONS = {
     "simRemovePerson": ["person/001"], "simSendPerson": ["person/000", POSITION, 1.0],
     "simSetPersonState": ["person/000", "stop", 1.0], "simMessagePerson": ["person/000", "stop"],
     "simReleasePerson": ["person/000"],
+    # Missions.
+    "simFlyMission": ["<root/>", ""], "simGetMission": [""], "simStopMission": [""],
     # Cosys-AirSim's.
     "simListInstanceSegmentationObjects": [], "simListInstanceSegmentationPoses": [True, False],
     "simGetInstanceSegmentationColorMap": [], "simSetAnnotationObjectID": ["layer", "box", 3, False],

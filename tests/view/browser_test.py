@@ -322,5 +322,153 @@ class LiveTest(PageTest):
         self.assertEqual(self.page.problems(), [])
 
 
+class EditorTest(PageTest):
+
+    def edit(self):
+        """Opens the page with its editor."""
+        self.open()
+        self.page.run("document.getElementById('trees').open = true")
+        self.page.wait("document.querySelectorAll('#tree-graph [data-order]').length > 0")
+
+    def labels(self):
+        return self.page.run("[...document.querySelectorAll('#tree-graph [data-order] b')].map(e => e.textContent)")
+
+    def press(self, id):
+        """Presses a button, and waits for the server's answer: the text changes, or the page says what is wrong."""
+        self.page.run(f"(() => {{ window.before = [airsim360.live.trees.xml, document.getElementById('tree-state').textContent]; document.getElementById('{id}').click(); }})()")
+        self.page.wait("airsim360.live.trees.xml !== before[0] || document.getElementById('tree-state').textContent !== before[1]")
+
+    def write(self, xml):
+        self.page.run(f"(() => {{ const t = document.getElementById('tree-xml'); t.value = {json.dumps(xml)}; t.dispatchEvent(new Event('change')); }})()")
+
+    def set_value(self, id, value):
+        self.page.run(f"document.getElementById('{id}').value = {json.dumps(value)}")
+
+
+class TreesTest(EditorTest):
+    arguments = ("--world", "box_room", "--people", "2")
+
+    def test_the_tree_of_a_person_is_drawn_and_the_nodes_that_run_glow(self):
+        self.edit()
+        self.assertIn("running", self.page.wait("[...document.querySelectorAll('#tree-graph .active')].map(e => e.getAttribute('aria-label')).join()"))
+        # Every node that glows is below one that glows, up to the root.
+        alone = "[...document.querySelectorAll('#tree-graph .active')].filter(e => e.getAttribute('aria-level') > 1 && !e.parentElement.parentElement.previousElementSibling.classList.contains('active')).length"
+        self.assertEqual(self.page.run(alone), 0)
+        self.assertEqual(self.page.problems(), [])
+
+    def test_edited_by_buttons_and_by_hand_the_bytes_are_the_same_and_undo_brings_them_back(self):
+        self.edit()
+        name = self.page.run("document.getElementById('tree-name').value")
+        plain = f'<root BTCPP_format="4"><BehaviorTree ID="{name}"><Sequence><SetState state="waving"/></Sequence></BehaviorTree></root>'
+        self.write(plain)
+        self.page.wait("airsim360.live.trees.xml.includes('<SetState state=\"waving\"/>')")
+        first = self.page.run("airsim360.live.trees.xml")
+        # By keys: down to SetState, then a Sleep after it.
+        self.page.run("document.querySelector('#tree-graph [tabindex=\"0\"]').focus()")
+        self.page.key("ArrowDown")
+        self.page.wait("document.getElementById('node-title').textContent === 'SetState'")
+        self.set_value("node-new", "Sleep")
+        self.press("node-after")
+        self.assertEqual(self.labels(), ["Sequence", "SetState", "Sleep"])
+        self.page.run("(() => { const i = document.querySelector('#node-ports [name=msec]'); i.value = '2500'; i.dispatchEvent(new Event('change', {bubbles: true})); })()")
+        self.page.wait("airsim360.live.trees.xml.includes('2500')")
+        by_buttons = self.page.run("airsim360.live.trees.xml")
+        (ROOM / "hand.xml").write_text(plain.replace("</Sequence>", '<Sleep\n  msec="2500"></Sleep></Sequence>'))
+        self.assertEqual(run("people", "trees", ROOM / "hand.xml").stdout, by_buttons)
+        self.write((ROOM / "hand.xml").read_text())
+        self.page.run("airsim360.live.ask({do: 'palette'})")  # answers come in order
+        self.assertEqual(self.page.run("airsim360.live.trees.xml"), by_buttons)
+        for _ in range(2):
+            self.press("tree-undo")
+        self.assertEqual(self.page.run("airsim360.live.trees.xml"), first)
+        self.press("tree-redo")
+        self.assertIn("Sleep", self.labels())
+        self.assertEqual(self.page.problems(), [])
+
+    def test_an_applied_tree_is_followed_and_a_wrong_one_is_told(self):
+        self.edit()
+        name, person = self.page.run("['tree-name', 'tree-person'].map(id => document.getElementById(id).value)")
+        self.write(f'<root BTCPP_format="4"><BehaviorTree ID="{name}"><Sequence><SetState state="wavin"/></Sequence></BehaviorTree></root>')
+        self.page.wait("document.getElementById('tree-state').textContent.includes(\"did you mean 'waving'\")")
+        self.write(f'<root BTCPP_format="4"><BehaviorTree ID="{name}"><Sequence><SetState state="waving" min_s="60" max_s="60" name="wave!"/></Sequence></BehaviorTree></root>')
+        self.page.wait("airsim360.live.trees.xml.includes('wave!')")
+        self.press("tree-apply")
+        self.page.wait(f"document.getElementById('tree-state').textContent.startsWith('{person}: waving')")
+        self.page.wait("[...document.querySelectorAll('#tree-graph .active b')].map(e => e.textContent).join() === 'Sequence,wave!'")
+        self.assertEqual(self.page.problems(), [])
+
+    def test_an_area_drawn_on_the_map_is_the_yaml_that_the_commands_read(self):
+        self.open()
+        self.page.wait("airsim360.live.frames.length > 3")
+        self.page.run("document.getElementById('drawing').open = true")
+        self.page.run("document.getElementById('map').scrollIntoView()")
+        box = self.page.run("(b => ({x: b.x, y: b.y, width: b.width, height: b.height}))(document.getElementById('map').getBoundingClientRect())")
+        scale = self.page.run("airsim360.map.scale()")
+        for dx, dy in [(-1, -1), (1, -1), (1, 1), (-1, 1)]:
+            self.page.click(box["x"] + box["width"] / 2 + dx * scale, box["y"] + box["height"] / 2 + dy * scale)
+        self.page.wait("document.getElementById('draw-text').value.split('[').length === 6")
+        self.page.wait("document.getElementById('draw-state').textContent === 'Valid: 1 areas, 5 people.'")
+        (ROOM / "drawn.yaml").write_text(self.page.run("document.getElementById('draw-text').value"))
+        done = run("render", "--world", "box_room", "--people", ROOM / "drawn.yaml", "--size", "32x16", "--tier", "labels", "--out", ROOM / "drawn")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.page.run("document.getElementById('draw-undo').click()")
+        self.page.wait("document.getElementById('draw-text').value.split('[').length === 5")
+        self.assertEqual(self.page.problems(), [])
+
+    def test_every_control_of_the_editor_has_a_name_and_fits_a_phone(self):
+        self.page.resize(360, 740)
+        try:
+            self.edit()
+            self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360)
+        finally:
+            self.page.resize(1280, 800)
+        self.page.call("Accessibility.enable")
+        for node in self.page.call("Accessibility.getFullAXTree")["nodes"]:
+            role = node.get("role", {}).get("value")
+            if not node.get("ignored") and role in {"button", "checkbox", "combobox", "slider", "textbox", "treeitem", "tree", "toolbar", "DisclosureTriangle"}:
+                self.assertTrue(node.get("name", {}).get("value"), node)
+        self.page.call("Accessibility.disable")
+
+
+class MissionTest(EditorTest):
+    """Nobody is in the way of the drone; the editor begins with a mission then."""
+    arguments = ("--world", "box_room")
+
+    def test_a_mission_is_flown_from_the_page(self):
+        self.edit()
+        self.page.wait("document.getElementById('tree-apply').textContent === 'Fly' && document.getElementById('tree-name').value === 'mission'")
+        self.write('<root BTCPP_format="4"><BehaviorTree ID="mission"><Sequence><Goto to="-2;2;2"/><Wait seconds="60" name="there"/></Sequence></BehaviorTree></root>')
+        self.page.wait("airsim360.live.trees.xml.includes('there')")
+        self.press("tree-apply")
+        self.page.wait("[...document.querySelectorAll('#tree-graph .active b')].some(e => e.textContent === 'there')", 60)
+        p = self.page.run("airsim360.live.picture.p")
+        for got, wanted in zip(p, [-2, 2, 2]):
+            self.assertAlmostEqual(got, wanted, delta=0.3)
+        self.page.run("document.getElementById('tree-stop').click()")
+        self.page.wait("document.getElementById('tree-state').textContent.startsWith('none')")
+
+
+class PlanTest(PageTest):
+    @classmethod
+    def setUpClass(cls):
+        (ROOM / "tiny.yaml").write_text("name: tiny\npicture: {size: 128x64, tier: fast}\nrows:\n  - {name: room, world: box_room, frames: 4}\n")
+        done = run("dataset", "plan", ROOM / "tiny.yaml", "--out", ROOM / "tiny.json")
+        assert done.returncode == 0, done.stderr
+        cls.arguments = (ROOM / "tiny.json",)
+        super().setUpClass()
+
+    def test_a_frame_of_a_plan_is_drawn_when_it_is_looked_at(self):
+        self.open("#show=entity&frame=2")
+        self.page.wait("airsim360.visited?.length === 1")
+        box = self.canvas()
+        self.page.run("airsim360.main.panorama.turnTo(0, -1.5)")
+        self.page.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        self.page.wait("airsim360.picked")
+        self.assertIn("floor", self.text("card"))
+        self.page.run("document.getElementById('on').click()")
+        self.page.wait("airsim360.visited.length === 2 && airsim360.frame === 3")
+        self.assertEqual(self.page.problems(), [])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,17 +1,19 @@
 """`airsim360 view` over plain sockets: what it serves and what it refuses; the export; the live world."""
 import base64
 import json
+import math
 import os
 import pathlib
 import shutil
 import socket
 import sqlite3
 import struct
+import subprocess
 import tempfile
 import time
 import unittest
 
-from viewer import Viewer, make_dataset, run
+from viewer import PROGRAM, Viewer, make_dataset, run
 
 ROOM = pathlib.Path(tempfile.mkdtemp(prefix="airsim360_view_"))
 
@@ -220,13 +222,205 @@ class ExportTest(unittest.TestCase):
 
 class InputTest(unittest.TestCase):
     def test_what_cannot_be_viewed_is_refused_by_name(self):
-        for arguments, said in {(): "--world", (ROOM,): "not a dataset", ("plan.json",): "dataset run plan.json", (ROOM / "nothing",): "nothing", (ROOM / "data", "--world", "box_room"): "--world",
+        for arguments, said in {(): "--world", (ROOM,): "not a dataset", ("plan.json",): "plan.json", (ROOM / "nothing",): "nothing", (ROOM / "data", "--world", "box_room"): "--world",
                                 ("--world", "box_rom"): "box_room", ("--world", "box_room", "--compare", ROOM / "data"): "--compare",
                                 (ROOM / "data", "--port", "99999"): "99999", (ROOM / "data", "--compare", ROOM): "not a dataset", (ROOM / "data", "--record", ROOM / "r"): "--record",
+                                ("plan.json", "--export", ROOM / "e"): "dataset run", ("plan.json", "--compare", ROOM / "data"): "--compare", ("--connect", "here"): "HOST:PORT",
+                                ("--connect", "127.0.0.1:99999"): "HOST:PORT", ("--connect", "127.0.0.1:1", "--world", "box_room"): "--connect", ("--world", "box_room", "--lease"): "--lease",
+                                ("--connect", "127.0.0.1:1", "--record", ROOM / "r"): "--record",
                                 ("--world", "box_room", "--export", ROOM / "e"): "--export", ("--world", "box_room", "--drone", "humingbird"): "hummingbird"}.items():
             done = run("view", *arguments)
             self.assertEqual(done.returncode, 2, (arguments, done.stderr))
             self.assertIn(said, done.stderr, arguments)
+
+
+class PlanTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        recipe = ROOM / "tiny.yaml"
+        recipe.write_text("name: tiny\npicture: {size: 64x32, tier: labels}\nskies: []\nrows:\n  - {name: room, world: box_room, frames: 3}\n")
+        done = run("dataset", "plan", recipe, "--out", ROOM / "tiny.json")
+        assert done.returncode == 0, done.stderr
+        cls.viewer = Viewer(ROOM / "tiny.json")
+
+    @classmethod
+    def tearDownClass(cls):
+        assert cls.viewer.stop() == 0
+
+    def test_its_frames_are_those_of_the_plan(self):
+        index = self.viewer.json("/data/0/index.json")
+        self.assertEqual((index["planned"], index["frames"]["stem"], index["frames"]["world"]), (True, ["000000", "000001", "000002"], ["box_room"] * 3))
+        self.assertEqual(set(index["products"]), {"range", "semantic", "entity"})
+        for i in range(3):
+            shown = json.loads(run("dataset", "plan", ROOM / "tiny.json", "--show", i, "--json").stdout)
+            status, headers, body = self.viewer.get(f"/data/0/frame/{i}")
+            self.assertEqual((status, body[:4]), (200, b"A360"))
+            length = struct.unpack("<I", body[4:8])[0]
+            header = json.loads(body[8:8 + length])
+            self.assertEqual((header["p"], header["index"]), (shown["X_WC"]["p"], i))
+            planes = {p["product"]: p for p in header["planes"]}
+            self.assertEqual(planes["range"]["bytes"], 64 * 32 * 4)
+            entity = planes["entity"]
+            ids = struct.unpack(f"<{64 * 32}I", body[8 + length + entity["at"]:][:64 * 32 * 4])
+            names = self.viewer.json("/data/0/entities.json")
+            self.assertLessEqual({names[str(i)]["name"] for i in set(ids)}, {"floor", "ceiling", "wall east", "wall west", "wall north", "wall south", "box"})
+
+    def test_frames_that_it_has_not_are_not_found(self):
+        for path in ["frame/3", "frame/-1", "frame/x", "frame/", "frame/99999999999999999999", "rgb/000000.png", "../tiny.json"]:
+            self.assertEqual(self.viewer.get("/data/0/" + path)[0], 404, path)
+
+
+class FollowTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = subprocess.Popen([PROGRAM, "serve", "--world", "box_room", "--port", "0"], stdout=subprocess.PIPE, text=True)
+        line = cls.server.stdout.readline()
+        cls.address = "127.0.0.1:" + line.strip().rsplit(":", 1)[1]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.wait(30)
+        cls.server.stdout.close()
+
+    def follow(self, *flags):
+        viewer = Viewer("--connect", self.address, *flags)
+        self.addCleanup(lambda: self.assertEqual(viewer.stop(), 0))
+        client = WebSocket(viewer.port)
+        self.addCleanup(client.close)
+        live = viewer.json("/session.json")["live"]
+        return viewer, client, live
+
+    def test_pictures_are_those_of_the_server_and_nothing_is_changed(self):
+        viewer, client, live = self.follow()
+        self.assertEqual((live["flies"], live["follows"]), (False, True))
+        header, data = client.ask({"do": "picture", "input": [0, 0, 1, 0], "token": live["token"]})
+        planes = {p["product"]: p for p in header["planes"]}
+        self.assertEqual(data[planes["rgb"]["at"]:][:2], b"\xff\xd8")
+        names = json.loads(viewer.get("/entities.json")[2])
+        ids = struct.unpack(f"<{planes['entity']['bytes'] // 4}I", data[planes["entity"]["at"]:][:planes["entity"]["bytes"]])
+        self.assertIn("box", {names[str(i)]["name"] for i in set(ids)})
+        again, _ = client.ask({"do": "picture"})
+        self.assertLess(abs(again["p"][2] - header["p"][2]), 0.05)
+        for message in [{"do": "set", "weather": "rain", "token": live["token"]}, {"do": "planes", "number": 999}]:
+            self.assertIn("error", client.ask(message))
+
+    def test_with_a_lease_the_page_flies_the_drone(self):
+        viewer, client, live = self.follow("--lease")
+        self.assertTrue(live["flies"])
+        start = client.ask({"do": "picture"})[0]["p"][2]
+        self.assertIn("token", client.ask({"do": "picture", "input": [0, 0, 1, 0]})["error"])
+        end = time.monotonic() + 20
+        while time.monotonic() < end:
+            header, _ = client.ask({"do": "picture", "input": [0, 0, 0.3, 0], "token": live["token"]})
+            if header["p"][2] > start + 0.5:
+                break
+        self.assertGreater(header["p"][2], start + 0.5)
+
+    def test_a_server_that_is_not_there_is_named(self):
+        done = run("view", "--connect", "127.0.0.1:9")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("nobody answers at 127.0.0.1:9", done.stderr)
+        done = run("view", "--connect", self.address, "--vehicle", "Drne9")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("unknown vehicle 'Drne9'", done.stderr)
+
+
+class LiveTrees:
+    """A live world with its trees, and time that passes."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.viewer = Viewer(*cls.arguments)
+        cls.token = cls.viewer.json("/session.json")["live"]["token"]
+
+    @classmethod
+    def tearDownClass(cls):
+        assert cls.viewer.stop() == 0
+
+    def setUp(self):
+        self.client = WebSocket(self.viewer.port)
+        self.addCleanup(self.client.close)
+
+    def ask(self, do, **more):
+        return self.client.ask({"do": do, "token": self.token, **more})
+
+    def live(self, until, seconds=30):
+        """Time passes while pictures are asked for."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.client.ask({"do": "picture", "width": 128})
+            value = until()
+            if value:
+                return value
+        return until()
+
+
+class TreesTest(LiveTrees, unittest.TestCase):
+    arguments = ("--world", "box_room", "--people", 2)
+
+    def test_a_running_person_follows_the_edited_tree_and_its_bytes_are_those_of_the_command(self):
+        person = self.ask("trees")["people"][0]
+        xml = self.ask("source", tree=person["tree"])["xml"]
+        (ROOM / "by_hand.xml").write_text(xml.replace("\n", "\n\n"))
+        self.assertEqual(run("people", "trees", ROOM / "by_hand.xml").stdout, xml)
+        edited = f'<root BTCPP_format="4"><BehaviorTree ID="{person["tree"]}"><Sequence><SetState state="waving" min_s="30" max_s="30"/></Sequence></BehaviorTree></root>'
+        written = self.ask("apply", xml=edited)["xml"]
+        (ROOM / "edited.xml").write_text(edited)
+        self.assertEqual(run("people", "trees", ROOM / "edited.xml").stdout, written)
+        mind = self.live(lambda: (lambda m: m if m["state"] == "waving" else None)(self.ask("mind", person=person["name"])))
+        self.assertEqual((mind["labels"], mind["active"]), (["Sequence", "SetState"], [2, 3]))
+        self.assertEqual(self.ask("source", tree=person["tree"])["xml"], written)
+
+    def test_people_are_brought_sent_and_taken_away(self):
+        name = self.ask("trees")["people"][1]["name"]
+        self.assertEqual(self.ask("person", person=name, action="bring", point=[-3, -3, 0])["done"], "bring")
+        self.live(lambda: self.ask("mind", person=name)["p"][0] < -2.5)
+        self.assertEqual(self.ask("person", person=name, action="send", point=[-3, 3, 0])["done"], "send")
+        mind = self.live(lambda: (lambda m: m if m["p"][1] > 2.6 else None)(self.ask("mind", person=name)), 60)
+        self.assertLess(math.hypot(mind["p"][0] + 3, mind["p"][1] - 3), 0.5)
+        self.ask("person", person=name, action="remove")
+        self.live(lambda: not self.ask("mind", person=name)["visible"])
+        for more, said in [({"action": "bring", "point": [100, 100, 0]}, "nobody can stand at"), ({"action": "fly"}, "send"), ({"action": "send"}, "three numbers"),
+                           ({"action": "bring", "point": [1e308, 0, 0]}, "is not in"), ({"action": "send", "point": ["x", 0, 0]}, "three numbers"), ({"person": "nobdy"}, "nobody is called")]:
+            self.assertIn(said, self.ask("person", **{"person": name, "action": "send", **more})["error"])
+
+    def test_what_is_drawn_is_checked_as_the_commands_check_it(self):
+        square = "areas:\n  - name: one\n    polygon: [[-4, -4], [-1, -4], [-1, -1], [-4, -1]]\n    count: {}\n"
+        self.assertEqual(self.ask("draw", kind="people", text=square.format(3) + "people:\n  - {name: ann, at: [-3, 3]}\n")["done"], "1 areas, 4 people")
+        self.assertEqual(self.ask("draw", kind="route", text="waypoints:\n  - {x: 1, y: 2, z: 3}\n  - {x: 2, y: 2, z: 3}\n")["done"], "2 waypoints")
+        far = square.format(3).replace("[[-4, -4], [-1, -4], [-1, -1], [-4, -1]]", "[[-400, -400], [-300, -400], [-300, -300]]")
+        for kind, text, said in [("people", square.format(500), "people.yaml:4: 500 people do not fit area 'one'"), ("people", far, "people.yaml:3: area 'one' lies outside the world"),
+                                 ("people", "area: []", "did you mean 'areas'"), ("people", "trees: [/etc/passwd]", "not known here"), ("people", "{", "people.yaml"), ("people", "", "people.yaml"),
+                                 ("route", "waypoints:\n  - {x: 1, y: 2}\n", "route.yaml:2"), ("route", "waypoints: [{x: 1e308, y: 0, z: 0}]", "route.yaml:1"), ("town", "x", "route")]:
+            said_now = self.ask("draw", kind=kind, text=text).get("error", "")
+            self.assertIn(said, said_now, text)
+            self.assertNotIn("airsim360_view_", said_now)
+
+    def test_what_is_wrong_is_told_and_changes_nothing(self):
+        before = self.ask("trees")
+        for do, more, said in [("apply", {"xml": "<root"}, "malformed XML"), ("apply", {}, "xml"), ("check", {"kind": "people", "xml": '<root BTCPP_format="4"><BehaviorTree ID="a"><WandrTo/></BehaviorTree></root>'}, "WanderTo"),
+                               ("fly", {"xml": '<root BTCPP_format="4"><BehaviorTree ID="a"><Goto to="bux"/></BehaviorTree></root>'}, "did you mean 'box'"), ("mind", {"person": "nobody"}, "nobody"),
+                               ("source", {"tree": "walkr"}, "walker"), ("check", {"kind": "people", "xml": "<a>" * 10000}, "64 deep")]:
+            self.assertIn(said, self.client.ask({"do": do, "token": self.token, **more})["error"], (do, said))
+        for do in ["apply", "fly", "stop"]:
+            self.assertIn("token", self.client.ask({"do": do, "xml": "<root/>"})["error"])
+        self.assertEqual(self.ask("trees"), before)
+
+
+class EmptyRoomTest(LiveTrees, unittest.TestCase):
+    """Nobody is in the way of the drone."""
+    arguments = ("--world", "box_room")
+
+    def test_a_mission_flies_the_drone_of_the_page(self):
+        tree = '<root BTCPP_format="4"><BehaviorTree ID="m"><Sequence><Goto to="-2;2;2" name="corner"/><Wait seconds="0.2"/></Sequence></BehaviorTree></root>'
+        self.ask("fly", xml=tree)
+        self.live(lambda: "corner" in str(self.ask("mission")) or self.ask("mission")["active"])
+        done = self.live(lambda: (lambda m: m if m["result"] != "running" else None)(self.ask("mission")))
+        self.assertEqual(done["result"], "success", done)
+        header, _ = self.client.ask({"do": "picture", "width": 128})
+        for got, wanted in zip(header["p"], [-2, 2, 2]):
+            self.assertAlmostEqual(got, wanted, delta=0.3)
 
 
 class LiveTest(unittest.TestCase):

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <numbers>
 
 #include "airsim360/app/arguments.h"
@@ -33,9 +34,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FlyArguments {
-  std::string world, drone = "hummingbird", controller = "indi", waypoints, script, pose, sensors, wind, out,
+  std::string world, drone = "hummingbird", controller = "indi", waypoints, script, mission, pose, sensors, wind, out,
                      size = "1024x512", video;
-  double vmax = 4, amax = 4, speed = 0, fps = VideoOptions{}.frame_rate;
+  double vmax = 4, amax = 4, speed = 0, longest = 600, fps = VideoOptions{}.frame_rate;
   int64_t frames = 0;
   bool record = false;
   EnvironmentFlags environment;
@@ -67,6 +68,7 @@ SensorSet ReadSensors(const std::string& file) {
 
 std::vector<FlyTask> TasksOf(const FlyArguments& arguments,
                              const std::shared_ptr<const PolynomialTrajectory>& trajectory) {
+  if (!arguments.mission.empty()) return {};
   if (!trajectory)
     return ParseFlyScript(arguments.script.empty() ? "takeoff 2; hover 3; land" : arguments.script);
   const Vec3d way = trajectory->At(std::min(1.0, trajectory->duration())).p - trajectory->At(0).p;
@@ -92,6 +94,18 @@ void SetStart(const FlyArguments& arguments, const Scene& scene, const Polynomia
     setup.X_WB = BodyPose(VecCast<double>(scene.spawn.value_or(scene.bounds.center())),
                           scene.spawn_yaw_deg * kRadians, 0, 0);
   }
+}
+
+// What became of a mission, as text: still running is "stopped".
+std::string MissionResult(const MissionProgress& mission) {
+  if (mission.result == MissionProgress::Result::kRunning) return "stopped";
+  return kMissionResultNames[static_cast<size_t>(mission.result)];
+}
+
+nlohmann::ordered_json MissionJson(const FlyResult& r) {
+  nlohmann::ordered_json json = {{"result", MissionResult(*r.mission)}, {"log", r.mission->log}, {"captures", nlohmann::ordered_json::object()}};
+  for (const MissionCapture& capture : r.captures) json["captures"][capture.to] = json["captures"].value(capture.to, 0) + 1;
+  return json;
 }
 
 nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneModel& drone, const FlyResult& r,
@@ -123,6 +137,7 @@ nlohmann::ordered_json ResultJson(const FlyArguments& arguments, const DroneMode
   json["least_clearance"] = nullptr;
   if (r.least_clearance) json["least_clearance"] = *r.least_clearance;
   json["charge"] = r.charge;
+  if (r.mission) json["mission"] = MissionJson(r);
   json["events"] = events;
   json["real_time_factor"] = r.pace.real_time_factor;
   json["state_hash"] = hash;
@@ -142,7 +157,7 @@ std::string FileSum(const std::string& file) { return file.empty() ? "" : "sha25
 // All that the flight follows from; frames have a description of their own. Files count by what they hold.
 std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& globals, const Environment& environment) {
   const bool is_file = fs::is_regular_file(arguments.drone);
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"format", "airsim360-flight-1"},
       {"generator", std::string("airsim360 ") + kVersion},
       {"parameters",
@@ -161,6 +176,10 @@ std::string DescribeFlight(const FlyArguments& arguments, const GlobalOptions& g
         {"people", arguments.people.Describe()},
         {"traffic", arguments.traffic.Describe()},
         {"environment", DescribeEnvironment(environment)}}}};
+  if (!arguments.mission.empty()) {
+    json["parameters"]["mission"] = FileSum(arguments.mission);
+    json["parameters"]["longest"] = arguments.longest;
+  }
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -197,6 +216,27 @@ void WriteFrames(const FlyArguments& arguments, const GlobalOptions& globals, St
   Collect(InputOf(stage, spec, result.flight, fs::path(arguments.out) / "frames"), stage.renderer(spec.tier));
 }
 
+// A dataset of each name that the mission's captures have.
+void WriteCaptures(const FlyArguments& arguments, const GlobalOptions& globals, Stage& stage, const FlyResult& result) {
+  std::map<std::string, Flight> flights;
+  std::map<std::string, std::vector<std::string>> products;
+  for (const MissionCapture& capture : result.captures) {
+    flights[capture.to].shots.push_back(capture.shot);
+    products[capture.to] = capture.products;
+  }
+  for (auto& [to, flight] : flights) {
+    DatasetSpec spec = SpecOf(arguments, globals, false);
+    spec.products = WithProducts(spec.products, products[to]);
+    PictureArguments::Check(spec);
+    spec.frames = static_cast<int64_t>(flight.shots.size());
+    spec.route = "mission flown by " + arguments.drone;
+    spec.environment = DescribeEnvironment(stage.environment());
+    flight.trajectory = result.flight.trajectory;
+    flight.least_clearance = result.flight.least_clearance;
+    Collect(InputOf(stage, spec, flight, fs::path(arguments.out) / to), stage.renderer(spec.tier));
+  }
+}
+
 std::optional<VideoResult> WriteVideo(const FlyArguments& arguments, const GlobalOptions& globals, Stage& stage, FlyResult& result) {
   if (arguments.video.empty()) return {};
   const DatasetSpec spec = SpecOf(arguments, globals, true);
@@ -214,17 +254,28 @@ void CheckVideoFlags(const FlyArguments& arguments, const GlobalOptions& globals
   CheckVideo({spec.width, spec.height}, arguments.encoding.Options(arguments.fps));
 }
 
+// Everything is written by then; the status says that the mission did not do what it should.
+void CheckMissionResult(const FlyArguments& arguments, const FlyResult& result) {
+  if (!result.mission || result.mission->result == MissionProgress::Result::kSuccess) return;
+  const std::string last = result.mission->log.empty() ? "" : "; last: " + result.mission->log.back();
+  if (result.mission->result == MissionProgress::Result::kRunning)
+    throw RuntimeError(arguments.mission + ": the mission was stopped after " + std::to_string(std::lround(arguments.longest)) + " s (--longest)" + last);
+  throw RuntimeError(arguments.mission + ": the mission has failed" + last);
+}
+
 void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   // Everything that can be wrong with the flags is found before the world is loaded.
-  if (!arguments.waypoints.empty() && !arguments.script.empty())
-    throw InputError("fly: give --waypoints or --script, not both");
+  if (!arguments.waypoints.empty() + !arguments.script.empty() + !arguments.mission.empty() > 1)
+    throw InputError("fly: give one of --waypoints, --script and --mission");
+  const std::string mission_xml = arguments.mission.empty() ? "" : ReadTextFile(arguments.mission, uint64_t{1} << 21);
+  if (!arguments.mission.empty()) CheckMission(mission_xml, arguments.mission);
   DroneSetup setup{.name = "drone", .model = FindDrone(arguments.drone)};
   setup.autopilot.controller = ParseControllerKind(arguments.controller);
   setup.sensors = ReadSensors(arguments.sensors);
   const auto trajectory = arguments.waypoints.empty() ? nullptr : PlanWaypoints(arguments);
   FlyJob job;
   job.tasks = TasksOf(arguments, trajectory);
-  double longest = 0;
+  double longest = arguments.mission.empty() ? 0 : arguments.longest;
   for (const FlyTask& task : job.tasks) longest += task.seconds;
   CheckSensorLog(setup.sensors, longest);
   CheckVideoFlags(arguments, globals);
@@ -242,6 +293,9 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   SimModel model = stage.Model();
   model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));
   job.model = std::make_shared<const SimModel>(std::move(model));
+  if (!arguments.mission.empty())
+    job.mission = ReadMission(mission_xml, arguments.mission, {job.model, OriginOfWorld(RequestOf(arguments.world, globals))});
+  job.longest = arguments.longest;
   job.speed = arguments.speed;
   job.frames = arguments.frames;
   if (!arguments.video.empty()) job.video_fps = arguments.fps;
@@ -257,6 +311,7 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   sensors.WriteTables();
   WriteFiles(arguments, result);
   WriteFrames(arguments, globals, stage, result);
+  WriteCaptures(arguments, globals, stage, result);
   const std::optional<VideoResult> video = WriteVideo(arguments, globals, stage, result);
   if (globals.json) {
     nlohmann::ordered_json json = ResultJson(arguments, setup.model, result, stage.scene());
@@ -264,7 +319,7 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
       json["video"] = {{"file", arguments.video}, {"pictures", video->pictures}, {"seconds", video->seconds},
                        {"encoder", video->encoder}, {"render_ms", video->render_ms / static_cast<double>(video->pictures)}};
     PrintJson(json);
-    return;
+    return CheckMissionResult(arguments, result);
   }
   const std::string clearance = result.least_clearance ? Metres(*result.least_clearance) : "not flown";
   std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n",
@@ -275,6 +330,8 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
                 video->encoder.c_str());
   if (result.tracking_rms >= 0)
     std::printf("tracking error %.3f m rms, %.3f m at most\n", result.tracking_rms, result.tracking_max);
+  if (result.mission) std::printf("mission: %s, %zu captures\n", MissionResult(*result.mission).c_str(), result.captures.size());
+  CheckMissionResult(arguments, result);
 }
 
 }  // namespace
@@ -297,6 +354,9 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--script", arguments->script,
                       "tasks: takeoff [HEIGHT]; hover SECONDS; goto X,Y,Z[,SPEED]; velocity X,Y,Z,SECONDS; "
                       "return; land (default \"takeoff 2; hover 3; land\")");
+  command->add_option("--mission", arguments->mission, "behaviour tree in XML (docs/guide/missions.md); its captures become datasets in --out")
+      ->check(CLI::ExistingFile);
+  command->add_option("--longest", arguments->longest, "seconds after which a mission is stopped (default 600)")->check(CLI::Range(0.1, 86400.0));
   command->add_option("--pose", arguments->pose,
                       "x,y,z[,yaw_deg] above where it stands; in maps also 60.1708N,24.9375E for x,y (default: the spawn)");
   command->add_option("--vmax", arguments->vmax, "m/s of --waypoints (default 4)")

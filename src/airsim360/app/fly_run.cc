@@ -34,6 +34,7 @@ class Pilot {
 
   void Run() {
     for (const FlyTask& task : job_.tasks) RunTask(task);
+    if (job_.mission) RunMission();
     const auto state = loop_.Snapshot();
     result_.pace = pacer_.report();
     result_.hash = HashState(*state);
@@ -65,6 +66,26 @@ class Pilot {
         result_.events.push_back(event);
       }
     }
+  }
+
+  void RunMission() {
+    const auto pilot = std::make_shared<MissionPilot>(job_.mission);
+    loop_.Attach(pilot);
+    const int64_t end_ns = loop_.t_ns() + std::llround(job_.longest * 1e9);
+    while (!pilot->done() && loop_.t_ns() < end_ns) {
+      Advance(std::min(end_ns, (loop_.t_ns() / kLookPeriodNs + 1) * kLookPeriodNs));
+      const auto state = loop_.Snapshot();
+      Note(*state);
+      for (const SimEvent& event : loop_.TakeEvents()) {
+        if (event.kind == SimEvent::Kind::kCommandDone) continue;
+        job_.log(DescribeEvent(event, job_.model->tracer->scene()));
+        result_.events.push_back(event);
+      }
+    }
+    loop_.Detach(pilot.get());
+    result_.mission = pilot->progress();
+    result_.captures = pilot->CapturesFrom(0);
+    for (const std::string& line : result_.mission->log) job_.log(line);
   }
 
   // Runs on, and stops on the way wherever a picture is due or a sensor has a new reading: looking changes

@@ -8,6 +8,7 @@
 
 #include "airsim360/app/fly_script.h"
 #include "airsim360/app/sensor_log.h"
+#include "airsim360/mission/mission.h"
 #include "airsim360/sim/fly_route.h"
 #include "airsim360/sim/pacer.h"
 
@@ -16,6 +17,8 @@ namespace airsim360 {
 struct FlyJob {
   std::shared_ptr<const SimModel> model;  ///< with one drone
   std::vector<FlyTask> tasks;
+  std::shared_ptr<const Mission> mission;  ///< flown instead of tasks; null: none
+  double longest = 0;                      ///< seconds that a mission may take
   double speed = 0;                             ///< of the clock, 0 = as fast as the machine can
   int64_t frames = 0;                           ///< pictures, spread evenly over the flight once it is known
   double video_fps = 0;                         ///< of the shots for a video, from the start on; 0 = none
@@ -37,9 +40,11 @@ struct FlyResult {
   int64_t steps = 0;
   double charge = 1;  ///< of the battery at the end
   std::optional<Recording> recording;
+  std::optional<MissionProgress> mission;  ///< still running: it was stopped at FlyJob::longest
+  std::vector<MissionCapture> captures;
 };
 
-/// Runs all tasks; how they fly does not depend on the sensors. RuntimeError only where `sensors` cannot
+/// Runs all tasks, or the mission; how they fly does not depend on the sensors. RuntimeError only where `sensors` cannot
 /// write: what goes wrong in the air is told by events.
 FlyResult RunFlight(const FlyJob& job);
 

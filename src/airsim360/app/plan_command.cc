@@ -28,8 +28,6 @@
 namespace airsim360 {
 namespace {
 
-constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of the map around the waypoints
-
 struct PlanArguments {
   WaypointArguments waypoints;
   WaypointSetArguments set;
@@ -71,8 +69,8 @@ YawRule ParseYaw(const std::string& text) {
 // A world with its distances and a map around the waypoints.
 struct PlanWorld {
   std::shared_ptr<const RayTracer> tracer;
-  std::unique_ptr<WorldClearance> clearance;
-  std::unique_ptr<BoundedClearance> bounded;
+  std::unique_ptr<FlightSpace> space;
+  const BoundedClearance* bounded = nullptr;
 };
 
 // Places on the Earth become metres.
@@ -86,18 +84,8 @@ void Place(WaypointArguments& arguments, const WorldRequest& request) {
 }
 
 void MapAround(PlanWorld& world, const std::vector<Vec3d>& points) {
-  const Box3d space = FlightBox(*world.tracer);
-  Box3d box{points.front(), points.front()};
-  for (const Vec3d p : points) box = {Min(box.min, p), Max(box.max, p)};
-  box = BoxAround(box.min, box.max, kMapMargin, space);
-  std::shared_ptr<const ClearanceField> map;
-  const Vec3d size = box.max - box.min;
-  if (size.x > 1 && size.y > 1 && size.z > 1) {
-    const double fine = std::min(kMapVoxel, std::min({size.x, size.y, size.z}) / 40);
-    map = MapScene(world.tracer->scene(), box, fine);
-  }
-  world.clearance = std::make_unique<WorldClearance>(world.tracer, map);
-  world.bounded = std::make_unique<BoundedClearance>(*world.clearance, space);
+  world.space = std::make_unique<FlightSpace>(world.tracer);
+  world.bounded = &world.space->Around(points);
 }
 
 // Times given with the waypoints: the limits are only reported.
@@ -144,7 +132,7 @@ SplineKind ParseKind(const PlanArguments& arguments) {
 void CheckWaypointsAreFree(const PlanWaypoints& waypoints, const PlanWorld& world, double radius) {
   for (size_t i = 0; i < waypoints.points.size(); ++i) {
     const Vec3d p = waypoints.points[i].p;
-    const double clearance = world.clearance->Clearance(p, radius + 1);
+    const double clearance = world.space->clearance().Clearance(p, radius + 1);
     if (clearance >= radius) continue;
     char text[200];
     std::snprintf(text, sizeof(text),
@@ -275,7 +263,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
       CheckWaypoints(waypoints);
     }
     MapAround(world, waypoints.Positions());
-    output.plot.map = world.clearance->field();
+    output.plot.map = world.space->clearance().field();
   }
 
   const double start = Seconds();

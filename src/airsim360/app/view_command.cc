@@ -8,6 +8,7 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/followed_server.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
@@ -15,6 +16,7 @@
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/view/live_world.h"
 #include "airsim360/view/view_site.h"
 
 namespace airsim360 {
@@ -23,12 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewArguments {
+  FollowOptions follow;
   std::string what, compare, world, record, drone = "hummingbird", out, wind;
   RenderSettings picture;
   EnvironmentFlags environment;
   PeopleArguments people;
   TrafficArguments traffic;
   int port = 8360;
+  bool is_plan = false;
 };
 
 constexpr std::chrono::milliseconds kLastJob{800};  // that a picture has to end when the server is stopped
@@ -84,9 +88,20 @@ std::shared_ptr<LiveWorld> OpenLive(const std::shared_ptr<const ViewArguments>& 
 void Understand(ViewArguments& arguments) {
   if (arguments.port < 0 || arguments.port > 65535)
     throw InputError("--port: " + std::to_string(arguments.port) + " is not in 0 (any free one) ... 65535");
+  if (!arguments.follow.address.empty()) {
+    if (!arguments.what.empty() || !arguments.world.empty()) throw InputError("--connect: give a server, or a dataset or world, not both");
+    for (const auto& [flag, value] : {std::pair{"--compare", &arguments.compare}, {"--export", &arguments.out}, {"--record", &arguments.record}})
+      if (!value->empty()) throw InputError(std::string(flag) + ": the world is in the server at " + arguments.follow.address + "; it cannot be given with --connect");
+    return;
+  }
+  if (arguments.follow.lease || !arguments.follow.vehicle.empty()) throw InputError(std::string(arguments.follow.lease ? "--lease" : "--vehicle") + ": it goes with --connect HOST:PORT");
   if (!arguments.what.empty() && !arguments.world.empty()) throw InputError("--world: give a dataset or a world, not both");
-  if (arguments.what.ends_with(".json") && !arguments.what.ends_with(".city.json"))
-    throw InputError("'" + arguments.what + "': a plan has no pictures yet; draw them with 'airsim360 dataset run " + arguments.what + " --out DIR' and view DIR");
+  if (arguments.what.ends_with(".json") && !arguments.what.ends_with(".city.json")) {
+    if (!arguments.compare.empty()) throw InputError("--compare: compares datasets; '" + arguments.what + "' is a plan");
+    if (!arguments.out.empty()) throw InputError("--export: '" + arguments.what + "' is a plan, whose frames are drawn when they are looked at; make a dataset of it with 'airsim360 dataset run' first");
+    arguments.is_plan = true;
+    return;
+  }
   if (!arguments.what.empty() && !fs::is_directory(arguments.what)) std::swap(arguments.what, arguments.world);
   if (arguments.what.empty() && arguments.world.empty())
     throw InputError("view: what? Give the folder of a dataset, a file of a world, or --world W");
@@ -96,6 +111,8 @@ void Understand(ViewArguments& arguments) {
 }
 
 ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
+  if (!arguments->follow.address.empty()) return ViewSite({}, std::make_shared<FollowedServer>(arguments->follow), NewToken());
+  if (arguments->is_plan) return ViewSite(std::make_shared<ViewedPlan>(arguments->what, DeviceChoice{globals.device, globals.gpu}));
   if (!arguments->world.empty()) return ViewSite({}, OpenLive(arguments, globals), NewToken());
   std::vector<std::shared_ptr<ViewedDataset>> datasets{std::make_shared<ViewedDataset>(arguments->what)};
   if (!arguments->compare.empty()) datasets.push_back(std::make_shared<ViewedDataset>(arguments->compare));
@@ -105,7 +122,7 @@ ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOpt
 void Serve(const ViewSite& site, const ViewArguments& arguments, bool json) {
   HttpHandlers handlers{.request = [&site](const HttpRequest& request) { return site.Answer(request); }};
   HttpServerOptions options = ViewServerOptions(arguments.port);
-  if (arguments.world.empty()) options.socket_target.clear();
+  if (arguments.world.empty() && arguments.follow.address.empty()) options.socket_target.clear();
   else handlers.message = [&site](const std::string& message) { return site.AnswerMessage(message); };
   // Not before the world is there: until then Ctrl-C ends the program at once.
   const StopSignals stop;
@@ -134,9 +151,12 @@ void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOption
 void AddViewCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("view", "datasets and worlds in the browser (docs/guide/viewer.md)");
   auto arguments = std::make_shared<ViewArguments>();
-  command->add_option("WHAT", arguments->what, "folder of a dataset or of a flight, or a file of a world (.glb, .osm, .yaml, …)");
+  command->add_option("WHAT", arguments->what, "folder of a dataset or of a flight, a plan (.json), or a file of a world (.glb, .osm, .yaml, …)");
   command->add_option("--compare", arguments->compare, "folder of a second dataset, side by side");
   command->add_option("--world", arguments->world, "name or file of a world to fly in");
+  command->add_option("--connect", arguments->follow.address, "HOST:PORT of a running 'airsim360 serve', to look at its world");
+  command->add_flag("--lease", arguments->follow.lease, "with --connect: take API control of the drone and fly it from the page; given back at the end");
+  command->add_option("--vehicle", arguments->follow.vehicle, "with --connect: whose eyes (default: the first)");
   command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8360)");
   command->add_option("--export", arguments->out, "write the page and the datasets into this new folder, for any server of files, and end");
   command->add_option("--record", arguments->record, "folder into which frames kept in the browser are saved, a dataset each time");

@@ -8,6 +8,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/parallel.h"
+#include "airsim360/planning/search.h"
 #include "airsim360/routes/roadmap.h"
 
 namespace airsim360 {
@@ -16,6 +17,7 @@ namespace {
 // Single precision of coordinates and of a dozen operations on them, relative to the largest coordinate.
 constexpr double kRounding = 0x1p-20;
 constexpr double kMaxVoxels = 64e6;
+constexpr double kMapVoxel = 0.5, kMapMargin = 40;  // metres; of a map around points
 
 }  // namespace
 
@@ -154,6 +156,24 @@ Box3d FlightBox(const RayTracer& tracer, double ceiling) {
   }
   box.max.z += ceiling;
   return box;
+}
+
+FlightSpace::FlightSpace(std::shared_ptr<const RayTracer> tracer) : tracer_(std::move(tracer)), limits_(FlightBox(*tracer_)) {}
+
+const BoundedClearance& FlightSpace::Around(std::span<const Vec3d> points) {
+  Box3d box{points.front(), points.front()};
+  for (const Vec3d p : points) box = {Min(box.min, p), Max(box.max, p)};
+  if (bounded_ && mapped_.Contains(box.min) && mapped_.Contains(box.max)) return *bounded_;
+  mapped_ = BoxAround(box.min, box.max, kMapMargin, limits_);
+  std::shared_ptr<const ClearanceField> map;
+  const Vec3d size = mapped_.max - mapped_.min;
+  if (size.x > 1 && size.y > 1 && size.z > 1) {
+    const double fine = std::min(kMapVoxel, std::min({size.x, size.y, size.z}) / 40);
+    map = MapScene(tracer_->scene(), mapped_, fine);
+  }
+  clearance_ = std::make_unique<WorldClearance>(tracer_, map);
+  bounded_ = std::make_unique<BoundedClearance>(*clearance_, limits_);
+  return *bounded_;
 }
 
 void CheckAboveGround(const RayTracer& tracer, Vec3d p, const std::string& name) {

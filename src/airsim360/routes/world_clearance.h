@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
 
 #include "airsim360/planning/clearance.h"
 #include "airsim360/planning/clearance_field.h"
@@ -31,6 +33,22 @@ std::shared_ptr<const ClearanceField> MapScene(const Scene& scene, const Box3d& 
 /// Where flights may be: over the ground where the things of the world are, up to `ceiling` metres above the
 /// highest of them; the whole of a closed room; around a single model in the open.
 Box3d FlightBox(const RayTracer& tracer, double ceiling = 30);
+
+/// What flights between some points must keep clear of: a world with a map of it around them, inside its FlightBox. The map
+/// is made when it is first asked for and kept while it holds all points asked for. One thread at a time.
+class FlightSpace {
+ public:
+  explicit FlightSpace(std::shared_ptr<const RayTracer> tracer);
+  /// `points`: at least one. Valid until the next call.
+  const BoundedClearance& Around(std::span<const Vec3d> points);
+  const WorldClearance& clearance() const { return *clearance_; }  ///< after Around
+
+ private:
+  std::shared_ptr<const RayTracer> tracer_;
+  Box3d limits_, mapped_;
+  std::unique_ptr<WorldClearance> clearance_;
+  std::unique_ptr<BoundedClearance> bounded_;
+};
 
 /// InputError naming the point unless it has ground below, in worlds that have ground.
 void CheckAboveGround(const RayTracer& tracer, Vec3d p, const std::string& name);

@@ -71,7 +71,7 @@ AirSimServer::AirSimServer(std::shared_ptr<Stage> stage, const ServerOptions& op
   impl_->api = std::make_unique<Api>(*impl_->session, *impl_->images, impl_->loans);
   for (const auto add : {AddConnectionCalls, AddVehicleCalls, AddMoveCalls, AddImageCalls, AddCameraCalls,
                          AddDetectionCalls, AddSensorCalls, AddObjectCalls, AddWorldCalls, AddWeatherCalls, AddPeopleCalls,
-                         AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
+                         AddMissionCalls, AddPlotCalls, AddCosysCalls, AddUnavailableCalls}) {
     add(*impl_->api);
   }
   for (const std::string& notice : options.settings.notices) LogInfo(notice);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 #include "airsim360/base/work_queue.h"
+#include "airsim360/mission/mission.h"
 #include "airsim360/rpc/pacer.h"
 #include "airsim360/rpc/recorder.h"
 #include "airsim360/rpc/scene_extras.h"
@@ -73,6 +75,13 @@ class Session {
   /// Puts a vehicle somewhere else, at the speed it has.
   void Teleport(const VehicleControl& control, const RigidTransform& X_WB);
   void Reset();
+  /// Has a drone fly a mission from the next step on, instead of what it does.
+  void FlyMission(VehicleControl& control, std::shared_ptr<const Mission> mission);
+  /// The drone's last mission; nullptr if it had none.
+  std::shared_ptr<const MissionPilot> MissionOf(const VehicleControl& control) const;
+  /// Ends its mission; the drone hovers.
+  void StopMission(const VehicleControl& control);
+  std::shared_ptr<const SimModel> shared_model() const { return loop_->shared_model(); }
   /// What has changed so far can be seen.
   void PublishNow() { Publish(); }
   Pacer& pacer() { return pacer_; }
@@ -104,6 +113,7 @@ class Session {
   // Of the session's thread.
   std::unique_ptr<SimLoop> loop_;
   std::vector<std::unique_ptr<VehicleControl>> controls_;
+  std::map<std::string, std::shared_ptr<MissionPilot>> missions_;  // by name of the drone
   std::shared_ptr<const WorldView> world_;
   std::shared_ptr<WorldView> new_world_;  // while a job changes it
   Pacer pacer_;

@@ -8,6 +8,7 @@
 #include "airsim360/rpc/notice.h"
 #include "airsim360/rpc/session.h"
 #include "airsim360/rpc/start_place.h"
+#include "airsim360/sim/en_route.h"
 #include "airsim360/sim/people/people.h"
 #include "airsim360/sim/traffic/traffic.h"
 
@@ -145,7 +146,31 @@ void Session::SampleSensors(size_t index) {
               loop_->state().t_ns, kLongest, vehicle.sensors);
 }
 
+void Session::FlyMission(VehicleControl& control, std::shared_ptr<const Mission> mission) {
+  std::shared_ptr<MissionPilot>& pilot = missions_[control.status().name];
+  if (pilot) loop_->Detach(pilot.get());
+  control.LetGo();
+  pilot = std::make_shared<MissionPilot>(std::move(mission));
+  loop_->Attach(pilot);
+}
+
+std::shared_ptr<const MissionPilot> Session::MissionOf(const VehicleControl& control) const {
+  const auto found = missions_.find(control.status().name);
+  return found == missions_.end() ? nullptr : found->second;
+}
+
+void Session::StopMission(const VehicleControl& control) {
+  const auto found = missions_.find(control.status().name);
+  if (found == missions_.end()) return;
+  const bool flies = !found->second->done();
+  loop_->Detach(found->second.get());
+  missions_.erase(found);
+  if (flies && IsEnRoute(vehicle(control))) loop_->Post({control.index(), FlightCommand{HoverCommand{}}});
+}
+
 void Session::Reset() {
+  for (const auto& [name, pilot] : missions_) loop_->Detach(pilot.get());
+  missions_.clear();
   for (const auto& control : controls_) {
     control->Reset(false);
     Vehicle& reset = vehicle(*control);

@@ -75,6 +75,11 @@ void VehicleControl::Cancel() {
   if (running_) Finish(false);
 }
 
+void VehicleControl::LetGo() {
+  Cancel();
+  hold_at_ns_.reset();
+}
+
 void VehicleControl::Start(TaskPointer task, int64_t t_ns, const Reply& reply) {
   Cancel();
   if (task->timeout <= 0) {

@@ -26,6 +26,8 @@ class VehicleControl {
   /// Starts a move, which ends the running one with False. `reply` is answered when it ends.
   void Start(TaskPointer task, int64_t t_ns, const Reply& reply);
   void Cancel();
+  /// The same, and no place is held either: somebody else steers now.
+  void LetGo();
 
   /// To be called before every control step at time t: the command to be given, if any.
   std::optional<FlightCommand> Plan(const Vehicle& vehicle, int64_t t_ns);

@@ -198,6 +198,7 @@ void Walk(A& a, TrajectoryCommand& c) {
   int32_t degree = 0;
   std::vector<double> durations, coefficients;
   std::optional<double> yaw;
+  std::optional<Vec3d> look_at;
   double yaw_at_rest = 0;
   if (const auto* planned = dynamic_cast<const PlannedReference*>(c.trajectory.get())) {
     const PolynomialTrajectory& trajectory = planned->trajectory();
@@ -206,13 +207,25 @@ void Walk(A& a, TrajectoryCommand& c) {
     coefficients.assign(trajectory.coefficients().begin(), trajectory.coefficients().end());
     yaw = planned->yaw();
     yaw_at_rest = planned->yaw_at_rest();
+    look_at = planned->look_at();
   }
-  Walk(a, degree), Walk(a, durations), Walk(a, coefficients), Walk(a, yaw), Walk(a, yaw_at_rest);
+  Walk(a, degree), Walk(a, durations), Walk(a, coefficients);
+  // How it looks: 0 along the way, 1 by a fixed angle, 2 at a point.
+  uint8_t looks = look_at ? 2 : yaw ? 1 : 0;
+  a.Field(looks);
+  if constexpr (A::kReads) {
+    if (looks > 2) a.Fail("a heading of kind " + std::to_string(looks) + " is not known");
+    if (looks == 1) yaw = 0;
+    if (looks == 2) look_at = Vec3d{};
+  }
+  if (yaw) Walk(a, *yaw);
+  if (look_at) Walk(a, *look_at);
+  Walk(a, yaw_at_rest);
   if constexpr (A::kReads) {
     c.trajectory = Made(a, [&] {
-      return std::make_shared<const PlannedReference>(
-          std::make_shared<const PolynomialTrajectory>(degree, std::move(durations), std::move(coefficients)),
-          yaw, yaw_at_rest);
+      auto path = std::make_shared<const PolynomialTrajectory>(degree, std::move(durations), std::move(coefficients));
+      return look_at ? std::make_shared<const PlannedReference>(std::move(path), *look_at)
+                     : std::make_shared<const PlannedReference>(std::move(path), yaw, yaw_at_rest);
     });
   }
 }

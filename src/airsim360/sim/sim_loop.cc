@@ -16,8 +16,11 @@ void SimLoop::Post(SimCommand command) {
 }
 
 void SimLoop::StepOnce() {
+  for (const auto& pilot : pilots_) pilot->BeforeStep(*model_, state_, happened_, waiting_);
   if (recorder_) recorder_->Before(state_, waiting_);
+  const size_t before = events_.size();
   Step(*model_, waiting_, state_, &events_);
+  if (!pilots_.empty()) happened_.assign(events_.begin() + static_cast<std::ptrdiff_t>(before), events_.end());
   waiting_.clear();
   if (recorder_) recorder_->After(state_);
   if (events_.size() > kMostEvents) events_.erase(events_.begin(), events_.end() - kMostEvents);
@@ -65,6 +68,17 @@ int64_t SimLoop::AdvanceUnlessPaused(int64_t steps) {
   return steps;
 }
 
+void SimLoop::Attach(std::shared_ptr<SimPilot> pilot) {
+  const std::lock_guard lock(mutex_);
+  if (pilots_.empty()) happened_.clear();
+  pilots_.push_back(std::move(pilot));
+}
+
+void SimLoop::Detach(const SimPilot* pilot) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(pilots_, [&](const auto& attached) { return attached.get() == pilot; });
+}
+
 std::shared_ptr<const SimState> SimLoop::Snapshot() const {
   const std::lock_guard lock(mutex_);
   return std::make_shared<const SimState>(state_);
@@ -74,6 +88,7 @@ void SimLoop::Restore(const SimState& snapshot) {
   const std::lock_guard lock(mutex_);
   state_ = snapshot;
   waiting_.clear();
+  pilots_.clear();
   recorder_.reset();
 }
 

@@ -14,6 +14,15 @@
 
 namespace airsim360 {
 
+/// Commands vehicles from inside a loop.
+class SimPilot {
+ public:
+  virtual ~SimPilot() = default;
+  /// Before every step, in the thread that steps; `happened`: in the step before. What is added to `commands` is applied in
+  /// this step, after what was posted. Calls nothing of the loop.
+  virtual void BeforeStep(const SimModel& model, const SimState& state, std::span<const SimEvent> happened, std::vector<SimCommand>& commands) = 0;
+};
+
 /// All functions may be called from any thread; only those that step and Restore change the
 /// state, one at a time. Every simulation of the program is stepped here, but for looks ahead beside it (InstantAfter) and
 /// repetitions (Replay).
@@ -38,8 +47,13 @@ class SimLoop {
   /// told to `go_on` alone.
   int64_t AdvanceWhile(int64_t steps, const AfterStep& go_on);
 
+  /// Asks `pilot` from the next step on, after those attached before.
+  void Attach(std::shared_ptr<SimPilot> pilot);
+  /// Asks it no more; nothing happens if it is not attached.
+  void Detach(const SimPilot* pilot);
+
   std::shared_ptr<const SimState> Snapshot() const;
-  /// Continues from a snapshot; waiting commands are dropped, and a recording ends.
+  /// Continues from a snapshot; waiting commands are dropped, pilots are asked no more, and a recording ends.
   void Restore(const SimState& snapshot);
   int64_t t_ns() const;
 
@@ -76,6 +90,8 @@ class SimLoop {
   SimState state_;
   std::vector<SimCommand> waiting_;
   std::vector<SimEvent> events_;
+  std::vector<std::shared_ptr<SimPilot>> pilots_;
+  std::vector<SimEvent> happened_;  // in the last step, for pilots
   int64_t allowed_ = -1;  // steps until the next pause; -1 = never
   std::optional<Recorder> recorder_;
 };

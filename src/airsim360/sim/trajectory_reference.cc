@@ -11,10 +11,22 @@ PlannedReference::PlannedReference(std::shared_ptr<const PolynomialTrajectory> t
                                    std::optional<double> yaw, double yaw_at_rest)
     : trajectory_(std::move(trajectory)), yaw_(yaw), yaw_at_rest_(yaw_at_rest) {}
 
+PlannedReference::PlannedReference(std::shared_ptr<const PolynomialTrajectory> trajectory, Vec3d look_at)
+    : trajectory_(std::move(trajectory)), look_at_(look_at) {}
+
 ReferencePoint PlannedReference::At(double t) const {
   const TrajectoryPoint point = trajectory_->At(t);
   ReferencePoint reference{point.p, point.v, point.a, point.jerk, point.snap, yaw_.value_or(yaw_at_rest_), 0};
   if (yaw_) return reference;
+  if (look_at_) {
+    constexpr double kAbove = 0.3;  // metres beside the point: no direction
+    const double x = look_at_->x - point.p.x, y = look_at_->y - point.p.y, d2 = x * x + y * y;
+    if (d2 > kAbove * kAbove) {
+      reference.yaw = std::atan2(y, x);
+      reference.yaw_rate = std::clamp((y * point.v.x - x * point.v.y) / d2, -kFastestTurn, kFastestTurn);
+      return reference;
+    }
+  }
   // Along the way; its turning follows from the velocities at both ends of the span.
   constexpr double kStill = 0.05;  // metres within the span: no direction
   const TrajectoryPoint before = trajectory_->At(t - kHeadingSpan), after = trajectory_->At(t + kHeadingSpan);

@@ -8,10 +8,13 @@
 #include <utility>
 
 #include "airsim360/base/error.h"
+#include "airsim360/base/json_depth.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/scene/category_colors.h"
 #include "airsim360/sim/drone_bodies.h"
+#include "airsim360/view/drawing.h"
 #include "airsim360/view/planes.h"
+#include "airsim360/view/tree_desk.h"
 
 namespace airsim360 {
 
@@ -23,7 +26,8 @@ constexpr double kMostPassed = 0.25;         // seconds that pass between two pi
 constexpr int64_t kSilenceNs = 500'000'000;  // after which the drone stops
 constexpr double kFlowSeconds = 0.1;
 constexpr double kMostSpeed = 15, kTurnRate = 1.5;  // m/s, rad/s
-constexpr size_t kKeptFrames = 4, kMostKept = 1000, kMostMessage = 4096;
+constexpr size_t kKeptFrames = 4, kMostKept = 1000, kMostMessage = 65536;
+constexpr int kDeepest = 4;  // levels of a message
 constexpr int kSmallest = 128, kLargest = 4096;  // columns
 constexpr const char* kShown[] = {"range", "semantic", "entity", "normal", "albedo", "material", "position", "coverage", "flow"};
 constexpr double kNear = 0.5, kFar = 200;  // metres, ends of the scale of ranges
@@ -35,7 +39,7 @@ std::string TimeOfDay(double hour) {
   return text;
 }
 
-SocketMessage Said(const Json& json) { return {json.dump()}; }
+SocketMessage Said(const Json& json) { return {json.dump(-1, ' ', false, Json::error_handler_t::replace)}; }
 SocketMessage Problem(const std::string& message) { return Said({{"error", message}}); }
 
 double Number(const Json& message, const char* key, double low, double high, double otherwise) {
@@ -99,11 +103,13 @@ struct LiveWorld::Impl {
   SocketMessage Reset();
   void Fly(const Json& input);
   void PassTime();
+  std::shared_ptr<const SimModel> Model();
   std::string StateFields(const Capture& capture) const;
 
   std::shared_ptr<Stage> stage;
   LiveOptions options;
   SimLoop loop;
+  TreeDesk trees{loop};  // as `mutex` says
   std::mutex changes;  // of what follows; taken before `mutex`
   std::string weather;
   double hour = -1;
@@ -133,6 +139,12 @@ void LiveWorld::Impl::PassTime() {
   const double now = options.clock(), passed = std::clamp(now - told_at, 0.0, kMostPassed);
   told_at = now;
   loop.Advance(std::llround(passed * 1e9 / static_cast<double>(loop.model().dt_ns)));
+  // What a mission captures is kept like what hands keep.
+  for (MissionCapture& capture : trees.NewCaptures()) {
+    if (!options.save || kept.shots.size() >= kMostKept || (!kept.shots.empty() && kept.shots.back().t_ns >= capture.shot.t_ns)) continue;
+    kept.trajectory.push_back({capture.shot.t_ns, capture.shot.body, {}});
+    kept.shots.push_back(std::move(capture.shot));
+  }
 }
 
 std::string LiveWorld::Impl::StateFields(const Capture& capture) const {
@@ -154,7 +166,7 @@ SocketMessage LiveWorld::Impl::Picture(const Json& message, bool may_fly) {
   const Products products = ProductsOf(message, names);
   if (message.contains("input")) {
     if (!may_fly) throw InputError("token: flying needs the page's token");
-    Fly(message["input"]);
+    if (!trees.Flies()) Fly(message["input"]);
   }
   PassTime();
   const std::shared_ptr<const SimState> state = loop.Snapshot();
@@ -188,6 +200,11 @@ SocketMessage LiveWorld::Impl::Planes(const Json& message) {
   PlaneMessage planes;
   for (const char* name : {"range", "semantic", "entity"}) planes.AddProduct(found->frame, name);
   return {planes.Finish("\"number\":" + std::to_string(number)), true};
+}
+
+std::shared_ptr<const SimModel> LiveWorld::Impl::Model() {
+  const std::lock_guard lock(mutex);
+  return loop.shared_model();
 }
 
 // Pictures go on while the renderer of the other light is made.
@@ -245,12 +262,17 @@ SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
   const std::string what = message.value("do", "");
   if (what == "picture") return Picture(message, may_fly);
   if (what == "planes") return Planes(message);
+  if (what == "draw") return Said({{"done", CheckDrawing(*Model(), message.value("kind", ""), message.value("text", ""))}});
+  if (TreeDesk::Handles(what) && (may_fly || !TreeDesk::Changes(what))) {
+    const std::lock_guard lock(mutex);
+    return {trees.Do(what, message.dump())};
+  }
   if (!may_fly) throw InputError("token: '" + what + "' needs the page's token");
   if (what == "set") return Set(message);
   if (what == "keep") return Keep();
   if (what == "save") return Save();
   if (what == "reset") return Reset();
-  throw InputError("do: '" + what + "' is none of picture, planes, set, keep, save, reset");
+  throw InputError("do: '" + what + "' is none of picture, planes, set, keep, save, reset, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
 }
 
 LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(std::make_unique<Impl>(std::move(stage), std::move(options))) {}
@@ -258,8 +280,7 @@ LiveWorld::~LiveWorld() = default;
 
 SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token) {
   if (text.size() > kMostMessage) return Problem("a message has at most " + std::to_string(kMostMessage) + " bytes");
-  // Depth is bounded by the length; nothing nests in what is asked for.
-  const Json message = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16 ? Json() : Json::parse(text, nullptr, false);
+  const Json message = JsonDepth(text) > kDeepest ? Json() : Json::parse(text, nullptr, false);
   if (!message.is_object()) return Problem("a message is a JSON object");
   try {
     const bool may_fly = message.contains("token") && message["token"] == token;
@@ -272,7 +293,7 @@ SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token)
 std::string LiveWorld::DescriptionJson() const {
   const Scene& scene = impl_->stage->scene();
   Json about{{"world", impl_->stage->name()}, {"products", kShown}, {"scale", {kNear, kFar}}, {"weathers", EnvironmentPresetNames()},
-             {"keeps", static_cast<bool>(impl_->options.save)}, {"categories", Json::array()}};
+             {"keeps", static_cast<bool>(impl_->options.save)}, {"flies", true}, {"follows", false}, {"categories", Json::array()}};
   for (const auto& [id, category] : scene.tree.categories()) {
     const Rgb8 color = CategoryColor(scene.tree, id);
     about["categories"].push_back({{"id", id}, {"path", category.path}, {"color", {color.r, color.g, color.b}}, {"thing", category.thing}});

@@ -8,11 +8,11 @@
 #include <string>
 #include <string_view>
 
-#include "airsim360/http/http_server.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/fly_route.h"
 #include "airsim360/sim/sim_loop.h"
 #include "airsim360/stage/stage.h"
+#include "airsim360/view/live_source.h"
 
 namespace airsim360 {
 
@@ -27,19 +27,14 @@ struct LiveOptions {
 
 /// Thread-safe. Time passes while pictures are asked for, never faster than the clock. A drone that is told nothing for
 /// half a second stops and stays.
-class LiveWorld {
+class LiveWorld : public LiveSource {
  public:
   LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options);
-  ~LiveWorld();
+  ~LiveWorld() override;
 
-  /// For session.json: world, products, categories, environments, scale of ranges.
-  std::string DescriptionJson() const;
-  /// As entities.json, with "low" and "high" of the box in W.
-  std::string EntitiesJson() const;
-
-  /// One message of a WebSocket, {"do": …}; docs/guide/viewer.md has them. Those that fly or change anything need
-  /// `token` in them. Never throws: what is wrong is answered with {"error": …}.
-  SocketMessage Answer(std::string_view message, const std::string& token);
+  std::string DescriptionJson() const override;
+  std::string EntitiesJson() const override;
+  SocketMessage Answer(std::string_view message, const std::string& token) override;
 
  private:
   struct Impl;

@@ -65,6 +65,35 @@ bool PlaneMessage::AddProduct(const Frame& frame, const std::string& name) {
   return true;
 }
 
+void PlaneMessage::AddStored(const StoredPicture& picture) {
+  using Type = StoredPicture::Type;
+  const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height), depth = static_cast<size_t>(picture.depth);
+  if (picture.product == "rgb") {
+    Image<Rgb8> rgb(picture.width, picture.height);
+    std::memcpy(rgb.pixels().data(), picture.values.data(), picture.values.size());
+    return AddPicture(rgb);
+  }
+  if (!picture.channels.empty()) {
+    // Values of a pixel lie together; planes do not.
+    for (size_t c = 0; c < depth; ++c) {
+      std::vector<float> plane(pixels);
+      for (size_t i = 0; i < pixels; ++i) std::memcpy(&plane[i], picture.values.data() + (i * depth + c) * sizeof(float), sizeof(float));
+      Add(picture.product, picture.channels[c].c_str(), "f32", picture.width, picture.height, plane.data(), plane.size() * sizeof(float));
+    }
+    return;
+  }
+  if (picture.product == "normal") {
+    // 16 bits, of which the page shows 8.
+    std::string high(pixels * depth, '\0');
+    for (size_t i = 0; i < high.size(); ++i) high[i] = static_cast<char>(picture.values[2 * i + 1]);
+    return Add("normal", "value", "u8", picture.width, picture.height, high.data(), high.size());
+  }
+  constexpr const char* kTypes[] = {"u8", "u16", "u32", "f32"};
+  const char* plane = picture.product == "range" ? "Y" : picture.product == "entity" ? "id" : "value";
+  Add(picture.product, plane, kTypes[static_cast<size_t>(picture.type)], picture.width, picture.height, picture.values.data(), picture.values.size());
+  static_assert(static_cast<int>(Type::kFloat32) == 3);
+}
+
 std::string PlaneMessage::Finish(const std::string& fields) const {
   std::string header = "{" + fields + (fields.empty() ? "" : ",") + "\"planes\":[" + list_ + "]}";
   Pad(header, ' ');

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/dataset/stored_pictures.h"
 #include "airsim360/render/renderer.h"
 
 namespace airsim360 {
@@ -17,6 +18,8 @@ class PlaneMessage {
   /// A product of the frame under its name in datasets: range, semantic, entity, normal (8 bits), albedo, material, position,
   /// flow (dx and dy), coverage (the largest share). False for a name that is none.
   bool AddProduct(const Frame& frame, const std::string& name);
+  /// The same of a picture of a dataset in memory, under its product's name.
+  void AddStored(const StoredPicture& picture);
   /// `fields`: the rest of the header's object, "\"seq\":1,…".
   std::string Finish(const std::string& fields) const;
 

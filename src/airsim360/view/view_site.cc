@@ -45,7 +45,7 @@ void WriteDataset(const ViewedDataset& data, const fs::path& folder) {
 
 }  // namespace
 
-ViewSite::ViewSite(std::vector<std::shared_ptr<ViewedDataset>> datasets, std::shared_ptr<LiveWorld> live, std::string token)
+ViewSite::ViewSite(std::vector<std::shared_ptr<ViewedDataset>> datasets, std::shared_ptr<LiveSource> live, std::string token)
     : datasets_(std::move(datasets)), live_(std::move(live)), token_(std::move(token)) {}
 
 HttpResponse ViewSite::Answer(const HttpRequest& request) const {
@@ -70,6 +70,12 @@ HttpResponse ViewSite::Find(std::string_view path) const {
 }
 
 HttpResponse ViewSite::Data(std::string_view path) const {
+  if (plan_ && path.starts_with("0/")) {
+    path.remove_prefix(2);
+    auto made = plan_->Made(path);
+    if (!made) return NotFound();
+    return {.content_type = path.ends_with(".json") ? "application/json" : "application/octet-stream", .body = std::move(*made)};
+  }
   size_t number = 0;
   const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), number);
   const size_t digits = static_cast<size_t>(end - path.data());
@@ -85,6 +91,7 @@ HttpResponse ViewSite::Data(std::string_view path) const {
 std::string ViewSite::Session() const {
   Json session{{"datasets", Json::array()}, {"live", nullptr}};
   for (size_t i = 0; i < datasets_.size(); ++i) session["datasets"].push_back(std::string(kData) + std::to_string(i) + "/");
+  if (plan_) session["datasets"].push_back(std::string(kData) + "0/");
   if (live_) {
     session["live"] = Json::parse(live_->DescriptionJson());
     session["live"]["token"] = token_;

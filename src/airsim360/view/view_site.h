@@ -9,7 +9,8 @@
 
 #include "airsim360/dataset/viewing/viewed_dataset.h"
 #include "airsim360/http/http_server.h"
-#include "airsim360/view/live_world.h"
+#include "airsim360/view/live_source.h"
+#include "airsim360/view/viewed_plan.h"
 
 namespace airsim360 {
 
@@ -17,7 +18,9 @@ namespace airsim360 {
 class ViewSite {
  public:
   /// At most two datasets, side by side; or a live world, to which `token` gives control.
-  ViewSite(std::vector<std::shared_ptr<ViewedDataset>> datasets, std::shared_ptr<LiveWorld> live = nullptr, std::string token = {});
+  ViewSite(std::vector<std::shared_ptr<ViewedDataset>> datasets, std::shared_ptr<LiveSource> live = nullptr, std::string token = {});
+  /// The frames of a plan.
+  explicit ViewSite(std::shared_ptr<ViewedPlan> plan) : plan_(std::move(plan)) {}
 
   /// GET alone. Never throws.
   HttpResponse Answer(const HttpRequest& request) const;
@@ -34,8 +37,9 @@ class ViewSite {
   std::string Session() const;
 
   std::vector<std::shared_ptr<ViewedDataset>> datasets_;
-  std::shared_ptr<LiveWorld> live_;
+  std::shared_ptr<LiveSource> live_;
   std::string token_;
+  std::shared_ptr<ViewedPlan> plan_;
 };
 
 /// Options of a server of it: this machine alone, and headers that let the page load nothing from elsewhere.

@@ -60,6 +60,17 @@ PlanFrames::~PlanFrames() = default;
 
 std::string PlanFrames::MetaText() const { return MetaJson(spec_, labels_.scene()); }
 
+std::vector<PlanFrames::Thing> PlanFrames::Things() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Thing> things;
+  for (const Entity& entity : labels_.scene().entities) {
+    if (entity.name.empty()) continue;
+    const Category& category = labels_.scene().tree[entity.category];
+    things.push_back({entity.id, entity.name, category.path, category.thing});
+  }
+  return things;
+}
+
 std::vector<std::pair<int64_t, int64_t>> PlanFrames::Blocks() const {
   std::vector<std::pair<int64_t, int64_t>> blocks;
   for (const auto& [first, last] : RunsThatExist(plan_)) {

@@ -45,6 +45,15 @@ class PlanFrames {
   bool uses_gpu() const { return uses_gpu_; }
   /// meta.json of a dataset of these frames.
   std::string MetaText() const;
+  /// Categories of these frames.
+  SemanticTree Categories() const { return labels_.scene().tree; }
+  struct Thing {
+    EntityId id = kNoEntity;
+    std::string name, category;
+    bool countable = true;
+  };
+  /// Everything that has a name by now: of worlds that were opened.
+  std::vector<Thing> Things();
   /// Frames of each sky whose worlds exist, as [first, last), in order.
   std::vector<std::pair<int64_t, int64_t>> Blocks() const;
   /// Opens worlds until kMostWorlds are, so that processes forked from this one share them.

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "airsim360/people/behaviour/tree.h"
+#include "airsim360/behaviour/tree.h"
 #include "airsim360/people/navigation/navmesh.h"
 #include "airsim360/people/person_state.h"
 
 namespace airsim360 {
 namespace internal {
+using namespace behaviour;  // trees are the larger part of what is internal here
 
 inline constexpr size_t kMaxStates = 48, kMaxMessages = 64;
 inline constexpr uint8_t kAnyState = 255, kNoMessage = 255;
@@ -58,6 +59,15 @@ struct Place {
 std::vector<StateDef> DefaultStates();
 std::vector<TransitionDef> DefaultTransitions();
 std::vector<std::string> DefaultMessages();
+/// What may stand in the ports of people's trees: choices become their numbers, points points.
+struct TreeVocabulary {
+  std::vector<std::string> states, messages, areas;
+  bool any_area = false;  ///< names of areas are not looked up
+};
+/// Reads ports with those words, and with the kinds of places.
+ParsePort PersonPorts(TreeVocabulary words);
+/// "x;y" or "x;y;z", metres; InputError otherwise.
+Value ParsePoint(const std::string& text);
 /// Trees of the default crowd, as XML that an author could have written.
 std::string_view DefaultTreesXml();
 /// Tree name and weight of the default mix.

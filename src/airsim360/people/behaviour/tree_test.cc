@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "airsim360/base/error.h"
+#include "airsim360/behaviour/tree_run.h"
+#include "airsim360/behaviour/xml.h"
+#include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/behaviour/plan.h"
-#include "airsim360/people/behaviour/tree_run.h"
-#include "airsim360/people/behaviour/xml.h"
-#include "airsim360/people/crowd/placement.h"
+#include "airsim360/people/behaviour/tree_files.h"
 
 namespace airsim360::internal {
 namespace {
@@ -16,7 +18,7 @@ class Script : public Leaves {
  public:
   Status Tick(const Tree& tree, const TreeNode& node, NodeMemory&, TreeRun& run) override {
     log += node.label + " ";
-    if (node.node == Node::kChance) return NumberOf(tree, node, run, 0) > 0.5 ? Status::kSuccess : Status::kFailure;
+    if (static_cast<PersonNode>(node.node) == PersonNode::kChance) return NumberOf(tree, node, run, 0) > 0.5 ? Status::kSuccess : Status::kFailure;
     const auto found = answers.find(node.label);
     return found == answers.end() ? Status::kRunning : found->second;
   }
@@ -34,7 +36,7 @@ Value Parse(char kind, const std::string& text) {
 
 TreeSet Read(const std::string& body, const std::string& more = "") {
   TreeSet set;
-  ReadTrees("<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"main\">\n" + body + "\n</BehaviorTree>\n" + more + "</root>", "test.xml", Parse, set);
+  ReadTrees("<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"main\">\n" + body + "\n</BehaviorTree>\n" + more + "</root>", "test.xml", PersonPalette(), Parse, set);
   return set;
 }
 
@@ -176,15 +178,53 @@ TEST(Tree, ErrorsNameTheLineAndTheNearestChoice) {
 
 TEST(Tree, TheDefaultTreesReadAndTheModelForEditorsIsXml) {
   TreeSet set;
-  ReadTrees(DefaultTreesXml(), "default", Parse, set);
+  ReadTrees(DefaultTreesXml(), "default", PersonPalette(), Parse, set);
   for (const auto& [name, weight] : DefaultMix())
     EXPECT_TRUE(std::any_of(set.trees.begin(), set.trees.end(), [&](const Tree& t) { return t.name == name; })) << name;
-  const XmlElement model = ReadXml(TreeNodesModel(), "model");
+  const XmlElement model = ReadXml(PersonPalette().ModelXml(), "model");
   EXPECT_EQ(model.tag, "TreeNodesModel");
   EXPECT_GT(model.children.size(), 15u);
-  // The table is in the order of the enumeration, which the interpreter relies on.
-  for (size_t i = 0; i < NodeInfos().size(); ++i) EXPECT_EQ(static_cast<size_t>(NodeInfos()[i].node), i);
-  EXPECT_EQ(NodeInfos().size(), static_cast<size_t>(Node::kCount));
+  // Every leaf has one row, whose number is its own.
+  std::set<int> numbers;
+  for (const NodeInfo& info : PersonPalette().nodes())
+    EXPECT_TRUE(info.node < Node::kFirstLeaf || numbers.insert(static_cast<int>(info.node)).second) << info.name;
+  EXPECT_EQ(*numbers.rbegin(), static_cast<int>(PersonNode::kEvery));
+  EXPECT_EQ(numbers.size(), static_cast<size_t>(*numbers.rbegin() - *numbers.begin() + 1));
+}
+
+TEST(Tree, FilesOfTreesAreCheckedWithTheWordsOfTheCrowd) {
+  const std::vector<std::string> names = CheckPeopleTrees(DefaultPeopleTrees(), "default");
+  EXPECT_NE(std::find(names.begin(), names.end(), "walker"), names.end());
+  EXPECT_EQ(WriteXml(ReadXml(DefaultPeopleTrees(), "x")), DefaultPeopleTrees());
+  const auto error = [](const std::string& leaf, const TreeWords& words = {}) -> std::string {
+    try {
+      CheckPeopleTrees("<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"a\">" + leaf + "</BehaviorTree></root>", "t.xml", words);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error("<SetState state=\"textin\"/>").substr(0, 71), "t.xml:2: SetState state: unknown state 'textin'; did you mean 'texting'");
+  EXPECT_EQ(error("<SetState state=\"cheering\"/>", {.states = {"cheering"}, .messages = {}, .areas = {}}), "");
+  EXPECT_NE(error("<GoTo point=\"1;2;3;4\"/>").find("expected 'x;y'"), std::string::npos);
+  EXPECT_EQ(error("<GoTo point=\"1;2\"/>"), "");
+  EXPECT_NE(error("<WanderTo area=\"plasa\"/>", {.states = {}, .messages = {}, .areas = {"plaza"}, .any_area = false}).find("did you mean 'plaza'"), std::string::npos);
+}
+
+TEST(Tree, IfAndRetryAreOtherNamesOfWhatTheyStandFor) {
+  Play branch("<If>" + kNo + Act("a") + Act("b") + "</If>");
+  branch.At(0);
+  EXPECT_EQ(branch.script.log, "no b ");
+  Play again("<Retry num_attempts=\"2\">" + kNo + "</Retry>");
+  EXPECT_EQ(again.At(0), Status::kRunning);
+  EXPECT_EQ(again.At(1), Status::kFailure);
+}
+
+TEST(Tree, WrittenXmlReadsBackAndIsWrittenTheSameWay) {
+  const std::string text = "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"a &amp; b\">\n    <WanderTo area=\"x &lt; &quot;y&quot;&#10;z\"/>\n  </BehaviorTree>\n</root>\n";
+  EXPECT_EQ(WriteXml(ReadXml(text, "x")), text);
+  // However it was laid out.
+  EXPECT_EQ(WriteXml(ReadXml("<root BTCPP_format='4'><BehaviorTree\n ID='a &amp; b'><WanderTo area='x &lt; &quot;y&quot;&#10;z'></WanderTo></BehaviorTree></root>", "x")), text);
 }
 
 }  // namespace

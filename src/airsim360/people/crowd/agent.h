@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "airsim360/base/random.h"
+#include "airsim360/behaviour/tree_run.h"
 #include "airsim360/people/behaviour/plan.h"
-#include "airsim360/people/behaviour/tree_run.h"
 #include "airsim360/people/crowd/crowd.h"
 #include "airsim360/people/crowd/gates.h"
 #include "airsim360/people/crowd/steering.h"

@@ -4,6 +4,7 @@
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/behaviour/plan.h"
 #include "airsim360/people/crowd/crowd.h"
 #include "airsim360/people/crowd/people_file.h"
@@ -155,27 +156,10 @@ class Builder {
   }
 
   void Trees() {
-    const std::vector<std::string> states = StateNames();
-    std::vector<std::string> areas, kinds(kPlaceKindNames, std::end(kPlaceKindNames));
+    std::vector<std::string> areas;
     for (const CrowdArea& area : model_.areas) areas.push_back(area.name);
-    const ParsePort parse = [&](char what, const std::string& text) {
-      const auto choice = [&](const std::vector<std::string>& names, const char* noun) {
-        const size_t i = IndexOf(names, text);
-        if (i == names.size()) throw InputError(UnknownChoiceMessage(noun, text, names));
-        Value value;
-        value.kind = Value::Kind::kNumber;
-        value.number = static_cast<double>(i);
-        return value;
-      };
-      switch (what) {
-        case 's': return choice(states, "state");
-        case 'm': return choice(plan_.messages, "message");
-        case 'k': return choice(kinds, "kind of place");
-        case 'a': return choice(areas, "area");
-        default: return ParsePoint(text);
-      }
-    };
-    ReadTrees(DefaultTreesXml(), "the default trees", parse, plan_.trees);
+    const ParsePort parse = PersonPorts({StateNames(), plan_.messages, std::move(areas)});
+    ReadTrees(DefaultTreesXml(), "the default trees", PersonPalette(), parse, plan_.trees);
     const std::filesystem::path folder = request_.file.parent_path();
     for (const Placed<std::string>& tree : file_.trees) {
       const std::filesystem::path path = folder / tree.value;
@@ -185,7 +169,7 @@ class Builder {
       } catch (const InputError& error) {
         throw InputError(tree.where + ": " + error.what());
       }
-      ReadTrees(text, path.string(), parse, plan_.trees);
+      ReadTrees(text, path.string(), PersonPalette(), parse, plan_.trees);
     }
     for (const Tree& tree : plan_.trees.trees) tree_names_.push_back(tree.name);
   }

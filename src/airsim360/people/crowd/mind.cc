@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "airsim360/people/behaviour/person_nodes.h"
 #include "airsim360/people/crowd/mind.h"
 
 namespace airsim360::internal {
@@ -17,7 +18,7 @@ Value Person(PersonIndex i) {
 
 int Mind::Choice(const Tree& tree, const TreeNode& node, const TreeRun& run, size_t i) const {
   const Value& value = PortOf(tree, node, run, i);
-  const char kind = NodeInfos()[static_cast<size_t>(node.node)].ports[i].kind;
+  const char kind = node.info->ports[i].kind;
   const size_t count = kind == 's'   ? tick_.plan.states.size()
                        : kind == 'm' ? tick_.plan.messages.size()
                        : kind == 'k' ? static_cast<size_t>(PlaceKind::kCount)
@@ -44,12 +45,12 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
     const Value& value = PortOf(tree, node, run, i);
     return value.kind == Value::Kind::kPerson && value.index < tick_.in.agents.size() ? value.index : kNoPerson;
   };
-  switch (node.node) {
-    case Node::kWanderTo:
+  switch (static_cast<PersonNode>(node.node)) {
+    case PersonNode::kWanderTo:
       return WanderTo(fresh, choice(0) < 0 ? tick_.model.people[self_].area : static_cast<uint32_t>(choice(0)), number(1));
-    case Node::kGoTo: return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
-    case Node::kGoToPlace: return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
-    case Node::kSetState: {
+    case PersonNode::kGoTo: return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
+    case PersonNode::kGoToPlace: return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
+    case PersonNode::kSetState: {
       if (choice(0) < 0) return Status::kFailure;
       const auto state = static_cast<uint8_t>(choice(0));
       if (fresh) {
@@ -60,23 +61,23 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       }
       return agent_.state == state ? Status::kRunning : Status::kSuccess;
     }
-    case Node::kEndState: {
+    case PersonNode::kEndState: {
       EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, Cause(node));
       return Status::kSuccess;
     }
-    case Node::kMeet: {
+    case PersonNode::kMeet: {
       const Status status = Meet(fresh, memory, number(0), number(1), number(2));
       if (status == Status::kSuccess) SetPort(tree, node, run, 3, Person(agent_.last_met));
       return status;
     }
-    case Node::kAnswerGreeting: {
+    case PersonNode::kAnswerGreeting: {
       const Status status = Answer(number(0));
       if (status == Status::kSuccess) SetPort(tree, node, run, 1, Person(agent_.last_met));
       return status;
     }
-    case Node::kChat: return Chat(fresh, memory, number(0), number(1), Cause(node));
-    case Node::kSend: return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
-    case Node::kWaitMessage: {
+    case PersonNode::kChat: return Chat(fresh, memory, number(0), number(1), Cause(node));
+    case PersonNode::kSend: return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
+    case PersonNode::kWaitMessage: {
       if (choice(0) < 0) return Status::kFailure;
       if (fresh) memory.t_ns = tick_.t_ns;
       Message message;
@@ -86,28 +87,28 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       }
       return tick_.t_ns - memory.t_ns >= Seconds(number(1)) ? Status::kFailure : Status::kRunning;
     }
-    case Node::kFacePerson: {
+    case PersonNode::kFacePerson: {
       const PersonIndex other = person(0);
       if (other == kNoPerson) return Status::kFailure;
       Face(tick_.in.walkers[other].at.p_W);
       return Turned() ? Status::kSuccess : Status::kRunning;
     }
-    case Node::kLookAtDrone: return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
-    case Node::kStepAway: return StepAway(fresh, number(0));
-    case Node::kChance: return Yes(agent_.rng.Chance(number(0)));
-    case Node::kStateIs: return Yes(agent_.state == choice(0));
-    case Node::kDroneWithin: {
+    case PersonNode::kLookAtDrone: return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
+    case PersonNode::kStepAway: return StepAway(fresh, number(0));
+    case PersonNode::kChance: return Yes(agent_.rng.Chance(number(0)));
+    case PersonNode::kStateIs: return Yes(agent_.state == choice(0));
+    case PersonNode::kDroneWithin: {
       double distance = 0;
       return Yes(NearestDrone(tick_, self_, &distance) >= 0 && distance <= number(0));
     }
-    case Node::kPersonWithin: {
+    case PersonNode::kPersonWithin: {
       const PersonIndex other = Nearest(number(0), [](PersonIndex) { return true; });
       if (other != kNoPerson) SetPort(tree, node, run, 1, Person(other));
       return Yes(other != kNoPerson);
     }
-    case Node::kMessageWaiting:
+    case PersonNode::kMessageWaiting:
       return Yes(std::any_of(agent_.inbox.begin(), agent_.inbox.end(), [&](const Message& m) { return m.type == choice(0); }));
-    case Node::kEvery: {
+    case PersonNode::kEvery: {
       // The first time comes at a random part of the period, so that a crowd does not move as one.
       if (memory.flags == 0) {
         memory.flags = 1;
@@ -123,28 +124,28 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
 }
 
 void Mind::Halt(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) {
-  switch (node.node) {
-    case Node::kWanderTo:
-    case Node::kGoTo:
-    case Node::kStepAway:
+  switch (static_cast<PersonNode>(node.node)) {
+    case PersonNode::kWanderTo:
+    case PersonNode::kGoTo:
+    case PersonNode::kStepAway:
       DropGoal(tick_, self_);
       break;
-    case Node::kGoToPlace:
+    case PersonNode::kGoToPlace:
       DropGoal(tick_, self_);
       LeavePlace(tick_, self_);
       break;
-    case Node::kSetState:
+    case PersonNode::kSetState:
       // What breaks it off may have entered another state already.
       if (agent_.state == Choice(tree, node, run, 0) && agent_.state_until_ns > 0)
         EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, "tree: interrupted");
       break;
-    case Node::kChat:
+    case PersonNode::kChat:
       LeaveGroup(tick_, self_);
       if (agent_.state == kChatting)
         EnterState(tick_, self_, static_cast<uint8_t>(memory.count), -1, 0, "tree: interrupted");
       break;
-    case Node::kMeet: agent_.greeted = kNoPerson; break;
-    case Node::kLookAtDrone: agent_.gaze_drone = -1; break;
+    case PersonNode::kMeet: agent_.greeted = kNoPerson; break;
+    case PersonNode::kLookAtDrone: agent_.gaze_drone = -1; break;
     default: break;
   }
 }

@@ -1,35 +1,10 @@
 #include "airsim360/people/crowd/placement.h"
 
 #include <cmath>
-#include <cstdlib>
 
-#include "airsim360/base/error.h"
-#include "airsim360/people/behaviour/tree.h"
 #include "airsim360/people/crowd/steering.h"
 
 namespace airsim360::internal {
-
-Value ParsePoint(const std::string& text) {
-  Value value;
-  if (text.empty()) return value;
-  double numbers[3] = {0, 0, 0};
-  int n = 0;
-  const char* at = text.c_str();
-  while (n < 3) {
-    char* end = nullptr;
-    numbers[n] = std::strtod(at, &end);
-    if (end == at || !(std::abs(numbers[n]) < 1e7)) break;
-    ++n;
-    at = end;
-    if (*at != ';') break;
-    ++at;
-  }
-  if (n < 2 || *at != 0) throw InputError("expected 'x;y' or 'x;y;z' in metres, found '" + text.substr(0, 100) + "'");
-  value.kind = Value::Kind::kPoint;
-  value.point = {numbers[0], numbers[1], numbers[2]};
-  value.has_height = n == 3;
-  return value;
-}
 
 uint64_t Placement::CellOf(double x, double y) const {
   const auto u = static_cast<uint64_t>(static_cast<int64_t>(std::floor(x)) + (int64_t{1} << 31));

@@ -8,9 +8,6 @@
 
 namespace airsim360::internal {
 
-/// "x;y" or "x;y;z", metres; InputError otherwise.
-struct Value ParsePoint(const std::string& text);
-
 class Placement {
  public:
   Placement(const NavMesh& mesh, uint64_t seed) : mesh_(mesh), seed_(seed) {}

@@ -7,7 +7,7 @@ import {Minimap} from "./minimap.js";
 import {paintOverlay, planesFor, rampColor, rangeScale, shownProducts} from "./overlay.js";
 import {Panorama} from "./panorama.js";
 import {parseQuestion, search} from "./search.js";
-import {Look, pointOfRay, turnBack} from "./sphere.js";
+import {Look, pointOfRay, rayOfPoint, turn, turnBack} from "./sphere.js";
 
 const PLAY_MS = 100, ADDRESS_MS = 300;
 const $ = id => document.getElementById(id);
@@ -21,7 +21,7 @@ class App {
   async open() {
     const session = await (await fetch("session.json")).json();
     document.body.className = session.live ? "live" : "recorded";
-    this.map = new Minimap($("map"), frame => this.showFrame(frame));
+    this.map = new Minimap($("map"), i => this.showFrame(this.visited ? this.visited[i].frame : i));
     this.addPane($("pane-a"));
     this.listen();
     this.readAddress();
@@ -52,10 +52,16 @@ class App {
     this.fillViews(index.views);
     $("people-choice").hidden = !index.people;
     $("time").max = this.main.dataset.size - 1;
-    this.map.setFlight(index.views[0].p);
+    if (index.planned) this.openPlan();
+    else this.map.setFlight(index.views[0].p);
     this.list = new FrameList($("frame-list"), frame => this.showFrame(frame));
     this.listAll();
     await this.showFrame(Math.min(this.frame, this.main.dataset.size - 1));
+  }
+  openPlan() {
+    this.visited = [];
+    this.map.setFlight([]);
+    $("search-form").closest("details").hidden = true;
   }
   async openSecond(base) {
     $("pane-b").hidden = false;
@@ -85,8 +91,8 @@ class App {
     for (const [i, v] of views.entries()) $("view").append(new Option(v.suffix.slice(1) || v.projection, i));
   }
   describe(frame) {
-    const {stem, t} = this.main.dataset.index.frames;
-    return `${stem[frame]} · ${t[frame].toFixed(2)} s`;
+    const {stem, t, world} = this.main.dataset.index.frames;
+    return `${stem[frame]} · ${this.visited ? world[frame] : `${t[frame].toFixed(2)} s`}`;
   }
   listAll() {
     $("all-frames").hidden = true;
@@ -192,8 +198,17 @@ class App {
   }
   async fetchPane(pane, names) {
     const picture = this.pictureOf(pane);
+    if (picture.ready) await this.drawn(picture);
     const [bitmap, people, ...planes] = await Promise.all([picture.bitmap(), picture.people(), ...names.map(name => picture.plane(name))]);
     return {picture, bitmap, people, planes: Object.fromEntries(names.map((name, i) => [name, planes[i]]))};
+  }
+  /// A frame of a plan, once the server has drawn it; the first of a world takes longest.
+  async drawn(picture) {
+    if (!picture.shown) $("pose").textContent = `Drawing frame ${picture.index} …`;
+    await picture.ready();
+    if (this.visited.some(({frame}) => frame === picture.index)) return;
+    this.visited.push({frame: picture.index, p: picture.p});
+    this.map.setFlight(this.visited.map(({p}) => p));
   }
   showPane(pane, {picture, bitmap, people, planes}, first) {
     const {panorama} = pane, categories = (pane.dataset ?? this.live).categories;
@@ -297,7 +312,14 @@ class App {
     Object.assign(this, {chosen: id, box, chosenName: entities[id]?.name ?? String(id)});
     this.picked = {id, x, y, p: picture.p, range: range?.planes.Y[i], category: semantic?.planes.value[i]};
     await this.showCard(rows, source, id);
+    if (this.live && range) await this.offerPeople(picture, range, [x, y]);
     await this.refresh();
+  }
+  /// People can be sent to the point that was clicked.
+  offerPeople(picture, range, [x, y]) {
+    const along = turn(picture.R, rayOfPoint(x + 0.5, y + 0.5, range.width, range.height));
+    this.picked.point = along.map((v, a) => picture.p[a] + v * range.planes.Y[y * range.width + x]);
+    return this.live.offerPeople();
   }
   async showCard(rows, source, id) {
     $("card-hint").hidden = true;

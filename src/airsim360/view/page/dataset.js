@@ -1,4 +1,5 @@
 // A recorded dataset: its index is read once, pictures when they are looked at.
+import {readMessage} from "./message.js";
 import {matrixOf} from "./sphere.js";
 
 const KEPT_FRAMES = 6;
@@ -58,6 +59,23 @@ class Picture {
   close() { this.kept.get("rgb")?.then(bitmap => bitmap?.close(), () => {}); }
 }
 
+/// A frame of a plan: drawn by the server when it is asked for, all products at once.
+class PlannedPicture {
+  constructor(dataset, index) { Object.assign(this, {dataset, index, panoramic: true}); }
+  ready() { return this.coming ??= this.load(); }
+  async load() {
+    const response = await fetch(`${this.dataset.base}frame/${this.index}`);
+    if (!response.ok) throw new Error((await response.json()).error.message);
+    const {header, planes, jpeg} = readMessage(await response.arrayBuffer());
+    Object.assign(this, {header, planes, p: header.p, R: matrixOf(header.q)});
+    this.shown = jpeg && await createImageBitmap(jpeg, {colorSpaceConversion: "none", premultiplyAlpha: "none"});
+  }
+  async bitmap() { await this.ready(); return this.shown; }
+  async plane(product) { await this.ready(); return this.planes[product] ?? null; }
+  async people() { await this.ready(); return this.header.persons ?? []; }
+  close() { this.coming?.then(() => this.shown?.close(), () => {}); }
+}
+
 export class Dataset {
   /// `base`: address of its folder, ending in "/".
   constructor(base) {
@@ -67,6 +85,9 @@ export class Dataset {
   async open() {
     this.index = await json(this.base + "index.json");
     this.categories = new Map(this.index.categories.map(c => [c.id, c]));
+    // What is seen where is not known before it is drawn.
+    this.planned = this.index.planned === true;
+    if (this.planned) this.appearances = null;
     this.categoryByPath = new Map(this.index.categories.map(c => [c.path, c]));
     return this;
   }
@@ -75,7 +96,8 @@ export class Dataset {
   url(product, frame, view) {
     return `${this.base}${product}/${this.index.frames.stem[frame]}${this.index.views[view].suffix}${this.index.products[product]}`;
   }
-  entities() { return this.named ??= json(this.base + "entities.json"); }
+  /// Names come with the worlds of a plan, which are opened one by one.
+  entities() { return this.planned ? json(this.base + "entities.json") : this.named ??= json(this.base + "entities.json"); }
   parts() { return this.partNames ??= json(this.base + "parts.json"); }
   materials() { return this.materialNames ??= json(this.base + "materials.json"); }
   /// Entity id -> [frame, pixels, frame, pixels, …].
@@ -85,7 +107,7 @@ export class Dataset {
   }
   picture(index, view = 0) {
     const key = `${index} ${view}`;
-    const picture = this.pictures.get(key) ?? new Picture(this, index, view);
+    const picture = this.pictures.get(key) ?? (this.planned ? new PlannedPicture(this, index) : new Picture(this, index, view));
     this.pictures.delete(key);
     this.pictures.set(key, picture);
     while (this.pictures.size > KEPT_FRAMES) {

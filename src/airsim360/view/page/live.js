@@ -1,28 +1,15 @@
 // A world that is flown: asks for one picture after the other, with what the hands do.
+import {Drawing} from "./draw.js";
+import {readMessage} from "./message.js";
 import {matrixOf} from "./sphere.js";
+import {TreeEditor} from "./trees.js";
 
-const KINDS = {f32: Float32Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array};
 // Key -> which of forward, left, up, turn left, and which way.
 const KEYS = {w: [0, 1], s: [0, -1], a: [1, 1], d: [1, -1], r: [2, 1], f: [2, -1], q: [3, 1], e: [3, -1]};
 const PAD = [["q", "Turn left", "↺"], ["w", "Forward", "▲"], ["e", "Turn right", "↻"], ["r", "Up", "⤒"],
              ["a", "Left", "◀"], ["s", "Back", "▼"], ["d", "Right", "▶"], ["f", "Down", "⤓"]];
 const GONE = "the server is gone: start 'airsim360 view' again";
 const DEAD_ZONE = 0.12, RETRY_MS = 1000, SPEEDS = 4, PATH_POINTS = 3000;
-
-/// {header, planes: {product: {width, height, planes}}, jpeg} of a message "A360".
-export function readMessage(buffer) {
-  const view = new DataView(buffer);
-  if (view.getUint32(0) !== 0x41333630) throw new Error("the server says what this page does not understand");
-  const length = view.getUint32(4, true), header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 8, length)));
-  const planes = {};
-  let jpeg = null;
-  for (const {product, plane, type, width, height, at, bytes} of header.planes) {
-    if (type === "jpeg") { jpeg = new Blob([new Uint8Array(buffer, 8 + length + at, bytes)], {type: "image/jpeg"}); continue; }
-    const Kind = KINDS[type];
-    (planes[product] ??= {width, height, planes: {}}).planes[plane] = new Kind(buffer, 8 + length + at, bytes / Kind.BYTES_PER_ELEMENT);
-  }
-  return {header, planes, jpeg};
-}
 
 // A picture of the stream, with the same questions as a recorded one.
 class LivePicture {
@@ -70,17 +57,38 @@ class Line {
 }
 
 export class Live {
-  constructor({token, world, categories, weathers, keeps}, box, app) {
-    Object.assign(this, {token, world, app, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
+  /// `flies`: the hands may steer; `follows`: the world is in another server, which passes its time and has its own light.
+  constructor({token, world, categories, weathers, keeps, flies, follows}, box, app) {
+    Object.assign(this, {token, world, app, flies, follows, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
     this.categories = new Map(categories.map(c => [c.id, c]));
     this.controls(box, weathers, keeps);
+    for (const id of ["trees", "drawing"]) document.getElementById(id).hidden = follows;
+    if (follows) return;
+    this.trees = new TreeEditor(this);
+    this.drawing = new Drawing(this, app.map);
   }
   async start() {
     this.named = await (await fetch("entities.json")).json();
+    this.peopled = false;
     await this.connect();
     this.run();
   }
   entities() { return this.named; }
+  /// Buttons that send and bring people to the point that was clicked; nothing in worlds without people.
+  async offerPeople() {
+    if (this.follows || this.peopled) return;
+    this.peopled = true;
+    const {people} = await this.ask({do: "trees"}), $ = id => document.getElementById(id);
+    if (!people.length) return;
+    for (const {name} of people) $("placed-person").append(new Option(name, name));
+    for (const [id, action] of [["person-send", "send"], ["person-bring", "bring"], ["person-remove", "remove"]])
+      $(id).addEventListener("click", () => this.app.guard(this.place(action, $("placed-person").value)).catch(() => {}));
+    $("person-tools").hidden = false;
+  }
+  async place(action, person) {
+    await this.ask({do: "person", action, person, point: this.app.picked.point});
+    this.app.say(`${person}: ${action}`);
+  }
 
   // Two lines to the server, so that pictures do not wait for what takes long.
   async connect() {
@@ -106,7 +114,7 @@ export class Live {
   }
   nextPicture() {
     const asked = performance.now();
-    const coming = this.stream.ask({do: "picture", width: this.width, products: this.wantedProducts(), input: this.input(), token: this.token}).then(message => [message, asked]);
+    const coming = this.stream.ask({do: "picture", width: this.width, products: this.wantedProducts(), input: this.flies ? this.input() : undefined, token: this.token}).then(message => [message, asked]);
     coming.catch(() => {});  // told where it is awaited
     return coming;
   }
@@ -125,14 +133,24 @@ export class Live {
     before?.shown.close();
     this.tell(message.header, performance.now() - asked);
   }
-  tell({v, render_ms, collisions, touched, kept, charge}, ms) {
+  tell(header, ms) { this.follows ? this.tellFollowed(header, ms) : this.tellFlown(header, ms); this.notePath(); }
+  countRate() {
     this.frames.push(performance.now());
     while (this.frames[0] < performance.now() - 3000) this.frames.shift();
-    this.figures = {ms, render_ms, rate: this.frames.length / 3};
+    return this.frames.length / 3;
+  }
+  tellFollowed({t}, ms) {
+    this.figures = {ms, rate: this.countRate()};
+    this.state.textContent = `${this.flies ? "flying" : "looking on"} · ${this.figures.rate.toFixed(1)} pictures/s · time ${t.toFixed(1)} s`;
+  }
+  tellFlown({v, render_ms, collisions, touched, kept, charge}, ms) {
+    this.figures = {ms, render_ms, rate: this.countRate()};
     this.state.textContent = `${Math.hypot(...v).toFixed(1)} m/s · ${this.figures.rate.toFixed(1)} pictures/s (${render_ms.toFixed(0)} ms rendering) · battery ${Math.round(100 * charge)} %` +
       (collisions ? ` · touched ${touched ?? "something"} (${collisions})` : "");
     this.keptCount = kept;
     if (this.save) this.save.textContent = `Save ${kept} frames`;
+  }
+  notePath() {
     const {p} = this.picture, last = this.path.at(-1);
     if (!last || Math.hypot(p[0] - last[0], p[1] - last[1]) > 0.25) {
       this.path.push(p);
@@ -158,15 +176,17 @@ export class Live {
   }
   key(e, down) {
     const key = e.key.toLowerCase();
-    if (!KEYS[key]) return false;
+    if (!KEYS[key] || !this.flies) return false;
     down ? this.held.add(key) : this.held.delete(key);
     return true;
   }
   controls(box, weathers, keeps) {
+    const {flies, follows} = this;
     addEventListener("keyup", e => this.key(e, false));
     addEventListener("blur", () => this.held.clear());
-    box.append(this.pad(), this.choice("Weather", ["the world's own", ...weathers], value => this.set({weather: value === "the world's own" ? "" : value})),
-               this.slider("Hour", 0, 24, 0.5, 12, value => this.set({hour: value})), this.slider("Speed", 1, SPEEDS * 4, 1, 5, value => { this.speed = value / 16; }),
+    if (flies) box.append(this.pad(), this.slider("Speed", 1, SPEEDS * 4, 1, 5, value => { this.speed = value / 16; }));
+    if (!follows) box.append(this.choice("Weather", ["the world's own", ...weathers], value => this.set({weather: value === "the world's own" ? "" : value})),
+               this.slider("Hour", 0, 24, 0.5, 12, value => this.set({hour: value})),
                this.choice("Size", ["512", "1024", "2048", "4096"], value => { this.width = Number(value); }, "1024"),
                this.button("To the start", () => this.ask({do: "reset"})));
     if (keeps) {

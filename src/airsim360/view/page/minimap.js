@@ -30,6 +30,11 @@ export class Minimap {
     const {width, height} = this.canvas.getBoundingClientRect(), s = this.scale();
     return [width / 2 + s * (x - (this.low[0] + this.high[0]) / 2), height / 2 - s * (y - (this.low[1] + this.high[1]) / 2)];
   }
+  /// The place of W at a point of the canvas.
+  placeAt(px, py) {
+    const {width, height} = this.canvas.getBoundingClientRect(), s = this.scale();
+    return [(px - width / 2) / s + (this.low[0] + this.high[0]) / 2, (height / 2 - py) / s + (this.low[1] + this.high[1]) / 2];
+  }
   /// `here`: {p, R, yaw, fov, index}.
   show(here, people, box) {
     Object.assign(this, {here, people, box});
@@ -37,6 +42,7 @@ export class Minimap {
   }
   click(e) {
     const box = this.canvas.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
+    if (this.onPlace?.(...this.placeAt(x, y))) return;
     let best = -1, least = Infinity;
     this.points.forEach((p, i) => { const [px, py] = this.at(p), d = Math.hypot(px - x, py - y); if (d < least) { least = d; best = i; } });
     if (best >= 0) this.onChoose(best);
@@ -52,6 +58,7 @@ export class Minimap {
     if (this.box) this.drawBox(g);
     g.fillStyle = "#ffb000";
     for (const person of this.people) if (person.position_world) { const [x, y] = this.at(person.position_world); g.fillRect(x - 2, y - 2, 4, 4); }
+    for (const mark of this.marks?.() ?? []) this.drawMark(g, mark);
     if (this.here) this.drawHere(g);
     this.drawScale(g, height);
   }
@@ -63,6 +70,15 @@ export class Minimap {
     for (let i = 0; i < this.points.length; i += step) g.lineTo(...this.at(this.points[i]));
     g.stroke();
     if (this.points.length <= 400) for (const p of this.points) { const [x, y] = this.at(p); g.fillRect(x - 1.5, y - 1.5, 3, 3); }
+  }
+  /// What is being drawn by hand: {points, closed}.
+  drawMark(g, {points, closed}) {
+    g.strokeStyle = g.fillStyle = "#7ee787";
+    g.beginPath();
+    for (const p of points) g.lineTo(...this.at(p));
+    if (closed) g.closePath();
+    g.stroke();
+    for (const p of points) { const [x, y] = this.at(p); g.fillRect(x - 2.5, y - 2.5, 5, 5); }
   }
   drawBox(g) {
     const [x0, y0] = this.at(this.box.low), [x1, y1] = this.at(this.box.high);

@@ -4,12 +4,12 @@
 #include <string_view>
 
 #include "airsim360/base/error.h"
-#include "airsim360/people/behaviour/tree_run.h"
+#include "airsim360/behaviour/tree_run.h"
 
 namespace {
 
 using namespace airsim360;
-using namespace airsim360::internal;
+using namespace airsim360::behaviour;
 
 class Nothing : public Leaves {
  public:
@@ -22,12 +22,20 @@ class Nothing : public Leaves {
   int count_ = 0;
 };
 
+// A leaf with every kind of port.
+const Palette& FuzzPalette() {
+  static const Palette palette({{Node::kFirstLeaf, "Act", NodeClass::kAction,
+                                 {{"to", 'p', nullptr}, {"how", 't', "well"}, {"times", 'n', "1"}, {"found", 'o', "", true}}, ""},
+                                {static_cast<Node>(static_cast<int>(Node::kFirstLeaf) + 1), "Ask", NodeClass::kCondition, {}, "", true}});
+  return palette;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   TreeSet set;
   try {
-    ReadTrees({reinterpret_cast<const char*>(data), size}, "fuzz", [](char, const std::string&) { return Value{}; }, set);
+    ReadTrees({reinterpret_cast<const char*>(data), size}, "fuzz", FuzzPalette(), [](char, const std::string&) { return Value{}; }, set);
   } catch (const InputError&) {
     return 0;
   }

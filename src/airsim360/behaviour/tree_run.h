@@ -1,12 +1,12 @@
-// One person's place in a tree, and the tick.
+// The place of one who acts in a tree, and the tick.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "airsim360/people/behaviour/tree.h"
+#include "airsim360/behaviour/tree.h"
 
-namespace airsim360::internal {
+namespace airsim360::behaviour {
 
 enum class Status : uint8_t { kIdle, kRunning, kSuccess, kFailure, kSkipped };
 
@@ -30,7 +30,7 @@ struct TreeRun {
   }
 };
 
-/// The leaves that act: everything from Node::kWanderTo on.
+/// The leaves that act: everything from Node::kFirstLeaf on.
 class Leaves {
  public:
   virtual ~Leaves() = default;
@@ -51,4 +51,4 @@ double NumberOf(const Tree& tree, const TreeNode& node, const TreeRun& run, size
 /// Writes to an output port, if it is tied to a key.
 void SetPort(const Tree& tree, const TreeNode& node, TreeRun& run, size_t i, const Value& value);
 
-}  // namespace airsim360::internal
+}  // namespace airsim360::behaviour

@@ -1,8 +1,8 @@
-#include "airsim360/people/behaviour/tree_run.h"
+#include "airsim360/behaviour/tree_run.h"
 
 #include <algorithm>
 
-namespace airsim360::internal {
+namespace airsim360::behaviour {
 namespace {
 
 /// One tick of one person: semantics as BehaviorTree.CPP 4 documents them for each node.
@@ -23,13 +23,13 @@ class Ticker {
     NodeMemory& memory = run_.nodes[index];
     if (memory.status != Status::kRunning) return;
     for (uint16_t i = 0; i < node.child_count; ++i) Halt(Child(node, i));
-    if (node.node >= Node::kWanderTo) leaves_.Halt(tree_, node, memory, run_);
+    if (node.node >= Node::kFirstLeaf) leaves_.Halt(tree_, node, memory, run_);
     // What has been done once stays done.
     const bool once = node.node == Node::kRunOnce;
     const NodeMemory kept = memory;
     memory = {};
     if (once) memory.flags = kept.flags;
-    if (node.node == Node::kEvery) memory = kept;
+    if (node.info->keeps) memory = kept;
     memory.status = Status::kIdle;
   }
 
@@ -207,4 +207,4 @@ void SetPort(const Tree& tree, const TreeNode& node, TreeRun& run, size_t i, con
   if (port.is_slot) run.slots[port.slot] = value;
 }
 
-}  // namespace airsim360::internal
+}  // namespace airsim360::behaviour

@@ -3,21 +3,22 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "airsim360/math/vector.h"
-#include "airsim360/people/behaviour/nodes.h"
+#include "airsim360/behaviour/nodes.h"
 
-namespace airsim360::internal {
+namespace airsim360::behaviour {
 
 /// What a port or a slot of the blackboard holds.
 struct Value {
-  enum class Kind : uint8_t { kNone, kNumber, kText, kPerson, kPoint };
+  enum class Kind : uint8_t { kNone, kNumber, kText, kPerson, kPoint, kEntity, kVehicle };
   Kind kind = Kind::kNone;
   bool has_height = false;  ///< of a point: z was given
-  uint32_t index = 0;       ///< of a text in TreeSet::texts; a person; a state, message, place kind or area
+  uint32_t index = 0;       ///< of a text in TreeSet::texts; a person, an entity, a vehicle; a choice of those who act
   double number = 0;
   Vec3d point;
 };
@@ -30,10 +31,12 @@ struct Port {
 
 struct TreeNode {
   Node node = Node::kSequence;
+  const NodeInfo* info = nullptr;  ///< of the palette
   uint16_t first_child = 0, child_count = 0;  ///< into Tree::children
-  uint16_t first_port = 0;                    ///< into Tree::ports, as many as NodeInfo::ports
+  uint16_t first_port = 0;                    ///< into Tree::ports, as many as info->ports
   int line = 0;
-  std::string label;  ///< "Chat" or the author's name of it: the cause of transitions
+  int order = 0;  ///< XmlElement::order, in Tree::source
+  std::string label;  ///< "Chat" or the author's name of it
 };
 
 /// Node 0 is the root; slots start with `initial`.
@@ -43,6 +46,7 @@ struct Tree {
   std::vector<uint16_t> children;
   std::vector<Port> ports;
   std::vector<Value> initial;
+  std::shared_ptr<const std::string> source;  ///< the file that it was read from, whole
 };
 
 /// Turns the text of a literal into a value; `what` is PortInfo::kind. Throws InputError without a place.
@@ -56,7 +60,7 @@ struct TreeSet {
 
 /// Reads `<root BTCPP_format="4">`. Adds to `set`; a tree of a name that is there already replaces it. InputError
 /// "name:line: …" with the nearest valid choice for unknown nodes, attributes, subtrees, states and the like,
-/// wrong numbers of children, trees that contain themselves, more than 2000 nodes a tree.
-void ReadTrees(std::string_view xml, std::string_view name, const ParsePort& parse, TreeSet& set);
+/// wrong numbers of children, trees that contain themselves, more than 2000 nodes a tree. `set` points into `palette`.
+void ReadTrees(std::string_view xml, std::string_view name, const Palette& palette, const ParsePort& parse, TreeSet& set);
 
-}  // namespace airsim360::internal
+}  // namespace airsim360::behaviour

@@ -1,12 +1,12 @@
-#include "airsim360/people/behaviour/tree.h"
+#include "airsim360/behaviour/tree.h"
 
 #include <algorithm>
 #include <map>
 
 #include "airsim360/base/error.h"
-#include "airsim360/people/behaviour/xml.h"
+#include "airsim360/behaviour/xml.h"
 
-namespace airsim360::internal {
+namespace airsim360::behaviour {
 namespace {
 
 constexpr size_t kMaxNodes = 2000, kMaxSlots = 500;
@@ -18,8 +18,8 @@ bool IsKey(const std::string& text) { return text.size() > 2 && text.front() == 
 
 class Compiler {
  public:
-  Compiler(const XmlElement& root, std::string_view file, const ParsePort& parse, TreeSet& set)
-      : file_(file), parse_(parse), set_(set) {
+  Compiler(const XmlElement& root, std::string_view file, const Palette& palette, const ParsePort& parse, TreeSet& set)
+      : file_(file), palette_(palette), parse_(parse), set_(set) {
     if (set_.texts.empty()) set_.texts.push_back("true");  // text 0, see RunOnce
     if (root.tag != "root") Fail(root, "expected <root BTCPP_format=\"4\">, found <" + root.tag + ">");
     const std::string* format = root.Find("BTCPP_format");
@@ -43,10 +43,11 @@ class Compiler {
     }
   }
 
-  void Run() {
+  void Run(const std::shared_ptr<const std::string>& source_text) {
     for (const std::string& name : names_) {
       tree_ = {};
       tree_.name = name;
+      tree_.source = source_text;
       tree_.nodes.emplace_back();
       Scope scope;
       const XmlElement& source = *sources_[name];
@@ -141,9 +142,9 @@ class Compiler {
       if (!id) Fail(element, "<" + tag + "> needs an ID");
       tag = *id;
     }
-    const NodeInfo* info = NodeByName(tag);
-    if (!info) Fail(element, UnknownChoiceMessage("node", tag, NodeNames()));
-    TreeNode node{.node = info->node, .first_port = static_cast<uint16_t>(tree_.ports.size()), .line = element.line, .label = info->name};
+    const NodeInfo* info = palette_.Find(tag);
+    if (!info) Fail(element, UnknownChoiceMessage("node", tag, palette_.Names()));
+    TreeNode node{.node = info->node, .info = info, .first_port = static_cast<uint16_t>(tree_.ports.size()), .line = element.line, .order = element.order, .label = info->name};
 
     // Attributes are ports.
     std::vector<std::string> valid = {"name"};
@@ -197,6 +198,7 @@ class Compiler {
   }
 
   std::string file_;
+  const Palette& palette_;
   const ParsePort& parse_;
   TreeSet& set_;
   std::map<std::string, const XmlElement*> sources_;
@@ -206,9 +208,9 @@ class Compiler {
 
 }  // namespace
 
-void ReadTrees(std::string_view xml, std::string_view name, const ParsePort& parse, TreeSet& set) {
+void ReadTrees(std::string_view xml, std::string_view name, const Palette& palette, const ParsePort& parse, TreeSet& set) {
   const XmlElement root = ReadXml(xml, name);
-  Compiler(root, name, parse, set).Run();
+  Compiler(root, name, palette, parse, set).Run(std::make_shared<const std::string>(xml));
 }
 
-}  // namespace airsim360::internal
+}  // namespace airsim360::behaviour

@@ -1,0 +1,230 @@
+#include "airsim360/app/followed_server.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "airsim360/app/rpc_client.h"
+#include "airsim360/base/error.h"
+#include "airsim360/rpc/airsim_image_types.h"
+#include "airsim360/rpc/ned.h"
+#include "airsim360/view/planes.h"
+
+namespace airsim360 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr size_t kMostMessage = 4096, kKeptFrames = 4;
+constexpr double kNear = 0.5, kFar = 200, kMostSpeed = 15, kTurnRateDeg = 86;
+constexpr float kMoveSeconds = 0.5F;  // after which a drone that is told nothing stops
+constexpr const char* kCameras[] = {"panorama_original", "panorama_depth", "panorama_entity"};
+
+// What simGetImages gives of one panorama.
+struct Panorama {
+  int width = 0, height = 0;
+  std::string bytes;
+};
+
+// A picture that may still be asked about.
+struct Seen {
+  int64_t number = 0;
+  Frame frame;
+};
+
+void WriteRequests(WireWriter& writer, const std::string& vehicle) {
+  writer.ArrayHeader(std::size(kCameras));
+  for (const char* camera : kCameras) {
+    const bool is_depth = std::string_view(camera) == "panorama_depth";
+    writer.MapHeader(6);
+    writer.String("camera_name"), writer.String(camera);
+    writer.String("image_type"), writer.Int(0);
+    writer.String("pixels_as_float"), writer.Bool(is_depth);
+    writer.String("compress"), writer.Bool(false);
+    writer.String("annotation_name"), writer.String("");
+    writer.String("binary_float"), writer.Bool(is_depth);
+  }
+  writer.String(vehicle);
+  writer.Bool(false);
+}
+
+Panorama PanoramaOf(const WireValue& image, const char* pixels, size_t pixel_bytes) {
+  Panorama panorama;
+  const WireValue *width = image.Find("width"), *height = image.Find("height"), *data = image.Find(pixels);
+  if (!width || !height || !data) throw RuntimeError("the server's pictures are not understood");
+  FromWire(*width, panorama.width), FromWire(*height, panorama.height);
+  const bool fits = panorama.width > 0 && panorama.height > 0 && panorama.width <= 8192 && panorama.height <= 4096 &&
+                    data->text.size() == static_cast<size_t>(panorama.width) * static_cast<size_t>(panorama.height) * pixel_bytes;
+  if (!fits) throw RuntimeError("the server's pictures have another size than they say");
+  panorama.bytes = data->text;
+  return panorama;
+}
+
+// Blue, green, red.
+Image<Rgb8> ColorsOf(const Panorama& panorama) {
+  Image<Rgb8> rgb(panorama.width, panorama.height);
+  const auto* bytes = reinterpret_cast<const uint8_t*>(panorama.bytes.data());
+  for (size_t i = 0; i < rgb.size(); ++i) rgb.pixels()[i] = {bytes[3 * i + 2], bytes[3 * i + 1], bytes[3 * i]};
+  return rgb;
+}
+
+// A camera of AirSim looks along its x axis and has z down; C looks along z and has y down.
+Mat3d CameraRotation(const Mat3d& R_WB) {
+  const Vec3d ahead = R_WB.column(0), left = R_WB.column(1), up = R_WB.column(2);
+  Mat3d R;
+  for (int i = 0; i < 3; ++i) R.m[i][0] = -left[i], R.m[i][1] = -up[i], R.m[i][2] = ahead[i];
+  return R;
+}
+
+double Stick(const Json& input, size_t i) {
+  const double value = input[i].is_number() ? input[i].get<double>() : std::nan("");
+  if (!(std::abs(value) <= 1)) throw InputError("input: " + input[i].dump() + " is not in -1 ... 1");
+  return value;
+}
+
+}  // namespace
+
+struct FollowedServer::Impl {
+  explicit Impl(const FollowOptions& given) : options(given), client(given.address), moves(given.address) {}
+
+  SocketMessage Do(const Json& message, bool may_fly);
+  SocketMessage Picture();
+  SocketMessage Planes(const Json& message);
+  void Fly(const Json& input);
+  void Control(bool enabled);
+  std::string HeaderOf(const WireValue& image);
+
+  FollowOptions options;
+  RpcClient client, moves;  // a move is answered when it ends
+  std::mutex mutex;         // of what follows
+  int64_t next_number = 1;
+  std::deque<Seen> seen;  // newest last
+};
+
+void FollowedServer::Impl::Control(bool enabled) {
+  client.Call("enableApiControl", 2, [&](WireWriter& w) { w.Bool(enabled), w.String(options.vehicle); }, [](const WireValue&) {});
+}
+
+void FollowedServer::Impl::Fly(const Json& input) {
+  if (!input.is_array() || input.size() != 4) throw InputError("input: four numbers in -1 ... 1: forward, left, up, turn left");
+  const double ahead = Stick(input, 0), left = Stick(input, 1), up = Stick(input, 2), turn = Stick(input, 3);
+  if (ahead == 0 && left == 0 && up == 0 && turn == 0) return;
+  moves.Post("moveByVelocityBodyFrame", 7, [&](WireWriter& w) {
+    w.Float(static_cast<float>(ahead * kMostSpeed)), w.Float(static_cast<float>(-left * kMostSpeed)), w.Float(static_cast<float>(-up * kMostSpeed));
+    w.Float(kMoveSeconds), w.Int(0);
+    w.MapHeader(2), w.String("is_rate"), w.Bool(true), w.String("yaw_or_rate"), w.Float(static_cast<float>(-turn * kTurnRateDeg));
+    w.String(options.vehicle);
+  });
+}
+
+// Pose and time of a picture, as fields of the header.
+std::string FollowedServer::Impl::HeaderOf(const WireValue& image) {
+  airsim::Pose pose;
+  uint64_t stamp = 0;
+  if (const WireValue* p = image.Find("camera_position")) FromWire(*p, pose.position);
+  if (const WireValue* q = image.Find("camera_orientation")) FromWire(*q, pose.orientation);
+  if (const WireValue* t = image.Find("time_stamp")) FromWire(*t, stamp);
+  const RigidTransform X_WB = airsim::FromPose(pose, {});
+  const Quaternion q = ToQuaternion(CameraRotation(X_WB.R));
+  const Json fields{{"number", next_number}, {"t", 1e-9 * static_cast<double>(stamp)}, {"p", {X_WB.p.x, X_WB.p.y, X_WB.p.z}}, {"q", {q.w, q.x, q.y, q.z}}};
+  const std::string text = fields.dump();
+  return text.substr(1, text.size() - 2);
+}
+
+SocketMessage FollowedServer::Impl::Picture() {
+  PlaneMessage planes;
+  SocketMessage answer;
+  Seen next;
+  client.Call("simGetImages", 3, [&](WireWriter& w) { WriteRequests(w, options.vehicle); }, [&](const WireValue& images) {
+    if (images.items.size() != std::size(kCameras)) throw RuntimeError("the server's pictures are not understood");
+    next.frame.rgb = ColorsOf(PanoramaOf(images.items[0], "image_data_uint8", 3));
+    const Panorama range = PanoramaOf(images.items[1], "image_data_float", sizeof(float)), entity = PanoramaOf(images.items[2], "image_data_uint8", 3);
+    next.frame.range = Image<float>(range.width, range.height);
+    std::memcpy(next.frame.range.pixels().data(), range.bytes.data(), range.bytes.size());
+    const Image<Rgb8> ids = ColorsOf(entity);
+    next.frame.entity = Image<EntityId>(entity.width, entity.height);
+    for (size_t i = 0; i < ids.size(); ++i) next.frame.entity.pixels()[i] = ids.pixels()[i].r + 256U * ids.pixels()[i].g + 65536U * ids.pixels()[i].b;
+    const std::lock_guard lock(mutex);
+    next.number = next_number;
+    planes.AddPicture(next.frame.rgb);
+    planes.AddProduct(next.frame, "range");
+    planes.AddProduct(next.frame, "entity");
+    answer = {planes.Finish(HeaderOf(images.items[0])), true};
+    ++next_number;
+    seen.push_back(std::move(next));
+    if (seen.size() > kKeptFrames) seen.pop_front();
+  });
+  return answer;
+}
+
+SocketMessage FollowedServer::Impl::Planes(const Json& message) {
+  const std::lock_guard lock(mutex);
+  const auto number = message.value("number", int64_t{0});
+  const auto found = std::ranges::find(seen, number, &Seen::number);
+  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone");
+  PlaneMessage planes;
+  for (const char* name : {"range", "entity"}) planes.AddProduct(found->frame, name);
+  return {planes.Finish("\"number\":" + std::to_string(number)), true};
+}
+
+SocketMessage FollowedServer::Impl::Do(const Json& message, bool may_fly) {
+  const std::string what = message.value("do", "");
+  if (what == "planes") return Planes(message);
+  if (what != "picture") throw InputError("do: '" + what + "' is none of picture, planes: the world is elsewhere");
+  if (options.lease && message.contains("input")) {
+    if (!may_fly) throw InputError("token: flying needs the page's token");
+    Fly(message["input"]);
+  }
+  return Picture();
+}
+
+FollowedServer::FollowedServer(const FollowOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  impl_->client.Call("listVehicles", 0, [](WireWriter&) {}, [&](const WireValue& names) {
+    std::vector<std::string> all;
+    for (const WireValue& name : names.items) all.emplace_back(name.text);
+    if (all.empty()) throw InputError("--connect: the server at " + options.address + " has no vehicles");
+    if (impl_->options.vehicle.empty()) impl_->options.vehicle = all.front();
+    if (std::ranges::find(all, impl_->options.vehicle) == all.end()) throw InputError("--vehicle: " + UnknownChoiceMessage("vehicle", impl_->options.vehicle, all));
+  });
+  if (options.lease) impl_->Control(true);
+}
+
+FollowedServer::~FollowedServer() {
+  if (!impl_ || !impl_->options.lease) return;
+  try {
+    impl_->Control(false);
+  } catch (const std::exception&) {
+    // The server is gone: there is nothing to give back.
+  }
+}
+
+std::string FollowedServer::DescriptionJson() const {
+  return Json{{"world", impl_->options.vehicle + " at " + impl_->options.address}, {"products", {"range", "entity"}}, {"scale", {kNear, kFar}}, {"weathers", Json::array()},
+              {"keeps", false}, {"flies", impl_->options.lease}, {"follows", true}, {"categories", Json::array()}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string FollowedServer::EntitiesJson() const {
+  Json entities = Json::object();
+  impl_->client.Call("simListInstanceSegmentationObjects", 0, [](WireWriter&) {}, [&](const WireValue& names) {
+    for (size_t i = 0; i < names.items.size(); ++i) entities[std::to_string(i + 1)] = {{"name", names.items[i].text}, {"category_path", ""}, {"kind", "thing"}};
+  });
+  return entities.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+SocketMessage FollowedServer::Answer(std::string_view text, const std::string& token) {
+  const auto problem = [](const std::string& what) { return SocketMessage{Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace)}; };
+  if (text.size() > kMostMessage) return problem("a message has at most " + std::to_string(kMostMessage) + " bytes");
+  const Json message = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16 ? Json() : Json::parse(text, nullptr, false);
+  if (!message.is_object()) return problem("a message is a JSON object");
+  try {
+    return impl_->Do(message, message.contains("token") && message["token"] == token);
+  } catch (const std::exception& error) {
+    return problem(error.what());
+  }
+}
+
+}  // namespace airsim360

@@ -1,0 +1,70 @@
+#include "airsim360/people/crowd/tree_editing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "airsim360/base/error.h"
+#include "airsim360/people/crowd/test_crowd.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::TestCrowd;
+using internal::TestGround;
+
+std::shared_ptr<const Scene> Square() {
+  TestGround ground;
+  ground.Floor("ground/sidewalk", 0, 0, 30, 30);
+  return ground.Build();
+}
+
+std::string Waving(const std::string& tree) {
+  return "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"" + tree + "\"><Sequence><SetState state=\"waving\" min_s=\"5\" max_s=\"5\"/><Sleep msec=\"100000\" name=\"rest\"/></Sequence></BehaviorTree></root>";
+}
+
+CrowdRequest Six() {
+  CrowdRequest request;
+  request.count = 6;
+  return request;
+}
+
+TEST(TreeEditing, PeopleWhoLiveFollowTheEditedTreeAndOthersAreAsTheyWere) {
+  TestCrowd crowd(Square(), Six());
+  crowd.Run(3);
+  const std::string tree = MindOf(*crowd.model, crowd.state, 0).tree;
+  const auto edited = WithTrees(*crowd.model, Waving(tree), "page");
+  AdoptTrees(*crowd.model, *edited, crowd.state);
+  std::vector<std::vector<int>> before;
+  for (PersonIndex i = 0; i < 6; ++i) before.push_back(MindOf(*edited, crowd.state, i).active);
+  crowd.model = edited;
+  crowd.Run(2);
+  for (PersonIndex i = 0; i < 6; ++i) {
+    const PersonMind mind = MindOf(*edited, crowd.state, i);
+    EXPECT_EQ(PersonStateName(*edited, crowd.state, i) == "waving", mind.tree == tree) << i;
+    EXPECT_EQ(before[i].empty(), mind.tree == tree) << i;
+  }
+  // Sequence is element 2 of the file (root 0, BehaviorTree 1), SetState 3.
+  EXPECT_EQ(MindOf(*edited, crowd.state, 0).active, (std::vector<int>{2, 3}));
+  crowd.Run(5);
+  EXPECT_EQ(MindOf(*edited, crowd.state, 0).labels, (std::vector<std::string>{"Sequence", "rest"}));
+  EXPECT_EQ(TreeSource(*edited, tree), Waving(tree));
+}
+
+TEST(TreeEditing, WhatIsWrongChangesNothing) {
+  TestCrowd crowd(Square(), Six());
+  EXPECT_THROW(WithTrees(*crowd.model, Waving("x").replace(60, 4, "<Nod"), "page"), InputError);
+  try {
+    WithTrees(*crowd.model, "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\">\n<SetState state=\"wavin\"/></BehaviorTree></root>", "page");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("page:2: SetState state: unknown state 'wavin'; did you mean 'waving'"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(TreeSource(*crowd.model, "walkr"), InputError);
+  EXPECT_NE(TreeSource(*crowd.model, "walker").find("walker"), std::string::npos);
+  const std::vector<std::string> names = TreeNames(*crowd.model);
+  EXPECT_NE(std::ranges::find(names, "walker"), names.end());
+}
+
+}  // namespace
+}  // namespace airsim360
