@@ -5,7 +5,7 @@ import unittest
 from readers import FormatTest, tree
 
 FORMATS = ["omni360", "coco", "coco_entity", "coco_keypoints", "webdataset", "colmap", "nerfstudio", "tum", "euroc", "kitti_odometry", "cityscapes",
-           "ade20k", "wildpass", "mcap", "cryptomatte", "parquet", "vps", "step", "mots", "360vots", "flow", "lerobot", "video"]
+           "ade20k", "wildpass", "scannet", "matterport", "stanford2d3d", "mcap", "cryptomatte", "parquet", "vps", "step", "mots", "360vots", "flow", "lerobot", "video"]
 
 
 class Determinism(FormatTest):

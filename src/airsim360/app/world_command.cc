@@ -16,6 +16,7 @@
 #include "airsim360/assets/export.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
+#include "airsim360/dataset/rooms_json.h"
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/scene/entity_table.h"
 #include "airsim360/worlds/osm/osm_world.h"
@@ -237,13 +238,30 @@ void RunEntities(const EntitiesArguments& arguments, const GlobalOptions& global
                 row.X_WE.p.z);
 }
 
+void RunRooms(const std::string& world, const GlobalOptions& globals) {
+  const auto building = RoomsOf(RequestOf(world, globals));
+  if (!building) throw InputError("'" + world + "' is no building; rooms have apartment, office, warehouse, mall, car_park and building");
+  if (globals.json) {
+    std::fputs(RoomsJson(*building).c_str(), stdout);
+    return;
+  }
+  for (const RoomOutline& room : building->rooms)
+    std::printf("%4u  %-20s storey %d  %8.1f m2  height %.2f m  x %.2f … %.2f  y %.2f … %.2f\n", room.id, room.name.c_str(), room.storey, room.area_m2,
+                static_cast<double>(room.ceiling_z - room.floor_z), static_cast<double>(room.corners[0].x), static_cast<double>(room.corners[2].x),
+                static_cast<double>(room.corners[0].y), static_cast<double>(room.corners[2].y));
+  const auto name = [&](uint32_t id) { return id == 0 ? "outside" : building->rooms[id - 1].name.c_str(); };
+  for (const RoomDoor& door : building->doors)
+    std::printf("%-12s %3u  %-6s %.2f x %.2f m at %.2f,%.2f,%.2f  %s - %s\n", door.kind.c_str(), door.id, door.open > 0.5 ? "open" : "closed", static_cast<double>(door.width),
+                static_cast<double>(door.height), static_cast<double>(door.center.x), static_cast<double>(door.center.y), static_cast<double>(door.center.z), name(door.rooms[0]), name(door.rooms[1]));
+}
+
 constexpr const char* kWorldHelp = "name (airsim360 worlds) or path of a model, map or world .yaml";
 
 }  // namespace
 
 void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand(
-      "world", "worlds in and out: world export, world import, world entities, world sheet, world make");
+      "world", "worlds in and out: world export, world import, world entities, world rooms, world sheet, world make");
   command->require_subcommand(1);
   CLI::App* to_file = command->add_subcommand("export", "write a world with its names and labels as binary glTF");
   auto arguments = std::make_shared<ExportArguments>();
@@ -273,6 +291,11 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   AddWorldFlags(*entities, globals);
   entities->add_flag("--csv", table->csv, "comma-separated values");
   entities->callback([table, &globals] { RunEntities(*table, globals); });
+  CLI::App* rooms = command->add_subcommand("rooms", "rooms and doors of a building: outlines, heights, door states");
+  auto of = std::make_shared<std::string>();
+  rooms->add_option("world", *of, kWorldHelp)->required();
+  AddWorldFlags(*rooms, globals);
+  rooms->callback([of, &globals] { RunRooms(*of, globals); });
   CLI::App* sheet = command->add_subcommand(
       "sheet", "a contact sheet: panoramas from many places and heights, with brightness and label figures");
   auto view = std::make_shared<SheetArguments>();
@@ -285,9 +308,9 @@ void AddWorldCommand(CLI::App& app, GlobalOptions& globals) {
   AddConfigFlags(*sheet, [view](ConfigVisitor& v) { view->picture.Visit(v); });
   AddWorldFlags(*sheet, globals);
   sheet->callback([view, &globals] { RunWorldSheet(*view, globals); });
-  CLI::App* make = command->add_subcommand("make", "a town from words, as a world file");
+  CLI::App* make = command->add_subcommand("make", "a town or the inside of a building from words, as a world file");
   auto town = std::make_shared<MakeArguments>();
-  make->add_option("words", town->words, "what town: \"a small coastal town with a church and a marina, 40 ha\"")->required();
+  make->add_option("words", town->words, "what town or building: \"a small coastal town with a church and a marina, 40 ha\"")->required();
   make->add_option("--out", town->out, "the world file to write, NAME.yaml")->required();
   make->callback([town, &globals] { RunWorldMake(*town, globals); });
 }

@@ -2,12 +2,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 #include "airsim360/app/arguments.h"
 #include "airsim360/base/config.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
+#include "airsim360/worlds/interior/building_words.h"
 #include "airsim360/worlds/town_maker/town_words.h"
 
 namespace airsim360 {
@@ -20,6 +22,16 @@ std::string Comment(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   return "# " + text + "\n";
+}
+
+std::string BuildingText(const std::string& words, const BuildingRequest& request, const std::string& people, uint64_t seed) {
+  std::string text = Comment(words) + "world: building\nseed: " + std::to_string(seed) + "\n";
+  if (!people.empty()) text += Comment("people: open it with --people " + people);
+  text += "building:\n";
+  BuildingSpec spec = request.spec;
+  std::istringstream lines(DescribeConfig([&](ConfigVisitor& v) { spec.Visit(v); }));
+  for (std::string line; std::getline(lines, line);) text += "  " + line + "\n";
+  return text;
 }
 
 std::string WorldText(const std::string& words, const TownRequest& request, const std::string& people, uint64_t seed) {
@@ -39,14 +51,23 @@ void RunWorldMake(const MakeArguments& arguments, const GlobalOptions& globals) 
   const fs::path out = arguments.out;
   if (out.extension() != ".yaml" && out.extension() != ".yml")
     throw InputError("--out: '" + arguments.out + "': a world file is a .yaml; did you mean '" + fs::path(out).replace_extension(".yaml").string() + "'?");
-  const TownRequest request = TownFromWords(arguments.words);
+  // Of a building from inside, else of a town.
+  const std::optional<BuildingRequest> building = BuildingFromWords(arguments.words);
+  TownRequest request;
+  if (!building) request = TownFromWords(arguments.words);
+  if (building) {
+    request.people = building->people;
+    for (const auto& [word, as] : building->words) request.words.push_back({word, as});
+  }
   if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
   fs::path people;
   if (request.people > 0) {
     people = fs::path(out).replace_extension(".people.yaml");
-    WriteFileAtomically(people, std::string_view("areas:\n  - name: town\n    count: " + std::to_string(request.people) + "\n"));
+    WriteFileAtomically(people, std::string_view(std::string("areas:\n  - name: ") + (building ? "building" : "town") + "\n    count: " + std::to_string(request.people) + "\n"));
   }
-  WriteFileAtomically(out, std::string_view(WorldText(arguments.words, request, people.filename().string(), globals.seed)));
+  const std::string text = building ? BuildingText(arguments.words, *building, people.filename().string(), globals.seed)
+                                    : WorldText(arguments.words, request, people.filename().string(), globals.seed);
+  WriteFileAtomically(out, std::string_view(text));
   if (globals.json) {
     nlohmann::ordered_json json{{"out", out.string()}, {"seed", globals.seed}, {"people", request.people}};
     if (!people.empty()) json["people_file"] = people.string();

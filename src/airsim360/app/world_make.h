@@ -1,4 +1,4 @@
-// `airsim360 world make`: a town from words, as a world file.
+// `airsim360 world make`: a town or a building from words, as a world file.
 #pragma once
 
 #include <string>

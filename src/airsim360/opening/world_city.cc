@@ -41,9 +41,15 @@ bool WorldAdditions::no_town() const {
   return text(town) == text({});
 }
 
+bool WorldAdditions::no_building() const {
+  const auto text = [](BuildingSpec building) { return DescribeConfig([&](ConfigVisitor& v) { building.Visit(v); }); };
+  return text(building) == text({});
+}
+
 void WorldAdditions::Visit(ConfigVisitor& v) {
   v.Group("city", "measures of new_york_city", [&](ConfigVisitor& group) { VisitCity(group, city); });
   v.Group("town", "measures of the world town", [&](ConfigVisitor& group) { town.Visit(group); });
+  v.Group("building", "measures of the world building", [&](ConfigVisitor& group) { building.Visit(group); });
   v.List("props", "models of your own", props,
          [](ConfigVisitor& entry, PropFile& prop) { VisitProp(entry, prop); });
 }
@@ -52,6 +58,7 @@ void WorldAdditions::Resolve(const std::filesystem::path& file) {
   try {
     StylesOf(city.styles);
     town.Check("town: ");
+    building.Check("building: ");
     for (PropFile& prop : props) {
       if (prop.model.empty()) throw InputError("props: an entry without 'model'");
       SemanticTree().Add(prop.label);
@@ -68,6 +75,7 @@ void WorldAdditions::AddTo(CacheKey& key) const {
   WorldAdditions copy = *this;
   key.Add(DescribeConfig([&](ConfigVisitor& v) { VisitCity(v, copy.city); }));
   key.Add(DescribeConfig([&](ConfigVisitor& v) { copy.town.Visit(v); }));
+  key.Add(DescribeConfig([&](ConfigVisitor& v) { copy.building.Visit(v); }));
   for (PropFile& prop : copy.props) {
     key.Add(DescribeConfig([&](ConfigVisitor& v) { VisitProp(v, prop); }));
     key.AddFile(prop.model);

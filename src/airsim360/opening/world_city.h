@@ -23,12 +23,14 @@ struct PropFile {
 struct WorldAdditions {
   CityOptions city;
   TownSpec town;
+  BuildingSpec building;
   std::vector<PropFile> props;
 
-  /// Whether nothing is said of the city, or of the town.
+  /// Whether nothing is said of the city, of the town, or of the building.
   bool no_city() const;
   bool no_town() const;
-  /// Names the fields `city:`, `town:` and `props:`.
+  bool no_building() const;
+  /// Names the fields `city:`, `town:`, `building:` and `props:`.
   void Visit(ConfigVisitor& v);
   /// Paths of the models start at `folder`; checks names and labels. InputError naming `file`.
   void Resolve(const std::filesystem::path& file);

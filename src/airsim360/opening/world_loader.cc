@@ -113,7 +113,8 @@ std::shared_ptr<const Scene> BuildAnew(const WorldRequest& request, OsmReport* r
                                       .models = models.get(),
                                       .city = request.additions.city,
                                       .props = request.additions.LoadModels(),
-                                      .town = request.additions.town});
+                                      .town = request.additions.town,
+                                      .building = request.additions.building});
   }
   OsmOptions options{.seed = request.seed, .models = models.get(), .cut = request.cut, .fill = request.fill};
   if (!request.heights.empty())
@@ -151,6 +152,8 @@ void CheckAdditions(const WorldRequest& request) {
     throw InputError("'" + request.world +
                      "': 'city' is for new_york_city, 'props' for it and downtown_west");
   if (!request.additions.no_town() && request.world != "town") throw InputError("'" + request.world + "': 'town' is for the world town");
+  if (!request.additions.no_building() && request.world != "building")
+    throw InputError("'" + request.world + "': 'building' is for the world building");
 }
 
 std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
@@ -187,6 +190,15 @@ std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request) {
   }
   if (!IsOsmFile(request.world)) return std::nullopt;
   return OriginOfOsmWorld(request.world, request.cut);
+}
+
+std::optional<BuildingRooms> RoomsOf(const WorldRequest& request) {
+  if (IsWorldFile(request.world)) {
+    EnvironmentWords environment;
+    return RoomsOf(ReadWorldFile(request.world, request, environment));
+  }
+  CheckAdditions(request);
+  return RoomsOfWorld(request.world, {.seed = request.seed, .building = request.additions.building});
 }
 
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {

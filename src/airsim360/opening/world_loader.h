@@ -35,4 +35,7 @@ std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* rep
 /// maps.
 std::optional<GeoPoint> OriginOfWorld(const WorldRequest& request);
 
+/// Rooms and doors of a building, found without building it; nullopt for worlds that are no buildings.
+std::optional<BuildingRooms> RoomsOf(const WorldRequest& request);
+
 }  // namespace airsim360

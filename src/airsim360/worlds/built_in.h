@@ -67,4 +67,19 @@ WorldInfo RuralCabinsInfo();
 std::shared_ptr<const Scene> BuildTown(const WorldOptions& options);
 WorldInfo TownInfo();
 
+/// Buildings from inside (interior/interiors.cc): five by name, and one of the measures in options.building.
+std::shared_ptr<const Scene> BuildApartment(const WorldOptions& options);
+WorldInfo ApartmentInfo();
+std::shared_ptr<const Scene> BuildOffice(const WorldOptions& options);
+WorldInfo OfficeInfo();
+std::shared_ptr<const Scene> BuildWarehouse(const WorldOptions& options);
+WorldInfo WarehouseInfo();
+std::shared_ptr<const Scene> BuildMall(const WorldOptions& options);
+WorldInfo MallInfo();
+std::shared_ptr<const Scene> BuildCarPark(const WorldOptions& options);
+WorldInfo CarParkInfo();
+std::shared_ptr<const Scene> BuildBuilding(const WorldOptions& options);
+WorldInfo BuildingInfo();
+std::optional<BuildingRooms> RoomsOfBuilding(std::string_view name, const WorldOptions& options);
+
 }  // namespace airsim360::internal

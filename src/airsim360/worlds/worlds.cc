@@ -13,19 +13,25 @@ struct BuiltIn {
 };
 
 constexpr BuiltIn kBuiltIn[] = {
+    {"apartment", internal::ApartmentInfo, internal::BuildApartment},
     {"box_room", internal::BoxRoomInfo, internal::BuildBoxRoom},
+    {"building", internal::BuildingInfo, internal::BuildBuilding},
+    {"car_park", internal::CarParkInfo, internal::BuildCarPark},
     {"city_park", internal::CityParkInfo, internal::BuildCityPark},
     {"downtown_city", internal::DowntownCityInfo, internal::BuildDowntownCity},
     {"downtown_west", internal::DowntownWestInfo, internal::BuildDowntownWest},
     {"lisbon_downtown", internal::LisbonDowntownInfo, internal::BuildLisbonDowntown},
+    {"mall", internal::MallInfo, internal::BuildMall},
     {"map_town", internal::MapTownInfo, internal::BuildMapTown},
     {"new_york_city", internal::NewYorkCityInfo, internal::BuildNewYorkCity},
+    {"office", internal::OfficeInfo, internal::BuildOffice},
     {"rome", internal::RomeInfo, internal::BuildRome},
     {"roof", internal::RoofInfo, internal::BuildRoof},
     {"rural_cabins", internal::RuralCabinsInfo, internal::BuildRuralCabins},
     {"sf_city", internal::SfCityInfo, internal::BuildSfCity},
     {"sunlit_room", internal::SunlitRoomInfo, internal::BuildSunlitRoom},
     {"town", internal::TownInfo, internal::BuildTown},
+    {"warehouse", internal::WarehouseInfo, internal::BuildWarehouse},
 };
 
 }  // namespace
@@ -37,6 +43,10 @@ const std::vector<WorldInfo>& ListWorlds() {
     return infos;
   }();
   return list;
+}
+
+std::optional<BuildingRooms> RoomsOfWorld(std::string_view name, const WorldOptions& options) {
+  return internal::RoomsOfBuilding(name, options);
 }
 
 std::shared_ptr<const Scene> BuildWorld(std::string_view name, const WorldOptions& options) {

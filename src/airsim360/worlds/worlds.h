@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "airsim360/scene/building_rooms.h"
 #include "airsim360/scene/model_source.h"
 #include "airsim360/scene/scene.h"
+#include "airsim360/worlds/building_spec.h"
 #include "airsim360/worlds/town_spec.h"
 
 namespace airsim360 {
@@ -51,7 +54,11 @@ struct WorldOptions {
   CityOptions city = {};
   std::vector<PlacedModel> props = {};
   TownSpec town = {};  ///< of the world "town" alone
+  BuildingSpec building = {};  ///< of the world "building" alone
 };
+
+/// Rooms and doors of a building by the name of its world, without building it; nullopt for worlds that are none.
+std::optional<BuildingRooms> RoomsOfWorld(std::string_view name, const WorldOptions& options);
 
 /// Builds a world; InputError naming the nearest if there is no such world.
 std::shared_ptr<const Scene> BuildWorld(std::string_view name, const WorldOptions& options);

@@ -1,9 +1,10 @@
-// Label pictures by the tables of Cityscapes, ADE20K and WildPASS, and what share of the pixels has no class there.
+// Label pictures by the tables of Cityscapes, ADE20K, WildPASS and indoor data sets, and what share of the pixels has no class there.
 #include <cstdio>
 #include <functional>
 
 #include "airsim360/dataset/export/cityscapes_ids.h"
 #include "airsim360/dataset/export/export_job.h"
+#include "airsim360/dataset/export/indoor_classes.h"
 #include "airsim360/image/codecs.h"
 
 namespace airsim360::internal {
@@ -170,5 +171,28 @@ void ExportWildPass(ExportJob& job) {
   for (size_t i = 0; i < WildPassRows().size(); ++i) classes += std::to_string(i) + " " + WildPassRows()[i].name + "\n";
   job.out.Write("classes.txt", classes);
 }
+
+namespace {
+
+// 0 = none; the classes by number beside them.
+void ExportIndoor(ExportJob& job, IndoorList list) {
+  const auto value = [list](const NativeCategory& c) { return IndoorId(list, c.path); };
+  const std::vector<uint8_t> table = Table(job, value, 0);
+  EachPicture(job, value, [&](const NativeFrame& frame, const View& view, const Image<CategoryId>& semantic) {
+    const std::string stem = frame.stem + view.suffix;
+    job.out.Write("color/" + stem + job.data.Extension("rgb"), job.data.Read(frame, view, "rgb"));
+    job.out.Write("label/" + stem + ".png", EncodePng(Mapped(semantic, table)));
+  });
+  std::string classes;
+  int id = 0;
+  for (const char* name : IndoorNames(list)) classes += std::to_string(++id) + " " + name + "\n";
+  job.out.Write("classes.txt", classes);
+}
+
+}  // namespace
+
+void ExportScanNet(ExportJob& job) { ExportIndoor(job, IndoorList::kNyu40); }
+void ExportMatterport(ExportJob& job) { ExportIndoor(job, IndoorList::kMpcat40); }
+void ExportStanford2d3d(ExportJob& job) { ExportIndoor(job, IndoorList::kStanford13); }
 
 }  // namespace airsim360::internal
