@@ -28,7 +28,7 @@ class Cache(ProgramTest):
         self.assertEqual(self.entries(), [])
         self.assertEqual(self.shoot("first", world="sunlit_room"), fresh)
         kinds = [entry.name.split("-")[0] for entry in self.entries()]
-        self.assertEqual(kinds, ["light_probes", "scene", "sky"])
+        self.assertEqual(kinds, ["indoor_light", "light_probes", "scene", "sky"])
         times = [entry.stat().st_ino for entry in self.entries()]
         self.assertEqual(self.shoot("second", world="sunlit_room"), fresh)
         self.assertEqual([entry.stat().st_ino for entry in self.entries()], times, "written again")

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "airsim360/render/cpu/cpu_renderer.h"
 #include "gpu_fixture.h"
 
 namespace airsim360::test {
@@ -17,7 +18,7 @@ struct Pair {
 
   Pair(std::shared_ptr<const Scene> scene, const Environment& environment, Tier tier)
       : tracer(std::make_shared<const RayTracer>(std::move(scene), RayTracerOptions{.isa = "avx2"})),
-        cpu(MakeCpuRenderer(tracer, {.tier = tier, .environment = environment})),
+        cpu(MakeCpuRendererWithoutRooms(tracer, {.tier = tier, .environment = environment})),
         gpu(MakeVulkanRenderer(tracer, {.tier = tier, .environment = environment}, {.validate = true})) {}
 };
 

@@ -1,4 +1,6 @@
 // Tile-local wavefront on Embree: generate, trace and label 256 rays, shade them, then antialias the edges.
+#include "airsim360/render/cpu/cpu_renderer.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -50,10 +52,13 @@ bool IsFinite(const RigidTransform& X) {
   return std::isfinite(sum);
 }
 
+bool IsLit(Tier tier) { return tier == Tier::kFast || tier == Tier::kHigh; }
+
 class CpuRenderer : public Renderer, public Relightable {
  public:
-  CpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options)
-      : tracer_(std::move(tracer)),
+  CpuRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options, bool rooms)
+      : rooms_(rooms),
+        tracer_(std::move(tracer)),
         dynamic_(tracer_),
         applied_(tracer_),
         environment_(options.environment.value_or(tracer_->scene().environment)),
@@ -61,6 +66,7 @@ class CpuRenderer : public Renderer, public Relightable {
         labels_(tables_.view()),
         products_(SceneOf(tracer_)) {
     if (options.tier != Tier::kLabels) shader_ = std::make_unique<Shader>(tracer_, environment_);
+    if (rooms_ && IsLit(options.tier)) shader_->PrepareIndoors();
     if (options.tier == Tier::kHigh) high_->Prepare(*tracer_, *shader_);
   }
 
@@ -93,6 +99,7 @@ class CpuRenderer : public Renderer, public Relightable {
     return field.separable && std::abs(latitude) > 1.0 / 3 ? PacketShape::kRow : PacketShape::kBlock;
   }
 
+  const bool rooms_;                         // whether they have their own light
   std::shared_ptr<const RayTracer> tracer_;  // of the scene as built
   DynamicTracer dynamic_;
   std::shared_ptr<const RayTracer> applied_;  // of the instant that all tables show
@@ -169,6 +176,11 @@ RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
     shader_ = std::make_unique<Shader>(tracer_, environment_);
     shader_->Apply(applied_);
   }
+  if (rooms_ && color && IsLit(request.tier)) shader_->PrepareIndoors();
+  // Rooms are so much darker than the day that its exposure shows nothing of them.
+  if (rooms_ && color && !request.light && request.exposure_ev == 0 && !std::holds_alternative<CubeFace>(request.camera) &&
+      shader_->IsIndoors(VecCast<float>(request.X_WC.p)))
+    request.auto_exposure = true;
   SetState(request.state);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
@@ -243,8 +255,10 @@ uint64_t CpuRenderer::RenderTiles(const RenderRequest& request, bool color, Fram
 // Light of tier `reference`; returns the number of paths.
 uint64_t CpuRenderer::RenderPaths(const RenderRequest& request, Image<Rgb32f>& radiance) {
   const int samples = request.samples > 0 ? request.samples : PathTracerOptions::kDefaultSamples;
-  TracePaths(*applied_, *shader_, rays_, VecCast<float>(request.X_WC.p),
-             {.samples = samples, .seed = request.seed}, radiance);
+  PathTracerOptions options{.samples = samples, .seed = request.seed};
+  constexpr int kBouncesInRooms = 32;
+  if (rooms_ && shader_->HasRooms()) options.max_bounces = kBouncesInRooms;
+  TracePaths(*applied_, *shader_, rays_, VecCast<float>(request.X_WC.p), options, radiance);
   const RayField& field = rays_.field();
   for (int y = 0; y < field.height && !field.separable; ++y)
     for (int x = 0; x < field.width; ++x)
@@ -360,7 +374,12 @@ void CpuRenderer::Develop(ToneCurve tone, const Image<Rgb32f>& radiance, Frame& 
 
 std::unique_ptr<Renderer> MakeCpuRenderer(std::shared_ptr<const RayTracer> tracer,
                                           const RendererOptions& options) {
-  return std::make_unique<CpuRenderer>(std::move(tracer), options);
+  return std::make_unique<CpuRenderer>(std::move(tracer), options, true);
+}
+
+std::unique_ptr<Renderer> MakeCpuRendererWithoutRooms(std::shared_ptr<const RayTracer> tracer,
+                                                      const RendererOptions& options) {
+  return std::make_unique<CpuRenderer>(std::move(tracer), options, false);
 }
 
 }  // namespace airsim360

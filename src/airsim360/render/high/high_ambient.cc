@@ -143,6 +143,23 @@ class AmbientTile {
     way.hits.lamp_r[i] = light.x, way.hits.lamp_g[i] = light.y, way.hits.lamp_b[i] = light.z;
   }
 
+  // What rays meet in rooms has the light that is known there.
+  void SeeRooms(const Way& way) {
+    const RayHit16& packet = way.packet;
+    for (int i = 0; i < 16; ++i) {
+      if (way.hits.instance[i] == kMiss || shader_.moving[way.hits.instance[i]]) continue;
+      const InstanceRecord& instance = shader_.view.instances[way.hits.instance[i]];
+      const Vec3f n = UnpackDirection(shader_.view.triangles[instance.first_triangle + way.hits.triangle[i]].geometric_normal);
+      const float* m = instance.normal_matrix;
+      Vec3f normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
+                                      m[6] * n.x + m[7] * n.y + m[8] * n.z});
+      const Vec3f d{packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]};
+      if (Dot(normal, d) > 0) normal = -normal;
+      const Vec3f p = Vec3f{packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]} + d * packet.t_far[i];
+      if (const auto light = shader_.indoor->RadianceAt(p, normal)) r_[i] = light->x, g_[i] = light->y, b_[i] = light->z;
+    }
+  }
+
   void AddLight(const Way& way, float leaf_share) {
     shader_.kernels.shade_ambient(shader_.view, sun_map_, way.packet, way.hits, r_, g_, b_);
     constexpr float kYellow[3] = {1.10f, 1.15f, 0.55f};  // as in RespondTo (light_kernel.cc)
@@ -152,6 +169,7 @@ class AmbientTile {
       if (way.behind) weight = weight * Vec3f{kYellow[0], kYellow[1], kYellow[2]} * s_.transmission[index_[i]];
       r_[i] *= weight.x, g_[i] *= weight.y, b_[i] *= weight.z;
     }
+    if (shader_.indoor) SeeRooms(way);
     for (int i = 0; i < 16; ++i) sum_r_[i] += r_[i];
     for (int i = 0; i < 16; ++i) sum_g_[i] += g_[i];
     for (int i = 0; i < 16; ++i) sum_b_[i] += b_[i];
@@ -178,16 +196,22 @@ class AmbientTile {
 }  // namespace
 
 void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
-                   const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, HighTile& tile) {
+                   const RaySet& rays, const SurfaceSet& s, const LightTerms& terms, const IndoorLight* room,
+                   HighTile& tile) {
   constexpr float kVisible = 1e-3f;  // radiance per irradiance that matters
+  constexpr float kKnown = 0.999f;   // share of surfels from which no ray is sent
   int16_t of_slot[256];
   std::fill(std::begin(of_slot), std::end(of_slot), int16_t{-1});
   for (int i = 0; i < rays.count; ++i) {
     const uint32_t slot = rays.slot[i];
     tile.light_r[slot] = tile.light_g[slot] = tile.light_b[slot] = 0;
     tile.light_samples[slot] = 0;
-    if (terms.ambient_r[i] + terms.ambient_g[i] + terms.ambient_b[i] > kVisible)
+    if (room != nullptr && room->share[i] > kKnown) {
+      tile.light_r[slot] = room->r[i], tile.light_g[slot] = room->g[i], tile.light_b[slot] = room->b[i];
+      tile.light_samples[slot] = kCertain;
+    } else if (terms.ambient_r[i] + terms.ambient_g[i] + terms.ambient_b[i] > kVisible) {
       of_slot[slot] = static_cast<int16_t>(i);
+    }
   }
   AmbientTile ambient(shader, sun_map, sampling, rays, s, tile);
   for (int phase = 0; phase < 16; ++phase) {
@@ -196,6 +220,14 @@ void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const 
       if (of_slot[slot] >= 0) surfaces[count++] = of_slot[slot];
     }
     if (count > 0) ambient.GatherPhase(phase, surfaces, count);
+  }
+  for (int i = 0; room != nullptr && i < rays.count; ++i) {
+    const float share = room->share[i];
+    if (share <= 0 || share > kKnown || of_slot[rays.slot[i]] < 0) continue;
+    const uint32_t slot = rays.slot[i];
+    tile.light_r[slot] += share * (room->r[i] - tile.light_r[slot]);
+    tile.light_g[slot] += share * (room->g[i] - tile.light_g[slot]);
+    tile.light_b[slot] += share * (room->b[i] - tile.light_b[slot]);
   }
 }
 

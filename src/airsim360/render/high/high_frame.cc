@@ -88,6 +88,10 @@ struct HighFrame::Impl {
   void TraceTile(int tile);
   HighPlanes Planes();
   void Denoise();
+  // Whether some light has noise: in rooms alone there may be none.
+  bool Noisy() const {
+    return !shader->impl().indoor || std::ranges::any_of(buffers.light_samples.pixels(), [](uint8_t n) { return n != 0 && n != kCertain; });
+  }
   void Combine(CombinedPlanes planes);
   void CombineTile(int tile, CombinedPlanes planes);
 };
@@ -110,7 +114,7 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   impl.frames = request.temporal ? impl.frames + 1 : 0;
 
   impl.TraceTiles();
-  if (request.denoise) impl.Denoise();
+  if (request.denoise && impl.Noisy()) impl.Denoise();
   HighBuffers& buffers = impl.buffers;
   if (radiance.width() != field.width || radiance.height() != field.height)
     radiance = Image<Rgb32f>(field.width, field.height);

@@ -12,8 +12,10 @@ namespace airsim360::internal {
 void TraceSunDisc(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays,
                   SurfaceSet& surfaces, uint8_t* penumbra);
 
+/// `room`, if not nullptr: what is known by surfels needs no rays.
 /// Sends the ambient rays of a tile and leaves their mean and number in `light_*` and `light_samples`.
 void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const TileSampling& sampling,
-                   const RaySet& rays, const SurfaceSet& surfaces, const LightTerms& terms, HighTile& tile);
+                   const RaySet& rays, const SurfaceSet& surfaces, const LightTerms& terms, const IndoorLight* room,
+                   HighTile& tile);
 
 }  // namespace airsim360::internal

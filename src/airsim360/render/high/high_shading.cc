@@ -119,7 +119,10 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
     else
       TraceUnknownSun(impl, rays, sun_known, surfaces);
   }
-  impl.LightByLamps(rays, kLampRays, surfaces);
+  IndoorLight room;
+  const bool indoors = impl.LookIndoors(rays, surfaces, room);
+  impl.LightByLamps(rays, indoors ? 0 : kLampRays, surfaces);
+  if (indoors && impl.view.lamps.lamps != nullptr) impl.kernels.mix_lamps(room, rays.count, surfaces);
   alignas(64) float u[kBatch], v[kBatch];
   ReflectionPoints(rays, surfaces, sampling, u, v);
   impl.kernels.scatter(rays, u, v, surfaces);
@@ -130,7 +133,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, own);
   if (!all) PutTerms(rays, own, terms);
   PutSurfaces(rays, all, surfaces, tile);
-  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, tile);
+  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, indoors ? &room : nullptr, tile);
 }
 
 }  // namespace airsim360::internal

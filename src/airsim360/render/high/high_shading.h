@@ -33,6 +33,9 @@ struct TileSampling {
 /// HighTile::penumbra counts a pixel in so many steps.
 inline constexpr float kPenumbraSteps = 8;
 
+/// HighTile::light_samples of light that has no noise.
+inline constexpr uint8_t kCertain = 255;
+
 /// In the order of a HitBatch; zeros where nothing was met.
 struct alignas(64) HighTile {
   float sun_seen[kBatch];                                      ///< share of the disc

@@ -87,7 +87,7 @@ void PathBatch::Escape(RaySet& misses) {
     const Vec3f d = DirectionAt(misses, i);
     float of_sky = 1, of_sun = 1;
     if (path.pdf > 0 && next_event_) {
-      of_sky = path.pdf / (path.pdf + scene_.lights.SkyPdf(d));
+      of_sky = path.pdf / (path.pdf + scene_.lights.SkyPdf(path.from, d));
       of_sun = path.pdf / (path.pdf + scene_.lights.SunPdf(d));
     }
     path.radiance += path.throughput * (Vec3f{sky.r[i], sky.g[i], sky.b[i]} * of_sky +
@@ -152,8 +152,9 @@ void PathBatch::JoinSun(uint32_t step) {
 void PathBatch::JoinSky(uint32_t step) {
   for (int i = 0; i < at_.count; ++i) {
     const Path& path = paths_[at_.slot[i]];
+    const Vec3f p{surfaces_.px[i], surfaces_.py[i], surfaces_.pz[i]};
     SetLight(i,
-             scene_.lights.SampleSky(path.sampler.Pair(path.sample, kFirstPair + 1 + step * kPairsPerStep)));
+             scene_.lights.SampleSky(p, path.sampler.Pair(path.sample, kFirstPair + 1 + step * kPairsPerStep)));
   }
   JoinLights(true);
 }

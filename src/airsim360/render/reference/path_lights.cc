@@ -14,6 +14,7 @@ constexpr float kSunRadius = 0.004625f;  // radians; as in light_kernel.cc
 PathLights::PathLights(const Shader::Impl& parts)
     : sky_(parts.sky ? &*parts.sky : nullptr), lamps_(parts.lights) {
   if (sky_ == nullptr) return;
+  if (parts.enclosure) portals_ = Portals(*parts.built, *parts.enclosure);
   to_sun_ = sky_->to_sun();
   sun_radiance_ = sky_->sun_radiance();
   // As in surface_kernel.cc, a sun just below the horizon shines, a lower one does not.
@@ -47,6 +48,18 @@ Vec3f PathLights::SunRadiance(Vec3f p, Vec3f d) const {
 LightRay PathLights::SampleSky(Vec2f u) const {
   const SkySample sample = sky_->Sample(u);
   return {sample.direction, {1, 1, 1}, sample.pdf, INFINITY};
+}
+
+LightRay PathLights::SampleSky(Vec3f p, Vec2f u) const {
+  const float share = portals_.Share(p);
+  if (share == 0) return SampleSky(u);
+  const Vec3f d = u.x < share ? portals_.Sample(p, {u.x / share, u.y}) : SampleSky({(u.x - share) / (1 - share), u.y}).direction;
+  return {d, {1, 1, 1}, SkyPdf(p, d), INFINITY};
+}
+
+float PathLights::SkyPdf(Vec3f p, Vec3f d) const {
+  const float share = portals_.Share(p);
+  return share == 0 ? SkyPdf(d) : (1 - share) * SkyPdf(d) + share * portals_.Pdf(p, d);
 }
 
 LightRay PathLights::SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const {

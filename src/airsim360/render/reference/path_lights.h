@@ -2,6 +2,7 @@
 #pragma once
 
 #include "airsim360/math/vector.h"
+#include "airsim360/render/reference/portals.h"
 #include "airsim360/render/shading/shader_impl.h"
 
 namespace airsim360::internal {
@@ -33,6 +34,9 @@ class PathLights {
 
   LightRay SampleSky(Vec2f u) const;
   float SkyPdf(Vec3f direction) const { return sky_ != nullptr ? sky_->Pdf(direction) : 0.0f; }
+  /// The same for a surface at p: in rooms most go for their panes.
+  LightRay SampleSky(Vec3f p, Vec2f u) const;
+  float SkyPdf(Vec3f p, Vec3f direction) const;
 
   /// A point of a lamp for a surface at p; a zero normal takes light from all sides.
   LightRay SampleLamp(Vec3f p, Vec3f normal, Vec3f u) const;
@@ -44,6 +48,7 @@ class PathLights {
  private:
   const Sky* sky_;
   const LightTable& lamps_;
+  Portals portals_;
   Vec3f to_sun_, sun_radiance_, sun_right_, sun_up_;
   bool has_sun_ = false;
 };

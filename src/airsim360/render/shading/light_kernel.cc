@@ -1,4 +1,5 @@
 // Kernel: from surfaces and their visibility of the sun to radiance; the sky itself; display colours.
+#include "airsim360/render/indoor/indoor_kernels.h"
 #include "airsim360/render/shared/shading_ambient.h"
 #include "airsim360/render/shared/shading_kernels.h"
 
@@ -120,7 +121,7 @@ KERNEL void Air(const ShadeView& view, const RaySet& rays, int i, real3 d, real3
 }
 
 KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const SurfaceSet& s, int i, LastBsdf& last,
-                        LightSet& out) {
+                        LightSet& out, const IndoorLight* indoor = nullptr) {
   const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
   const real3 p = load3(s.px + i, s.py + i, s.pz + i);
   const real3 n = load3(s.nx + i, s.ny + i, s.nz + i), g = load3(s.gx + i, s.gy + i, s.gz + i);
@@ -128,11 +129,25 @@ KERNEL void LightVector(const ShadeView& view, const RaySet& rays, const Surface
   const real sunlit = load(s.sunlit + i);
   const Response surface = RespondTo(view, s, i, d, stdx::any_of(sunlit > 0.0f), last);
 
-  const Ambient ambient = SampleProbes(view, p, g, n, r);
+  Ambient ambient = SampleProbes(view, p, g, n, r);
+  real contact = load(s.contact + i), share = real(0.0f);
+  if (indoor != nullptr) {
+    // Rooms mirror the light that their surfaces get.
+    const real3 kept = load3(indoor->r + i, indoor->g + i, indoor->b + i);
+    share = load(indoor->share + i);
+    ambient.front = lerp3(ambient.front, kept, share);
+    ambient.reflected = lerp3(ambient.reflected, kept, share);
+    contact = contact + (1.0f - contact) * share;
+  }
   const real crown = sel(load(s.kind + i) == kFoliage, real(SHADE_CROWN), real(1.0f));
-  const real3 body = (surface.body * ambient.front * load(s.contact + i) + surface.leaf * ambient.back) *
+  const real3 body = (surface.body * ambient.front * contact + surface.leaf * ambient.back) *
                      (crown * SHADE_INV_PI);
-  const real3 mirrored = Reflection(view, s, i, r, ambient.reflected) * surface.skin;
+  real3 seen = Reflection(view, s, i, r, ambient.reflected);
+  if (indoor != nullptr) {
+    const mask_t inside = (share > 0.5f) && !(load(s.traced + i) > 0.5f);
+    seen = sel3(inside, ambient.reflected * real(SHADE_INV_PI), seen);
+  }
+  const real3 mirrored = seen * surface.skin;
   real3 light = body + Behind(s, i, surface.straight) + surface.sun * sunlit + mirrored +
                 OwnAndLamps(view, s, i, surface);
   if (view.has_sky > 0.5f) {
@@ -208,6 +223,12 @@ KERNEL void StorePacked(ureal lanes, uint8_t* to) {
 void LightSurfaces(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightSet& light) {
   LastBsdf last;
   for (int i = 0; i < rays.count; i += kLanes) LightVector(view, rays, surfaces, i, last, light);
+}
+
+void LightSurfacesIndoors(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, const IndoorLight& indoor,
+                          LightSet& light) {
+  LastBsdf last;
+  for (int i = 0; i < rays.count; i += kLanes) LightVector(view, rays, surfaces, i, last, light, &indoor);
 }
 
 void SplitLight(const ShadeView& view, const RaySet& rays, const SurfaceSet& surfaces, LightTerms& terms) {

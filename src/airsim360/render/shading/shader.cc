@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "airsim360/base/log.h"
 #include "airsim360/render/shading/light_cache.h"
 #include "airsim360/render/shading/secondary_rays.h"
 #include "airsim360/render/shading/shade_view.h"
@@ -53,7 +54,8 @@ std::string KeyOf(const Environment& environment) {
 Shader::Impl::Impl(std::shared_ptr<const RayTracer> t, const Environment& environment)
     : tracer(std::move(t)),
       tables(tracer->scene(), environment.lamps_on()),
-      lights(tracer->scene(), tables, environment) {
+      lights(tracer->scene(), tables, environment),
+      built(tracer) {
   SetLight(environment);
 }
 
@@ -84,10 +86,45 @@ void Shader::Impl::SetLight(const Environment& environment) {
     if (last_lights.size() == kMostLights) last_lights.erase(last_lights.begin());
     last_lights.push_back(std::move(light));
   }
+  this->environment = environment;
   sky = last_lights.back().sky, lamps = last_lights.back().lamps, probes = last_lights.back().probes;
   view = internal::MakeShadeView(scene, tables, sky.get(), probes.get(), &environment);
   view.lamps = lamps->view();
   exposure = ChooseExposure(scene, environment.lamps_on());
+  indoor = last_lights.back().indoor;
+  if (wants_indoor && !indoor) FindIndoors();
+}
+
+void Shader::Impl::FindIndoors() {
+  using internal::IndoorCache, internal::Enclosure;
+  wants_indoor = true;
+  if (!enclosure) enclosure = std::make_shared<const Enclosure>(*built);
+  if (!enclosure->any() || indoor) return;
+  moving = internal::MovingInstances(built->scene());
+  const auto still = internal::StaticTracer(built);
+  const auto around = [this](Vec3f p, Vec3f n) {
+    if (probes && probes->Covers(p)) return probes->Irradiance(p, n);
+    return sky ? sky->Irradiance(n) * 0.5f + sky->ground_radiance() * (kPi * (0.25f - 0.25f * n.z)) : Vec3f{};
+  };
+  const internal::IndoorWorld world{*still, tables, sky.get(), &lights, lamps.get(), around};
+  const auto make = [&] {
+    const LongTask lighting("lighting the rooms of " + built->scene().name);
+    return IndoorCache(internal::LightSolver(world, *enclosure, {}));
+  };
+  IndoorCache kept = internal::LightCache(*built, environment).Get<IndoorCache>("indoor_light", make);
+  if (!kept.Sound()) kept = make();
+  indoor = last_lights.back().indoor = std::make_shared<const IndoorCache>(std::move(kept));
+}
+
+bool Shader::Impl::LookIndoors(const RaySet& rays, const SurfaceSet& s, internal::IndoorLight& light) const {
+  if (!indoor) return false;
+  kernels.indoors(indoor->view(), s, rays.count, light);
+  bool any = false;
+  for (int i = 0; i < rays.count; ++i) {
+    if (moving[rays.instance[i]]) light.share[i] = 0;
+    any |= light.share[i] > 0;
+  }
+  return any;
 }
 
 float Shader::Impl::Daylight() const {
@@ -120,6 +157,16 @@ Shader::Shader(std::shared_ptr<const RayTracer> tracer, const Environment& envir
 Shader::~Shader() = default;
 
 void Shader::SetEnvironment(const Environment& environment) { impl_->SetLight(environment); }
+
+void Shader::PrepareIndoors() { impl_->FindIndoors(); }
+bool Shader::HasRooms() const {
+  if (!impl_->enclosure) impl_->enclosure = std::make_shared<const internal::Enclosure>(*impl_->built);
+  return impl_->enclosure->any();
+}
+
+bool Shader::IsIndoors(Vec3f p) const {
+  return HasRooms() && impl_->enclosure->Holds(*impl_->built, p);
+}
 
 void Shader::Apply(std::shared_ptr<const RayTracer> tracer) {
   impl_->tables.Apply(tracer->scene(), tracer->moved(), tracer->deformed());
@@ -192,12 +239,18 @@ void Shader::Impl::ShadeSurfaces(RaySet& rays, int bounce, LightSet& light, cons
   kernels.prepare(view, rays, surfaces);
   if (sky) FindSun(rays, surfaces, around, sun);
   // What is seen in a mirror does without rays to lamps.
-  LightByLamps(rays, bounce == 0 ? internal::kLampRays : 0, surfaces);
+  internal::IndoorLight room;
+  const bool indoors = LookIndoors(rays, surfaces, room);
+  LightByLamps(rays, bounce == 0 && !indoors ? internal::kLampRays : 0, surfaces);
+  if (indoors && view.lamps.lamps != nullptr) kernels.mix_lamps(room, rays.count, surfaces);
   if (bounce == 0) {
     internal::TraceContact(*tracer, rays, surfaces);
     FollowRays(rays, surfaces, around, sun);
   }
-  kernels.light(view, rays, surfaces, light);
+  if (indoors)
+    kernels.light_indoors(view, rays, surfaces, room, light);
+  else
+    kernels.light(view, rays, surfaces, light);
 }
 
 namespace {

@@ -41,6 +41,12 @@ class Shader {
   /// Another environment with the same lamps on, between frames and with nothing applied: from then on it is as one made for
   /// that environment. What of the light is the same as for one of the last few is not computed again.
   void SetEnvironment(const Environment& environment);
+  /// Makes the light of rooms, where the scene has any: what tiers fast and high show of them from then on.
+  void PrepareIndoors();
+  /// Whether the scene has rooms: paths in them bounce more often. Not to be called by several threads at once.
+  bool HasRooms() const;
+  /// Whether a camera at p stands in a room. Not to be called by several threads at once.
+  bool IsIndoors(Vec3f p) const;
   /// Follows what moves, between frames: `tracer` is the one of construction or one that a DynamicTracer made
   /// of it. Light probes and lamps stay as built.
   void Apply(std::shared_ptr<const RayTracer> tracer);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "airsim360/render/indoor/indoor_cache.h"
+#include "airsim360/render/indoor/indoor_kernels.h"
 #include "airsim360/render/lights/lamp_grid.h"
 #include "airsim360/render/lights/light_table.h"
 #include "airsim360/render/shading/light_probes.h"
@@ -26,6 +28,10 @@ struct Shader::Impl {
     decltype(&internal::isa_sse42::AmbientRays) ambient_rays = AIRSIM360_SELECT_KERNEL(AmbientRays);
     decltype(&internal::isa_sse42::ShadeAmbient) shade_ambient = AIRSIM360_SELECT_KERNEL(ShadeAmbient);
     decltype(&internal::isa_sse42::LightByLamps) lamps = AIRSIM360_SELECT_KERNEL(LightByLamps);
+    decltype(&internal::isa_sse42::LookUpIndoors) indoors = AIRSIM360_SELECT_KERNEL(LookUpIndoors);
+    decltype(&internal::isa_sse42::MixLampsIndoors) mix_lamps = AIRSIM360_SELECT_KERNEL(MixLampsIndoors);
+    decltype(&internal::isa_sse42::LightSurfacesIndoors) light_indoors =
+        AIRSIM360_SELECT_KERNEL(LightSurfacesIndoors);
     decltype(&internal::isa_sse42::LookUpSky) sky = AIRSIM360_SELECT_KERNEL(LookUpSky);
     decltype(&internal::isa_sse42::AddPrecipitation) precipitation =
         AIRSIM360_SELECT_KERNEL(AddPrecipitation);
@@ -39,6 +45,10 @@ struct Shader::Impl {
   float ChooseExposure(const Scene& scene, bool lamps_on) const;
   /// Irradiance of sun and sky on level ground.
   float Daylight() const;
+  /// Finds or computes the light of rooms, where the scene has any.
+  void FindIndoors();
+  /// The light of rooms on surfaces; false: none of them is in a room. Things that move have no part in it.
+  bool LookIndoors(const internal::RaySet& rays, const internal::SurfaceSet& surfaces, internal::IndoorLight& light) const;
   /// Fills lamp_* of surfaces, with `count` rays each.
   void LightByLamps(const internal::RaySet& rays, int count, internal::SurfaceSet& surfaces) const;
   /// Traces the rays that mirrors and clear panes send on (where the surfaces say so) and shades what they
@@ -60,12 +70,19 @@ struct Shader::Impl {
   std::shared_ptr<const internal::Sky> sky;
   std::shared_ptr<const internal::LampGrid> lamps;
   std::shared_ptr<const internal::LightProbes> probes;
+  std::shared_ptr<const internal::IndoorCache> indoor;  ///< nullptr: no rooms, or not wanted (yet)
+  std::shared_ptr<const RayTracer> built;               ///< of the scene as built
+  std::shared_ptr<const internal::Enclosure> enclosure; ///< made when first wanted
+  std::vector<uint8_t> moving;                          ///< with `indoor`: by instance
+  Environment environment;
+  bool wants_indoor = false;
   /// The last lights, latest last: kMostLights at the most.
   struct Light {
     std::string key, table_key;  ///< of what in an environment counts for all of it, and for the table of the sky
     std::shared_ptr<const internal::Sky> sky;
     std::shared_ptr<const internal::LampGrid> lamps;
     std::shared_ptr<const internal::LightProbes> probes;
+    std::shared_ptr<const internal::IndoorCache> indoor;
   };
   static constexpr size_t kMostLights = 3;
   std::vector<Light> last_lights;

@@ -8,20 +8,26 @@
 
 #include "airsim360/base/choice.h"
 #include "airsim360/base/log.h"
+#include "airsim360/render/indoor/enclosure.h"
 #include "airsim360/render/relightable.h"
 
 namespace airsim360 {
 namespace {
+
+bool IsLit(Tier tier) { return tier == Tier::kFast || tier == Tier::kHigh; }
+
+// Rooms are lit by surfels that only the CPU looks up.
+bool HasRooms(const RayTracer& tracer) { return internal::Enclosure(tracer).any(); }
 
 // A GPU for as long as it can, then the CPU.
 class AutoRenderer : public Renderer, public Relightable {
  public:
   AutoRenderer(std::shared_ptr<const RayTracer> tracer, const RendererOptions& options,
                std::unique_ptr<GpuRenderer> gpu)
-      : tracer_(std::move(tracer)), options_(options), gpu_(std::move(gpu)) {}
+      : tracer_(std::move(tracer)), rooms_(HasRooms(*tracer_)), options_(options), gpu_(std::move(gpu)) {}
 
   RenderStats Render(const RenderRequest& request, Frame& frame) override {
-    if (gpu_) {
+    if (gpu_ && !(rooms_ && IsLit(request.tier))) {
       try {
         return gpu_->Render(request, frame);
       } catch (const RuntimeError& error) {
@@ -41,6 +47,7 @@ class AutoRenderer : public Renderer, public Relightable {
 
  private:
   std::shared_ptr<const RayTracer> tracer_;
+  bool rooms_;
   RendererOptions options_;
   std::unique_ptr<GpuRenderer> gpu_;
   std::unique_ptr<Renderer> cpu_;
@@ -83,6 +90,10 @@ std::unique_ptr<Renderer> MakeRenderer(std::shared_ptr<const RayTracer> tracer, 
   CheckDevice("--device", choice.device);
   if (choice.device == "cpu") return MakeCpuRenderer(std::move(tracer), options);
   const GpuOptions gpu_options{.gpu = choice.gpu, .fault = choice.fault};
+  if (choice.device == "vulkan" && IsLit(options.tier) && HasRooms(*tracer)) {
+    throw InputError("--device vulkan: tier " + std::string(kTierNames[static_cast<int>(options.tier)]) + " of '" + tracer->scene().name +
+                     "', which has rooms, needs the light of rooms that only the CPU computes; did you mean --device cpu?");
+  }
   if (choice.device == "vulkan") return MakeVulkanRenderer(std::move(tracer), options, gpu_options);
   std::optional<std::string> why = WhyNot(choice.gpu);
   if (!why) {

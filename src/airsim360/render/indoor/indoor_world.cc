@@ -1,0 +1,191 @@
+#include "airsim360/render/indoor/indoor_world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "airsim360/base/random.h"
+#include "airsim360/render/lights/clear_panes.h"
+#include "airsim360/render/shared/shading_scalar.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kPi = 3.14159265f, kLift = 1.5e-3f;
+constexpr float kMirrorMetal = 0.9f, kMirrorRoughness = 0.12f;
+
+// Mean over all views of what a material gives back in even light.
+Vec3f EvenAnswer(const MaterialRecord& m, Vec3f base) {
+  constexpr int kViews = 16;
+  const scalar::Bsdf bsdf = scalar::bsdf_make(m.kind, base, m.metallic, m.roughness, m.transmission, m.clear_coat,
+                                              m.clear_coat_roughness);
+  Vec3f sum;
+  for (int k = 0; k < kViews; ++k) {
+    const float cosine = std::sqrt((static_cast<float>(k) + 0.5f) / kViews);
+    const scalar::BsdfSide side = scalar::bsdf_side(bsdf, cosine);
+    sum += scalar::bsdf_reflected(side) + bsdf.body * scalar::bsdf_entering(side);
+  }
+  return sum / static_cast<float>(kViews);
+}
+
+// A packet of shadow rays and what each brings if it gets through.
+class ShadowQueue {
+ public:
+  ShadowQueue(const IndoorWorld& world, DirectLight& sum) : world_(world), sum_(sum) {}
+  void Add(Vec3f p, Vec3f d, float t_far, Vec3f light, Vec3f DirectLight::*to) {
+    if (count_ == 16) Send();
+    packet_.Set(count_, p, d, t_far);
+    light_[count_] = light, to_[count_++] = to;
+  }
+  /// To be called last.
+  void Send() {
+    if (count_ == 0) return;
+    RayPacket panes = packet_;
+    alignas(64) bool occluded[16] = {};
+    world_.tracer.Occluded16(packet_.valid, packet_.rays, occluded, false);
+    std::array<Vec3f, 16> tint;
+    tint.fill({1, 1, 1});
+    if (world_.tracer.has_clear_panes()) {
+      for (int i = 0; i < count_; ++i) panes.valid[i] = occluded[i] ? 0 : -1;
+      DimByPanes(world_.tracer, world_.tables, panes.valid, panes.rays, tint);
+    }
+    for (int i = 0; i < count_; ++i)
+      if (!occluded[i]) sum_.*to_[i] += light_[i] * tint[static_cast<size_t>(i)];
+    packet_.Clear();
+    count_ = 0;
+  }
+
+ private:
+  const IndoorWorld& world_;
+  DirectLight& sum_;
+  RayPacket packet_;
+  Vec3f light_[16];
+  Vec3f DirectLight::*to_[16];
+  int count_ = 0;
+};
+
+void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, int rays, Vec2f shift,
+            ShadowQueue& queue) {
+  if (world.sky == nullptr || rays == 0) return;
+  const SunLight sun = world.sky->sun();
+  Vec3f t, b;
+  TangentFrame(sun.direction, t, b);
+  const float radius = std::tan(sun.angular_radius);
+  if (!(Dot(n, sun.direction) > -radius) || sun.irradiance == Vec3f{}) return;
+  for (int k = 0; k < rays; ++k) {
+    const Vec2f u = EvenPoint(static_cast<uint32_t>(k), shift);
+    const float r = radius * std::sqrt(u.x), angle = 2 * kPi * u.y;
+    const Vec3f d = Normalized(sun.direction + t * (r * std::cos(angle)) + b * (r * std::sin(angle)));
+    const float cosine = Dot(n, d);
+    if (!(cosine > 0)) continue;
+    const Vec3f p = points[static_cast<size_t>(k) % points.size()];
+    queue.Add(p + n * kLift, d, INFINITY, sun.irradiance * (cosine * world.sky->CloudShadow(p) / static_cast<float>(rays)), &DirectLight::sun);
+  }
+}
+
+void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, int rays, uint32_t seed,
+              ShadowQueue& queue) {
+  if (world.lights == nullptr || world.lights->empty() || rays == 0) return;
+  const Vec2f shift = ShiftOf(seed * 2654435761ull + 1);
+  const float first = ShiftOf(seed * 2654435761ull + 7).x;
+  for (int k = 0; k < rays; ++k) {
+    const Vec2f u = EvenPoint(static_cast<uint32_t>(k), shift);
+    // The lamp by numbers stratified apart: the sequence pairs them with points of the lamp evenly.
+    float w = (static_cast<float>(k) + first) / static_cast<float>(rays);
+    w = std::min(w, 0.9999999f);
+    const Vec3f p = points[static_cast<size_t>(k) % points.size()];
+    const LightSample sample = world.lights->Sample(p, n, {w, u.x, u.y});
+    if (!(sample.pdf > 0)) continue;
+    const Vec3f to = sample.p - p;
+    const float distance = Norm(to);
+    const Vec3f d = to / std::max(distance, 1e-6f);
+    const float here = Dot(n, d), there = -Dot(sample.normal, d);
+    if (!(here > 0 && there > 0)) continue;
+    const uint32_t lamp = world.lights->tree().Choose(p, n, w).lamp;
+    const bool held = world.lamps != nullptr && world.lamps->Holds(lamp);
+    const float weight = here * there / (distance * distance * sample.pdf * static_cast<float>(rays));
+    queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight,
+              held ? &DirectLight::held : &DirectLight::others);
+  }
+}
+
+}  // namespace
+
+void TangentFrame(Vec3f n, Vec3f& t, Vec3f& b) {
+  // Duff et al., JCGT 6(1), 2017.
+  const float s = n.z >= 0 ? 1.0f : -1.0f, a = -1 / (s + n.z), c = n.x * n.y * a;
+  t = {1 + s * n.x * n.x * a, s * c, -s * n.x};
+  b = {c, s + n.y * n.y * a, -n.y};
+}
+
+Vec2f EvenPoint(uint32_t i, Vec2f shift) {
+  const float x = shift.x + static_cast<float>((i + 1) * 0xC13FA9A9u >> 8) * 0x1p-24f;
+  const float y = shift.y + static_cast<float>((i + 1) * 0x91E10DA5u >> 8) * 0x1p-24f;
+  return {x - std::floor(x), y - std::floor(y)};
+}
+
+Vec2f ShiftOf(uint64_t seed) {
+  const uint64_t bits = MixBits(seed);
+  return {static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits >> 16 & 0xffffff) * 0x1p-24f};
+}
+
+std::vector<uint8_t> MovingInstances(const Scene& scene) {
+  std::vector<uint8_t> moving(scene.instances.size());
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    const EntityId entity = scene.instances[i].entity;
+    if (entity == kNoEntity) continue;
+    const std::string& path = scene.tree[scene.entity(entity).category].path;
+    moving[i] = path.starts_with("human") || path.starts_with("uav");
+  }
+  return moving;
+}
+
+std::shared_ptr<const RayTracer> StaticTracer(std::shared_ptr<const RayTracer> tracer) {
+  const std::vector<uint8_t> moving = MovingInstances(tracer->scene());
+  auto state = std::make_shared<SceneState>();
+  for (uint32_t i = 0; i < moving.size(); ++i) {
+    if (moving[i]) state->moved.push_back({.instance = i, .X_WM = tracer->scene().instances[i].X_WM, .hidden = true});
+  }
+  return state->moved.empty() ? tracer : DynamicTracer(tracer).At(state);
+}
+
+Reflectance::Reflectance(const SurfaceTables& tables) {
+  for (const MaterialRecord& material : tables.materials) {
+    rest.push_back(EvenAnswer(material, {0, 0, 0}));
+    slope.push_back(EvenAnswer(material, {1, 1, 1}) - rest.back());
+  }
+}
+
+MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int lane) {
+  const RayHit16& rays = packet.rays;
+  const SurfaceTables& tables = world.tables;
+  const SurfaceRef ref = world.tracer.Resolve(rays.geometry[lane], rays.instance[lane], rays.primitive[lane]);
+  const InstanceRecord& instance = tables.instances[ref.instance];
+  const TriangleRecord& triangle = tables.triangles[instance.first_triangle + ref.triangle];
+  MetSurface met;
+  met.material = triangle.material & ~kMirroredUv;
+  const float* m = instance.normal_matrix;
+  const Vec3f n = UnpackDirection(triangle.geometric_normal), d = packet.Direction(lane);
+  met.normal = Normalized(Vec3f{m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
+                                m[6] * n.x + m[7] * n.y + m[8] * n.z});
+  met.behind = Dot(met.normal, d) > 0;
+  if (met.behind) met.normal = -met.normal;
+  met.point = packet.Origin(lane) + d * rays.t_far[lane];
+  const Vec3f tint{instance.tint[0], instance.tint[1], instance.tint[2]};
+  met.base = tables.mean_colors[met.material] * tint * tables.MeanColor(instance, ref.triangle);
+  const MaterialRecord& material = tables.materials[met.material];
+  met.mirror = material.metallic > kMirrorMetal && material.roughness < kMirrorRoughness;
+  return met;
+}
+
+DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, int lamp_rays,
+                           uint32_t seed, int sun_rays) {
+  DirectLight sum;
+  ShadowQueue queue(world, sum);
+  AddSun(world, points, normal, sun_rays, ShiftOf(seed), queue);
+  AddLamps(world, points, normal, lamp_rays, seed, queue);
+  queue.Send();
+  return sum;
+}
+
+}  // namespace airsim360::internal

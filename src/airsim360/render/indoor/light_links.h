@@ -1,0 +1,63 @@
+// What every surfel sees: the ways that light takes between the surfaces of rooms, the sky and what is outside.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "airsim360/render/indoor/surfels.h"
+
+namespace airsim360::internal {
+
+/// Places without surfels that surfels see, thinned out: their light is what it is, whatever happens in the rooms.
+struct OutsidePlace {
+  Vec3f p, n, albedo;
+  Vec3f radiance;  ///< fixed part
+};
+
+/// A ray of a surfel. Its direction is PointToDirection of ((u + 0.5) / 256, (v + 0.5) / 256).
+struct LightLink {
+  uint32_t target;  ///< surfel, then outside places; kSky, kNothing
+  uint16_t weight;  ///< share of the hemisphere's cosine that it stands for, in steps of LightLinks::unit
+  uint8_t u, v;
+  static constexpr uint32_t kSky = UINT32_MAX, kNothing = UINT32_MAX - 1;
+};
+
+/// Even density over (u, v) is a density as the cosine over the hemisphere of n.
+Vec3f PointToDirection(const Surfel& surfel, float u, float v);
+
+/// Where rays end.
+struct Landing {
+  uint32_t target;  ///< as LightLink, or kOutside
+  float share;      ///< of light that panes and mirrors on the way leave
+  Vec3f direction;  ///< at its end
+  OutsidePlace outside;
+  static constexpr uint32_t kOutside = UINT32_MAX - 2;
+};
+
+/// Sends rays from a surfel to the surfels of `coarse`.
+void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, const Surfel& from,
+              std::span<const Vec2f> points, std::vector<Landing>& landings);
+
+/// Where over the hemisphere most light comes from, in 16 x 16 cells of (u, v).
+class LightGuide {
+ public:
+  static constexpr int kSide = 16, kCells = kSide * kSide;
+  LightGuide() { density_.fill(1); }
+  /// `sum` of radiance and `count` of rays by cell.
+  LightGuide(const std::array<float, kCells>& sum, const std::array<float, kCells>& count);
+  /// Density over (u, v), 1 on average.
+  float Density(Vec2f point) const { return density_[CellOf(point)]; }
+  /// `count` points with that density, evenly spread.
+  void Sample(int count, Vec2f shift, std::vector<Vec2f>& points) const;
+  static size_t CellOf(Vec2f point);
+
+ private:
+  std::array<float, kCells> density_;
+};
+
+/// Points in the unit square, `count` of them, stratified.
+void SampleEvenly(int count, Vec2f shift, std::vector<Vec2f>& points);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,417 @@
+#include "airsim360/render/indoor/light_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/scene/luminance.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+constexpr int64_t kChunk = 128;
+constexpr float kHomeCell = 0.12f;        // m
+constexpr double kMostCoarse = 70000;     // cells of surface, about
+constexpr int kFirstBounces = 6, kMostBounces = 200;
+constexpr float kConverged = 2e-5f;       // of all light, that the last bounce brings
+constexpr float kOutsideCell = 0.5f;      // m
+constexpr float kStratified = 0.6f;       // of the variance of random rays
+constexpr float kRefine = 1.5f;          // ratio of neighbours
+constexpr double kMostFine = 300000;      // surfels, about
+constexpr float kFinest = 1.0f / 3, kLeastFine = 0.6f;  // cells of the fine level, of the coarse one's
+constexpr float kNear = 0.6f;             // of a cell: something as near needs the fine level
+
+// Directions of links in the frame of a surfel.
+struct LinkTable {
+  float out[256], up[256], cosine[256], sine[256];
+  LinkTable() {
+    for (int i = 0; i < 256; ++i) {
+      const float x = (static_cast<float>(i) + 0.5f) / 256;
+      out[i] = std::sqrt(x), up[i] = std::sqrt(1 - x);
+      cosine[i] = std::cos(6.2831853f * x), sine[i] = std::sin(6.2831853f * x);
+    }
+  }
+};
+const LinkTable& Table() {
+  static const LinkTable table;
+  return table;
+}
+Vec3f DirectionOf(const Surfel& s, const LightLink& link) {
+  const LinkTable& t = Table();
+  return s.t * (t.out[link.u] * t.cosine[link.v]) + s.b * (t.out[link.u] * t.sine[link.v]) + s.n * t.up[link.u];
+}
+
+uint8_t Step(float x) { return static_cast<uint8_t>(std::min(255.0f, std::floor(std::min(x, 0.99999f) * 256))); }
+
+template <class Body>
+void ForSurfels(size_t count, const Body& body) {
+  ParallelFor((static_cast<int64_t>(count) + kChunk - 1) / kChunk, [&](int64_t chunk) {
+    const FlushDenormals flush;
+    const auto end = std::min(count, static_cast<size_t>((chunk + 1) * kChunk));
+    for (auto i = static_cast<size_t>(chunk * kChunk); i < end; ++i) body(i, static_cast<size_t>(chunk));
+  });
+}
+
+template <class Each>
+void ForNeighbours(const SurfelSet& set, const Surfel& s, int step, const Each& each) {
+  for (int k = 0; k < 27; ++k) {
+    const auto [first, count] = set.In(s.cell[0] + (k % 3 - 1) * step, s.cell[1] + (k / 3 % 3 - 1) * step,
+                                       s.cell[2] + (k / 9 - 1) * step);
+    for (uint32_t i = first; i < first + count; ++i) each(i, set.surfels()[i]);
+  }
+}
+
+float CellOf(const IndoorWorld& world, const Enclosure& enclosure, float wanted) {
+  if (wanted > 0) return wanted;
+  return std::max(kHomeCell, static_cast<float>(std::sqrt(EnclosedArea(world, enclosure) / kMostCoarse)));
+}
+
+}  // namespace
+
+/// What the rays of one surfel bring.
+struct LightSolver::Sum {
+  Vec3f light, bend;
+  float mean = 0, first = 0, second = 0, open = 0, whole = 0, found = 0;
+  int rays = 0;
+
+  void Add(Vec3f radiance, Vec3f d, float cosine, float weight) {
+    light += radiance * weight;
+    const float l = Luminance(radiance) * weight, part = l / std::max(0.05f, cosine);
+    mean += part, bend += d * part;
+    first += l, second += l * l;
+    ++rays;
+  }
+  void Put(size_t i, Vec3f others, LevelLight& out) const {
+    // What was lost is as what was found.
+    const float scale = found > 0 ? whole / found : 1;
+    out.light[i] = light * scale + others;
+    out.variance[i] = std::max(0.0f, second - first * first / static_cast<float>(std::max(1, rays))) * kStratified;
+    out.mean[i] = mean, out.bend[i] = bend, out.open[i] = open;
+  }
+};
+
+LightSolver::LightSolver(const IndoorWorld& world, const Enclosure& enclosure, const IndoorOptions& options)
+    : world_(world),
+      options_(options),
+      reflectance_(world.tables),
+      coarse_(world, enclosure, reflectance_, CellOf(world, enclosure, options.cell)) {
+  TraceEven();
+  FindDirect();
+  Bounce(kFirstBounces);
+  TraceGuided();
+  Bounce(kMostBounces);
+  Finish();
+  if (options_.fine) MakeFine(enclosure);
+}
+
+uint16_t LightSolver::WeightOf(float share) const {
+  return static_cast<uint16_t>(std::clamp(share * static_cast<float>(options_.rays) * 65535 + 0.5f, 0.0f, 65535.0f));
+}
+
+Vec3f LightSolver::SkyAlong(Vec3f d) const {
+  if (world_.sky == nullptr) return {};
+  return d.z > 0 ? world_.sky->blurred(0).At(d) : world_.sky->Radiance(d);
+}
+
+Vec3f LightSolver::Seen(uint32_t target, const Surfel& from, const LightLink& link) const {
+  if (target == LightLink::kSky) return SkyAlong(DirectionOf(from, link));
+  return target == LightLink::kNothing ? Vec3f{} : radiance_[target];
+}
+
+void LightSolver::TraceEven() {
+  const auto rays = static_cast<size_t>(options_.rays);
+  const size_t count = coarse_.surfels().size();
+  links_.assign(count * 2 * rays, {LightLink::kNothing, 0, 0, 0});
+  std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(count / kChunk + 1);
+  ForSurfels(count, [&](size_t i, size_t chunk) {
+    std::vector<Vec2f> points;
+    std::vector<Landing> landings;
+    SampleEvenly(options_.rays, ShiftOf(i), points);
+    SendRays(world_, reflectance_, coarse_, coarse_.surfels()[i], points, landings);
+    for (size_t k = 0; k < rays; ++k) {
+      const size_t at = i * 2 * rays + k;
+      if (landings[k].target == Landing::kOutside) outside[chunk].push_back({at, landings[k].outside});
+      links_[at] = {landings[k].target, WeightOf(landings[k].share / static_cast<float>(rays)), Step(points[k].x), Step(points[k].y)};
+    }
+  });
+  AddOutside(outside);
+}
+
+// Places a cell apart are one, in the order of links.
+void LightSolver::AddOutside(std::vector<std::vector<std::pair<size_t, OutsidePlace>>>& found) {
+  std::unordered_map<uint64_t, uint32_t> known;
+  const auto cell = [](float x) { return static_cast<int32_t>(std::floor(std::clamp(x / kOutsideCell, -5e5f, 5e5f))); };
+  const auto first = static_cast<uint32_t>(outside_.size());
+  for (auto& part : found) {
+    for (const auto& [at, place] : part) {
+      const Vec3f n = place.n;
+      const int side = std::fabs(n.x) > std::fabs(n.y) && std::fabs(n.x) > std::fabs(n.z) ? (n.x > 0 ? 0 : 1)
+                       : std::fabs(n.y) > std::fabs(n.z)                                 ? (n.y > 0 ? 2 : 3)
+                                                                                         : (n.z > 0 ? 4 : 5);
+      auto id = static_cast<uint32_t>(outside_.size());
+      const bool alone = place.radiance != Vec3f{} || n == Vec3f{};
+      if (!alone) {
+        const uint64_t key = IndoorKey(cell(place.p.x), cell(place.p.y), cell(place.p.z)) * 6 + static_cast<uint64_t>(side);
+        id = known.try_emplace(key, id).first->second;
+      }
+      if (id == outside_.size()) outside_.push_back(place);
+      links_[at].target = static_cast<uint32_t>(coarse_.surfels().size()) + id;
+    }
+    part = {};
+  }
+  radiance_.resize(coarse_.surfels().size() + outside_.size());
+  ForSurfels(outside_.size() - first, [&](size_t k, size_t) {
+    radiance_[coarse_.surfels().size() + first + k] = RadianceOutside(outside_[first + k], k);
+  });
+}
+
+void LightSolver::FindDirect() {
+  const auto& surfels = coarse_.surfels();
+  direct_.assign(surfels.size(), {});
+  others_.assign(surfels.size(), {});
+  coarse_light_.lamps.assign(surfels.size(), {});
+  ForSurfels(surfels.size(), [&](size_t i, size_t) {
+    const Surfel& s = surfels[i];
+    const DirectLight d = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, options_.lamp_rays,
+                                         static_cast<uint32_t>(i), kSunRays);
+    direct_[i] = d.sun + d.held + d.others;
+    others_[i] = d.others;
+    coarse_light_.lamps[i] = d.held;
+    radiance_[i] = s.albedo * direct_[i] * (1 / kPi);
+  });
+}
+
+// Jacobi steps: every one adds a bounce to what is known.
+void LightSolver::Bounce(int most) {
+  const auto& surfels = coarse_.surfels();
+  const auto rays = static_cast<size_t>(2 * options_.rays);
+  const float unit = kPi / (static_cast<float>(options_.rays) * 65535);
+  std::vector<Vec3f> sky(surfels.size()), next(surfels.size());
+  std::vector<float> scale(surfels.size());
+  ForSurfels(surfels.size(), [&](size_t i, size_t) {
+    double whole = 0, lost = 0;
+    for (size_t k = i * rays; k < (i + 1) * rays; ++k) {
+      const LightLink& link = links_[k];
+      whole += link.weight;
+      if (link.target == LightLink::kNothing) lost += link.weight;
+      if (link.target == LightLink::kSky) sky[i] += SkyAlong(DirectionOf(surfels[i], link)) * (static_cast<float>(link.weight) * unit);
+    }
+    scale[i] = whole > lost ? static_cast<float>(whole / (whole - lost)) : 1;
+  });
+  for (int step = 0; step < most; ++step) {
+    ForSurfels(surfels.size(), [&](size_t i, size_t) {
+      Vec3f light = sky[i];
+      for (size_t k = i * rays; k < (i + 1) * rays; ++k) {
+        const LightLink& link = links_[k];
+        if (link.target < LightLink::kNothing) light += radiance_[link.target] * (static_cast<float>(link.weight) * unit);
+      }
+      next[i] = surfels[i].albedo * (direct_[i] + light * scale[i]) * (1 / kPi);
+    });
+    double all = 0, new_light = 0;
+    for (size_t i = 0; i < surfels.size(); ++i) {
+      all += Luminance(next[i]) * surfels[i].area;
+      new_light += std::fabs(Luminance(next[i] - radiance_[i])) * surfels[i].area;
+      radiance_[i] = next[i];
+    }
+    if (!(new_light > kConverged * all)) break;
+  }
+}
+
+LightGuide LightSolver::GuideOf(const Surfel& s, uint32_t at) const {
+  std::array<float, LightGuide::kCells> sum{}, count{};
+  const auto rays = static_cast<size_t>(options_.rays);
+  const Surfel& middle = coarse_.surfels()[at];
+  ForNeighbours(coarse_, middle, 1, [&](uint32_t j, const Surfel& other) {
+    if (Dot(other.n, s.n) < 0.7f || (j != at && coarse_.Weight(other, middle.p, middle.n) <= 0)) return;
+    const bool same = other.n == s.n;
+    for (size_t k = 0; k < rays; ++k) {
+      const LightLink& link = links_[j * 2 * rays + k];
+      size_t cell = static_cast<size_t>(link.u >> 4) * LightGuide::kSide + (link.v >> 4);
+      if (!same) {
+        const Vec3f d = DirectionOf(other, link);
+        const float c = Dot(d, s.n);
+        if (c <= 0) continue;
+        const float turn = std::atan2(Dot(d, s.b), Dot(d, s.t)) / 6.2831853f;
+        cell = LightGuide::CellOf({1 - c * c, turn < 0 ? turn + 1 : turn});
+      }
+      sum[cell] += bright_[j * rays + k], count[cell] += 1;
+    }
+  });
+  return {sum, count};
+}
+
+void LightSolver::TraceGuided() {
+  const auto rays = static_cast<size_t>(options_.rays);
+  const auto& surfels = coarse_.surfels();
+  bright_.assign(surfels.size() * rays, 0);
+  ForSurfels(surfels.size(), [&](size_t i, size_t) {
+    for (size_t k = 0; k < rays; ++k) {
+      const LightLink& link = links_[i * 2 * rays + k];
+      bright_[i * rays + k] = Luminance(Seen(link.target, surfels[i], link)) * static_cast<float>(link.weight) / 65535;
+    }
+  });
+  std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(surfels.size() / kChunk + 1);
+  ForSurfels(surfels.size(), [&](size_t i, size_t chunk) {
+    const LightGuide guide = GuideOf(surfels[i], static_cast<uint32_t>(i));
+    std::vector<Vec2f> points;
+    std::vector<Landing> landings;
+    guide.Sample(options_.rays, ShiftOf(i + 0x100000000ull), points);
+    SendRays(world_, reflectance_, coarse_, surfels[i], points, landings);
+    // The balance heuristic of both kinds of rays.
+    const auto share = [&](Vec2f point) { return 1 / (static_cast<float>(rays) * (1 + guide.Density(point))); };
+    for (size_t k = 0; k < rays; ++k) {
+      LightLink& even = links_[i * 2 * rays + k];
+      const float kept = static_cast<float>(even.weight) / 65535;
+      even.weight = WeightOf(kept * share({(even.u + 0.5f) / 256, (even.v + 0.5f) / 256}));
+      const size_t at = i * 2 * rays + rays + k;
+      if (landings[k].target == Landing::kOutside) outside[chunk].push_back({at, landings[k].outside});
+      const LightLink link{landings[k].target, 0, Step(points[k].x), Step(points[k].y)};
+      links_[at] = link;
+      links_[at].weight = WeightOf(landings[k].share * share({(link.u + 0.5f) / 256, (link.v + 0.5f) / 256}));
+    }
+  });
+  AddOutside(outside);
+}
+
+LightGuide LightSolver::KeptGuide(const Surfel& s, uint32_t at, std::unordered_map<uint32_t, LightGuide>& kept) const {
+  if (s.n != coarse_.surfels()[at].n) return GuideOf(s, at);
+  const auto [it, fresh] = kept.try_emplace(at);
+  if (fresh) it->second = GuideOf(s, at);
+  return it->second;
+}
+
+namespace {
+
+void Resize(size_t count, LevelLight& light) {
+  light.light.assign(count, {});
+  light.variance.assign(count, 0);
+  light.mean.assign(count, 0);
+  light.bend.assign(count, {});
+  light.open.assign(count, 0);
+}
+
+}  // namespace
+
+void LightSolver::Finish() {
+  const auto& surfels = coarse_.surfels();
+  const auto rays = static_cast<size_t>(2 * options_.rays);
+  Resize(surfels.size(), coarse_light_);
+  ForSurfels(surfels.size(), [&](size_t i, size_t) {
+    Sum sum;
+    for (size_t k = i * rays; k < (i + 1) * rays; ++k) {
+      const LightLink& link = links_[k];
+      const float weight = static_cast<float>(link.weight) * (kPi / (static_cast<float>(options_.rays) * 65535));
+      sum.whole += weight;
+      if (link.target != LightLink::kNothing) sum.found += weight;
+      if (link.target == LightLink::kSky) sum.open += weight / kPi;
+      sum.Add(Seen(link.target, surfels[i], link), DirectionOf(surfels[i], link), Table().up[link.u], weight);
+    }
+    sum.Put(i, others_[i], coarse_light_);
+  });
+  double whole = 0, lost = 0;
+  for (const LightLink& link : links_) {
+    whole += link.weight;
+    lost += link.target == LightLink::kNothing ? link.weight : 0;
+  }
+  lost_ = whole > 0 ? lost / whole : 0;
+  Smooth(coarse_, 2, coarse_light_);
+}
+
+// Where coarse neighbours differ, or something stands close.
+std::vector<uint8_t> LightSolver::NeedFine() const {
+  const auto& surfels = coarse_.surfels();
+  std::vector<uint8_t> need(surfels.size());
+  ForSurfels(surfels.size(), [&](size_t i, size_t) {
+    const Surfel& s = surfels[i];
+    const auto of = [&](uint32_t j) { return Luminance(coarse_light_.light[j] + coarse_light_.lamps[j]); };
+    float least = of(static_cast<uint32_t>(i)), most = least;
+    ForNeighbours(coarse_, s, 1, [&](uint32_t j, const Surfel& other) {
+      if (Dot(other.n, s.n) < 0.8f) return;
+      least = std::min(least, of(j)), most = std::max(most, of(j));
+    });
+    bool near = false;
+    for (const float clear : s.clear) near |= clear < kNear * coarse_.cell();
+    need[i] = near || most > kRefine * least + 1e-9f;
+  });
+  return need;
+}
+
+void LightSolver::MakeFine(const Enclosure& enclosure) {
+  const std::vector<uint8_t> need = NeedFine();
+  const auto coarse = static_cast<double>(std::count(need.begin(), need.end(), uint8_t{1}));
+  const float finer = std::clamp(static_cast<float>(std::sqrt(coarse / kMostFine)), kFinest, kLeastFine);
+  fine_ = std::make_unique<SurfelSet>(world_, enclosure, reflectance_, coarse_.cell() * finer, [&](Vec3f p, Vec3f n) {
+    const uint32_t at = coarse_.Nearest(p, n);
+    return at != SurfelSet::kNone && need[at] != 0;
+  });
+  const auto& surfels = fine_->surfels();
+  Resize(surfels.size(), fine_light_);
+  fine_light_.lamps.assign(surfels.size(), {});
+  const auto rays = static_cast<size_t>(options_.fine_rays);
+  // Fine surfels of a chunk lie close together: most have the guide of a coarse one that another had before.
+  std::vector<std::unordered_map<uint32_t, LightGuide>> kept((surfels.size() + kChunk - 1) / kChunk);
+  ForSurfels(surfels.size(), [&](size_t i, size_t chunk) {
+    const Surfel& s = surfels[i];
+    const DirectLight direct = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, options_.lamp_rays,
+                                              static_cast<uint32_t>(i) ^ 0x80000000u, 0);
+    fine_light_.lamps[i] = direct.held;
+    const uint32_t near = coarse_.Nearest(s.p, s.n);
+    const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept[chunk]);
+    std::vector<Vec2f> points;
+    std::vector<Landing> landings;
+    SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
+    guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
+    SendRays(world_, reflectance_, coarse_, s, points, landings);
+    Sum sum;
+    for (size_t k = 0; k < landings.size(); ++k) {
+      const Landing& landing = landings[k];
+      const float weight = kPi * landing.share / (static_cast<float>(rays) * (1 + guide.Density(points[k])));
+      sum.whole += weight;
+      if (landing.target == LightLink::kNothing) continue;
+      sum.found += weight;
+      if (landing.target == LightLink::kSky) sum.open += weight / kPi;
+      const Vec3f light = landing.target == LightLink::kSky      ? SkyAlong(landing.direction)
+                          : landing.target == Landing::kOutside ? RadianceOutside(landing.outside, i)
+                                                                : radiance_[landing.target];
+      sum.Add(light, landing.direction, std::sqrt(std::max(0.0f, 1 - points[k].x)), weight);
+    }
+    sum.Put(i, direct.others, fine_light_);
+    if (i + 1 == surfels.size() || (i + 1) % kChunk == 0) kept[chunk] = {};
+  });
+  Smooth(*fine_, 4, fine_light_);
+}
+
+// Means of neighbours in one plane that see each other and differ by no more than their noise.
+void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) const {
+  const auto& surfels = set.surfels();
+  for (int pass = 0; pass < passes; ++pass) {
+    LevelLight next = light;
+    ForSurfels(surfels.size(), [&](size_t i, size_t) {
+      const Surfel& s = surfels[i];
+      const float own = Luminance(light.light[i]);
+      Vec3f sum = light.light[i], bend = light.bend[i];
+      float mean = light.mean[i], weight = 1, variance = light.variance[i];
+      ForNeighbours(set, s, pass >= 2 ? 2 : 1, [&](uint32_t j, const Surfel& other) {
+        if (j == i || Dot(other.n, s.n) < 0.9f || set.Weight(s, other.p, other.n) <= 1e-5f || set.Weight(other, s.p, s.n) <= 1e-5f) return;
+        const float d = Luminance(light.light[j]) - own;
+        const float w = std::exp(-d * d / (4 * (light.variance[i] + light.variance[j]) + 4e-4f * own * own + 1e-20f));
+        sum += light.light[j] * w, bend += light.bend[j] * w, mean += light.mean[j] * w;
+        weight += w, variance += w * w * light.variance[j];
+      });
+      next.light[i] = sum / weight, next.bend[i] = bend / weight, next.mean[i] = mean / weight;
+      next.variance[i] = variance / (weight * weight);
+    });
+    light = std::move(next);
+  }
+}
+
+Vec3f LightSolver::RadianceOutside(const OutsidePlace& place, size_t seed) const {
+  if (place.n == Vec3f{}) return place.radiance;
+  Vec3f irradiance = LightFromAbove(world_, {&place.p, 1}, place.n, 0, static_cast<uint32_t>(seed), 1).sun;
+  if (world_.around) irradiance += world_.around(place.p, place.n);
+  return place.radiance + place.albedo * irradiance * (1 / kPi);
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,219 @@
+#include "airsim360/render/indoor/light_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/base/archive.h"
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+#include "airsim360/render/indoor/indoor_kernels.h"
+#include "airsim360/render/indoor/test_rooms.h"
+#include "airsim360/scene/luminance.h"
+
+namespace airsim360 {
+namespace {
+
+using internal::IndoorCache, internal::IndoorOptions, internal::LightLink, internal::LightSolver, internal::Surfel;
+using test::RoomScene, test::SolvedRoom;
+constexpr double kPi = std::numbers::pi;
+
+// Which face of a box a surfel lies on, as RoomScene numbers them.
+int FaceOf(const Surfel& s) {
+  const int axis = std::fabs(s.n.x) > 0.5f ? 0 : std::fabs(s.n.y) > 0.5f ? 1 : 2;
+  return 2 * axis + (s.n[axis] < 0);
+}
+
+// Walls of one sheet have surfels on their outer sides, too.
+bool FacesInwards(const Surfel& s, Vec3f middle) { return Dot(s.n, middle - s.p) > 0; }
+
+// Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-11: equal rectangles x by y facing each other at z.
+double Parallel(double x, double y, double z) {
+  const double a = x / z, b = y / z, p = 1 + a * a, q = 1 + b * b;
+  return 2 / (kPi * a * b) *
+         (0.5 * std::log(p * q / (p + b * b)) + a * std::sqrt(q) * std::atan(a / std::sqrt(q)) +
+          b * std::sqrt(p) * std::atan(b / std::sqrt(p)) - a * std::atan(a) - b * std::atan(b));
+}
+
+// The same, C-14: from w by l to h by l with the common edge l, at a right angle.
+double Perpendicular(double w, double h, double l) {
+  const double a = h / l, b = w / l, aa = a * a, bb = b * b, s = aa + bb;
+  const double logs = std::log((1 + bb) * (1 + aa) / (1 + s)) + bb * std::log(bb * (1 + s) / ((1 + bb) * s)) +
+                      aa * std::log(aa * (1 + s) / ((1 + aa) * s));
+  return (b * std::atan(1 / b) + a * std::atan(1 / a) - std::sqrt(s) * std::atan(1 / std::sqrt(s)) + 0.25 * logs) / (kPi * b);
+}
+
+TEST(LightSolver, LinksHaveTheFormFactorsOfParallelAndPerpendicularPlates) {
+  const double size[3] = {4, 3, 2.5};
+  RoomScene room("plates");
+  room.Box({0, 0, 0}, {4, 3, 2.5f}, room.Paint({0.5f, 0.5f, 0.5f}));
+  const SolvedRoom solved(room.Build(), {.cell = 0.12f, .fine = false});
+  const auto& surfels = solved.solver.coarse().surfels();
+  double share[6][6] = {}, area[6] = {};
+  for (uint32_t i = 0; i < surfels.size(); ++i) {
+    if (!FacesInwards(surfels[i], {2, 1.5f, 1.25f})) continue;
+    const int from = FaceOf(surfels[i]);
+    area[from] += surfels[i].area;
+    solved.solver.ForLinks(i, [&](uint32_t target, double s) {
+      if (target < surfels.size()) share[from][FaceOf(surfels[target])] += s * surfels[i].area;
+    });
+  }
+  for (int f = 0; f < 6; ++f) {
+    const int axis = f / 2;
+    EXPECT_NEAR(area[f], size[(axis + 1) % 3] * size[(axis + 2) % 3], 0.02 * area[f]);
+    for (int g = 0; g < 6; ++g) {
+      if (f == g) {
+        EXPECT_NEAR(share[f][g] / area[f], 0, 1e-3);
+        continue;
+      }
+      const int other = g / 2, edge = 3 - axis - other;
+      const double expected = axis == other ? Parallel(size[(axis + 1) % 3], size[(axis + 2) % 3], size[axis])
+                                            : Perpendicular(size[other], size[axis], size[edge]);
+      EXPECT_NEAR(share[f][g] / area[f], expected, 0.015 * expected) << f << " to " << g;
+    }
+  }
+}
+
+TEST(LightSolver, WhiteFurnaceHasTheSeriesOfItsBounces) {
+  for (const float albedo : {0.0f, 0.5f, 0.8f}) {
+    RoomScene room("furnace");
+    room.Box({0, 0, 0}, {3, 3, 3}, room.Paint({albedo, albedo, albedo}, {1, 1, 1}));
+    const SolvedRoom solved(room.Build(), {.cell = 0.3f, .lamp_rays = 256, .fine = false});
+    // Even the black wall reflects a little, as its skin does.
+    const float kept = internal::Reflectance(solved.tables).Of(0, {albedo, albedo, albedo}).x;
+    double sum = 0, area = 0;
+    const auto& surfels = solved.solver.coarse().surfels();
+    for (size_t i = 0; i < surfels.size(); ++i) {
+      if (!FacesInwards(surfels[i], {1.5f, 1.5f, 1.5f})) continue;
+      sum += solved.solver.coarse_light().light[i].x * surfels[i].area;
+      area += surfels[i].area;
+    }
+    EXPECT_NEAR(sum / area, kPi / (1 - kept), 0.01 * kPi / (1 - kept)) << albedo;
+  }
+}
+
+TEST(IndoorCache, FurnaceLooksTheSameAtEveryPointOfItsWalls) {
+  RoomScene room("furnace");
+  room.Box({0, 0, 0}, {3, 3, 3}, room.Paint({0.5f, 0.5f, 0.5f}, {1, 1, 1}));
+  const SolvedRoom solved(room.Build(), {.cell = 0.3f, .lamp_rays = 256});
+  const IndoorCache cache(solved.solver);
+  static const auto look_up = AIRSIM360_SELECT_KERNEL(LookUpIndoors);
+  const float kept = internal::Reflectance(solved.tables).Of(0, {0.5f, 0.5f, 0.5f}).x;
+  RngStream rng(1, "walls");
+  auto s = std::make_unique<internal::SurfaceSet>();
+  auto light = std::make_unique<internal::IndoorLight>();
+  double sum = 0;
+  int rough = 0;
+  for (int i = 0; i < internal::kBatch; ++i) {
+    Vec3f p{static_cast<float>(rng.Uniform(0, 3)), static_cast<float>(rng.Uniform(0, 3)), static_cast<float>(rng.Uniform(0, 3))}, n;
+    p[i % 3] = i % 2 ? 0.0f : 3.0f, n[i % 3] = i % 2 ? 1.0f : -1.0f;
+    s->px[i] = p.x, s->py[i] = p.y, s->pz[i] = p.z;
+    s->nx[i] = s->gx[i] = n.x, s->ny[i] = s->gy[i] = n.y, s->nz[i] = s->gz[i] = n.z;
+  }
+  look_up(cache.view(), *s, internal::kBatch, *light);
+  const double expected = kPi / (1 - kept);
+  for (int i = 0; i < internal::kBatch; ++i) {
+    EXPECT_NEAR(light->share[i], 1, 1e-5);
+    sum += light->g[i];
+    rough += std::fabs(light->g[i] - expected) > 0.2 * expected;
+    // What bounced light meets there is its share and the glow is not.
+    const auto radiance = cache.RadianceAt({s->px[i], s->py[i], s->pz[i]}, {s->nx[i], s->ny[i], s->nz[i]});
+    ASSERT_TRUE(radiance.has_value());
+    EXPECT_NEAR(radiance->y, kept * expected / kPi, 0.4 * kept * expected / kPi);
+  }
+  EXPECT_NEAR(sum / internal::kBatch, expected, 0.02 * expected);
+  EXPECT_LE(rough, internal::kBatch / 20);
+}
+
+// Two rooms with a wall of 3 cm between them; only the first one has a lamp.
+std::shared_ptr<const RayTracer> BrightBesideDark() {
+  RoomScene rooms("two rooms");
+  const MaterialId white = rooms.Paint({0.8f, 0.8f, 0.8f});
+  rooms.Box({0, 0, 0}, {3, 3, 2.5f}, white);
+  rooms.Box({3.03f, 0, 0}, {6, 3, 2.5f}, white);
+  const MaterialId lamp = rooms.Paint({0, 0, 0}, {10, 10, 10});
+  rooms.Quad({1, 1, 2.49f}, {1, 2, 2.49f}, {2, 2, 2.49f}, {2, 1, 2.49f}, lamp);
+  return rooms.Build();
+}
+
+TEST(LightSolver, NoLightGetsThroughAWallOfThreeCentimetres) {
+  const SolvedRoom solved(BrightBesideDark(), {.rays = 64, .fine_rays = 16});
+  double bright = 0, dark = 0;
+  int of_bright = 0, of_dark = 0;
+  const auto look = [&](const internal::SurfelSet& set, const internal::LevelLight& light) {
+    for (size_t i = 0; i < set.surfels().size(); ++i) {
+      const Vec3f p = set.surfels()[i].p;
+      const double e = Luminance(light.light[i] + light.lamps[i]);
+      if (p.x < 3.015f)
+        bright += e, ++of_bright;
+      else
+        dark += e, ++of_dark;
+    }
+  };
+  look(solved.solver.coarse(), solved.solver.coarse_light());
+  look(*solved.solver.fine(), solved.solver.fine_light());
+  EXPECT_GT(of_dark, 500);
+  EXPECT_GT(bright / of_bright, 1);
+  EXPECT_LT(dark / of_dark, 5e-3 * bright / of_bright);
+}
+
+Bytes BytesOf(const IndoorCache& cache) {
+  ArchiveWriter archive;
+  IndoorCache::Visit(archive, cache);
+  return archive.Take();
+}
+
+TEST(IndoorCache, IsTheSameWithAnyNumberOfThreadsAndWhenReadBack) {
+  const auto tracer = BrightBesideDark();
+  const IndoorOptions options{.cell = 0.25f, .rays = 32, .fine_rays = 8, .lamp_rays = 8};
+  Bytes one, many;
+  {
+    const ThreadLimit limit(1);
+    one = BytesOf(IndoorCache(SolvedRoom(tracer, options).solver));
+  }
+  {
+    const ThreadLimit limit(3);
+    many = BytesOf(IndoorCache(SolvedRoom(tracer, options).solver));
+  }
+  EXPECT_EQ(one, many);
+  ArchiveReader reader(one);
+  IndoorCache read;
+  IndoorCache::Visit(reader, read);
+  EXPECT_TRUE(read.Sound());
+  EXPECT_EQ(BytesOf(read), one);
+}
+
+TEST(IndoorCache, NumbersThatDoNotFitAreNotSound) {
+  const IndoorOptions options{.cell = 0.4f, .rays = 16, .lamp_rays = 4, .fine = false};
+  const Bytes good = BytesOf(IndoorCache(SolvedRoom(BrightBesideDark(), options).solver));
+  int refused = 0;
+  for (size_t at = 0; at + 8 < good.size(); at += 997) {
+    Bytes bad = good;
+    for (size_t k = 0; k < 8; ++k) bad[at + k] = std::byte{0xff};
+    ArchiveReader reader(bad);
+    IndoorCache read;
+    try {
+      IndoorCache::Visit(reader, read);
+      if (!read.Sound()) ++refused;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_FALSE(IndoorCache().view().coarse.surfels != nullptr && IndoorCache().coarse_size() > 0);
+}
+
+TEST(Enclosure, KnowsRoomsFromYards) {
+  RoomScene closed("closed"), yard("yard");
+  closed.Box({0, 0, 0}, {4, 4, 3}, closed.Paint({0.5f, 0.5f, 0.5f}));
+  yard.Box({0, 0, 0}, {4, 4, 3}, yard.Paint({0.5f, 0.5f, 0.5f}), true, 1u << 5);
+  const auto room = closed.Build(), open = yard.Build();
+  EXPECT_TRUE(internal::Enclosure(*room).any());
+  EXPECT_TRUE(internal::Enclosure(*room).Holds(*room, {2, 2, 1.5f}));
+  EXPECT_FALSE(internal::Enclosure(*room).Holds(*room, {20, 2, 1.5f}));
+  EXPECT_FALSE(internal::Enclosure(*open).any());
+}
+
+}  // namespace
+}  // namespace airsim360

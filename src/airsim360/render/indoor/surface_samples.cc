@@ -1,0 +1,105 @@
+#include "airsim360/render/indoor/surface_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/base/parallel.h"
+
+namespace airsim360::internal {
+namespace {
+
+Box3f BoxOf(const SurfacePiece& piece) {
+  Box3f box;
+  for (const Vec3f& p : piece.corner) box.Add(p);
+  return box;
+}
+
+// Halves of the longest edge, until pieces are small or nowhere near enclosed space.
+void Cut(const Enclosure& enclosure, const SurfacePiece& piece, float largest, std::vector<SurfacePiece>& out) {
+  if (!enclosure.Touches(BoxOf(piece))) return;
+  int longest = 0;
+  float length = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float edge = Norm(piece.corner[(k + 1) % 3] - piece.corner[k]);
+    if (edge > length) longest = k, length = edge;
+  }
+  if (length <= largest) {
+    out.push_back(piece);
+    return;
+  }
+  const int next = (longest + 1) % 3;
+  const Vec3f middle = (piece.corner[longest] + piece.corner[next]) * 0.5f;
+  SurfacePiece one = piece, two = piece;
+  one.corner[next] = middle, two.corner[longest] = middle;
+  Cut(enclosure, one, largest, out);
+  Cut(enclosure, two, largest, out);
+}
+
+void CutInstance(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance,
+                 uint32_t index, float largest, std::vector<SurfacePiece>& out) {
+  const Scene& scene = world.tracer.scene();
+  const Instance& instance = scene.instances[index];
+  const Mesh& mesh = scene.meshes[instance.mesh];
+  const InstanceRecord& record = world.tables.instances[index];
+  Box3f box;
+  for (const Vec3f& p : mesh.positions) box.Add(instance.X_WM * p);
+  if (box.empty() || !enclosure.Touches(box)) return;
+  const Mat3f& A = instance.X_WM.A;
+  const float turned = Dot(Cross(A.column(0), A.column(1)), A.column(2)) < 0 ? -1.0f : 1.0f;
+  for (uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+    const uint32_t material = world.tables.triangles[record.first_triangle + k].material & ~kMirroredUv;
+    if (IsClearPane(scene.materials[material])) continue;
+    const Vec3u& t = mesh.triangles[k];
+    SurfacePiece piece{{instance.X_WM * mesh.positions[t.x], instance.X_WM * mesh.positions[t.y],
+                        instance.X_WM * mesh.positions[t.z]}, {}, {}};
+    const Vec3f cross = Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]) * turned;
+    if (!(Norm(cross) > 1e-9f)) continue;
+    piece.normal = Normalized(cross);
+    const Vec3f tint{record.tint[0], record.tint[1], record.tint[2]};
+    piece.albedo = reflectance.Of(material, world.tables.mean_colors[material] * tint * world.tables.MeanColor(record, k));
+    Cut(enclosure, piece, largest, out);
+  }
+}
+
+}  // namespace
+
+std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
+                                         const Reflectance& reflectance, float largest) {
+  const Scene& scene = world.tracer.scene();
+  const std::vector<uint8_t> moving = MovingInstances(scene);
+  std::vector<std::vector<SurfacePiece>> of_instance(scene.instances.size());
+  ParallelFor(static_cast<int64_t>(scene.instances.size()), [&](int64_t i) {
+    if (!moving[static_cast<size_t>(i)])
+      CutInstance(world, enclosure, reflectance, static_cast<uint32_t>(i), largest, of_instance[static_cast<size_t>(i)]);
+  });
+  std::vector<SurfacePiece> all;
+  for (const auto& pieces : of_instance) all.insert(all.end(), pieces.begin(), pieces.end());
+  return all;
+}
+
+void SamplePiece(const SurfacePiece& piece, float step, bool back,
+                 const std::function<void(const SurfaceSample&)>& each) {
+  const Vec3f a = piece.corner[1] - piece.corner[0], b = piece.corner[2] - piece.corner[0];
+  const int across = std::max(1, static_cast<int>(std::ceil(Norm(a) / step))),
+            along = std::max(1, static_cast<int>(std::ceil(Norm(b) / step)));
+  const float area = 0.5f * Norm(Cross(a, b));
+  const bool one = across * along == 1;
+  SurfaceSample sample{{}, back ? -piece.normal : piece.normal, piece.albedo,
+                       one ? area : 2 * area / static_cast<float>(across * along)};
+  bool any = false;
+  const auto put = [&](float u, float v) {
+    sample.p = piece.corner[0] + a * u + b * v;
+    each(sample);
+    any = true;
+  };
+  for (int i = 0; i < across && !one; ++i) {
+    for (int j = 0; j < along; ++j) {
+      const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(across),
+                  v = (static_cast<float>(j) + 0.5f) / static_cast<float>(along);
+      if (u + v <= 1) put(u, v);
+    }
+  }
+  if (!any) put(1.0f / 3, 1.0f / 3);
+}
+
+}  // namespace airsim360::internal

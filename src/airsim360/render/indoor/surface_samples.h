@@ -1,0 +1,33 @@
+// The surfaces of rooms as points, close together.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "airsim360/render/indoor/enclosure.h"
+#include "airsim360/render/indoor/indoor_world.h"
+
+namespace airsim360::internal {
+
+struct SurfaceSample {
+  Vec3f p, n;  ///< unit geometric normal; surfaces have two sides, so points come in pairs
+  Vec3f albedo;
+  float area;  ///< m^2 that it stands for
+};
+
+/// A part of a triangle in or beside enclosed space.
+struct SurfacePiece {
+  Vec3f corner[3];
+  Vec3f normal;  ///< unit, of the front
+  Vec3f albedo;
+};
+
+/// Triangles of what does not move and is no clear pane, cut to pieces of at most `largest` m, in their order.
+std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
+                                         const Reflectance& reflectance, float largest);
+/// Points on a lattice of about `step` m on one side of a piece, at least one.
+void SamplePiece(const SurfacePiece& piece, float step, bool back,
+                 const std::function<void(const SurfaceSample&)>& each);
+
+}  // namespace airsim360::internal

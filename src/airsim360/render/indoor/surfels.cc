@@ -1,0 +1,228 @@
+#include "airsim360/render/indoor/surfels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "airsim360/base/parallel.h"
+#include "airsim360/base/random.h"
+#include "airsim360/render/indoor/surface_samples.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kSampleStep = 0.45f;   // of a cell
+constexpr float kPieceSize = 0.7f;     // m
+constexpr size_t kMostSamples = 64;    // of a cell and direction
+constexpr size_t kMostSurfels = 3;
+constexpr float kBuriedNear = 0.02f;   // m
+constexpr float kFacing = 0.35f;       // least cosine between the normals of a place and its surfel
+constexpr float kPlane = 0.6f;         // of a cell: thickness of the disc
+
+float Lift(float cell) { return std::min(0.012f, cell * 0.2f); }
+
+// Cells do not end where walls stand.
+Vec3f OriginOf(float cell) { return Vec3f{0.377f, 0.411f, 0.353f} * cell; }
+
+uint32_t SideOf(Vec3f n) {
+  const float x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+  return x > y && x > z ? (n.x > 0 ? 0 : 1) : y > z ? (n.y > 0 ? 2 : 3) : (n.z > 0 ? 4 : 5);
+}
+
+struct Sorted {
+  uint64_t key;  // of cell and side
+  SurfaceSample sample;
+};
+
+int32_t CellOf(float x) { return static_cast<int32_t>(std::floor(std::clamp(x, -0.9f * kFarCell, 0.9f * kFarCell))); }
+
+std::vector<Sorted> SortSamples(const std::vector<SurfacePiece>& pieces, float cell,
+                                const std::function<bool(Vec3f, Vec3f)>& wanted) {
+  constexpr int64_t kChunk = 256;
+  const Vec3f origin = OriginOf(cell);
+  const int64_t chunks = (static_cast<int64_t>(pieces.size()) + kChunk - 1) / kChunk;
+  std::vector<std::vector<Sorted>> parts(static_cast<size_t>(chunks));
+  ParallelFor(chunks, [&](int64_t chunk) {
+    std::vector<Sorted>& out = parts[static_cast<size_t>(chunk)];
+    for (int64_t i = chunk * kChunk; i < std::min<int64_t>((chunk + 1) * kChunk, static_cast<int64_t>(pieces.size())); ++i) {
+      for (const bool back : {false, true}) {
+        SamplePiece(pieces[static_cast<size_t>(i)], cell * kSampleStep, back, [&](const SurfaceSample& s) {
+          if (wanted && !wanted(s.p, s.n)) return;
+          const Vec3f q = (s.p - origin) / cell;
+          out.push_back({IndoorKey(CellOf(q.x), CellOf(q.y), CellOf(q.z)) << 3 | SideOf(s.n), s});
+        });
+      }
+    }
+  });
+  std::vector<Sorted> all;
+  for (auto& part : parts) {
+    all.insert(all.end(), part.begin(), part.end());
+    part = {};
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Sorted& a, const Sorted& b) { return a.key < b.key; });
+  return all;
+}
+
+// Inside something, or just under it.
+bool Buried(const IndoorWorld& world, const SurfaceSample& s, uint64_t seed) {
+  RayPacket packet;
+  Vec3f t, b;
+  TangentFrame(s.n, t, b);
+  const Vec2f shift = ShiftOf(seed);
+  constexpr uint32_t kRays = 8;
+  for (uint32_t i = 0; i < kRays; ++i) {
+    const Vec2f u = EvenPoint(i, shift);
+    const float r = std::sqrt(u.x), angle = 6.2831853f * u.y;
+    packet.Set(static_cast<int>(i), s.p + s.n * 1.5e-3f,
+               t * (r * std::cos(angle)) + b * (r * std::sin(angle)) + s.n * std::sqrt(1 - u.x), INFINITY);
+  }
+  world.tracer.Intersect16(packet.valid, packet.rays, false);
+  int bad = 0;
+  for (uint32_t i = 0; i < kRays; ++i) {
+    if (!packet.Hit(static_cast<int>(i))) continue;
+    const MetSurface met = SurfaceUnder(world, packet, static_cast<int>(i));
+    bad += met.behind || packet.rays.t_far[i] < kBuriedNear;
+  }
+  return bad * 3 >= static_cast<int>(kRays) * 2;
+}
+
+bool Sees(const IndoorWorld& world, const Surfel& surfel, const SurfaceSample& s, float lift) {
+  const Vec3f from = surfel.p + surfel.n * lift, to = s.p + s.n * lift;
+  return Norm(to - from) < 1e-4f || !world.tracer.Occluded(from, to);
+}
+
+void FindClear(const IndoorWorld& world, float cell, Surfel& surfel) {
+  RayPacket packet;
+  for (int i = 0; i < kClearSectors; ++i) {
+    // Along the square of ClearSector.
+    const float turn = (static_cast<float>(i) + 0.5f) * (4.0f / kClearSectors);
+    const float a = turn < 1 ? turn : turn < 3 ? 2 - turn : turn - 4;
+    const float x = (turn < 1 || turn > 3 ? 1 : -1) * (1 - std::fabs(a));
+    packet.Set(i, surfel.p + surfel.n * Lift(cell), Normalized(surfel.t * x + surfel.b * a), 2 * cell);
+  }
+  world.tracer.Intersect16(packet.valid, packet.rays, false);
+  for (int i = 0; i < kClearSectors; ++i) surfel.clear[i] = packet.Hit(i) ? packet.rays.t_far[i] : 2 * cell;
+}
+
+// The surfels of one cell and side.
+std::vector<Surfel> PlaceInCell(const IndoorWorld& world, float cell, std::span<Sorted> samples) {
+  const uint64_t key = samples[0].key >> 3;
+  const int32_t at[3] = {static_cast<int32_t>(key >> 40) - kFarCell, static_cast<int32_t>(key >> 20 & 0xfffff) - kFarCell,
+                         static_cast<int32_t>(key & 0xfffff) - kFarCell};
+  const Vec3f middle = OriginOf(cell) + Vec3f{at[0] + 0.5f, at[1] + 0.5f, at[2] + 0.5f} * cell;
+  const auto far = [&](const Sorted& s) { return Dot(s.sample.p - middle, s.sample.p - middle); };
+  std::stable_sort(samples.begin(), samples.end(), [&](const Sorted& a, const Sorted& b) { return far(a) < far(b); });
+  std::vector<Surfel> out;
+  for (size_t i = 0; i < std::min(samples.size(), kMostSamples); ++i) {
+    const SurfaceSample& s = samples[i].sample;
+    Surfel* seen = nullptr;
+    for (Surfel& surfel : out) {
+      if (seen == nullptr && Sees(world, surfel, s, Lift(cell))) seen = &surfel;
+    }
+    if (seen != nullptr) {
+      if (Buried(world, s, samples[0].key + i)) continue;
+      seen->area += s.area, seen->albedo += s.albedo * s.area;
+      if (seen->point_count < Surfel::kPoints) seen->points[seen->point_count++] = s.p;
+    } else if (out.size() < kMostSurfels && !Buried(world, s, samples[0].key + i)) {
+      Surfel surfel;
+      surfel.p = s.p, surfel.n = s.n, surfel.albedo = s.albedo * s.area, surfel.area = s.area;
+      TangentFrame(s.n, surfel.t, surfel.b);
+      std::copy(at, at + 3, surfel.cell);
+      surfel.points[surfel.point_count++] = s.p;
+      out.push_back(surfel);
+    }
+  }
+  for (Surfel& surfel : out) {
+    surfel.albedo = surfel.albedo / std::max(surfel.area, 1e-12f);
+    FindClear(world, cell, surfel);
+  }
+  return out;
+}
+
+}  // namespace
+
+SurfelSet::SurfelSet(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance, float cell,
+                     const std::function<bool(Vec3f, Vec3f)>& wanted)
+    : cell_(cell), origin_(OriginOf(cell)) {
+  std::vector<Sorted> samples =
+      SortSamples(EnclosedPieces(world, enclosure, reflectance, kPieceSize), cell, wanted);
+  std::vector<size_t> starts;
+  for (size_t i = 0; i < samples.size(); ++i)
+    if (i == 0 || samples[i].key != samples[i - 1].key) starts.push_back(i);
+  starts.push_back(samples.size());
+  const int64_t groups = static_cast<int64_t>(starts.size()) - 1, kChunk = 64;
+  std::vector<std::vector<Surfel>> parts(static_cast<size_t>((groups + kChunk - 1) / kChunk));
+  ParallelFor(static_cast<int64_t>(parts.size()), [&](int64_t chunk) {
+    const FlushDenormals flush;
+    for (int64_t g = chunk * kChunk; g < std::min(groups, (chunk + 1) * kChunk); ++g) {
+      const size_t first = starts[static_cast<size_t>(g)], count = starts[static_cast<size_t>(g) + 1] - first;
+      for (const Surfel& surfel : PlaceInCell(world, cell, std::span(samples).subspan(first, count)))
+        parts[static_cast<size_t>(chunk)].push_back(surfel);
+    }
+  });
+  for (const auto& part : parts) surfels_.insert(surfels_.end(), part.begin(), part.end());
+  MakeTable();
+}
+
+void SurfelSet::MakeTable() {
+  const auto key = [&](size_t i) { return IndoorKey(surfels_[i].cell[0], surfels_[i].cell[1], surfels_[i].cell[2]); };
+  size_t count = 0;
+  for (size_t i = 0; i < surfels_.size(); ++i) count += i == 0 || key(i) != key(i - 1);
+  cells_.assign(std::bit_ceil(std::max<size_t>(16, 2 * count)), {kNoCell, 0, 0});
+  for (size_t i = 0; i < surfels_.size();) {
+    size_t end = i + 1;
+    while (end < surfels_.size() && key(end) == key(i)) ++end;
+    size_t at = IndoorHash(key(i)) & (cells_.size() - 1);
+    while (cells_[at].key != kNoCell) at = (at + 1) & (cells_.size() - 1);
+    cells_[at] = {key(i), static_cast<uint32_t>(i), static_cast<uint32_t>(end - i)};
+    i = end;
+  }
+}
+
+std::pair<uint32_t, uint32_t> SurfelSet::In(int x, int y, int z) const {
+  const uint64_t key = IndoorKey(x, y, z);
+  for (size_t at = IndoorHash(key) & (cells_.size() - 1);; at = (at + 1) & (cells_.size() - 1)) {
+    if (cells_[at].key == key) return {cells_[at].first, cells_[at].count};
+    if (cells_[at].key == kNoCell) return {0, 0};
+  }
+}
+
+float SurfelSet::Weight(const Surfel& surfel, Vec3f p, Vec3f n) const {
+  const float c = Dot(n, surfel.n);
+  if (c < kFacing) return 0;
+  const Vec3f d = p - surfel.p;
+  const float x = Dot(d, surfel.t), y = Dot(d, surfel.b), h = Dot(d, surfel.n);
+  const float far = surfel.clear[static_cast<int>(ClearSector(x, y))] + 0.004f;
+  if (x * x + y * y > far * far) return 0;
+  const float e = h / (kPlane * cell_);
+  return std::max(0.0f, 1 - e * e * 0.8f) * (c - kFacing) * (c - kFacing) + 1e-5f;
+}
+
+uint32_t SurfelSet::Nearest(Vec3f p, Vec3f n) const {
+  const Vec3f q = (p - origin_) / cell_;
+  const int x = CellOf(q.x), y = CellOf(q.y), z = CellOf(q.z);
+  uint32_t best = kNone;
+  float least = INFINITY;
+  const auto look = [&](int cx, int cy, int cz) {
+    const auto [first, count] = In(cx, cy, cz);
+    for (uint32_t i = first; i < first + count; ++i) {
+      if (Weight(surfels_[i], p, n) <= 0) continue;
+      const Vec3f d = p - surfels_[i].p;
+      const float far = Dot(d, d) * (2 - Dot(n, surfels_[i].n));
+      if (far < least) least = far, best = i;
+    }
+  };
+  look(x, y, z);
+  if (best != kNone) return best;
+  for (int k = 0; k < 27; ++k) look(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1);
+  return best;
+}
+
+double EnclosedArea(const IndoorWorld& world, const Enclosure& enclosure) {
+  double area = 0;
+  for (const SurfacePiece& piece : EnclosedPieces(world, enclosure, Reflectance(world.tables), kPieceSize))
+    area += 0.5 * Norm(Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
+  return area;
+}
+
+}  // namespace airsim360::internal

@@ -1,0 +1,71 @@
+// Places on the surfaces of rooms, in cells of space.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "airsim360/render/indoor/enclosure.h"
+#include "airsim360/render/indoor/indoor_world.h"
+#include "airsim360/render/shared/indoor_data.h"
+
+namespace airsim360::internal {
+
+inline constexpr int kClearSectors = 16;
+/// Direction (x, y) in the plane of a surfel as a number in [0, kClearSectors): even along a square about it.
+inline float ClearSector(float x, float y) {
+  const float sum = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+  const float a = sum > 0 ? y / sum : 0;
+  const float turn = x >= 0 ? (y >= 0 ? a : 4 + a) : 2 - a;
+  const float sector = turn * (kClearSectors / 4);
+  return sector < kClearSectors ? sector : 0;
+}
+
+/// A disc of surface while light is computed.
+struct Surfel {
+  Vec3f p, n, t, b;       ///< frame: t, b, n
+  Vec3f albedo;           ///< share of even light given back
+  float area = 0;         ///< m^2 that it stands for
+  int32_t cell[3] = {};
+  float clear[kClearSectors];  ///< m, at most two cells
+  static constexpr int kPoints = 12;
+  Vec3f points[kPoints];  ///< of the surface it stands for
+  int point_count = 0;
+};
+
+/// Surfels of one cell size, sorted by cell. The same with any number of threads.
+class SurfelSet {
+ public:
+  /// On all surfaces of the enclosed parts where `wanted` says so (nullptr: everywhere): of every cell, and there of
+  /// each of six directions, the sample nearest to the middle; more where samples do not see each other.
+  /// `albedo` of materials.
+  SurfelSet(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance, float cell,
+            const std::function<bool(Vec3f p, Vec3f n)>& wanted = nullptr);
+
+  float cell() const { return cell_; }
+  Vec3f origin() const { return origin_; }
+  std::vector<Surfel>& surfels() { return surfels_; }
+  const std::vector<Surfel>& surfels() const { return surfels_; }
+  const std::vector<IndoorCell>& cells() const { return cells_; }
+  /// The surfels of a cell: index of the first, and number.
+  std::pair<uint32_t, uint32_t> In(int x, int y, int z) const;
+  /// How well a surfel stands for a place: 0 not at all.
+  float Weight(const Surfel& surfel, Vec3f p, Vec3f n) const;
+  /// The surfel nearest to a place on a surface; kNone.
+  uint32_t Nearest(Vec3f p, Vec3f n) const;
+  static constexpr uint32_t kNone = UINT32_MAX;
+
+ private:
+  void MakeTable();
+
+  float cell_;
+  Vec3f origin_;
+  std::vector<Surfel> surfels_;
+  std::vector<IndoorCell> cells_;  ///< hash table
+};
+
+/// m^2 of surface in the enclosed parts.
+double EnclosedArea(const IndoorWorld& world, const Enclosure& enclosure);
+
+}  // namespace airsim360::internal
