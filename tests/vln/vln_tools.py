@@ -145,6 +145,15 @@ def check_schema(schema, value, root=None, where="$"):
                 assert schema.get("additionalProperties", True), f"{where}.{name} is not in the schema"
 
 
+def jpeg_size(data):
+    """Width and height of its first frame header (ITU-T T.81, B.2.2)."""
+    assert data[:2] == b"\xff\xd8"
+    at = 2
+    while not (0xC0 <= data[at + 1] <= 0xC2):
+        at += 2 + int.from_bytes(data[at + 2:at + 4], "big")
+    return int.from_bytes(data[at + 7:at + 9], "big"), int.from_bytes(data[at + 5:at + 7], "big")
+
+
 def paper_instructions():
     """Template id -> text of the built-in list."""
     return {t["id"]: t["text"] for t in json.loads(run("vln", "templates", "--json").stdout)}

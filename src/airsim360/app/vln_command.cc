@@ -12,11 +12,16 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
 #include "airsim360/base/log.h"
+#include "airsim360/base/signature.h"
 #include "airsim360/dataset/record/version.h"
+#include "airsim360/vln/demos/demos.h"
 #include "airsim360/vln/episodes/exchange.h"
 #include "airsim360/vln/episodes/make_episodes.h"
+#include "airsim360/vln/episodes/recipe.h"
+#include "airsim360/vln/report/failure_pictures.h"
 #include "airsim360/vln/report/submission.h"
 #include "airsim360/vln/report/vln_report.h"
+#include "airsim360/worlds/worlds.h"
 
 namespace airsim360 {
 namespace {
@@ -42,7 +47,7 @@ std::shared_ptr<Stage> Open(const GlobalOptions& globals, const std::string& wor
 
 struct MakeArguments {
   VlnMakeOptions options;
-  std::string out;
+  std::string recipe, out;
 };
 
 void PrintMade(const VlnMade& made, const std::string& out, const GlobalOptions& globals) {
@@ -60,12 +65,31 @@ void PrintMade(const VlnMade& made, const std::string& out, const GlobalOptions&
     std::printf("not bound: %s, start %d, seed %llu: %s\n", u.template_id.c_str(), u.start, static_cast<unsigned long long>(u.world_seed), u.why.c_str());
 }
 
+// What a recipe makes, with the seed, people, weather and limit of the flags.
+VlnMade MakeRecipe(const MakeArguments& arguments, const GlobalOptions& globals) {
+  std::vector<std::string> known;
+  for (const WorldInfo& info : ListWorlds()) known.push_back(info.name);
+  VlnMade made;
+  for (VlnMakeOptions& options : VlnRecipe(arguments.recipe, known)) {
+    options.seed = globals.seed;
+    options.people = arguments.options.people;
+    options.limit = arguments.options.limit;
+    if (!arguments.options.weather.empty()) options.weather = arguments.options.weather;
+    options.open = [&](uint64_t seed) { return Open(globals, options.world, seed, 0); };
+    VlnMade part = MakeEpisodes(options);
+    std::ranges::move(part.episodes, std::back_inserter(made.episodes));
+    std::ranges::move(part.unbound, std::back_inserter(made.unbound));
+  }
+  return made;
+}
+
 void Make(MakeArguments& arguments, const GlobalOptions& globals) {
   VlnMakeOptions& options = arguments.options;
   options.seed = globals.seed;
+  if (options.world.empty() == arguments.recipe.empty()) throw InputError("--world: give either a world or a --recipe");
   if (!options.weather.empty() && options.weather != "mix") ApplyFlags({.weather = options.weather}, {});
   options.open = [&](uint64_t seed) { return Open(globals, options.world, seed, 0); };
-  const VlnMade made = MakeEpisodes(options);
+  const VlnMade made = arguments.recipe.empty() ? MakeEpisodes(options) : MakeRecipe(arguments, globals);
   if (made.episodes.empty()) throw RuntimeError("no instruction could be bound to " + options.world + ": " + made.unbound.front().why);
   std::string text;
   for (const LanguageEpisode& e : made.episodes) text += EpisodeLine(e) + "\n";
@@ -76,10 +100,11 @@ void Make(MakeArguments& arguments, const GlobalOptions& globals) {
 void AddMake(CLI::App& parent, GlobalOptions& globals) {
   CLI::App* command = parent.add_subcommand("make", "episodes: instructions bound to a world, each with the proof that it means one thing");
   const auto a = std::make_shared<MakeArguments>();
-  command->add_option("--world", a->options.world, "name or file of the world")->required();
-  command->add_option("--templates", a->options.templates, "paper37, any (the same style over whatever a world has), or a JSON file (default paper37)");
-  command->add_option("--starts", a->options.starts, "starts of each instruction (default 3)");
-  command->add_option("--seeds", a->options.seeds, "worlds, of the seeds from --seed on (default 1)");
+  command->add_option("--world", a->options.world, "name or file of the world");
+  CLI::Option* recipe = command->add_option("--recipe", a->recipe, "instead of a world, many: omni360-vln, over 10,000 episodes in all of them");
+  command->add_option("--templates", a->options.templates, "paper37, any (the same style over whatever a world has), or a JSON file (default paper37)")->excludes(recipe);
+  command->add_option("--starts", a->options.starts, "starts of each instruction (default 3)")->excludes(recipe);
+  command->add_option("--seeds", a->options.seeds, "worlds, of the seeds from --seed on (default 1)")->excludes(recipe);
   command->add_option("--people", a->options.people, "people in the world when episodes are flown (default 0)");
   command->add_option("--weather", a->options.weather, "of pictures, or mix: another one an episode");
   command->add_option("--limit", a->options.limit, "episodes of a seed at most (default all)");
@@ -252,35 +277,90 @@ void AddRun(CLI::App& parent, GlobalOptions& globals) {
   command->callback([a, &globals] { Run(*a, globals); });
 }
 
+// ------------------------------------------------------------------------------------------------ demos
+
+struct DemoArguments {
+  std::string file, out;
+  DemoOptions options;
+};
+
+void Demos(DemoArguments& a, const GlobalOptions& globals) {
+  a.options.out = a.out;
+  a.options.open = [&](const std::string& world, uint64_t seed, int64_t people) { return Open(globals, world, seed, people); };
+  const DemoSummary made = RecordDemos(ReadEpisodes(a.file), a.options);
+  Json left_out = Json::array();
+  for (const auto& [id, why] : made.left_out) left_out.push_back({{"id", id}, {"why", why}});
+  if (globals.json) {
+    PrintJson({{"out", a.out}, {"episodes", made.episodes}, {"steps", made.steps}, {"seconds", made.seconds}, {"left_out", left_out}});
+    return;
+  }
+  std::printf("%lld flights, %lld steps, %s of flight in %s\n", static_cast<long long>(made.episodes), static_cast<long long>(made.steps),
+              ClockText(made.seconds).c_str(), a.out.c_str());
+  for (const auto& [id, why] : made.left_out) std::printf("left out: %s: %s\n", id.c_str(), why.c_str());
+}
+
+void AddDemos(CLI::App& parent, GlobalOptions& globals) {
+  CLI::App* command = parent.add_subcommand("demos", "flights of the oracle for models that act: panoramas, states and actions ten times a second");
+  const auto a = std::make_shared<DemoArguments>();
+  command->add_option("file", a->file, "episodes.jsonl")->required();
+  command->add_option("--layout", a->options.layouts, "jsonl, rlds or lerobot, or several (default jsonl)")->delimiter(',');
+  command->add_option("--limit", a->options.limit, "the first N episodes (default all)");
+  command->add_option("--width", a->options.width, "of panoramas, pixels (default 512)");
+  AddConfigFlags(*command, [a](ConfigVisitor& v) { a->options.picture.Visit(v); });
+  command->add_option("--out", a->out, "folder; each layout has one of its name in it")->required();
+  command->callback([a, &globals] { Demos(*a, globals); });
+}
+
 // ------------------------------------------------------------------------------------------------ report
 
-void Report(const std::vector<std::string>& files, const std::string& out, const GlobalOptions& globals) {
+struct ReportArguments {
+  std::vector<std::string> files;
+  std::string out, episodes;
+  FailurePictureOptions pictures;
+};
+
+void Report(ReportArguments& a, const GlobalOptions& globals) {
   std::vector<VlnRun> runs;
-  for (const std::string& file : files) runs.push_back({std::filesystem::path(file).stem().string(), ReadResults(file)});
-  const std::string stem = std::filesystem::path(out).replace_extension("").string();
-  WriteFileAtomically(stem + ".html", ReportHtml(runs));
+  for (const std::string& file : a.files) runs.push_back({std::filesystem::path(file).stem().string(), ReadResults(file)});
+  FailurePictures pictures;
+  if (!a.episodes.empty()) {
+    a.pictures.open = [&](const std::string& world, uint64_t seed, int64_t people) { return Open(globals, world, seed, people); };
+    pictures = DrawFailures(runs, ReadEpisodes(a.episodes), a.pictures);
+  }
+  const std::string stem = std::filesystem::path(a.out).replace_extension("").string();
+  WriteFileAtomically(stem + ".html", ReportHtml(runs, pictures));
   WriteFileAtomically(stem + ".md", ReportMarkdown(runs));
-  if (globals.json) PrintJson({{"html", stem + ".html"}, {"markdown", stem + ".md"}, {"runs", runs.size()}});
+  if (globals.json) PrintJson({{"html", stem + ".html"}, {"markdown", stem + ".md"}, {"runs", runs.size()}, {"panoramas", pictures.size()}});
   else std::printf("%s.html\n%s.md\n", stem.c_str(), stem.c_str());
 }
 
 void AddReport(CLI::App& parent, GlobalOptions& globals) {
   CLI::App* command = parent.add_subcommand("report", "a page about runs, in HTML and Markdown: scores, decisions, maps, failures");
-  const auto files = std::make_shared<std::vector<std::string>>();
-  const auto out = std::make_shared<std::string>();
-  command->add_option("files", *files, "results.jsonl of one or more runs")->required();
-  command->add_option("--out", *out, "report.html; report.md lies beside it")->required();
-  command->callback([files, out, &globals] { Report(*files, *out, globals); });
+  const auto a = std::make_shared<ReportArguments>();
+  command->add_option("files", a->files, "results.jsonl of one or more runs")->required();
+  command->add_option("--episodes", a->episodes, "episodes.jsonl of the runs: failures are shown with their panoramas");
+  command->add_option("--width", a->pictures.width, "of these panoramas, pixels (default 1024)");
+  AddConfigFlags(*command, [a](ConfigVisitor& v) { a->pictures.picture.Visit(v); });
+  command->add_option("--out", a->out, "report.html; report.md lies beside it")->required();
+  command->callback([a, &globals] { Report(*a, globals); });
 }
 
 // ------------------------------------------------------------------------------------------------ submit, verify
 
 struct SubmitArguments {
-  std::string episodes, results, transcript, name, out;
+  std::string episodes, results, transcript, name, key, out;
 };
 
 void Submit(const SubmitArguments& a, const GlobalOptions& globals) {
-  const SubmissionFacts facts{a.name, std::string(kVersion), Sha256HexOfFile("/proc/self/exe")};
+  SubmissionFacts facts{a.name, std::string(kVersion), Sha256HexOfFile("/proc/self/exe")};
+  if (!a.key.empty()) {
+    facts.key = ReadTextFile(a.key, 1 << 20);
+    try {
+      PublicKeyOf(facts.key);
+    } catch (const InputError& error) {
+      throw InputError("--key: " + a.key + " " + error.what());
+    }
+  }
   WriteFileAtomically(a.out, PackSubmission(a.episodes, a.results, a.transcript, facts));
   if (globals.json) PrintJson({{"out", a.out}});
   else std::printf("%s\n", a.out.c_str());
@@ -293,12 +373,13 @@ void AddSubmit(CLI::App& parent, GlobalOptions& globals) {
   command->add_option("results", a->results, "results.jsonl")->required();
   command->add_option("--transcript", a->transcript, "RESULTS.transcript.jsonl, whose hash is kept");
   command->add_option("--name", a->name, "of the entry");
+  command->add_option("--key", a->key, "PEM of an Ed25519 key (openssl genpkey -algorithm ed25519): signs it");
   command->add_option("--out", a->out, "submission.json")->required();
   command->callback([a, &globals] { Submit(*a, globals); });
 }
 
 struct VerifyArguments {
-  std::string submission, episodes;
+  std::string submission, episodes, signer;
   bool fly = false;
 };
 
@@ -317,7 +398,7 @@ std::vector<VlnResult> FlyAgain(const std::vector<LanguageEpisode>& episodes, co
 void Verify(const VerifyArguments& a, const GlobalOptions& globals) {
   std::function<std::vector<VlnResult>(const std::vector<LanguageEpisode>&, const VlnResult&)> fly;
   if (a.fly) fly = [&](const std::vector<LanguageEpisode>& episodes, const VlnResult& like) { return FlyAgain(episodes, like, globals); };
-  const std::vector<std::string> problems = VerifySubmission(a.submission, a.episodes, fly);
+  const std::vector<std::string> problems = VerifySubmission(a.submission, a.episodes, a.signer, fly);
   if (globals.json) PrintJson({{"submission", a.submission}, {"flown_again", a.fly}, {"problems", problems}});
   else if (problems.empty()) std::printf("%s: all holds\n", a.submission.c_str());
   for (const std::string& problem : problems)
@@ -331,6 +412,7 @@ void AddVerify(CLI::App& parent, GlobalOptions& globals) {
   const auto a = std::make_shared<VerifyArguments>();
   command->add_option("submission", a->submission, "submission.json")->required();
   command->add_option("episodes", a->episodes, "episodes.jsonl")->required();
+  command->add_option("--signer", a->signer, "public key that it has to be signed with, 64 hexadecimal digits");
   command->add_flag("--fly", a->fly, "also fly again and compare byte for byte");
   command->callback([a, &globals] { Verify(*a, globals); });
 }
@@ -345,6 +427,7 @@ void AddVlnCommand(CLI::App& app, GlobalOptions& globals) {
   AddCheck(*command, globals);
   AddImportAndExport(*command, globals);
   AddRun(*command, globals);
+  AddDemos(*command, globals);
   AddReport(*command, globals);
   AddSubmit(*command, globals);
   AddVerify(*command, globals);

@@ -132,7 +132,10 @@ void Episode::Note(std::span<const SimEvent> happened) {
     last_p_W_ = p;
     nearest_ = std::min(nearest_, distance_to_goal());
   }
-  if (state().t_ns % kPathPeriodNs == 0) path_.push_back(p);
+  if (state().t_ns % kPathPeriodNs == 0) {
+    path_.push_back(p);
+    if (watch_) watch_(*this);
+  }
   if (spec_.end_on_collision && vehicle().collision.count > 0) end_ = EpisodeEnd::kCollision;
   if (spec_.success == SuccessRule::kReach && distance_to_goal() <= radius_) end_ = EpisodeEnd::kReached;
   if (end_ == EpisodeEnd::kRunning && seconds() >= spec_.max_seconds) end_ = EpisodeEnd::kMaxSeconds;
@@ -193,6 +196,11 @@ void Episode::Act(const AgentAction& action) {
   }
   if (refused_) throw InputError("action: the drone cannot fly this now: " + refusal_);
   if (end_ == EpisodeEnd::kRunning && steps_ >= spec_.max_steps) end_ = EpisodeEnd::kMaxSteps;
+}
+
+void Episode::Watch(std::function<void(const Episode&)> watch) {
+  watch_ = std::move(watch);
+  watch_(*this);
 }
 
 void Episode::Wait(double seconds) {

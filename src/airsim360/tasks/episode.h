@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,8 @@ class Episode {
   /// Flies one action to its end, or until the episode ends. InputError when the episode is over or the drone
   /// cannot fly the action.
   void Act(const AgentAction& action);
+  /// Calls `watch` now, and from now on every kPathPeriodNs of flight.
+  void Watch(std::function<void(const Episode&)> watch);
   /// Time goes by while the agent thinks: the drone flies on with its last action. Nothing once it is over.
   void Wait(double seconds);
 
@@ -71,6 +74,7 @@ class Episode {
   const EpisodeSpec& spec() const { return spec_; }
   const Vehicle& vehicle() const { return state().vehicles[0]; }
   const SimState& state() const { return loop_->state(); }
+  int rotors() const { return static_cast<int>(loop_->model().drones[0]->model().rotors.size()); }
   /// The people as they stand now, for pictures; null: nobody.
   std::shared_ptr<const SceneState> moved() const;
   Vec3d start() const { return start_W_; }
@@ -109,6 +113,7 @@ class Episode {
   double length_ = 0;
   Vec3d last_p_W_;
   std::vector<Vec3d> path_;
+  std::function<void(const Episode&)> watch_ = {};
   mutable ShortestWayCache shortest_way_;  ///< looked for when the first score is asked for
 };
 

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <queue>
 
 #include "airsim360/planning/search.h"
 #include "airsim360/routes/roadmap.h"
@@ -12,7 +15,8 @@ namespace {
 constexpr double kRoom = 0.45;      // metres free around a step
 constexpr double kOnLeg = 0.01;     // metres from a straight leg that rounding makes
 constexpr double kBetter = 1;       // metres less to go that make steps worth it
-constexpr int kMostExpanded = 400;  // places looked at for that
+constexpr double kHorizon = 5;      // moves that steps are planned for at a time
+constexpr int kMostExpanded = 3000;  // places looked at for that
 constexpr double kSpacing = 1;      // metres between points of the way that progress is measured on
 constexpr double kPi = std::numbers::pi;
 
@@ -91,6 +95,7 @@ class OracleAgent : public VlnAgent {
   struct Node {
     Vec3d p;
     double yaw = 0, to_go = 0;
+    int decisions = 0;           ///< so far
     int parent = -1, turns = 0;  ///< turns to the right, then `last`
     Preset last = Preset::kForward;
   };
@@ -102,7 +107,7 @@ class OracleAgent : public VlnAgent {
     const auto add = [&](Vec3d step, int turns, Preset last) {
       const double yaw = from.yaw - turns * sizes.turn;
       const Vec3d p = from.p + RotationZ(yaw) * step;
-      if (IsFree(s.solid, from.p, p, room)) steps.push_back({p, yaw, ToGo(p) + 0.1 * std::abs(turns), parent, turns, last});
+      if (IsFree(s.solid, from.p, p, room)) steps.push_back({p, yaw, ToGo(p), from.decisions + std::abs(turns) + 1, parent, turns, last});
     };
     const int half = static_cast<int>(std::lround(kPi / sizes.turn));
     for (int turns = 1 - half; turns <= half; ++turns) add({sizes.forward, 0, 0}, turns, Preset::kForward);
@@ -114,29 +119,40 @@ class OracleAgent : public VlnAgent {
     return steps;
   }
 
-  // Steps to the first place found from which clearly less is to go than from here; mostly one, more around a corner that
-  // steps of fixed lengths do not fit. Empty: there is none within the effort.
+  // The fewest steps to where clearly less is to go than from here (Hart, Nilsson and Raphael 1968, what is to go counted a little
+  // more than it costs): turns count as much as moves do. Empty: there is none within the effort.
   std::vector<Preset> PlanSteps(const VlnSituation& s, double to_go) const {
+    constexpr double kGreed = 1.3;
     const Viewpoint view = s.Pose();
     // A drone that came to rest a little off may have less room than is kept from things on the way.
     const double room = std::clamp(static_cast<double>(s.solid.Clearance(VecCast<float>(view.p_W), 1)) - 0.02, 0.25, kRoom);
+    const double pace = s.flight.spec().presets.forward, enough = std::max(to_go - kHorizon * pace, 0.25 * s.radius);
     std::vector<Node> nodes = {{view.p_W, view.yaw, to_go}};
-    std::vector<bool> looked = {false};
-    for (int expanded = 0; expanded < kMostExpanded; ++expanded) {
-      int best = -1;
-      for (size_t i = 0; i < nodes.size(); ++i)
-        if (!looked[i] && (best < 0 || nodes[i].to_go < nodes[static_cast<size_t>(best)].to_go)) best = static_cast<int>(i);
-      if (best < 0) return {};
-      const Node from = nodes[static_cast<size_t>(best)];
-      if (best > 0 && from.to_go < to_go - kBetter) return StepsTo(nodes, best);
-      looked[static_cast<size_t>(best)] = true;
-      for (Node& next : StepsFrom(s, from, best, room)) {
-        if (std::ranges::any_of(nodes, [&](const Node& n) { return Norm(n.p - next.p) < 0.8; })) continue;
+    std::map<std::array<int64_t, 4>, int> reached;  // by place and heading: decisions
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    open.push({0, 0});
+    int best = 0;
+    for (int expanded = 0; expanded < kMostExpanded && !open.empty(); ++expanded) {
+      const int at = open.top().second;
+      open.pop();
+      const Node from = nodes[static_cast<size_t>(at)];
+      if (from.to_go < nodes[static_cast<size_t>(best)].to_go) best = at;
+      if (from.to_go <= enough) break;
+      for (Node& next : StepsFrom(s, from, at, room)) {
+        const auto [entry, is_new] = reached.try_emplace(CellOf(next), next.decisions);
+        if (!is_new && entry->second <= next.decisions) continue;
+        entry->second = next.decisions;
+        open.push({next.decisions + kGreed * next.to_go / pace, static_cast<int>(nodes.size())});
         nodes.push_back(std::move(next));
-        looked.push_back(false);
       }
     }
-    return {};
+    return nodes[static_cast<size_t>(best)].to_go < to_go - kBetter ? StepsTo(nodes, best) : std::vector<Preset>{};
+  }
+
+  static std::array<int64_t, 4> CellOf(const Node& node) {
+    const auto cell = [](double v) { return std::llround(v / 0.8); };
+    return {cell(node.p.x), cell(node.p.y), cell(node.p.z), std::llround(std::remainder(node.yaw, 2 * kPi) / 0.1)};
   }
 
   static std::vector<Preset> StepsTo(const std::vector<Node>& nodes, int at) {

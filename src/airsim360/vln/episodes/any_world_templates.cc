@@ -76,6 +76,16 @@ std::vector<InstructionTemplate> OfNoun(const Noun& noun) {
   return made;
 }
 
+// Two things one after the other, the second seen in the direction of the flight to the first.
+InstructionTemplate OneThenTheOther(const Noun& first, const Noun& second, const char* sector) {
+  std::string id = "any/" + first.word + "/then/" + second.word + "/" + sector;
+  std::ranges::replace(id, ' ', '_');
+  return {.id = std::move(id),
+          .text = "Fly straight to the nearest " + first.word + ". Still facing the way you flew, go on to the nearest " + second.word + " " + Said(sector) + " and stop beside it.",
+          .query = {first, {Nearest()}},
+          .then = {{.query = {second, {Bearing(sector), Nearest()}}}}};
+}
+
 // Closed rooms are small.
 void FitRoom(InstructionTemplate& made) {
   made.nearest = 2;
@@ -83,6 +93,7 @@ void FitRoom(InstructionTemplate& made) {
   made.lowest = 1;
   made.highest = 2;
   made.distance = 1;
+  for (NextPart& part : made.then) part.distance = 1;
 }
 
 }  // namespace
@@ -104,14 +115,16 @@ std::vector<InstructionTemplate> AnyWorldTemplates(const Scene& scene) {
   for (const auto& [word, categories] : by_word) words.push_back(word);
   std::ranges::stable_sort(words, {}, [&](const std::string& word) { return count[word]; });
   words.resize(std::min(words.size(), kMostNouns));
+  std::vector<Noun> nouns;
+  for (const std::string& word : words) nouns.push_back({.word = word, .categories = {by_word[word].begin(), by_word[word].end()}});
   std::vector<InstructionTemplate> templates;
-  for (const std::string& word : words) {
-    const Noun noun{.word = word, .categories = {by_word[word].begin(), by_word[word].end()}};
-    for (InstructionTemplate& made : OfNoun(noun)) {
-      if (scene.sky_entity == kNoEntity) FitRoom(made);
-      templates.push_back(std::move(made));
-    }
-  }
+  for (const Noun& noun : nouns)
+    for (InstructionTemplate& made : OfNoun(noun)) templates.push_back(std::move(made));
+  // Each thing leads on to three others.
+  for (size_t i = 0; i < nouns.size(); ++i)
+    for (size_t k = 1; k <= std::min<size_t>(3, nouns.size() - 1); ++k)
+      templates.push_back(OneThenTheOther(nouns[i], nouns[(i + k) % nouns.size()], kSectors[(i + 2 * k) % 4].name));
+  if (scene.sky_entity == kNoEntity) std::ranges::for_each(templates, FitRoom);
   return templates;
 }
 

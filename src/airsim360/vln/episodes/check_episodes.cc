@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
@@ -30,24 +31,45 @@ class Checker {
     if (!IsBound(e)) return "not unique: it was imported, and no query says what is meant";
     for (const EntityId id : e.entities)
       if (id > scene.entities.size()) return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
+    if (!e.before.empty() && !e.turn) return "it has several parts, but 'turn' is missing";
+    if (!e.before.empty() && std::ranges::any_of(e.before.front().query.predicates, &Predicate::at_turn)) return "its first part is seen from a turn";
+    for (const EpisodePart& part : e.before)
+      for (const EntityId id : part.entities)
+        if (id > scene.entities.size()) return "entity " + std::to_string(id) + " is not in the world, which has " + std::to_string(scene.entities.size());
     for (const Predicate& predicate : e.query.predicates)
       if (predicate.at_turn && !e.turn) return "a predicate is seen from where the instruction turns, but 'turn' is missing";
-    std::string what = Uniqueness(e);
+    std::string what = Uniqueness(e.query, {e.start, e.turn}, e.entities);
+    for (size_t i = 0; i < e.before.size() && what.empty(); ++i) what = Part(e, i);
     if (what.empty()) what = Way(e);
-    return what.empty() ? Place(e) : what;
+    return what.empty() ? Place(e.entities, e.goal_kind, e.before.empty() ? e.start.p_W : e.before.back().goal, e.goal) : what;
   }
 
  private:
-  std::string Uniqueness(const LanguageEpisode& e) {
-    const auto answers = brute_.Answers(e.query, {e.start, e.turn});
-    if (answers.empty()) return "not unique: no " + e.query.noun.word + " answers the instruction";
+  std::string Uniqueness(const Query& query, const Standpoint& stands, const std::vector<EntityId>& entities) {
+    const auto answers = brute_.Answers(query, stands);
+    if (answers.empty()) return "not unique: no " + query.noun.word + " answers the instruction";
     if (answers.size() > 1) {
       std::string names;
       for (size_t i = 0; i < std::min<size_t>(answers.size(), 4); ++i) names += (i ? ", " : "") + NameOf(stage_->scene(), answers[i]);
       return "not unique: " + std::to_string(answers.size()) + " compete: " + names;
     }
-    if (answers[0] != e.entities) return "not unique: the instruction means " + NameOf(stage_->scene(), answers[0]) + ", not " + NameOf(stage_->scene(), e.entities);
+    if (answers[0] != entities) return "not unique: the instruction means " + NameOf(stage_->scene(), answers[0]) + ", not " + NameOf(stage_->scene(), entities);
     return "";
+  }
+
+  // One of several parts: what it means from where the one before ended, that the way leads there, and that it ends at the thing.
+  std::string Part(const LanguageEpisode& e, size_t i) {
+    const EpisodePart& part = e.before[i];
+    const std::string which = "part " + std::to_string(i + 1) + ": ";
+    const Vec3d from = i == 0 ? e.start.p_W : e.before[i - 1].goal;
+    const Viewpoint& after = i + 1 < e.before.size() ? e.before[i + 1].seen_from : *e.turn;
+    const Vec3d flown = part.goal - from;
+    if (Norm(part.seen_from.p_W - from) > kSame || Norm(after.p_W - part.goal) > kSame) return which + "it is not seen from where the one before ended";
+    if (std::abs(std::remainder(after.yaw - std::atan2(flown.y, flown.x), 2 * std::numbers::pi)) > 1e-3) return which + "what follows is not seen in the direction of its flight";
+    if (std::ranges::none_of(e.ref, [&](Vec3d p) { return Norm(p - part.goal) <= kSame; })) return "not reachable: the way does not lead over " + NameOf(stage_->scene(), part.entities);
+    std::string what = Uniqueness(part.query, i == 0 ? Standpoint{e.start, {}} : Standpoint{e.start, part.seen_from}, part.entities);
+    if (what.empty()) what = Place(part.entities, part.goal_kind, from, part.goal);
+    return what;
   }
 
   std::string Way(const LanguageEpisode& e) const {
@@ -60,12 +82,11 @@ class Checker {
     return "";
   }
 
-  std::string Place(const LanguageEpisode& e) {
-    const bool beyond = e.goal_kind == GoalKind::kStreetBeyond || e.goal_kind == GoalKind::kPathBeyond || e.goal_kind == GoalKind::kFarEnd ||
-                        e.goal_kind == GoalKind::kOtherSide;
-    if (beyond) return brute_.Passes(e.entities, e.start.p_W, e.goal) ? "" : "the goal is not beyond " + NameOf(stage_->scene(), e.entities);
-    const double off = brute_.Distance(e.entities, e.goal);
-    return off <= kAtThing ? "" : "the goal is " + std::to_string(off) + " m from " + NameOf(stage_->scene(), e.entities);
+  std::string Place(const std::vector<EntityId>& entities, GoalKind kind, Vec3d from, Vec3d goal) {
+    const bool beyond = kind == GoalKind::kStreetBeyond || kind == GoalKind::kPathBeyond || kind == GoalKind::kFarEnd || kind == GoalKind::kOtherSide;
+    if (beyond) return brute_.Passes(entities, from, goal) ? "" : "the goal is not beyond " + NameOf(stage_->scene(), entities);
+    const double off = brute_.Distance(entities, goal);
+    return off <= kAtThing ? "" : "the goal is " + std::to_string(off) + " m from " + NameOf(stage_->scene(), entities);
   }
 
   std::shared_ptr<Stage> stage_;

@@ -37,6 +37,15 @@ void ReadRange(VlnFields& fields, const char* name, double& low, double& high) {
   high = (*found)[1].get<double>();
 }
 
+NextPart PartOf(const VlnJson& value, const std::string& where) {
+  VlnFields fields(value, where);
+  NextPart part{.query = internal::QueryOf(fields.At("query"), where + ".query")};
+  part.goal = ChoiceOf(fields, "goal", kGoalKindNames, GoalKind::kNear);
+  part.distance = fields.Number("goal_distance", 4, 0, 50);
+  fields.Finish();
+  return part;
+}
+
 InstructionTemplate TemplateOf(const VlnJson& value, const std::string& where) {
   VlnFields fields(value, where);
   InstructionTemplate made;
@@ -54,6 +63,13 @@ InstructionTemplate TemplateOf(const VlnJson& value, const std::string& where) {
   ReadRange(fields, "height", made.lowest, made.highest);
   made.goal = ChoiceOf(fields, "goal", kGoalKindNames, GoalKind::kNear);
   made.distance = fields.Number("goal_distance", 4, 0, 50);
+  made.in_sight = fields.Flag("in_sight", false);
+  if (const VlnJson* then = fields.Find("then")) {
+    if (!then->is_array() || then->size() > kMostParts) throw InputError(where + ".then: is not a list of at most " + std::to_string(kMostParts) + " parts");
+    const bool turns = made.frame == StartFrame::kTurn || std::ranges::any_of(made.query.predicates, &Predicate::at_turn);
+    if (turns && !then->empty()) throw InputError(where + ".then: an instruction that turns at a junction has one part");
+    for (size_t i = 0; i < then->size(); ++i) made.then.push_back(PartOf((*then)[i], where + ".then[" + std::to_string(i) + "]"));
+  }
   fields.Finish();
   return made;
 }

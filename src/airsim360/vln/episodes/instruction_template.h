@@ -36,6 +36,13 @@ enum class GoalKind {
 inline constexpr const char* kGoalKindNames[] = {"near",          "roof",        "land",    "below",      "shore",
                                                  "street_beyond", "path_beyond", "far_end", "other_side", "over"};
 
+/// What an instruction goes on with, seen from where the part before it ended and in the direction of that flight.
+struct NextPart {
+  Query query;
+  GoalKind goal = GoalKind::kNear;
+  double distance = 4;  ///< metres that the goal keeps from the thing
+};
+
 struct InstructionTemplate {
   std::string id;    ///< "paper37/01"
   std::string text;  ///< the instruction
@@ -46,7 +53,10 @@ struct InstructionTemplate {
   double lowest = 2, highest = 8;       ///< metres of the start above what is below it
   GoalKind goal = GoalKind::kNear;
   double distance = 4;  ///< metres that the goal keeps from the thing
+  bool in_sight = false;            ///< its words take for granted that one sees it: "the lake in front of you"
+  std::vector<NextPart> then = {};  ///< in order; at most kMostParts
 };
+inline constexpr size_t kMostParts = 8;
 
 /// The 37 instructions of the appendix of the AirSim360 paper ("List of Prompts", Table of prompts), word for word, bound to
 /// what New York City and Downtown West hold.

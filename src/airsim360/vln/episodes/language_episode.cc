@@ -48,15 +48,52 @@ uint64_t SeedOf(VlnFields& fields, const char* name) {
   return found->get<uint64_t>();
 }
 
+GoalKind RegionOf(VlnFields& fields) {
+  const std::string region = fields.Text("region", "near");
+  const std::vector<std::string> names(std::begin(kGoalKindNames), std::end(kGoalKindNames));
+  const auto found = std::ranges::find(names, region);
+  if (found == names.end()) throw InputError(fields.where() + ".region: " + UnknownChoiceMessage("region", region, names));
+  return static_cast<GoalKind>(found - names.begin());
+}
+
+VlnJson PartsJson(const std::vector<EpisodePart>& parts) {
+  VlnJson list = VlnJson::array();
+  for (const EpisodePart& part : parts)
+    list.push_back({{"seen_from", ViewJson(part.seen_from)},
+                    {"goal",
+                     {{"entities", part.entities},
+                      {"name", part.name},
+                      {"region", kGoalKindNames[static_cast<int>(part.goal_kind)]},
+                      {"position", ToJson(part.goal)}}},
+                    {"query", ToJson(part.query)},
+                    {"proof", part.proof.empty() ? VlnJson(nullptr) : VlnJson::parse(part.proof)}});
+  return list;
+}
+
+void ReadParts(LanguageEpisode& episode, const VlnJson& list, const std::string& where) {
+  if (!list.is_array() || list.size() > kMostParts) throw InputError(where + ": is not a list of at most " + std::to_string(kMostParts) + " parts");
+  for (size_t i = 0; i < list.size(); ++i) {
+    VlnFields fields(list[i], where + "[" + std::to_string(i) + "]");
+    EpisodePart part{.seen_from = ViewOf(fields.At("seen_from"), fields.where() + ".seen_from")};
+    VlnFields goal(fields.At("goal"), fields.where() + ".goal");
+    part.entities = EntitiesOf(goal.At("entities"), goal.where() + ".entities");
+    part.name = goal.Text("name", "");
+    part.goal_kind = RegionOf(goal);
+    part.goal = goal.Point("position");
+    goal.Finish();
+    if (part.entities.empty()) throw InputError(goal.where() + ".entities: is empty");
+    part.query = internal::QueryOf(fields.At("query"), fields.where() + ".query");
+    if (const VlnJson* proof = fields.Find("proof")) part.proof = proof->dump();
+    fields.Finish();
+    episode.before.push_back(std::move(part));
+  }
+}
+
 void ReadGoal(LanguageEpisode& episode, const VlnJson& value, const std::string& where) {
   VlnFields fields(value, where);
   episode.entities = EntitiesOf(fields.At("entities"), where + ".entities");
   episode.name = fields.Text("name", "");
-  const std::string region = fields.Text("region", "near");
-  const std::vector<std::string> names(std::begin(kGoalKindNames), std::end(kGoalKindNames));
-  const auto found = std::ranges::find(names, region);
-  if (found == names.end()) throw InputError(where + ".region: " + UnknownChoiceMessage("region", region, names));
-  episode.goal_kind = static_cast<GoalKind>(found - names.begin());
+  episode.goal_kind = RegionOf(fields);
   episode.goal = fields.Point("position");
   episode.radius = fields.Number("radius", 10, 0.1, 1000);
   fields.Finish();
@@ -88,6 +125,7 @@ std::string EpisodeLine(const LanguageEpisode& e) {
                   {"weather", e.weather},
                   {"people", e.people},
                   {"start", ViewJson(e.start)},
+                  {"before", PartsJson(e.before)},
                   {"turn", e.turn ? ViewJson(*e.turn) : VlnJson(nullptr)},
                   {"goal",
                    {{"entities", e.entities},
@@ -126,6 +164,7 @@ LanguageEpisode ParseEpisodeLine(const std::string& line, const std::string& whe
   e.weather = fields.Text("weather", "");
   e.people = static_cast<int64_t>(fields.Number("people", 0, 0, 100'000));
   e.start = ViewOf(fields.At("start"), where + ".start");
+  if (const VlnJson* before = fields.Find("before")) ReadParts(e, *before, where + ".before");
   if (const VlnJson* turn = fields.Find("turn")) e.turn = ViewOf(*turn, where + ".turn");
   ReadGoal(e, fields.At("goal"), where + ".goal");
   if (const VlnJson* seen = fields.Find("visible_at_start")) ReadSeen(e.seen, *seen, where + ".visible_at_start");

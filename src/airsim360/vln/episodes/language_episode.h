@@ -21,13 +21,25 @@ struct SeenAtStart {
 };
 inline constexpr int kSeenWidth = 512;
 
+/// A part of an instruction of several, before the last one.
+struct EpisodePart {
+  Viewpoint seen_from = {};  ///< the start, or the end of the part before in the direction of its flight
+  Query query = {};
+  std::vector<EntityId> entities = {};
+  std::string name = {};
+  GoalKind goal_kind = GoalKind::kNear;
+  Vec3d goal = {};
+  std::string proof = {};  ///< JSON
+};
+
 struct LanguageEpisode {
   std::string id, template_id, instruction, world;
   uint64_t world_seed = 0, seed = 0;  ///< `seed`: of gusts and of agents that draw
   std::string weather = {};           ///< --weather of the pictures; "" = the world's own
   int64_t people = 0;
   Viewpoint start;
-  std::optional<Viewpoint> turn = {};
+  std::vector<EpisodePart> before = {};  ///< parts of the instruction that come before what `query` asks for
+  std::optional<Viewpoint> turn = {};    ///< where the instruction turns; with `before`, the end of the last of them
   Query query;
   std::vector<EntityId> entities;  ///< the one thing that answers the query; empty, as the query, where it was imported
   std::string name;                ///< of it

@@ -17,12 +17,13 @@ namespace {
 
 using internal::VlnGround;
 
-constexpr int kDraws = 3000, kWays = 12;      // starts drawn for an episode; ways looked for
+constexpr int kDraws = 3000, kWays = 12, kLooks = 60;  // starts drawn for an episode; ways and things in sight looked for
 constexpr double kSpacing = 2.5;             // metres between points of the reference path, at most
 constexpr double kWayRadius = 0.6;           // metres free around the reference path
 constexpr double kOpenRadius = 20, kRoomRadius = 1;  // metres around the goal that count as there
 constexpr double kLeastWay = 1.25;           // radii between start and goal
 constexpr double kEasy = 50, kHard = 100;    // metres: shorter, longer ways
+constexpr double kStraight = 1.08;           // length of a flight by its straight line, that one can turn from by words
 constexpr int64_t kVisible = 6;              // pixels that show a thing
 constexpr const char* kWeathers[] = {"clear", "partly_cloudy", "overcast", "rain", "fog"};
 constexpr double kDegree = std::numbers::pi / 180;
@@ -74,6 +75,7 @@ std::string DifficultyOf(const LanguageEpisode& e) {
 
 // The last of several seeds is a town that training has not seen.
 std::string SplitOf(const LanguageEpisode& e, const VlnMakeOptions& options) {
+  if (!options.split.empty()) return options.split;
   if (options.seeds > 1 && e.world_seed == options.seed + static_cast<uint64_t>(options.seeds) - 1) return "val_unseen";
   return MixBits(HashName(e.id)) % 5 == 0 ? "val_seen" : "train";
 }
@@ -110,10 +112,12 @@ class Maker {
     // The k-th of three starts lies in the k-th third of the distances; what finds no place there may lie anywhere.
     const double ratio = std::cbrt(wanted.farthest / std::max(wanted.nearest, 1.0));
     const double least = wanted.nearest * std::pow(ratio, k % 3);
-    int ways = 0;
+    // The first of three starts, and all of words that say so, are in sight of the thing, where there is such a place.
+    const bool in_sight = wanted.in_sight || k % 3 == 0;
+    int ways = 0, looks = 0;
     std::map<std::string, int> whys;
-    std::optional<LanguageEpisode> hidden;
-    for (int draw = 0; draw < kDraws && ways < kWays; ++draw) {
+    std::optional<std::pair<Standpoint, Vec3d>> hidden;
+    for (int draw = 0; draw < kDraws && ways < kWays && looks < kLooks; ++draw) {
       const bool anywhere = draw > kDraws / 2;
       auto stands = DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
       if (!stands) continue;
@@ -130,17 +134,21 @@ class Maker {
         continue;
       }
       if (Norm(*goal - stands->start.p_W) < kLeastWay * radius()) continue;
-      ++ways;
-      auto episode = Finish(wanted, k, *stands, verdict, Milli(*goal));
-      if (!episode) {
-        ++whys["no way was found to '" + verdict.answers[0].name + "'"];
+      if (in_sight && Look(*stage_, stands->start, verdict.answers[0].entities).pixels < kVisible) {
+        ++looks;
+        if (!hidden) hidden = {*stands, *goal};
         continue;
       }
-      // The first of three starts is in sight of the thing, where there is such a place.
-      if (k % 3 != 0 || episode->seen.pixels >= kVisible) return episode;
-      if (!hidden) hidden = std::move(episode);
+      if (wanted.then.empty() || draw % 4 == 0) ++ways;  // several parts fail more often
+      std::string no;
+      if (auto episode = Finish(wanted, k, *stands, verdict, Milli(*goal), no)) return episode;
+      ++whys[no];
     }
-    if (hidden) return hidden;
+    if (hidden) {
+      std::string no;
+      if (auto episode = Finish(wanted, k, hidden->first, Decide(graph_, wanted.query, hidden->first), Milli(hidden->second), no)) return episode;
+      ++whys[no];
+    }
     why = "no start could be drawn: no open place of that kind around a " + wanted.query.noun.word;
     if (graph_.Find(wanted.query.noun).empty()) why = "the world has no " + wanted.query.noun.word;
     const auto most = std::ranges::max_element(whys, {}, [](const auto& entry) { return entry.second; });
@@ -151,9 +159,65 @@ class Maker {
   // Closed rooms are small.
   double radius() const { return stage_->scene().sky_entity == kNoEntity ? kRoomRadius : kOpenRadius; }
 
-  std::optional<LanguageEpisode> Finish(const InstructionTemplate& wanted, int k, const Standpoint& stands, const Verdict& verdict, Vec3d goal) {
+  // What is behind an episode so far: where it has come to and how.
+  struct Progress {
+    Query query;
+    Standpoint stands;
+    Thing thing;
+    GoalKind goal_kind;
+    Vec3d goal;
+    std::string proof;
+    std::vector<Vec3d> way;
+    std::vector<EpisodePart> before = {};
+  };
+
+  // The next part of an instruction, seen from where the last one ended. "" = done.
+  std::string GoOn(Progress& at, const InstructionTemplate& wanted, const NextPart& part) {
+    // Only a nearly straight flight has a direction that words can refer to.
+    const Vec3d from = at.before.empty() ? at.stands.start.p_W : at.stands.turn->p_W, flown = at.goal - from;
+    if (PolylineLength(at.way) > kStraight * Norm(flown) + LengthBefore(at)) return "the way to '" + at.thing.name + "' is not straight enough to turn from";
+    at.before.push_back({at.before.empty() ? at.stands.start : *at.stands.turn, at.query, at.thing.entities, at.thing.name, at.goal_kind, at.goal, at.proof});
+    at.stands.turn = Milli(Viewpoint{at.goal, std::atan2(flown.y, flown.x)});
+    at.query = part.query;
+    for (Predicate& predicate : at.query.predicates) predicate.at_turn = true;
+    const Verdict verdict = Decide(graph_, at.query, at.stands);
+    if (!verdict.decided) return verdict.why;
+    at.thing = verdict.answers[0];
+    InstructionTemplate like = wanted;
+    like.goal = at.goal_kind = part.goal;
+    like.distance = part.distance;
+    const auto goal = FindGoal(ground_, like, at.thing, *at.stands.turn);
+    if (!goal) return "no free place to stop at '" + at.thing.name + "'";
+    const double leg = Norm(*goal - at.goal);
+    if (leg < kLeastWay * radius() || leg > wanted.farthest) return "'" + at.thing.name + "' is too near or too far to go on to";
+    const ShortestWay way = FindShortestWay(ground_.tracer(), at.goal, Milli(*goal), kWayRadius);
+    if (!way.found) return "no way was found to '" + at.thing.name + "'";
+    at.goal = Milli(*goal);
+    at.way.insert(at.way.end(), way.points.begin() + 1, way.points.end());
+    at.proof = internal::ToJson(verdict).dump();
+    return "";
+  }
+
+  // Metres of the way that belong to the parts before the last.
+  static double LengthBefore(const Progress& at) {
+    double length = 0;
+    if (at.before.empty()) return 0;
+    for (size_t i = 1; i < at.way.size(); ++i) {
+      length += Norm(at.way[i] - at.way[i - 1]);
+      if (Norm(at.way[i] - at.before.back().goal) < 1e-9) return length;
+    }
+    return 0;
+  }
+
+  std::optional<LanguageEpisode> Finish(const InstructionTemplate& wanted, int k, const Standpoint& stands, const Verdict& verdict, Vec3d goal, std::string& why) {
     const ShortestWay way = FindShortestWay(ground_.tracer(), stands.start.p_W, goal, kWayRadius);
-    if (!way.found) return std::nullopt;
+    if (!way.found) {
+      why = "no way was found to '" + verdict.answers[0].name + "'";
+      return std::nullopt;
+    }
+    Progress at{wanted.query, stands, verdict.answers[0], wanted.goal, goal, internal::ToJson(verdict).dump(), way.points};
+    for (const NextPart& part : wanted.then)
+      if (why = GoOn(at, wanted, part); !why.empty()) return std::nullopt;
     LanguageEpisode e;
     e.id = options_.world.substr(options_.world.rfind('/') + 1) + "/" + std::to_string(world_seed_) + "/" + wanted.id + "/" + std::to_string(k);
     e.template_id = wanted.id;
@@ -164,19 +228,20 @@ class Maker {
     e.weather = options_.weather == "mix" ? kWeathers[MixBits(e.seed) % std::size(kWeathers)] : options_.weather;
     e.people = options_.people;
     e.start = stands.start;
-    e.turn = stands.turn;
-    e.query = wanted.query;
-    e.entities = verdict.answers[0].entities;
-    e.name = verdict.answers[0].name;
-    e.goal_kind = wanted.goal;
-    e.goal = goal;
+    e.before = at.before;
+    e.turn = at.stands.turn;
+    e.query = at.query;
+    e.entities = at.thing.entities;
+    e.name = at.thing.name;
+    e.goal_kind = at.goal_kind;
+    e.goal = at.goal;
     e.radius = radius();
-    e.ref = Spaced(way.points);
+    e.ref = Spaced(at.way);
     e.geodesic_length = PolylineLength(e.ref);
     e.seen = Look(*stage_, e.start, e.entities);
     e.difficulty = DifficultyOf(e);
     e.split = SplitOf(e, options_);
-    e.proof = internal::ToJson(verdict).dump();
+    e.proof = at.proof;
     return e;
   }
 

@@ -18,6 +18,7 @@ struct VlnMakeOptions {
   int64_t people = 0;          ///< in episodes when they are flown
   std::string weather = {};    ///< of pictures; "mix": another one an episode
   int64_t limit = 0;           ///< episodes of a seed; 0 = all
+  std::string split = {};      ///< of all episodes; "" = by seeds and ids
   /// Opens the world of a seed, without people.
   std::function<std::shared_ptr<Stage>(uint64_t seed)> open = {};
 };

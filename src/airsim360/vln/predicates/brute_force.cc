@@ -44,14 +44,6 @@ bool IsCalled(const std::string& name, const std::vector<std::string>& patterns)
   return false;
 }
 
-bool IsNamed(const Scene& scene, const Entity& entity, const Noun& noun) {
-  const std::string path = scene.tree[entity.category].path + "/";
-  if (entity.id == scene.sky_entity || path.find("human/") == 0 || path.find("uav/") == 0) return false;
-  bool fits = noun.categories.empty();
-  for (const std::string& category : noun.categories) fits = fits || path.find(category + "/") == 0;
-  return fits && (noun.names.empty() || IsCalled(entity.name, noun.names)) && !IsCalled(entity.name, noun.without);
-}
-
 // `to`: real ahead, imaginary to the left; `rise`: metres higher.
 bool IsInSector(const std::string& name, Plan to, double rise) {
   constexpr double kDegree = std::numbers::pi / 180;
@@ -64,6 +56,14 @@ bool IsInSector(const std::string& name, Plan to, double rise) {
 }
 
 }  // namespace
+
+bool BruteForceNames(const Scene& scene, const Entity& entity, const Noun& noun) {
+  const std::string path = scene.tree[entity.category].path + "/";
+  if (entity.id == scene.sky_entity || path.find("human/") == 0 || path.find("uav/") == 0) return false;
+  bool fits = noun.categories.empty();
+  for (const std::string& category : noun.categories) fits = fits || path.find(category + "/") == 0;
+  return fits && (noun.names.empty() || IsCalled(entity.name, noun.names)) && !IsCalled(entity.name, noun.without);
+}
 
 struct BruteForce::Shape {
   std::vector<EntityId> entities;
@@ -178,7 +178,7 @@ const BruteForce::Shape& BruteForce::ShapeOf(const std::vector<EntityId>& entiti
 std::vector<const BruteForce::Shape*> BruteForce::All(const Noun& noun) {
   std::vector<std::vector<EntityId>> groups;
   for (const Entity& entity : scene_->entities) {
-    if (!IsNamed(*scene_, entity, noun) || parts_[entity.id].empty()) continue;
+    if (!BruteForceNames(*scene_, entity, noun) || parts_[entity.id].empty()) continue;
     if (noun.whole && !groups.empty()) {
       groups[0].push_back(entity.id);
     } else {

@@ -10,6 +10,9 @@
 
 namespace airsim360 {
 
+/// Whether a noun names an entity, by text alone.
+bool BruteForceNames(const Scene& scene, const Entity& entity, const Noun& noun);
+
 /// Looks at every triangle of whatever the nouns name. Keeps what it has measured; one thread at a time.
 class BruteForce {
  public:

@@ -128,11 +128,15 @@ Box3d Core(const Thing& thing) {
   return box;
 }
 
+// Surely entered by the middle of its box, surely not outside of its box; what lies between decides nothing.
 ValueOf Across(const Viewpoint& view) {
+  constexpr double kBeside = 0.2;  // metres from a box
   return {"m", 0.2, [view](const Thing& thing) {
             if (PlanDistance(view.p_W, thing.box).least <= 0) return -1.0;
-            const Vec2d chord = Chord(view, Core(thing));
-            return chord.x > chord.y ? -1.0 : std::min(chord.x, std::max(chord.y - chord.x, 0.3));
+            const Vec3d grown{kBeside, kBeside, 0};
+            const Vec2d chord = Chord(view, Core(thing)), whole = Chord(view, {thing.box.min - grown, thing.box.max + grown});
+            if (chord.x <= chord.y) return chord.x <= 0 ? -1.0 : std::min(chord.x, std::max(chord.y - chord.x, 0.3));
+            return whole.x > whole.y || whole.y <= 0 ? -1.0 : 0.0;
           }};
 }
 

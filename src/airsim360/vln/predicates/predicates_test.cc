@@ -188,6 +188,13 @@ TEST(Decide, AcrossIsWhatTheLineAheadEntersFromOutside) {
   EXPECT_EQ(Meant(town.Build(), {Named("fence"), {Is(PredicateKind::kAcross)}}, {{{0, 0, 2}, 0.05}}), fence);
 }
 
+TEST(Decide, AWideThingWhoseBoxIsMetNearItsEndMayBeCrossedAndDecidesNothing) {
+  TestTown town;
+  town.Box("fence", "barrier/fence/wood_fence", {25, 4.6f, 0}, {0.1f, 11.6f, 1.5f});
+  town.Box("fence", "barrier/fence/wood_fence", {250, -9, 0}, {0.1f, 28, 1.9f});
+  EXPECT_EQ(Meant(town.Build(), {Named("fence"), {Is(PredicateKind::kAcross), Is(PredicateKind::kNearest)}}, {{{0, 0, 2}, -0.037}}), kNoEntity);
+}
+
 // Towns of many boxes of one name: wherever the first method decides, the second finds the same single thing; and it decides
 // often enough to be of use.
 TEST(Decide, BothMethodsAgreeWhereverOneIsSure) {

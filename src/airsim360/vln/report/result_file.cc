@@ -46,6 +46,7 @@ std::string ResultLine(const VlnResult& r) {
                         {"faults", r.faults},
                         {"yaw_turned_deg", Rounded(r.yaw_turned_deg)},
                         {"seconds", Rounded(r.seconds)},
+                        {"parts", PointsJson(r.parts)},
                         {"ref", PointsJson(r.ref)},
                         {"pred", PointsJson(r.pred)}};
   return json.dump(-1, ' ', false, VlnJson::error_handler_t::replace);
@@ -80,6 +81,7 @@ VlnResult ParseResultLine(const std::string& line, const std::string& where) {
   r.faults = static_cast<int64_t>(fields.Number("faults", 0, 0, 1e9));
   r.yaw_turned_deg = fields.Number("yaw_turned_deg", 0, 0, 1e9);
   r.seconds = fields.Number("seconds", 0, 0, 1e9);
+  if (const VlnJson* parts = fields.Find("parts"); parts != nullptr) r.parts = fields.Points("parts", kMostParts);
   r.ref = fields.Points("ref", 100'000);
   r.pred = fields.Points("pred", 1'000'000);
   fields.Finish();

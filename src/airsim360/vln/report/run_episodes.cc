@@ -97,7 +97,9 @@ class Flight {
   Flight(const VlnRunOptions& options, const FlightRules& protocol, std::shared_ptr<AgentWorld> world, Eyes& eyes, const LanguageEpisode& episode)
       : options_(options), protocol_(protocol), eyes_(eyes), episode_(episode), radius_(protocol.radius > 0 ? protocol.radius : episode.radius),
         decisions_(options.decisions.value_or(protocol.decisions)), solid_(world->stage().solid()),
-        flight_(std::move(world), SpecOf(episode, protocol, radius_)) {}
+        flight_(std::move(world), SpecOf(episode, protocol, radius_)) {
+    if (options.watch) flight_.Watch(options.watch);
+  }
 
   VlnResult Fly(VlnAgent& agent) {
     const int64_t most = decisions_ == Decisions::kYomo ? std::min(kYomoTurns, protocol_.steps) : protocol_.steps;
@@ -164,6 +166,7 @@ class Flight {
     for (size_t i = 0; i < path.size(); i += kPathStep) r.pred.push_back(Milli(path[i]));
     r.pred.push_back(Milli(flight_.vehicle().motion.X_WB.p));
     r.ref = episode_.ref;
+    for (const EpisodePart& part : episode_.before) r.parts.push_back(Milli(part.goal));
     r.geodesic_length = std::round(episode_.geodesic_length * 1000) / 1000;
     r.straight_length = Norm(episode_.goal - episode_.start.p_W);
     r.stopped = end == "stopped";
@@ -359,6 +362,14 @@ VlnScore ScoreOf(const VlnResult& r) {
   // As a file holds them, so that whoever reads it finds the same.
   return ScoreVln({.reference = r.ref, .flown = r.pred, .goal = {}, .shortest = {}, .stopped = r.stopped, .collided = r.collided}, r.radius,
                   FindVlnProtocol(FindFlightRules(r.protocol).scores));
+}
+
+double ProcessFidelity(const VlnResult& r) {
+  size_t done = 0;
+  for (const Vec3d& p : r.pred)
+    while (done < r.parts.size() && Norm(p - r.parts[done]) <= r.radius) ++done;
+  const bool last = done == r.parts.size() && ScoreOf(r).success > 0;
+  return static_cast<double>(done + (last ? 1 : 0)) / static_cast<double>(r.parts.size() + 1);
 }
 
 std::vector<VlnResult> RunEpisodes(const std::vector<LanguageEpisode>& episodes, const VlnRunOptions& options) {

@@ -26,6 +26,8 @@ struct VlnRunOptions {
   RenderSettings picture = {};
   ExecOptions exec = {};
   ChatOptions chat = {};
+  /// Told of each flight at its beginning and every Episode::kPathPeriodNs of it; one worker alone.
+  std::function<void(const Episode& flight)> watch = {};
   std::filesystem::path out = {};  ///< results.jsonl; beside it NAME.transcript.jsonl of agent openai
   /// Opens a world with its people.
   std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed, int64_t people)> open = {};
@@ -41,6 +43,7 @@ struct VlnResult {
   double path_length = 0, geodesic_length = 0, straight_length = 0;
   int64_t decisions = 0, faults = 0, moves = 0;
   double yaw_turned_deg = 0, seconds = 0;
+  std::vector<Vec3d> parts = {};  ///< goals of the parts of the instruction before the last
   std::vector<Vec3d> ref, pred;
 };
 
@@ -50,6 +53,9 @@ std::vector<VlnResult> RunEpisodes(const std::vector<LanguageEpisode>& episodes,
 
 /// By the protocol that it was flown under.
 VlnScore ScoreOf(const VlnResult& result);
+/// Share of the parts of its instruction that the flight did, in their order: their goals within the radius one after the other; the
+/// last one counts if the flight is a success.
+double ProcessFidelity(const VlnResult& result);
 std::string ResultLine(const VlnResult& result);
 /// InputError "FILE:LINE.field: …".
 VlnResult ParseResultLine(const std::string& line, const std::string& where);

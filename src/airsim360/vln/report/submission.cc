@@ -6,6 +6,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
+#include "airsim360/base/signature.h"
 #include "airsim360/vln/predicates/query_json.h"
 #include "airsim360/vln/report/vln_report.h"
 
@@ -19,6 +20,7 @@ constexpr double kSame = 1e-9;
 
 std::string SealOf(VlnJson json) {
   json.erase("seal");
+  json.erase("signature");
   return Sha256Hex(AsBytes(json.dump()));
 }
 
@@ -64,17 +66,22 @@ std::string PackSubmission(const std::filesystem::path& episodes, const std::fil
                   {"transcript_sha256", transcript.empty() ? VlnJson(nullptr) : VlnJson(Sha256HexOfFile(transcript))},
                   {"scores", VlnJson::parse(ScoresJson(list))},
                   {"results", lines}};
+  if (!facts.key.empty()) json["public_key"] = PublicKeyOf(facts.key);
   json["seal"] = SealOf(json);
+  if (!facts.key.empty()) json["signature"] = SignText(facts.key, json["seal"].get<std::string>());
   return json.dump() + "\n";
 }
 
-std::vector<std::string> VerifySubmission(const std::filesystem::path& submission, const std::filesystem::path& episodes,
+std::vector<std::string> VerifySubmission(const std::filesystem::path& submission, const std::filesystem::path& episodes, const std::string& signer,
                                           const std::function<std::vector<VlnResult>(const std::vector<LanguageEpisode>&, const VlnResult& like)>& fly) {
   const VlnJson json = internal::ParseVlnJson(ReadTextFile(submission, uint64_t{8} << 30), submission.string());
   if (!json.is_object() || TextOf(json, "format") != kFormat || !json.contains("results") || !json["results"].is_array() || json["results"].empty())
     throw InputError(submission.string() + ": is no '" + kFormat + "'");
   std::vector<std::string> problems;
   if (TextOf(json, "seal") != SealOf(json)) problems.push_back("the seal does not fit: the file was changed after it was packed");
+  const std::string key = TextOf(json, "public_key");
+  if (!key.empty() && !IsSignedBy(key, TextOf(json, "seal"), TextOf(json, "signature"))) problems.push_back("the signature is not that of its public key");
+  if (!signer.empty() && key != signer) problems.push_back("it is signed by " + (key.empty() ? "nobody" : key) + ", not by " + signer);
   if (TextOf(json, "episodes_sha256") != Sha256HexOfFile(episodes)) problems.push_back("the episodes are not those of the submission");
   const std::vector<LanguageEpisode> list = ReadEpisodes(episodes);
   std::map<std::string, const LanguageEpisode*> by_id;

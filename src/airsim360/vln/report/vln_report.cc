@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "airsim360/base/base64.h"
 #include "airsim360/vln/report/score_table.h"
 
 namespace airsim360 {
@@ -71,14 +72,14 @@ std::string Cell(const ScoreTable& table, const char* name, int digits) {
 }
 
 Sheet MainTable(const std::vector<VlnRun>& runs) {
-  Sheet sheet{{"run", "agent", "view", "decisions by", "protocol", "episodes", "SR", "OSR", "SPL", "SPL straight", "NE (m)", "nDTW", "SDTW", "CLS",
+  Sheet sheet{{"run", "agent", "view", "decisions by", "protocol", "episodes", "SR", "OSR", "SPL", "SPL straight", "NE (m)", "nDTW", "SDTW", "CLS", "process",
                "collisions", "decisions", "yaw turned (deg)", "path / geodesic"}, {}};
   for (const VlnRun& run : runs) {
     const ScoreTable table = internal::TableOf(internal::Pointers(run.results));
     const VlnResult& first = run.results.front();
     sheet.rows.push_back({run.name, first.agent, first.view, first.decisions_by, first.protocol, std::to_string(table.episodes), Cell(table, "sr", 3),
                           Cell(table, "osr", 3), Cell(table, "spl", 3), Cell(table, "spl_straight", 3), Cell(table, "ne", 1), Cell(table, "ndtw", 3),
-                          Cell(table, "sdtw", 3), Cell(table, "cls", 3), Cell(table, "collision_rate", 3), Cell(table, "decisions", 1),
+                          Cell(table, "sdtw", 3), Cell(table, "cls", 3), Cell(table, "process_fidelity", 3), Cell(table, "collision_rate", 3), Cell(table, "decisions", 1),
                           Cell(table, "yaw_turned_deg", 0), Cell(table, "path_over_geodesic", 2)});
   }
   return sheet;
@@ -181,7 +182,21 @@ std::string Maps(const std::vector<VlnRun>& runs) {
   return out;
 }
 
-std::string Pages(const std::vector<VlnRun>& runs, bool html) {
+// What was seen where a flight failed.
+std::string Panoramas(const std::vector<VlnRun>& runs, const FailurePictures& pictures) {
+  std::string out;
+  for (const VlnRun& run : runs) {
+    for (const VlnResult& r : run.results) {
+      const auto found = pictures.find({run.name, r.id});
+      if (found == pictures.end()) continue;
+      out += "<figure><img style=\"width:100%\" alt=\"panorama at the end of the flight\" src=\"data:image/jpeg;base64," + Base64(found->second) + "\"><figcaption>" +
+             Escaped(run.name + ", " + r.id + ": " + r.explanation, true) + "</figcaption></figure>\n";
+    }
+  }
+  return out;
+}
+
+std::string Pages(const std::vector<VlnRun>& runs, bool html, const FailurePictures& pictures = {}) {
   std::string out;
   out += Heading("Scores", html) + Paragraph("Means with 95 % bootstrap intervals over episodes.", html) + Show(MainTable(runs), html);
   out += Heading("Success by difficulty", html) + Show(GroupTable(runs, &VlnResult::difficulty, "difficulty"), html);
@@ -193,6 +208,8 @@ std::string Pages(const std::vector<VlnRun>& runs, bool html) {
   const Sheet failures = Failures(runs, left_out);
   out += Heading("Failures", html) + Show(failures, html);
   if (left_out > 0) out += Paragraph(std::to_string(left_out) + " more failures are in the files.", html);
+  if (html && !pictures.empty())
+    out += Heading("Where flights failed", true) + Paragraph("The panorama at the last place, in the direction of the last move. The ring is around the goal.", true) + Panoramas(runs, pictures);
   return out;
 }
 
@@ -200,12 +217,12 @@ std::string Pages(const std::vector<VlnRun>& runs, bool html) {
 
 std::string ReportMarkdown(const std::vector<VlnRun>& runs) { return "# Vision-and-language navigation\n\n" + Pages(runs, false); }
 
-std::string ReportHtml(const std::vector<VlnRun>& runs) {
+std::string ReportHtml(const std::vector<VlnRun>& runs, const FailurePictures& pictures) {
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Vision-and-language navigation</title>\n"
          "<style>body{font:15px/1.5 sans-serif;max-width:1200px;margin:2em auto;padding:0 1em}table{border-collapse:collapse;display:block;overflow-x:auto}"
          "td,th{border:1px solid #ccc;padding:.25em .6em;text-align:left;vertical-align:top}th{background:#f2f2f2}</style></head><body>\n"
          "<h1>Vision-and-language navigation</h1>\n" +
-         Pages(runs, true) + "</body></html>\n";
+         Pages(runs, true, pictures) + "</body></html>\n";
 }
 
 }  // namespace airsim360

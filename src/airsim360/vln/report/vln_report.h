@@ -1,6 +1,7 @@
 // Scores of runs with intervals, and pages about them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,13 @@ struct VlnRun {
   std::vector<VlnResult> results;
 };
 
+/// JPEG panoramas of failures by run and episode (failure_pictures.h).
+using FailurePictures = std::map<std::pair<std::string, std::string>, std::string>;
+
 /// A table of all runs, success by difficulty and by instruction, how many decisions success took, maps of the flights, and every
-/// failure with its reason. Two forms of the same; a pure function of the runs.
+/// failure with its reason. Two forms of the same; a pure function of the runs; pictures
+/// are part of the page.
 std::string ReportMarkdown(const std::vector<VlnRun>& runs);
-std::string ReportHtml(const std::vector<VlnRun>& runs);
+std::string ReportHtml(const std::vector<VlnRun>& runs, const FailurePictures& pictures = {});
 
 }  // namespace airsim360

@@ -1,0 +1,76 @@
+// Items before they are chosen and worded: what can be asked or said at one place, each with its one answer and its proof. For the
+// .cc files of this folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "airsim360/base/random.h"
+#include "airsim360/vln/language/lookout.h"
+#include "airsim360/vln/predicates/query_json.h"
+
+namespace airsim360::internal {
+
+struct Draft {
+  std::string type;  ///< "nearer"
+  /// Drafts of one key have the same texts and the same answers; only which answer is right differs.
+  std::string key;
+  int picture = 0;  ///< 0 panorama, 1 camera, 2 the panoramas before and after a flight
+  std::vector<std::string> texts;  ///< ways to say it
+  std::string answer_type;         ///< "yes/no", "number", "direction", "thing", "distance", "box", "caption"
+  std::vector<VlnJson> answers;    ///< all that it could be, in a fixed order
+  size_t answer = 0;
+  std::vector<EntityId> entities;  ///< what it speaks of, in the order of the query
+  std::vector<uint16_t> words;     ///< of the lexicon, in the order of the query
+  VlnJson query, proof;            ///< query: what check.cc decides again
+  VlnJson box = {}, mask = {};     ///< refer: [x, y, width, height] and COCO's run lengths
+};
+
+/// A name that means one thing of a picture: "the bus", "the bus on your left".
+struct Name {
+  std::string text;
+  uint16_t word = 0;
+  std::string where;  ///< "only", or a sector
+  const Seen* thing = nullptr;
+};
+
+/// What a place gives to whoever speaks about it.
+class Speaker {
+ public:
+  Speaker(const Scene& scene, const Lexicon& lexicon, const Lookout& lookout);
+
+  const Scene& scene() const { return scene_; }
+  const Lexicon& lexicon() const { return lexicon_; }
+  const Lookout& lookout() const { return lookout_; }
+  /// 0 panorama, 1 camera, 2 the panorama after the flight (empty without one).
+  const std::vector<Sighted>& groups(int picture) const { return groups_[picture]; }
+  /// Names of things of a picture that are sure, in a fixed order.
+  const std::vector<Name>& names(int picture) const { return names_[picture]; }
+  Box3d BoxOf(EntityId entity) const;
+  /// Metres between the eye and the thing: what is seen of it is no farther away than `most`, no part is nearer than `least`.
+  DistanceBounds Range(const Seen& seen, const Picture& from) const;
+  /// Metres between the surfaces of two things.
+  DistanceBounds Apart(EntityId a, EntityId b) const;
+  /// "front", "right", "behind", "left"; "" where that is no clear case.
+  static std::string SectorOf(const Seen& seen);
+
+ private:
+  void AddNames(int picture);
+  const Scene& scene_;
+  const Lexicon& lexicon_;
+  const Lookout& lookout_;
+  std::vector<Sighted> groups_[3];
+  std::vector<Name> names_[3];
+};
+
+/// {"word": "bus", "where": "only"}.
+VlnJson ToJson(const Name& name, const Lexicon& lexicon);
+/// What a proof says of a thing: entity, name, pixels, azimuth, range.
+VlnJson Figures(const Seen& seen, const Scene& scene);
+
+std::vector<Draft> QuestionsAt(const Speaker& speaker, RngStream& random);
+std::vector<Draft> QuestionsOfFlight(const Speaker& speaker, RngStream& random);
+std::vector<Draft> ExpressionsAt(const Speaker& speaker, RngStream& random);
+std::vector<Draft> CaptionsAt(const Speaker& speaker, RngStream& random);
+
+}  // namespace airsim360::internal

@@ -1,0 +1,107 @@
+#include "airsim360/vln/language/lookout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "airsim360/base/random.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr int kDraws = 400, kOpenDraws = 300;     // places tried; of these only such below the open sky
+constexpr double kRoom = 0.6;                     // metres free around a place
+constexpr double kFlightShort = 6, kFlightLong = 24;  // metres ahead
+constexpr size_t kLeastWords = 3;                 // words with something clearly in sight
+constexpr double kRight = std::numbers::pi / 180;
+
+double Milli(double value) { return std::round(value * 1000) / 1000; }
+
+// Between a man's eyes and the eaves, mostly low.
+double HeightOf(bool indoors, RngStream& random) {
+  if (indoors) return random.Uniform(1.0, 2.0);
+  return random.Chance(0.7) ? random.Uniform(1.6, 5) : random.Uniform(5, 14);
+}
+
+std::optional<Viewpoint> DrawPlace(const VlnGround& ground, RngStream& random, bool open) {
+  const Box3d& box = ground.flight_box();
+  const bool indoors = ground.scene().sky_entity == kNoEntity;
+  const double x = random.Uniform(box.min.x, box.max.x), y = random.Uniform(box.min.y, box.max.y), height = HeightOf(indoors, random);
+  const double yaw = Milli(random.Uniform(-180, 180)) * kRight;
+  std::optional<GroundHit> floor = ground.At(x, y);
+  if (!floor) return std::nullopt;
+  if (open && !indoors) {
+    const bool surface = ground.Is(floor->entity, "ground") || ground.Is(floor->entity, "nature") || ground.Is(floor->entity, "object");
+    if (!surface) return std::nullopt;
+  } else if (!indoors || floor->z > box.max.z - 1) {
+    floor = ground.Below({x, y, random.Uniform(box.min.z, box.max.z)});
+    if (!floor) return std::nullopt;
+  }
+  const Vec3d p{Milli(x), Milli(y), Milli(floor->z + height)};
+  if (!ground.IsFree(p, kRoom)) return std::nullopt;
+  return Viewpoint{p, yaw};
+}
+
+Vec3d Ahead(const Viewpoint& from, double metres) {
+  const Vec3d p = from.p_W + Vec3d{std::cos(from.yaw), std::sin(from.yaw), 0} * metres;
+  return {Milli(p.x), Milli(p.y), Milli(p.z)};
+}
+
+// As far ahead as is free, if that is far enough to pass things.
+std::optional<Viewpoint> FlyAhead(const VlnGround& ground, const Viewpoint& from, RngStream& random) {
+  const bool indoors = ground.scene().sky_entity == kNoEntity;
+  const double shortest = indoors ? 2 : kFlightShort, length = indoors ? random.Uniform(2, 5) : random.Uniform(kFlightShort, kFlightLong);
+  double free = 0;
+  for (double d = 0; d <= length; d += kRoom)
+    if (ground.IsFree(Ahead(from, d), kRoom)) free = d;
+    else break;
+  if (free < shortest) return std::nullopt;
+  return Viewpoint{Ahead(from, free), from.yaw};
+}
+
+std::vector<Seen> Shoot(const Picture& picture, Renderer& renderer, Image<EntityId>* pixels) {
+  RenderRequest request = MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true});
+  Frame frame;
+  renderer.Render(request, frame);
+  std::vector<Seen> seen = Look(picture, frame);
+  if (pixels != nullptr) *pixels = std::move(frame.entity);
+  return seen;
+}
+
+bool ShowsEnough(const Lexicon& lexicon, const std::vector<Seen>& seen) {
+  const auto groups = Group(lexicon, seen);
+  return static_cast<size_t>(std::ranges::count_if(groups, [](const Sighted& s) { return !s.clear.empty(); })) >= std::min(kLeastWords, lexicon.in_use());
+}
+
+}  // namespace
+
+std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number, const LookoutOptions& options) {
+  RngStream random(options.seed, "language lookout", number);
+  Lookout lookout;
+  lookout.number = number;
+  int looks = 0;
+  for (int draw = 0; draw < kDraws && looks < 4; ++draw) {
+    const auto place = DrawPlace(ground, random, draw < kOpenDraws);
+    if (!place) continue;
+    ++looks;
+    lookout.panorama = {true, 0, *place, options.width, options.width / 2};
+    lookout.around = Shoot(lookout.panorama, renderer, options.masks ? &lookout.around_pixels : nullptr);
+    if (!ShowsEnough(lexicon, lookout.around)) continue;
+    // The camera looks at something that is clearly seen.
+    std::vector<const Seen*> clear;
+    for (const Sighted& s : Group(lexicon, lookout.around)) clear.insert(clear.end(), s.clear.begin(), s.clear.end());
+    const double towards = clear[random.Index(static_cast<uint32_t>(clear.size()))]->azimuth_deg + random.Uniform(-25, 25);
+    lookout.view = {false, Milli(std::remainder(towards, 360)), *place, options.width / 2, options.width / 2};
+    lookout.ahead = Shoot(lookout.view, renderer, options.masks ? &lookout.ahead_pixels : nullptr);
+    if (options.later) {
+      if (const auto then = FlyAhead(ground, *place, random)) {
+        lookout.later = Picture{true, 0, *then, options.width, options.width / 2};
+        lookout.afterwards = Shoot(*lookout.later, renderer, nullptr);
+      }
+    }
+    return lookout;
+  }
+  return std::nullopt;
+}
+
+}  // namespace airsim360::internal

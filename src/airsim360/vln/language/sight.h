@@ -1,0 +1,53 @@
+// What one picture shows of each thing, measured pixel by pixel. For the .cc files of this folder.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "airsim360/image/image.h"
+#include "airsim360/render/renderer.h"
+#include "airsim360/vln/language/lexicon.h"
+#include "airsim360/vln/predicates/query.h"
+
+namespace airsim360::internal {
+
+/// Pixels from which a person recognises a thing, and up to which nobody notices it; what lies between is doubtful.
+inline constexpr int64_t kClear = 48, kUnseen = 4;
+
+/// Which picture: a level panorama, or a level camera of 90 degrees that looks `azimuth_deg` from the heading, positive to the
+/// right.
+struct Picture {
+  bool panorama = true;
+  double azimuth_deg = 0;
+  Viewpoint from;
+  int width = 1024, height = 512;
+
+  Camera camera() const;
+  RigidTransform X_WC() const;
+};
+
+struct Seen {
+  EntityId entity = kNoEntity;
+  int64_t pixels = 0;
+  double azimuth_deg = 0, elevation_deg = 0;  ///< of the mean direction, from the heading of `from`
+  double left_deg = 0, right_deg = 0;         ///< azimuths of its edges, around azimuth_deg (may leave [-180, 180])
+  double nearest = 0;                         ///< least range, metres
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;       ///< box, inclusive; of a panorama that it crosses the seam of: all columns
+  double x = 0;                               ///< mean column, pixels; not across the seam
+  bool cut = false;                           ///< crosses the seam, or touches the edge of a camera's picture
+};
+
+/// All that is seen. `frame` holds entity and range of the picture. Ascending by entity.
+std::vector<Seen> Look(const Picture& picture, const Frame& frame);
+
+/// Of a word, who is clearly seen, and who might be counted as one.
+struct Sighted {
+  std::vector<const Seen*> clear, doubtful;
+  /// Exactly one in sight, for sure.
+  const Seen* only() const { return clear.size() == 1 && doubtful.empty() ? clear[0] : nullptr; }
+  bool none() const { return clear.empty() && doubtful.empty(); }
+};
+/// By index of lexicon.words(). Pointers into `seen`.
+std::vector<Sighted> Group(const Lexicon& lexicon, const std::vector<Seen>& seen);
+
+}  // namespace airsim360::internal
