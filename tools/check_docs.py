@@ -7,6 +7,7 @@ blocks that begin with a folder of the repository exist; so do the sources that 
 in the nav of mkdocs.yml. With the program in $AIRSIM360 every `airsim360 …` command has that subcommand and those flags in its help.
 """
 import functools
+import itertools
 import os
 import pathlib
 import re
@@ -136,10 +137,14 @@ def check_command(ask, words):
     command = (words[0],)
     if not ask(command):
         return [f"no command {words[0]}"]
-    if words[0] in ("world", "eval", "environments", "dataset", "mpde", "vln") and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
+    if words[0] in ("world", "eval", "environments", "dataset", "mpde", "vln", "people", "language") and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
         command = (words[0], words[1])
         if not ask(command):
             return [f"no command {words[0]} {words[1]}"]
+    if words[0] == "learn":  # `learn frames`, `learn segment train`
+        command = tuple(itertools.takewhile(lambda word: re.fullmatch(r"[a-z]+", word), words[:2 if words[1:2] == ["frames"] else 3]))
+        if not ask(command):
+            return [f"no command {' '.join(command)}"]
     flags = re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", " ".join(words[1:]))
     return [f"{' '.join(command)} has no flag {flag}" for flag in flags
             if not re.search(rf"(?<![\w-]){flag}(?![\w-])", ask(command))]

@@ -30,7 +30,7 @@ OWNERS = {  # third-party header prefix -> modules whose .cc files may include i
     "hdf5.h": {"eval"},
     "CLI/": {"app"},
     "recastnavigation/": {"people"},
-    "expat.h": {"people"},
+    "expat.h": {"behaviour"},
 }
 
 
