@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import metrics as metrics
-from .records import (Certificate, Collision, Entity, Event, Gpu, Limits, Person, Replay, ResetOptions, Rotor, TaskOptions,
+from .records import (Certificate, Collision, Entity, Event, Gpu, Limits, Mission, Person, Replay, ResetOptions, Rotor, TaskOptions,
                       TrafficVehicle, TrajectorySamples, WorldInfo)
 
 _F64 = npt.NDArray[np.float64]
@@ -602,6 +602,9 @@ class Simulation:
         """Repeats a recording from the snapshot it began with, beside this simulation."""
     def hash(self) -> int:
         """64 bits over every number of the state."""
+    def fly_mission(self, mission: str, drone: _DroneRef = 0, rig: Rig | None = None, timeout: float = 600.0) -> Mission:
+        """Takes steps until a mission has ended, or `timeout` simulated seconds are over. mission: XML, or the path of a file
+        of it (docs/guide/missions.md). ValueError for what is wrong in it."""
     def events(self) -> list[Event]:
         """What happened since the last call."""
     def arm(self, drone: _DroneRef = 0) -> None:

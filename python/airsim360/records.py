@@ -17,13 +17,15 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from ._native import Capture
+
     _F64 = npt.NDArray[np.float64]
     _Vector = Union[Sequence[float], npt.NDArray[np.float64]]
     _Rows = Union[_Vector, Sequence[Sequence[float]]]
 
 __all__ = ["BarometerReading", "Category", "Certificate", "Collision", "Entity", "EntityRecord", "EpisodeInfo", "Event", "FrameRecord",
-           "GnssReading", "Gpu", "ImuReading", "Limits", "MagnetometerReading", "Meta", "Person", "PersonRecord", "PlannedFrame", "Pose",
-           "Replay", "ResetOptions", "Rotor", "TaskOptions", "TrafficVehicle", "TrajectorySamples",
+           "GnssReading", "Gpu", "ImuReading", "Limits", "MagnetometerReading", "Meta", "Mission", "MissionCapture", "MissionNode",
+           "Person", "PersonRecord", "PlannedFrame", "Pose", "Replay", "ResetOptions", "Rotor", "TaskOptions", "TrafficVehicle", "TrajectorySamples",
            "VectorInfo", "WorldInfo"]
 
 Kind = Literal["thing", "stuff"]
@@ -135,6 +137,43 @@ class Event(TypedDict):
     """m/s along the normal."""
     text: NotRequired[str]
     """More in words, for instance why a command was refused."""
+
+
+class MissionNode(TypedDict):
+    """A node of a mission that still ran when the mission was stopped."""
+
+    line: int
+    """Of the XML, from 1."""
+    label: str
+    """Its `name`, or what it is."""
+
+
+class MissionCapture(TypedDict):
+    """A frame that a mission has taken."""
+
+    to: str
+    """Name of its dataset."""
+    t_ns: int
+    """Simulated time, nanoseconds."""
+    position: _F64
+    """(3,) metres in W, of the drone."""
+    orientation: _F64
+    """(4,) unit quaternion w, x, y, z of the drone in W."""
+    picture: Optional[Capture]
+    """What the rig saw then; None without a rig."""
+
+
+class Mission(TypedDict):
+    """What a mission did, from Simulation.fly_mission()."""
+
+    result: Literal["success", "failure", "stopped"]
+    """Stopped: the time was over."""
+    seconds: float
+    """That it took, simulated."""
+    log: list[str]
+    """What failed and why: "12.34 s, line 5, Goto: …"."""
+    active: list[MissionNode]
+    captures: list[MissionCapture]
 
 
 class Collision(TypedDict):

@@ -36,13 +36,17 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals);
 void AddServeCommand(CLI::App& app, GlobalOptions& globals);
 void AddAgentCommand(CLI::App& app, GlobalOptions& globals);
 void AddVlnCommand(CLI::App& app, GlobalOptions& globals);
+void AddLanguageCommand(CLI::App& app, GlobalOptions& globals);
 void AddViewCommand(CLI::App& app, GlobalOptions& globals);
+void AddPeopleCommand(CLI::App& app, GlobalOptions& globals);
 void AddDroneCommand(CLI::App& app, GlobalOptions& globals);
 void AddVideoCommand(CLI::App& app, GlobalOptions& globals);
 void AddEnvironmentsCommand(CLI::App& app, GlobalOptions& globals);
 void AddDatasetCommand(CLI::App& app, GlobalOptions& globals);
 void AddBenchCommand(CLI::App& app, GlobalOptions& globals);
 void AddDoctorCommand(CLI::App& app, GlobalOptions& globals);
+/// Its flags are those of python/airsim360/learn.
+void AddLearnCommand(CLI::App& app);
 /// About the program itself: `app` with all its commands, once they are there.
 void AddCompletionCommand(CLI::App& app);
 void AddManCommand(CLI::App& app);

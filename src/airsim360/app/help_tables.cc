@@ -27,7 +27,7 @@ constexpr auto kGroups = std::to_array<FlagGroup>({
      " --drone --real --file --catalog --words --form --llm --llm-model --llm-key-env --check --controller "
      "--sensors --wind "},
     {"Route",
-     " --waypoints --route --plan --pose --script --from --to --avoid --clearance --area --height --spacing "
+     " --waypoints --route --plan --pose --script --mission --longest --from --to --avoid --clearance --area --height --spacing "
      "--heading --center --entity --radius --turns --length --yaw --origin --poses --start "},
     {"Limits",
      " --vmax --amax --axis-vmax --axis-amax --climb --descent --dt --order --minimise --speed --realtime "
@@ -49,7 +49,7 @@ constexpr auto kGroups = std::to_array<FlagGroup>({
      " --out --frames --fps --shard --products --normal --radiance --format --rgb-format --video --encoder "
      "--quality --record --buildings --csv --count --dataset --routes --worlds --shard-mb --points --method --parallax --bits --model --apply --html --export --json "},
     {"Further", ""},
-    {"Machine", " --threads --device --gpu --processes --no-cache --host --port --help --version "},
+    {"Machine", " --threads --device --gpu --processes --no-cache --host --port --connect --lease --vehicle --help --version "},
 });
 
 constexpr auto kGroupNames = [] {
@@ -73,6 +73,8 @@ constexpr auto kExamples = std::to_array<CommandExample>({
      "names, categories and places of everything"},
     {"world entities", "airsim360 world entities downtown_west --csv > entities.csv",
      "with boxes, for a spreadsheet"},
+    {"world rooms", "airsim360 world rooms apartment",
+     "rooms with their sizes, doors with their states"},
     {"world sheet", "airsim360 world sheet city_park --out park.jpg",
      "the world from 16 places at four heights"},
     {"world sheet", "airsim360 world sheet box_room --poses 4 --heights 1.6,3 --out room.png",
@@ -170,6 +172,7 @@ constexpr auto kExamples = std::to_array<CommandExample>({
      "airsim360 fly --world downtown_west --waypoints points.csv --vmax 8 --video flight.mp4 --fps 15 --out "
      "flight",
      "through points, filmed"},
+    {"fly", "airsim360 fly --world box_room --mission survey.xml --out survey", "a mission; what it captures becomes datasets"},
     {"serve", "airsim360 serve --world downtown_west", "AirSim's clients connect to port 41451"},
     {"serve", "airsim360 serve --world box_room --settings settings.json --lockstep",
      "with AirSim's settings; time stands still between calls"},
@@ -189,16 +192,30 @@ constexpr auto kExamples = std::to_array<CommandExample>({
     {"vln run", "airsim360 vln run episodes.jsonl --agent oracle --out oracle.jsonl", "along the reference paths"},
     {"vln run", "airsim360 vln run episodes.jsonl --agent mask --view front --decisions yomo --out front.jsonl",
      "a perfect recogniser behind a camera, that moves once"},
+    {"vln demos", "airsim360 vln demos episodes.jsonl --layout jsonl,lerobot --out demos", "flights of the oracle with videos, states and actions"},
+    {"vln demos", "airsim360 vln demos episodes.jsonl --layout rlds --width 256 --limit 20 --out rlds", "as records of TensorFlow"},
     {"vln report", "airsim360 vln report oracle.jsonl front.jsonl --out report.html", "both side by side"},
     {"vln report", "airsim360 vln report oracle.jsonl --out report.html --json", "of one, for programs"},
     {"vln submit", "airsim360 vln submit episodes.jsonl oracle.jsonl --name oracle --out oracle.json", "one sealed file of a run"},
     {"vln submit", "airsim360 vln submit episodes.jsonl model.jsonl --transcript model.transcript.jsonl --out model.json", "of a model's run"},
     {"vln verify", "airsim360 vln verify oracle.json episodes.jsonl", "scores it again"},
     {"vln verify", "airsim360 vln verify oracle.json episodes.jsonl --fly", "flies it again"},
+    {"language make", "airsim360 language make --world new_york_city --kind vqa --count 5000 --layout vqa --out vqa.jsonl", "questions, each asked with each of its answers"},
+    {"language make", "airsim360 language make --world rome --kind refer --count 500 --pictures --out rome/refer.jsonl", "expressions that mean one thing, and the pictures"},
+    {"language check", "airsim360 language check vqa.jsonl", "whether each has exactly the answer that it gives, by a second method"},
+    {"language check", "airsim360 language check vqa.jsonl --json", "the same, for programs"},
+    {"learn", "airsim360 learn segment train --out seg", "draws frames of many worlds, learns classes of outdoor pictures"},
+    {"learn", "airsim360 learn segment apply photo.jpg --model seg --out labels", "of photographs"},
     {"view", "airsim360 view town", "a dataset, at http://127.0.0.1:8360"},
     {"view", "airsim360 view town --compare other", "two, side by side"},
     {"view", "airsim360 view town --export site", "the same page as files, for any server of files"},
     {"view", "airsim360 view --world downtown_west --record kept", "a world to fly in; frames that are kept become datasets"},
+    {"view", "airsim360 view --connect 127.0.0.1:41451", "the world of a running airsim360 serve"},
+    {"view", "airsim360 view plan.json", "frames of a plan, drawn when they are looked at"},
+    {"people nodes", "airsim360 people nodes --xml > nodes.xml", "the palette, for Groot2"},
+    {"people nodes", "airsim360 people nodes --mission", "what missions of drones are made of"},
+    {"people trees", "airsim360 people trees --out trees.xml", "the trees of the default crowd, to begin with"},
+    {"people trees", "airsim360 people trees survey.xml --mission", "checks a mission and writes it a line a node"},
     {"drone", "airsim360 drone \"a 250 g five-inch racing quad\" --out racer.yaml",
      "a drone from words, for fly --drone racer.yaml"},
     {"drone", "airsim360 drone --catalog", "the real drones that are known"},
@@ -293,6 +310,9 @@ std::vector<std::string> ChoicesOf(string_view command, string_view flag) {
   if (command.starts_with("eval") && flag == "--projection") return Words("erp cube tangent");
   if (flag == "--protocol" && command == "eval depth") return Words("unik3d deep360 pano3d");
   if (flag == "--protocol" && command == "eval entity") return Words("coco entityseg");
+  if (flag == "--kind" && command == "language make") return Words("caption refer vqa");
+  if (flag == "--layout" && command == "language make") return Words("vqa refcoco llava");
+  if (flag == "--layout" && command == "vln demos") return Words("jsonl rlds lerobot");
   if (flag == "--protocol" && command == "eval vln") return Words("ours aerialvln openfly citynav-mgp citynav-vlnce traveluav uavon");
   for (const auto& [name, choices] : kFixedChoices) {
     if (name == flag) return Words(choices);

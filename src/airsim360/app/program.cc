@@ -163,7 +163,9 @@ Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim
   AddServeCommand(app_, globals_);
   AddAgentCommand(app_, globals_);
   AddVlnCommand(app_, globals_);
+  AddLanguageCommand(app_, globals_);
   AddViewCommand(app_, globals_);
+  AddPeopleCommand(app_, globals_);
   AddDroneCommand(app_, globals_);
   AddEnvironmentsCommand(app_, globals_);
   AddBenchCommand(app_, globals_);
@@ -173,6 +175,7 @@ Program::Program() : app_("Panoramic (360 degree) simulator for drones", "airsim
     if (nested.empty()) AddGlobalFlags(*command, globals_, limit_);
     for (CLI::App* inner : nested) AddGlobalFlags(*inner, globals_, limit_);
   }
+  AddLearnCommand(app_);
   // Those about the program itself, which read no world.
   AddCompletionCommand(app_);
   AddManCommand(app_);
