@@ -8,6 +8,7 @@ import tempfile
 import pathlib
 import time
 import unittest
+import unittest.mock
 
 from program import PROGRAM, ProgramTest, read_ids, read_json, run, tree
 
@@ -33,6 +34,8 @@ class Datasets(ProgramTest):
         folder = tempfile.TemporaryDirectory(prefix="airsim360_end_to_end_")
         cls.addClassCleanup(folder.cleanup)
         cls.shared = pathlib.Path(folder.name)
+        # The light of rooms takes half a minute a sky: solved once, kept as for users.
+        cls.enterClassContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=str(cls.shared / "cache")))
         (cls.shared / "rooms.yaml").write_text(RECIPE)
         cls.plan = cls.shared / "plan.json"
         run("dataset", "plan", cls.shared / "rooms.yaml", "--seed", "5", "--out", cls.plan).check_returncode()

@@ -8,6 +8,7 @@ import pickle
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +64,8 @@ class OnDemand(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = Path(temporary.name)
+        # The light of rooms takes half a minute a sky: solved once, kept as for users.
+        cls.enterClassContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=str(cls.folder / "worlds")))
         cls.recipe, cls.plan = cls.folder / "rooms.yaml", cls.folder / "plan.json"
         cls.recipe.write_text(RECIPE)
         run("dataset", "plan", cls.recipe, "--seed", 5, "--out", cls.plan)
