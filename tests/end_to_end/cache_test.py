@@ -18,7 +18,7 @@ class Cache(ProgramTest):
         out = self.folder / name
         result = run("render", "--world", world, "--size", "64x32", *flags, "--out", out)
         self.assertEqual(result.returncode, 0, result.stderr)
-        return [(out / file).read_bytes() for file in ("rgb/000000.png", "range/000000.exr", "entity/000000.png")], "".join(line for line in result.stderr.splitlines(True) if not line.startswith("building "))
+        return [(out / file).read_bytes() for file in ("rgb/000000.png", "range/000000.exr", "entity/000000.png")], "".join(line for line in result.stderr.splitlines(True) if not line.startswith(("building ", "lighting ")))
 
     def entries(self):
         return sorted(self.cache.iterdir()) if self.cache.is_dir() else []
