@@ -354,8 +354,7 @@ void AddFlyCommand(CLI::App& app, GlobalOptions& globals) {
   command->add_option("--script", arguments->script,
                       "tasks: takeoff [HEIGHT]; hover SECONDS; goto X,Y,Z[,SPEED]; velocity X,Y,Z,SECONDS; "
                       "return; land (default \"takeoff 2; hover 3; land\")");
-  command->add_option("--mission", arguments->mission, "behaviour tree in XML (docs/guide/missions.md); its captures become datasets in --out")
-      ->check(CLI::ExistingFile);
+  command->add_option("--mission", arguments->mission, "behaviour tree in XML (docs/guide/missions.md); its captures become datasets in --out");
   command->add_option("--longest", arguments->longest, "seconds after which a mission is stopped (default 600)")->check(CLI::Range(0.1, 86400.0));
   command->add_option("--pose", arguments->pose,
                       "x,y,z[,yaw_deg] above where it stands; in maps also 60.1708N,24.9375E for x,y (default: the spawn)");

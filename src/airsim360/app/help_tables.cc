@@ -75,6 +75,7 @@ constexpr auto kExamples = std::to_array<CommandExample>({
      "with boxes, for a spreadsheet"},
     {"world rooms", "airsim360 world rooms apartment",
      "rooms with their sizes, doors with their states"},
+    {"world rooms", "airsim360 world rooms mall --json > mall.json", "outlines, heights and doors, for programs"},
     {"world sheet", "airsim360 world sheet city_park --out park.jpg",
      "the world from 16 places at four heights"},
     {"world sheet", "airsim360 world sheet box_room --poses 4 --heights 1.6,3 --out room.png",

@@ -57,7 +57,7 @@ class Parser {
     for (CLI::App* command : inner) Silence(*command);
     if (!inner.empty()) return;
     app.parse_complete_callback([&app] {
-      if (app.remaining_size() > 0) throw InputError("unknown: " + app.remaining().front());
+      if (app.remaining_size() > 0 && !app.get_prefix_command()) throw InputError("unknown: " + app.remaining().front());
       throw Parsed();
     });
   }

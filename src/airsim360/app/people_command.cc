@@ -74,7 +74,7 @@ void AddPeopleCommand(CLI::App& app, GlobalOptions& globals) {
   nodes->callback([n, &globals] { RunNodes(*n, globals.json); });
   CLI::App* trees = people->add_subcommand("trees", "the trees that people come with; or a file checked and written a line a node");
   auto t = std::make_shared<TreesArguments>();
-  trees->add_option("FILE", t->file, "XML of trees; without it those of the default crowd")->check(CLI::ExistingFile);
+  trees->add_option("FILE", t->file, "XML of trees; without it those of the default crowd");
   trees->add_option("--out", t->out, "write it there");
   trees->add_flag("--mission", t->mission, "FILE is a mission");
   trees->callback([t, &globals] { RunTrees(*t, globals.json); });
