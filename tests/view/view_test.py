@@ -326,8 +326,8 @@ class FollowTest(unittest.TestCase):
         self.assertIn("unknown vehicle 'Drne9'", done.stderr)
 
 
-class LiveTrees:
-    """A live world with its trees, and time that passes."""
+class LiveView:
+    """A live world, a client of it, and time that passes."""
 
     @classmethod
     def setUpClass(cls):
@@ -341,6 +341,7 @@ class LiveTrees:
     def setUp(self):
         self.client = WebSocket(self.viewer.port)
         self.addCleanup(self.client.close)
+        self.assertEqual(self.client.status, 101)
 
     def ask(self, do, **more):
         return self.client.ask({"do": do, "token": self.token, **more})
@@ -356,7 +357,7 @@ class LiveTrees:
         return until()
 
 
-class TreesTest(LiveTrees, unittest.TestCase):
+class TreesTest(LiveView, unittest.TestCase):
     arguments = ("--world", "box_room", "--people", 2)
 
     def test_a_running_person_follows_the_edited_tree_and_its_bytes_are_those_of_the_command(self):
@@ -408,7 +409,7 @@ class TreesTest(LiveTrees, unittest.TestCase):
         self.assertEqual(self.ask("trees"), before)
 
 
-class EmptyRoomTest(LiveTrees, unittest.TestCase):
+class EmptyRoomTest(LiveView, unittest.TestCase):
     """Nobody is in the way of the drone."""
     arguments = ("--world", "box_room")
 
@@ -423,22 +424,8 @@ class EmptyRoomTest(LiveTrees, unittest.TestCase):
             self.assertAlmostEqual(got, wanted, delta=0.3)
 
 
-class LiveTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.viewer = Viewer("--world", "box_room", "--record", ROOM / "kept")
-        cls.token = cls.viewer.json("/session.json")["live"]["token"]
-
-    @classmethod
-    def tearDownClass(cls):
-        assert cls.viewer.stop() == 0
-
-    def setUp(self):
-        self.client = WebSocket(self.viewer.port)
-        self.assertEqual(self.client.status, 101)
-
-    def tearDown(self):
-        self.client.close()
+class LiveTest(LiveView, unittest.TestCase):
+    arguments = ("--world", "box_room", "--record", ROOM / "kept")
 
     def picture(self, **more):
         return self.client.ask({"do": "picture", "width": 128, **more})

@@ -136,14 +136,8 @@ class Attitude:
     @staticmethod
     def load(path: Path, device: torch.device) -> "Attitude":
         """Of `train --out`, or its model.pt."""
-        height = 0
-
-        def make(about: Dict[str, Any]) -> Any:
-            nonlocal height
-            height = int(about["height"])
-            return SphereNet(2, height)
-
-        return Attitude(load_model(path, "attitude", make, device), height, device)
+        model = load_model(path, "attitude", lambda about: SphereNet(2, int(about["height"])), device)
+        return Attitude(model, model.height, device)
 
     def up(self, rgb: _Array, votes: int = 8) -> _Array:
         """The unit vector (3,) of C that points up in a panorama (H, 2 H, 3): the median direction of `votes` (1 to 8) turned copies,

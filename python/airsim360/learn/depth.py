@@ -76,14 +76,8 @@ class Depth:
     @staticmethod
     def load(path: Path, device: torch.device) -> "Depth":
         """Of `train --out`, or its model.pt."""
-        height = 0
-
-        def make(about: Dict[str, Any]) -> Any:
-            nonlocal height
-            height = int(about["height"])
-            return SphereNet(1, height, level=True)
-
-        return Depth(load_model(path, "depth", make, device), height, device)
+        model = load_model(path, "depth", lambda about: SphereNet(1, int(about["height"]), level=True), device)
+        return Depth(model, model.height, device)
 
     def range(self, rgb: _Array) -> npt.NDArray[np.float32]:
         """Metres (H, 2 H) of a level panorama (H, 2 H, 3); the sky gets a range too."""

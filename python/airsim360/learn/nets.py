@@ -98,7 +98,7 @@ class SphereNet(nn.Module):  # type: ignore[misc]
     def __init__(self, outputs: int, height: int, widths: Tuple[int, ...] = (16, 32, 64, 96), level: bool = False) -> None:
         super().__init__()
         a, b, c, d = widths
-        self.level, h = level, height
+        self.level, self.height, h = level, height, height
         self.stem, self.norm = SphereConv(4 if level else 3, a, h, 2), _Mixed(a)
         self.stage1 = _SphereBlock(a, b, h // 2, 2, mixed=True)
         self.stage2 = _SphereBlock(b, c, h // 4, 2)

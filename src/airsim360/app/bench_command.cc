@@ -46,14 +46,16 @@ std::vector<Tier> TiersOf(const BenchArguments& arguments) {
   const std::vector<std::string> names(std::begin(kTierNames), std::end(kTierNames));
   std::vector<Tier> tiers;
   for (const std::string& name : ParseList("--tiers", arguments.tiers, names))
-    tiers.push_back(static_cast<Tier>(std::find(names.begin(), names.end(), name) - names.begin()));
+    tiers.push_back(ParseTier(name));
   return tiers;
 }
+
+Vec3d SpawnOf(const Scene& scene) { return VecCast<double>(scene.spawn.value_or(scene.bounds.center())); }
 
 // Panoramas from the spawn, each turned on a little; the first, which fills caches, does not count.
 TierSpeed TimeFrames(Stage& stage, Tier tier, ImageSize size, int frames) {
   Renderer& renderer = stage.renderer(tier);
-  const Vec3d spawn = VecCast<double>(stage.scene().spawn.value_or(stage.scene().bounds.center()));
+  const Vec3d spawn = SpawnOf(stage.scene());
   std::vector<double> times;
   double rays = 0, total = 0;
   Frame frame;
@@ -75,7 +77,7 @@ TierSpeed TimeFrames(Stage& stage, Tier tier, ImageSize size, int frames) {
 // One drone with its standard sensors hovers above the spawn; people and traffic live as they were asked for.
 StepSpeed TimeSteps(Stage& stage, double seconds) {
   DroneSetup setup{.name = "drone", .model = CatalogModel("hummingbird")};
-  setup.X_WB.p = VecCast<double>(stage.scene().spawn.value_or(stage.scene().bounds.center())) + Vec3d{0, 0, kHeightOfDrone};
+  setup.X_WB.p = SpawnOf(stage.scene()) + Vec3d{0, 0, kHeightOfDrone};
   setup.airborne = true;
   SimModel model = stage.Model();
   model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));

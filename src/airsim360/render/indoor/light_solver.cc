@@ -45,12 +45,19 @@ Vec3f DirectionOf(const Surfel& s, const LightLink& link) {
 
 uint8_t Step(float x) { return static_cast<uint8_t>(std::min(255.0f, std::floor(std::min(x, 0.99999f) * 256))); }
 
+// Calls body(first, end, chunk) for chunks of surfels.
 template <class Body>
-void ForSurfels(size_t count, const Body& body) {
+void ForChunks(size_t count, const Body& body) {
   ParallelFor((static_cast<int64_t>(count) + kChunk - 1) / kChunk, [&](int64_t chunk) {
     const FlushDenormals flush;
-    const auto end = std::min(count, static_cast<size_t>((chunk + 1) * kChunk));
-    for (auto i = static_cast<size_t>(chunk * kChunk); i < end; ++i) body(i, static_cast<size_t>(chunk));
+    body(static_cast<size_t>(chunk * kChunk), std::min(count, static_cast<size_t>((chunk + 1) * kChunk)), static_cast<size_t>(chunk));
+  });
+}
+
+template <class Body>
+void ForSurfels(size_t count, const Body& body) {
+  ForChunks(count, [&](size_t first, size_t end, size_t chunk) {
+    for (size_t i = first; i < end; ++i) body(i, chunk);
   });
 }
 
@@ -63,9 +70,9 @@ void ForNeighbours(const SurfelSet& set, const Surfel& s, int step, const Each& 
   }
 }
 
-float CellOf(const IndoorWorld& world, const Enclosure& enclosure, float wanted) {
+float CellOf(std::span<const SurfacePiece> pieces, float wanted) {
   if (wanted > 0) return wanted;
-  return std::max(kHomeCell, static_cast<float>(std::sqrt(EnclosedArea(world, enclosure) / kMostCoarse)));
+  return std::max(kHomeCell, static_cast<float>(std::sqrt(AreaOf(pieces) / kMostCoarse)));
 }
 
 }  // namespace
@@ -93,17 +100,17 @@ struct LightSolver::Sum {
 };
 
 LightSolver::LightSolver(const IndoorWorld& world, const Enclosure& enclosure, const IndoorOptions& options)
-    : world_(world),
-      options_(options),
-      reflectance_(world.tables),
-      coarse_(world, enclosure, reflectance_, CellOf(world, enclosure, options.cell)) {
+    : LightSolver(world, EnclosedPieces(world, enclosure, Reflectance(world.tables)), options) {}
+
+LightSolver::LightSolver(const IndoorWorld& world, const std::vector<SurfacePiece>& pieces, const IndoorOptions& options)
+    : world_(world), options_(options), reflectance_(world.tables), coarse_(world, pieces, CellOf(pieces, options.cell)) {
   TraceEven();
   FindDirect();
   Bounce(kFirstBounces);
   TraceGuided();
   Bounce(kMostBounces);
   Finish();
-  if (options_.fine) MakeFine(enclosure);
+  if (options_.fine) MakeFine(pieces);
 }
 
 uint16_t LightSolver::WeightOf(float share) const {
@@ -338,49 +345,50 @@ std::vector<uint8_t> LightSolver::NeedFine() const {
   return need;
 }
 
-void LightSolver::MakeFine(const Enclosure& enclosure) {
+void LightSolver::MakeFine(std::span<const SurfacePiece> pieces) {
   const std::vector<uint8_t> need = NeedFine();
   const auto coarse = static_cast<double>(std::count(need.begin(), need.end(), uint8_t{1}));
   const float finer = std::clamp(static_cast<float>(std::sqrt(coarse / kMostFine)), kFinest, kLeastFine);
-  fine_ = std::make_unique<SurfelSet>(world_, enclosure, reflectance_, coarse_.cell() * finer, [&](Vec3f p, Vec3f n) {
+  fine_ = std::make_unique<SurfelSet>(world_, pieces, coarse_.cell() * finer, [&](Vec3f p, Vec3f n) {
     const uint32_t at = coarse_.Nearest(p, n);
     return at != SurfelSet::kNone && need[at] != 0;
   });
   const auto& surfels = fine_->surfels();
   Resize(surfels.size(), fine_light_);
   fine_light_.lamps.assign(surfels.size(), {});
-  const auto rays = static_cast<size_t>(options_.fine_rays);
-  // Fine surfels of a chunk lie close together: most have the guide of a coarse one that another had before.
-  std::vector<std::unordered_map<uint32_t, LightGuide>> kept((surfels.size() + kChunk - 1) / kChunk);
-  ForSurfels(surfels.size(), [&](size_t i, size_t chunk) {
-    const Surfel& s = surfels[i];
-    const DirectLight direct = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, options_.lamp_rays,
-                                              static_cast<uint32_t>(i) ^ 0x80000000u, 0);
-    fine_light_.lamps[i] = direct.held;
-    const uint32_t near = coarse_.Nearest(s.p, s.n);
-    const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept[chunk]);
-    std::vector<Vec2f> points;
-    std::vector<Landing> landings;
-    SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
-    guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
-    SendRays(world_, reflectance_, coarse_, s, points, landings);
-    Sum sum;
-    for (size_t k = 0; k < landings.size(); ++k) {
-      const Landing& landing = landings[k];
-      const float weight = kPi * landing.share / (static_cast<float>(rays) * (1 + guide.Density(points[k])));
-      sum.whole += weight;
-      if (landing.target == LightLink::kNothing) continue;
-      sum.found += weight;
-      if (landing.target == LightLink::kSky) sum.open += weight / kPi;
-      const Vec3f light = landing.target == LightLink::kSky      ? SkyAlong(landing.direction)
-                          : landing.target == Landing::kOutside ? RadianceOutside(landing.outside, i)
-                                                                : radiance_[landing.target];
-      sum.Add(light, landing.direction, std::sqrt(std::max(0.0f, 1 - points[k].x)), weight);
-    }
-    sum.Put(i, direct.others, fine_light_);
-    if (i + 1 == surfels.size() || (i + 1) % kChunk == 0) kept[chunk] = {};
+  ForChunks(surfels.size(), [&](size_t first, size_t end, size_t) {
+    std::unordered_map<uint32_t, LightGuide> kept;
+    for (size_t i = first; i < end; ++i) LightFine(i, kept);
   });
   Smooth(*fine_, 4, fine_light_);
+}
+
+void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept) {
+  const Surfel& s = fine_->surfels()[i];
+  const DirectLight direct = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, options_.lamp_rays,
+                                            static_cast<uint32_t>(i) ^ 0x80000000u, 0);
+  fine_light_.lamps[i] = direct.held;
+  const uint32_t near = coarse_.Nearest(s.p, s.n);
+  const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept);
+  std::vector<Vec2f> points;
+  std::vector<Landing> landings;
+  SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
+  guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
+  SendRays(world_, reflectance_, coarse_, s, points, landings);
+  Sum sum;
+  for (size_t k = 0; k < landings.size(); ++k) {
+    const Landing& landing = landings[k];
+    const float weight = kPi * landing.share / (static_cast<float>(options_.fine_rays) * (1 + guide.Density(points[k])));
+    sum.whole += weight;
+    if (landing.target == LightLink::kNothing) continue;
+    sum.found += weight;
+    if (landing.target == LightLink::kSky) sum.open += weight / kPi;
+    const Vec3f light = landing.target == LightLink::kSky      ? SkyAlong(landing.direction)
+                        : landing.target == Landing::kOutside ? RadianceOutside(landing.outside, i)
+                                                              : radiance_[landing.target];
+    sum.Add(light, landing.direction, std::sqrt(std::max(0.0f, 1 - points[k].x)), weight);
+  }
+  sum.Put(i, direct.others, fine_light_);
 }
 
 // Means of neighbours in one plane that see each other and differ by no more than their noise.

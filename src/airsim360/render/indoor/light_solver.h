@@ -31,6 +31,7 @@ struct LevelLight {
 class LightSolver {
  public:
   LightSolver(const IndoorWorld& world, const Enclosure& enclosure, const IndoorOptions& options);
+  LightSolver(const IndoorWorld& world, const std::vector<SurfacePiece>& pieces, const IndoorOptions& options);
 
   const SurfelSet& coarse() const { return coarse_; }
   const LevelLight& coarse_light() const { return coarse_light_; }
@@ -56,10 +57,11 @@ class LightSolver {
   void FindDirect();
   void Bounce(int most);
   void Finish();
-  void MakeFine(const Enclosure& enclosure);
+  void MakeFine(std::span<const SurfacePiece> pieces);
+  void LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept);
   /// For a surfel near the coarse one `at`, of what its neighbours see.
   LightGuide GuideOf(const Surfel& surfel, uint32_t at) const;
-  /// The same; those of surfels that face as the coarse one does are kept.
+  /// The same. Those of surfels that face as the coarse one does are kept: many fine ones beside each other share one.
   LightGuide KeptGuide(const Surfel& surfel, uint32_t at, std::unordered_map<uint32_t, LightGuide>& kept) const;
   std::vector<uint8_t> NeedFine() const;
   Vec3f RadianceOutside(const OutsidePlace& place, size_t seed) const;

@@ -64,17 +64,24 @@ void CutInstance(const IndoorWorld& world, const Enclosure& enclosure, const Ref
 }  // namespace
 
 std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
-                                         const Reflectance& reflectance, float largest) {
+                                         const Reflectance& reflectance) {
   const Scene& scene = world.tracer.scene();
   const std::vector<uint8_t> moving = MovingInstances(scene);
   std::vector<std::vector<SurfacePiece>> of_instance(scene.instances.size());
   ParallelFor(static_cast<int64_t>(scene.instances.size()), [&](int64_t i) {
     if (!moving[static_cast<size_t>(i)])
-      CutInstance(world, enclosure, reflectance, static_cast<uint32_t>(i), largest, of_instance[static_cast<size_t>(i)]);
+      CutInstance(world, enclosure, reflectance, static_cast<uint32_t>(i), kPieceSize, of_instance[static_cast<size_t>(i)]);
   });
   std::vector<SurfacePiece> all;
   for (const auto& pieces : of_instance) all.insert(all.end(), pieces.begin(), pieces.end());
   return all;
+}
+
+double AreaOf(std::span<const SurfacePiece> pieces) {
+  double area = 0;
+  for (const SurfacePiece& piece : pieces)
+    area += 0.5 * Norm(Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
+  return area;
 }
 
 void SamplePiece(const SurfacePiece& piece, float step, bool back,

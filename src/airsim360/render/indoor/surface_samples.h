@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "airsim360/render/indoor/enclosure.h"
@@ -23,9 +24,12 @@ struct SurfacePiece {
   Vec3f albedo;
 };
 
-/// Triangles of what does not move and is no clear pane, cut to pieces of at most `largest` m, in their order.
+/// Triangles of what does not move and is no clear pane, cut to pieces of at most kPieceSize m, in their order.
 std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
-                                         const Reflectance& reflectance, float largest);
+                                         const Reflectance& reflectance);
+inline constexpr float kPieceSize = 0.7f;
+/// m^2 of pieces.
+double AreaOf(std::span<const SurfacePiece> pieces);
 /// Points on a lattice of about `step` m on one side of a piece, at least one.
 void SamplePiece(const SurfacePiece& piece, float step, bool back,
                  const std::function<void(const SurfaceSample&)>& each);

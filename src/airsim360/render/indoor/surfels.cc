@@ -6,13 +6,11 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
-#include "airsim360/render/indoor/surface_samples.h"
 
 namespace airsim360::internal {
 namespace {
 
 constexpr float kSampleStep = 0.45f;   // of a cell
-constexpr float kPieceSize = 0.7f;     // m
 constexpr size_t kMostSamples = 64;    // of a cell and direction
 constexpr size_t kMostSurfels = 3;
 constexpr float kBuriedNear = 0.02f;   // m
@@ -36,7 +34,7 @@ struct Sorted {
 
 int32_t CellOf(float x) { return static_cast<int32_t>(std::floor(std::clamp(x, -0.9f * kFarCell, 0.9f * kFarCell))); }
 
-std::vector<Sorted> SortSamples(const std::vector<SurfacePiece>& pieces, float cell,
+std::vector<Sorted> SortSamples(std::span<const SurfacePiece> pieces, float cell,
                                 const std::function<bool(Vec3f, Vec3f)>& wanted) {
   constexpr int64_t kChunk = 256;
   const Vec3f origin = OriginOf(cell);
@@ -141,11 +139,10 @@ std::vector<Surfel> PlaceInCell(const IndoorWorld& world, float cell, std::span<
 
 }  // namespace
 
-SurfelSet::SurfelSet(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance, float cell,
+SurfelSet::SurfelSet(const IndoorWorld& world, std::span<const SurfacePiece> pieces, float cell,
                      const std::function<bool(Vec3f, Vec3f)>& wanted)
     : cell_(cell), origin_(OriginOf(cell)) {
-  std::vector<Sorted> samples =
-      SortSamples(EnclosedPieces(world, enclosure, reflectance, kPieceSize), cell, wanted);
+  std::vector<Sorted> samples = SortSamples(pieces, cell, wanted);
   std::vector<size_t> starts;
   for (size_t i = 0; i < samples.size(); ++i)
     if (i == 0 || samples[i].key != samples[i - 1].key) starts.push_back(i);
@@ -216,13 +213,6 @@ uint32_t SurfelSet::Nearest(Vec3f p, Vec3f n) const {
   if (best != kNone) return best;
   for (int k = 0; k < 27; ++k) look(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1);
   return best;
-}
-
-double EnclosedArea(const IndoorWorld& world, const Enclosure& enclosure) {
-  double area = 0;
-  for (const SurfacePiece& piece : EnclosedPieces(world, enclosure, Reflectance(world.tables), kPieceSize))
-    area += 0.5 * Norm(Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
-  return area;
 }
 
 }  // namespace airsim360::internal

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "airsim360/render/indoor/enclosure.h"
 #include "airsim360/render/indoor/indoor_world.h"
+#include "airsim360/render/indoor/surface_samples.h"
 #include "airsim360/render/shared/indoor_data.h"
 
 namespace airsim360::internal {
@@ -37,10 +37,9 @@ struct Surfel {
 /// Surfels of one cell size, sorted by cell. The same with any number of threads.
 class SurfelSet {
  public:
-  /// On all surfaces of the enclosed parts where `wanted` says so (nullptr: everywhere): of every cell, and there of
+  /// On all pieces of surface where `wanted` says so (nullptr: everywhere): of every cell, and there of
   /// each of six directions, the sample nearest to the middle; more where samples do not see each other.
-  /// `albedo` of materials.
-  SurfelSet(const IndoorWorld& world, const Enclosure& enclosure, const Reflectance& reflectance, float cell,
+  SurfelSet(const IndoorWorld& world, std::span<const SurfacePiece> pieces, float cell,
             const std::function<bool(Vec3f p, Vec3f n)>& wanted = nullptr);
 
   float cell() const { return cell_; }
@@ -64,8 +63,5 @@ class SurfelSet {
   std::vector<Surfel> surfels_;
   std::vector<IndoorCell> cells_;  ///< hash table
 };
-
-/// m^2 of surface in the enclosed parts.
-double EnclosedArea(const IndoorWorld& world, const Enclosure& enclosure);
 
 }  // namespace airsim360::internal

@@ -14,15 +14,6 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-Material Named(const char* name, Vec3f color, float roughness, float metallic = 0) {
-  Material m;
-  m.name = name;
-  m.base_color = color;
-  m.roughness = roughness;
-  m.metallic = metallic;
-  return m;
-}
-
 Vec3f Blend(Vec3f a, Vec3f b, float t) { return a + (b - a) * std::clamp(t, 0.0f, 1.0f); }
 
 // Colours of wood between early and late growth, its share of figure, and how much its pores show. Albedos from
@@ -243,20 +234,20 @@ const Texture& SpangleTexture() {
 
 void UseTimber(PropBuilder& b, Timber timber, Grain grain) {
   const bool along = grain == Grain::kAlongX;
-  Material m = Named(along ? "lacquered along x" : "lacquered", {0.9f, 0.9f, 0.9f}, 0.42f);
+  Material m = MakeFinish(along ? "lacquered along x" : "lacquered", {0.9f, 0.9f, 0.9f}, 0.42f);
   if (along) m.uv_rotation = kPi / 2;
   b.Use(m, TimberTexture(timber), along ? Vec2f{1.5f, 0.36f} : Vec2f{0.36f, 1.5f});
 }
 
-void UseLacquer(PropBuilder& b, Vec3f color, float roughness) { b.Use(Named("lacquer", color, roughness), SatinTexture(), {0.9f, 0.9f}); }
+void UseLacquer(PropBuilder& b, Vec3f color, float roughness) { b.Use(MakeFinish("lacquer", color, roughness), SatinTexture(), {0.9f, 0.9f}); }
 
-void UseWeave(PropBuilder& b, Vec3f color) { b.Use(Named("upholstery", color, 0.95f), WeaveTexture(), {0.10f, 0.10f}, &WeaveNormals()); }
+void UseWeave(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("upholstery", color, 0.95f), WeaveTexture(), {0.10f, 0.10f}, &WeaveNormals()); }
 
-void UseLinen(PropBuilder& b, Vec3f color) { b.Use(Named("linen", color, 0.9f), LinenTexture(), {0.55f, 0.55f}, &LinenNormals()); }
+void UseLinen(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("linen", color, 0.9f), LinenTexture(), {0.55f, 0.55f}, &LinenNormals()); }
 
-void UseLeather(PropBuilder& b, Vec3f color) { b.Use(Named("leather", color, 0.38f), LeatherTexture(), {0.16f, 0.16f}, &LeatherNormals()); }
+void UseLeather(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("leather", color, 0.38f), LeatherTexture(), {0.16f, 0.16f}, &LeatherNormals()); }
 
-void UsePile(PropBuilder& b, Vec3f color) { b.Use(Named("pile", color, 0.98f), PileTexture(), {0.30f, 0.30f}, &PileNormals()); }
+void UsePile(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("pile", color, 0.98f), PileTexture(), {0.30f, 0.30f}, &PileNormals()); }
 
 void UseLinedCloth(PropBuilder& b, Vec3f color) {
   Material m = Fabric(color);
@@ -266,49 +257,49 @@ void UseLinedCloth(PropBuilder& b, Vec3f color) {
 }
 
 void UseSheerCloth(PropBuilder& b, Vec3f color, float open) {
-  Material m = Named("sheer cloth", color, 0.7f);
+  Material m = MakeFinish("sheer cloth", color, 0.7f);
   m.kind = SurfaceKind::kGlass;
   m.transmission = open;
   b.Use(m);
 }
 
-void UseCeramic(PropBuilder& b, Vec3f color) { b.Use(Named("ceramic", color, 0.07f)); }
+void UseCeramic(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("ceramic", color, 0.07f)); }
 
-void UseBrushedSteel(PropBuilder& b, float roughness) { b.Use(Named("brushed steel", {0.64f, 0.64f, 0.63f}, roughness, 1), BrushedTexture(), {0.4f, 0.2f}); }
+void UseBrushedSteel(PropBuilder& b, float roughness) { b.Use(MakeFinish("brushed steel", {0.64f, 0.64f, 0.63f}, roughness, 1), BrushedTexture(), {0.4f, 0.2f}); }
 
-void UseStoneTop(PropBuilder& b, Vec3f color) { b.Use(Named("stone top", color, 0.14f), GraniteTexture(), {0.6f, 0.6f}); }
+void UseStoneTop(PropBuilder& b, Vec3f color) { b.Use(MakeFinish("stone top", color, 0.14f), GraniteTexture(), {0.6f, 0.6f}); }
 
-void UseCardboard(PropBuilder& b, float shade) { b.Use(Named("cardboard", Vec3f{0.9f, 0.9f, 0.9f} * shade, 0.85f), CardboardTexture(), {0.4f, 0.4f}); }
+void UseCardboard(PropBuilder& b, float shade) { b.Use(MakeFinish("cardboard", Vec3f{0.9f, 0.9f, 0.9f} * shade, 0.85f), CardboardTexture(), {0.4f, 0.4f}); }
 
 void UseRoughBoards(PropBuilder& b, Grain grain) {
   const bool along = grain == Grain::kAlongX;
-  Material m = Named(along ? "rough along x" : "rough", {0.9f, 0.9f, 0.9f}, 0.85f);
+  Material m = MakeFinish(along ? "rough along x" : "rough", {0.9f, 0.9f, 0.9f}, 0.85f);
   if (along) m.uv_rotation = kPi / 2;
   b.Use(m, RoughBoardTexture(), along ? Vec2f{1.2f, 0.25f} : Vec2f{0.25f, 1.2f});
 }
 
-void UseCoatedSteel(PropBuilder& b, Vec3f color, float roughness) { b.Use(Named("coated steel", color, roughness), ScuffedTexture(), {0.7f, 0.7f}); }
+void UseCoatedSteel(PropBuilder& b, Vec3f color, float roughness) { b.Use(MakeFinish("coated steel", color, roughness), ScuffedTexture(), {0.7f, 0.7f}); }
 
-void UseGalvanised(PropBuilder& b) { b.Use(Named("galvanised", {0.60f, 0.61f, 0.62f}, 0.38f, 0.9f), SpangleTexture(), {0.5f, 0.5f}); }
+void UseGalvanised(PropBuilder& b) { b.Use(MakeFinish("galvanised", {0.60f, 0.61f, 0.62f}, 0.38f, 0.9f), SpangleTexture(), {0.5f, 0.5f}); }
 
 Material ClearGlass(Vec3f tint) {
-  Material m = Named("clear glass", tint, 0.03f);
+  Material m = MakeFinish("clear glass", tint, 0.03f);
   m.kind = SurfaceKind::kGlass;
   m.transmission = 0.95f;
   return m;
 }
 
-Material Mirror() { return Named("mirror", {0.88f, 0.89f, 0.88f}, 0.02f, 1); }
+Material Mirror() { return MakeFinish("mirror", {0.88f, 0.89f, 0.88f}, 0.02f, 1); }
 
 Material LampSurface(float lumens, float square_metres, float kelvin, Burns burns) {
-  Material m = Named(burns == Burns::kAlways ? "lit surface" : "evening surface", {0.85f, 0.85f, 0.83f}, 0.4f);
+  Material m = MakeFinish(burns == Burns::kAlways ? "lit surface" : "evening surface", {0.85f, 0.85f, 0.83f}, 0.4f);
   m.emission = LampWhite(kelvin) * (lumens / (kPi * square_metres) * kNit);
   m.lamp = burns == Burns::kAtNight;
   return m;
 }
 
 Material Screen(float nits) {
-  Material m = Named("screen", {0.03f, 0.03f, 0.03f}, 0.25f);
+  Material m = MakeFinish("screen", {0.03f, 0.03f, 0.03f}, 0.25f);
   m.emission = Vec3f{1, 1, 1} * (nits * kNit);
   return m;
 }

@@ -10,15 +10,6 @@
 namespace airsim360::internal {
 namespace {
 
-Material Make(const char* name, Vec3f color, float roughness, float metallic = 0) {
-  Material m;
-  m.name = name;
-  m.base_color = color;
-  m.roughness = roughness;
-  m.metallic = metallic;
-  return m;
-}
-
 // Height of bark in [0, 1]: plates between dark furrows that run along v and wander.
 float BarkHeight(float u, float v) {
   const float wander = 0.10f * (TileFractal(u, v, 3, 4, 3, 11) - 0.5f);
@@ -30,39 +21,48 @@ float BarkHeight(float u, float v) {
 
 }  // namespace
 
-Material Paint(Vec3f color, float roughness) { return Make("paint", color, roughness); }
+Material MakeFinish(const char* name, Vec3f color, float roughness, float metallic) {
+  Material m;
+  m.name = name;
+  m.base_color = color;
+  m.roughness = roughness;
+  m.metallic = metallic;
+  return m;
+}
+
+Material Paint(Vec3f color, float roughness) { return MakeFinish("paint", color, roughness); }
 Material CarPaint(Vec3f color, float metallic) {
   // Flakes lie a few degrees off flat: a broad, soft highlight of the paint's own colour under the sharp one of the
   // lacquer. They are far too small to be seen one by one.
-  Material m = Make("car paint", color, metallic > 0 ? 0.42f : 0.55f, metallic);
+  Material m = MakeFinish("car paint", color, metallic > 0 ? 0.42f : 0.55f, metallic);
   m.clear_coat = 1;
   m.clear_coat_roughness = 0.04f;
   return m;
 }
 
-Material Chrome() { return Make("chrome", {0.56f, 0.565f, 0.57f}, 0.06f, 1); }
+Material Chrome() { return MakeFinish("chrome", {0.56f, 0.565f, 0.57f}, 0.06f, 1); }
 
-Material Metal(Vec3f color, float roughness) { return Make("metal", color, roughness, 1); }
-Material CastIron() { return Make("cast iron", {0.045f, 0.046f, 0.048f}, 0.5f, 0.4f); }
-Material Plastic(Vec3f color, float roughness) { return Make("plastic", color, roughness); }
-Material Rubber() { return Make("rubber", {0.025f, 0.025f, 0.026f}, 0.85f); }
-Material Stone(Vec3f color, float roughness) { return Make("stone", color, roughness); }
+Material Metal(Vec3f color, float roughness) { return MakeFinish("metal", color, roughness, 1); }
+Material CastIron() { return MakeFinish("cast iron", {0.045f, 0.046f, 0.048f}, 0.5f, 0.4f); }
+Material Plastic(Vec3f color, float roughness) { return MakeFinish("plastic", color, roughness); }
+Material Rubber() { return MakeFinish("rubber", {0.025f, 0.025f, 0.026f}, 0.85f); }
+Material Stone(Vec3f color, float roughness) { return MakeFinish("stone", color, roughness); }
 
 Material Fabric(Vec3f color) {
-  Material m = Make("fabric", color, 0.9f);
+  Material m = MakeFinish("fabric", color, 0.9f);
   m.kind = SurfaceKind::kFoliage;
   m.transmission = 0.25f;
   return m;
 }
 
 Material Glass(Vec3f color) {
-  Material m = Make("glass", color, 0.05f);
+  Material m = MakeFinish("glass", color, 0.05f);
   m.kind = SurfaceKind::kGlass;
   return m;
 }
 
 Material Glow(Vec3f color, float nits, Burns burns) {
-  Material m = Make(burns == Burns::kAtNight ? "lamp" : "signal lamp", color, 0.3f);
+  Material m = MakeFinish(burns == Burns::kAtNight ? "lamp" : "signal lamp", color, 0.3f);
   m.emission = color * (nits * kNit);
   m.lamp = burns == Burns::kAtNight;
   return m;
@@ -75,14 +75,14 @@ Material WhiteGlow(Vec3f color, float nits) {
 }
 
 Material Leaf(Vec3f color, float transmission) {
-  Material m = Make("leaf", color, 0.52f);
+  Material m = MakeFinish("leaf", color, 0.52f);
   m.kind = SurfaceKind::kFoliage;
   m.transmission = transmission;
   return m;
 }
 
 void UseWood(PropBuilder& b, Vec3f tint, Grain grain) {
-  Material m = Make(grain == Grain::kAlongX ? "timber along x" : "timber", tint, 0.6f);
+  Material m = MakeFinish(grain == Grain::kAlongX ? "timber along x" : "timber", tint, 0.6f);
   // The texture has its grain along v: a quarter turn takes it to u.
   if (grain == Grain::kAlongX) m.uv_rotation = std::numbers::pi_v<float> / 2;
   b.Use(m, WoodTexture(), grain == Grain::kAlongX ? Vec2f{1, 0.25f} : Vec2f{0.25f, 1});

@@ -8,6 +8,7 @@ namespace airsim360::internal {
 class PropBuilder;
 
 /// Linear colours. Names describe the finish, so that equal finishes of different props are shared.
+Material MakeFinish(const char* name, Vec3f color, float roughness, float metallic = 0);
 Material Paint(Vec3f color, float roughness = 0.4f);  ///< painted or powder-coated metal
 /// Lacquered car body: colour coat with aluminium flakes (`metallic`: their share, 0 for plain colours) under clear coat.
 Material CarPaint(Vec3f color, float metallic = 0);

@@ -24,6 +24,19 @@ std::pair<float, float> CellRange(int cell) {
   return {left + 0.08f * w, left + 0.92f * w};
 }
 
+// The side of a blade that looks up: its shading normal looks up more than the blade does, because lawns are lit from
+// above. Corners turn around that side, which other renderers take for the front.
+struct BladeFace {
+  BladeFace(Vec3f side, Vec3f along) {
+    const Vec3f facing = Normalized(Cross(side, along));
+    upwards = facing.z >= 0;
+    normal = Normalized((upwards ? facing : -facing) + Vec3f{0, 0, 0.6f});
+  }
+  Vec3u Turned(Vec3u t) const { return upwards ? t : Vec3u{t.x, t.z, t.y}; }
+  Vec3f normal;
+  bool upwards;
+};
+
 // One ring of a branch.
 struct Ring {
   Vec3f p, axis, side;
@@ -167,19 +180,26 @@ void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f le
   const float bend = Norm(lean);
   const Vec3f middle = base + Vec3f{0, 0, height * 0.5f} + lean * (height * 0.15f);
   const Vec3f tip = base + Vec3f{0, 0, height * (1 - 0.3f * bend)} + lean * (height * 0.6f);
-  // The shading normal looks up more than the blade does: lawns are lit from above. Corners turn around that side, which
-  // other renderers take for the front.
-  const Vec3f facing = Normalized(Cross(side, tip - base));
-  const bool upwards = facing.z >= 0;
-  const Vec3f n = Normalized((upwards ? facing : -facing) + Vec3f{0, 0, 0.6f});
+  const BladeFace face(side, tip - base);
   const auto [u0, u1] = CellRange(cell);
-  const uint32_t a = layer.Add(base - side, n, {u0, 1});
-  layer.Add(base + side, n, {u1, 1});
-  layer.Add(middle + side * 0.85f, n, {u1, 0.5f});
-  layer.Add(middle - side * 0.85f, n, {u0, 0.5f});
-  layer.Add(tip, n, {(u0 + u1) / 2, 0});
+  const uint32_t a = layer.Add(base - side, face.normal, {u0, 1});
+  layer.Add(base + side, face.normal, {u1, 1});
+  layer.Add(middle + side * 0.85f, face.normal, {u1, 0.5f});
+  layer.Add(middle - side * 0.85f, face.normal, {u0, 0.5f});
+  layer.Add(tip, face.normal, {(u0 + u1) / 2, 0});
   for (const Vec3u t : {Vec3u{a, a + 1, a + 2}, Vec3u{a, a + 2, a + 3}, Vec3u{a + 3, a + 2, a + 4}})
-    layer.triangles.push_back(upwards ? t : Vec3u{t.x, t.z, t.y});
+    layer.triangles.push_back(face.Turned(t));
+}
+
+void AddCutBlade(PlantLayer& layer, Vec3f base, float cut, float width, Vec3f lean, float turn, int cell) {
+  const Vec3f side = Vec3f{std::cos(turn), std::sin(turn), 0} * (width / 2), top = base + Vec3f{0, 0, cut} + lean * (0.7f * cut);
+  const BladeFace face(side, top - base);
+  const auto [u0, u1] = CellRange(cell);
+  const uint32_t a = layer.Add(base - side, face.normal, {u0, 1});
+  layer.Add(base + side, face.normal, {u1, 1});
+  layer.Add(top + side * 0.85f, face.normal, {u1, 0.1f});
+  layer.Add(top - side * 0.85f, face.normal, {u0, 0.1f});
+  for (const Vec3u t : {Vec3u{a, a + 1, a + 2}, Vec3u{a, a + 2, a + 3}}) layer.triangles.push_back(face.Turned(t));
 }
 
 void AddNeedle(PlantLayer& layer, Vec3f base, Vec3f tip, Vec3f side, float width, Vec3f normal, int cell) {

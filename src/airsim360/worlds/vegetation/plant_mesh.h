@@ -58,6 +58,8 @@ void AddLeaf(PlantLayer& layer, Vec3f base, Vec3f direction, Vec3f up, const Lea
              Vec3f soften = {});
 /// Blade of grass of three triangles, bending over to `lean` (horizontal, 0..1).
 void AddBlade(PlantLayer& layer, Vec3f base, float height, float width, Vec3f lean, float turn, int cell);
+/// Blade that a mower has cut at height `cut`: two triangles that end flat.
+void AddCutBlade(PlantLayer& layer, Vec3f base, float cut, float width, Vec3f lean, float turn, int cell);
 /// One triangle from a base of the given width to a point; its face looks to the side of `normal`.
 void AddNeedle(PlantLayer& layer, Vec3f base, Vec3f tip, Vec3f side, float width, Vec3f normal, int cell);
 

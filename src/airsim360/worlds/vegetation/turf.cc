@@ -8,20 +8,6 @@ namespace {
 
 constexpr float kTau = 6.2831853f;
 
-// A blade that the mower has cut: two triangles that end flat.
-void AddCutBlade(PlantLayer& layer, Vec3f base, float cut, float width, Vec3f lean, float turn, int cell) {
-  const Vec3f side = Vec3f{std::cos(turn), std::sin(turn), 0} * (width / 2), top = base + Vec3f{0, 0, cut} + lean * (0.7f * cut);
-  const Vec3f facing = Normalized(Cross(side, top - base));
-  const bool upwards = facing.z >= 0;
-  const Vec3f n = Normalized((upwards ? facing : -facing) + Vec3f{0, 0, 0.6f});
-  const float u0 = (static_cast<float>(cell) + 0.08f) / kLeafCells, u1 = (static_cast<float>(cell) + 0.92f) / kLeafCells;
-  const uint32_t a = layer.Add(base - side, n, {u0, 1});
-  layer.Add(base + side, n, {u1, 1});
-  layer.Add(top + side * 0.85f, n, {u1, 0.1f});
-  layer.Add(top - side * 0.85f, n, {u0, 0.1f});
-  for (const Vec3u t : {Vec3u{a, a + 1, a + 2}, Vec3u{a, a + 2, a + 3}}) layer.triangles.push_back(upwards ? t : Vec3u{t.x, t.z, t.y});
-}
-
 // One blade of a tuft: upright in its middle, leaning outwards at its rim, all a little to one side.
 void AddTuftBlade(PlantLayer& layer, const Turf& turf, Vec3f middle, float radius, float comb, float shorter, RngStream& random) {
   const float r = std::sqrt(static_cast<float>(random.Uniform())), a = kTau * static_cast<float>(random.Uniform());
