@@ -263,64 +263,7 @@ void CheckMissionResult(const FlyArguments& arguments, const FlyResult& result) 
   throw RuntimeError(arguments.mission + ": the mission has failed" + last);
 }
 
-void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
-  // Everything that can be wrong with the flags is found before the world is loaded.
-  if (!arguments.waypoints.empty() + !arguments.script.empty() + !arguments.mission.empty() > 1)
-    throw InputError("fly: give one of --waypoints, --script and --mission");
-  const std::string mission_xml = arguments.mission.empty() ? "" : ReadTextFile(arguments.mission, uint64_t{1} << 21);
-  if (!arguments.mission.empty()) CheckMission(mission_xml, arguments.mission);
-  DroneSetup setup{.name = "drone", .model = FindDrone(arguments.drone)};
-  setup.autopilot.controller = ParseControllerKind(arguments.controller);
-  setup.sensors = ReadSensors(arguments.sensors);
-  const auto trajectory = arguments.waypoints.empty() ? nullptr : PlanWaypoints(arguments);
-  FlyJob job;
-  job.tasks = TasksOf(arguments, trajectory);
-  double longest = arguments.mission.empty() ? 0 : arguments.longest;
-  for (const FlyTask& task : job.tasks) longest += task.seconds;
-  CheckSensorLog(setup.sensors, longest);
-  CheckVideoFlags(arguments, globals);
-  StageOptions options =
-      StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
-                             arguments.traffic.Request(globals.seed));
-  options.wind = ReadWindFile(arguments.wind);
-  if (!arguments.pose.empty()) {
-    arguments.pose = WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals));
-    ParsePose(arguments.pose);
-  }
-
-  Stage stage(options);
-  SetStart(arguments, stage.scene(), trajectory.get(), setup);
-  SimModel model = stage.Model();
-  model.drones.push_back(std::make_shared<const SimDrone>(setup, model.dt_ns));
-  job.model = std::make_shared<const SimModel>(std::move(model));
-  if (!arguments.mission.empty())
-    job.mission = ReadMission(mission_xml, arguments.mission, {job.model, OriginOfWorld(RequestOf(arguments.world, globals))});
-  job.longest = arguments.longest;
-  job.speed = arguments.speed;
-  job.frames = arguments.frames;
-  if (!arguments.video.empty()) job.video_fps = arguments.fps;
-  if (arguments.record) job.record_note = arguments.world + ", " + arguments.drone;
-  job.log = [](const std::string& text) { LogInfo(text); };
-  const std::string description = DescribeFlight(arguments, globals, stage.environment());
-  CheckFolder(arguments.out, description, "flight", kFlightName);
-  const FolderLock lock(arguments.out);
-  WriteFileAtomically(fs::path(arguments.out) / kFlightName, description);
-  SensorLog sensors(job.model, stage, fs::path(arguments.out) / "sensors");
-  job.sensors = &sensors;
-  FlyResult result = RunFlight(job);
-  sensors.WriteTables();
-  WriteFiles(arguments, result);
-  WriteFrames(arguments, globals, stage, result);
-  WriteCaptures(arguments, globals, stage, result);
-  const std::optional<VideoResult> video = WriteVideo(arguments, globals, stage, result);
-  if (globals.json) {
-    nlohmann::ordered_json json = ResultJson(arguments, setup.model, result, stage.scene());
-    if (video)
-      json["video"] = {{"file", arguments.video}, {"pictures", video->pictures}, {"seconds", video->seconds},
-                       {"encoder", video->encoder}, {"render_ms", video->render_ms / static_cast<double>(video->pictures)}};
-    PrintJson(json);
-    return CheckMissionResult(arguments, result);
-  }
+void PrintFlight(const FlyArguments& arguments, const FlyResult& result, const std::optional<VideoResult>& video) {
   const std::string clearance = result.least_clearance ? Metres(*result.least_clearance) : "not flown";
   std::printf("%s: %.1f s of flight, %zu events, least clearance in the air %s, %.1f times real time\n",
               arguments.out.c_str(), result.pace.simulated, result.events.size(), clearance.c_str(),
@@ -331,6 +274,87 @@ void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
   if (result.tracking_rms >= 0)
     std::printf("tracking error %.3f m rms, %.3f m at most\n", result.tracking_rms, result.tracking_max);
   if (result.mission) std::printf("mission: %s, %zu captures\n", MissionResult(*result.mission).c_str(), result.captures.size());
+}
+
+nlohmann::ordered_json VideoJson(const FlyArguments& arguments, const VideoResult& video) {
+  return {{"file", arguments.video}, {"pictures", video.pictures}, {"seconds", video.seconds},
+          {"encoder", video.encoder}, {"render_ms", video.render_ms / static_cast<double>(video.pictures)}};
+}
+
+/// What follows from the flags alone. Everything that can be wrong with them is found here, before a world is loaded.
+struct FlyPlan {
+  std::string mission_xml;
+  DroneSetup setup;
+  std::shared_ptr<const PolynomialTrajectory> trajectory;
+  FlyJob job;
+  StageOptions stage;
+};
+
+FlyPlan PlanFlight(FlyArguments& arguments, const GlobalOptions& globals) {
+  if (!arguments.waypoints.empty() + !arguments.script.empty() + !arguments.mission.empty() > 1)
+    throw InputError("fly: give one of --waypoints, --script and --mission");
+  FlyPlan plan;
+  if (!arguments.mission.empty()) {
+    plan.mission_xml = ReadTextFile(arguments.mission, uint64_t{1} << 21);
+    CheckMission(plan.mission_xml, arguments.mission);
+  }
+  plan.setup = {.name = "drone", .model = FindDrone(arguments.drone)};
+  plan.setup.autopilot.controller = ParseControllerKind(arguments.controller);
+  plan.setup.sensors = ReadSensors(arguments.sensors);
+  if (!arguments.waypoints.empty()) plan.trajectory = PlanWaypoints(arguments);
+  FlyJob& job = plan.job;
+  job.tasks = TasksOf(arguments, plan.trajectory);
+  double longest = arguments.mission.empty() ? 0 : arguments.longest;
+  for (const FlyTask& task : job.tasks) longest += task.seconds;
+  CheckSensorLog(plan.setup.sensors, longest);
+  CheckVideoFlags(arguments, globals);
+  plan.stage = StageOptionsOf(arguments.world, globals, arguments.environment, arguments.people.Request(globals.seed),
+                              arguments.traffic.Request(globals.seed));
+  plan.stage.wind = ReadWindFile(arguments.wind);
+  if (!arguments.pose.empty()) {
+    arguments.pose = WithPlace("--pose", arguments.pose, RequestOf(arguments.world, globals));
+    ParsePose(arguments.pose);
+  }
+  job.longest = arguments.longest;
+  job.speed = arguments.speed;
+  job.frames = arguments.frames;
+  if (!arguments.video.empty()) job.video_fps = arguments.fps;
+  if (arguments.record) job.record_note = arguments.world + ", " + arguments.drone;
+  job.log = [](const std::string& text) { LogInfo(text); };
+  return plan;
+}
+
+void RunFly(FlyArguments arguments, const GlobalOptions& globals) {
+  FlyPlan plan = PlanFlight(arguments, globals);
+  FlyJob& job = plan.job;
+  Stage stage(plan.stage);
+  SetStart(arguments, stage.scene(), plan.trajectory.get(), plan.setup);
+  SimModel model = stage.Model();
+  model.drones.push_back(std::make_shared<const SimDrone>(plan.setup, model.dt_ns));
+  job.model = std::make_shared<const SimModel>(std::move(model));
+  if (!arguments.mission.empty())
+    job.mission = ReadMission(plan.mission_xml, arguments.mission, {job.model, OriginOfWorld(RequestOf(arguments.world, globals))});
+
+  const fs::path out = arguments.out;
+  const std::string description = DescribeFlight(arguments, globals, stage.environment());
+  CheckFolder(out, description, "flight", kFlightName);
+  const FolderLock lock(out);
+  WriteFileAtomically(out / kFlightName, description);
+  SensorLog sensors(job.model, stage, out / "sensors");
+  job.sensors = &sensors;
+  FlyResult result = RunFlight(job);
+  sensors.WriteTables();
+  WriteFiles(arguments, result);
+  WriteFrames(arguments, globals, stage, result);
+  WriteCaptures(arguments, globals, stage, result);
+  const std::optional<VideoResult> video = WriteVideo(arguments, globals, stage, result);
+  if (globals.json) {
+    nlohmann::ordered_json json = ResultJson(arguments, plan.setup.model, result, stage.scene());
+    if (video) json["video"] = VideoJson(arguments, *video);
+    PrintJson(json);
+  } else {
+    PrintFlight(arguments, result, video);
+  }
   CheckMissionResult(arguments, result);
 }
 

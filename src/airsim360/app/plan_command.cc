@@ -222,13 +222,8 @@ void Report(const TrajectoryLimits& limits, const Planned& planned, const PlanRe
   for (const auto& file : files) std::printf("%s\n", file.c_str());
 }
 
-void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
-  if (!arguments.set.dataset.empty()) {
-    arguments.set.out = arguments.out;
-    arguments.set.clearance = CheckPositive("--clearance", arguments.clearance);
-    return RunWaypointSet(arguments.set, globals);
-  }
-  // Everything that can be wrong with the flags is found before a world is loaded.
+// What follows from the flags alone: everything that can be wrong with them is found before a world is loaded.
+PlanOutput ReadOutput(const PlanArguments& arguments) {
   PlanOutput output{.out = arguments.out, .interval = arguments.dt > 0 ? arguments.dt : 0.1};
   if (!arguments.format.empty()) output.formats = ParseList("--format", arguments.format, PlanFormats());
   FormatsToWrite(output);
@@ -240,31 +235,45 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
   ParseKind(arguments);
   if (arguments.dt != 0) CheckPositive("--dt", arguments.dt);
   CheckPositive("--clearance", arguments.clearance);
-  const YawRule yaw = ParseYaw(arguments.yaw);
   output.has_yaw = !arguments.yaw.empty();
-  arguments.avoid |= !arguments.waypoints.from.empty();
-  const bool needs_world = arguments.avoid || NeedsWorld(arguments.waypoints);
-  if (needs_world && arguments.world.empty()) throw InputError("--world: it is needed to find a free way");
+  return output;
+}
 
-  PlanWorld world;
+// The waypoints, and around them the world if there is one.
+PlanWaypoints OpenWorld(const PlanArguments& arguments, const GlobalOptions& globals, TrajectoryLimits& limits, PlanWorld& world) {
   PlanWaypoints waypoints;
-  const WorldRequest request = RequestOf(arguments.world, globals);
-  Place(arguments.waypoints, request);
   if (!NeedsWorld(arguments.waypoints))
     waypoints = FindWaypoints(arguments.waypoints, nullptr, globals.seed, arguments.clearance);
   if (!waypoints.points.empty()) CheckWaypoints(waypoints);
-  const bool timed = !waypoints.points.empty() && waypoints.points.front().has_time;
+  const bool timed = waypoints.timed();
   if (timed && arguments.avoid) throw InputError("--avoid: the waypoints have times; remove the column t");
-  const TrajectoryLimits limits = ParseLimits(arguments.limits, timed);
-  if (!arguments.world.empty()) {
-    world.tracer = Stage(StageOptionsOf(arguments.world, globals)).tracer();
-    if (waypoints.points.empty()) {
-      waypoints = FindWaypoints(arguments.waypoints, world.tracer, globals.seed, arguments.clearance);
-      CheckWaypoints(waypoints);
-    }
-    MapAround(world, waypoints.Positions());
-    output.plot.map = world.space->clearance().field();
+  limits = ParseLimits(arguments.limits, timed);
+  if (arguments.world.empty()) return waypoints;
+  world.tracer = Stage(StageOptionsOf(arguments.world, globals)).tracer();
+  if (waypoints.points.empty()) {
+    waypoints = FindWaypoints(arguments.waypoints, world.tracer, globals.seed, arguments.clearance);
+    CheckWaypoints(waypoints);
   }
+  MapAround(world, waypoints.Positions());
+  return waypoints;
+}
+
+void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
+  if (!arguments.set.dataset.empty()) {
+    arguments.set.out = arguments.out;
+    arguments.set.clearance = CheckPositive("--clearance", arguments.clearance);
+    return RunWaypointSet(arguments.set, globals);
+  }
+  PlanOutput output = ReadOutput(arguments);
+  const YawRule yaw = ParseYaw(arguments.yaw);
+  arguments.avoid |= !arguments.waypoints.from.empty();
+  if ((arguments.avoid || NeedsWorld(arguments.waypoints)) && arguments.world.empty())
+    throw InputError("--world: it is needed to find a free way");
+  Place(arguments.waypoints, RequestOf(arguments.world, globals));
+  PlanWorld world;
+  TrajectoryLimits limits;
+  const PlanWaypoints waypoints = OpenWorld(arguments, globals, limits, world);
+  if (world.tracer) output.plot.map = world.space->clearance().field();
 
   const double start = Seconds();
   Planned planned = Plan(arguments, limits, waypoints, world);
@@ -276,7 +285,7 @@ void RunPlan(PlanArguments arguments, const GlobalOptions& globals) {
                           .peaks = planned.flight.peaks,
                           .cost_snap = IntegralOfSquaredDerivative(path, 4),
                           .lower_bound = planned.flight.lower_bound,
-                          .start_time = timed ? waypoints.points.front().t : 0,
+                          .start_time = waypoints.timed() ? waypoints.points.front().t : 0,
                           .yaw = yaw,
                           .radius = arguments.clearance,
                           .certificate = planned.certificate,

@@ -22,6 +22,7 @@ struct PlanWaypoints {
   std::vector<std::string> sources;  ///< "file:line", "--from", …
 
   std::vector<Vec3d> Positions() const;
+  bool timed() const { return !points.empty() && points.front().has_time; }
 };
 
 /// InputError unless the flags name one source of waypoints, whole.

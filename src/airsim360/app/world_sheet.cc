@@ -104,30 +104,41 @@ struct PictureFigures {
   }
 };
 
-}  // namespace
-
-void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals) {
-  const fs::path out = arguments.out;
-  const bool jpeg = out.extension() == ".jpg" || out.extension() == ".jpeg";
-  if (!jpeg && out.extension() != ".png")
+void CheckSheet(const SheetArguments& arguments, bool jpeg) {
+  if (!jpeg && fs::path(arguments.out).extension() != ".png")
     throw InputError("--out: '" + arguments.out + "': give a .jpg or .png file");
   if (arguments.poses < 1 || arguments.poses > 64)
     throw InputError("--poses: " + std::to_string(arguments.poses) + " is not in 1 … 64");
   if (arguments.width < 128 || arguments.width > 2048 || arguments.width % 4)
     throw InputError("--width: " + std::to_string(arguments.width) + " is not a multiple of 4 in 128 … 2048");
   CheckRenderSettings(arguments.picture, "--");
-  Stage stage(StageOptionsOf(arguments.world, globals));
-  const std::vector<Vec3f> places = ChoosePlaces(stage, arguments, globals.seed);
-  if (places.empty()) throw RuntimeError(arguments.world + ": no open place found around the spawn");
+}
 
-  // One row a place, one column a height.
+/// Pictures of all places (rows) from all heights (columns), and what they show.
+struct Sheet {
+  Image<Rgb8> picture;
+  std::vector<PictureFigures> by_height;
+  PictureFigures all;
+  std::map<CategoryId, size_t> most_visible;  // entities of a category in one picture, at most
+  double render_ms = 0;
+
+  void Count(const Frame& frame, size_t height) {
+    by_height[height].Add(frame);
+    all.Add(frame);
+    std::map<CategoryId, std::set<EntityId>> seen;
+    for (int y = 0; y < frame.semantic.height(); ++y)
+      for (int x = 0; x < frame.semantic.width(); ++x) seen[frame.semantic(x, y)].insert(frame.entity(x, y));
+    for (const auto& [category, entities] : seen)
+      most_visible[category] = std::max(most_visible[category], entities.size());
+  }
+};
+
+Sheet DrawSheet(Stage& stage, const SheetArguments& arguments, const std::vector<Vec3f>& places, uint64_t seed) {
   const int w = arguments.width, h = w / 2, gap = 4;
   const int columns = static_cast<int>(arguments.heights.size()), rows = static_cast<int>(places.size());
-  Image<Rgb8> sheet(columns * (w + gap) + gap, rows * (h + gap) + gap);
-  std::vector<PictureFigures> figures(arguments.heights.size());
-  PictureFigures all;
-  std::map<CategoryId, size_t> most_visible;
-  double render_ms = 0;
+  Sheet sheet;
+  sheet.picture = Image<Rgb8>(columns * (w + gap) + gap, rows * (h + gap) + gap);
+  sheet.by_height.resize(arguments.heights.size());
   Frame frame;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -136,50 +147,65 @@ void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals
       RenderRequest request{arguments.picture, Equirectangular{w, h},
                             BodyPose({p.x, p.y, z}, 0.6 * row, 0, 0) * CameraInBody()};
       request.products.albedo = true;
-      request.seed = globals.seed;
-      render_ms += stage.renderer(request.tier).Render(request, frame).render_ms;
-      figures[static_cast<size_t>(column)].Add(frame);
-      all.Add(frame);
-      std::map<CategoryId, std::set<EntityId>> seen;
-      for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) seen[frame.semantic(x, y)].insert(frame.entity(x, y));
-      for (const auto& [category, entities] : seen)
-        most_visible[category] = std::max(most_visible[category], entities.size());
-      Blit(frame.rgb, gap + column * (w + gap), gap + row * (h + gap), sheet);
+      request.seed = seed;
+      sheet.render_ms += stage.renderer(request.tier).Render(request, frame).render_ms;
+      sheet.Count(frame, static_cast<size_t>(column));
+      const int left = gap + column * (w + gap), top = gap + row * (h + gap);
+      Blit(frame.rgb, left, top, sheet.picture);
       char text[64];
-      std::snprintf(text, sizeof text, "%.0f %.0f %.1f", static_cast<double>(p.x), static_cast<double>(p.y),
-                    z);
-      DrawText(text, gap + column * (w + gap) + 4, gap + row * (h + gap) + 4, {255, 255, 255}, 1, sheet);
+      std::snprintf(text, sizeof text, "%.0f %.0f %.1f", static_cast<double>(p.x), static_cast<double>(p.y), z);
+      DrawText(text, left + 4, top + 4, {255, 255, 255}, 1, sheet.picture);
     }
   }
-  if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
-  WriteFileAtomically(out, jpeg ? EncodeJpeg(sheet, 82) : EncodePng(sheet));
+  return sheet;
+}
 
-  // What was seen.
-  nlohmann::ordered_json by_height = nlohmann::ordered_json::object(),
-                         visible = nlohmann::ordered_json::object();
-  for (size_t i = 0; i < figures.size(); ++i) {
+nlohmann::ordered_json HeightsJson(const Sheet& sheet, const std::vector<double>& heights) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (size_t i = 0; i < heights.size(); ++i) {
     char text[32];
-    std::snprintf(text, sizeof text, "%g", arguments.heights[i]);
-    by_height[text] = figures[i].Json();
+    std::snprintf(text, sizeof text, "%g", heights[i]);
+    json[text] = sheet.by_height[i].Json();
   }
-  by_height["all"] = all.Json();
+  json["all"] = sheet.all.Json();
+  return json;
+}
+
+nlohmann::ordered_json VisibleJson(const Sheet& sheet, const Scene& scene) {
   std::map<std::string, size_t> by_path;
-  for (const auto& [category, count] : most_visible) by_path[stage.scene().tree[category].path] = count;
-  for (const auto& [path, count] : by_path) visible[path] = count;
-  const double frames = static_cast<double>(rows) * columns;
+  for (const auto& [category, count] : sheet.most_visible) by_path[scene.tree[category].path] = count;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [path, count] : by_path) json[path] = count;
+  return json;
+}
+
+}  // namespace
+
+void RunWorldSheet(const SheetArguments& arguments, const GlobalOptions& globals) {
+  const fs::path out = arguments.out;
+  const bool jpeg = out.extension() == ".jpg" || out.extension() == ".jpeg";
+  CheckSheet(arguments, jpeg);
+  Stage stage(StageOptionsOf(arguments.world, globals));
+  const std::vector<Vec3f> places = ChoosePlaces(stage, arguments, globals.seed);
+  if (places.empty()) throw RuntimeError(arguments.world + ": no open place found around the spawn");
+  const Sheet sheet = DrawSheet(stage, arguments, places, globals.seed);
+  if (out.has_parent_path()) CreateWritableFolder(out.parent_path());
+  WriteFileAtomically(out, jpeg ? EncodeJpeg(sheet.picture, 82) : EncodePng(sheet.picture));
+
+  const nlohmann::ordered_json by_height = HeightsJson(sheet, arguments.heights);
+  const double render_ms = sheet.render_ms / static_cast<double>(places.size() * arguments.heights.size());
   if (globals.json) {
     PrintJson({{"out", out.string()},
-               {"places", rows},
+               {"places", places.size()},
                {"heights", by_height},
-               {"most_visible_entities", visible},
-               {"render_ms", render_ms / frames},
+               {"most_visible_entities", VisibleJson(sheet, stage.scene())},
+               {"render_ms", render_ms},
                {"load_ms", 1e3 * stage.load_seconds()},
                {"peak_rss_mib", PeakRssMib()}});
     return;
   }
-  std::printf("%s: %d places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), rows,
-              render_ms / frames, stage.load_seconds());
+  std::printf("%s: %zu places, %.0f ms a frame, world ready in %.1f s\n", out.c_str(), places.size(), render_ms,
+              stage.load_seconds());
   for (const auto& [height, figure] : by_height.items())
     std::printf("  %s m: %s\n", height.c_str(), figure.dump().c_str());
 }

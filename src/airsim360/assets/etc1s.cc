@@ -165,71 +165,93 @@ std::array<std::array<uint8_t, 3>, 4> Etc1sCodebooks::ColorsOf(const Endpoint& e
   return colors;
 }
 
-std::vector<std::array<uint8_t, 3>> Etc1sCodebooks::Decode(std::span<const std::byte> slice, uint32_t columns, uint32_t rows) const {
-  BitReader bits(slice, where_);
-  std::vector<std::array<uint8_t, 3>> pixels(size_t{columns} * rows * 16);
-  const auto selector_count = static_cast<uint32_t>(selectors_.size());
-  std::vector<uint32_t> above(columns), here(columns), history(history_size_);  // endpoints of two rows of blocks
-  std::vector<uint8_t> lower(columns);  // predictions of the lower row of each two
-  uint32_t repeat = 0, predicted = 0, codes = 0, endpoint = 0, run = 0, rover = history_size_ / 2;
-  for (uint32_t y = 0; y < rows; ++y) {
-    for (uint32_t x = 0; x < columns; ++x) {
-      // One symbol predicts two by two blocks.
-      if (x % 2 == 0 && y % 2 == 0) {
-        if (repeat > 0) {
-          --repeat;
-        } else if (const uint32_t symbol = bits.Symbol(predictions_); symbol == kRepeatPrediction) {
-          repeat = bits.Chunks(4) + kLeastRun - 1;
-        } else {
-          predicted = symbol;
-        }
-        codes = predicted & 15;
-        lower[x] = static_cast<uint8_t>(predicted >> 4 & 15);
-      } else if (x % 2 == 0) {
-        codes = lower[x];
-      }
-      const uint32_t prediction = codes & 3;
-      codes >>= 2;
-      if ((x == 0 && (prediction == kLeft || prediction == kUpperLeft)) || (y == 0 && (prediction == kUpper || prediction == kUpperLeft)))
-        bits.Fail("a block that follows one outside the picture");
-      if (prediction == kUpper) endpoint = above[x];
-      if (prediction == kUpperLeft) endpoint = above[x - 1];
-      if (prediction == kDelta) {
-        endpoint += bits.Symbol(endpoint_deltas_);
-        if (endpoint >= endpoints_.size()) endpoint -= static_cast<uint32_t>(endpoints_.size());
-        if (endpoint >= endpoints_.size()) bits.Fail("an endpoint beyond the codebook");
-      }
-      here[x] = endpoint;
+/// What the blocks of a slice read one after the other remember.
+struct Etc1sCodebooks::SliceReader {
+  const Etc1sCodebooks& books;
+  BitReader bits;
+  std::vector<uint32_t> above, here;  // endpoints of two rows of blocks
+  std::vector<uint32_t> history;      // selectors lately used
+  std::vector<uint8_t> lower;         // predictions of the lower row of each two
+  uint32_t repeat = 0, predicted = 0, codes = 0, endpoint = 0, run = 0, rover;
 
-      // The selector: a new one, or one of those lately used, which moves to the front half way.
-      uint32_t symbol = selector_count;
-      if (run > 0) {
-        --run;
+  SliceReader(const Etc1sCodebooks& codebooks, std::span<const std::byte> slice, uint32_t columns)
+      : books(codebooks), bits(slice, codebooks.where_), above(columns), here(columns), history(codebooks.history_size_),
+        lower(columns), rover(codebooks.history_size_ / 2) {}
+
+  /// How the endpoint of block (x, y) follows from its neighbours: one symbol says it for two by two blocks.
+  uint32_t Prediction(uint32_t x, uint32_t y) {
+    if (x % 2 == 0 && y % 2 == 0) {
+      if (repeat > 0) {
+        --repeat;
+      } else if (const uint32_t symbol = bits.Symbol(books.predictions_); symbol == kRepeatPrediction) {
+        repeat = bits.Chunks(4) + kLeastRun - 1;
       } else {
-        symbol = bits.Symbol(selector_symbols_);
-        if (symbol == selector_count + history_size_) {
-          const uint32_t length = bits.Symbol(runs_);
-          run = (length == kLongRun ? bits.Chunks(7) : length) + kLeastRun - 1;
-          symbol = selector_count;
-        }
+        predicted = symbol;
       }
-      uint32_t selector = symbol;
-      if (symbol >= selector_count) {
-        const uint32_t place = symbol - selector_count;
-        if (place >= history_size_) bits.Fail("a selector beyond the codebook");
-        selector = history[place];
-        std::swap(history[place / 2], history[place]);
-      } else {
-        history[rover] = symbol;
-        if (++rover == history_size_) rover = history_size_ / 2;
-      }
-      const auto colors = ColorsOf(endpoints_[endpoint]);
-      for (uint32_t j = 0; j < 4; ++j) {
-        for (uint32_t i = 0; i < 4; ++i)
-          pixels[(size_t{y} * 4 + j) * columns * 4 + x * 4 + i] = colors[selectors_[selector][j] >> (2 * i) & 3];
+      codes = predicted & 15;
+      lower[x] = static_cast<uint8_t>(predicted >> 4 & 15);
+    } else if (x % 2 == 0) {
+      codes = lower[x];
+    }
+    const uint32_t prediction = codes & 3;
+    codes >>= 2;
+    if ((x == 0 && (prediction == kLeft || prediction == kUpperLeft)) || (y == 0 && (prediction == kUpper || prediction == kUpperLeft)))
+      bits.Fail("a block that follows one outside the picture");
+    return prediction;
+  }
+
+  uint32_t NextEndpoint(uint32_t x, uint32_t y) {
+    const uint32_t prediction = Prediction(x, y);
+    if (prediction == kUpper) endpoint = above[x];
+    if (prediction == kUpperLeft) endpoint = above[x - 1];
+    if (prediction == kDelta) {
+      const auto count = static_cast<uint32_t>(books.endpoints_.size());
+      endpoint += bits.Symbol(books.endpoint_deltas_);
+      if (endpoint >= count) endpoint -= count;
+      if (endpoint >= count) bits.Fail("an endpoint beyond the codebook");
+    }
+    return here[x] = endpoint;
+  }
+
+  /// A new one, or one of those lately used, which moves to the front half way.
+  uint32_t NextSelector() {
+    const auto count = static_cast<uint32_t>(books.selectors_.size());
+    uint32_t symbol = count;
+    if (run > 0) {
+      --run;
+    } else {
+      symbol = bits.Symbol(books.selector_symbols_);
+      if (symbol == count + books.history_size_) {
+        const uint32_t length = bits.Symbol(books.runs_);
+        run = (length == kLongRun ? bits.Chunks(7) : length) + kLeastRun - 1;
+        symbol = count;
       }
     }
-    std::swap(above, here);
+    if (symbol < count) {
+      history[rover] = symbol;
+      if (++rover == books.history_size_) rover = books.history_size_ / 2;
+      return symbol;
+    }
+    const uint32_t place = symbol - count;
+    if (place >= books.history_size_) bits.Fail("a selector beyond the codebook");
+    const uint32_t selector = history[place];
+    std::swap(history[place / 2], history[place]);
+    return selector;
+  }
+};
+
+std::vector<std::array<uint8_t, 3>> Etc1sCodebooks::Decode(std::span<const std::byte> slice, uint32_t columns, uint32_t rows) const {
+  SliceReader reader(*this, slice, columns);
+  std::vector<std::array<uint8_t, 3>> pixels(size_t{columns} * rows * 16);
+  for (uint32_t y = 0; y < rows; ++y) {
+    for (uint32_t x = 0; x < columns; ++x) {
+      const auto colors = ColorsOf(endpoints_[reader.NextEndpoint(x, y)]);
+      const auto& selector = selectors_[reader.NextSelector()];
+      for (uint32_t j = 0; j < 4; ++j) {
+        for (uint32_t i = 0; i < 4; ++i) pixels[(size_t{y} * 4 + j) * columns * 4 + x * 4 + i] = colors[selector[j] >> (2 * i) & 3];
+      }
+    }
+    std::swap(reader.above, reader.here);
   }
   return pixels;
 }

@@ -57,6 +57,7 @@ class Etc1sCodebooks {
   };
   using Selector = std::array<uint8_t, 4>;  // a byte a row, two bits a pixel
 
+  struct SliceReader;
   void ReadEndpoints(BitReader bits, uint32_t count);
   void ReadSelectors(BitReader bits, uint32_t count);
   static std::array<std::array<uint8_t, 3>, 4> ColorsOf(const Endpoint& endpoint);

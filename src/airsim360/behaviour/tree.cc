@@ -144,47 +144,58 @@ class Compiler {
     }
     const NodeInfo* info = palette_.Find(tag);
     if (!info) Fail(element, UnknownChoiceMessage("node", tag, palette_.Names()));
+    CheckAttributes(element, *info, generic);
     TreeNode node{.node = info->node, .info = info, .first_port = static_cast<uint16_t>(tree_.ports.size()), .line = element.line, .order = element.order, .label = info->name};
+    if (const std::string* name = element.Find("name")) node.label = name->substr(0, 80);
+    if (tree_.ports.size() > 60000) Fail(element, "the tree is too large");
+    for (const PortInfo& port : info->ports) AddPort(element, *info, port, scope);
+    CheckChildren(element, *info);
+    FillChildren(index, std::move(node), element, scope);
+  }
 
-    // Attributes are ports.
+  // Attributes are ports.
+  void CheckAttributes(const XmlElement& element, const NodeInfo& info, bool generic) {
     std::vector<std::string> valid = {"name"};
-    for (const PortInfo& port : info->ports) valid.push_back(port.name);
+    for (const PortInfo& port : info.ports) valid.push_back(port.name);
     for (const auto& [name, value] : element.attributes) {
       if (generic && name == "ID") continue;
       if (std::find(valid.begin(), valid.end(), name) == valid.end())
-        Fail(element, tag + ": " + UnknownChoiceMessage("attribute", name, valid));
-      if (name == "name") node.label = value.substr(0, 80);
+        Fail(element, info.name + (": " + UnknownChoiceMessage("attribute", name, valid)));
     }
-    if (tree_.ports.size() > 60000) Fail(element, "the tree is too large");
-    for (const PortInfo& info_port : info->ports) {
-      const std::string* text = element.Find(info_port.name);
-      if (!text && !info_port.fallback) Fail(element, tag + " needs the attribute '" + info_port.name + "'");
-      Port port;
-      const std::string value = text ? *text : info_port.fallback;
-      if (IsKey(value)) {
-        port.is_slot = true;
-        port.slot = Slot(element, scope, value.substr(1, value.size() - 2));
-        // A word that a SubTree was given is read as what this port takes.
-        Value& initial = tree_.initial[port.slot];
-        if (initial.kind == Value::Kind::kText && info_port.kind != 't' && info_port.kind != 'o')
-          initial = Literal(element, info_port, std::string(set_.texts[initial.index]));
-      } else if (info_port.kind == 'o') {
-        if (text && !value.empty()) Fail(element, tag + " " + info_port.name + ": expected a {key}, found '" + value.substr(0, 100) + "'");
-      } else if (text || *info_port.fallback) {
-        port.value = Literal(element, info_port, value);
-      }
-      tree_.ports.push_back(port);
-    }
+  }
 
-    // Children.
+  void CheckChildren(const XmlElement& element, const NodeInfo& info) {
     const size_t n = element.children.size();
-    const bool fits = info->of == NodeClass::kControl ? n >= 1 : info->of == NodeClass::kDecorator ? n == 1 : n == 0;
-    if (!fits) {
-      Fail(element, tag + " has " + std::to_string(n) + " children, not " +
-                        (info->of == NodeClass::kControl ? "one or more" : info->of == NodeClass::kDecorator ? "one" : "none"));
+    const std::string has = info.name + (" has " + std::to_string(n)) + " children, not ";
+    const bool fits = info.of == NodeClass::kControl ? n >= 1 : info.of == NodeClass::kDecorator ? n == 1 : n == 0;
+    if (!fits)
+      Fail(element, has + (info.of == NodeClass::kControl ? "one or more" : info.of == NodeClass::kDecorator ? "one" : "none"));
+    if ((info.node == Node::kIfThenElse || info.node == Node::kWhileDoElse) && (n < 2 || n > 3)) Fail(element, has + "two or three");
+  }
+
+  void AddPort(const XmlElement& element, const NodeInfo& node, const PortInfo& info, Scope& scope) {
+    const std::string* text = element.Find(info.name);
+    if (!text && !info.fallback) Fail(element, node.name + (" needs the attribute '" + std::string(info.name)) + "'");
+    Port port;
+    const std::string value = text ? *text : info.fallback;
+    if (IsKey(value)) {
+      port.is_slot = true;
+      port.slot = Slot(element, scope, value.substr(1, value.size() - 2));
+      // A word that a SubTree was given is read as what this port takes.
+      Value& initial = tree_.initial[port.slot];
+      if (initial.kind == Value::Kind::kText && info.kind != 't' && info.kind != 'o')
+        initial = Literal(element, info, std::string(set_.texts[initial.index]));
+    } else if (info.kind == 'o') {
+      if (text && !value.empty())
+        Fail(element, node.name + (" " + std::string(info.name)) + ": expected a {key}, found '" + value.substr(0, 100) + "'");
+    } else if (text || *info.fallback) {
+      port.value = Literal(element, info, value);
     }
-    if ((info->node == Node::kIfThenElse || info->node == Node::kWhileDoElse) && (n < 2 || n > 3))
-      Fail(element, tag + " has " + std::to_string(n) + " children, not two or three");
+    tree_.ports.push_back(port);
+  }
+
+  void FillChildren(size_t index, TreeNode node, const XmlElement& element, Scope& scope) {
+    const size_t n = element.children.size();
     node.first_child = static_cast<uint16_t>(tree_.children.size());
     node.child_count = static_cast<uint16_t>(n);
     if (tree_.nodes.size() + n > kMaxNodes) Fail(element, "more than 2000 nodes in tree '" + tree_.name + "'");

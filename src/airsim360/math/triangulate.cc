@@ -13,14 +13,12 @@ bool InTriangle(Vec2d a, Vec2d b, Vec2d c, Vec2d p) {
   return Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0 && Turn(c, a, p) >= 0;
 }
 
-// One closed chain through the outline and all holes (corner indices; bridges are walked both ways).
-std::vector<uint32_t> Chain(std::span<const Vec2d> points, std::span<const uint32_t> sizes) {
-  std::vector<uint32_t> chain(sizes[0]);
-  std::iota(chain.begin(), chain.end(), 0u);
-  // Holes from right to left, each joined to what lies right of its rightmost corner (Eberly's method).
-  struct Hole {
-    uint32_t first, count, rightmost;
-  };
+struct Hole {
+  uint32_t first, count, rightmost;
+};
+
+// Holes from right to left.
+std::vector<Hole> SortedHoles(std::span<const Vec2d> points, std::span<const uint32_t> sizes) {
   std::vector<Hole> holes;
   uint32_t next = sizes[0];
   for (uint32_t size : sizes.subspan(1)) {
@@ -34,41 +32,57 @@ std::vector<uint32_t> Chain(std::span<const Vec2d> points, std::span<const uint3
   std::stable_sort(holes.begin(), holes.end(), [&](const Hole& a, const Hole& b) {
     return points[a.rightmost].x > points[b.rightmost].x;
   });
-  for (const Hole& hole : holes) {
-    const Vec2d m = points[hole.rightmost];
-    // The nearest edge to the right at the height of m.
-    size_t edge = chain.size();
-    double best = 1e18;
-    for (size_t i = 0; i < chain.size(); ++i) {
-      const Vec2d a = points[chain[i]], b = points[chain[(i + 1) % chain.size()]];
-      if ((a.y > m.y) == (b.y > m.y) && !(a.y == m.y || b.y == m.y)) continue;
-      const double x = a.y == b.y ? std::max(a.x, b.x) : a.x + (b.x - a.x) * (m.y - a.y) / (b.y - a.y);
-      if (x >= m.x - 1e-9 && x < best) {
-        best = x;
-        edge = i;
-      }
+  return holes;
+}
+
+// Where the nearest edge of the chain to the right of m is at m's height; edge = chain.size(): nowhere.
+struct EdgeRight {
+  size_t edge;
+  double x;
+};
+EdgeRight FindEdgeRight(std::span<const Vec2d> points, const std::vector<uint32_t>& chain, Vec2d m) {
+  EdgeRight nearest{chain.size(), 1e18};
+  for (size_t i = 0; i < chain.size(); ++i) {
+    const Vec2d a = points[chain[i]], b = points[chain[(i + 1) % chain.size()]];
+    if ((a.y > m.y) == (b.y > m.y) && !(a.y == m.y || b.y == m.y)) continue;
+    const double x = a.y == b.y ? std::max(a.x, b.x) : a.x + (b.x - a.x) * (m.y - a.y) / (b.y - a.y);
+    if (x >= m.x - 1e-9 && x < nearest.x) nearest = {i, x};
+  }
+  return nearest;
+}
+
+// The corner of the chain that the bridge from m leads to.
+size_t FindBridge(std::span<const Vec2d> points, const std::vector<uint32_t>& chain, Vec2d m) {
+  const EdgeRight right = FindEdgeRight(points, chain, m);
+  if (right.edge >= chain.size()) return 0;
+  const size_t k = (right.edge + 1) % chain.size();
+  size_t bridge = points[chain[right.edge]].x > points[chain[k]].x ? right.edge : k;
+  // A corner inside the triangle m, foot, candidate hides the candidate: take the one seen flattest.
+  const Vec2d foot{right.x, m.y}, candidate = points[chain[bridge]];
+  const bool above = candidate.y > m.y;
+  double flattest = 1e18;
+  for (size_t i = 0; i < chain.size(); ++i) {
+    const Vec2d p = points[chain[i]];
+    if (p.x < m.x || p == candidate) continue;
+    const bool hides = above ? InTriangle(m, foot, candidate, p) : InTriangle(m, candidate, foot, p);
+    if (!hides) continue;
+    const double slope = std::abs(p.y - m.y) / std::max(p.x - m.x, 1e-12);
+    const double far = std::hypot(p.x - m.x, p.y - m.y);
+    if (slope + far * 1e-9 < flattest) {
+      flattest = slope + far * 1e-9;
+      bridge = i;
     }
-    size_t bridge = 0;
-    if (edge < chain.size()) {
-      const size_t k = (edge + 1) % chain.size();
-      bridge = points[chain[edge]].x > points[chain[k]].x ? edge : k;
-      // A corner inside the triangle m, foot, candidate hides the candidate: take the one seen flattest.
-      const Vec2d foot{best, m.y}, candidate = points[chain[bridge]];
-      const bool above = candidate.y > m.y;
-      double flattest = 1e18;
-      for (size_t i = 0; i < chain.size(); ++i) {
-        const Vec2d p = points[chain[i]];
-        if (p.x < m.x || p == candidate) continue;
-        const bool hides = above ? InTriangle(m, foot, candidate, p) : InTriangle(m, candidate, foot, p);
-        if (!hides) continue;
-        const double slope = std::abs(p.y - m.y) / std::max(p.x - m.x, 1e-12);
-        const double far = std::hypot(p.x - m.x, p.y - m.y);
-        if (slope + far * 1e-9 < flattest) {
-          flattest = slope + far * 1e-9;
-          bridge = i;
-        }
-      }
-    }
+  }
+  return bridge;
+}
+
+// One closed chain through the outline and all holes (corner indices; bridges are walked both ways). Each hole is
+// joined to what lies right of its rightmost corner (Eberly's method).
+std::vector<uint32_t> Chain(std::span<const Vec2d> points, std::span<const uint32_t> sizes) {
+  std::vector<uint32_t> chain(sizes[0]);
+  std::iota(chain.begin(), chain.end(), 0u);
+  for (const Hole& hole : SortedHoles(points, sizes)) {
+    const size_t bridge = FindBridge(points, chain, points[hole.rightmost]);
     std::vector<uint32_t> insert;
     for (uint32_t i = 0; i <= hole.count; ++i)
       insert.push_back(hole.first + (hole.rightmost - hole.first + i) % hole.count);

@@ -29,73 +29,30 @@ struct AnyMap {
 
 void Notice(const char* name, const char* why) { NoticeOnce(std::string(name) + ": " + why); }
 
+/// Calls about the lens of a camera, which must exist: `Arguments` come before the name of the camera, and the answer is
+/// an empty `Result`.
+template <class Result, class... Arguments>
+void AddLensCall(Api& api, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    api.Read(
+        name,
+        [name](const Snapshot& now, Arguments..., const CameraName& camera, Text vehicle, const External&) {
+          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
+          Notice(name, "cameras here are pinholes without lens or film back");
+          return Result();
+        },
+        1);
+  }
+}
+
 void AddLensCalls(Api& api) {
-  static constexpr const char* kWhy = "cameras here are pinholes without lens or film back";
-  for (const char* name : {"simGetPresetLensSettings", "simGetPresetFilmbackSettings"}) {
-    api.Read(
-        name,
-        [name](const Snapshot& now, const CameraName& camera, Text vehicle, const External&) {
-          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-          Notice(name, kWhy);
-          return std::vector<std::string>{};
-        },
-        1);
-  }
-  for (const char* name : {"simGetLensSettings", "simGetFilmbackSettings"}) {
-    api.Read(
-        name,
-        [name](const Snapshot& now, const CameraName& camera, Text vehicle, const External&) {
-          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-          Notice(name, kWhy);
-          return std::string();
-        },
-        1);
-  }
-  for (const char* name : {"simGetFocalLength", "simGetFocusDistance", "simGetFocusAperture"}) {
-    api.Read(
-        name,
-        [name](const Snapshot& now, const CameraName& camera, Text vehicle, const External&) {
-          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-          Notice(name, kWhy);
-          return 0.0f;
-        },
-        1);
-  }
-  for (const char* name : {"simSetPresetLensSettings", "simSetPresetFilmbackSettings"}) {
-    api.Read(
-        name,
-        [name](const Snapshot& now, Text, const CameraName& camera, Text vehicle, const External&) {
-          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-          Notice(name, kWhy);
-        },
-        1);
-  }
-  for (const char* name : {"simSetFocalLength", "simSetFocusDistance", "simSetFocusAperture"}) {
-    api.Read(
-        name,
-        [name](const Snapshot& now, float, const CameraName& camera, Text vehicle, const External&) {
-          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-          Notice(name, kWhy);
-        },
-        1);
-  }
-  for (const char* name : {"simEnableManualFocus", "simEnableFocusPlane"}) {
-    api.Read(
-        name,
-        [name](const Snapshot& now, bool, const CameraName& camera, Text vehicle, const External&) {
-          FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-          Notice(name, kWhy);
-        },
-        1);
-  }
-  api.Read(
-      "simSetFilmbackSettings",
-      [](const Snapshot& now, float, float, const CameraName& camera, Text vehicle, const External&) {
-        FindCamera(now.world->cameras[now.Find(vehicle)], camera.text);
-        Notice("simSetFilmbackSettings", kWhy);
-        return 0.0f;
-      },
-      1);
+  AddLensCall<std::vector<std::string>>(api, {"simGetPresetLensSettings", "simGetPresetFilmbackSettings"});
+  AddLensCall<std::string>(api, {"simGetLensSettings", "simGetFilmbackSettings"});
+  AddLensCall<float>(api, {"simGetFocalLength", "simGetFocusDistance", "simGetFocusAperture"});
+  AddLensCall<void, Text>(api, {"simSetPresetLensSettings", "simSetPresetFilmbackSettings"});
+  AddLensCall<void, float>(api, {"simSetFocalLength", "simSetFocusDistance", "simSetFocusAperture"});
+  AddLensCall<void, bool>(api, {"simEnableManualFocus", "simEnableFocusPlane"});
+  AddLensCall<float, float, float>(api, {"simSetFilmbackSettings"});
 }
 
 void AddEngineCalls(Api& api) {

@@ -106,47 +106,18 @@ void ReadNoise(SettingsObject& object, SensorSettings& sensor) {
   }
 }
 
+// Keys of sensors that change nothing here: of drawing, and of noise models that other keys stand for.
+constexpr const char* kOtherSensorKeys[] = {
+    "DrawDebugPoints", "DrawSensor", "DrawMode", "External", "ExternalLocal", "LimitPoints", "Resolution",
+    "IgnoreMarked", "GroundTruth", "InstanceSegmentation", "Annotation", "GenerateIntensity",
+    "rangeMaxLambertianPercentage", "rainMaxIntensity", "rainConstantA", "rainConstantB",
+    "ExternalController", "UpdateLatency", "UpdateFrequency", "StartupDelay", "AngularRandomWalk",
+    "GyroBiasStabilityTau", "GyroBiasStability", "VelocityRandomWalk", "AccelBiasStabilityTau",
+    "AccelBiasStability", "EphTimeConstant", "EpvTimeConstant", "EphInitial", "EpvInitial", "EphFinal",
+    "EpvFinal", "EphMin3d", "EphMin2d", "PressureFactorSigma", "PressureFactorTau", "UncorrelatedNoiseSigma",
+    "NoiseSigma", "NoiseBias", "ScaleFactor"};
+
 SensorSettings ReadSensor(const JsonNode& node, SettingsObject& parent) {
-  static constexpr const char* kOther[] = {"DrawDebugPoints",
-                                           "DrawSensor",
-                                           "DrawMode",
-                                           "External",
-                                           "ExternalLocal",
-                                           "LimitPoints",
-                                           "Resolution",
-                                           "IgnoreMarked",
-                                           "GroundTruth",
-                                           "InstanceSegmentation",
-                                           "Annotation",
-                                           "GenerateIntensity",
-                                           "rangeMaxLambertianPercentage",
-                                           "rainMaxIntensity",
-                                           "rainConstantA",
-                                           "rainConstantB",
-                                           "ExternalController",
-                                           "UpdateLatency",
-                                           "UpdateFrequency",
-                                           "StartupDelay",
-                                           "AngularRandomWalk",
-                                           "GyroBiasStabilityTau",
-                                           "GyroBiasStability",
-                                           "VelocityRandomWalk",
-                                           "AccelBiasStabilityTau",
-                                           "AccelBiasStability",
-                                           "EphTimeConstant",
-                                           "EpvTimeConstant",
-                                           "EphInitial",
-                                           "EpvInitial",
-                                           "EphFinal",
-                                           "EpvFinal",
-                                           "EphMin3d",
-                                           "EphMin2d",
-                                           "PressureFactorSigma",
-                                           "PressureFactorTau",
-                                           "UncorrelatedNoiseSigma",
-                                           "NoiseSigma",
-                                           "NoiseBias",
-                                           "ScaleFactor"};
   SettingsObject object(node, parent.file(), parent.notices());
   SensorSettings sensor;
   sensor.type = ReadSensorType(object);
@@ -168,7 +139,7 @@ SensorSettings ReadSensor(const JsonNode& node, SettingsObject& parent) {
   std::string frame = "VehicleInertialFrame";
   object.Read("DataFrame", frame);
   sensor.sensor_local_frame = frame == "SensorLocalFrame";
-  object.Ignore(kOther);
+  object.Ignore(kOtherSensorKeys);
   object.Finish();
   return sensor;
 }

@@ -176,76 +176,93 @@ std::optional<size_t> FirstPlace(const Roadmap& map, const std::vector<double>& 
   return best;
 }
 
-std::optional<PeopleSurvey> TryTour(const SimModel& model, const PeopleSurveyOptions& options, double clearance) {
-  const RayTracer& tracer = *model.tracer;
-  const double radius = clearance + 0.2 * std::min(1.0, clearance);  // rounded corners leave the legs by as much
-  Tracks tracks(*model.people);
-  if (std::ranges::none_of(tracks.At(0), [](const auto& place) { return place.has_value(); })) return std::nullopt;
-  std::vector<Vec3d> places = PlacesAround(tracer, tracks, options, radius);
-  const size_t viewpoints = places.size();
-  // Ways between groups of people lead over other low places.
-  const PlaceOptions low{.seed = options.seed, .radius = radius, .min_height = options.min_height, .max_height = options.max_height};
-  std::ranges::move(FindFreePlaces(tracer, low), std::back_inserter(places));
-  if (viewpoints == 0) return std::nullopt;
-  const Roadmap map = Connect(tracer, std::move(places), radius);
-  std::vector<double> seen_before(model.people->cast.size()), worth(viewpoints);
-  // What a place shows, those weighing more who have been seen less.
-  const auto gain = [&](size_t place, Places people) {
-    double sum = 0;
-    for (const Seen& seen : SeenFrom(tracer, map.places[place], people))
-      sum += seen.weight / (1 + 3 * seen_before[seen.person]);
-    return sum;
-  };
-  // Looks at people: notes who has been seen, and gives the heading.
-  const auto look = [&](size_t place, Places people) {
-    const std::vector<Seen> seen = SeenFrom(tracer, map.places[place], people);
-    for (const Seen& person : seen) seen_before[person.person] += person.weight;
-    return HeadingTo(seen);
-  };
-  const auto rate = [&](const auto& of) {
-    ParallelFor(static_cast<int64_t>(viewpoints), [&](int64_t i) { worth[static_cast<size_t>(i)] = of(static_cast<size_t>(i)); });
-  };
+/// Chooses the stops of a tour, one after the other: each shows most for the time that it takes.
+class TourPlanner {
+ public:
+  TourPlanner(const SimModel& model, const PeopleSurveyOptions& options, double clearance)
+      : tracer_(*model.tracer), options_(options), radius_(clearance + 0.2 * std::min(1.0, clearance)), tracks_(*model.people),
+        seen_before_(model.people->cast.size()) {}
 
-  rate([&](size_t i) { return gain(i, tracks.At(0)); });
-  const std::optional<size_t> first = FirstPlace(map, worth);
-  if (!first) return std::nullopt;
-  size_t here = *first;
-  Tour tour(map.places[here], look(here, tracks.At(0)).value_or(0));
-  for (int stop = 1; stop < options.viewpoints; ++stop) {
-    // The stop that shows most for the time that it takes, when the body would be there.
-    const CheapestWays ways = FindCheapestWays(map, static_cast<int>(here));
-    const auto arrival = [&](size_t i) { return tour.time() + 2 * kTurnSeconds + 1 + ways.cost[i] / kCalm.speed; };
+  std::optional<PeopleSurvey> Plan() {
+    if (std::ranges::none_of(tracks_.At(0), [](const auto& place) { return place.has_value(); })) return std::nullopt;
+    std::vector<Vec3d> places = PlacesAround(tracer_, tracks_, options_, radius_);
+    viewpoints_ = places.size();
+    // Ways between groups of people lead over other low places.
+    const PlaceOptions low{.seed = options_.seed, .radius = radius_, .min_height = options_.min_height, .max_height = options_.max_height};
+    std::ranges::move(FindFreePlaces(tracer_, low), std::back_inserter(places));
+    if (viewpoints_ == 0) return std::nullopt;
+    map_ = Connect(tracer_, std::move(places), radius_);
+    worth_.resize(viewpoints_);
+    Rate([&](size_t i) { return Gain(i, tracks_.At(0)); });
+    const std::optional<size_t> first = FirstPlace(map_, worth_);
+    if (!first) return std::nullopt;
+    size_t here = *first;
+    Tour tour(map_.places[here], Look(here, tracks_.At(0)).value_or(0));
+    for (int stop = 1; stop < options_.viewpoints; ++stop) {
+      const CheapestWays ways = FindCheapestWays(map_, static_cast<int>(here));
+      const size_t best = NextStop(here, ways, tour.time());
+      if (!(worth_[best] > 0)) break;
+      const std::vector<Vec3d> way = ShortWay(tracer_, map_, ways, best, radius_);
+      std::vector<Vec3d> points = {map_.places[here]};
+      points.insert(points.end(), way.begin(), way.end());
+      const Route leg = RoundedRoute(points, kCalm);
+      tour.FlyTo(way, leg, Look(best, tracks_.At(tour.time() + 2 * kTurnSeconds + leg.duration())));
+      here = best;
+    }
+    return tour.Finish();
+  }
+
+ private:
+  /// What a place shows, those weighing more who have been seen less.
+  double Gain(size_t place, Places people) const {
+    double sum = 0;
+    for (const Seen& seen : SeenFrom(tracer_, map_.places[place], people)) sum += seen.weight / (1 + 3 * seen_before_[seen.person]);
+    return sum;
+  }
+
+  /// Looks at people: notes who has been seen, and gives the heading.
+  std::optional<double> Look(size_t place, Places people) {
+    const std::vector<Seen> seen = SeenFrom(tracer_, map_.places[place], people);
+    for (const Seen& person : seen) seen_before_[person.person] += person.weight;
+    return HeadingTo(seen);
+  }
+
+  template <class Of>
+  void Rate(const Of& of) {
+    ParallelFor(static_cast<int64_t>(viewpoints_), [&](int64_t i) { worth_[static_cast<size_t>(i)] = of(static_cast<size_t>(i)); });
+  }
+
+  /// The stop that shows most for the time that it takes, when the body would be there; its worth is in worth_.
+  size_t NextStop(size_t here, const CheapestWays& ways, double now) {
+    const auto arrival = [&](size_t i) { return now + 2 * kTurnSeconds + 1 + ways.cost[i] / kCalm.speed; };
     size_t best = here;
     for (const double farthest : {kNearSeconds, std::numeric_limits<double>::infinity()}) {
-      const auto in_reach = [&](size_t i) {
-        return i != here && std::isfinite(ways.cost[i]) && arrival(i) - tour.time() <= farthest;
-      };
-      for (size_t i = 0; i < viewpoints; ++i) {
-        if (in_reach(i)) tracks.At(arrival(i));  // before several threads ask
+      const auto in_reach = [&](size_t i) { return i != here && std::isfinite(ways.cost[i]) && arrival(i) - now <= farthest; };
+      for (size_t i = 0; i < viewpoints_; ++i) {
+        if (in_reach(i)) tracks_.At(arrival(i));  // before several threads ask
       }
-      rate([&](size_t i) {
-        return in_reach(i) ? gain(i, tracks.At(arrival(i))) / (arrival(i) - tour.time()) : 0.0;
-      });
-      best = static_cast<size_t>(std::ranges::max_element(worth) - worth.begin());
-      if (worth[best] > 0) break;
+      Rate([&](size_t i) { return in_reach(i) ? Gain(i, tracks_.At(arrival(i))) / (arrival(i) - now) : 0.0; });
+      best = static_cast<size_t>(std::ranges::max_element(worth_) - worth_.begin());
+      if (worth_[best] > 0) break;
     }
-    if (!(worth[best] > 0)) break;
-    const std::vector<Vec3d> way = ShortWay(tracer, map, ways, best, radius);
-    std::vector<Vec3d> points = {map.places[here]};
-    points.insert(points.end(), way.begin(), way.end());
-    const Route leg = RoundedRoute(points, kCalm);
-    tour.FlyTo(way, leg, look(best, tracks.At(tour.time() + 2 * kTurnSeconds + leg.duration())));
-    here = best;
+    return best;
   }
-  return tour.Finish();
-}
+
+  const RayTracer& tracer_;
+  const PeopleSurveyOptions& options_;
+  const double radius_;  // rounded corners leave the legs by what is more than the clearance
+  Tracks tracks_;
+  size_t viewpoints_ = 0;  // the first of the places
+  Roadmap map_;
+  std::vector<double> seen_before_, worth_;
+};
 
 }  // namespace
 
 std::optional<PeopleSurvey> PlanPeopleSurvey(const SimModel& model, const PeopleSurveyOptions& options) {
   if (!model.people) return std::nullopt;
   for (double clearance = options.clearance; clearance > options.clearance / 20; clearance /= 2) {
-    if (std::optional<PeopleSurvey> survey = TryTour(model, options, clearance)) return survey;
+    if (std::optional<PeopleSurvey> survey = TourPlanner(model, options, clearance).Plan()) return survey;
   }
   return std::nullopt;
 }

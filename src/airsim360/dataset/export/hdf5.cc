@@ -142,18 +142,40 @@ Bytes Superblock(uint64_t end, const Layout& at) {
   return w.Take();
 }
 
+// Blocks of `rows` whole rows; the last is filled up with zeros.
+std::vector<Bytes> CompressedRows(const Image<float>& picture, int rows) {
+  std::vector<Bytes> chunks;
+  std::vector<float> block(static_cast<size_t>(rows) * picture.width());
+  for (int y = 0; y < picture.height(); y += rows) {
+    std::ranges::fill(block, 0.0f);
+    for (int r = 0; r < rows && y + r < picture.height(); ++r)
+      std::ranges::copy(picture.row(y + r), block.begin() + static_cast<ptrdiff_t>(r) * picture.width());
+    chunks.push_back(Compress(block.data(), block.size()));
+  }
+  return chunks;
+}
+
+// Of each chunk: size, filters left out, offsets in rows, columns, bytes, and where it lies from `place` on, which
+// becomes the end of the last.
+Bytes ChunkKeys(const std::vector<Bytes>& chunks, int rows, int width, uint64_t& place) {
+  Writer keys;
+  const auto key = [&](uint64_t size, uint64_t row, uint64_t column) {
+    keys.U(size, 4), keys.U(0, 4), keys.U(row, 8), keys.U(column, 8), keys.U(0, 8);
+  };
+  for (size_t i = 0; i < chunks.size(); ++i) {
+    key(chunks[i].size(), i * static_cast<size_t>(rows), 0);
+    keys.U(place, 8);
+    place += (chunks[i].size() + 7) / 8 * 8;
+  }
+  key(0, chunks.size() * static_cast<size_t>(rows), static_cast<uint64_t>(width));
+  return keys.Take();
+}
+
 }  // namespace
 
 Bytes EncodeHdf5(const Image<float>& picture, const std::string& name) {
   const int width = picture.width(), height = picture.height(), rows = (height + kChunks - 1) / kChunks;
-  std::vector<Bytes> chunks;
-  std::vector<float> block(static_cast<size_t>(rows) * width);
-  for (int y = 0; y < height; y += rows) {
-    std::ranges::fill(block, 0.0f);
-    for (int r = 0; r < rows && y + r < height; ++r)
-      std::ranges::copy(picture.row(y + r), block.begin() + static_cast<ptrdiff_t>(r) * width);
-    chunks.push_back(Compress(block.data(), block.size()));
-  }
+  const std::vector<Bytes> chunks = CompressedRows(picture, rows);
   // Where everything lies; all parts are multiples of 8 bytes.
   const size_t names_size = 8 + (name.size() + 8) / 8 * 8 + 16;
   const auto dataset_header = [&](uint64_t tree) {
@@ -173,24 +195,14 @@ Bytes EncodeHdf5(const Image<float>& picture, const std::string& name) {
   at.chunk_tree = at.header + dataset_header(0).size();
   at.chunks = at.chunk_tree + 24 + (2 * kTreeK + 1) * 32 + 2 * kTreeK * 8;
 
-  Writer keys;  // of the chunks: size, filters left out, offsets in rows, columns, bytes
-  uint64_t place = at.chunks;
-  const auto key = [&](uint64_t size, uint64_t row, uint64_t column) {
-    keys.U(size, 4), keys.U(0, 4), keys.U(row, 8), keys.U(column, 8), keys.U(0, 8);
-  };
-  for (size_t i = 0; i < chunks.size(); ++i) {
-    key(chunks[i].size(), i * static_cast<size_t>(rows), 0);
-    keys.U(place, 8);
-    place += (chunks[i].size() + 7) / 8 * 8;
-  }
-  key(0, chunks.size() * static_cast<size_t>(rows), static_cast<uint64_t>(width));
-
+  uint64_t end = at.chunks;
+  Bytes keys = ChunkKeys(chunks, rows, width, end);
   const uint64_t name_at = 8;
   Writer group_keys;
   group_keys.U(0, 8), group_keys.U(at.node, 8), group_keys.U(name_at, 8);
 
   Writer file;
-  file.Append(Superblock(place, at));
+  file.Append(Superblock(end, at));
   file.Append(ObjectHeader({{17, SymbolTable(at.group_tree, at.heap)}}));
   file.Append(TreeNode(0, 1, group_keys.Take(), at.heap - at.group_tree));
   // Heap of names: an empty one, ours, then one free block.
@@ -203,7 +215,7 @@ Bytes EncodeHdf5(const Image<float>& picture, const std::string& name) {
   file.U(name_at, 8), file.U(at.header, 8), file.Zeros(24);
   file.Zeros(at.header - file.size());
   file.Append(dataset_header(at.chunk_tree));
-  file.Append(TreeNode(1, chunks.size(), keys.Take(), at.chunks - at.chunk_tree));
+  file.Append(TreeNode(1, chunks.size(), std::move(keys), at.chunks - at.chunk_tree));
   for (const Bytes& chunk : chunks) {
     file.Append(chunk);
     file.Align();

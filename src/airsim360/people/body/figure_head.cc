@@ -35,28 +35,30 @@ double HairThickness(Hair style, double theta, double z, uint64_t) {
   return over > 1 ? thick : -0.03 + (thick + 0.03) * std::clamp(over, 0.0, 1.0);
 }
 
-}  // namespace
-
-void AddHead(const FigureContext& f, LoftMesh& mesh) {
+void AddNeck(const FigureContext& f, LoftMesh& mesh) {
   const Proportions& p = f.p;
-  const double H = p.stature, h = p.head * H, chin = H - h;
-  const Influences bone = Bone(Joint::kHead);
-  const double narrow = p.female ? 0.96 : 1;
-
-  // Neck.
+  const double H = p.stature;
   const Vec3d low = f.joint(Joint::kNeck), top = f.joint(Joint::kHead);
   const double r = (p.female || p.adult < 0.7 ? 0.0275 : 0.0325) * H;
   const LoftRing neck[] = {{low + Vec3d{-0.004 * H, 0, -0.020 * H}, 1.25 * r, 1.1 * r, 1.2 * r, 2, MixBones(Bone(Joint::kSpine3), Bone(Joint::kNeck), 0.6), -1},
                            {low + (top - low) * 0.45, r, r, 1.05 * r, 2, Bone(Joint::kNeck), -1},
-                           {top + Vec3d{0.004 * H, 0, 0.020 * H}, r, r, r, 2, bone, -1}};
+                           {top + Vec3d{0.004 * H, 0, 0.020 * H}, r, r, r, 2, Bone(Joint::kHead), -1}};
   mesh.Loft(neck, {.material = kSkinMaterial, .segments = f.Around(20), .steps = f.Steps(3), .cap_last = false});
+}
 
-  // The head with brow, nose and lips pulled out of it.
+/// Measures of the head: its height, the height of the chin, how narrow it is.
+struct HeadSize {
+  double h, chin, narrow;
+};
+
+// The head with brow, nose and lips pulled out of it.
+void AddFace(const FigureContext& f, const HeadSize& size, LoftMesh& mesh) {
+  const auto [h, chin, narrow] = size;
   std::vector<LoftRing> rings;
   for (const auto& row : kHead)
-    rings.push_back({{0, 0, chin + row[0] * h}, row[3] * h * narrow, row[1] * h, row[2] * h, 2.15, bone, std::clamp(row[0], 0.0, 1.0)});
+    rings.push_back({{0, 0, chin + row[0] * h}, row[3] * h * narrow, row[1] * h, row[2] * h, 2.15, Bone(Joint::kHead), std::clamp(row[0], 0.0, 1.0)});
   LoftStyle style{.material = kFaceMaterial, .segments = f.Around(40), .steps = f.Steps(3), .cap_first = true};
-  style.deform = [&](LoftVertex& v) {
+  style.deform = [&f, h = h, chin = chin](LoftVertex& v) {
     if (v.p.x < 0.2 * h || f.level > 2) return;
     const double y = v.p.y / h, z = (v.p.z - chin) / h;
     const double bridge = z < 0.36 ? Bump(z, 0.36, 0.07) : std::max(0.0, 1 - (z - 0.36) / 0.22);
@@ -68,9 +70,11 @@ void AddHead(const FigureContext& f, LoftMesh& mesh) {
     for (const double side : {1.0, -1.0})
       mesh.Ellipsoid({-0.01 * h, side * 0.335 * h * narrow, chin + 0.43 * h}, {0.075 * h, 0.022 * h, 0.13 * h}, Joint::kHead, kSkinMaterial, f.Around(12));
   }
+}
 
-  // Hair: the same slices, pushed out where hair grows and under the skin elsewhere. Long hair hangs down.
-  const Hair hair = f.wear.hair;
+// Hair: the slices of the head, pushed out where hair grows and under the skin elsewhere. Long hair hangs down.
+std::vector<LoftRing> HairRings(Hair hair, const HeadSize& size) {
+  const auto [h, chin, narrow] = size;
   std::vector<LoftRing> cover;
   if (hair == Hair::kLong) {
     for (const auto& [z, back, half, front] : {std::tuple{-0.50, 0.36, 0.26, -0.20}, {-0.30, 0.38, 0.34, -0.12}, {-0.12, 0.36, 0.34, -0.06}}) {
@@ -81,8 +85,14 @@ void AddHead(const FigureContext& f, LoftMesh& mesh) {
   for (const auto& row : kHead) {
     if (row[0] < 0.0) continue;
     const bool hangs = (hair == Hair::kLong || hair == Hair::kBob) && row[0] < 0.40;
-    cover.push_back({{0, 0, chin + row[0] * h}, (hangs ? std::max(row[3], 0.31) : row[3]) * h * narrow, (hangs ? 0.02 : row[1]) * h, (hangs ? std::max(row[2], 0.33) : row[2]) * h, 2.15, bone, -1});
+    cover.push_back({{0, 0, chin + row[0] * h}, (hangs ? std::max(row[3], 0.31) : row[3]) * h * narrow, (hangs ? 0.02 : row[1]) * h, (hangs ? std::max(row[2], 0.33) : row[2]) * h, 2.15, Bone(Joint::kHead), -1});
   }
+  return cover;
+}
+
+void AddHair(const FigureContext& f, const HeadSize& size, LoftMesh& mesh) {
+  const double h = size.h, chin = size.chin;
+  const Hair hair = f.wear.hair;
   LoftStyle strands{.material = kHairMaterial, .segments = f.Around(40), .steps = f.Steps(3), .cap_first = hair == Hair::kLong};
   strands.deform = [&](LoftVertex& v) {
     const double z = (v.p.z - chin) / h;
@@ -91,13 +101,24 @@ void AddHead(const FigureContext& f, LoftMesh& mesh) {
     const Vec3d middle{0.06 * h, 0, chin + (z > 0.55 ? 0.55 : z) * h};
     v.p += Normalized(v.p - middle) * (h * (t + (t > 0 && hair != Hair::kCap && hair != Hair::kCropped ? rough : 0)));
   };
-  mesh.Loft(Thinned(cover, f.level), strands);
+  mesh.Loft(Thinned(HairRings(hair, size), f.level), strands);
   if (hair == Hair::kBun && f.level < 3)
     mesh.Ellipsoid({-0.42 * h, 0, chin + 0.72 * h}, {0.16 * h, 0.17 * h, 0.17 * h}, Joint::kHead, kHairMaterial, f.Around(16));
   if (hair == Hair::kCap && f.level < 3) {
+    const Influences bone = Bone(Joint::kHead);
     const LoftRing peak[] = {{{0.36 * h, 0, chin + 0.715 * h}, 0.30 * h, 0.02 * h, 0.02 * h, 2.6, bone, -1}, {{0.60 * h, 0, chin + 0.70 * h}, 0.25 * h, 0.015 * h, 0.015 * h, 2.6, bone, -1}, {{0.76 * h, 0, chin + 0.67 * h}, 0.14 * h, 0.01 * h, 0.01 * h, 2.6, bone, -1}};
     mesh.Loft(peak, {.material = kHairMaterial, .segments = f.Around(18), .steps = 2, .u = {0, 1, 0}, .v = {0, 0, 1}});
   }
+}
+
+}  // namespace
+
+void AddHead(const FigureContext& f, LoftMesh& mesh) {
+  const double h = f.p.head * f.p.stature;
+  const HeadSize size{h, f.p.stature - h, f.p.female ? 0.96 : 1};
+  AddNeck(f, mesh);
+  AddFace(f, size, mesh);
+  AddHair(f, size, mesh);
 }
 
 }  // namespace airsim360::internal

@@ -37,6 +37,47 @@ int Mind::Choice(const Tree& tree, const TreeNode& node, const TreeRun& run, siz
   return -1;
 }
 
+Status Mind::SetState(bool fresh, const Tree& tree, const TreeNode& node, TreeRun& run) {
+  const int chosen = Choice(tree, node, run, 0);
+  if (chosen < 0) return Status::kFailure;
+  const auto state = static_cast<uint8_t>(chosen);
+  if (!fresh) return agent_.state == state ? Status::kRunning : Status::kSuccess;
+  const double min_s = NumberOf(tree, node, run, 1), max_s = NumberOf(tree, node, run, 2);
+  if (!EnterState(tick_, self_, state, min_s, max_s, Cause(node))) return Status::kFailure;
+  const Value& wait = PortOf(tree, node, run, 3);
+  const bool waits = wait.kind == Value::Kind::kText && wait.index == 0;
+  return waits && agent_.state_until_ns > 0 ? Status::kRunning : Status::kSuccess;
+}
+
+Status Mind::WaitMessage(bool fresh, const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) {
+  const int type = Choice(tree, node, run, 0);
+  if (type < 0) return Status::kFailure;
+  if (fresh) memory.t_ns = tick_.t_ns;
+  Message message;
+  if (TakeMessage(agent_, static_cast<uint8_t>(type), &message)) {
+    if (message.from != kNoPerson) SetPort(tree, node, run, 2, Person(message.from));
+    return Status::kSuccess;
+  }
+  return tick_.t_ns - memory.t_ns >= Seconds(NumberOf(tree, node, run, 1)) ? Status::kFailure : Status::kRunning;
+}
+
+Status Mind::FacePerson(PersonIndex other) {
+  if (other == kNoPerson) return Status::kFailure;
+  Face(tick_.in.walkers[other].at.p_W);
+  return Turned() ? Status::kSuccess : Status::kRunning;
+}
+
+Status Mind::Every(NodeMemory& memory, double period, double first) {
+  // The first time comes at a random part of the period, so that a crowd does not move as one.
+  if (memory.flags == 0) {
+    memory.flags = 1;
+    memory.t_ns = tick_.t_ns - Seconds(period - agent_.rng.Uniform() * (first < 0 ? period : first));
+  }
+  if (tick_.t_ns - memory.t_ns < Seconds(period)) return Status::kFailure;
+  memory.t_ns = tick_.t_ns;
+  return Status::kSuccess;
+}
+
 Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run) {
   const bool fresh = memory.status != Status::kRunning;
   const auto number = [&](size_t i) { return NumberOf(tree, node, run, i); };
@@ -50,21 +91,10 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
       return WanderTo(fresh, choice(0) < 0 ? tick_.model.people[self_].area : static_cast<uint32_t>(choice(0)), number(1));
     case PersonNode::kGoTo: return GoTo(fresh, PortOf(tree, node, run, 0), number(1));
     case PersonNode::kGoToPlace: return choice(0) < 0 ? Status::kFailure : GoToPlace(fresh, static_cast<PlaceKind>(choice(0)), number(1));
-    case PersonNode::kSetState: {
-      if (choice(0) < 0) return Status::kFailure;
-      const auto state = static_cast<uint8_t>(choice(0));
-      if (fresh) {
-        if (!EnterState(tick_, self_, state, number(1), number(2), Cause(node))) return Status::kFailure;
-        const Value& wait = PortOf(tree, node, run, 3);
-        const bool waits = wait.kind == Value::Kind::kText && wait.index == 0;
-        return waits && agent_.state_until_ns > 0 ? Status::kRunning : Status::kSuccess;
-      }
-      return agent_.state == state ? Status::kRunning : Status::kSuccess;
-    }
-    case PersonNode::kEndState: {
+    case PersonNode::kSetState: return SetState(fresh, tree, node, run);
+    case PersonNode::kEndState:
       EnterState(tick_, self_, tick_.plan.states[agent_.state].next, -1, 0, Cause(node));
       return Status::kSuccess;
-    }
     case PersonNode::kMeet: {
       const Status status = Meet(fresh, memory, number(0), number(1), number(2));
       if (status == Status::kSuccess) SetPort(tree, node, run, 3, Person(agent_.last_met));
@@ -77,22 +107,8 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
     }
     case PersonNode::kChat: return Chat(fresh, memory, number(0), number(1), Cause(node));
     case PersonNode::kSend: return choice(0) < 0 ? Status::kFailure : Send(static_cast<uint8_t>(choice(0)), PortOf(tree, node, run, 1), person(2), number(3));
-    case PersonNode::kWaitMessage: {
-      if (choice(0) < 0) return Status::kFailure;
-      if (fresh) memory.t_ns = tick_.t_ns;
-      Message message;
-      if (TakeMessage(agent_, static_cast<uint8_t>(choice(0)), &message)) {
-        if (message.from != kNoPerson) SetPort(tree, node, run, 2, Person(message.from));
-        return Status::kSuccess;
-      }
-      return tick_.t_ns - memory.t_ns >= Seconds(number(1)) ? Status::kFailure : Status::kRunning;
-    }
-    case PersonNode::kFacePerson: {
-      const PersonIndex other = person(0);
-      if (other == kNoPerson) return Status::kFailure;
-      Face(tick_.in.walkers[other].at.p_W);
-      return Turned() ? Status::kSuccess : Status::kRunning;
-    }
+    case PersonNode::kWaitMessage: return WaitMessage(fresh, tree, node, memory, run);
+    case PersonNode::kFacePerson: return FacePerson(person(0));
     case PersonNode::kLookAtDrone: return LookAtDrone(fresh, number(0), number(1), number(2), Cause(node));
     case PersonNode::kStepAway: return StepAway(fresh, number(0));
     case PersonNode::kChance: return Yes(agent_.rng.Chance(number(0)));
@@ -108,17 +124,7 @@ Status Mind::Tick(const Tree& tree, const TreeNode& node, NodeMemory& memory, Tr
     }
     case PersonNode::kMessageWaiting:
       return Yes(std::any_of(agent_.inbox.begin(), agent_.inbox.end(), [&](const Message& m) { return m.type == choice(0); }));
-    case PersonNode::kEvery: {
-      // The first time comes at a random part of the period, so that a crowd does not move as one.
-      if (memory.flags == 0) {
-        memory.flags = 1;
-        const double first = number(1) < 0 ? number(0) : number(1);
-        memory.t_ns = tick_.t_ns - Seconds(number(0) - agent_.rng.Uniform() * first);
-      }
-      if (tick_.t_ns - memory.t_ns < Seconds(number(0))) return Status::kFailure;
-      memory.t_ns = tick_.t_ns;
-      return Status::kSuccess;
-    }
+    case PersonNode::kEvery: return Every(memory, number(0), number(1));
     default: return Status::kFailure;
   }
 }

@@ -26,6 +26,11 @@ class Mind : public Leaves {
   /// Index of the state, message, kind of place or area that a port names; -1 = none.
   int Choice(const Tree& tree, const TreeNode& node, const TreeRun& run, size_t i) const;
 
+  Status SetState(bool fresh, const Tree& tree, const TreeNode& node, TreeRun& run);
+  Status WaitMessage(bool fresh, const Tree& tree, const TreeNode& node, NodeMemory& memory, TreeRun& run);
+  Status FacePerson(PersonIndex other);
+  Status Every(NodeMemory& memory, double period, double first);
+
   // mind_walking.cc
   Status OnTheWay();
   Status WanderTo(bool fresh, uint32_t area, double speed);

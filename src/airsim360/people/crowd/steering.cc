@@ -83,6 +83,38 @@ struct Steering::Plan {
   std::array<uint32_t, kMaxClose> close;  // walkers that may be touched within the step
 };
 
+/// The nearest people, and how many are around.
+struct Steering::Company {
+  struct Near {
+    double rank;  // squared distance, more for who is behind
+    const Seen* other;
+  };
+  std::array<Near, kMaxNeighbours + 1> near;
+  int count = 0;
+  double ahead = 0, in_disc = 0;  // people within kDensityRadius: weighted by how straight ahead they are, and all
+
+  void Add(double rank, const Seen* other) {
+    if (count == kMaxNeighbours && rank >= near[kMaxNeighbours - 1].rank) return;
+    int at = count < kMaxNeighbours ? count++ : kMaxNeighbours - 1;
+    for (; at > 0 && near[static_cast<size_t>(at - 1)].rank > rank; --at)
+      near[static_cast<size_t>(at)] = near[static_cast<size_t>(at - 1)];
+    near[static_cast<size_t>(at)] = {rank, other};
+  }
+};
+
+/// What a walker's velocity must keep to, and what they notice on the way.
+struct Steering::Limits {
+  std::array<HalfPlane, kMaxWalls + kMaxNeighbours + 4> planes;
+  size_t hard = 0, used = 0;  // planes of walls come first
+  double right = 0;           // share of the wanted velocity that goes to the right
+  bool yields = false;
+  Vec2d in_the_way;           // towards somebody who stands there; zero: nobody
+
+  void AddWalls(const NavMesh& mesh, Vec2d p, double z, double range);
+  void AddPeople(const Seen& self, const Company& company, Vec2d wanted, double throng, double dt);
+  void AddObstacles(const Seen& self, std::span<const SteeringObstacle> obstacles, double dt);
+};
+
 Steering::Steering() = default;
 Steering::~Steering() = default;
 Steering::Steering(const Steering&) {}
@@ -169,24 +201,9 @@ bool Steering::YieldsTo(const Seen& self, const Seen& other, double d2) {
   return other.rest < self.rest || (other.rest == self.rest && other.index < self.index);
 }
 
-void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
-                      std::span<const SteeringObstacle> obstacles, uint32_t k, double dt) {
-  const Seen self = seen_[k];
-  const Walker& walker = walkers[self.index];
-  Plan& plan = plans_[self.index];
-  plan.close_count = 0;
-  plan.v = {};
-
-  // The nearest people, those within arm's reach, and how many are around.
-  struct Near {
-    double d2;
-    const Seen* other;
-  };
-  std::array<Near, kMaxNeighbours + 1> near;
-  int count = 0;
-  double around = 0, in_disc = 0;
-  const double wanted_speed = Norm2(walker.wanted);
-  const Vec2d forward = self.forward;
+Steering::Company Steering::LookAround(uint32_t k, bool only_close, Plan& plan) const {
+  const Seen& self = seen_[k];
+  Company company;
   const int column = static_cast<int>((self.p.x - min_.x) / cell_), row = static_cast<int>((self.p.y - min_.y) / cell_);
   const auto look = [&](int r, int c0, int c1) {
     if (r < 0 || r >= rows_) return;
@@ -200,94 +217,105 @@ void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
       if (d2 > kSight * kSight || i == k || std::abs(other.z - self.z) > kLevel) continue;
       // Only who is ahead counts, the more the straighter, on average once: the first of a queue see the way free.
       if (d2 < kDensityRadius * kDensityRadius) {
-        ++in_disc;
-        around += std::max(0.0, kPi * Dot2(d, forward) / std::sqrt(d2 + 1e-12));
+        ++company.in_disc;
+        company.ahead += std::max(0.0, kPi * Dot2(d, self.forward) / std::sqrt(d2 + 1e-12));
       }
       if (d2 < kCloseRange * kCloseRange && plan.close_count < kMaxClose)
         plan.close[static_cast<size_t>(plan.close_count++)] = other.index;
       // Those behind matter less.
-      const double rank = Dot2(d, self.v) < 0 ? 4 * d2 : d2;
-      if (count == kMaxNeighbours && rank >= near[kMaxNeighbours - 1].d2) continue;
-      int at = count < kMaxNeighbours ? count++ : kMaxNeighbours - 1;
-      for (; at > 0 && near[static_cast<size_t>(at - 1)].d2 > rank; --at)
-        near[static_cast<size_t>(at)] = near[static_cast<size_t>(at - 1)];
-      near[static_cast<size_t>(at)] = {rank, &other};
+      company.Add(Dot2(d, self.v) < 0 ? 4 * d2 : d2, &other);
     }
   };
   for (int r = row - 1; r <= row + 1; ++r) look(r, column - 1, column + 1);
-  if (walker.still) return;
-  if (count < kMaxNeighbours) {
-    look(row - 2, column - 2, column + 2);
-    look(row + 2, column - 2, column + 2);
-    for (int r = row - 1; r <= row + 1; ++r) {
-      if (column >= 2) look(r, column - 2, column - 2);
-      if (column + 2 < columns_) look(r, column + 2, column + 2);
-    }
+  if (only_close || company.count == kMaxNeighbours) return company;
+  look(row - 2, column - 2, column + 2);
+  look(row + 2, column - 2, column + 2);
+  for (int r = row - 1; r <= row + 1; ++r) {
+    if (column >= 2) look(r, column - 2, column - 2);
+    if (column + 2 < columns_) look(r, column + 2, column + 2);
   }
+  return company;
+}
 
-  // Walkers slow down in a crowd, all by the same law.
-  const double disc = kPi * kDensityRadius * kDensityRadius * mesh.OpenShare(self.p);
-  const double density = kDensityFactor * (around + kSelfShare) / disc;
-  double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
-  Vec2d wanted = wanted_speed > cap ? walker.wanted * (cap / wanted_speed) : walker.wanted;
-  // In a throng they come closer and look less far ahead, else nobody would let anybody in at a door.
-  double throng = std::clamp((kDensityFactor * (in_disc + kSelfShare) / disc - 0.8) / 1.2, 0.0, 1.0);
-  throng = std::max(throng, walker.pressed);
-  const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * throng;
-  const double horizon = kHorizon - (kHorizon - kThrongHorizon) * throng;
-
-  // Walls first, for they do not give way.
-  std::array<HalfPlane, kMaxWalls + kMaxNeighbours + 4> planes;
-  size_t hard = 0;
+void Steering::Limits::AddWalls(const NavMesh& mesh, Vec2d p, double z, double range) {
   const std::span<const NavWall> walls = mesh.walls();
-  const double wall_range = std::max(0.3, cap * kWallHorizon + 0.1);
-  for (const uint32_t w : mesh.WallsNear(self.p)) {
+  for (const uint32_t w : mesh.WallsNear(p)) {
     const NavWall& wall = walls[w];
-    const Vec2d edge = wall.b - wall.a, from_a = self.p - wall.a;
+    const Vec2d edge = wall.b - wall.a, from_a = p - wall.a;
     if (edge.x * from_a.y - edge.y * from_a.x < -1e-4) continue;
     const double t = std::clamp(Dot2(from_a, edge) / Dot2(edge, edge), 0.0, 1.0);
     const Vec2d off = from_a - edge * t;
     const double d2 = Dot2(off, off);
-    if (d2 > wall_range * wall_range || std::abs(wall.za + t * (wall.zb - wall.za) - self.z) > kLevel) continue;
+    if (d2 > range * range || std::abs(wall.za + t * (wall.zb - wall.za) - z) > kLevel) continue;
     // At the very end of a wall nothing is said about what is beyond it: a corner is turned there.
     const double d = std::sqrt(d2), length = Norm2(edge);
     if (d < kCorner && std::min(t, 1 - t) * length < kCorner) continue;
     const Vec2d normal = d > 1e-4 ? off * (1 / d) : Vec2d{-edge.y / length, edge.x / length};
     if (hard < kMaxWalls) planes[hard++] = {normal * (-d / kWallHorizon), normal};
   }
+  used = hard;
+}
 
-  // Then people; towards someone who comes straight at them, walkers keep to the right.
-  size_t planes_used = hard;
-  double right = 0;
-  bool yields = false;
-  Vec2d in_the_way{};
-  for (int i = 0; i < count; ++i) {
-    const Seen& other = *near[static_cast<size_t>(i)].other;
+void Steering::Limits::AddPeople(const Seen& self, const Company& company, Vec2d wanted, double throng, double dt) {
+  const double space = kSpaceRadius - (kSpaceRadius - kBodyRadius - 0.003) * throng;
+  const double horizon = kHorizon - (kHorizon - kThrongHorizon) * throng;
+  for (int i = 0; i < company.count; ++i) {
+    const Seen& other = *company.near[static_cast<size_t>(i)].other;
     const Vec2d d = other.p - self.p;
-    const double share = ShareOf(d, forward, other.forward, other.still);
+    const double share = ShareOf(d, self.forward, other.forward, other.still);
     if (share < kNoShare) continue;
     yields |= share < 1 && YieldsTo(self, other, Dot2(d, d));
-    if (other.still && self.blocked > kSidestepAfter && Dot2(d, d) < kArm * kArm && Dot2(d, forward) > 0) in_the_way = d;
-    planes[planes_used++] = AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, share);
+    if (other.still && self.blocked > kSidestepAfter && Dot2(d, d) < kArm * kArm && Dot2(d, self.forward) > 0) in_the_way = d;
+    planes[used++] = AvoidDisc(d, self.v, other.v, 2 * space, horizon, dt, share);
+    // Towards someone who comes straight at them, walkers keep to the right.
     const double ahead = Dot2(d, wanted), closing = Dot2(other.v, wanted);
     if (closing < 0 && ahead > 0 && ahead * ahead > 0.85 * Dot2(d, d) * Dot2(wanted, wanted)) right = 0.12;
   }
+}
+
+void Steering::Limits::AddObstacles(const Seen& self, std::span<const SteeringObstacle> obstacles, double dt) {
   for (const SteeringObstacle& obstacle : obstacles) {
     const Vec2d d = obstacle.p - self.p;
-    if (planes_used < planes.size() && Dot2(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
-      planes[planes_used++] = AvoidDisc(d, self.v, obstacle.v, kSpaceRadius + obstacle.radius, kHorizon, dt, 1);
+    if (used < planes.size() && Dot2(d, d) < 25 && std::abs(obstacle.z - self.z) < 2.2)
+      planes[used++] = AvoidDisc(d, self.v, obstacle.v, kSpaceRadius + obstacle.radius, kHorizon, dt, 1);
   }
-  yields |= self.blocked > kLoosenAfter;  // nothing has helped: let go for a moment, each at another time
-  if (yields) {
-    wanted = forward * -kYieldSpeed;
+}
+
+void Steering::Choose(const NavMesh& mesh, std::span<const Walker> walkers,
+                      std::span<const SteeringObstacle> obstacles, uint32_t k, double dt) {
+  const Seen& self = seen_[k];
+  const Walker& walker = walkers[self.index];
+  Plan& plan = plans_[self.index];
+  plan.close_count = 0;
+  plan.v = {};
+  const Company company = LookAround(k, walker.still, plan);
+  if (walker.still) return;
+
+  // Walkers slow down in a crowd, all by the same law.
+  const double wanted_speed = Norm2(walker.wanted);
+  const double disc = kPi * kDensityRadius * kDensityRadius * mesh.OpenShare(self.p);
+  const double density = kDensityFactor * (company.ahead + kSelfShare) / disc;
+  double cap = kSpeed(density) / 1.34 * std::max(walker.free_speed, wanted_speed);
+  Vec2d wanted = wanted_speed > cap ? walker.wanted * (cap / wanted_speed) : walker.wanted;
+  // In a throng they come closer and look less far ahead, else nobody would let anybody in at a door.
+  double throng = std::clamp((kDensityFactor * (company.in_disc + kSelfShare) / disc - 0.8) / 1.2, 0.0, 1.0);
+  throng = std::max(throng, walker.pressed);
+
+  Limits limits;
+  limits.AddWalls(mesh, self.p, self.z, std::max(0.3, cap * kWallHorizon + 0.1));  // first, for they do not give way
+  limits.AddPeople(self, company, wanted, throng, dt);
+  limits.AddObstacles(self, obstacles, dt);
+  limits.yields |= self.blocked > kLoosenAfter;  // nothing has helped: let go for a moment, each at another time
+  if (limits.yields) {
+    wanted = self.forward * -kYieldSpeed;
     cap = std::max(cap, kYieldSpeed);
-  } else if (in_the_way.x != 0 || in_the_way.y != 0) {
-    wanted = Sidestep(forward, in_the_way, {planes.data(), hard});
+  } else if (limits.in_the_way.x != 0 || limits.in_the_way.y != 0) {
+    wanted = Sidestep(self.forward, limits.in_the_way, {limits.planes.data(), limits.hard});
     cap = std::max(cap, kYieldSpeed);
   } else {
-    wanted = wanted + Vec2d{wanted.y, -wanted.x} * right;
+    wanted = wanted + Vec2d{wanted.y, -wanted.x} * limits.right;
   }
-  Vec2d v = SolveVelocity({planes.data(), planes_used}, hard, wanted, std::max(cap, 0.05));
+  Vec2d v = SolveVelocity({limits.planes.data(), limits.used}, limits.hard, wanted, std::max(cap, 0.05));
 
   // Nobody starts or stops in no time.
   const Vec2d change = v - self.v;

@@ -75,6 +75,10 @@ class Steering {
     bool still;
   };
   struct Plan;
+  struct Company;
+  struct Limits;
+  /// Who is near number k of seen_; notes in the plan whom the next step may touch.
+  Company LookAround(uint32_t k, bool only_close, Plan& plan) const;
   static bool YieldsTo(const Seen& self, const Seen& other, double d2);
   void Choose(const NavMesh& mesh, std::span<const Walker> walkers, std::span<const SteeringObstacle> obstacles,
               uint32_t self, double dt);

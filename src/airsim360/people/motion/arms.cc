@@ -115,113 +115,116 @@ void Stretch(const PostureInput& in, Posture& posture) {
   }
 }
 
+void Show(Prop prop, Posture& posture) { posture.props |= 1u << static_cast<int>(prop); }
+
+// Both hands at mirrored places.
+void PlaceBoth(const PostureInput& in, Vec3d share, Vec3d pole, double supinate, double bend, double curl, Posture& posture) {
+  for (const bool left : {true, false}) {
+    Place(in, left, share, posture, pole);
+    TurnHand(left, supinate, bend, posture);
+    posture.curl[left ? 0 : 1] = curl;
+  }
+}
+
+void PhoneCall(const PostureInput& in, Posture& posture) {
+  Place(in, false, AtHead(in, {-0.02, 0.80, -0.25}), posture, {0.45, 0.30, -1});
+  TurnHand(false, -20, -12, posture);
+  posture.curl[1] = 0.55;
+  Show(Prop::kPhone, posture);
+}
+
+// Forearm 25 degrees to either side, 1.5 times a second.
+void Wave(const PostureInput& in, Posture& posture) {
+  const double side = 0.14 * std::sin(kTurn * 1.5 * in.t_upper);
+  Place(in, false, {0.22, 0.52 + side, 0.56 - 0.3 * side * side}, posture, {-0.3, 1, -0.45});
+  TurnHand(false, -75, 0, posture);
+  posture.curl[1] = 0.05;
+}
+
+void RestOnThighs(const PostureInput& in, Posture& posture) {
+  for (const bool left : {true, false}) {
+    Place(in, left, {0.56, 0.30, -0.66}, posture, {-0.9, 0.7, -0.2});
+    TurnHand(left, -60, 0, posture);
+  }
+}
+
+// The loaded arm hangs nearly still.
+void Carry(const PostureInput& in, Posture& posture) {
+  const double swing = 3.5 * in.motion.gait * std::cos(kTurn * in.phase);
+  Hang(false, {.flex = swing, .abduct = 9, .rotate = 5, .elbow = 10, .supinate = 0, .raise = -3}, posture);
+  posture.curl[1] = 0.9;
+  Show(Prop::kBag, posture);
+}
+
+// Hands on the handle of the stroller, which stands in P.
+void PushStroller(const PostureInput& in, Posture& posture) {
+  const double H = in.body.spec.stature, k = std::clamp(H / 1.7, 0.8, 1.1);
+  const double length = in.body.size.upper_arm + in.body.size.forearm;
+  const double shoulder = in.body.p_PJ[At(Joint::kLeftShoulder)].z, low = 0.015 * H;
+  const Vec3d grip{0.39 - 0.035 * H, 0.20, 1.03 * k - (shoulder - low)};
+  PlaceBoth(in, grip / length, {-0.5, 0.6, -1}, -70, 0, 0.85, posture);
+  Show(Prop::kStroller, posture);
+}
+
+// A hand of some shades the eyes.
+void LookUp(const PostureInput& in, Posture& posture) {
+  if (Draw(in.motion.seed, 60, 0) >= 0.5) return;
+  Place(in, false, AtHead(in, {0.62, 0.25, 0.42}), posture, {0.1, 1, -0.5});
+  TurnHand(false, -70, 0, posture);
+  posture.curl[1] = 0.05;
+}
+
+// Some cross their arms.
+void Wait(const PostureInput& in, Posture& posture) {
+  if (Draw(in.motion.seed, 61, 0) >= 0.4) return;
+  Place(in, true, {0.30, -0.16, -0.40}, posture, {0.2, 1, -0.9});
+  Place(in, false, {0.36, -0.14, -0.36}, posture, {0.2, 1, -0.9});
+  TurnHand(true, -30, 0, posture);
+  TurnHand(false, -30, 0, posture);
+}
+
+void HoldPhone(const PostureInput& in, Vec3d share, Vec3d pole, double supinate, double bend, Posture& posture) {
+  PlaceBoth(in, share, pole, supinate, bend, 0.5, posture);
+  Show(Prop::kPhone, posture);
+}
+
+void Crouch(const PostureInput& in, Posture& posture) {
+  for (const bool left : {true, false}) {
+    Place(in, left, {0.52, 0.12, -0.72}, posture);
+    posture.curl[left ? 0 : 1] = 0.5;
+  }
+}
+
+// One hand before the body, closed around something.
+void Hold(const PostureInput& in, Vec3d share, double curl, Posture& posture) {
+  Place(in, false, share, posture);
+  posture.curl[1] = curl;
+}
+
 }  // namespace
 
 void SetArms(const PostureInput& in, Posture& posture) {
   SwingArms(in, 1, posture);
-  const double t = in.t_upper;
   switch (in.upper) {
-    case Behaviour::kTalk:
-      Gesture(in, posture);
-      break;
-    case Behaviour::kPhoneCall:
-      Place(in, false, AtHead(in, {-0.02, 0.80, -0.25}), posture, {0.45, 0.30, -1});
-      TurnHand(false, -20, -12, posture);
-      posture.curl[1] = 0.55;
-      posture.props |= 1u << static_cast<int>(Prop::kPhone);
-      break;
-    case Behaviour::kTexting:
-      for (const bool left : {true, false}) {
-        Place(in, left, {0.46, 0.055, -0.36}, posture, {-0.2, 0.8, -1});
-        TurnHand(left, 55, -10, posture);
-        posture.curl[left ? 0 : 1] = 0.5;
-      }
-      posture.props |= 1u << static_cast<int>(Prop::kPhone);
-      break;
+    case Behaviour::kTalk: return Gesture(in, posture);
+    case Behaviour::kPhoneCall: return PhoneCall(in, posture);
+    case Behaviour::kTexting: return HoldPhone(in, {0.46, 0.055, -0.36}, {-0.2, 0.8, -1}, 55, -10, posture);
     case Behaviour::kTakePhoto:
-      for (const bool left : {true, false}) {
-        Place(in, left, AtHead(in, {0, 0, -0.05}) + Vec3d{0.62, 0.05, 0}, posture, {-0.1, 0.6, -1});
-        TurnHand(left, 5, -8, posture);
-        posture.curl[left ? 0 : 1] = 0.5;
-      }
-      posture.props |= 1u << static_cast<int>(Prop::kPhone);
-      break;
-    case Behaviour::kWave: {
-      // Forearm 25 degrees to either side, 1.5 times a second.
-      const double side = 0.14 * std::sin(kTurn * 1.5 * t);
-      Place(in, false, {0.22, 0.52 + side, 0.56 - 0.3 * side * side}, posture, {-0.3, 1, -0.45});
-      TurnHand(false, -75, 0, posture);
-      posture.curl[1] = 0.05;
-      break;
-    }
-    case Behaviour::kSit:
-      for (const bool left : {true, false}) {
-        Place(in, left, {0.56, 0.30, -0.66}, posture, {-0.9, 0.7, -0.2});
-        TurnHand(left, -60, 0, posture);
-      }
-      break;
-    case Behaviour::kCarry: {
-      // The loaded arm hangs nearly still.
-      const double swing = 3.5 * in.motion.gait * std::cos(kTurn * in.phase);
-      Hang(false, {.flex = swing, .abduct = 9, .rotate = 5, .elbow = 10, .supinate = 0, .raise = -3}, posture);
-      posture.curl[1] = 0.9;
-      posture.props |= 1u << static_cast<int>(Prop::kBag);
-      break;
-    }
-    case Behaviour::kPushStroller: {
-      // Hands on the handle of the stroller, which stands in P.
-      const double H = in.body.spec.stature, k = std::clamp(H / 1.7, 0.8, 1.1);
-      const double length = in.body.size.upper_arm + in.body.size.forearm;
-      const double shoulder = in.body.p_PJ[At(Joint::kLeftShoulder)].z, low = 0.015 * H;
-      const Vec3d grip{0.39 - 0.035 * H, 0.20, 1.03 * k - (shoulder - low)};
-      for (const bool left : {true, false}) {
-        Place(in, left, grip / length, posture, {-0.5, 0.6, -1});
-        TurnHand(left, -70, 0, posture);
-        posture.curl[left ? 0 : 1] = 0.85;
-      }
-      posture.props |= 1u << static_cast<int>(Prop::kStroller);
-      break;
-    }
-    case Behaviour::kCrouch:
-      for (const bool left : {true, false}) {
-        Place(in, left, {0.52, 0.12, -0.72}, posture);
-        posture.curl[left ? 0 : 1] = 0.5;
-      }
-      break;
-    case Behaviour::kStretch:
-      Stretch(in, posture);
-      break;
-    case Behaviour::kPoint:
-      Reach(in, posture);
-      break;
-    case Behaviour::kLookUp:
-      // A hand shades the eyes.
-      if (Draw(in.motion.seed, 60, 0) < 0.5) {
-        Place(in, false, AtHead(in, {0.62, 0.25, 0.42}), posture, {0.1, 1, -0.5});
-        TurnHand(false, -70, 0, posture);
-        posture.curl[1] = 0.05;
-      }
-      break;
+      return HoldPhone(in, AtHead(in, {0, 0, -0.05}) + Vec3d{0.62, 0.05, 0}, {-0.1, 0.6, -1}, 5, -8, posture);
+    case Behaviour::kWave: return Wave(in, posture);
+    case Behaviour::kSit: return RestOnThighs(in, posture);
+    case Behaviour::kCarry: return Carry(in, posture);
+    case Behaviour::kPushStroller: return PushStroller(in, posture);
+    case Behaviour::kCrouch: return Crouch(in, posture);
+    case Behaviour::kStretch: return Stretch(in, posture);
+    case Behaviour::kPoint: return Reach(in, posture);
+    case Behaviour::kLookUp: return LookUp(in, posture);
     case Behaviour::kUmbrella:
-      Place(in, false, {0.40, 0.24, -0.25}, posture);
-      posture.curl[1] = 0.9;
-      posture.props |= 1u << static_cast<int>(Prop::kUmbrella);
-      break;
-    case Behaviour::kWalkDog:
-      Place(in, false, {0.42, 0.30, -0.62}, posture);
-      posture.curl[1] = 0.8;
-      break;
-    case Behaviour::kWait:
-      // Some cross their arms.
-      if (Draw(in.motion.seed, 61, 0) < 0.4) {
-        Place(in, true, {0.30, -0.16, -0.40}, posture, {0.2, 1, -0.9});
-        Place(in, false, {0.36, -0.14, -0.36}, posture, {0.2, 1, -0.9});
-        TurnHand(true, -30, 0, posture);
-        TurnHand(false, -30, 0, posture);
-      }
-      break;
-    default:
-      break;
+      Show(Prop::kUmbrella, posture);
+      return Hold(in, {0.40, 0.24, -0.25}, 0.9, posture);
+    case Behaviour::kWalkDog: return Hold(in, {0.42, 0.30, -0.62}, 0.8, posture);
+    case Behaviour::kWait: return Wait(in, posture);
+    default: return;
   }
 }
 

@@ -174,46 +174,79 @@ BvhClip ParseBvh(std::string_view text, const std::string& name) {
   return clip;
 }
 
-SkeletonPose ClipPose(const BvhClip& clip, const Body& body, double t, const RigidTransform& X_WP) {
-  const int frame = std::clamp(static_cast<int>(std::floor(t / clip.frame_time + 0.5)), 0, clip.frames - 1);
-  const auto row = [&](int f) { return clip.values.data() + static_cast<size_t>(f) * static_cast<size_t>(clip.channels); };
+namespace {
 
-  // World turns of all joints of the clip, and where its root is.
-  std::vector<Mat3d> G(clip.joints.size());
-  const auto root_at = [&](int f) {
+/// The numbers of one frame of a clip.
+struct ClipFrame {
+  const BvhClip& clip;
+  const float* row;
+
+  ClipFrame(const BvhClip& c, int f) : clip(c), row(c.values.data() + static_cast<size_t>(f) * static_cast<size_t>(c.channels)) {}
+
+  Vec3d Root() const {
     Vec3d p = clip.joints[0].offset;
     for (size_t c = 0; c < clip.joints[0].channels.size(); ++c) {
       const auto channel = clip.joints[0].channels[c];
-      if (channel <= BvhJoint::Channel::kZ) p[static_cast<int>(channel)] = row(f)[c];
+      if (channel <= BvhJoint::Channel::kZ) p[static_cast<int>(channel)] = row[c];
     }
     return p;
-  };
-  const auto turn_of = [&](size_t j, int f) {
+  }
+
+  /// Turn of a joint against its parent.
+  Mat3d Turn(size_t j) const {
     Mat3d R;
     const BvhJoint& joint = clip.joints[j];
     for (size_t c = 0; c < joint.channels.size(); ++c) {
-      const double angle = row(f)[static_cast<size_t>(joint.first_channel) + c] * kDegree;
+      const double angle = row[static_cast<size_t>(joint.first_channel) + c] * kDegree;
       if (joint.channels[c] == BvhJoint::Channel::kTurnX) R = R * RotationX(angle);
       if (joint.channels[c] == BvhJoint::Channel::kTurnY) R = R * RotationY(angle);
       if (joint.channels[c] == BvhJoint::Channel::kTurnZ) R = R * RotationZ(angle);
     }
     return R;
-  };
-  for (size_t j = 0; j < G.size(); ++j) {
-    const int parent = clip.joints[j].parent;
-    G[j] = parent < 0 ? turn_of(j, frame) : G[static_cast<size_t>(parent)] * turn_of(j, frame);
   }
 
-  // Facing of the first frame is along +X of P; lengths as legs are.
-  const Mat3d first = kToPerson * turn_of(0, 0) * kToPerson.transpose();
-  const Mat3d level = RotationZ(-std::atan2(first.m[1][0], first.m[0][0]));
+  /// World turns of all joints.
+  std::vector<Mat3d> WorldTurns() const {
+    std::vector<Mat3d> G(clip.joints.size());
+    for (size_t j = 0; j < G.size(); ++j) {
+      const int parent = clip.joints[j].parent;
+      G[j] = parent < 0 ? Turn(j) : G[static_cast<size_t>(parent)] * Turn(j);
+    }
+    return G;
+  }
+};
+
+/// From hanging straight down to where the clip's bone i is at rest; bones without children keep what they have.
+Mat3d RestTurn(const BvhClip& clip, int i) {
+  Vec3d d{};
+  for (const BvhJoint& child : clip.joints) {
+    if (child.parent == i && Norm(child.offset) > Norm(d)) d = child.offset;
+  }
+  return Norm(d) > 1e-6 ? internal::RotationBetween({0, 0, -1}, kToPerson * d) : Mat3d{};
+}
+
+/// Metres of the body a unit of the clip, by the length of the legs; 0: the clip has none.
+double ClipScale(const BvhClip& clip, const Body& body) {
   const auto offset_of = [&](Joint j) {
     const int i = clip.match[internal::At(j)];
     return i < 0 ? Vec3d{} : clip.joints[static_cast<size_t>(i)].offset;
   };
   const double leg = Norm(offset_of(Joint::kLeftKnee)) + Norm(offset_of(Joint::kLeftAnkle));
-  const double scale = leg > 1e-6 ? (body.size.thigh + body.size.shank) / leg : 0;
-  const Vec3d start = root_at(0), now = root_at(frame);
+  return leg > 1e-6 ? (body.size.thigh + body.size.shank) / leg : 0;
+}
+
+}  // namespace
+
+SkeletonPose ClipPose(const BvhClip& clip, const Body& body, double t, const RigidTransform& X_WP) {
+  const int frame = std::clamp(static_cast<int>(std::floor(t / clip.frame_time + 0.5)), 0, clip.frames - 1);
+  const ClipFrame first(clip, 0), present(clip, frame);
+  const std::vector<Mat3d> G = present.WorldTurns();
+
+  // Facing of the first frame is along +X of P; lengths as legs are.
+  const Mat3d facing = kToPerson * first.Turn(0) * kToPerson.transpose();
+  const Mat3d level = RotationZ(-std::atan2(facing.m[1][0], facing.m[0][0]));
+  const double scale = ClipScale(clip, body);
+  const Vec3d start = first.Root(), now = present.Root();
   Vec3d pelvis = level * (kToPerson * (now - Vec3d{start.x, 0, start.z})) * scale;
   // Height of the root over the ground is that of its legs at rest and its movement.
   pelvis.z = body.p_PJ[0].z + (now.y - start.y) * scale;
@@ -222,21 +255,12 @@ SkeletonPose ClipPose(const BvhClip& clip, const Body& body, double t, const Rig
   pose.X_WP = X_WP;
   std::array<Mat3d, kJointCount> zero;
   for (size_t j = 0; j < kJointCount; ++j) {
-    const Joint joint = static_cast<Joint>(j);
-    const size_t parent = internal::At(ParentOf(joint));
+    const size_t parent = internal::At(ParentOf(static_cast<Joint>(j)));
     const int i = clip.match[j];
     zero[j] = j == 0 ? Mat3d{} : zero[parent];
     if (i >= 0) {
-      // From hanging straight down to where the clip's bone is at rest, then the clip's turn.
-      Mat3d rest;
       const bool limb = body.R_zero[j] != Mat3d{};
-      if (limb) {
-        Vec3d d{};
-        for (const BvhJoint& child : clip.joints) {
-          if (child.parent == i && Norm(child.offset) > Norm(d)) d = child.offset;
-        }
-        if (Norm(d) > 1e-6) rest = internal::RotationBetween({0, 0, -1}, kToPerson * d);
-      }
+      const Mat3d rest = limb ? RestTurn(clip, i) : Mat3d{};
       zero[j] = level * kToPerson * G[static_cast<size_t>(i)] * kToPerson.transpose() * rest;
     }
     pose.X_WJ[j].R = X_WP.R * zero[j] * body.R_zero[j];

@@ -72,60 +72,81 @@ double GroundHeights::StepAt(double x, double y, double z, double up, double dow
   return found ? best : z;
 }
 
-void OpenShares::Build(const NavGraph& graph, double person_radius) {
-  // Walkable raster, finer than the result: cells whose middle lies on the mesh, widened by what was cut off it.
-  constexpr double kCell = 0.25;
-  min_ = {graph.min.x - 1, graph.min.y - 1};
-  columns_ = static_cast<int>((graph.max.x - graph.min.x + 2) / kStep) + 1;
-  rows_ = static_cast<int>((graph.max.y - graph.min.y + 2) / kStep) + 1;
-  const int fine_columns = columns_ * 2, fine_rows = rows_ * 2;
-  std::vector<uint8_t> walkable(static_cast<size_t>(fine_columns) * static_cast<size_t>(fine_rows), 0);
-  const auto cell = [&](int c, int r) -> uint8_t& {
-    return walkable[static_cast<size_t>(r) * static_cast<size_t>(fine_columns) + static_cast<size_t>(c)];
-  };
-  for (uint32_t i = 0; i < graph.polygons.size(); ++i) {
-    const NavPolygon& polygon = graph.polygons[i];
-    const int c0 = static_cast<int>((polygon.min.x - min_.x) / kCell), c1 = static_cast<int>((polygon.max.x - min_.x) / kCell);
-    const int r0 = static_cast<int>((polygon.min.y - min_.y) / kCell), r1 = static_cast<int>((polygon.max.y - min_.y) / kCell);
+namespace {
+
+constexpr double kFineCell = 0.25;  // metres, half a cell of the result
+
+/// Which cells people may stand on.
+struct WalkableRaster {
+  int columns, rows;
+  std::vector<uint8_t> cells;
+
+  WalkableRaster(int columns_, int rows_)
+      : columns(columns_), rows(rows_), cells(static_cast<size_t>(columns) * static_cast<size_t>(rows), 0) {}
+  size_t At(int c, int r) const { return static_cast<size_t>(r) * static_cast<size_t>(columns) + static_cast<size_t>(c); }
+
+  void Add(const NavGraph& graph, uint32_t index, Vec2d origin) {
+    const NavPolygon& polygon = graph.polygons[index];
+    const int c0 = static_cast<int>((polygon.min.x - origin.x) / kFineCell), c1 = static_cast<int>((polygon.max.x - origin.x) / kFineCell);
+    const int r0 = static_cast<int>((polygon.min.y - origin.y) / kFineCell), r1 = static_cast<int>((polygon.max.y - origin.y) / kFineCell);
     for (int r = r0; r <= r1; ++r)
       for (int c = c0; c <= c1; ++c)
-        if (graph.Inside(i, {min_.x + (c + 0.5) * kCell, min_.y + (r + 0.5) * kCell})) cell(c, r) = 2;
+        if (graph.Inside(index, {origin.x + (c + 0.5) * kFineCell, origin.y + (r + 0.5) * kFineCell})) cells[At(c, r)] = 1;
   }
-  const int widen = static_cast<int>(std::lround(person_radius / kCell));
-  for (int pass = 0; pass < widen; ++pass) {
-    std::vector<uint8_t> before = walkable;
-    for (int r = 1; r + 1 < fine_rows; ++r)
-      for (int c = 1; c + 1 < fine_columns; ++c) {
-        const size_t at = static_cast<size_t>(r) * static_cast<size_t>(fine_columns) + static_cast<size_t>(c);
-        const size_t row = static_cast<size_t>(fine_columns);
-        if (before[at - 1] | before[at + 1] | before[at - row] | before[at + row]) walkable[at] |= 1;
+
+  /// By one cell to four sides.
+  void Widen() {
+    const std::vector<uint8_t> before = cells;
+    const auto row = static_cast<size_t>(columns);
+    for (int r = 1; r + 1 < rows; ++r)
+      for (int c = 1; c + 1 < columns; ++c) {
+        const size_t at = At(c, r);
+        if (before[at - 1] | before[at + 1] | before[at - row] | before[at + row]) cells[at] = 1;
       }
   }
 
+  /// Sums of the cells left of each, by rows of columns + 1.
+  std::vector<int32_t> PrefixSums() const {
+    std::vector<int32_t> prefix(static_cast<size_t>(columns + 1) * static_cast<size_t>(rows));
+    for (int r = 0; r < rows; ++r) {
+      int32_t* row = &prefix[static_cast<size_t>(r) * static_cast<size_t>(columns + 1)];
+      for (int c = 0; c < columns; ++c) row[c + 1] = row[c] + cells[At(c, r)];
+    }
+    return prefix;
+  }
+};
+
+}  // namespace
+
+void OpenShares::Build(const NavGraph& graph, double person_radius) {
+  // Cells whose middle lies on the mesh, widened by what was cut off it.
+  min_ = {graph.min.x - 1, graph.min.y - 1};
+  columns_ = static_cast<int>((graph.max.x - graph.min.x + 2) / kStep) + 1;
+  rows_ = static_cast<int>((graph.max.y - graph.min.y + 2) / kStep) + 1;
+  WalkableRaster raster(columns_ * 2, rows_ * 2);
+  for (uint32_t i = 0; i < graph.polygons.size(); ++i) raster.Add(graph, i, min_);
+  const int widen = static_cast<int>(std::lround(person_radius / kFineCell));
+  for (int pass = 0; pass < widen; ++pass) raster.Widen();
+
   // Share of the disc, by rows of the disc over prefix sums.
-  const int reach = static_cast<int>(kRadius / kCell);
+  const int reach = static_cast<int>(kRadius / kFineCell);
   std::vector<int> half(static_cast<size_t>(2 * reach + 1));
   double disc = 0;
   for (int d = -reach; d <= reach; ++d) {
-    half[static_cast<size_t>(d + reach)] = static_cast<int>(std::sqrt(kRadius * kRadius - d * d * kCell * kCell) / kCell);
+    half[static_cast<size_t>(d + reach)] = static_cast<int>(std::sqrt(kRadius * kRadius - d * d * kFineCell * kFineCell) / kFineCell);
     disc += 2 * half[static_cast<size_t>(d + reach)] + 1;
   }
-  std::vector<int32_t> prefix(static_cast<size_t>(fine_columns + 1) * static_cast<size_t>(fine_rows));
-  for (int r = 0; r < fine_rows; ++r) {
-    int32_t* row = &prefix[static_cast<size_t>(r) * static_cast<size_t>(fine_columns + 1)];
-    row[0] = 0;
-    for (int c = 0; c < fine_columns; ++c) row[c + 1] = row[c] + (cell(c, r) ? 1 : 0);
-  }
+  const std::vector<int32_t> prefix = raster.PrefixSums();
   shares_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 255);
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < columns_; ++c) {
       double sum = 0;
       for (int d = -reach; d <= reach; ++d) {
         const int y = 2 * r + d;
-        if (y < 0 || y >= fine_rows) continue;
+        if (y < 0 || y >= raster.rows) continue;
         const int h = half[static_cast<size_t>(d + reach)];
-        const int from = std::clamp(2 * c - h, 0, fine_columns), to = std::clamp(2 * c + h + 1, 0, fine_columns);
-        const int32_t* row = &prefix[static_cast<size_t>(y) * static_cast<size_t>(fine_columns + 1)];
+        const int from = std::clamp(2 * c - h, 0, raster.columns), to = std::clamp(2 * c + h + 1, 0, raster.columns);
+        const int32_t* row = &prefix[static_cast<size_t>(y) * static_cast<size_t>(raster.columns + 1)];
         sum += row[to] - row[from];
       }
       shares_[static_cast<size_t>(r) * static_cast<size_t>(columns_) + static_cast<size_t>(c)] =

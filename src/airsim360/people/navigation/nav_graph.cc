@@ -65,7 +65,22 @@ std::span<const uint32_t> BucketGrid::At(Vec2d p) const {
 }
 
 void NavGraph::Finish() {
-  // Boxes, areas, the whole extent.
+  Measure();
+  FindComponents();
+  FindWalls();
+  polygon_grid = BucketGrid(min, max, 4);
+  for (uint32_t i = 0; i < polygons.size(); ++i) polygon_grid.Add(i, polygons[i].min, polygons[i].max);
+  polygon_grid.Finish();
+  wall_grid = BucketGrid(min, max, 2);
+  for (uint32_t i = 0; i < walls.size(); ++i) {
+    const NavWall& w = walls[i];
+    wall_grid.Add(i, {std::min(w.a.x, w.b.x) - 2, std::min(w.a.y, w.b.y) - 2},
+                  {std::max(w.a.x, w.b.x) + 2, std::max(w.a.y, w.b.y) + 2});
+  }
+  wall_grid.Finish();
+}
+
+void NavGraph::Measure() {
   constexpr double kFar = std::numeric_limits<double>::max();
   min = {kFar, kFar};
   max = {-kFar, -kFar};
@@ -82,8 +97,9 @@ void NavGraph::Finish() {
     min = {std::min(min.x, polygon.min.x), std::min(min.y, polygon.min.y)};
     max = {std::max(max.x, polygon.max.x), std::max(max.y, polygon.max.y)};
   }
+}
 
-  // What hangs together.
+void NavGraph::FindComponents() {
   std::vector<uint32_t> parent(polygons.size());
   std::iota(parent.begin(), parent.end(), 0u);
   for (uint32_t i = 0; i < polygons.size(); ++i)
@@ -96,8 +112,9 @@ void NavGraph::Finish() {
     if (n == UINT32_MAX) n = components++;
     polygons[i].component = n;
   }
+}
 
-  // Walls: what of an edge is not open.
+void NavGraph::FindWalls() {
   walls.clear();
   for (const NavPolygon& polygon : polygons) {
     for (int i = 0; i < polygon.corners; ++i) {
@@ -116,18 +133,6 @@ void NavGraph::Finish() {
       wall(closed_from, 1);
     }
   }
-
-  // Look-up.
-  polygon_grid = BucketGrid(min, max, 4);
-  for (uint32_t i = 0; i < polygons.size(); ++i) polygon_grid.Add(i, polygons[i].min, polygons[i].max);
-  polygon_grid.Finish();
-  wall_grid = BucketGrid(min, max, 2);
-  for (uint32_t i = 0; i < walls.size(); ++i) {
-    const NavWall& w = walls[i];
-    wall_grid.Add(i, {std::min(w.a.x, w.b.x) - 2, std::min(w.a.y, w.b.y) - 2},
-                  {std::max(w.a.x, w.b.x) + 2, std::max(w.a.y, w.b.y) + 2});
-  }
-  wall_grid.Finish();
 }
 
 bool NavGraph::Inside(uint32_t index, Vec2d p) const {

@@ -84,6 +84,11 @@ struct NavGraph {
   const NavPortal* OpeningAt(const NavPolygon& polygon, int i, Vec2d p, double tolerance) const;
   /// Walks from p in `polygon` towards the target; sliding or, if not, stopping at the first wall (`stopped`).
   NavPoint Walk(uint32_t polygon, Vec2d p, Vec2d target, bool slide, bool* stopped) const;
+
+ private:
+  void Measure();         // boxes, areas, the whole extent
+  void FindComponents();  // what hangs together
+  void FindWalls();       // what of an edge is not open
 };
 
 }  // namespace airsim360::internal

@@ -221,6 +221,61 @@ class TileBuilder {
   PolyMesh mesh_;
 };
 
+using PolygonNumbers = std::map<dtPolyRef, uint32_t>;
+
+/// Corners counter-clockwise; true if Detour has them the other way round.
+bool SetCorners(const dtMeshTile& tile, const dtPoly& poly, NavPolygon& polygon) {
+  const int n = polygon.corners = poly.vertCount;
+  for (int i = 0; i < n; ++i) {
+    const Vec3d p = FromRecast(&tile.verts[poly.verts[i] * 3]);
+    polygon.corner[i] = {p.x, p.y};
+    polygon.z[i] = static_cast<float>(p.z);
+  }
+  double area = 0;
+  for (int i = 0; i < n; ++i) {
+    const Vec2d a = polygon.corner[i], b = polygon.corner[(i + 1) % n];
+    area += a.x * b.y - a.y * b.x;
+  }
+  if (area >= 0) return false;
+  std::reverse(polygon.corner, polygon.corner + n);
+  std::reverse(polygon.z, polygon.z + n);
+  return true;
+}
+
+/// The openings to neighbours, in the order of the edges and along each.
+void AddPortals(const dtMeshTile& tile, const dtPoly& poly, const PolygonNumbers& index, bool turned, NavPolygon& polygon,
+                std::vector<NavPortal>& portals) {
+  const int n = polygon.corners;
+  std::vector<NavPortal> of_edge[kMaxPolygonCorners];
+  for (unsigned k = poly.firstLink; k != DT_NULL_LINK; k = tile.links[k].next) {
+    const dtLink& link = tile.links[k];
+    const auto found = index.find(link.ref);
+    if (found == index.end()) continue;
+    float t0 = 0, t1 = 1;
+    if (link.side != 0xff) {
+      t0 = static_cast<float>(link.bmin) / 255;
+      t1 = static_cast<float>(link.bmax) / 255;
+    }
+    int edge = link.edge;
+    if (turned) {
+      // Corner i was n - 1 - i; the edge from it goes back along the old edge n - 2 - i.
+      edge = (2 * n - 2 - edge) % n;
+      const float kept = t0;
+      t0 = 1 - t1;
+      t1 = 1 - kept;
+    }
+    of_edge[edge].push_back({found->second, t0, t1});
+  }
+  for (int i = 0; i < n; ++i) {
+    std::sort(of_edge[i].begin(), of_edge[i].end(), [](const NavPortal& a, const NavPortal& b) {
+      return a.t0 != b.t0 ? a.t0 < b.t0 : a.neighbour < b.neighbour;
+    });
+    polygon.first_portal[i] = static_cast<uint32_t>(portals.size());
+    portals.insert(portals.end(), of_edge[i].begin(), of_edge[i].end());
+  }
+  for (int i = n; i <= kMaxPolygonCorners; ++i) polygon.first_portal[i] = static_cast<uint32_t>(portals.size());
+}
+
 }  // namespace
 
 void RecastMesh::BuildTile(int tile, const TileInput& input) {
@@ -266,7 +321,7 @@ void RecastMesh::SetTile(int tile, std::span<const std::byte> bytes) {
   std::memcpy(data.bytes, bytes.data(), bytes.size());
 }
 
-NavGraph RecastMesh::Join() {
+void RecastMesh::AddTiles() {
   // Detour's 32-bit references hold 22 bits of tile and polygon.
   const TileGrid& grid = impl_->grid;
   dtNavMeshParams params;
@@ -286,10 +341,10 @@ NavGraph RecastMesh::Join() {
     impl_->bytes += static_cast<size_t>(tile.size);
     if (dtStatusSucceed(impl_->mesh->addTile(tile.bytes, tile.size, DT_TILE_FREE_DATA, 0, nullptr))) tile = {};
   }
+}
 
-  // Number the polygons in the order of the tiles.
-  NavGraph graph;
-  std::map<dtPolyRef, uint32_t> index;
+NavGraph RecastMesh::Join() {
+  AddTiles();
   const dtNavMesh& mesh = *impl_->mesh;
   const auto each = [&](const auto& visit) {
     for (int t = 0; t < mesh.getMaxTiles(); ++t) {
@@ -299,60 +354,19 @@ NavGraph RecastMesh::Join() {
         visit(*tile, tile->polys[p], mesh.getPolyRefBase(tile) | static_cast<dtPolyRef>(p));
     }
   };
+  // Number the polygons in the order of the tiles.
+  PolygonNumbers index;
   each([&](const dtMeshTile&, const dtPoly&, dtPolyRef ref) {
     index.emplace(ref, static_cast<uint32_t>(impl_->references.size()));
     impl_->references.push_back(ref);
   });
-
-  // Corners, turned counter-clockwise, and openings by edge.
+  NavGraph graph;
   each([&](const dtMeshTile& tile, const dtPoly& poly, dtPolyRef ref) {
     NavPolygon polygon;
     polygon.reference = index[ref];
     polygon.kind = static_cast<GroundKind>(poly.getArea());
-    const int n = polygon.corners = poly.vertCount;
-    double area = 0;
-    for (int i = 0; i < n; ++i) {
-      const Vec3d p = FromRecast(&tile.verts[poly.verts[i] * 3]);
-      polygon.corner[i] = {p.x, p.y};
-      polygon.z[i] = static_cast<float>(p.z);
-    }
-    for (int i = 0; i < n; ++i) {
-      const Vec2d a = polygon.corner[i], b = polygon.corner[(i + 1) % n];
-      area += a.x * b.y - a.y * b.x;
-    }
-    const bool turned = area < 0;
-    if (turned) {
-      std::reverse(polygon.corner, polygon.corner + n);
-      std::reverse(polygon.z, polygon.z + n);
-    }
-    // Corner i was n - 1 - i; the edge from it goes back along the old edge n - 2 - i.
-    std::vector<NavPortal> of_edge[kMaxPolygonCorners];
-    for (unsigned k = poly.firstLink; k != DT_NULL_LINK; k = tile.links[k].next) {
-      const dtLink& link = tile.links[k];
-      const auto found = index.find(link.ref);
-      if (found == index.end()) continue;
-      float t0 = 0, t1 = 1;
-      if (link.side != 0xff) {
-        t0 = static_cast<float>(link.bmin) / 255;
-        t1 = static_cast<float>(link.bmax) / 255;
-      }
-      int edge = link.edge;
-      if (turned) {
-        edge = (2 * n - 2 - edge) % n;
-        const float kept = t0;
-        t0 = 1 - t1;
-        t1 = 1 - kept;
-      }
-      of_edge[edge].push_back({found->second, t0, t1});
-    }
-    for (int i = 0; i < n; ++i) {
-      std::sort(of_edge[i].begin(), of_edge[i].end(), [](const NavPortal& a, const NavPortal& b) {
-        return a.t0 != b.t0 ? a.t0 < b.t0 : a.neighbour < b.neighbour;
-      });
-      polygon.first_portal[i] = static_cast<uint32_t>(graph.portals.size());
-      graph.portals.insert(graph.portals.end(), of_edge[i].begin(), of_edge[i].end());
-    }
-    for (int i = n; i <= kMaxPolygonCorners; ++i) polygon.first_portal[i] = static_cast<uint32_t>(graph.portals.size());
+    const bool turned = SetCorners(tile, poly, polygon);
+    AddPortals(tile, poly, index, turned, polygon, graph.portals);
     graph.polygons.push_back(polygon);
   });
   if (!graph.polygons.empty()) graph.Finish();

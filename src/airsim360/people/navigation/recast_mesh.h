@@ -34,6 +34,7 @@ class RecastMesh {
 
  private:
   struct Impl;
+  void AddTiles();
   std::unique_ptr<Impl> impl_;
 };
 

@@ -226,6 +226,38 @@ void LampGrid::PlaceCells(const RayTracer& tracer) {
   raised_ = {};
 }
 
+std::vector<uint32_t> LampGrid::LampsThatReach(const Box3f& box) const {
+  std::vector<uint32_t> near;
+  for (uint32_t l = 0; l < records_.size(); ++l) {
+    const Vec3f c{records_[l].center[0], records_[l].center[1], records_[l].center[2]};
+    if (Norm(c - Min(Max(c, box.min), box.max)) < records_[l].reach) near.push_back(l);
+  }
+  return near;
+}
+
+void LampGrid::LookAtLamps(const RayTracer& tracer, Vec3f p, RankedLamps& ranked, Corner& corner) const {
+  const size_t count = std::min<size_t>(ranked.size(), kSeenLamps);
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<int64_t>(count), ranked.end());
+  corner.count = static_cast<int>(count);
+  for (size_t begin = 0; begin < count; begin += 16) {
+    Packet packet;
+    bool occluded[16] = {};
+    for (size_t k = begin; k < std::min(begin + 16, count); ++k) {
+      const LampRecord& lamp = records_[ranked[k].second];
+      corner.lamp[k] = ranked[k].second;
+      corner.strength[k] = -ranked[k].first;
+      const Vec3f to = Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p;
+      const float distance = Norm(to), free = distance - 1.02f * lamp.radius;
+      corner.seen |= 1u << k;
+      if (free > 0) packet.Set(static_cast<int>(k - begin), p, to / distance, free);
+    }
+    tracer.Occluded16(packet.valid, packet.rays, occluded, false);
+    for (size_t k = begin; k < std::min(begin + 16, count); ++k) {
+      if (packet.valid[k - begin] && occluded[k - begin]) corner.seen &= ~(1u << k);
+    }
+  }
+}
+
 std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
                                                        const std::vector<uint32_t>& places) const {
   std::vector<Corner> corners(places.size());
@@ -234,46 +266,25 @@ std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
     const FlushDenormals flush;
     const int64_t first = run * kRun,
                   last = std::min<int64_t>(first + kRun, static_cast<int64_t>(places.size()));
-    // Lamps that reach any corner of this run.
     Box3f box;
     for (int64_t i = first; i < last; ++i) box.Add(CornerPosition(places[i]));
-    std::vector<uint32_t> near;
-    for (uint32_t l = 0; l < records_.size(); ++l) {
-      const Vec3f c{records_[l].center[0], records_[l].center[1], records_[l].center[2]};
-      if (Norm(c - Min(Max(c, box.min), box.max)) < records_[l].reach) near.push_back(l);
-    }
-    std::vector<std::pair<float, uint32_t>> ranked;
+    const std::vector<uint32_t> near = LampsThatReach(box);
+    RankedLamps ranked;
     for (int64_t i = first; i < last; ++i) {
       const Vec3f p = CornerPosition(places[i]);
-      Corner& corner = corners[i];
       ranked.clear();
       for (uint32_t l : near) {
         const float strength = Strength(records_[l], p);
         if (strength > 0) ranked.emplace_back(-strength, l);
       }
-      const size_t count = std::min<size_t>(ranked.size(), kSeenLamps);
-      std::partial_sort(ranked.begin(), ranked.begin() + static_cast<int64_t>(count), ranked.end());
-      corner.count = static_cast<int>(count);
-      for (size_t begin = 0; begin < count; begin += 16) {
-        Packet packet;
-        bool occluded[16] = {};
-        for (size_t k = begin; k < std::min(begin + 16, count); ++k) {
-          const LampRecord& lamp = records_[ranked[k].second];
-          corner.lamp[k] = ranked[k].second;
-          corner.strength[k] = -ranked[k].first;
-          const Vec3f to = Vec3f{lamp.center[0], lamp.center[1], lamp.center[2]} - p;
-          const float distance = Norm(to), free = distance - 1.02f * lamp.radius;
-          corner.seen |= 1u << k;
-          if (free > 0) packet.Set(static_cast<int>(k - begin), p, to / distance, free);
-        }
-        tracer.Occluded16(packet.valid, packet.rays, occluded, false);
-        for (size_t k = begin; k < std::min(begin + 16, count); ++k) {
-          if (packet.valid[k - begin] && occluded[k - begin]) corner.seen &= ~(1u << k);
-        }
-      }
+      LookAtLamps(tracer, p, ranked, corners[i]);
     }
   });
+  MarkSolid(tracer, places, corners);
+  return corners;
+}
 
+void LampGrid::MarkSolid(const RayTracer& tracer, const std::vector<uint32_t>& places, std::vector<Corner>& corners) const {
   // A corner from which the surface above it, or towards its strongest lamp, shows its back is in a solid.
   // Seen from there lamps tell nothing.
   ParallelFor((static_cast<int64_t>(places.size()) + 15) / 16, [&](int64_t run) {
@@ -296,7 +307,6 @@ std::vector<LampGrid::Corner> LampGrid::SeeFromCorners(const RayTracer& tracer,
       }
     }
   });
-  return corners;
 }
 
 // The lamps that bring most to any corner; those that no corner sees come last.

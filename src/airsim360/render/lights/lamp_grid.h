@@ -44,6 +44,10 @@ class LampGrid {
 
   void Merge(const LightTable& table, float daylight);
   void PlaceCells(const RayTracer& tracer);
+  using RankedLamps = std::vector<std::pair<float, uint32_t>>;  // minus strength, number
+  std::vector<uint32_t> LampsThatReach(const Box3f& box) const;
+  void LookAtLamps(const RayTracer& tracer, Vec3f p, RankedLamps& ranked, Corner& corner) const;
+  void MarkSolid(const RayTracer& tracer, const std::vector<uint32_t>& places, std::vector<Corner>& corners) const;
   std::vector<Corner> SeeFromCorners(const RayTracer& tracer, const std::vector<uint32_t>& places) const;
   void FillCells(const std::vector<uint32_t>& places, const std::vector<Corner>& corners,
                  const std::vector<uint32_t>& corner_of);

@@ -96,85 +96,96 @@ Box3f DetailBounds(const Scene& scene) {
   return {Max(box.min - margin, scene.bounds.min), Min(box.max + margin, scene.bounds.max)};
 }
 
-Seen LookAlong(const ProbeLight& world, std::span<const Vec3f> points, Vec3f direction) {
-  const RayTracer& tracer = world.tracer;
-  const Sky* sky = world.sky;
-  const bool panes = tracer.has_clear_panes();
-  Packet view;
-  for (size_t i = 0; i < points.size(); ++i) view.Set(static_cast<int>(i), points[i], direction, 0, INFINITY);
-  tracer.Intersect16(view.valid, view.rays, false);
+namespace {
 
-  // Those that met something look for the sun.
-  Packet shadow;
+/// What up to 16 points see along one direction, and how the sun comes to what they meet.
+struct PacketView {
+  Packet view, shadow;
   std::array<Met, 16> met;
   bool any_lit = false;
   alignas(64) bool occluded[16] = {};
+  std::array<Vec3f, 16> sun_tint;
+};
+
+// Those that met something look for the sun, through panes.
+void LookForSun(const ProbeLight& world, PacketView& v) {
+  v.sun_tint.fill({1, 1, 1});
+  if (!v.any_lit) return;
+  world.tracer.Occluded16(v.shadow.valid, v.shadow.rays, v.occluded, false);
+  if (!world.tracer.has_clear_panes()) return;
+  for (int i = 0; i < 16; ++i) {
+    if (v.occluded[i]) v.shadow.valid[i] = 0;
+    if (v.shadow.valid[i] != 0) v.shadow.rays.t_far[i] = INFINITY;
+  }
+  DimByPanes(world.tracer, world.tables, v.shadow.valid, v.shadow.rays, v.sun_tint);
+}
+
+// Light of what point i has met.
+void AddLightOf(const ProbeLight& world, const PacketView& v, size_t i, Seen& seen) {
+  const Sky* sky = world.sky;
+  const Vec3f interior = world.tracer.scene().interior_light;
+  const Met& m = v.met[i];
+  const Vec3f reflectance = m.albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
+  Vec3f irradiance;
+  if (v.shadow.valid[i] && !v.occluded[i])
+    irradiance = sky->sun_irradiance() * v.sun_tint[i] * (Dot(m.normal, sky->to_sun()) * sky->CloudShadow(m.point));
+  if (world.lamps) irradiance += world.lamps->NearIrradiance(m.point, m.normal);
+  // Rooms that glow by themselves have their bounces in the glow.
+  const bool glows = !sky && interior != Vec3f{};
+  if (world.earlier && !glows) {
+    const bool known = world.earlier->Covers(m.point);
+    irradiance += known ? world.earlier->NearIrradiance(m.point, m.normal) : sky ? AmbientGuess(*sky, m.normal) : Vec3f{};
+  }
+  seen.light[i] = m.emission + reflectance * irradiance;
+  if (sky && !world.earlier) seen.guess[i] = reflectance * AmbientGuess(*sky, m.normal);
+  if (glows) {
+    const float t = v.view.rays.t_far[i];
+    seen.light[i] += interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
+  }
+}
+
+// Glass on the way of the view.
+void DimSeen(const ProbeLight& world, std::span<const Vec3f> points, Vec3f direction, const Packet& view, Seen& seen) {
+  std::array<Vec3f, 16> tint;
+  tint.fill({1, 1, 1});
+  Packet through;
+  for (size_t i = 0; i < points.size(); ++i) through.Set(static_cast<int>(i), points[i], direction, 0, view.rays.t_far[i]);
+  DimByPanes(world.tracer, world.tables, through.valid, through.rays, tint);
+  for (size_t i = 0; i < points.size(); ++i) {
+    seen.light[i] = seen.light[i] * tint[i];
+    seen.guess[i] = seen.guess[i] * tint[i];
+  }
+}
+
+}  // namespace
+
+Seen LookAlong(const ProbeLight& world, std::span<const Vec3f> points, Vec3f direction) {
+  const RayTracer& tracer = world.tracer;
+  const Sky* sky = world.sky;
+  PacketView v;
+  for (size_t i = 0; i < points.size(); ++i) v.view.Set(static_cast<int>(i), points[i], direction, 0, INFINITY);
+  tracer.Intersect16(v.view.valid, v.view.rays, false);
+
   Seen seen;
   for (size_t i = 0; i < points.size(); ++i) {
-    seen.open[i] = view.rays.geometry[i] == kMiss;
+    const auto& rays = v.view.rays;
+    seen.open[i] = rays.geometry[i] == kMiss;
     if (seen.open[i]) continue;
-    const SurfaceRef ref =
-        tracer.Resolve(view.rays.geometry[i], view.rays.instance[i], view.rays.primitive[i]);
-    met[i] = ResolveMet(world, ref, points[i] + direction * view.rays.t_far[i], direction);
-    seen.behind[i] = met[i].back && !met[i].open;
-    if (sky == nullptr || sky->to_sun().z < 0 || Dot(met[i].normal, sky->to_sun()) <= 0) continue;
-    shadow.Set(static_cast<int>(i), met[i].point + met[i].normal * 0.01f, sky->to_sun(), 0, INFINITY);
-    any_lit = true;
+    const SurfaceRef ref = tracer.Resolve(rays.geometry[i], rays.instance[i], rays.primitive[i]);
+    const Met& met = v.met[i] = ResolveMet(world, ref, points[i] + direction * rays.t_far[i], direction);
+    seen.behind[i] = met.back && !met.open;
+    if (sky == nullptr || sky->to_sun().z < 0 || Dot(met.normal, sky->to_sun()) <= 0) continue;
+    v.shadow.Set(static_cast<int>(i), met.point + met.normal * 0.01f, sky->to_sun(), 0, INFINITY);
+    v.any_lit = true;
   }
-  if (any_lit) tracer.Occluded16(shadow.valid, shadow.rays, occluded, false);
-
-  // Glass on the way of the sun.
-  std::array<Vec3f, 16> sun_tint, view_tint;
-  sun_tint.fill({1, 1, 1});
-  view_tint.fill({1, 1, 1});
-  if (panes && any_lit) {
-    for (int i = 0; i < 16; ++i) {
-      if (occluded[i]) shadow.valid[i] = 0;
-      if (shadow.valid[i] != 0) shadow.rays.t_far[i] = INFINITY;
-    }
-    DimByPanes(tracer, world.tables, shadow.valid, shadow.rays, sun_tint);
-  }
-
-  const Vec3f interior = tracer.scene().interior_light;
+  LookForSun(world, v);
   for (size_t i = 0; i < points.size(); ++i) {
-    if (seen.open[i]) {
-      seen.light[i] = sky ? sky->blurred(0).At(direction) : interior;
-      continue;
-    }
-    const Met& m = met[i];
-    const Vec3f reflectance = m.albedo * ((seen.behind[i] ? 0.1f : 1.0f) / kPi);
-    Vec3f irradiance;
-    if (shadow.valid[i] && !occluded[i])
-      irradiance = sky->sun_irradiance() * sun_tint[i] *
-                   (Dot(m.normal, sky->to_sun()) * sky->CloudShadow(m.point));
-    if (world.lamps) irradiance += world.lamps->NearIrradiance(m.point, m.normal);
-    // Rooms that glow by themselves have their bounces in the glow.
-    const bool glows = !sky && interior != Vec3f{};
-    if (world.earlier && !glows) {
-      const bool known = world.earlier->Covers(m.point);
-      irradiance += known ? world.earlier->NearIrradiance(m.point, m.normal)
-                    : sky ? AmbientGuess(*sky, m.normal)
-                          : Vec3f{};
-    }
-    seen.light[i] = m.emission + reflectance * irradiance;
-    if (sky && !world.earlier) seen.guess[i] = reflectance * AmbientGuess(*sky, m.normal);
-    if (glows) {
-      const float t = view.rays.t_far[i];
-      seen.light[i] += interior * (0.35f + 0.65f * t * t / (t * t + 0.5f));
-    }
+    if (seen.open[i])
+      seen.light[i] = sky ? sky->blurred(0).At(direction) : tracer.scene().interior_light;
+    else
+      AddLightOf(world, v, i, seen);
   }
-
-  // Glass on the way of the view.
-  if (panes) {
-    Packet through;
-    for (size_t i = 0; i < points.size(); ++i)
-      through.Set(static_cast<int>(i), points[i], direction, 0, view.rays.t_far[i]);
-    DimByPanes(tracer, world.tables, through.valid, through.rays, view_tint);
-    for (size_t i = 0; i < points.size(); ++i) {
-      seen.light[i] = seen.light[i] * view_tint[i];
-      seen.guess[i] = seen.guess[i] * view_tint[i];
-    }
-  }
+  if (tracer.has_clear_panes()) DimSeen(world, points, direction, v.view, seen);
   return seen;
 }
 
