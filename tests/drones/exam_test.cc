@@ -12,7 +12,8 @@ namespace airsim360 {
 namespace {
 
 constexpr const char* kFiles[] = {"exam_newcomers.json",   "exam_newcomers_2.json", "exam_newcomers_3.json",
-                                  "exam_newcomers_4.json", "exam_newcomers_5.json", "exam_own.json"};
+                                  "exam_newcomers_4.json", "exam_newcomers_5.json", "exam_newcomers_6.json",
+                                  "exam_newcomers_7.json", "exam_own.json"};
 constexpr size_t kFlightEvery = 9;
 
 std::string InData(const std::string& file) { return AIRSIM360_SOURCE_DIR "/data/drones/" + file; }

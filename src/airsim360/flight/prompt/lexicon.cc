@@ -69,6 +69,17 @@ size_t Distance(std::string_view a, std::string_view b, size_t most) {
   return before[b.size()];
 }
 
+/// What is left of a word by ear: its consonants, doubled ones once.
+std::string Consonants(std::string_view text) {
+  std::string sound;
+  for (const char c : text) {
+    const char heard = c == 'z' ? 's' : c == 'k' || c == 'q' ? 'c' : c;
+    if (std::string_view("aeiouyh").find(c) != std::string_view::npos) continue;
+    if (sound.empty() || sound.back() != heard) sound += heard;
+  }
+  return sound;
+}
+
 bool Matters(const Word& word) {
   switch (word.kind) {
     case WordKind::kMassUnit:
@@ -106,13 +117,28 @@ std::string_view Respelled(std::string_view text) {
   std::string_view best;
   size_t least = most + 1;
   for (const auto& [alias, entry] : TheIndex().entries()) {
-    if (alias.size() < 6 || alias[0] != text[0] || !Matters(*entry.word)) continue;
+    if (alias.size() < (entry.word->kind == WordKind::kHover ? 5 : 6) || alias[0] != text[0] || !Matters(*entry.word)) continue;
     const size_t distance = Distance(text, alias, most);
     // Of equally near ones the first by the alphabet: the index has no order.
     if (distance < least || (distance == least && distance <= most && alias < best)) {
       best = alias;
       least = distance;
     }
+  }
+  return best;
+}
+
+std::string_view UnitAsHeard(std::string_view text) {
+  if (text.size() < 5 || FindWord(text, false) != nullptr) return {};
+  const std::string sound = Consonants(text);
+  std::string_view best;
+  for (const auto& [alias, entry] : TheIndex().entries()) {
+    const WordKind kind = entry.word->kind;
+    const bool unit = kind == WordKind::kMassUnit || kind == WordKind::kLengthUnit || kind == WordKind::kTimeUnit ||
+                      kind == WordKind::kVolumeUnit;
+    if (!unit || alias.size() < 5 || alias[0] != text[0] || alias.starts_with("pint")) continue;
+    if (Consonants(alias) != sound || Distance(text, alias, 3) > 3) continue;
+    if (best.empty() || alias < best) best = alias;
   }
   return best;
 }

@@ -99,6 +99,10 @@ const Word* FindWord(std::string_view key, bool joined);
 /// from nine letters on) and that matters; empty when there is none.
 std::string_view Respelled(std::string_view text);
 
+/// The name of a unit of at least five letters that `text`, written after a number, sounds like ("minits",
+/// "kilograms" with one m too many); empty when there is none.
+std::string_view UnitAsHeard(std::string_view text);
+
 /// The head of a German compound, which is its last part: "Landwirtschaftsdrohne" is a "drohne"; nullptr: none.
 const Word* FindCompound(std::string_view text);
 

@@ -68,7 +68,7 @@ constexpr Word kWords[] = {
     {kMassUnit, 0.45359237, "", "lb|lbs|pound|pounds|pounder"},
     {kMassUnit, 0.028349523125, "", "oz|ozs|ounce|ounces"},
     {kMassUnit, 6.35029318, "", "stone|stones"},
-    {kLengthUnit, 0.0254, "", "inch|inches|inched|in|incher|\""},
+    {kLengthUnit, 0.0254, "", "inch|inches|inched|in|incher|inchers|\""},
     {kLengthUnit, 0.3048, "", "ft|foot|feet|footer|'"},
     {kLengthUnit, 0.9144, "", "yard|yards"},
     {kLengthUnit, 1e-3, "", "mm|millimetre|millimetres|millimeter|millimeters|mil"},

@@ -12,11 +12,11 @@ constexpr Word kWords[] = {
      "zu|maximal|maximale|maximalem|"
      "hat|kann|ist|rund|un|une|le|la|les|de|des|du|d|environ|est|jusqu "
      "a|qui|una|uno|el|los|las|del|di|al|che|"
-     "aproximadamente|unos|que|se|peut|max|su|son|maximo|maxima|massimo|的|个|约|大约|为|是|一架|一个|一款|"
+     "aproximadamente|schwere|schweren|schweres|schwerer|unos|que|se|peut|max|su|son|maximo|maxima|massimo|的|个|约|大约|为|是|一架|一个|一款|"
      "左右|の|最大|"
      "可|能|架|款|支持|具有|采用|约为|可以|达|飞行器|台|一台"},
     {kBreak, 0, "",
-     "mit|und|fur|bei|avec|et|pour|con|y|para|e|per|a|和|与|带|配|搭载|携带|并|用于|以及|で|と|用"},
+     "mit|com|und|fur|bei|avec|et|pour|con|y|para|e|per|a|和|与|带|配|搭载|携带|并|用于|以及|で|と|用"},
     {kNumber, 1, "", "eins|一"},
     {kNumber, 2, "", "zwei|deux|dos|due|二|两|双"},
     {kNumber, 3, "", "drei|trois|tres|tre|三"},
@@ -47,7 +47,7 @@ constexpr Word kWords[] = {
     {kMassUnit, 1e-3, "", "gramm|grammes|gramos|grammi|克|グラム"},
     {kMassUnit, 1, "", "kilogramm|kilogrammes|kilogramos|chili|chilogrammi|公斤|千克|キロ|キログラム"},
     {kMassUnit, 0.5, "", "斤|pfund"},
-    {kLengthUnit, 0.0254, "", "zoll|zollig|pouces|pouce|pulgadas|pulgada|pollici|pollice|英寸|寸|インチ"},
+    {kLengthUnit, 0.0254, "", "zoll|zollig|pouces|pouce|pulgadas|pulgada|polegadas|polegada|pollici|pollice|英寸|寸|インチ"},
     {kLengthUnit, 1e-3, "", "millimeter|milimetros|millimetri|毫米|ミリ"},
     {kLengthUnit, 1e-2, "", "zentimeter|centimetros|centimetri|厘米|公分|センチ"},
     {kLengthUnit, 1, "", "metros|metri|米"},
@@ -110,15 +110,17 @@ constexpr Word kWords[] = {
      "decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|整机重量|整机|含电池|"
      "带电池|"
      "en ordre de vol|al decollo|poids total"},
-    {kEmpty, 0, "", "leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
+    {kEmpty, 0, "", "eigengewicht|leermasse|ohne nutzlast|ohne zuladung|sans charge|sans charge utile|sin carga|sin carga util|"
+     "senza carico|leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
     {kPayload, 0, "",
      "charge de|charge max|charge maximale|charge max de|nutzlast|zuladung|tragt|tragen|charge "
      "utile|emport|emporte|carga util|carga|transporta|carico "
-     "utile|carico|llevar|llevando|cargar|cargando|levantar|levanta|transportar|porter|"
+     "utile|carico|llevar|llevando|lleve|cargue|porta|portano|levante|cargar|cargando|levantar|levanta|transportar|porter|"
      "transporter|transporte|soulever|souleve|emporter|emportant|portare|sollevare|solleva|heben|hebt|"
      "tragend|schleppt|"
      "schleppen|transportieren|trasportare|carregar|carrega|levar|leva|capacidad de carga|capacite d "
      "emport|traglast|"
+     "吊运|运送|吊挂|吊|投放|装载|运载|"
      "载荷|载重|有效载荷|负载|挂载|任务载荷|最大载重|ペイロード|lleva|trasporta|transportiert|portant|porte"},
     {kBattery, 0, "", "akku|batterie|batteria|bateria|baterias|电池|锂电池|バッテリー|akkus|batteries"},
     {kHover, 0, "",

@@ -7,9 +7,9 @@ using enum WordKind;
 
 // Masses in kg are those of the makers' sheets, as remembered, without lenses, mounts and cables.
 constexpr Word kWords[] = {
-    {kLoad, 0, "camera", "hasselblad camera|camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
+    {kLoad, 0, "camera", "hasselblad camera|full frame camera|camera|cameras|gimbal camera|camera gimbal|cam|cams|dslr|mirrorless|mirrorless camera"},
     {kLoad, 0, "",
-     "gimbal|gimbals|lidar|laser scanner|sensor|sensors|parcel|parcels|package|packages|box|cargo box|medicine|pizza|"
+     "gimbal|gimbals|spray can|paint can|lidar|laser scanner|sensor|sensors|parcel|parcels|package|packages|box|cargo box|medicine|pizza|"
      "thermal camera|depth camera|stereo camera|multispectral camera|multispectral sensor|hyperspectral camera|"
      "zoom camera|cinema camera|360 camera|speaker|speakers|loudspeaker|loud speaker|megaphone|computer|"
      "companion computer|companion|onboard computer|deck|bait|seed|seeds|defibrillator|aed|magnetometer|radar|"

@@ -128,7 +128,8 @@ constexpr Word kWords[] = {
      "fully loaded|including battery|with battery|wet weight|weight including battery|launch weight|heavy|"
      "all up at|auw of"},
     {kEmpty, 0, "",
-     "empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
+     "on its own|by itself|before payload|before the payload|before load|empty with battery|"
+     "empty weight with battery|empty incl battery|empty including battery|empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
      "w o load|without the payload|without any payload|without cargo|no payload|unloaded|"
      "empty mass|weight without payload"},
     {kBare, 0, "",
@@ -149,7 +150,7 @@ constexpr Word kWords[] = {
      "maximum "
      "payload|hauling|haul|hauls|lugging|lug|lugs|hoist|hoists|bring|brings|bringing|tote|totes|ferry|"
      "ferries|"
-     "ferrying|picking up|pick up|hold|holding|bear|bears|loaded with|load of|load capacity|lifting "
+     "ferrying|picking up|pick up|hold|holding|loaded with|load of|load capacity|lifting "
      "capacity|lift capacity|"
      "delivers|deliver|delivering|drops|payload of|cargo of|carrying capacity|holds|takes|lifts up|picks up"},
     {kBattery, 0, "",
@@ -171,7 +172,8 @@ constexpr Word kWords[] = {
      "headwind|crosswind|storm"},
     {kThrustRatio, 0, "",
      "twr|t w|thrust to weight|thrust to weight ratio|thrust weight|thrust weight ratio|power to weight|"
-     "power to weight ratio|t to w|thrust ratio|thrust to mass|thrust margin|thrust reserve"},
+     "maximum thrust to weight|maximum thrust to weight ratio|max thrust to weight|max thrust to weight ratio|"
+     "power to weight ratio|punch|punch out|t to w|thrust ratio|thrust to mass|thrust margin|thrust reserve"},
     {kThrust, 0, "",
      "thrust|max thrust|maximum thrust|total thrust|max total thrust|maximum total thrust|total max thrust|"
      "static thrust|combined thrust|peak thrust|full "
@@ -236,7 +238,8 @@ constexpr Word kWords[] = {
     {kNoMultirotor, 0, "an endless flight",
      "infinite flight time|infinite flight|infinite endurance|infinite battery|infinite battery "
      "life|unlimited flight time|"
-     "unlimited endurance|unlimited flight|endless flight|endless flight time|flies forever|fly "
+     "unlimited endurance|unlimited flight|endless flight|perpetual motion|perpetuum mobile|free energy|overunity|"
+     "over unity|never needs charging|never needs a charge|never runs out|self charging props|self recharging|endless flight time|flies forever|fly "
      "forever|hover forever|"
      "hovers forever|never lands|perpetual flight|stays up forever|stay up forever|eternal flight"},
     {kVehicle, 0, "a vehicle",

@@ -67,6 +67,7 @@ class Joiner {
     token.text = std::move(text);
     token.value = value;
     token.negative = in_[at_].negative;
+    token.glued = in_[at_].glued;
     at_ += used;
     return out_.emplace_back(std::move(token));
   }
@@ -151,6 +152,11 @@ class Joiner {
     const bool has_unit = end < in_.size() && IsUnit(in_[end]);
     if (!has_unit && (unit_between || !(between || FollowsRatio()) || high <= 1)) return false;
     if (unit_between && in_[i].word->kind != in_[end].word->kind) return false;
+    // "2306-2450kv": a stator before its KV.
+    const double height = std::fmod(low, 100);
+    if (has_unit && in_[end].Is(WordKind::kKvUnit) && low >= 1000 && low < 10000 && height >= 2 && height <= 45 &&
+        std::fmod(low, 10) != 0)
+      return false;
     const double scale = unit_between && in_[end].word->value > 0 ? in_[i].word->value / in_[end].word->value : 1;
     if (!(low * scale < high && high < 4 * low * scale)) return false;
     const std::string link_text = in_[link].kind == Token::Kind::kDash ? "-" : " " + in_[link].text + " ";

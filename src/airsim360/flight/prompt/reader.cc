@@ -24,13 +24,15 @@ Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
   claimed_.assign(tokens_.size(), false);
   for (const Token& token : tokens_) {
     const bool layout = token.Is(WordKind::kLayout) && token.word->meaning == "coaxial";
-    coaxial_said_ |= layout || token.Is(WordKind::kCoaxial);
+    const size_t i = static_cast<size_t>(&token - tokens_.data());
+    coaxial_said_ |= layout || (token.Is(WordKind::kCoaxial) && !IsMotorName(i));
     liquid_said_ |= token.Is(WordKind::kVolumeUnit);
-    rotor_words_ += token.Is(WordKind::kRotors) || token.Is(WordKind::kCoaxial);
+    rotor_words_ += token.Is(WordKind::kRotors) || (token.Is(WordKind::kCoaxial) && !IsMotorName(i));
   }
 }
 
 DroneRequest Reader::Run() {
+  RefuseFreeEnergy();
   RefuseOthers();
   for (const Token& token : tokens_) {
     if (!token.respelled.empty()) Decide("'" + token.text + "' is read as '" + token.respelled + "'");
@@ -91,6 +93,7 @@ void Reader::ReadWord(size_t i) {
       return ReadRotorsWord(i);
     case WordKind::kCoaxial:
       used_[i] = true;
+      if (IsMotorName(i)) return;
       SetRotors(word.value, text);
       return SetLayout("coaxial", text);
     case WordKind::kLayout:
@@ -174,6 +177,7 @@ void Reader::Finish() {
   FinishRotors();
   FinishLengths();
   FinishMasses();
+  CheckLoadOfModel();
   if (request_.brushless && request_.drone_class == "nano") request_.drone_class = "nano_brushless";
   if (model_ != nullptr) {
     ApplyModel(*model_, request_);
@@ -182,6 +186,8 @@ void Reader::Finish() {
     ReadClass(hinted_class_, hinted_words_);
   }
   FinishThrust();
+  CheckVoltage();
+  CheckPower();
   ListUnused();
 }
 
@@ -210,6 +216,10 @@ void Reader::FinishMasses() {
       Decide("'" + q.words + "' is of a part and left to the design");
       continue;
     }
+    if (!bound && request_.mass && IsSumOf(*request_.mass, q.value)) {  // "total 2.5 kg, payload 500 g, 2 kg drone"
+      Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+      continue;
+    }
     // What is beside the mass of a drone is carried.
     const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
     if (carried) {
@@ -221,15 +231,7 @@ void Reader::FinishMasses() {
     }
   }
   spanning_ = nullptr;
-  if (liquid_ && !request_.payload) {
-    Decide("'" + liquid_words_ + "' of liquid weigh " + Kilograms(*liquid_) + ", as water");
-    Set(payload, request_.payload, *liquid_, liquid_words_);
-  }
-  if (known_load_ && !request_.payload) {
-    Decide("'" + known_load_words_ + "' weighs " + Kilograms(*known_load_) + " and is the payload");
-    Set(payload, request_.payload, *known_load_, known_load_words_);
-    request_.facts.insert("payload");
-  }
+  FinishLoads();
   FinishBareMass();
   if (!request_.empty_mass) return;
   const std::string& words = request_.words["empty_mass"];
@@ -241,6 +243,20 @@ void Reader::FinishMasses() {
   // "12.5 kg dry, 10 l, 24.5 kg at take-off": the rest is of what was not said.
   if (request_.mass && *request_.mass >= whole) return;
   Set(mass, request_.mass, whole, request_.payload ? words + " and " + request_.words["payload"] : words);
+}
+
+/// Liquids and things of known mass, where no payload was said.
+void Reader::FinishLoads() {
+  const FieldRange payload{"payload", 0.0005, 1000, "kg"};
+  if (liquid_ && !request_.payload) {
+    Decide("'" + liquid_words_ + "' of liquid weigh " + Kilograms(*liquid_) + ", as water");
+    Set(payload, request_.payload, *liquid_, liquid_words_);
+  }
+  if (known_load_ && !request_.payload) {
+    Decide("'" + known_load_words_ + "' weighs " + Kilograms(*known_load_) + " and is the payload");
+    Set(payload, request_.payload, *known_load_, known_load_words_);
+    request_.facts.insert("payload");
+  }
 }
 
 void Reader::ListUnused() {

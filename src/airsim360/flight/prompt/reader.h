@@ -49,6 +49,7 @@ class Reader {
   void SetLayout(const std::string& meaning, const std::string& text);
   void Finish();
   void FinishMasses();
+  void FinishLoads();
   void ListUnused();
 
   // reader_counts.cc
@@ -61,6 +62,16 @@ class Reader {
   bool ReadCount(size_t i);
   [[noreturn]] void RefuseRotors() const;
   void FinishRotors();
+
+  // reader_laws.cc
+  bool IsMotorName(size_t i) const;
+  bool ReadPower(const Quantity& q);
+  bool ReadAxes(const Quantity& q);
+  bool IsOfBattery(const Quantity& q) const;
+  void RefuseFreeEnergy() const;
+  void CheckPower() const;
+  void CheckVoltage() const;
+  void CheckLoadOfModel() const;
 
   // reader_thrust.cc
   bool ReadThrust(const Quantity& q);
@@ -106,6 +117,32 @@ class Reader {
   void SumUpMass(const Quantity& q);
   void FinishBareMass();
   void FinishOwnMass();
+  bool IsSumOf(double whole, double own) const;
+
+  // reader_things.cc
+  bool IsDroneWord(size_t i) const;
+  bool IsThing(size_t i) const;
+  bool IsNamedThing(size_t i) const;
+  bool FollowsCarryVerb(size_t i) const;
+  size_t FirstOf(const Quantity& q) const;
+  bool IsShare(const Quantity& q) const;
+  bool IsPart(size_t i) const;
+  bool SpeaksOfDrone(size_t from, size_t to) const;
+  size_t CarryVerbBefore(size_t i) const;
+  bool IsIntroduced(size_t i) const;
+  bool IsObject(size_t i, bool weak) const;
+  bool IsSubject(size_t i) const;
+  bool HasItsMass(size_t i) const;
+  bool IsFitted(size_t i) const;
+  bool IsOfThingAfter(const Quantity& q) const;
+  bool IsOfWeighedThing(const Quantity& q) const;
+  bool IsApposedToThing(const Quantity& q) const;
+  bool IsForThing(size_t end) const;
+  bool IsOfThingBefore(const Quantity& q) const;
+  bool IsBeforeFinalVerb(const Quantity& q) const;
+  bool Hangs(const Quantity& q) const;
+  bool IsOfThing(const Quantity& q, size_t noun) const;
+  void SetThing(const Quantity& q);
 
   // reader_quantities.cc
   bool ReadQuantity(size_t i);
@@ -123,6 +160,9 @@ class Reader {
   void ReadCode(size_t i);
   void ReadBareNumber(size_t i);
   bool ReadPartNumber(size_t i);
+  bool ReadMotorCode(size_t i);
+  bool ReadPlural(size_t i, size_t unit);
+  bool ReadInchesAsPlural(size_t i, size_t unit);
   const Word* Comparative(size_t k) const;
   bool ReadComparison(size_t i, double factor, size_t last);
   bool ReadFactor(size_t i);
@@ -147,11 +187,14 @@ class Reader {
     bool loaded = false;  ///< "3 kg with camera"
   };
   std::vector<Loose> loose_masses_;
+  std::vector<Quantity> volts_;          ///< of the battery
+  std::optional<Quantity> power_;        ///< of hovering, in watts
   std::vector<Quantity> loose_lengths_;  ///< that may be of something else
   const Token* spanning_ = nullptr;      ///< the number that is being read
   /// A number of rotors that no drone here has, and its words.
   std::optional<std::pair<double, std::string>> bad_rotors_;
   bool whole_said_ = false;  ///< the mass is that of take-off
+  bool things_said_ = false;  ///< the payload is the sum of things
   size_t rotor_words_ = 0;   ///< "quad", "Y6"
   bool coaxial_said_ = false;
   bool liquid_said_ = false;   ///< litres of something

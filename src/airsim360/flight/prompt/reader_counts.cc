@@ -145,6 +145,13 @@ bool Reader::ReadCount(size_t i) {
       SetArms(token.value, token.text + " " + tokens_[k].text);
       return true;
     }
+    // "6x MN3508 380 kv"
+    if (word && word->kind == WordKind::kKvUnit && Is(i + 1, WordKind::kTimes) && token.value >= 4 && token.value <= 8 &&
+        !request_.rotors && rotor_words_ == 0) {
+      used_[i] = true;
+      SetRotors(token.value, token.text + " motors");
+      return true;
+    }
     const bool size = kind == Token::Kind::kNumber || kind == Token::Kind::kPropellerCode ||
                       (word && (word->kind == WordKind::kLengthUnit || word->kind == WordKind::kTimes ||
                                 word->kind == WordKind::kBrushless || word->kind == WordKind::kKvUnit));
@@ -159,8 +166,9 @@ void Reader::RefuseRotors() const {
   if (value == 3) {
     throw InputError(
         "'" + words +
-        "': three fixed rotors cannot hold a heading, for their torques do not cancel; say 4 to 8, "
-        "or Y6 for three arms with two rotors each");
+        "': three fixed rotors cannot hold a heading, for their torques do not cancel, and a servo that tilts the "
+        "rotor at the tail is not modelled; say 4 to 8 (a quad comes nearest), or Y6 for three arms with two rotors "
+        "each");
   }
   throw InputError("'" + words + "': a drone here has 4 to 8 rotors" +
                    (value > 8 ? ", and the dynamics hold no more than 8" : ""));

@@ -161,12 +161,16 @@ size_t Reader::NounAfter(const Quantity& q) const {
     if (verb && found != kNone) break;
     if (!Claims(i) || claimed_[i]) continue;
     if (WordAt(i) && q.unit && !CanHave(WordAt(i)->kind, q.unit->kind)) break;
+    // "A 1.5 kg parachute: climb, drop"
+    if (found != kNone && Is(found, WordKind::kLoad) && Is(i, WordKind::kElse) && q.unit &&
+        q.unit->kind == WordKind::kMassUnit)
+      break;
     // "4 kg payload 1 kg": the noun is of the number after it, which has no other.
     size_t own = i + 1;
     while (own < tokens_.size() && SaysLittle(own)) ++own;
     if (own + 1 < tokens_.size() && tokens_[own].kind == Token::Kind::kNumber && q.unit &&
         Is(own + 1, q.unit->kind) &&
-        (own + 2 >= tokens_.size() || EndsPhrase(own + 2) || tokens_[own + 2].kind == Token::Kind::kNumber))
+        (verb || own + 2 >= tokens_.size() || EndsPhrase(own + 2) || tokens_[own + 2].kind == Token::Kind::kNumber))
       break;
     found = i;
     // These say for certain; of other nouns the last is the head: "249 g camera drone".

@@ -1,7 +1,9 @@
 // Whose mass a number with a unit of mass is.
 #include <algorithm>
+#include <cmath>
 
 #include "airsim360/flight/prompt/reader.h"
+#include "airsim360/flight/prompt/thing_words.h"
 
 namespace airsim360::internal {
 
@@ -43,15 +45,19 @@ bool Reader::IsWhole(size_t noun) const {
 /// "AUW with GoPro 265 g", "take-off weight incl. camera and battery: 1.9 kg": the mass before what it
 /// includes.
 size_t Reader::WholeBefore(const Quantity& q) const {
+  // "Take off with 3 kg of sand"
+  const size_t of = q.last + 1;
+  if (of + 1 < tokens_.size() && tokens_[of].text == "of" && IsThing(of + 1)) return kNone;
   bool includes = false;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos)
       return includes && !claimed_[k] ? k : kNone;
-    includes =
+    includes |=
         Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
     const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) ||
-                       Is(k, WordKind::kMass) || tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
+                       Is(k, WordKind::kMass) || Is(k, WordKind::kRotors) || Is(k, WordKind::kDrone) ||
+                       tokens_[k].kind == Token::Kind::kUnknown || SaysLittle(k) ||
                        includes || text == "and" || text == "+" || text == "/" || text == "(" ||
                        text == ")" || (text == "." && k > 0 && tokens_[k - 1].text == "incl");
     if (!thing) return kNone;
@@ -109,7 +115,7 @@ void Reader::ReadMass(const Quantity& q) {
   const size_t noun = NounOfMass(q);
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
-                     tokens_[q.last + 1].kind == Token::Kind::kUnknown &&
+                     tokens_[q.last + 1].kind == Token::Kind::kUnknown && !MeansDrone(tokens_[q.last + 1].text) &&
                      (tokens_[q.first - 1].text == "a" || tokens_[q.first - 1].text == "an") && q.first > 1 &&
                      Is(q.first - 2, WordKind::kBreak);
   const FieldRange payload{"payload", 0.0005, 1000, "kg"};
@@ -131,7 +137,7 @@ void Reader::ReadMass(const Quantity& q) {
       (follows(next, {"on"}) && (follows(next + 1, {"hook"}) || follows(next + 2, {"hook", "sling"}))) ||
       (follows(next, {"of"}) && follows(next + 1, {"cargo", "freight"})) ||
       (ends && follows(next, {"cargo", "freight"})) ||
-      (q.first > 0 && follows(q.first - 1, {"cargo", "freight"}));
+      (q.first > 0 && follows(q.first - 1, {"cargo", "freight", "charge"}));
   if ((of_thing || hung) && !request_.payload) return Set(payload, request_.payload, q.value, q.words);
   const bool added =
       (noun == kNone || kind_of(noun) == WordKind::kMass || kind_of(noun) == WordKind::kDrone) &&
@@ -139,6 +145,10 @@ void Reader::ReadMass(const Quantity& q) {
       tokens_[next + 1].kind == Token::Kind::kNumber && Is(next + 2, WordKind::kMassUnit) &&
       Is(next + 3, WordKind::kPayload);
   if (added) return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+  if ((!IsLoaded(q) || IsApposedToThing(q)) && IsOfThing(q, noun)) {
+    if (noun != kNone && !Is(noun, WordKind::kMass)) Use(noun);
+    return SetThing(q);
+  }
   if (noun == kNone) {
     loose_masses_.push_back({q, thing, false, IsLoaded(q)});
     return;
@@ -219,13 +229,15 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   // A drone has other figures besides.
   if (kind >= WordKind::kRotorNoun) Use(noun);
   switch (kind) {
-    case WordKind::kPayload:
     case WordKind::kLoad:
-      if (request_.payload && kind == WordKind::kLoad) {  // "2 kg payload, 400 g gimbal"
-        Decide("'" + q.words + "' is part of the payload '" + request_.words["payload"] + "'");
-        return;
-      }
+      return SetThing(q);
+    case WordKind::kPayload:
       CorrectWith("payload", request_.payload, q.first);
+      if (things_said_ && request_.payload && *request_.payload < q.value) {  // "... payload 3 kg in all"
+        request_.payload.reset();
+        request_.words.erase("payload");
+        things_said_ = false;
+      }
       return Set(payload, request_.payload, q.value, q.words);
     case WordKind::kBattery:
       return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
@@ -246,8 +258,20 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   if (kind == WordKind::kMass && IsWhole(noun)) {
     whole_said_ = true;
     SumUpMass(q);
+    if (request_.mass && IsSumOf(q.value, *request_.mass)) {  // "2 kg, payload 500 g, total 2.5 kg"
+      request_.empty_mass = request_.mass;
+      request_.words["empty_mass"] = request_.words["mass"];
+      request_.mass.reset();
+      request_.words.erase("mass");
+    }
   }
   Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+}
+
+/// Whether `whole` is a mass of the drone without payload and the payload that was said.
+bool Reader::IsSumOf(double whole, double own) const {
+  if (!request_.payload || request_.empty_mass) return false;
+  return *request_.payload > 0.03 * whole && std::abs(own + *request_.payload - whole) < 0.015 * whole;
 }
 
 /// "570 g, put a 30 g sensor on top, so 600 g total"

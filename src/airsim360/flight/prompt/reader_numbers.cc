@@ -46,11 +46,65 @@ void Reader::ReadCode(size_t i) {
   if (token.code[2] > 0) Set({"blades", 2, 6, ""}, request_.blades, std::floor(token.code[2]), token.text);
 }
 
+/// "KDE4215XF-465", "2207-1950": the KV that is written onto the name or the stator of a motor.
+bool Reader::ReadMotorCode(size_t i) {
+  const double value = tokens_[i].value;
+  if (i < 2 || request_.motor_kv || !tokens_[i].glued || value < 50 || value > 30000 || value != std::floor(value))
+    return false;
+  const bool onto = tokens_[i - 1].kind == Token::Kind::kDash || tokens_[i - 1].text == "/";
+  const Token& name = tokens_[i - 2];
+  if (!onto || !tokens_[i - 1].glued || (i + 1 < tokens_.size() && WordAt(i + 1) &&
+                                         WordAt(i + 1)->kind >= WordKind::kMassUnit &&
+                                         WordAt(i + 1)->kind <= WordKind::kOtherUnit))
+    return false;
+  const size_t digits = static_cast<size_t>(std::count_if(name.text.begin(), name.text.end(),
+                                                          [](char c) { return c >= '0' && c <= '9'; }));
+  const bool coded = name.kind == Token::Kind::kUnknown && digits >= 3 && digits < name.text.size();
+  const bool stator = name.kind == Token::Kind::kNumber && IsStator(name.value) && used_[i - 2];
+  // "3510XF-475"
+  const bool lettered = name.kind == Token::Kind::kUnknown && name.glued && name.text.size() <= 3 && i > 2 &&
+                        tokens_[i - 3].kind == Token::Kind::kNumber && IsStator(tokens_[i - 3].value);
+  if (!coded && !stator && !lettered) return false;
+  Decide("'" + name.text + tokens_[i - 1].text + tokens_[i].text + "' is read as a motor of " + tokens_[i].text +
+         " KV");
+  Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, value, tokens_[i].text + " kv");
+  return used_[i] = true;
+}
+
+/// "9450s" are propellers, "2207s" motors, no seconds.
+bool Reader::ReadPlural(size_t i, size_t unit) {
+  const double value = tokens_[i].value;
+  if (tokens_[unit].text != "s" || !tokens_[unit].glued || value < 1000 || value > 99999) return false;
+  if (i > 0 && Is(i - 1, WordKind::kCells)) return false;
+  double code[3];
+  const double tail = std::fmod(value, 100);
+  const bool series = value >= 3000 && tail >= 25 && std::fmod(value, 5) == 0;  // "5030", "6040"
+  const bool flat = tail > 36 || value > 9999 || series;
+  if (!flat) return IsStator(value) && (used_[i] = true);
+  if (!ReadPropellerFigures(tokens_[i].text, code)) return false;
+  std::copy(std::begin(code), std::end(code), std::begin(tokens_[i].code));
+  ReadCode(i);
+  return true;
+}
+
+/// "On 15s" beside a battery whose cells were said: propellers.
+bool Reader::ReadInchesAsPlural(size_t i, size_t unit) {
+  const double value = tokens_[i].value;
+  if (!request_.cells || request_.propeller || *request_.cells == value || i == 0) return false;
+  if (tokens_[unit].text != "s" || !tokens_[unit].glued || value < 5 || value > 40) return false;
+  const std::string& before = tokens_[i - 1].text;
+  if (before != "on" && before != "with" && before != "and" && before != "w") return false;
+  Decide("'" + tokens_[i].text + "s' is read as propellers of " + tokens_[i].text + " inches");
+  Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, value * 0.0254, tokens_[i].text + "s");
+  return true;
+}
+
 /// "9450 props", "2212 920 KV", "3S 2200".
 bool Reader::ReadPartNumber(size_t i) {
   const Token& token = tokens_[i];
   if (token.value < 1000 || token.value > 99999) return false;
-  if (IsStator(token.value) && Is(i - 1, WordKind::kKvUnit)) return used_[i] = true;  // "1300 kv 2806.5"
+  if (IsStator(token.value) && Is(i - 1, WordKind::kKvUnit) && Beside(i, WordKind::kPropeller, true) == kNone)
+    return used_[i] = true;  // "1300 kv 2806.5"
   // "6S 2200, 1800 kv", "4S 1500 2400kv": a charge, for no stator is so high.
   if (!IsStator(token.value) && Is(i - 1, WordKind::kCells) && used_[i - 1]) return false;
   if (Is(i - 1, WordKind::kCells) && used_[i - 1] && i + 1 < tokens_.size() && tokens_[i + 1].text == "," &&
@@ -63,10 +117,14 @@ bool Reader::ReadPartNumber(size_t i) {
   const bool kv = next + 1 < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber &&
                   (Is(next + 1, WordKind::kKvUnit) ||
                    (tokens_[next + 1].kind == Token::Kind::kDash && Is(next + 2, WordKind::kKvUnit)));
-  if (kv || Beside(i, WordKind::kMotor, true) != kNone) return used_[i] = true;
+  const bool written_on = next == i + 2 && next < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber &&
+                          tokens_[next].glued && IsStator(token.value) && tokens_[next - 1].text != "," &&
+                          tokens_[next].value >= 50;
+  if (kv || written_on || Beside(i, WordKind::kMotor, true) != kNone) return used_[i] = true;
   double code[3];
   const bool propeller =
-      Beside(i, WordKind::kPropeller, true) != kNone || Beside(i, WordKind::kPropeller, false) != kNone;
+      Beside(i, WordKind::kPropeller, true) != kNone || Beside(i, WordKind::kPropeller, false) != kNone ||
+      Beside(i, WordKind::kBlades, true) != kNone;
   if (propeller && ReadPropellerFigures(token.text, code)) {
     Token read = token;
     std::copy(std::begin(code), std::end(code), std::begin(read.code));
@@ -246,6 +304,13 @@ bool Reader::ReadFactor(size_t i) {
 void Reader::ReadBareNumber(size_t i) {
   const double value = tokens_[i].value;
   spanning_ = &tokens_[i];
+  if (ReadMotorCode(i)) return;
+  // "400 W" beside hovering: elsewhere "w" is "with".
+  if (i + 1 < tokens_.size() && tokens_[i + 1].text == "w" &&
+      ReadPower({i, i + 1, value, FindWord("watt", false), tokens_[i].text + " W"})) {
+    used_[i] = used_[i + 1] = true;
+    return;
+  }
   if (ReadFactor(i) || ReadPartNumber(i) || ReadCharge(i)) return;
   for (const bool after : {true, false}) {
     const size_t ratio = Beside(i, WordKind::kThrustRatio, after);
@@ -261,6 +326,16 @@ void Reader::ReadBareNumber(size_t i) {
     Use(kv);
     used_[i] = true;
     return Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, value, tokens_[i].text + " kv");
+  }
+  // "2212 920kv, 9450, 4S": figures that propellers have and nothing else.
+  const double pitch = std::fmod(value, 100);
+  if (value >= 1000 && value < 10000 && !request_.propeller && (pitch == 45 || pitch == 47 || value == 9450) &&
+      ReadPropellerFigures(tokens_[i].text, tokens_[i].code))
+    return ReadCode(i);
+  if (tokens_[i].text.ends_with(":1") && value >= 1.05 && value <= 20 && !request_.thrust_to_weight) {
+    used_[i] = true;
+    Decide("'" + tokens_[i].text + "' is read as the thrust over the weight");
+    return Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, value, tokens_[i].text);
   }
   // "a 250 class quad", "450 frame", "a 450 quad": millimetres between motors that face each other.
   const bool size =

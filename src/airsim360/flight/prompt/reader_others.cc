@@ -82,7 +82,16 @@ void Reader::RefuseOthers() const {
       return t.kind == Token::Kind::kModel || t.Is(WordKind::kDrone) || t.Is(WordKind::kRotors);
     });
     const bool always = strong && (tokens_[i].word->meaning == "a VTOL with wings" ||
-                                    tokens_[i].word->meaning == "a place without air to fly in");
+                                    tokens_[i].word->meaning == "a place without air to fly in" ||
+                                    tokens_[i].word->meaning == "an endless flight");
+    // The law of three rotors says more of it.
+    const bool tricopter = tokens_[i].text.starts_with("tilt") &&
+                           std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
+                             return token.Is(WordKind::kRotors) && token.word->value == 3;
+                           });
+    if (tricopter) continue;
+    // What is carried is not what it is: "drops a water balloon".
+    if (!always && FollowsCarryVerb(i) && drone_before) continue;
     if (negated || (strong && !always && drone_before && IsPurpose(i)) || (vehicle && (head || IsPurpose(i) || !IsHead(i))))
       continue;
     throw InputError("'" + tokens_[i].text + "' is " + std::string(tokens_[i].word->meaning) +

@@ -1,6 +1,7 @@
 // Which figure of the drone a number with a unit is.
 #include "airsim360/flight/prompt/reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "airsim360/base/error.h"
@@ -23,8 +24,10 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
                                                     tokens[q.last + 1].Is(WordKind::kLoad));
   if (i > 0 && thing && IsCountOfThings(tokens[i - 1])) return tokens[i - 1].value;
   const std::string after = text(q.last + 1);
-  if (after != "each" && after != "apiece") return 1;
-  for (size_t k = i; k-- > 0 && i - k <= 5 && tokens[k].kind != Token::Kind::kComma;) {
+  const bool each_before = i > 1 && tokens[i - 1].text == "each" && tokens[i - 2].kind == Token::Kind::kComma;
+  if (after != "each" && after != "apiece" && !each_before) return 1;
+  const bool comma = i > 1 && tokens[i - 1].kind == Token::Kind::kComma;  // "2 crates, 1.5 kg each"
+  for (size_t k = each_before ? i - 2 : comma ? i - 1 : i; k-- > 0 && i - k <= 7 && tokens[k].kind != Token::Kind::kComma;) {
     const bool part = tokens[k].Is(WordKind::kMotor) || tokens[k].Is(WordKind::kPropeller) ||
                       tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
     if (part) return 1;
@@ -49,7 +52,9 @@ bool Reader::ReadQuantity(size_t i) {
   const bool minus = i > 0 && (tokens_[i - 1].text == "minus" || tokens_[i - 1].text == "negative") &&
                      (i < 2 || tokens_[i - 2].kind != Token::Kind::kWord || SaysLittle(i - 2) || Claims(i - 2)) &&
                      (i < 3 || !Is(i - 2, WordKind::kMassUnit));
-  if (tokens_[i].negative || minus) throw InputError("a negative number describes no drone: '-" + q.words + "'");
+  // "-20 C" is of the weather.
+  const bool weather = word->kind == WordKind::kOtherUnit;
+  if ((tokens_[i].negative || minus) && !weather) throw InputError("a negative number describes no drone: '-" + q.words + "'");
   used_[i] = used_[unit] = true;
   spanning_ = &tokens_[i];
   if (word->kind == WordKind::kKvUnit) claimed_[unit] = true;
@@ -122,6 +127,7 @@ void Reader::Dispatch(const Quantity& q) {
       Set({"motor_kv", 10, 50000, "rpm/V"}, request_.motor_kv, q.value, q.words);
       break;
     case WordKind::kCells:
+      if (ReadPlural(i, q.last)) return;
       // "no less than 1500 s": no battery has so many cells, these are seconds.
       if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i))
         return;  // "4S 1500s"
@@ -132,6 +138,7 @@ void Reader::Dispatch(const Quantity& q) {
       if (const double packs = PacksInSeries(i); packs > 1)
         return Set({"cells", 1, 24, ""}, request_.cells, packs * tokens_[i].value,
                    tokens_[i - 1].text + " " + q.words);
+      if (ReadInchesAsPlural(i, q.last)) return;
       CorrectWith("cells", request_.cells, i);
       Set({"cells", 1, 24, ""}, request_.cells, tokens_[i].value, q.words);
       break;
@@ -139,7 +146,7 @@ void Reader::Dispatch(const Quantity& q) {
       if (!ReadComparison(i, tokens_[i].value * 0.01, q.last)) NameElse(q, kNone);
       break;
     default:
-      if (!ReadThrust(q)) ReadDays(q);
+      if (!ReadThrust(q) && !ReadPower(q) && !ReadAxes(q)) ReadDays(q);
   }
 }
 
@@ -202,8 +209,9 @@ void Reader::ReadLength(const Quantity& q) {
   // A figure of what is carried: "1 inch camera", "30 cm box".
   const bool load_only = noun == kNone && head != kNone && kind_of(head) == WordKind::kLoad &&
                          (!inches || q.value < 0.04 || tokens_[head].text == "sensor");
-  const bool far = kind != WordKind::kPropeller && kind != WordKind::kWheelbase && kind != WordKind::kArm &&
-                   kind != WordKind::kRotorNoun && kind != WordKind::kFrame && q.value > 3;
+  const bool beyond = noun != kNone && kind_of(noun) == WordKind::kAcross && q.value > 3;  // "across campus (400 m)"
+  const bool far = beyond || (kind != WordKind::kPropeller && kind != WordKind::kWheelbase && kind != WordKind::kArm &&
+                   kind != WordKind::kRotorNoun && kind != WordKind::kFrame && q.value > 3);
   if (kind == WordKind::kElse || kind == WordKind::kThing || load_only || far) return NameElse(q, noun);
   if (noun == kNone && !inches && IsOfPlace(q)) {
     loose_lengths_.push_back(q);
@@ -304,7 +312,11 @@ void Reader::ReadVoltage(const Quantity& q) {
   const double full = q.value / 4.2;
   const bool charged = std::abs(full - std::round(full)) < 0.01;
   const double cells = charged ? std::round(full) : std::round(q.value / 3.8);
-  if (request_.cells || cells < 1) return NameElse(q, kNone);
+  if (IsOfBattery(q)) volts_.push_back(q);
+  const bool cells_said = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
+    return token.Is(WordKind::kCells);
+  });
+  if (request_.cells || cells_said || cells < 1) return NameElse(q, kNone);
   Decide("'" + q.words + "' is read as " + std::to_string(static_cast<int>(cells)) + " cells");
   Set({"cells", 1, 24, ""}, request_.cells, cells, q.words);
 }

@@ -44,7 +44,9 @@ bool Reader::ReadThrust(const Quantity& q) {
     thrust.each |= IsOneOf(text, kEach);
     thrust.whole |= IsOneOf(text, kWhole) ||
                     (Is(k, WordKind::kThrust) && text.find("total") != std::string::npos) ||
-                    (Is(k, WordKind::kThrust) && text.find("combined") != std::string::npos);
+                    (Is(k, WordKind::kThrust) && text.find("combined") != std::string::npos) ||
+                    (Is(k, WordKind::kThrust) && text.find("gesamt") != std::string::npos) ||
+                    text.find("总") != std::string::npos;
   };
   // A number with a noun of its own ends the clause on either side.
   const auto ends = [&](size_t k) {
@@ -76,6 +78,15 @@ void Reader::FinishThrust() {
   if (ratio < 1.05 && !request_.facts.count("mass")) {
     throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust do not lift '" +
                      request_.words["mass"] + "'");
+  }
+  const bool told = thrust_->each || thrust_->whole;
+  if (request_.thrust_to_weight && told && *request_.thrust_to_weight > 1.1 * ratio &&
+      !request_.facts.count("thrust_to_weight") && !request_.facts.count("mass")) {
+    char figure[32];
+    std::snprintf(figure, sizeof(figure), "%.2f", ratio);
+    throw InputError("no drone fits the description: '" + thrust_->words + "' of thrust lift '" +
+                     request_.words["mass"] + "' " + figure + " times, which contradicts '" +
+                     request_.words["thrust_to_weight"] + "'");
   }
   if (request_.thrust_to_weight) return;
   if (ratio < 1.05 || ratio > kMostRatio)

@@ -48,6 +48,9 @@ const std::vector<Rule>& Numbers() {
 const std::vector<Rule>& Phrases() {
   static const std::vector<Rule> kRules = {
       {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
+      {std::regex(R"(\bdrone[ -]in[ -]a[ -]box\b)"), "drone"},
+      {std::regex(R"(\b24/7\b)"), " "},
+      {std::regex(R"(\b360(-| )?((degree|deg)s? )?(?=(camera|cam|video|gopro)\b))"), " "},
       {std::regex(R"(\bin (one|the same|a single) (place|spot|position)\b)"), " "},
       {std::regex(R"(\b(take|bring|carry|stow|pack)( it| them)? )"
                   R"((on|in|into|onto|aboard) (an?|the) (aero|air)?planes?\b)"),
@@ -63,6 +66,19 @@ const std::vector<Rule>& Phrases() {
            R"(\b(in |with |at |under )?(no|zero|without( any)?|w/o|next to no) (wind|gusts|breeze)\b)"),
        " "},
       {std::regex(R"(\b(in |at |during )?(straight and )?level flight\b)"), " "},
+      {std::regex(R"(\bw/(?!\s*o\b)\s*(?=[a-z0-9]))"), "with "},
+      // "6 minutes per charge": a charge that is flown takes no time at the plug.
+      {std::regex(R"(\b(per|on|from|off|with) (a |an |one |each |every |a single |single )?(full |single )?charge\b)"), " "},
+      // "8 separate arms over coax"
+      {std::regex(R"(\b(over|instead of|rather than|not|no|non|without|never|vs)[ -](an? )?(coax|coaxial|coaxials)\b)"), " "},
+      {std::regex(R"(\b(fl(y|ies|ying|ys)|hover(s|ing)?|stays? (up|airborne|in the air|aloft)|lasts?|runs?|keeps? (going|flying)))"
+                  R"(( on)? (for ?ever|indefinitely|endlessly|eternally|without ever landing|till the end of time))"),
+       " endless flight "},
+      {std::regex(R"(\s=\s?(?=~?\d))"), " is "},
+      {std::regex(R"((\d)\s*\[(kg|g|lb|in|inch|mm|cm|m|min|s|h|ah|mah|wh|v|m/s|km/h)\])"), "$1 $2"},  // "1.4 [kg]"
+      // "8 to 1": no range, which would rise.
+      {std::regex(R"(\b([2-9]|1\d)(\.\d+)? ?(to|zu|sur|su) (1|one|eins|un)\b(?!\s*-?\.?(\d|kg|g|h|hour|min|m|inch|in|lb|kilo|pound|hundred|thousand|l|v|s|ah|stunde)\b))"),
+       "$1$2:1"},
       // "Hover? 20 min"
       {std::regex(
            R"(\b(propellers?|props?|battery|hover|time|weight|mass|auw|payload|wheelbase|diagonal|)"

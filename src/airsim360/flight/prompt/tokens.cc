@@ -43,6 +43,7 @@ class Cutter {
  private:
   void Add(Token token, size_t length) {
     token.text = text_.substr(at_, length);
+    token.glued = at_ > 0 && text_[at_ - 1] != ' ';
     at_ += length;
     tokens_.push_back(std::move(token));
   }
@@ -233,6 +234,7 @@ class Cutter {
         token.word = word;
         return Add(std::move(token), letters);
       }
+      if (CutLetteredCode(text, letters)) return;
       return AddKind(Token::Kind::kUnknown, text.size());
     }
     Token token;
@@ -241,13 +243,27 @@ class Cutter {
       token.word = head;
       return Add(std::move(token), text.size());
     }
-    const std::string_view respelled = Respelled(text);
+    const bool unit = !tokens_.empty() && tokens_.back().kind == Token::Kind::kNumber;
+    const std::string_view heard = unit ? UnitAsHeard(text) : std::string_view();
+    const std::string_view respelled = heard.empty() ? Respelled(text) : heard;
     if (!respelled.empty()) {
       token.kind = Token::Kind::kWord;
       token.word = FindWord(respelled, false) ? FindWord(respelled, false) : FindWord(respelled, true);
       token.respelled = std::string(respelled);
     }
     Add(std::move(token), text.size());
+  }
+
+  /// "G28x9.2": a propeller's sizes after the letters of its series.
+  bool CutLetteredCode(const std::string& text, size_t letters) {
+    Token token;
+    size_t length = 0;
+    const bool code = letters <= 2 && ReadPropellerCode(std::string_view(text).substr(letters), token.code, length) &&
+                      letters + length == text.size() && token.code[0] >= 8;
+    if (!code) return false;
+    token.kind = Token::Kind::kPropellerCode;
+    Add(std::move(token), text.size());
+    return true;
   }
 
   std::string text_;

@@ -25,6 +25,7 @@ struct Token {
   double value = 0;                   ///< of a number
   double low = 0, high = 0;           ///< of a range of numbers, else both 0
   bool negative = false;              ///< a number with a minus before it
+  bool glued = false;                 ///< written onto what is before it
   const Word* word = nullptr;         ///< of a word
   const KnownModel* model = nullptr;  ///< of a model
   double code[3] = {};                ///< of a propeller code: inches, inches, blades (0 = not said)
