@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from vln_tools import ROOT, check_schema, lines, make_room, paper_instructions, run
+from vln_tools import ROOT, TEMPLATES, check_schema, lines, make_room, paper_instructions, run
 
 KEYS = {"sr", "osr", "spl", "spl_straight", "ne", "ndtw", "sdtw", "cls", "path_length"}
 
@@ -71,6 +71,35 @@ class Episodes(unittest.TestCase):
         self.assertEqual({e["template"].split("/")[2] for e in lines(out)} - {"3", "5"}, {"1", "2", "4"})
         self.assertGreater(len({len(e["instruction"].split()) for e in lines(out)}), 4)
         self.assertEqual(json.loads(run("vln", "check", out, "--json").stdout)["wrong"], 0)
+
+    def test_parts_of_an_instruction_follow_each_other_each_with_a_proof(self):
+        wall = {"noun": {"word": "east wall", "names": ["wall east"]}, "predicates": [{"is": "nearest"}]}
+        template = {**TEMPLATES[0], "id": "room/two", "text": "Fly straight to the box. Still facing the way you flew, go on to the east wall and stop.",
+                    "then": [{"query": wall, "goal_distance": 1}]}
+        templates, out, flown = self.path / "parts.json", self.path / "parts.jsonl", self.path / "parts_flown.jsonl"
+        templates.write_text(json.dumps([template]), encoding="utf-8")
+        run("vln", "make", "--world", "box_room", "--templates", templates, "--starts", 3, "--out", out)
+        schema = json.loads((ROOT / "docs/reference/vln_episode.schema.json").read_text(encoding="utf-8"))
+        for episode in lines(out):
+            check_schema(schema, episode)
+            first, = episode["before"]
+            self.assertEqual((first["goal"]["name"], episode["goal"]["name"]), ("box", "wall east"))
+            self.assertTrue(first["proof"]["unique"] and episode["proof"]["unique"])
+            # The way leads by the first goal, about 1 m from the box, on to the wall at x = 5.
+            self.assertIn(first["goal"]["position"], episode["ref"])
+            self.assertLess(math.dist(first["goal"]["position"], [3, 0, 0.5]), 2.6)
+            self.assertAlmostEqual(episode["goal"]["position"][0], 4, delta=0.2)
+        self.assertEqual(json.loads(run("vln", "check", out, "--json").stdout)["wrong"], 0)
+        self.assertEqual(json.loads(run("vln", "run", out, "--out", flown, "--json").stdout)["process_fidelity"], 1)
+        # The goal alone is not all that was asked for.
+        episodes = lines(out)
+        for episode in episodes:
+            episode["before"][0]["goal"]["entities"] = [4]
+        out.write_text("".join(json.dumps(e) + "\n" for e in episodes), encoding="utf-8")
+        self.assertEqual(json.loads(run("vln", "check", out, "--json", status=1).stdout)["wrong"], 3)
+        template["then"] *= 9
+        templates.write_text(json.dumps([template]), encoding="utf-8")
+        self.assertIn("then", run("vln", "make", "--world", "box_room", "--templates", templates, "--out", out, status=2).stderr)
 
     def test_a_world_that_lacks_the_thing_says_so(self):
         done = run("vln", "make", "--world", "box_room", "--out", self.path / "none.jsonl", "--starts", 1, status=1)
@@ -149,6 +178,9 @@ class Episodes(unittest.TestCase):
         for words, says in ((("--protocol", "aerialvnl"), "aerialvln"), (("--agent", "orcale"), "oracle"), (("--view", "erb"), "erp"),
                             (("--workers", 0), "--workers"), (("--decisions", "yolo"), "yomo"), (("--program", "cat"), "--program")):
             self.assertIn(says, run("vln", "run", self.episodes, *words, "--out", self.path / "x.jsonl", status=2).stderr)
+        for words, says in ((("--recipe", "omni360"), "omni360-vln"), (("--recipe", "omni360-vln", "--world", "box_room"), "--recipe"),
+                            (("--recipe", "omni360-vln", "--seeds", 2), "--recipe")):
+            self.assertIn(says, run("vln", "make", *words, "--out", self.path / "x.jsonl", status=2).stderr)
         self.assertIn("--starts", run("vln", "make", "--world", "box_room", "--starts", 0, "--out", self.path / "x.jsonl", status=2).stderr)
         self.assertIn("paper37", run("vln", "make", "--world", "box_room", "--templates", "paper73", "--out", self.path / "x.jsonl", status=2).stderr)
 

@@ -16,7 +16,9 @@ constexpr double kRoom = 0.45;      // metres free around a step
 constexpr double kOnLeg = 0.01;     // metres from a straight leg that rounding makes
 constexpr double kBetter = 1;       // metres less to go that make steps worth it
 constexpr double kHorizon = 5;      // moves that steps are planned for at a time
-constexpr int kMostExpanded = 3000;  // places looked at for that
+constexpr int kMostExpanded = 3000, kMostInNeed = 60000;  // places looked at for that; where the first find nothing
+constexpr double kLeastRoom = 0.25;  // metres free around a step where nothing else helps
+constexpr double kSurely = 0.9;     // of the radius: near enough where no steps lead nearer
 constexpr double kSpacing = 1;      // metres between points of the way that progress is measured on
 constexpr double kPi = std::numbers::pi;
 
@@ -121,11 +123,11 @@ class OracleAgent : public VlnAgent {
 
   // The fewest steps to where clearly less is to go than from here (Hart, Nilsson and Raphael 1968, what is to go counted a little
   // more than it costs): turns count as much as moves do. Empty: there is none within the effort.
-  std::vector<Preset> PlanSteps(const VlnSituation& s, double to_go) const {
+  std::vector<Preset> PlanSteps(const VlnSituation& s, double to_go, int effort, double wide) const {
     constexpr double kGreed = 1.3;
     const Viewpoint view = s.Pose();
     // A drone that came to rest a little off may have less room than is kept from things on the way.
-    const double room = std::clamp(static_cast<double>(s.solid.Clearance(VecCast<float>(view.p_W), 1)) - 0.02, 0.25, kRoom);
+    const double room = std::clamp(static_cast<double>(s.solid.Clearance(VecCast<float>(view.p_W), 1)) - 0.02, kLeastRoom, wide);
     const double pace = s.flight.spec().presets.forward, enough = std::max(to_go - kHorizon * pace, 0.25 * s.radius);
     std::vector<Node> nodes = {{view.p_W, view.yaw, to_go}};
     std::map<std::array<int64_t, 4>, int> reached;  // by place and heading: decisions
@@ -133,7 +135,7 @@ class OracleAgent : public VlnAgent {
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     open.push({0, 0});
     int best = 0;
-    for (int expanded = 0; expanded < kMostExpanded && !open.empty(); ++expanded) {
+    for (int expanded = 0; expanded < effort && !open.empty(); ++expanded) {
       const int at = open.top().second;
       open.pop();
       const Node from = nodes[static_cast<size_t>(at)];
@@ -171,7 +173,9 @@ class OracleAgent : public VlnAgent {
     const double here = Norm(s.episode.goal - p);
     if (planned_.empty()) {
       if (here <= 0.3 * s.radius) return {{.stop = true}};
-      planned_ = PlanSteps(s, ToGo(p));
+      planned_ = PlanSteps(s, ToGo(p), kMostExpanded, kRoom);
+      // Out of a bay the way leads away from the goal first, and through gaps that are hardly wider than the drone.
+      if (planned_.empty() && here > s.radius * kSurely) planned_ = PlanSteps(s, ToGo(p), kMostInNeed, kLeastRoom);
       if (planned_.empty()) return {{.stop = true}};
     }
     const Preset preset = planned_.front();

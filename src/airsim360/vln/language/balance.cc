@@ -8,7 +8,7 @@ namespace {
 constexpr size_t kMostWaiting = 8;    // of one key and answer
 constexpr size_t kMostReady = 4096;   // groups of one type
 constexpr int64_t kFirst = 3;         // rounds until items are given: by then most types have some
-constexpr double kMostShare = 0.2;    // of all items, that one type may be; more where there are few types
+constexpr double kMostShare = 0.25;   // of all items, that one type may be; more where there are few types
 constexpr size_t kCounts = 3;         // 0 … kCounts are asked for with every word
 
 template <class List>
@@ -64,6 +64,13 @@ void Balance::Add(Placed placed) {
   }
   Shuffle(group, random_);
   Ready(type, std::move(group));
+}
+
+bool Balance::Lacks(const Draft& draft) const {
+  const auto found = waiting_.find(draft.key);
+  if (found == waiting_.end() || draft.answer >= found->second.by_answer.size()) return false;
+  const auto& by_answer = found->second.by_answer;
+  return by_answer[draft.answer].empty() && std::ranges::count_if(by_answer, [](const auto& q) { return q.empty(); }) == 1;
 }
 
 std::vector<Placed> Balance::Take() {

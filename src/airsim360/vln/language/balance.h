@@ -14,8 +14,7 @@ namespace airsim360::internal {
 /// A draft with where it was made and how it is said.
 struct Placed {
   uint64_t lookout = 0;
-  Picture panorama, view;
-  std::optional<Picture> later;
+  std::vector<std::pair<std::string, Picture>> pictures;  ///< what each is called, "panorama", and what it is
   Draft draft;
   size_t text = 0;  ///< of draft.texts
   std::vector<VlnJson> choices = {};
@@ -30,12 +29,14 @@ class Balance {
   Balance(bool matched, int64_t count, uint64_t seed) : matched_(matched), left_(count), slack_(count / 40 + 4), random_(seed, "language balance") {}
 
   void Add(Placed placed);
-  /// To be called after each round of drafts. What is ready, first of the types that have given least; none runs beyond a fifth
+  /// To be called after each round of drafts. What is ready, first of the types that have given least; none runs beyond a quarter
   /// of all, where there are enough of them.
   std::vector<Placed> Take();
   /// The last ones that no group is found for any more: without balance, to make up the number. Call once, at the end.
   std::vector<Placed> TakeRest();
   int64_t left() const { return left_; }
+  /// Whether a draft lacks nothing but this answer to become an item at once.
+  bool Lacks(const Draft& draft) const;
 
  private:
   struct Waiting {

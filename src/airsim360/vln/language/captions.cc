@@ -26,7 +26,7 @@ struct Clause {
 
 class Teller {
  public:
-  Teller(const Speaker& speaker, RngStream& random, int picture) : speaker_(speaker), random_(random), picture_(picture) {
+  Teller(const Speaker& speaker, RngStream& random, size_t picture) : speaker_(speaker), random_(random), picture_(picture) {
     if (picture == 0) places_.assign(std::begin(kAround), std::end(kAround));
     else places_.assign(std::begin(kAcross), std::end(kAcross));
   }
@@ -62,7 +62,7 @@ class Teller {
       const std::string sector = Speaker::SectorOf(seen);
       return static_cast<size_t>(std::ranges::find_if(places_, [&](const Place& p) { return sector == p.name; }) - places_.begin());
     }
-    const double share = seen.x / speaker_.lookout().view.width;
+    const double share = seen.x / speaker_.glance(picture_).picture.width;
     for (size_t i = 0; i < places_.size(); ++i)
       if (share > (i == 0 ? -1 : i * kThird + kBand) && share < (i == 2 ? 2 : (i + 1) * kThird - kBand)) return i;
     return places_.size();
@@ -146,7 +146,7 @@ class Teller {
 
   const Speaker& speaker_;
   RngStream& random_;
-  int picture_;
+  size_t picture_;
   std::vector<Place> places_;
 };
 
@@ -154,7 +154,7 @@ class Teller {
 
 std::vector<Draft> CaptionsAt(const Speaker& speaker, RngStream& random) {
   std::vector<Draft> drafts;
-  for (const int picture : {0, 1}) Teller(speaker, random, picture).Tell(drafts);
+  for (size_t picture = 0; picture < speaker.pictures(); ++picture) Teller(speaker, random, picture).Tell(drafts);
   return drafts;
 }
 

@@ -111,12 +111,20 @@ class Auditor {
     return kNames[static_cast<int>(std::floor((azimuth + 360 + 45) / 90)) % 4];
   }
 
+  // All that are as near as the nearest, but for a hair.
+  void KeepNearest(std::vector<EntityId>& things, size_t picture) {
+    double least = 1e9;
+    for (const EntityId e : things) least = std::min(least, Range(e, picture));
+    std::erase_if(things, [&](EntityId e) { return Range(e, picture) > least * kSame; });
+  }
+
   // The one thing that a name means.
   EntityId Named(const VlnJson& name, size_t picture = 0) {
     const auto word = name.at("word").get<std::string>(), where = name.at("where").get<std::string>();
     std::vector<EntityId> alike, found = InSight(word, picture, &alike);
     found.insert(found.end(), alike.begin(), alike.end());
-    if (where != "only") std::erase_if(found, [&](EntityId e) { return Sector(Azimuth(Picture(picture).at(e), picture)) != where; });
+    if (where == "nearest") KeepNearest(found, picture);
+    else if (where != "only") std::erase_if(found, [&](EntityId e) { return Sector(Azimuth(Picture(picture).at(e), picture)) != where; });
     if (found.empty()) throw Wrong{"absent: no " + word + " (" + where + ") is in sight"};
     if (found.size() > 1) throw Wrong{"not unique: " + NameOf(found[0]) + " and " + NameOf(found[1]) + " compete for the " + word + " (" + where + ")"};
     if (std::ranges::find(item_->entities, found[0]) == item_->entities.end()) throw Wrong{"the " + word + " is " + NameOf(found[0]) + ", of which it does not speak"};
@@ -125,6 +133,7 @@ class Auditor {
 
   std::string TextOf(const VlnJson& name) const {
     const auto word = name.at("word").get<std::string>(), where = name.at("where").get<std::string>();
+    if (where == "nearest") return "the nearest " + word;
     if (where == "any") return (std::string("aeio").find(word[0]) != std::string::npos ? "an " : "a ") + word;
     const std::string said = where == "front" ? " in front of you" : where == "behind" ? " behind you" : where == "only" ? "" : " on your " + where;
     return "the " + word + said;

@@ -2,6 +2,7 @@
 // .cc files of this folder.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,14 @@
 
 namespace airsim360::internal {
 
+inline constexpr size_t kFlight = 1000;  ///< as a picture: the panorama after a flight
+
 struct Draft {
   std::string type;  ///< "nearer"
   /// Drafts of one key have the same texts and the same answers; only which answer is right differs.
   std::string key;
-  int picture = 0;  ///< 0 panorama, 1 camera, 2 the panoramas before and after a flight
+  size_t picture = 0;  ///< 0 panorama, from 1 on cameras, kFlight: the panoramas before and after a flight
+  int quarters = 0;    ///< of the panorama: how often its heading is turned to the left by 90 degrees
   std::vector<std::string> texts;  ///< ways to say it
   std::string answer_type;         ///< "yes/no", "number", "direction", "thing", "distance", "box", "caption"
   std::vector<VlnJson> answers;    ///< all that it could be, in a fixed order
@@ -30,7 +34,7 @@ struct Draft {
 struct Name {
   std::string text;
   uint16_t word = 0;
-  std::string where;  ///< "only", or a sector
+  std::string where;  ///< "only", "nearest", or a sector
   const Seen* thing = nullptr;
 };
 
@@ -42,10 +46,13 @@ class Speaker {
   const Scene& scene() const { return scene_; }
   const Lexicon& lexicon() const { return lexicon_; }
   const Lookout& lookout() const { return lookout_; }
-  /// 0 panorama, 1 camera, 2 the panorama after the flight (empty without one).
-  const std::vector<Sighted>& groups(int picture) const { return groups_[picture]; }
+  /// Panorama and cameras, without the panorama after a flight.
+  size_t pictures() const { return lookout_.glances.size(); }
+  const Glance& glance(size_t picture) const { return picture == kFlight ? *lookout_.later : lookout_.glances[picture]; }
+  /// By word; kFlight may be asked for where there is a flight.
+  const std::vector<Sighted>& groups(size_t picture) const { return said_.at(std::min(picture, pictures())).groups; }
   /// Names of things of a picture that are sure, in a fixed order.
-  const std::vector<Name>& names(int picture) const { return names_[picture]; }
+  const std::vector<Name>& names(size_t picture) const { return said_.at(std::min(picture, pictures())).names; }
   Box3d BoxOf(EntityId entity) const;
   /// Metres between the eye and the thing: what is seen of it is no farther away than `most`, no part is nearer than `least`.
   DistanceBounds Range(const Seen& seen, const Picture& from) const;
@@ -53,14 +60,22 @@ class Speaker {
   DistanceBounds Apart(EntityId a, EntityId b) const;
   /// "front", "right", "behind", "left"; "" where that is no clear case.
   static std::string SectorOf(const Seen& seen);
+  /// The one of a word that is surely nearer than all others, doubtful ones too; nullptr: there is none.
+  const Seen* NearestOf(const Sighted& sighted, const Picture& from) const;
+  /// What a thing of a panorama is called once the heading has turned to the left by so many quarters.
+  Name Turned(const Name& name, int quarters) const;
 
  private:
-  void AddNames(int picture);
+  struct Said {
+    std::vector<Sighted> groups;
+    std::vector<Name> names;
+  };
+  void AddNames(Said& said, bool panorama);
+  void AddNearest(Said& said, const Picture& from);
   const Scene& scene_;
   const Lexicon& lexicon_;
   const Lookout& lookout_;
-  std::vector<Sighted> groups_[3];
-  std::vector<Name> names_[3];
+  std::vector<Said> said_;  // of the pictures, and of the panorama after a flight
 };
 
 /// {"word": "bus", "where": "only"}.

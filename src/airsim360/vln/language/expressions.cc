@@ -8,7 +8,7 @@
 namespace airsim360::internal {
 namespace {
 
-constexpr double kShare = 1.25, kBy = 0.75;  // share and metres by which the nearest is nearer than the next
+constexpr double kShare = 1.25, kBy = 0.75;  // share and metres by which one thing is nearer to another than the next
 constexpr double kColumns = 0.03;            // share of the width between one and the next in a row
 constexpr size_t kMostChoices = 4, kLongestRow = 6;
 constexpr const char* kOrder[] = {"", "", "second ", "third "};
@@ -18,13 +18,14 @@ class Pointer {
   Pointer(const Speaker& speaker, RngStream& random) : speaker_(speaker), random_(random) {}
 
   std::vector<Draft> Point() {
-    for (const int picture : {0, 1}) {
-      for (const Name& name : speaker_.names(picture)) PointByName(picture, name);
+    for (size_t picture = 0; picture < speaker_.pictures(); ++picture) {
+      for (const Name& name : speaker_.names(picture))
+        if (name.where != "nearest") PointByName(picture, name);
       for (uint16_t word = 0; word < speaker_.groups(picture).size(); ++word) {
         const Sighted& sighted = speaker_.groups(picture)[word];
         if (sighted.clear.size() + sighted.doubtful.size() < 2 || sighted.clear.empty()) continue;
         PointNearest(picture, word, sighted);
-        if (picture == 1) PointInRow(word, sighted);
+        if (picture > 0) PointInRow(picture, word, sighted);
         if (!speaker_.names(picture).empty()) PointBeside(picture, word, sighted);
       }
     }
@@ -36,7 +37,7 @@ class Pointer {
 
   // Boxes of the thing and of others like it; others at all where there are none.
   void AddBoxes(Draft& d, const Seen& target, uint16_t word) {
-    const auto& seen = speaker_.lookout().seen(d.picture);
+    const auto& seen = speaker_.glance(d.picture).seen;
     std::vector<const Seen*> others;
     for (const Seen* s : speaker_.groups(d.picture)[word].clear) others.push_back(s);
     for (const Name& name : speaker_.names(d.picture)) others.push_back(name.thing);
@@ -56,14 +57,14 @@ class Pointer {
   static VlnJson Box(const Seen& s) { return {s.x0, s.y0, s.x1 - s.x0 + 1, s.y1 - s.y0 + 1}; }
 
   VlnJson Mask(const Seen& target) const {
-    const Image<EntityId>& pixels = drafts_.back().picture == 0 ? speaker_.lookout().around_pixels : speaker_.lookout().ahead_pixels;
+    const Image<EntityId>& pixels = speaker_.glance(drafts_.back().picture).pixels;
     std::vector<uint8_t> inside(static_cast<size_t>(pixels.width()) * pixels.height());
     for (int y = target.y0; y <= target.y1; ++y)
       for (int x = target.x0; x <= target.x1; ++x) inside[static_cast<size_t>(y) * pixels.width() + x] = pixels(x, y) == target.entity;
     return CompressRle(EncodeMask(inside, pixels.width(), pixels.height()));
   }
 
-  void Add(const char* type, int picture, std::string text, const Seen& target, uint16_t word, VlnJson query, VlnJson proof, const Name* anchor = nullptr) {
+  void Add(const char* type, size_t picture, std::string text, const Seen& target, uint16_t word, VlnJson query, VlnJson proof, const Name* anchor = nullptr) {
     if (target.cut && picture == 0) return;  // a box does not go round
     Draft& d = drafts_.emplace_back();
     d.type = type;
@@ -94,33 +95,32 @@ class Pointer {
     return list;
   }
 
-  void PointByName(int picture, const Name& name) {
+  void PointByName(size_t picture, const Name& name) {
     const bool only = name.where == "only";
     if (only && speaker_.names(picture).size() < 2) return;
     const Sighted& sighted = speaker_.groups(picture)[name.word];
     Add(only ? "only" : "direction", picture, name.text, *name.thing, name.word, {{"where", name.where}}, {{"competitors", Competitors(sighted, *name.thing)}});
   }
 
-  void PointNearest(int picture, uint16_t word, const Sighted& sighted) {
-    const Picture& from = speaker_.lookout().picture(picture);
-    const Seen* best = *std::ranges::min_element(sighted.clear, {}, &Seen::nearest);
-    const double most = best->nearest;
+  void PointNearest(size_t picture, uint16_t word, const Sighted& sighted) {
+    const Picture& from = speaker_.glance(picture).picture;
+    const Seen* best = speaker_.NearestOf(sighted, from);
+    if (best == nullptr || best->nearest > 60) return;
     double next = 1e9;
     for (const auto* group : {&sighted.clear, &sighted.doubtful})
       for (const Seen* s : *group)
         if (s != best) next = std::min(next, speaker_.Range(*s, from).least);
-    if (most * kShare + kBy > next || most > 60) return;
     Add("nearest", picture, "the " + One(word) + " nearest to you", *best, word, {{"where", "nearest"}},
-        {{"range", Rounded(most)}, {"next_at_least", Rounded(next)}, {"competitors", Competitors(sighted, *best)}});
+        {{"range", Rounded(best->nearest)}, {"next_at_least", Rounded(next)}, {"competitors", Competitors(sighted, *best)}});
   }
 
   // From the left and from the right, as the middles of what is seen lie; doubtful ones must not stand among those counted.
-  void PointInRow(uint16_t word, const Sighted& sighted) {
+  void PointInRow(size_t picture, uint16_t word, const Sighted& sighted) {
     if (sighted.clear.size() < 2 || sighted.clear.size() > kLongestRow) return;
     std::vector<const Seen*> row = sighted.clear;
     row.insert(row.end(), sighted.doubtful.begin(), sighted.doubtful.end());
     std::ranges::stable_sort(row, {}, &Seen::x);
-    const double gap = kColumns * speaker_.lookout().view.width;
+    const double gap = kColumns * speaker_.glance(picture).picture.width;
     for (const bool left : {true, false}) {
       if (!left) std::ranges::reverse(row);
       for (size_t k = 0; k < std::min<size_t>(3, row.size()); ++k) {
@@ -131,13 +131,13 @@ class Pointer {
         const std::string text = k == 0 ? "the " + side + "most " + One(word) : std::string("the ") + kOrder[k + 1] + One(word) + " from the " + side;
         VlnJson columns = VlnJson::array();
         for (const Seen* s : row) columns.push_back(Rounded(s->x));
-        Add("row", 1, text, *row[k], word, {{"where", "row"}, {"side", side}, {"k", k + 1}}, {{"columns", columns}});
+        Add("row", picture, text, *row[k], word, {{"where", "row"}, {"side", side}, {"k", k + 1}}, {{"columns", columns}});
       }
     }
   }
 
   // Next to a thing that is named: much nearer to it than any other of its kind.
-  void PointBeside(int picture, uint16_t word, const Sighted& sighted) {
+  void PointBeside(size_t picture, uint16_t word, const Sighted& sighted) {
     const auto& names = speaker_.names(picture);
     const Name& anchor = names[random_.Index(static_cast<uint32_t>(names.size()))];
     const auto named = speaker_.lexicon().NamedBy(anchor.thing->entity);

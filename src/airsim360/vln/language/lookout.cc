@@ -59,13 +59,11 @@ std::optional<Viewpoint> FlyAhead(const VlnGround& ground, const Viewpoint& from
   return Viewpoint{Ahead(from, free), from.yaw};
 }
 
-std::vector<Seen> Shoot(const Picture& picture, Renderer& renderer, Image<EntityId>* pixels) {
-  RenderRequest request = MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true});
-  Frame frame;
-  renderer.Render(request, frame);
-  std::vector<Seen> seen = Look(picture, frame);
-  if (pixels != nullptr) *pixels = std::move(frame.entity);
-  return seen;
+Glance Shoot(const Picture& picture, Renderer& renderer, Frame& frame, bool keep_pixels) {
+  renderer.Render(MakeRequest(picture.camera(), picture.X_WC(), Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true}), frame);
+  Glance glance{picture, Look(picture, frame)};
+  if (keep_pixels) glance.pixels = frame.entity;
+  return glance;
 }
 
 bool ShowsEnough(const Lexicon& lexicon, const std::vector<Seen>& seen) {
@@ -77,28 +75,27 @@ bool ShowsEnough(const Lexicon& lexicon, const std::vector<Seen>& seen) {
 
 std::optional<Lookout> DrawLookout(const VlnGround& ground, const Lexicon& lexicon, Renderer& renderer, uint64_t number, const LookoutOptions& options) {
   RngStream random(options.seed, "language lookout", number);
-  Lookout lookout;
-  lookout.number = number;
+  Frame frame;
   int looks = 0;
   for (int draw = 0; draw < kDraws && looks < 4; ++draw) {
     const auto place = DrawPlace(ground, random, draw < kOpenDraws);
     if (!place) continue;
     ++looks;
-    lookout.panorama = {true, 0, *place, options.width, options.width / 2};
-    lookout.around = Shoot(lookout.panorama, renderer, options.masks ? &lookout.around_pixels : nullptr);
-    if (!ShowsEnough(lexicon, lookout.around)) continue;
-    // The camera looks at something that is clearly seen.
-    std::vector<const Seen*> clear;
-    for (const Sighted& s : Group(lexicon, lookout.around)) clear.insert(clear.end(), s.clear.begin(), s.clear.end());
-    const double towards = clear[random.Index(static_cast<uint32_t>(clear.size()))]->azimuth_deg + random.Uniform(-25, 25);
-    lookout.view = {false, Milli(std::remainder(towards, 360)), *place, options.width / 2, options.width / 2};
-    lookout.ahead = Shoot(lookout.view, renderer, options.masks ? &lookout.ahead_pixels : nullptr);
-    if (options.later) {
-      if (const auto then = FlyAhead(ground, *place, random)) {
-        lookout.later = Picture{true, 0, *then, options.width, options.width / 2};
-        lookout.afterwards = Shoot(*lookout.later, renderer, nullptr);
-      }
+    const Picture panorama{true, 0, *place, options.width, options.width / 2};
+    Glance around = Shoot(panorama, renderer, frame, options.masks);
+    if (!ShowsEnough(lexicon, around.seen)) continue;
+    // Each camera looks at something that is clearly seen.
+    std::vector<double> clear;
+    for (const Sighted& s : Group(lexicon, around.seen))
+      for (const Seen* seen : s.clear) clear.push_back(seen->azimuth_deg);
+    Lookout lookout{number, {std::move(around)}, {}};
+    for (int i = 0; i < options.cameras; ++i) {
+      const double towards = clear[random.Index(static_cast<uint32_t>(clear.size()))] + random.Uniform(-25, 25);
+      lookout.glances.push_back(
+          Shoot({false, Milli(std::remainder(towards, 360)), *place, options.width / 2, options.width / 2}, renderer, frame, options.masks));
     }
+    const auto then = options.later ? FlyAhead(ground, *place, random) : std::nullopt;
+    if (then) lookout.later = Shoot({true, 0, *then, options.width, options.width / 2}, renderer, frame, false);
     return lookout;
   }
   return std::nullopt;

@@ -9,22 +9,25 @@
 
 namespace airsim360::internal {
 
-/// One place and what is seen from it: a panorama, one camera's picture, and for half of the places a second panorama at the end
-/// of a straight flight ahead.
+/// A picture and what it shows.
+struct Glance {
+  Picture picture;
+  std::vector<Seen> seen = {};
+  Image<EntityId> pixels = {};  ///< kept if masks are asked for
+};
+
+/// One place and what is seen from it: a panorama, pictures of some cameras, and for some places a second panorama at the end of a
+/// straight flight ahead.
 struct Lookout {
   uint64_t number = 0;
-  Picture panorama, view;
-  std::optional<Picture> later;
-  std::vector<Seen> around, ahead, afterwards;  ///< of panorama, view, later
-  Image<EntityId> around_pixels, ahead_pixels;  ///< kept if `masks`
-
-  const std::vector<Seen>& seen(int picture) const { return picture == 0 ? around : picture == 1 ? ahead : afterwards; }
-  const Picture& picture(int k) const { return k == 0 ? panorama : k == 1 ? view : *later; }
+  std::vector<Glance> glances;  ///< first the panorama, then the cameras
+  std::optional<Glance> later;
 };
 
 struct LookoutOptions {
   uint64_t seed = 0;
   int width = 1024;    ///< of panoramas
+  int cameras = 1;
   bool later = false;  ///< whether to fly ahead
   bool masks = false;
 };

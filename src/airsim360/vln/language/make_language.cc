@@ -22,18 +22,20 @@ using internal::Placed;
 using internal::VlnGround;
 using internal::VlnJson;
 
-constexpr int64_t kBatch = 16;        // lookouts at a time
+constexpr int64_t kBatch = 32;        // lookouts at a time
 constexpr int64_t kMostFruitless = 60;  // batches in a row without an item: the world gives no more
-constexpr size_t kMostOfType = 16;    // drafts of one type and place: more would be too alike
+constexpr int kCameras = 3;           // at each place
+constexpr size_t kMostOfType = 24;    // drafts of one type and place: more would be too alike
 
 double Degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
-// At most so many of each type, drawn.
-void Thin(std::vector<Draft>& drafts, RngStream& random) {
+// At most so many of each type, drawn; first those that somebody waits for.
+void Thin(std::vector<Draft>& drafts, const Balance& balance, RngStream& random) {
   for (size_t i = 0; i + 1 < drafts.size(); ++i) std::swap(drafts[i], drafts[i + random.Index(static_cast<uint32_t>(drafts.size() - i))]);
+  std::ranges::stable_partition(drafts, [&](const Draft& d) { return balance.Lacks(d); });
   std::map<std::string, size_t> kept;
-  std::set<std::string> keys;
-  std::erase_if(drafts, [&](const Draft& d) { return !keys.insert(d.key).second || ++kept[d.type] > kMostOfType; });
+  std::set<std::pair<std::string, size_t>> asked;
+  std::erase_if(drafts, [&](const Draft& d) { return !asked.insert({d.key, d.answer}).second || ++kept[d.type] > kMostOfType; });
 }
 
 class Maker {
@@ -51,19 +53,19 @@ class Maker {
     while (balance_.left() > 0 && fruitless < kMostFruitless) {
       for (Placed& placed : Batch()) balance_.Add(std::move(placed));
       const int64_t before = summary_.items;
-      for (const Placed& item : balance_.Take()) Write(item, line);
+      Write(balance_.Take(), line);
       fruitless = summary_.items > before ? 0 : fruitless + 1;
       bar.Update(summary_.items);
       // What is left is less than any group.
       if (options_.count - summary_.items < 4 && fruitless > 0) break;
     }
-    for (const Placed& item : balance_.TakeRest()) Write(item, line);
+    Write(balance_.TakeRest(), line);
     if (summary_.items < options_.count)
       throw RuntimeError("--count: world '" + stage_.name() + "' gives only " + std::to_string(summary_.items) + " of " + std::to_string(options_.count) +
                          " items of kind " + options_.kind + ": too little is in sight there, or too much that looks alike" +
                          (options_.kind == "vqa" ? ", or every question has always the same answer" : ""));
     summary_.by_type.assign(by_type_.begin(), by_type_.end());
-    summary_.pictures = static_cast<int64_t>(files_.size());
+    summary_.pictures = static_cast<int64_t>(pictures_.size());
     return summary_;
   }
 
@@ -85,7 +87,7 @@ class Maker {
     const bool vqa = options_.kind == "vqa";
     const auto lookout = internal::DrawLookout(
         ground_, lexicon_, renderer, number,
-        {.seed = stage_.seed(), .width = options_.width, .later = vqa && number % 2 == 0, .masks = options_.kind == "refer"});
+        {.seed = stage_.seed(), .width = options_.width, .cameras = kCameras, .later = vqa && number % 2 == 0, .masks = options_.kind == "refer"});
     if (!lookout) return {};
     RngStream random(stage_.seed(), "language drafts " + options_.kind, number);
     const internal::Speaker speaker(stage_.scene(), lexicon_, *lookout);
@@ -96,17 +98,34 @@ class Maker {
       drafts = internal::QuestionsAt(speaker, random);
       for (Draft& d : internal::QuestionsOfFlight(speaker, random)) drafts.push_back(std::move(d));
     }
-    Thin(drafts, random);
+    Thin(drafts, balance_, random);
     std::vector<Placed> placed;
-    for (Draft& d : drafts) placed.push_back({number, lookout->panorama, lookout->view, lookout->later, std::move(d)});
+    for (Draft& d : drafts) {
+      Placed& item = placed.emplace_back(Placed{number, {}, std::move(d)});
+      const size_t shown = item.draft.picture;
+      if (shown == 0 || shown == internal::kFlight) item.pictures.push_back(PanoramaOf(speaker, item.draft.quarters));
+      else item.pictures.emplace_back("camera" + std::to_string(shown), speaker.glance(shown).picture);
+      if (shown == internal::kFlight) item.pictures.emplace_back("later", speaker.glance(shown).picture);
+    }
     return placed;
   }
 
-  VlnJson PictureJson(uint64_t lookout, const char* which, const Picture& picture) {
-    const std::string world = stage_.name().substr(stage_.name().rfind('/') + 1);
-    const std::string file = "pictures/" + world.substr(0, world.rfind('.')) + "_" + std::to_string(stage_.seed()) + "_" + std::to_string(lookout) + "_" + which + ".jpg";
-    files_.insert(file);
-    VlnJson json = {{"file", file},
+  // Turned by whole columns: the same pixels in another order.
+  static std::pair<std::string, Picture> PanoramaOf(const internal::Speaker& speaker, int quarters) {
+    Picture picture = speaker.glance(0).picture;
+    picture.from.yaw = std::remainder(picture.from.yaw + quarters * std::numbers::pi / 2, 2 * std::numbers::pi);
+    return {quarters == 0 ? "panorama" : "panorama" + std::to_string(quarters * 90), picture};
+  }
+
+  std::string World() const { return stage_.name().substr(stage_.name().rfind('/') + 1); }
+
+  std::string FileOf(const Placed& item, const std::string& which) const {
+    const std::string world = World();
+    return "pictures/" + world.substr(0, world.rfind('.')) + "_" + std::to_string(stage_.seed()) + "_" + std::to_string(item.lookout) + "_" + which + ".jpg";
+  }
+
+  static VlnJson PictureJson(std::string file, const Picture& picture) {
+    VlnJson json = {{"file", std::move(file)},
                     {"projection", picture.panorama ? "equirectangular" : "perspective"},
                     {"width", picture.width},
                     {"height", picture.height},
@@ -125,22 +144,20 @@ class Maker {
     return nouns;
   }
 
-  void Write(const Placed& item, const std::function<void(const std::string&)>& line) {
+  std::string LineOf(const Placed& item, int64_t number) const {
     const Draft& d = item.draft;
-    const std::string world = stage_.name().substr(stage_.name().rfind('/') + 1);
+    const std::string world = World();
     VlnJson pictures = VlnJson::array();
-    if (d.picture == 1) pictures.push_back(PictureJson(item.lookout, "camera", item.view));
-    else pictures.push_back(PictureJson(item.lookout, "panorama", item.panorama));
-    if (d.picture == 2) pictures.push_back(PictureJson(item.lookout, "later", *item.later));
+    for (const auto& [which, picture] : item.pictures) pictures.push_back(PictureJson(FileOf(item, which), picture));
     // Pictures of one place stay in one split.
     const uint64_t part = MixBits(item.lookout ^ HashName(world)) % 10;
-    VlnJson json = {{"id", world + "/" + std::to_string(stage_.seed()) + "/" + options_.kind + "/" + std::to_string(summary_.items)},
+    VlnJson json = {{"id", world + "/" + std::to_string(stage_.seed()) + "/" + options_.kind + "/" + std::to_string(number)},
                     {"kind", options_.kind},
                     {"type", d.type},
                     {"world", stage_.name()},
                     {"world_seed", stage_.seed()},
                     {"split", part == 0 ? "test" : part == 1 ? "validation" : "train"},
-                    {"pictures", pictures},
+                    {"pictures", std::move(pictures)},
                     {options_.kind == "refer" ? "expression" : "question", d.texts[item.text]},
                     {"answer_type", d.answer_type},
                     {"answer", item.choices[item.right]},
@@ -150,14 +167,23 @@ class Maker {
     VlnJson wrong = VlnJson::array();
     for (size_t i = 0; i < item.choices.size(); ++i)
       if (i != item.right) wrong.push_back(item.choices[i]);
-    json["distractors"] = wrong;
+    json["distractors"] = std::move(wrong);
     if (!d.mask.is_null()) json["mask"] = d.mask;
     json["query"] = d.query;
     json["nouns"] = Nouns(d);
     json["proof"] = d.proof;
-    line(json.dump());
-    ++summary_.items;
-    ++by_type_[d.type];
+    return json.dump();
+  }
+
+  void Write(const std::vector<Placed>& items, const std::function<void(const std::string&)>& line) {
+    std::vector<std::string> lines(items.size());
+    ParallelFor(static_cast<int64_t>(items.size()), [&](int64_t i) { lines[i] = LineOf(items[i], summary_.items + i); });
+    for (size_t i = 0; i < items.size(); ++i) {
+      line(lines[i]);
+      ++by_type_[items[i].draft.type];
+      for (const auto& [which, picture] : items[i].pictures) pictures_.insert({items[i].lookout, HashName(which)});
+    }
+    summary_.items += static_cast<int64_t>(items.size());
   }
 
   Stage& stage_;
@@ -169,7 +195,7 @@ class Maker {
   uint64_t next_ = 0;
   LanguageSummary summary_;
   std::map<std::string, int64_t> by_type_;
-  std::set<std::string> files_;
+  std::set<std::pair<uint64_t, uint64_t>> pictures_;  // named: lookout, hash of which
 };
 
 }  // namespace

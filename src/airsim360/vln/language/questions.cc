@@ -1,58 +1,103 @@
 // Questions about one panorama or one camera's picture.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "airsim360/vln/language/draft.h"
 
 namespace airsim360::internal {
 namespace {
 
-constexpr int kTries = 24;                       // draws of things for each kind of question
+constexpr int kAbsent = 10;                      // words drawn to ask for, most of them of things that are not there
+constexpr size_t kMostPairs = 100;               // pairs of named things that are compared in one picture
+constexpr int kThirds = 3;                       // third things drawn for each pair
 constexpr double kFartherShare = 1.25, kFartherBy = 1.0;  // what is surely farther than another thing: share and metres
-constexpr int kMostCounted = 8;                  // more are not counted at a glance
+constexpr size_t kMostCounted = 8;               // more are not counted at a glance
 constexpr double kLeastTurn = 25, kMostTurn = 145;  // degrees between two things so that a turn has a clear side
 constexpr double kGapColumns = 0.03;             // share of a picture's width between two things that lie side by side
 constexpr double kFarthest = 90;                 // metres: distances beyond are not compared
 
-const char* At(int picture) { return picture == 0 ? "" : " in this picture"; }
+const char* At(size_t picture) { return picture == 0 ? "" : " in this picture"; }
 
 class Asker {
  public:
   Asker(const Speaker& speaker, RngStream& random) : speaker_(speaker), random_(random) {}
 
   std::vector<Draft> Ask() {
-    for (const int picture : {0, 1}) {
-      for (int i = 0; i < kTries / 4; ++i) {
-        AskExists(picture);
-        AskCount(picture);
+    for (size_t picture = 0; picture < speaker_.pictures(); ++picture) {
+      quarters_ = 0;
+      AskOfWords(picture);
+      for (const auto& [a, b] : Pairs(speaker_.names(picture))) {
+        const Name& turns = IsPlain(*a) ? *b : *a;
+        quarters_ = picture == 0 ? QuartersTo(turns, a->word * 31U + b->word) : 0;
+        AskOfPair(picture, speaker_.Turned(*a, quarters_), speaker_.Turned(*b, quarters_));
       }
-      const auto& names = speaker_.names(picture);
-      for (int i = 0; i < kTries && names.size() >= 2; ++i) {
-        const Name &a = Pick(names), &b = Pick(names);
-        if (!AreTwo(a, b)) continue;
-        AskNearer(picture, a, b);
-        AskBehind(picture, a, b);
-        if (picture == 0) AskFacing(a, b);
-        else AskSide(a, b);
-        const Name& c = Pick(names);
-        if (!AreTwo(a, c) || !AreTwo(b, c)) continue;
-        if (picture == 0) AskSeenFrom(a, b, c);
-        AskNearTo(picture, a, b, c);
-        AskWhatIsBehind(picture, a, b, c);
-      }
-      for (int i = 0; i < kTries / 4 && !names.empty(); ++i) {
-        if (picture == 0) AskDirection(Pick(names));
-        AskDistance(picture, Pick(names));
+      for (const Name& name : speaker_.names(picture)) {
+        quarters_ = picture == 0 ? QuartersTo(name, name.word) : 0;
+        AskDistance(picture, speaker_.Turned(name, quarters_));
+        if (picture == 0) AskDirection(name);
       }
     }
     return std::move(drafts_);
   }
 
  private:
+  void AskOfWords(size_t picture) {
+    std::set<uint16_t> words;
+    for (uint16_t word = 0; word < speaker_.groups(picture).size(); ++word)
+      if (!speaker_.groups(picture)[word].none()) words.insert(word);
+    for (int i = 0; i < kAbsent; ++i) words.insert(PickWord());
+    for (const uint16_t word : words) {
+      AskExists(picture, word);
+      AskCount(picture, word);
+    }
+  }
+
+  // Two things each, drawn; each pair once, either way round.
+  std::vector<std::pair<const Name*, const Name*>> Pairs(const std::vector<Name>& names) {
+    std::vector<std::pair<const Name*, const Name*>> pairs;
+    for (const Name& a : names)
+      for (const Name& b : names)
+        if (&a < &b && AreTwo(a, b)) pairs.emplace_back(&a, &b);
+    const size_t kept = std::min(pairs.size(), kMostPairs);
+    for (size_t i = 0; i < kept; ++i) {
+      std::swap(pairs[i], pairs[i + random_.Index(static_cast<uint32_t>(pairs.size() - i))]);
+      if (random_.Chance(0.5)) std::swap(pairs[i].first, pairs[i].second);
+    }
+    pairs.resize(kept);
+    return pairs;
+  }
+
+  // Turns of the heading that bring a thing to a side that depends on the words alone: with four headings to choose from, the same
+  // words are found again sooner. 0 for what is called by its word alone.
+  static int QuartersTo(const Name& name, uint64_t words) {
+    static constexpr const char* kOrder[] = {"front", "right", "behind", "left"};
+    const auto side = std::ranges::find_if(kOrder, [&](const char* s) { return name.where == s; }) - std::begin(kOrder);
+    return side == 4 ? 0 : static_cast<int>((MixBits(words) + 4 - static_cast<uint64_t>(side)) % 4);
+  }
+
+  void AskOfPair(size_t picture, const Name& a, const Name& b) {
+    AskNearer(picture, a, b);
+    AskBehind(picture, a, b);
+    if (picture == 0) AskFacing(a, b);
+    else AskSide(picture, a, b);
+    for (int i = 0; i < kThirds; ++i) {
+      const Name c = speaker_.Turned(Pick(speaker_.names(picture)), quarters_);
+      if (!AreTwo(a, c) || !AreTwo(b, c)) continue;
+      // From there another one would be the nearest.
+      const bool elsewhere = a.where == "nearest" || b.where == "nearest" || c.where == "nearest";
+      if (picture == 0 && !elsewhere) AskSeenFrom(a, b, c);
+      if (!elsewhere) AskNearTo(picture, a, b, c);
+      AskWhatIsBehind(picture, a, b, c);
+    }
+  }
+
+  // Without a side: what it is called does not change with the heading.
+  static bool IsPlain(const Name& name) { return name.where == "only" || name.where == "nearest"; }
   const Name& Pick(const std::vector<Name>& names) { return names[random_.Index(static_cast<uint32_t>(names.size()))]; }
   uint16_t PickWord() { return static_cast<uint16_t>(random_.Index(static_cast<uint32_t>(speaker_.lexicon().words().size()))); }
   const std::string& One(uint16_t word) const { return speaker_.lexicon().words()[word].one; }
-  const Picture& PictureOf(int picture) const { return speaker_.lookout().picture(picture); }
+  const Picture& PictureOf(size_t picture) const { return speaker_.glance(picture).picture; }
 
   // Of different words, so that a question never says "the cab or the car" of one thing.
   bool AreTwo(const Name& a, const Name& b) const {
@@ -63,7 +108,7 @@ class Asker {
   }
 
   // A draft of a kind with its key; the words of the key are those of the text.
-  Draft& Add(const char* type, int picture, const std::string& key, std::vector<const Name*> names, VlnJson query) {
+  Draft& Add(const char* type, size_t picture, const std::string& key, std::vector<const Name*> names, VlnJson query) {
     Draft& d = drafts_.emplace_back();
     d.type = type;
     d.picture = picture;
@@ -71,11 +116,13 @@ class Asker {
     d.query = {{"is", type}};
     d.proof = VlnJson::object();
     VlnJson of = VlnJson::array(), things = VlnJson::array();
+    d.quarters = picture == 0 ? quarters_ : 0;
     for (const Name* name : names) {
       d.entities.push_back(name->thing->entity);
       d.words.push_back(name->word);
       of.push_back(ToJson(*name, speaker_.lexicon()));
-      things.push_back(Figures(*name->thing, speaker_.scene()));
+      VlnJson& figures = things.emplace_back(Figures(*name->thing, speaker_.scene()));
+      if (d.quarters > 0) figures["azimuth_deg"] = Rounded(std::remainder(name->thing->azimuth_deg + 90 * d.quarters, 360));
     }
     if (!names.empty()) {
       d.query["of"] = of;
@@ -94,11 +141,9 @@ class Asker {
   }
   static std::string KeyOf(const Name& a, const Name& b) { return std::min(a.text, b.text) + "|" + std::max(a.text, b.text); }
 
-  void AskExists(int picture) {
-    const uint16_t word = PickWord();
+  void AskExists(size_t picture, uint16_t word) {
     const Sighted& sighted = speaker_.groups(picture)[word];
     if (sighted.clear.empty() && !sighted.none()) return;
-    if (picture == 0 && !sighted.clear.empty() && sighted.clear.size() > 3 && random_.Chance(0.5)) return;
     Draft& d = Add("exists", picture, One(word), {}, {{"word", One(word)}});
     d.words = {word};
     const std::string a = WithArticle(One(word));
@@ -121,8 +166,7 @@ class Asker {
     d.proof["clear_from_pixels"] = kClear;
   }
 
-  void AskCount(int picture) {
-    const uint16_t word = PickWord();
+  void AskCount(size_t picture, uint16_t word) {
     const Sighted& sighted = speaker_.groups(picture)[word];
     if (!sighted.doubtful.empty() || sighted.clear.size() > kMostCounted) return;
     const std::string& many = speaker_.lexicon().words()[word].many;
@@ -136,26 +180,28 @@ class Asker {
   }
 
   void AskDirection(const Name& a) {
-    if (a.where != "only") return;
+    if (!IsPlain(a)) return;
     static const std::vector<VlnJson> kAnswers = {"front", "right", "behind", "left"};
     const auto sector = std::ranges::find(kAnswers, VlnJson(Speaker::SectorOf(*a.thing)));
     if (sector == kAnswers.end()) return;
-    Draft& d = Add("direction", 0, a.text, {&a}, {});
-    d.texts = {"In which direction is " + a.text + ": in front of you, on your right, behind you or on your left?", "Which way would you turn to face " + a.text + "?"};
-    d.answer_type = "direction";
-    d.answers = kAnswers;
-    d.answer = static_cast<size_t>(sector - kAnswers.begin());
+    for (quarters_ = 0; quarters_ < 4; ++quarters_) {
+      Draft& d = Add("direction", 0, a.text, {&a}, {});
+      d.texts = {"In which direction is " + a.text + ": in front of you, on your right, behind you or on your left?", "Which way would you turn to face " + a.text + "?"};
+      d.answer_type = "direction";
+      d.answers = kAnswers;
+      d.answer = (static_cast<size_t>(sector - kAnswers.begin()) + static_cast<size_t>(quarters_)) % kAnswers.size();
+    }
   }
 
   // -1: a is surely nearer, 1: b is, 0: nobody can tell.
-  int Compare(int picture, const Name& a, const Name& b) const {
+  int Compare(size_t picture, const Name& a, const Name& b) const {
     const DistanceBounds da = speaker_.Range(*a.thing, PictureOf(picture)), db = speaker_.Range(*b.thing, PictureOf(picture));
     if (da.most > kFarthest || db.most > kFarthest * 2) return 0;
     if (da.most * kFartherShare + kFartherBy < db.least) return -1;
     return db.most * kFartherShare + kFartherBy < da.least ? 1 : 0;
   }
 
-  void ProveRanges(Draft& d, int picture, std::initializer_list<const Name*> names) {
+  void ProveRanges(Draft& d, size_t picture, std::initializer_list<const Name*> names) {
     VlnJson bounds = VlnJson::array();
     for (const Name* name : names) {
       const DistanceBounds b = speaker_.Range(*name->thing, PictureOf(picture));
@@ -164,7 +210,7 @@ class Asker {
     d.proof["range_between"] = bounds;
   }
 
-  void AskNearer(int picture, const Name& a, const Name& b) {
+  void AskNearer(size_t picture, const Name& a, const Name& b) {
     const int order = Compare(picture, a, b);
     if (order == 0) return;
     Draft& d = Add("nearer", picture, KeyOf(a, b), {&a, &b}, {});
@@ -185,12 +231,12 @@ class Asker {
   }
 
   // `far` stands in line with `near`, farther away.
-  bool IsBehind(int picture, const Name& far, const Name& near) const {
+  bool IsBehind(size_t picture, const Name& far, const Name& near) const {
     const auto level = [](const Seen& s) { return std::abs(s.elevation_deg) < 40; };
     return Overlap(*far.thing, *near.thing) > 0.7 && Compare(picture, near, far) < 0 && level(*far.thing) && level(*near.thing);
   }
 
-  void AskBehind(int picture, const Name& a, const Name& b) {
+  void AskBehind(size_t picture, const Name& a, const Name& b) {
     const bool a_behind = IsBehind(picture, a, b), b_behind = IsBehind(picture, b, a);
     if (a_behind == b_behind) return;
     Draft& d = Add("behind", picture, KeyOf(a, b), {&a, &b}, {});
@@ -202,7 +248,7 @@ class Asker {
     d.proof["overlap"] = Rounded(Overlap(*a.thing, *b.thing));
   }
 
-  void AskWhatIsBehind(int picture, const Name& screen, const Name& a, const Name& b) {
+  void AskWhatIsBehind(size_t picture, const Name& screen, const Name& a, const Name& b) {
     if (!IsBehind(picture, a, screen) || Overlap(*b.thing, *screen.thing) > -10) return;
     Draft& d = Add("what_is_behind", picture, screen.text + "|" + KeyOf(a, b), {&screen, &a, &b}, {});
     Between(d, a, b, true);
@@ -216,7 +262,7 @@ class Asker {
   void AskFacing(const Name& a, const Name& b) {
     const double turn = std::remainder(b.thing->azimuth_deg - a.thing->azimuth_deg, 360);
     for (const Name* name : {&a, &b})
-      if (name->where != "only" || std::abs(name->thing->elevation_deg) > 50 || name->thing->right_deg - name->thing->left_deg > 60) return;
+      if (!IsPlain(*name) || std::abs(name->thing->elevation_deg) > 50 || name->thing->right_deg - name->thing->left_deg > 60) return;
     if (std::abs(turn) < kLeastTurn || std::abs(turn) > kMostTurn) return;
     Draft& d = Add("facing", 0, a.text + "|" + b.text, {&a, &b}, {});
     d.texts = {"You turn to face " + a.text + ". Is " + b.text + " then on your left or on your right?",
@@ -227,12 +273,12 @@ class Asker {
     d.proof["turn_deg"] = Rounded(turn);
   }
 
-  void AskSide(const Name& a, const Name& b) {
+  void AskSide(size_t picture, const Name& a, const Name& b) {
     const Seen &s = *a.thing, &t = *b.thing;
-    const double gap = kGapColumns * PictureOf(1).width;
+    const double gap = kGapColumns * PictureOf(picture).width;
     const bool left = s.x1 + gap < t.x0, right = t.x1 + gap < s.x0;
     if (left == right) return;
-    Draft& d = Add("side", 1, a.text + "|" + b.text, {&a, &b}, {});
+    Draft& d = Add("side", picture, a.text + "|" + b.text, {&a, &b}, {});
     d.texts = {"In this picture, is " + a.text + " to the left or to the right of " + b.text + "?",
                "On which side of " + b.text + " does this picture show " + a.text + ", left or right?"};
     d.answer_type = "direction";
@@ -272,7 +318,7 @@ class Asker {
   }
   static double Apart(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-  void AskNearTo(int picture, const Name& a, const Name& b, const Name& c) {
+  void AskNearTo(size_t picture, const Name& a, const Name& b, const Name& c) {
     const DistanceBounds to_b = speaker_.Apart(a.thing->entity, b.thing->entity), to_c = speaker_.Apart(a.thing->entity, c.thing->entity);
     const bool b_is = to_b.most * kFartherShare + kFartherBy < to_c.least, c_is = to_c.most * kFartherShare + kFartherBy < to_b.least;
     if (b_is == c_is || std::min(to_b.most, to_c.most) > 40) return;
@@ -283,7 +329,7 @@ class Asker {
     d.proof["metres_between"] = {{Rounded(to_b.least), Rounded(to_b.most)}, {Rounded(to_c.least), Rounded(to_c.most)}};
   }
 
-  void AskDistance(int picture, const Name& a) {
+  void AskDistance(size_t picture, const Name& a) {
     static constexpr double kMetres[] = {4, 12, 36};
     const DistanceBounds range = speaker_.Range(*a.thing, PictureOf(picture));
     for (size_t i = 0; i < std::size(kMetres); ++i) {
@@ -299,6 +345,7 @@ class Asker {
 
   const Speaker& speaker_;
   RngStream& random_;
+  int quarters_ = 0;  // of the panorama that is asked about
   std::vector<Draft> drafts_;
 };
 

@@ -19,7 +19,7 @@ class FlightAsker {
 
   std::vector<Draft> Ask() {
     for (uint16_t word = 0; word < speaker_.lexicon().words().size(); ++word) {
-      const Sighted &before = speaker_.groups(0)[word], &after = speaker_.groups(2)[word];
+      const Sighted &before = speaker_.groups(0)[word], &after = speaker_.groups(kFlight)[word];
       const Seen *first = before.only(), *second = after.only();
       if (first != nullptr && second != nullptr && first->entity == second->entity) same_.push_back({word, first, second});
       if (before.none() && !after.clear.empty()) appeared_.push_back({word, nullptr, after.clear[0]});
@@ -45,7 +45,7 @@ class FlightAsker {
   Draft& Add(const char* type, const std::string& key, std::initializer_list<const Pair*> things) {
     Draft& d = drafts_.emplace_back();
     d.type = type;
-    d.picture = 2;
+    d.picture = kFlight;
     d.key = std::string(type) + "|" + key;
     d.query = {{"is", type}};
     VlnJson of = VlnJson::array(), before = VlnJson::array(), after = VlnJson::array();
@@ -92,8 +92,7 @@ class FlightAsker {
 
   // By what surely holds of the whole thing, not only of what is seen of it.
   void AskApproach(const Pair& a) {
-    const Lookout& lookout = speaker_.lookout();
-    const DistanceBounds before = speaker_.Range(*a.before, lookout.panorama), after = speaker_.Range(*a.after, *lookout.later);
+    const DistanceBounds before = speaker_.Range(*a.before, speaker_.glance(0).picture), after = speaker_.Range(*a.after, speaker_.glance(kFlight).picture);
     const bool nearer = after.most + kBy < before.least * kNearer, farther = before.most + kBy < after.least * kNearer;
     if (nearer == farther) return;
     Draft& d = Add("approach", The(a), {&a});

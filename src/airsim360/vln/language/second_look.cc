@@ -13,6 +13,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kOffX = 0.31, kOffY = 0.67;  // of a ray in its pixel
 constexpr size_t kMostSeen = 8;               // pictures kept
 constexpr size_t kMostPoints = 400;           // corners of a thing that distances between things are measured from
+constexpr size_t kMostKept = 4'000'000;       // triangles of things kept between items
 
 // Unit direction in W of a place in a picture, from compass angles.
 Vec3d DirectionOf(const LanguagePicture& picture, double x, double y) {
@@ -93,6 +94,11 @@ SecondLook::SecondLook(std::shared_ptr<const RayTracer> tracer) : tracer_(std::m
 const Glimpses& SecondLook::LookAt(const LanguagePicture& picture) {
   if (const auto found = seen_.find(picture.file); found != seen_.end()) return found->second;
   if (seen_.size() >= kMostSeen) seen_.clear();
+  if (kept_ > kMostKept) {
+    triangles_.clear();
+    points_.clear();
+    kept_ = 0;
+  }
   std::vector<std::vector<EntityId>> rows(picture.height, std::vector<EntityId>(picture.width, kNoEntity));
   ParallelFor(picture.height, [&](int64_t y) { CastRow(*tracer_, picture, static_cast<int>(y), rows[y]); });
   Glimpses& glimpses = seen_[picture.file];
@@ -127,6 +133,7 @@ const std::vector<std::array<Vec3d, 3>>& SecondLook::Triangles(EntityId entity) 
       entry->second.push_back({place(mesh.triangles[t].x), place(mesh.triangles[t].y), place(mesh.triangles[t].z)});
     }
   }
+  kept_ += entry->second.size();
   return entry->second;
 }
 

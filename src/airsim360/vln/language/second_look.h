@@ -29,7 +29,7 @@ class SecondLook {
   explicit SecondLook(std::shared_ptr<const RayTracer> tracer);
   const Scene& scene() const { return tracer_->scene(); }
 
-  /// One ray for each pixel of a picture, off its centre. The last picture's are kept.
+  /// One ray for each pixel of a picture, off its centre. The last pictures' are kept; what Points gave before is gone.
   const Glimpses& LookAt(const LanguagePicture& picture);
   /// Metres from a place to the nearest triangle of a thing, and between two things.
   double Distance(Vec3d from, EntityId to);
@@ -45,6 +45,7 @@ class SecondLook {
   std::map<EntityId, std::vector<std::array<Vec3d, 3>>> triangles_;
   std::map<EntityId, std::vector<Vec3d>> points_;
   std::map<std::string, Glimpses> seen_;
+  size_t kept_ = 0;  // triangles
 };
 
 }  // namespace airsim360::internal

@@ -19,24 +19,63 @@ struct Tally {
   double columns = 0;
 };
 
-void Add(Tally& tally, int x, int y, double azimuth_deg, Vec3d direction, float range) {
-  Seen& seen = tally.seen;
-  if (seen.pixels++ == 0) {
-    tally.first_deg = azimuth_deg;
-    seen.x0 = seen.x1 = x;
-    seen.y0 = seen.y1 = y;
-    seen.nearest = range;
+// What lies in a column and what lies left of it.
+struct Columns {
+  std::vector<double> azimuths;  // degrees from the heading
+  std::vector<Vec2d> ways;       // of a panorama: sums of (ahead, left) of all columns before this one
+};
+
+Columns ColumnsOf(const Picture& picture) {
+  const int w = picture.width;
+  Columns columns{std::vector<double>(w), std::vector<Vec2d>(w + 1)};
+  for (int x = 0; x < w; ++x) {
+    const double azimuth = picture.panorama ? 360 * ((x + 0.5) / w - 0.5) : picture.azimuth_deg + std::atan((x + 0.5 - w / 2.0) / (w / 2.0)) / kDegree;
+    columns.azimuths[x] = azimuth;
+    columns.ways[x + 1] = columns.ways[x] + Vec2d{std::cos(azimuth * kDegree), -std::sin(azimuth * kDegree)};
   }
-  const double offset = Wrapped(azimuth_deg - tally.first_deg);
-  tally.left = std::min(tally.left, offset);
-  tally.right = std::max(tally.right, offset);
+  return columns;
+}
+
+// The sum of the unit directions (ahead, left, up) of pixels of a row.
+Vec3d DirectionOf(const Picture& picture, const Columns& columns, int y, int from, int to) {
+  if (picture.panorama) {
+    const double elevation = kPi * (0.5 - (y + 0.5) / picture.height), level = std::cos(elevation);
+    const Vec2d way = columns.ways[to] - columns.ways[from];
+    return {level * way.x, level * way.y, std::sin(elevation) * (to - from)};
+  }
+  const double half = picture.width / 2.0, up = picture.height / 2.0 - y - 0.5;
+  const double c = std::cos(picture.azimuth_deg * kDegree), s = std::sin(picture.azimuth_deg * kDegree);
+  Vec3d sum;
+  for (int x = from; x < to; ++x) {
+    const double left = half - x - 0.5, scale = 1 / std::sqrt(half * half + left * left + up * up);
+    sum += Vec3d{half * scale, left * scale, up * scale};
+  }
+  return {c * sum.x + s * sum.y, -s * sum.x + c * sum.y, sum.z};
+}
+
+// Pixels of one thing that follow each other in a row: columns from … to - 1.
+void AddRun(Tally& tally, const Columns& columns, int y, int from, int to, Vec3d direction, const float* range) {
+  Seen& seen = tally.seen;
+  if (seen.pixels == 0) {
+    tally.first_deg = columns.azimuths[from];
+    seen.x0 = from;
+    seen.x1 = to - 1;
+    seen.y0 = seen.y1 = y;
+    seen.nearest = range[from];
+  }
+  seen.pixels += to - from;
+  // Past the place opposite to the first pixel azimuths go on at the other side.
+  const double start = Wrapped(columns.azimuths[from] - tally.first_deg), end = start + columns.azimuths[to - 1] - columns.azimuths[from];
+  tally.left = std::min(tally.left, end > 180 ? -180 : start);
+  tally.right = std::max(tally.right, std::min(end, 180.0));
   tally.direction += direction;
-  tally.columns += x + 0.5;
-  seen.x0 = std::min(seen.x0, x);
-  seen.x1 = std::max(seen.x1, x);
-  seen.y0 = std::min(seen.y0, y);
-  seen.y1 = std::max(seen.y1, y);
-  seen.nearest = std::min(seen.nearest, static_cast<double>(range));
+  tally.columns += (from + to) * 0.5 * (to - from);
+  seen.x0 = std::min(seen.x0, from);
+  seen.x1 = std::max(seen.x1, to - 1);
+  seen.y1 = y;
+  float nearest = range[from];
+  for (int x = from + 1; x < to; ++x) nearest = std::min(nearest, range[x]);
+  seen.nearest = std::min(seen.nearest, static_cast<double>(nearest));
 }
 
 Seen Finish(const Tally& tally, const Picture& picture) {
@@ -64,33 +103,12 @@ RigidTransform Picture::X_WC() const { return BodyPose(from.p_W, from.yaw - azim
 
 std::vector<Seen> Look(const Picture& picture, const Frame& frame) {
   std::unordered_map<EntityId, Tally> tallies;
-  const int w = picture.width, h = picture.height;
-  const double c = std::cos(picture.azimuth_deg * kDegree), s = std::sin(picture.azimuth_deg * kDegree);
-  std::vector<double> azimuths(w);  // of columns, from the heading
-  std::vector<Vec2d> ways(w);       // of columns of a panorama: ahead, left
-  for (int x = 0; x < w; ++x) {
-    azimuths[x] = picture.panorama ? 360 * ((x + 0.5) / w - 0.5) : picture.azimuth_deg + std::atan((x + 0.5 - w / 2.0) / (w / 2.0)) / kDegree;
-    ways[x] = {std::cos(azimuths[x] * kDegree), -std::sin(azimuths[x] * kDegree)};
-  }
-  for (int y = 0; y < h; ++y) {
-    EntityId last = kNoEntity;
-    Tally* tally = nullptr;
-    const double elevation = kPi * (0.5 - (y + 0.5) / h), up = std::sin(elevation), level = std::cos(elevation);
-    for (int x = 0; x < w; ++x) {
-      const EntityId entity = frame.entity(x, y);
-      if (entity == kNoEntity) continue;
-      if (entity != last || tally == nullptr) {
-        tally = &tallies[entity];
-        last = entity;
-      }
-      Vec3d d;  // ahead, left, up
-      if (picture.panorama) {
-        d = {level * ways[x].x, level * ways[x].y, up};
-      } else {
-        const Vec3d ray = Normalized(Vec3d{w / 2.0, w / 2.0 - x - 0.5, h / 2.0 - y - 0.5});
-        d = {c * ray.x + s * ray.y, -s * ray.x + c * ray.y, ray.z};
-      }
-      Add(*tally, x, y, azimuths[x], d, frame.range(x, y));
+  const Columns columns = ColumnsOf(picture);
+  for (int y = 0; y < picture.height; ++y) {
+    const EntityId* row = &frame.entity(0, y);
+    for (int from = 0, to = 0; from < picture.width; from = to) {
+      while (to < picture.width && row[to] == row[from]) ++to;
+      if (row[from] != kNoEntity) AddRun(tallies[row[from]], columns, y, from, to, DirectionOf(picture, columns, y, from, to), &frame.range(0, y));
     }
   }
   std::vector<Seen> all;

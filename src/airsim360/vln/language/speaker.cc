@@ -15,15 +15,20 @@ struct Side {
 };
 constexpr Side kSides[] = {{"front", "in front of you", 0}, {"right", "on your right", 90}, {"behind", "behind you", 180}, {"left", "on your left", -90}};
 
+constexpr double kNearestShare = 1.25, kNearestBy = 0.75;  // share and metres by which the nearest is nearer than the next
+
 double Off(const Seen& seen, const Side& side) { return std::abs(std::remainder(seen.azimuth_deg - side.azimuth, 360)); }
 
 }  // namespace
 
 Speaker::Speaker(const Scene& scene, const Lexicon& lexicon, const Lookout& lookout) : scene_(scene), lexicon_(lexicon), lookout_(lookout) {
-  for (int picture = 0; picture < 3; ++picture) {
-    groups_[picture] = Group(lexicon, lookout.seen(picture));
-    AddNames(picture);
-  }
+  const auto add = [&](const Glance& glance) {
+    Said& said = said_.emplace_back(Said{Group(lexicon, glance.seen), {}});
+    AddNames(said, glance.picture.panorama);
+    AddNearest(said, glance.picture);
+  };
+  for (const Glance& glance : lookout.glances) add(glance);
+  if (lookout.later) add(*lookout.later);
 }
 
 Box3d Speaker::BoxOf(EntityId entity) const {
@@ -55,15 +60,26 @@ std::string Speaker::SectorOf(const Seen& seen) {
   return "";
 }
 
-void Speaker::AddNames(int picture) {
-  for (uint16_t word = 0; word < groups_[picture].size(); ++word) {
-    const Sighted& sighted = groups_[picture][word];
+Name Speaker::Turned(const Name& name, int quarters) const {
+  Name turned = name;
+  for (size_t i = 0; i < std::size(kSides); ++i) {
+    if (name.where != kSides[i].name) continue;
+    const Side& side = kSides[(i + static_cast<size_t>(quarters)) % std::size(kSides)];
+    turned.where = side.name;
+    turned.text = "the " + lexicon_.words()[name.word].one + " " + side.said;
+  }
+  return turned;
+}
+
+void Speaker::AddNames(Said& said, bool panorama) {
+  for (uint16_t word = 0; word < said.groups.size(); ++word) {
+    const Sighted& sighted = said.groups[word];
     const std::string& one = lexicon_.words()[word].one;
     if (const Seen* only = sighted.only()) {
-      names_[picture].push_back({"the " + one, word, "only", only});
+      said.names.push_back({"the " + one, word, "only", only});
       continue;
     }
-    if (picture != 0) continue;
+    if (!panorama) continue;
     for (const Side& side : kSides) {
       const Seen* found = nullptr;
       bool one_alone = true;
@@ -74,8 +90,24 @@ void Speaker::AddNames(int picture) {
           found = seen;
         }
       }
-      if (found != nullptr && one_alone) names_[picture].push_back({"the " + one + " " + side.said, word, side.name, found});
+      if (found != nullptr && one_alone) said.names.push_back({"the " + one + " " + side.said, word, side.name, found});
     }
+  }
+}
+
+const Seen* Speaker::NearestOf(const Sighted& sighted, const Picture& from) const {
+  if (sighted.clear.empty()) return nullptr;
+  const Seen* best = *std::ranges::min_element(sighted.clear, {}, &Seen::nearest);
+  for (const auto* group : {&sighted.clear, &sighted.doubtful})
+    for (const Seen* s : *group)
+      if (s != best && best->nearest * kNearestShare + kNearestBy > Range(*s, from).least) return nullptr;
+  return best;
+}
+
+void Speaker::AddNearest(Said& said, const Picture& from) {
+  for (uint16_t word = 0; word < said.groups.size(); ++word) {
+    if (said.groups[word].only() != nullptr) continue;
+    if (const Seen* nearest = NearestOf(said.groups[word], from)) said.names.push_back({"the nearest " + lexicon_.words()[word].one, word, "nearest", nearest});
   }
 }
 

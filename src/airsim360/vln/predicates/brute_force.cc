@@ -55,6 +55,55 @@ bool IsInSector(const std::string& name, Plan to, double rise) {
   return false;
 }
 
+// Triangles of some parts of a scene, placed when they are looked at: those of all trees of a city would fill the memory.
+class Triangles {
+ public:
+  struct Piece {
+    const Instance* instance;
+    const Mesh* mesh;
+    uint32_t first, end;
+  };
+  class Iterator {
+   public:
+    using value_type = std::array<Vec3d, 3>;
+    using difference_type = std::ptrdiff_t;
+    Iterator() = default;
+    Iterator(const Piece* piece, const Piece* end) : piece_(piece), end_(end) { Enter(); }
+    value_type operator*() const {
+      const Vec3u corner = piece_->mesh->triangles[triangle_];
+      const auto place = [&](uint32_t v) { return VecCast<double>(piece_->instance->X_WM * piece_->mesh->positions[v]); };
+      return {place(corner.x), place(corner.y), place(corner.z)};
+    }
+    Iterator& operator++() {
+      if (++triangle_ == piece_->end) {
+        ++piece_;
+        Enter();
+      }
+      return *this;
+    }
+    void operator++(int) { ++*this; }
+    bool operator==(const Iterator& other) const { return piece_ == other.piece_ && triangle_ == other.triangle_; }
+
+   private:
+    void Enter() { triangle_ = piece_ == end_ ? 0 : piece_->first; }
+    const Piece *piece_ = nullptr, *end_ = nullptr;
+    uint32_t triangle_ = 0;
+  };
+
+  void Add(const Instance& instance, const Mesh& mesh, const MeshPart& part) {
+    if (part.triangle_count == 0) return;
+    pieces_.push_back({&instance, &mesh, part.first_triangle, part.first_triangle + part.triangle_count});
+    size_ += part.triangle_count;
+  }
+  size_t size() const { return size_; }
+  Iterator begin() const { return {pieces_.data(), pieces_.data() + pieces_.size()}; }
+  Iterator end() const { return {pieces_.data() + pieces_.size(), pieces_.data() + pieces_.size()}; }
+
+ private:
+  std::vector<Piece> pieces_;
+  size_t size_ = 0;
+};
+
 }  // namespace
 
 bool BruteForceNames(const Scene& scene, const Entity& entity, const Noun& noun) {
@@ -67,7 +116,7 @@ bool BruteForceNames(const Scene& scene, const Entity& entity, const Noun& noun)
 
 struct BruteForce::Shape {
   std::vector<EntityId> entities;
-  std::vector<std::array<Vec3d, 3>> triangles;
+  Triangles triangles;
   double low = kInfinity, high = -kInfinity;
   Vec3d middle;  // mean of the surface
 
@@ -163,12 +212,7 @@ const BruteForce::Shape& BruteForce::ShapeOf(const std::vector<EntityId>& entiti
     for (const auto& [i, k] : parts_[entity]) {
       const Instance& instance = scene_->instances[i];
       const Mesh& mesh = scene_->meshes[instance.mesh];
-      const MeshPart& part = mesh.parts[k];
-      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-        const Vec3u corner = mesh.triangles[t];
-        const auto place = [&](uint32_t v) { return VecCast<double>(instance.X_WM * mesh.positions[v]); };
-        shape->triangles.push_back({place(corner.x), place(corner.y), place(corner.z)});
-      }
+      shape->triangles.Add(instance, mesh, mesh.parts[k]);
     }
   }
   shape->Measure();
