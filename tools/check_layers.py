@@ -15,7 +15,7 @@ OWNERS = {  # third-party header prefix -> modules whose .cc files may include i
     "yaml-cpp/": {"base", "assets", "people", "projection"},
     "openssl/": {"base"},
     "nlohmann/": {"assets", "eval", "mpde", "dataset", "opening", "sim", "tasks", "view", "vln", "app"},
-    "curl/": {"vln"},
+    "curl/": {"http"},
     "boost/": {"http", "worlds"},
     "draco/": {"assets"},
     "meshoptimizer": {"assets"},

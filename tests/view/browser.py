@@ -67,6 +67,8 @@ class Browser:
 
     def open(self, address):
         self.call("Page.navigate", url="about:blank")
+        self.run("0")
+        self.said.clear()  # what the page before had to say
         self.call("Page.navigate", url=address)
 
     def problems(self):

@@ -12,6 +12,7 @@ import threading
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "end_to_end"))
+import axe
 from browser import Browser
 from program import read_ids, read_json
 from viewer import Viewer, make_dataset, run
@@ -57,6 +58,12 @@ class PageTest(unittest.TestCase):
     def settle(self):
         self.page.run("airsim360.refresh()")
         self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def assert_usable(self, mode):
+        """Nothing serious that axe-core finds."""
+        if axe.source() is None:
+            self.skipTest("npm cannot get axe-core")
+        self.assertEqual(axe.findings(self.page), [], mode)
 
     def text(self, id):
         return self.page.run(f"document.getElementById('{id}').textContent")
@@ -163,9 +170,22 @@ class RecordedTest(PageTest):
             true = math.dist(p, [max(2.5, min(3.5, p[0])), max(-0.5, min(0.5, p[1])), max(0, min(1, p[2]))])
             self.assertGreaterEqual(metres, true - 0.06)
             self.assertLess(metres, true + 0.35)
+        # A hit shows the frame and looks at the thing.
+        self.page.run("document.querySelector('#hits button').click()")
+        self.page.wait(f"airsim360.picked?.id === {box} && airsim360.frame === {wanted[0]} && airsim360.box.known")
+        self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        seen = self.page.run("(l => l.pixelAt(l.width / 2, l.height / 2, 256, 128))(airsim360.main.look)")
+        self.assertEqual(read_ids(ROOM / f"data/entity/{wanted[0]:06}.png")[seen[1]][seen[0]], box)
         self.set("question", "dragon within 2 m")
         self.page.run("document.getElementById('search-form').requestSubmit()")
-        self.page.wait("document.getElementById('search-state').textContent.includes('dragon')")
+        self.page.wait("document.getElementById('search-state').textContent === 'No thing is called \"dragon\".'")
+        # What has some of the words is offered, and found by a click.
+        self.set("question", "yellow box within 100 m")
+        self.page.run("document.getElementById('search-form').requestSubmit()")
+        self.page.wait("document.getElementById('search-state').textContent.endsWith('Did you mean:')")
+        self.page.run("[...document.querySelectorAll('#hits button')].find(b => b.textContent === 'box').click()")
+        self.page.wait("document.getElementById('search-state').textContent.endsWith('frames')")
+        self.assertEqual(self.page.run("document.getElementById('question').value"), "box within 100 m")
 
     def test_everyday_words_are_understood(self):
         self.open()
@@ -239,6 +259,20 @@ class RecordedTest(PageTest):
         self.assertEqual(self.page.run("document.documentElement.lang"), "en")
         self.page.call("Accessibility.disable")
 
+    def test_axe_finds_nothing_serious_in_a_dataset(self):
+        self.open("#show=semantic")
+        self.page.run("document.getElementById('help-button').click(); airsim360.pick(airsim360.main, 128, 100)")
+        self.page.wait("airsim360.picked")
+        self.set("question", "box within 100 m")
+        self.page.run("document.getElementById('search-form').requestSubmit()")
+        self.page.wait("/^\\d+ frames$/.test(document.getElementById('search-state').textContent)")
+        self.assert_usable("dataset")
+        self.page.resize(360, 740)
+        try:
+            self.assert_usable("dataset on a phone")
+        finally:
+            self.page.resize(1280, 800)
+
     def test_at_phone_width_and_at_200_percent_nothing_is_cut_off(self):
         for width, height in [(360, 740), (640, 400)]:
             self.page.resize(width, height)
@@ -267,6 +301,7 @@ class CompareTest(PageTest):
         self.set("product", "difference")
         self.assertEqual(self.page.problems(), [])
         self.assertEqual(self.page.run("airsim360.panes.map(p => p.box.querySelector('.pane-name').textContent)"), ["data", "other"])
+        self.assert_usable("side by side")
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
@@ -297,7 +332,7 @@ class LiveTest(PageTest):
 
     def test_a_key_flies_the_drone_and_a_click_names_what_is_there(self):
         self.open()
-        self.page.wait("airsim360.live.frames.length > 3")
+        self.page.wait("airsim360.live.picture?.number > 3")
         start = self.page.run("airsim360.live.picture.p[2]")
         self.page.call("Input.dispatchKeyEvent", type="keyDown", key="r", windowsVirtualKeyCode=82)
         self.page.wait(f"airsim360.live.picture.p[2] > {start} + 0.3")
@@ -343,6 +378,16 @@ class EditorTest(PageTest):
 
     def set_value(self, id, value):
         self.page.run(f"document.getElementById('{id}').value = {json.dumps(value)}")
+
+    def draw(self, kind):
+        self.page.run("document.getElementById('drawing').open = true")
+        self.page.run(f"(() => {{ const k = document.getElementById('draw-kind'); k.value = '{kind}'; k.dispatchEvent(new Event('change')); }})()")
+
+    def drawn(self):
+        return self.page.run("document.getElementById('draw-text').value")
+
+    def said(self, text):
+        self.page.wait(f"document.getElementById('draw-state').textContent.startsWith({json.dumps(text)})")
 
 
 class TreesTest(EditorTest):
@@ -399,7 +444,7 @@ class TreesTest(EditorTest):
 
     def test_an_area_drawn_on_the_map_is_the_yaml_that_the_commands_read(self):
         self.open()
-        self.page.wait("airsim360.live.frames.length > 3")
+        self.page.wait("airsim360.live.picture?.number > 3")
         self.page.run("document.getElementById('drawing').open = true")
         self.page.run("document.getElementById('map').scrollIntoView()")
         box = self.page.run("(b => ({x: b.x, y: b.y, width: b.width, height: b.height}))(document.getElementById('map').getBoundingClientRect())")
@@ -407,7 +452,7 @@ class TreesTest(EditorTest):
         for dx, dy in [(-1, -1), (1, -1), (1, 1), (-1, 1)]:
             self.page.click(box["x"] + box["width"] / 2 + dx * scale, box["y"] + box["height"] / 2 + dy * scale)
         self.page.wait("document.getElementById('draw-text').value.split('[').length === 6")
-        self.page.wait("document.getElementById('draw-state').textContent === 'Valid: 1 areas, 5 people.'")
+        self.page.wait("document.getElementById('draw-state').textContent === 'Valid: 1 area, 5 people. Commands read it with --people people.yaml.'")
         (ROOM / "drawn.yaml").write_text(self.page.run("document.getElementById('draw-text').value"))
         done = run("render", "--world", "box_room", "--people", ROOM / "drawn.yaml", "--size", "32x16", "--tier", "labels", "--out", ROOM / "drawn")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -415,11 +460,35 @@ class TreesTest(EditorTest):
         self.page.wait("document.getElementById('draw-text').value.split('[').length === 5")
         self.assertEqual(self.page.problems(), [])
 
+    def test_axe_finds_nothing_serious_in_a_live_world_with_everything_open(self):
+        self.edit()
+        self.page.run("airsim360.main.panorama.turnTo(0, -1.5)")
+        self.page.run("airsim360.pick(airsim360.main, 128, 250)")
+        self.page.wait("!document.getElementById('person-tools').hidden")
+        for kind in ["area", "camera", "label", "lamp"]:
+            self.draw(kind)
+            self.assert_usable(f"live, drawing a {kind}")
+
+    def test_every_control_of_a_live_world_is_reached_by_tab(self):
+        self.edit()
+        self.draw("lamp")
+        self.page.run("document.activeElement.blur()")
+        name = "const name = e => e === document.body ? '' : e.tagName + e.id + [...document.querySelectorAll('*')].indexOf(e);"
+        wanted = self.page.run(f"(() => {{ {name} return [...document.querySelectorAll('a[href], button, input, select, textarea, summary, canvas[tabindex], [tabindex=\"0\"]')]"
+                               ".filter(e => e.checkVisibility() && !e.disabled).map(name); })()")
+        reached = set()
+        for _ in range(len(wanted) + 8):
+            self.page.key("Tab")
+            reached.add(self.page.run(f"(() => {{ {name} return name(document.activeElement); }})()"))
+        self.assertEqual(set(wanted) - reached, set())
+
     def test_every_control_of_the_editor_has_a_name_and_fits_a_phone(self):
         self.page.resize(360, 740)
         try:
             self.edit()
-            self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360)
+            for kind in ["area", "person", "route", "camera", "label", "lamp"]:
+                self.draw(kind)
+                self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, kind)
         finally:
             self.page.resize(1280, 800)
         self.page.call("Accessibility.enable")
@@ -433,6 +502,52 @@ class TreesTest(EditorTest):
 class MissionTest(EditorTest):
     """Nobody is in the way of the drone; the editor begins with a mission then."""
     arguments = ("--world", "box_room")
+
+    def test_a_camera_a_label_and_a_lamp_that_are_drawn_are_files_that_the_commands_read(self):
+        self.open()
+        self.page.wait("airsim360.live.picture?.number > 3")
+        # A camera looks where one looks: to the right and up, at the wall in the south. Mirrored it sees the north, turned down the floor.
+        self.page.run("airsim360.main.panorama.turnTo(1.2, 0.3, 0.9)")
+        self.draw("camera")
+        self.page.run("document.getElementById('draw-here').click()")
+        self.said("Valid: 1 camera.")
+        self.assertIn("yaw_deg: -68.75, pitch_deg: 17.19", self.drawn())
+        (ROOM / "rig.yaml").write_text(self.drawn())
+        done = run("render", "--world", "box_room", "--pose", "0,0,1.6,0", "--cameras", ROOM / "rig.yaml", "--tier", "labels", "--out", ROOM / "seen")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        ids = read_ids(next((ROOM / "seen").rglob("entity*/*_camera_1.png")))
+        self.assertEqual(read_json(next((ROOM / "seen").rglob("entities.json")))[str(ids[360][640])]["name"], "wall south")
+        # A rule begins with the thing that was clicked.
+        self.draw("label")
+        self.page.run("airsim360.main.panorama.turnTo(0, -1.5)")
+        box = self.canvas()
+        self.page.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        self.page.wait("document.getElementById('draw-match').value === 'floor'")
+        self.set_value("draw-category", "ground/floor/painted")
+        self.page.run("document.getElementById('draw-here').click()")
+        self.said("Valid: 1 rule for 1 thing.")
+        (ROOM / "labels.yaml").write_text(self.drawn())
+        self.draw("lamp")
+        for _ in range(2):
+            self.page.run("document.getElementById('draw-here').click()")
+        self.said("Valid: 2 lamps.")
+        self.page.run("document.getElementById('draw-undo').click()")
+        self.said("Valid: 1 lamp.")
+        one = self.drawn()
+        self.page.run("document.getElementById('draw-redo').click()")
+        self.said("Valid: 2 lamps.")
+        self.page.run("document.getElementById('draw-undo').click()")
+        self.page.run("(() => { document.getElementById('draw-lumens').value = -5; document.getElementById('draw-here').click(); })()")
+        self.said("world.yaml:")  # the code that reads the file says what is wrong with it
+        self.page.run("document.getElementById('draw-undo').click()")
+        self.assertEqual(self.drawn(), one)
+        (ROOM / "world.yaml").write_text(one)
+        done = run("collect", "--world", ROOM / "world.yaml", "--labels", ROOM / "labels.yaml", "--frames", 1, "--size", "64x32", "--tier", "labels", "--out", ROOM / "drawn_all")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        entities = {e["name"]: e["category_path"] for e in read_json(ROOM / "drawn_all/entities.json").values()}
+        self.assertEqual(entities["floor"], "ground/floor/painted")
+        self.assertEqual(json.loads(run("worlds", "--count", ROOM / "world.yaml", "--json").stdout)["entities_by_category"]["furniture/lighting/lamp"], 1)
+        self.assertEqual(self.page.problems(), [])
 
     def test_a_mission_is_flown_from_the_page(self):
         self.edit()
@@ -468,6 +583,44 @@ class PlanTest(PageTest):
         self.page.run("document.getElementById('on').click()")
         self.page.wait("airsim360.visited.length === 2 && airsim360.frame === 3")
         self.assertEqual(self.page.problems(), [])
+        self.assert_usable("plan")
+
+
+class RunTest(PageTest):
+    @classmethod
+    def setUpClass(cls):
+        (ROOM / "templates.json").write_text(json.dumps([{"id": "room/near", "text": "Fly to the box and stop.", "query": {"noun": {"word": "box", "names": ["box"]}, "predicates": [{"is": "nearest"}]},
+                                                          "distance": [2.5, 6], "height": [1, 3], "goal_distance": 1}]))
+        for command in [("vln", "make", "--world", "box_room", "--templates", ROOM / "templates.json", "--starts", 2, "--out", ROOM / "room.jsonl"),
+                        ("vln", "run", ROOM / "room.jsonl", "--agent", "mask", "--view", "front", "--decisions", "yomo", "--out", ROOM / "front.jsonl")]:
+            done = run(*command)
+            assert done.returncode == 0, done.stderr
+        cls.arguments = (ROOM / "front.jsonl", "--episodes", ROOM / "room.jsonl")
+        super().setUpClass()
+
+    def test_a_flight_is_replayed_with_its_instruction_its_decisions_and_the_map(self):
+        result = json.loads((ROOM / "front.jsonl").read_text().splitlines()[1])
+        self.open()
+        self.assertEqual(self.text("instruction"), "Fly to the box and stop.")
+        self.page.run("document.getElementById('flight-next').click()")
+        self.page.wait("airsim360.flights.current.id === " + json.dumps(result["id"]))
+        flight = self.page.run("airsim360.flights.current")
+        self.assertEqual(self.page.run("airsim360.list.rows"), list(range(flight["first"], flight["last"] + 1)))
+        self.assertEqual(self.page.run("document.querySelectorAll('#decisions button').length"), result["decisions"])
+        self.assertIn("azimuth", self.text("decisions"))
+        # The last decision leads to where it was taken; from there the play goes to the end of this flight and no further.
+        self.page.run("[...document.querySelectorAll('#decisions button')].at(-1).click()")
+        self.page.wait(f"airsim360.frame === {flight['decisions'][-1]['frame']} && airsim360.shown[0].picture.index === airsim360.frame")
+        self.assertEqual(self.page.run("airsim360.shown[0].picture.p"), result["pred"][flight["decisions"][-1]["frame"] - flight["first"]])
+        self.assertEqual(self.page.run("document.querySelector('#decisions [aria-current=step]') === [...document.querySelectorAll('#decisions button')].at(-1)"), True)
+        self.assertIn("stop", self.text("caption"))
+        self.page.key("p")
+        self.page.wait(f"airsim360.frame === {flight['last']} && !airsim360.playing")
+        self.page.run("airsim360.pick(airsim360.main, 512, 500)")
+        self.page.wait("airsim360.picked")
+        self.assertIn("floor", self.text("card"))
+        self.assertEqual(self.page.problems(), [])
+        self.assert_usable("run")
 
 
 if __name__ == "__main__":

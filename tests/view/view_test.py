@@ -1,5 +1,6 @@
 """`airsim360 view` over plain sockets: what it serves and what it refuses; the export; the live world."""
 import base64
+import http.client
 import json
 import math
 import os
@@ -10,6 +11,7 @@ import sqlite3
 import struct
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
@@ -326,6 +328,164 @@ class FollowTest(unittest.TestCase):
         self.assertIn("unknown vehicle 'Drne9'", done.stderr)
 
 
+class RunTest(unittest.TestCase):
+    """Flights of a small run: of a reference, and of one move."""
+
+    @classmethod
+    def setUpClass(cls):
+        template = [{"id": "room/near", "text": "Fly to the box and stop.", "query": {"noun": {"word": "box", "names": ["box"]}, "predicates": [{"is": "nearest"}]},
+                     "distance": [2.5, 6], "height": [1, 3], "goal_distance": 1}]
+        (ROOM / "templates.json").write_text(json.dumps(template))
+        cls.episodes, cls.results = ROOM / "room.jsonl", ROOM / "front.jsonl"
+        for command in [("vln", "make", "--world", "box_room", "--templates", ROOM / "templates.json", "--starts", 2, "--out", cls.episodes),
+                        ("vln", "run", cls.episodes, "--agent", "mask", "--view", "front", "--decisions", "yomo", "--out", cls.results)]:
+            done = run(*command)
+            assert done.returncode == 0, done.stderr
+        (ROOM / "front.transcript.jsonl").write_text(json.dumps({"key": "k", "episode": "x", "step": 0, "model": "m"}) + "\n{cut off")
+        cls.viewer = Viewer(cls.results, "--episodes", cls.episodes)
+
+    @classmethod
+    def tearDownClass(cls):
+        assert cls.viewer.stop() == 0
+
+    def test_the_index_has_the_instruction_the_decisions_and_the_way_of_each_flight(self):
+        index = self.viewer.json("/data/0/index.json")
+        results = [json.loads(line) for line in self.results.read_text().splitlines()]
+        self.assertEqual([f["instruction"] for f in index["flights"]], ["Fly to the box and stop."] * 2)
+        self.assertEqual([(f["first"], f["last"]) for f in index["flights"]], [(0, len(results[0]["pred"]) - 1), (len(results[0]["pred"]), len(results[0]["pred"]) + len(results[1]["pred"]) - 1)])
+        for flight, result in zip(index["flights"], results):
+            self.assertEqual(flight["pred"], result["pred"])
+            self.assertEqual([json.loads(d["said"]) for d in flight["decisions"]], [json.loads(d["said"]) for d in result["log"]])
+            self.assertEqual(len(flight["decisions"]), result["decisions"])
+            for decision in flight["decisions"]:
+                # Taken within half a second of the frame that it is shown with, at the place that is drawn there.
+                place = decision["frame"] - flight["first"]
+                self.assertLess(abs(decision["t"] - index["frames"]["t"][decision["frame"]]), 0.501)
+                self.assertLess(math.dist(decision["p"], flight["pred"][place]), 3)
+
+    def test_a_frame_is_drawn_from_the_place_and_by_the_heading_of_the_flight(self):
+        result = json.loads(self.results.read_text().splitlines()[0])
+        last = len(result["pred"]) - 1
+        status, _, body = self.viewer.get(f"/data/0/frame/{last}")
+        self.assertEqual(status, 200)
+        length = struct.unpack("<I", body[4:8])[0]
+        header = json.loads(body[8:8 + length])
+        self.assertEqual(header["p"], result["pred"][last])
+        planes = {p["product"]: p for p in header["planes"]}
+        width, height = planes["range"]["width"], planes["range"]["height"]
+        ranges = struct.unpack(f"<{width * height}f", body[8 + length + planes["range"]["at"]:][:width * height * 4])
+        # The level ray ahead of the middle of the picture meets the walls x, y = 5 or the box where the heading says.
+        x, y, z = result["pred"][last]
+        yaw = math.radians(result["heading_deg"][last])
+        walls = [t for t in ((math.copysign(5, math.cos(yaw)) - x) / math.cos(yaw), (math.copysign(5, math.sin(yaw)) - y) / math.sin(yaw))]
+        if z > 1.05:  # over the box
+            self.assertAlmostEqual(ranges[height // 2 * width + width // 2], min(walls), delta=0.05)
+        self.assertEqual(self.viewer.get("/data/0/frame/99999")[0], 404)
+
+    def test_a_transcript_stands_for_its_run_and_what_does_not_fit_is_named(self):
+        viewer = Viewer(ROOM / "front.transcript.jsonl", "--episodes", self.episodes)
+        self.addCleanup(viewer.stop)
+        self.assertEqual(len(viewer.json("/data/0/index.json")["flights"]), 2)
+        line = json.loads(self.results.read_text().splitlines()[0])
+        for change, said in [({"log": [{"t": 0, "p": [0, 0, 0], "yaw": 3}]}, "log[0]"), ({"log": 7}, "log"), ({"heading_deg": [1]}, "heading_deg"), ({"heading_deg": [1e308] * len(line["pred"])}, "heading_deg")]:
+            (ROOM / "damaged.jsonl").write_text(json.dumps({**line, **change}) + "\n")
+            done = run("view", ROOM / "damaged.jsonl", "--episodes", self.episodes)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+        (ROOM / "other.jsonl").write_text(self.episodes.read_text().splitlines()[0].replace("box_room/", "box_rum/") + "\n")
+        for arguments, said in [((self.results,), "--episodes"), ((self.results, "--episodes", ROOM / "other.jsonl"), "is no episode of"), ((self.results, "--episodes", self.episodes, "--export", ROOM / "e"), "--export"),
+                                ((ROOM / "data", "--episodes", self.episodes), "--episodes"), ((self.episodes, "--episodes", self.episodes), "room.jsonl:1")]:
+            done = run("view", *arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+
+
+class AgentTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = subprocess.Popen([PROGRAM, "agent", "--world", "box_room", "--port", "0"], stdout=subprocess.PIPE, text=True)
+        cls.port = int(cls.server.stdout.readline().strip().rsplit(":", 1)[1])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.wait(30)
+        cls.server.stdout.close()
+
+    def agent(self, method, path, body=None):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection.request(method, "/v1/episodes" + path, json.dumps(body) if body is not None else None, {"Content-Type": "application/json"} if body is not None else {})
+        response = connection.getresponse()
+        answer = json.loads(response.read())
+        connection.close()
+        return response.status, answer
+
+    def follow(self, *flags):
+        viewer = Viewer("--connect", f"127.0.0.1:{self.port}", *flags)
+        self.addCleanup(lambda: self.assertEqual(viewer.stop(), 0))
+        client = WebSocket(viewer.port)
+        self.addCleanup(client.close)
+        return viewer, client, viewer.json("/session.json")["live"]
+
+    def test_who_looks_on_sees_the_episode_and_neither_holds_nor_changes_it(self):
+        _, made = self.agent("POST", "", {"instruction": "Fly up.", "start": {"p": [-3.5, -3.5, 1.5], "yaw_deg": 45}, "goal": [3.5, 3.5, 4]})
+        self.addCleanup(lambda: self.agent("DELETE", "/" + made["episode"]))
+        viewer, client, live = self.follow()
+        self.assertEqual((live["flies"], live["follows"], live["resets"]), (False, True, False))
+        header, data = client.ask({"do": "picture", "width": 256, "input": [0, 0, 1, 0], "token": live["token"]})
+        self.assertEqual((header["episode"], header["instruction"], header["goal"], header["p"], header["step"]), (made["episode"], "Fly up.", [3.5, 3.5, 4], [-3.5, -3.5, 1.5], 0))
+        planes = {p["product"]: p for p in header["planes"]}
+        ranges = struct.unpack(f"<{256 * 128}f", data[planes["range"]["at"]:][:256 * 128 * 4])
+        self.assertAlmostEqual(ranges[127 * 256 + 128], 1.5, delta=0.01)  # straight down is the floor
+        ids = struct.unpack(f"<{256 * 128}I", data[planes["entity"]["at"]:][:256 * 128 * 4])
+        names = json.loads(viewer.get("/entities.json")[2])
+        self.assertEqual(names[str(ids[127 * 256 + 128])]["name"], "floor")
+        stop = threading.Event()
+        watching = threading.Thread(target=lambda: [client.ask({"do": "picture", "width": 256}) for _ in iter(stop.is_set, True)])
+        watching.start()
+        try:
+            # The agent is never told that its episode is busy, and its observations are those of a run without onlookers.
+            steps = [self.agent("POST", f"/{made['episode']}/step", {"action": way}) for way in ["up", "down"] * 4]
+        finally:
+            stop.set()
+            watching.join()
+        self.assertEqual([status for status, _ in steps], [200] * 8)
+        _, alone = self.agent("POST", "", {"instruction": "Fly up.", "start": {"p": [-3.5, -3.5, 1.5], "yaw_deg": 45}, "goal": [3.5, 3.5, 4]})
+        again = [self.agent("POST", f"/{alone['episode']}/step", {"action": way}) for way in ["up", "down"] * 4]
+        self.agent("DELETE", "/" + alone["episode"])
+        self.assertEqual([s["observation"] for _, s in again], [s["observation"] for _, s in steps])
+        header, _ = client.ask({"do": "picture", "width": 256})
+        self.assertEqual((header["step"], header["p"]), (8, steps[-1][1]["observation"]["pose"]["p"]))
+        for message in [{"do": "reset", "token": live["token"]}, {"do": "set", "hour": 3, "token": live["token"]}, {"do": "planes", "number": 999}, {"do": 3}]:
+            self.assertIn("error", client.ask(message))
+
+    def test_with_a_lease_the_page_flies_an_episode_and_makes_one_where_there_is_none(self):
+        _, client, live = self.follow("--lease")
+        start = client.ask({"do": "picture", "width": 128})[0]
+        self.assertIn("token", client.ask({"do": "picture", "input": [0, 0, 1, 0]})["error"])
+        end = time.monotonic() + 20
+        while time.monotonic() < end:
+            header, _ = client.ask({"do": "picture", "width": 128, "input": [0, 0, 0.2, 0], "token": live["token"]})
+            if header["p"][2] > start["p"][2] + 0.5:
+                break
+        self.assertGreater(header["p"][2], start["p"][2] + 0.5)
+        self.assertEqual(client.ask({"do": "reset", "token": live["token"]}), {"done": "reset"})
+        self.assertEqual(client.ask({"do": "picture", "width": 128})[0]["p"], start["p"])
+        for _, episode in enumerate(self.agent("GET", "")[1]["episodes"]):
+            self.agent("DELETE", "/" + episode["episode"])
+
+    def test_what_is_not_there_is_named(self):
+        viewer, client, _ = self.follow()
+        self.assertIn("no episode is open", client.ask({"do": "picture"})["error"])
+        for flags, said in [(("--episode", "e99"), "e99"), (("--vehicle", "Drone1"), "--episode")]:
+            done = run("view", "--connect", f"127.0.0.1:{self.port}", *flags)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+        done = run("view", "--connect", f"127.0.0.1:{viewer.port}")  # another web server
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("neither", done.stderr)
+
+
 class LiveView:
     """A live world, a client of it, and time that passes."""
 
@@ -388,12 +548,18 @@ class TreesTest(LiveView, unittest.TestCase):
 
     def test_what_is_drawn_is_checked_as_the_commands_check_it(self):
         square = "areas:\n  - name: one\n    polygon: [[-4, -4], [-1, -4], [-1, -1], [-4, -1]]\n    count: {}\n"
-        self.assertEqual(self.ask("draw", kind="people", text=square.format(3) + "people:\n  - {name: ann, at: [-3, 3]}\n")["done"], "1 areas, 4 people")
+        self.assertEqual(self.ask("draw", kind="people", text=square.format(3) + "people:\n  - {name: ann, at: [-3, 3]}\n")["done"], "1 area, 4 people")
         self.assertEqual(self.ask("draw", kind="route", text="waypoints:\n  - {x: 1, y: 2, z: 3}\n  - {x: 2, y: 2, z: 3}\n")["done"], "2 waypoints")
+        for kind, text, done in [("cameras", "cameras:\n  - {name: front, projection: pinhole, size: 64x32, fov_deg: 80, yaw_deg: 30, pitch_deg: -5}\n", "1 camera"),
+                                 ("labels", 'rules:\n  - {match: "wall*", category: construction/wall/painted}\n', "1 rule for 4 things"), ("world", "world: box_room\nlamps:\n  - {x: 1, y: 0, z: 2}\n", "1 lamp")]:
+            self.assertEqual(self.ask("draw", kind=kind, text=text).get("done"), done)
         far = square.format(3).replace("[[-4, -4], [-1, -4], [-1, -1], [-4, -1]]", "[[-400, -400], [-300, -400], [-300, -300]]")
         for kind, text, said in [("people", square.format(500), "people.yaml:4: 500 people do not fit area 'one'"), ("people", far, "people.yaml:3: area 'one' lies outside the world"),
                                  ("people", "area: []", "did you mean 'areas'"), ("people", "trees: [/etc/passwd]", "not known here"), ("people", "{", "people.yaml"), ("people", "", "people.yaml"),
-                                 ("route", "waypoints:\n  - {x: 1, y: 2}\n", "route.yaml:2"), ("route", "waypoints: [{x: 1e308, y: 0, z: 0}]", "route.yaml:1"), ("town", "x", "route")]:
+                                 ("route", "waypoints:\n  - {x: 1, y: 2}\n", "route.yaml:2"), ("route", "waypoints: [{x: 1e308, y: 0, z: 0}]", "route.yaml:1"), ("town", "x", "route"),
+                                 ("cameras", "cameras:\n  - {name: a, projection: pinhole, fov_deg: 400}\n", "rig.yaml:2"), ("cameras", "camera: []", "cameras"), ("labels", "rules:\n  - {match: bux, category: furniture/x}\n", "matches nothing"),
+                                 ("labels", "rules:\n  - {match: box, category: Furniture X}\n", "labels.yaml:2"), ("world", "world: box_room\nlamps:\n  - {x: 900, y: 0, z: 2}\n", "is outside of the world"),
+                                 ("world", "world: box_room\nlamps:\n  - {x: 1, y: 0, z: 2, lumen: 5}\n", "lumens"), ("world", "lamps: []", "'world' is missing")]:
             said_now = self.ask("draw", kind=kind, text=text).get("error", "")
             self.assertIn(said, said_now, text)
             self.assertNotIn("airsim360_view_", said_now)
@@ -412,6 +578,12 @@ class TreesTest(LiveView, unittest.TestCase):
 class EmptyRoomTest(LiveView, unittest.TestCase):
     """Nobody is in the way of the drone."""
     arguments = ("--world", "box_room")
+
+    def test_where_nothing_drives_no_vehicle_is_put_anywhere(self):
+        self.assertEqual(self.ask("cars"), {"cars": []})
+        self.assertIn("--traffic", self.ask("car", car="traffic/000", point=[0, 0, 0])["error"])
+        self.assertIn("three numbers", self.ask("car", car="traffic/000", point=[0, 0])["error"])
+        self.assertIn("token", self.client.ask({"do": "car", "car": "traffic/000", "point": [0, 0, 0]})["error"])
 
     def test_a_mission_flies_the_drone_of_the_page(self):
         tree = '<root BTCPP_format="4"><BehaviorTree ID="m"><Sequence><Goto to="-2;2;2" name="corner"/><Wait seconds="0.2"/></Sequence></BehaviorTree></root>'

@@ -87,6 +87,18 @@ double Stick(const Json& input, size_t i) {
 
 }  // namespace
 
+bool IsAirSimServer(const std::string& address) {
+  RpcClient client(address);
+  try {
+    client.Call("ping", 0, [](WireWriter&) {}, [](const WireValue&) {});
+    return true;
+  } catch (const InputError&) {
+    return true;  // it answers, if only that it does not know the call
+  } catch (const RuntimeError&) {
+    return false;
+  }
+}
+
 struct FollowedServer::Impl {
   explicit Impl(const FollowOptions& given) : options(given), client(given.address), moves(given.address) {}
 

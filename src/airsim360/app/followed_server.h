@@ -4,15 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "airsim360/app/follow_options.h"
 #include "airsim360/view/live_source.h"
 
 namespace airsim360 {
 
-struct FollowOptions {
-  std::string address;     ///< HOST:PORT
-  bool lease = false;      ///< takes the drone: enableApiControl, and moves from the page
-  std::string vehicle;     ///< "" = the first
-};
+/// Whether something that speaks AirSim's protocol answers at HOST:PORT. InputError and RuntimeError as RpcClient.
+bool IsAirSimServer(const std::string& address);
 
 /// Pictures, ranges and entities of panoramas of the vehicle; positions are those of the server's global frame, turned to
 /// east, north, up. Without a lease nothing in the server is changed.

@@ -7,7 +7,10 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <cstring>
 
 #include "airsim360/base/error.h"
 
@@ -26,10 +29,17 @@ bool IsPort(std::string_view text) {
 
 }  // namespace
 
-RpcClient::RpcClient(const std::string& address) : address_(address) {
+void CheckAddress(const std::string& address) {
   const size_t colon = address.rfind(':');
-  if (colon != std::string::npos) host_ = address.substr(0, colon), port_ = address.substr(colon + 1);
-  if (host_.empty() || !IsPort(port_)) throw InputError("--connect: '" + address + "' is not HOST:PORT, for example 127.0.0.1:41451");
+  const bool plain = std::ranges::all_of(address, [](unsigned char c) { return std::isalnum(c) || std::strchr(".-_:[]", c); });
+  if (colon == std::string::npos || colon == 0 || !plain || !IsPort(std::string_view(address).substr(colon + 1)))
+    throw InputError("--connect: '" + address + "' is not HOST:PORT, for example 127.0.0.1:41451");
+}
+
+RpcClient::RpcClient(const std::string& address) : address_(address) {
+  CheckAddress(address);
+  const size_t colon = address.rfind(':');
+  host_ = address.substr(0, colon), port_ = address.substr(colon + 1);
   const std::lock_guard lock(mutex_);
   Connect();
 }
@@ -56,7 +66,7 @@ void RpcClient::Connect() {
     if (::connect(socket_, at->ai_addr, at->ai_addrlen) != 0) Close();
   }
   ::freeaddrinfo(found);
-  if (socket_ < 0) throw RuntimeError("--connect: nobody answers at " + address_ + "; start 'airsim360 serve --world W --port " + port_ + "' first");
+  if (socket_ < 0) throw RuntimeError("--connect: nobody answers at " + address_ + "; start 'airsim360 serve' or 'airsim360 agent' with --world W --port " + port_ + " first");
 }
 
 void RpcClient::Send(std::string_view bytes) {

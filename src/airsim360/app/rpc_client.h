@@ -11,6 +11,9 @@
 
 namespace airsim360 {
 
+/// InputError for what is no "HOST:PORT".
+void CheckAddress(const std::string& address);
+
 /// One connection; any thread may call, one call at a time. A connection that is lost is made anew by the next call.
 class RpcClient {
  public:

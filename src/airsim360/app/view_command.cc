@@ -8,16 +8,19 @@
 #include "airsim360/app/commands.h"
 #include "airsim360/app/config_flags.h"
 #include "airsim360/app/environment_flags.h"
+#include "airsim360/app/followed_agent.h"
 #include "airsim360/app/followed_server.h"
 #include "airsim360/app/people_arguments.h"
 #include "airsim360/app/session.h"
 #include "airsim360/app/stop_signals.h"
 #include "airsim360/app/traffic_arguments.h"
+#include "airsim360/app/viewed_run.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/log.h"
 #include "airsim360/view/live_world.h"
 #include "airsim360/view/view_site.h"
+#include "airsim360/view/viewed_plan.h"
 
 namespace airsim360 {
 namespace {
@@ -26,13 +29,13 @@ namespace fs = std::filesystem;
 
 struct ViewArguments {
   FollowOptions follow;
-  std::string what, compare, world, record, drone = "hummingbird", out, wind;
+  std::string what, compare, world, record, drone = "hummingbird", out, wind, episodes;
   RenderSettings picture;
   EnvironmentFlags environment;
   PeopleArguments people;
   TrafficArguments traffic;
   int port = 8360;
-  bool is_plan = false;
+  bool is_plan = false, is_run = false;
 };
 
 constexpr std::chrono::milliseconds kLastJob{800};  // that a picture has to end when the server is stopped
@@ -84,6 +87,15 @@ std::shared_ptr<LiveWorld> OpenLive(const std::shared_ptr<const ViewArguments>& 
   return std::make_shared<LiveWorld>(stage, std::move(options));
 }
 
+// Flights of language navigation, which need the episodes that were flown.
+void UnderstandRun(ViewArguments& arguments) {
+  const std::string& file = arguments.what;
+  if (arguments.episodes.empty()) throw InputError("--episodes: '" + file + "' holds flights of 'vln run'; give the episodes.jsonl that was flown (a CityJSON world: --world)");
+  for (const auto& [flag, value] : {std::pair{"--compare", &arguments.compare}, {"--export", &arguments.out}, {"--record", &arguments.record}})
+    if (!value->empty()) throw InputError(std::string(flag) + ": '" + file + "' holds flights, whose pictures are drawn when they are looked at");
+  arguments.is_run = true;
+}
+
 // A folder is a dataset; everything else is a world, as for all commands.
 void Understand(ViewArguments& arguments) {
   if (arguments.port < 0 || arguments.port > 65535)
@@ -94,8 +106,11 @@ void Understand(ViewArguments& arguments) {
       if (!value->empty()) throw InputError(std::string(flag) + ": the world is in the server at " + arguments.follow.address + "; it cannot be given with --connect");
     return;
   }
-  if (arguments.follow.lease || !arguments.follow.vehicle.empty()) throw InputError(std::string(arguments.follow.lease ? "--lease" : "--vehicle") + ": it goes with --connect HOST:PORT");
+  for (const auto& [flag, given] : {std::pair{"--lease", arguments.follow.lease}, {"--vehicle", !arguments.follow.vehicle.empty()}, {"--episode", !arguments.follow.episode.empty()}})
+    if (given) throw InputError(std::string(flag) + ": it goes with --connect HOST:PORT");
   if (!arguments.what.empty() && !arguments.world.empty()) throw InputError("--world: give a dataset or a world, not both");
+  if (arguments.what.ends_with(".jsonl") && !arguments.what.ends_with(".city.jsonl")) return UnderstandRun(arguments);
+  if (!arguments.episodes.empty()) throw InputError("--episodes: it goes with results.jsonl of 'airsim360 vln run'");
   if (arguments.what.ends_with(".json") && !arguments.what.ends_with(".city.json")) {
     if (!arguments.compare.empty()) throw InputError("--compare: compares datasets; '" + arguments.what + "' is a plan");
     if (!arguments.out.empty()) throw InputError("--export: '" + arguments.what + "' is a plan, whose frames are drawn when they are looked at; make a dataset of it with 'airsim360 dataset run' first");
@@ -110,9 +125,27 @@ void Understand(ViewArguments& arguments) {
   if (arguments.world.empty() && !arguments.record.empty()) throw InputError("--record: records a live world; give --world W");
 }
 
+std::shared_ptr<LiveSource> Follow(const FollowOptions& options) {
+  if (IsAirSimServer(options.address)) {
+    if (!options.episode.empty()) throw InputError("--episode: 'airsim360 serve' answers at " + options.address + ", which has no episodes; give --vehicle");
+    return std::make_shared<FollowedServer>(options);
+  }
+  if (!IsAgentServer(options.address)) throw RuntimeError("--connect: what answers at " + options.address + " is neither 'airsim360 serve' nor 'airsim360 agent'");
+  return std::make_shared<FollowedAgent>(options);
+}
+
 ViewSite SiteOf(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
-  if (!arguments->follow.address.empty()) return ViewSite({}, std::make_shared<FollowedServer>(arguments->follow), NewToken());
+  if (!arguments->follow.address.empty()) return ViewSite({}, Follow(arguments->follow), NewToken());
   if (arguments->is_plan) return ViewSite(std::make_shared<ViewedPlan>(arguments->what, DeviceChoice{globals.device, globals.gpu}));
+  if (arguments->is_run) {
+    ViewedRunOptions options{.episodes = arguments->episodes, .picture = arguments->picture};
+    options.open = [&globals](const std::string& world, uint64_t seed, int64_t people) {
+      GlobalOptions of_seed = globals;
+      of_seed.seed = seed;
+      return std::make_shared<Stage>(StageOptionsOf(world, of_seed, {}, PeopleRequest{.count = people > 0 ? std::optional(static_cast<size_t>(people)) : std::nullopt, .seed = seed}));
+    };
+    return ViewSite(std::make_shared<ViewedRun>(arguments->what, std::move(options)));
+  }
   if (!arguments->world.empty()) return ViewSite({}, OpenLive(arguments, globals), NewToken());
   std::vector<std::shared_ptr<ViewedDataset>> datasets{std::make_shared<ViewedDataset>(arguments->what)};
   if (!arguments->compare.empty()) datasets.push_back(std::make_shared<ViewedDataset>(arguments->compare));
@@ -151,12 +184,14 @@ void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOption
 void AddViewCommand(CLI::App& app, GlobalOptions& globals) {
   CLI::App* command = app.add_subcommand("view", "datasets and worlds in the browser (docs/guide/viewer.md)");
   auto arguments = std::make_shared<ViewArguments>();
-  command->add_option("WHAT", arguments->what, "folder of a dataset or of a flight, a plan (.json), or a file of a world (.glb, .osm, .yaml, …)");
+  command->add_option("WHAT", arguments->what, "folder of a dataset or of a flight, a plan (.json), flights of 'vln run' (.jsonl), or a file of a world (.glb, .osm, .yaml, …)");
   command->add_option("--compare", arguments->compare, "folder of a second dataset, side by side");
   command->add_option("--world", arguments->world, "name or file of a world to fly in");
-  command->add_option("--connect", arguments->follow.address, "HOST:PORT of a running 'airsim360 serve', to look at its world");
-  command->add_flag("--lease", arguments->follow.lease, "with --connect: take API control of the drone and fly it from the page; given back at the end");
-  command->add_option("--vehicle", arguments->follow.vehicle, "with --connect: whose eyes (default: the first)");
+  command->add_option("--connect", arguments->follow.address, "HOST:PORT of a running 'airsim360 serve' or 'airsim360 agent', to look at its world");
+  command->add_flag("--lease", arguments->follow.lease, "with --connect: take the drone and fly it from the page; an AirSim server gets API control back at the end");
+  command->add_option("--vehicle", arguments->follow.vehicle, "with --connect to an AirSim server: whose eyes (default: the first)");
+  command->add_option("--episode", arguments->follow.episode, "with --connect to an agent server: which episode, e1 (default: always the newest)");
+  command->add_option("--episodes", arguments->episodes, "with results.jsonl of 'vln run': the episodes that were flown");
   command->add_option("--port", arguments->port, "TCP port, 0 = any free one (default 8360)");
   command->add_option("--export", arguments->out, "write the page and the datasets into this new folder, for any server of files, and end");
   command->add_option("--record", arguments->record, "folder into which frames kept in the browser are saved, a dataset each time");

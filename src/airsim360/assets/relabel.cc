@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "airsim360/assets/import.h"
+#include "airsim360/assets/label_count.h"
 #include "airsim360/assets/label_rules.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
@@ -23,18 +24,43 @@ bool MatchesAny(const std::string& pattern, const std::vector<Entity>& entities)
   return std::ranges::any_of(entities, [&](const Entity& e) { return internal::MatchesGlob(pattern, e.name); });
 }
 
-}  // namespace
-
-std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels) {
-  if (labels.empty()) return scene;
-  const internal::LabelRules rules =
-      internal::ParseLabelRules(labels.string(), ReadTextFile(labels, uint64_t{4} << 20));
-  // Names of map objects hold '/' themselves: a pattern counts as a whole.
+// Names of map objects hold '/' themselves: a pattern counts as a whole.
+std::vector<std::string> PatternsOf(const internal::LabelRules& rules) {
   std::vector<std::string> patterns;
   for (const internal::LabelRule& rule : rules.rules) {
     std::string& pattern = patterns.emplace_back();
     for (const std::string& part : rule.match) pattern += (pattern.empty() ? "" : "/") + part;
   }
+  return patterns;
+}
+
+CategoryId AddCategory(SemanticTree& tree, const internal::LabelRules& rules, const internal::LabelRule& rule) {
+  try {
+    return tree.Add(rule.category);
+  } catch (const InputError& error) {
+    throw InputError(rules.file + ":" + std::to_string(rule.line) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+LabelCount CountLabelled(const Scene& scene, const std::filesystem::path& labels) {
+  const internal::LabelRules rules = internal::ParseLabelRules(labels.string(), ReadTextFile(labels, uint64_t{4} << 20));
+  const std::vector<std::string> patterns = PatternsOf(rules);
+  SemanticTree tree = scene.tree;
+  for (const internal::LabelRule& rule : rules.rules)
+    if (!rule.category.empty()) AddCategory(tree, rules, rule);
+  LabelCount count{.rules = patterns.size()};
+  for (const std::string& pattern : patterns) count.unused += !MatchesAny(pattern, scene.entities);
+  for (const Entity& entity : scene.entities) count.entities += FirstMatch(patterns, entity.name) < patterns.size();
+  return count;
+}
+
+std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, const std::filesystem::path& labels) {
+  if (labels.empty()) return scene;
+  const internal::LabelRules rules =
+      internal::ParseLabelRules(labels.string(), ReadTextFile(labels, uint64_t{4} << 20));
+  const std::vector<std::string> patterns = PatternsOf(rules);
   auto changed = std::make_shared<Scene>(*scene);
   std::set<std::string> names;
   for (const Entity& entity : changed->entities) names.insert(entity.name);
@@ -44,13 +70,7 @@ std::shared_ptr<const Scene> Relabelled(std::shared_ptr<const Scene> scene, cons
     if (first == patterns.size()) continue;
     used[first] = true;
     const internal::LabelRule& rule = rules.rules[first];
-    if (!rule.category.empty()) {
-      try {
-        entity.category = changed->tree.Add(rule.category);
-      } catch (const InputError& error) {
-        throw InputError(rules.file + ":" + std::to_string(rule.line) + ": " + error.what());
-      }
-    }
+    if (!rule.category.empty()) entity.category = AddCategory(changed->tree, rules, rule);
     if (!rule.name.empty()) {
       // Names stay unique, as SceneBuilder makes them.
       std::string name = rule.name;

@@ -91,6 +91,14 @@ TEST(Base64, IsThatOfRfc4648) {
   const std::pair<const char*, const char*> cases[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"},
                                                        {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}};
   for (const auto& [bytes, text] : cases) EXPECT_EQ(Base64(bytes), text);
+  for (const auto& [bytes, text] : cases) EXPECT_EQ(FromBase64(text), bytes);
+}
+
+TEST(Base64, IsReadBackAndWhatIsNoneIsRefused) {
+  std::string every;
+  for (int i = 0; i < 256; ++i) every += static_cast<char>(255 - i);
+  for (size_t size = 250; size <= every.size(); ++size) EXPECT_EQ(FromBase64(Base64(every.substr(0, size))), every.substr(0, size));
+  for (const char* text : {"Z", "Zg", "Zg=", "Zg==Zg==", "Z===", "====", "Zm9v Zm9v", "Zm9-", "=m9v"}) EXPECT_EQ(FromBase64(text), std::nullopt) << text;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/opening/height_file.h"
 #include "airsim360/opening/world_environment.h"
+#include "airsim360/opening/world_file.h"
 #include "airsim360/scene/scene_archive.h"
 #include "airsim360/worlds/osm/city_facades.h"
 #include "airsim360/worlds/osm/osm_world.h"
@@ -50,9 +51,21 @@ void VisitPlacement(ConfigVisitor& v, ModelPlacement& placement) {
   });
 }
 
-// The fields of a world YAML, filled into `request` and `environment`.
-WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, EnvironmentWords& environment) {
+void VisitLamp(ConfigVisitor& v, PlacedLamp& lamp) {
+  v.Field("name", "of the entity", lamp.name);
+  v.Field("x", "metres east", lamp.x, -100000, 100000);
+  v.Field("y", "metres north", lamp.y, -100000, 100000);
+  v.Field("z", "metres up", lamp.z, -10000, 10000);
+  v.Field("lumens", "light to all sides", lamp.lumens, 1, 500000);
+  v.Field("kelvin", "its white", lamp.kelvin, 2000, 9000);
+  v.Field("radius", "of the ball, metres", lamp.radius, 0.01, 2);
+  v.Field("always", "by day too; else while the lamps of the world burn", lamp.always);
+}
+
+// The fields of a world YAML, filled into `request` and `environment`, and `lamps:`.
+WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, EnvironmentWords& environment, std::vector<PlacedLamp>* added = nullptr) {
   std::string world, labels, heights, bbox, centre;
+  std::vector<PlacedLamp> lamps;
   double radius = 0;
   ReadYamlFile(file, [&](ConfigVisitor& v) {
     v.Field("world", "name of a built-in world, or a model or map file", world);
@@ -66,11 +79,13 @@ WorldRequest ReadWorldFile(const fs::path& file, WorldRequest request, Environme
     v.Field("fill", "maps: add parked cars, lamps and trees where the map has none; CityJSON: add facades", request.fill);
     v.Field("use_models", "use the models of sweethome3d-furniture where installed", request.use_models);
     request.additions.Visit(v);
+    v.List("lamps", "lamps of your own", lamps, [](ConfigVisitor& entry, PlacedLamp& lamp) { VisitLamp(entry, lamp); });
     v.Group("environment", "sun, sky and weather",
             [&](ConfigVisitor& group) { environment.Visit(group, file.parent_path()); });
   });
   if (world.empty()) throw InputError(file.string() + ": key 'world' is missing");
   if (IsWorldFile(world)) throw InputError(file.string() + ": world: '" + world + "' is a world file itself");
+  if (added) *added = std::move(lamps);
   request.world = IsPath(world) ? (file.parent_path() / world).string() : world;
   request.additions.Resolve(file);
   ValidatePlacement(request.placement, file.string() + ": ");
@@ -175,6 +190,13 @@ std::shared_ptr<const Scene> LoadScene(const WorldRequest& request) {
 
 }  // namespace
 
+std::vector<PlacedLamp> LampsOfWorldFile(const fs::path& file) {
+  EnvironmentWords environment;
+  std::vector<PlacedLamp> lamps;
+  ReadWorldFile(file, {}, environment, &lamps);
+  return lamps;
+}
+
 std::shared_ptr<const Scene> LoadMap(const WorldRequest& request, OsmReport* report) {
   auto built = BuildAnew(request, report);
   const CacheKey key = KeyOf(request);
@@ -204,8 +226,9 @@ std::optional<BuildingRooms> RoomsOf(const WorldRequest& request) {
 std::shared_ptr<const Scene> LoadWorld(const WorldRequest& request) {
   if (IsWorldFile(request.world)) {
     EnvironmentWords words;
-    const WorldRequest inner = ReadWorldFile(request.world, request, words);
-    auto scene = LoadWorld(inner);
+    std::vector<PlacedLamp> lamps;
+    const WorldRequest inner = ReadWorldFile(request.world, request, words, &lamps);
+    auto scene = WithLamps(LoadWorld(inner), lamps);
     Environment environment = words.Over(scene->environment);
     return WithOwnSky(WithEnvironment(std::move(scene), std::move(environment)), inner.seed);
   }

@@ -38,7 +38,8 @@ struct AgentApiOptions {
   double idle_seconds = 3600;  ///< after which an episode that nobody touches is forgotten, where room is needed
 };
 
-/// Thread-safe. One request at a time for one episode: another one meanwhile is refused with status 409.
+/// Thread-safe. One request at a time for one episode: another one meanwhile is refused with status 409. `watch` and
+/// `entities` are for those who look on, and neither hold nor change it.
 class AgentApi {
  public:
   /// Opens the default world. InputError as `open`.
@@ -66,6 +67,8 @@ class AgentApi {
   AgentResponse Look(Slot& slot, const ObserveRequest& request);
   AgentResponse Picture(Slot& slot, const std::string& name, std::string_view query);
   AgentResponse Path(Slot& slot);
+  AgentResponse Watch(Slot& slot, std::string_view query);
+  AgentResponse Entities(Slot& slot);
   std::shared_ptr<AgentWorld> WorldOf(const std::string& name, uint64_t seed);
   std::shared_ptr<Slot> Find(const std::string& id);
   void MakeRoom();

@@ -1,6 +1,7 @@
 // What can be asked of one episode.
 #include <algorithm>
 
+#include "airsim360/base/base64.h"
 #include "airsim360/tasks/agent_slot.h"
 
 namespace airsim360 {
@@ -28,6 +29,62 @@ AgentApi::Turn::Turn(AgentApi& api, Slot& slot, Creates creates)
   const double before = slot_.episode->seconds();
   slot_.episode->Wait(std::max(0.0, slot_.touched - slot_.answered));
   slot_.latency += slot_.episode->seconds() - before;
+}
+
+void AgentApi::Slot::Publish() noexcept {
+  if (episode == nullptr) return;
+  try {
+    auto moment = std::make_shared<internal::WatchedMoment>();
+    moment->state = {{"episode", id}, {"world", world}, {"task", internal::SpecOf(*episode)}, {"observation", internal::ObservationOf(*episode, {})}};
+    if (episode->end() != EpisodeEnd::kRunning) moment->state["score"] = internal::ScoreOf(*episode);
+    moment->X_WB = PoseOf(*episode);
+    moment->moved = episode->moved();
+    moment->world = episode->shared_world();
+    const std::lock_guard lock(watched_mutex);
+    moment->number = watched ? watched->number + 1 : 1;
+    watched = std::move(moment);
+  } catch (const std::exception&) {
+    // Those who look on see the moment before.
+  }
+}
+
+AgentResponse AgentApi::Watch(Slot& slot, std::string_view query) {
+  const WatchRequest request = DecodeWatchQuery(query);
+  std::shared_ptr<const internal::WatchedMoment> moment;
+  {
+    const std::lock_guard lock(slot.watched_mutex);
+    moment = slot.watched;
+  }
+  if (!moment) throw StatusError(503, "episode '" + slot.id + "' is being made; try again in a second");
+  if (moment->number == request.since) return JsonResponse({{"episode", slot.id}, {"number", moment->number}});
+  const Frame frame = moment->world->Watched(moment->X_WB, request.width, moment->moved);
+  Answer answer = moment->state;
+  answer["number"] = moment->number;
+  answer["panorama"] = {{"width", frame.rgb.width()}, {"height", frame.rgb.height()}, {"data", Base64(internal::JpegOf(frame.rgb, request.quality))}};
+  const auto bytes = [](const auto& image) {
+    return Base64({reinterpret_cast<const char*>(image.pixels().data()), image.size() * sizeof(image.pixels()[0])});
+  };
+  if (request.labels) {
+    answer["range"] = bytes(frame.range);
+    answer["entity"] = bytes(frame.entity);
+  }
+  return JsonResponse(answer);
+}
+
+AgentResponse AgentApi::Entities(Slot& slot) {
+  std::shared_ptr<const internal::WatchedMoment> moment;
+  {
+    const std::lock_guard lock(slot.watched_mutex);
+    moment = slot.watched;
+  }
+  if (!moment) throw StatusError(503, "episode '" + slot.id + "' is being made; try again in a second");
+  const Scene& scene = moment->world->scene();
+  Answer entities = Answer::object();
+  for (const Entity& entity : scene.entities) {
+    const Category& category = scene.tree[entity.category];
+    entities[std::to_string(entity.id)] = {{"name", entity.name}, {"category_path", category.path}, {"kind", category.thing ? "thing" : "stuff"}};
+  }
+  return JsonResponse(entities);
 }
 
 AgentResponse AgentApi::Delete(const std::string& id) {
@@ -111,7 +168,8 @@ AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& call
                                   const AgentRequest& request) {
   if (call.empty() && request.method == "DELETE") return Delete(id);
   static const std::vector<std::string> kCalls = {"reset",        "step",     "observe", "range_grid",
-                                                  "panorama.jpg", "view.jpg", "path"};
+                                                  "panorama.jpg", "view.jpg", "path",    "watch",
+                                                  "entities"};
   if (!call.empty() && std::ranges::find(kCalls, call) == kCalls.end())
     throw StatusError(404, UnknownChoiceMessage("resource of an episode", call.substr(0, 64), kCalls));
   const bool changes = call == "reset" || call == "step" || call == "observe";
@@ -121,6 +179,8 @@ AgentResponse AgentApi::OnEpisode(const std::string& id, const std::string& call
   if (call == "step") return Step(*slot, request.body);
   if (call == "observe") return Observe(*slot, request.body);
   if (call == "path") return Path(*slot);
+  if (call == "watch") return Watch(*slot, query);
+  if (call == "entities") return Entities(*slot);
   return call.empty() ? Describe(*slot) : Picture(*slot, call, query);
 }
 

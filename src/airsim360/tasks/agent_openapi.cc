@@ -47,6 +47,15 @@ std::string_view AgentOpenApi() {
       {"name": "rows", "in": "query", "schema": {"type": "integer", "minimum": 1, "maximum": 64, "default": 8}},
       {"name": "columns", "in": "query", "schema": {"type": "integer", "minimum": 1, "maximum": 128, "default": 16}}],
       "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "{rows, columns, range: [[metres or null]]}"}}}},
+  "/v1/episodes/{id}/watch": {"parameters": [{"$ref": "#/components/parameters/id"}],
+    "get": {"summary": "For those who look on: the episode after the last request of its agent, which it neither holds nor changes", "parameters": [
+      {"name": "width", "in": "query", "schema": {"type": "integer", "minimum": 16, "maximum": 4096, "default": 1024}},
+      {"name": "quality", "in": "query", "schema": {"type": "integer", "minimum": 1, "maximum": 100, "default": 90}},
+      {"name": "labels", "in": "query", "schema": {"type": "integer", "minimum": 0, "maximum": 1, "default": 0}},
+      {"name": "since", "in": "query", "schema": {"type": "integer", "minimum": -1, "default": -1}, "description": "number of a moment that is known: answered without a picture while it is the newest"}],
+      "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "{episode, world, task, observation, score (when done), number, panorama: {width, height, data}, range and entity (base64 of float32 and uint32, row by row)}"}}}},
+  "/v1/episodes/{id}/entities": {"parameters": [{"$ref": "#/components/parameters/id"}],
+    "get": {"summary": "Names of the ids of its world", "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "{id: {name, category_path, kind}}"}}}},
   "/v1/episodes/{id}/path": {"parameters": [{"$ref": "#/components/parameters/id"}],
     "get": {"summary": "Places flown through, every 0.1 s", "responses": {"default": {"$ref": "#/components/responses/Error"}, "200": {"description": "{period, p: [[x, y, z]]}"}}}}
 },

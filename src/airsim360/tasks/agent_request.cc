@@ -318,6 +318,20 @@ PanoramaRequest DecodePanoramaQuery(std::string_view query) {
   const Json json = QueryObject(query);
   return ReadPanorama({json, ""});
 }
+WatchRequest DecodeWatchQuery(std::string_view query) {
+  const Json json = QueryObject(query);
+  WatchRequest request;
+  int labels = 0;
+  JsonFields fields{json, ""};
+  fields.Integer("width", request.width, 16, kWidestPanorama);
+  fields.Integer("quality", request.quality, 1, 100);
+  fields.Integer("labels", labels, 0, 1);
+  fields.Integer("since", request.since, -1, int64_t{1} << 53);
+  fields.Finish();
+  request.width -= request.width % 2;
+  request.labels = labels == 1;
+  return request;
+}
 ViewRequest DecodeViewQuery(std::string_view query) {
   const Json json = QueryObject(query);
   return ReadView({json, ""});

@@ -71,8 +71,16 @@ StepRequest DecodeStep(std::string_view text);
 ObserveRequest DecodeObserve(std::string_view text);
 SocketRequest DecodeSocketRequest(std::string_view text);
 
+/// A panorama for somebody who looks on.
+struct WatchRequest {
+  int width = 1024, quality = 90;  ///< as PanoramaRequest
+  bool labels = false;             ///< with range and entities
+  int64_t since = -1;              ///< number of a moment that is known already: no picture of it
+};
+
 /// "width=1024&quality=90" as the fields of the structs.
 PanoramaRequest DecodePanoramaQuery(std::string_view query);
+WatchRequest DecodeWatchQuery(std::string_view query);
 ViewRequest DecodeViewQuery(std::string_view query);
 GridRequest DecodeGridQuery(std::string_view query);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "airsim360/scene/scene_state.h"
 #include "airsim360/tasks/agent_answers.h"
 #include "airsim360/tasks/agent_api.h"
 
@@ -33,6 +34,15 @@ inline void RequireMethod(const AgentRequest& request, const char* method) {
     throw StatusError(405, request.method.substr(0, 16) + " is not answered here; use " + method);
 }
 
+/// One instant of an episode for those who look on.
+struct WatchedMoment {
+  int64_t number = 0;
+  Answer state = {};  ///< as observations
+  RigidTransform X_WB = {};
+  std::shared_ptr<const SceneState> moved = {};
+  std::shared_ptr<AgentWorld> world = {};
+};
+
 }  // namespace internal
 
 /// One episode and who may touch it.
@@ -43,6 +53,12 @@ struct AgentApi::Slot {
   double answered = 0;                // when its agent got the last answer
   double latency = 0;                 // seconds of thinking charged so far
   std::atomic<double> touched{0};
+  std::mutex watched_mutex;  // of what follows
+  std::shared_ptr<const internal::WatchedMoment> watched;
+
+  /// After each request of its agent. Those who look on read this and never hold the episode, so that nobody who flies is
+  /// told that it is busy.
+  void Publish() noexcept;
 };
 
 /// The right to use an episode for one request. In real time what has passed since the last answer passes in
@@ -51,7 +67,10 @@ class AgentApi::Turn {
  public:
   enum class Creates { kNo, kYes };
   Turn(AgentApi& api, Slot& slot, Creates creates = Creates::kNo);
-  ~Turn() { slot_.answered = slot_.touched = api_.Now(); }
+  ~Turn() {
+    slot_.Publish();
+    slot_.answered = slot_.touched = api_.Now();
+  }
 
  private:
   AgentApi& api_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "airsim360/base/error.h"
 #include "airsim360/routes/roadmap.h"
@@ -47,6 +48,14 @@ Image<Rgb8> AgentWorld::Panorama(const RigidTransform& X_WB, int width, PanoFram
   const std::lock_guard lock(mutex_);
   Render(request, std::move(moved));
   return frame_.rgb;
+}
+
+Frame AgentWorld::Watched(const RigidTransform& X_WB, int width, std::shared_ptr<const SceneState> moved) {
+  RenderRequest request{picture_, Equirectangular{width, width / 2}, LevelCamera(X_WB)};
+  request.products = {.rgb = true, .range = true, .semantic = false, .entity = true};
+  const std::lock_guard lock(mutex_);
+  Render(request, std::move(moved));
+  return std::exchange(frame_, {});  // one that was moved from is of no use
 }
 
 Image<Rgb8> AgentWorld::View(const RigidTransform& X_WB, double azimuth, double elevation, double fov,

@@ -40,6 +40,8 @@ class AgentWorld {
   /// across the width, all in radians; 0 < fov < pi.
   Image<Rgb8> View(const RigidTransform& X_WB, double azimuth, double elevation, double fov, int width,
                    int height, std::shared_ptr<const SceneState> moved = nullptr);
+  /// The level panorama with what a person who looks on may ask of it: colours, range and entities.
+  Frame Watched(const RigidTransform& X_WB, int width, std::shared_ptr<const SceneState> moved = nullptr);
   /// Looked at in a panorama of 256 x 128 rays or more; every sector holds several.
   RangeGrid Grid(const RigidTransform& X_WB, int rows, int columns, std::shared_ptr<const SceneState> moved = nullptr);
 

@@ -71,6 +71,7 @@ class Episode {
   void Wait(double seconds);
 
   AgentWorld& world() { return *world_; }
+  const std::shared_ptr<AgentWorld>& shared_world() const { return world_; }
   const EpisodeSpec& spec() const { return spec_; }
   const Vehicle& vehicle() const { return state().vehicles[0]; }
   const SimState& state() const { return loop_->state(); }

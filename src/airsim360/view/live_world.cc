@@ -10,9 +10,12 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/json_depth.h"
 #include "airsim360/flight/drones/catalog.h"
-#include "airsim360/scene/category_colors.h"
+#include "airsim360/math/coordinate_limit.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/view/drawing.h"
+#include "airsim360/view/drawn_frames.h"
+#include "airsim360/view/fair_mutex.h"
+#include "airsim360/view/placing.h"
 #include "airsim360/view/planes.h"
 #include "airsim360/view/tree_desk.h"
 
@@ -49,6 +52,13 @@ double Number(const Json& message, const char* key, double low, double high, dou
   if (!(number >= low && number <= high))
     throw InputError(std::string(key) + ": " + value.dump() + " is not in " + Json(low).dump() + " ... " + Json(high).dump());
   return number;
+}
+
+Vec3d PointOf(const Json& message) {
+  const Json point = message.value("point", Json());
+  const bool fits = point.is_array() && point.size() == 3 && std::ranges::all_of(point, [](const Json& v) { return v.is_number(); });
+  if (!fits) throw InputError("point: three numbers, metres of W");
+  return CheckedPlace("point", {point[0].get<double>(), point[1].get<double>(), point[2].get<double>()});
 }
 
 Products ProductsOf(const Json& message, std::vector<std::string>& names) {
@@ -113,7 +123,7 @@ struct LiveWorld::Impl {
   std::mutex changes;  // of what follows; taken before `mutex`
   std::string weather;
   double hour = -1;
-  std::mutex mutex;  // of the rest
+  FairMutex mutex;  // of the rest; pictures follow each other without a pause, and others want a turn
   Environment environment;
   std::unique_ptr<Renderer> own_renderer;  // of another environment than the stage's
   Renderer* renderer = nullptr;
@@ -263,6 +273,10 @@ SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
   if (what == "picture") return Picture(message, may_fly);
   if (what == "planes") return Planes(message);
   if (what == "draw") return Said({{"done", CheckDrawing(*Model(), message.value("kind", ""), message.value("text", ""))}});
+  if (what == "cars") {
+    const std::lock_guard lock(mutex);
+    return {CarsJson(loop)};
+  }
   if (TreeDesk::Handles(what) && (may_fly || !TreeDesk::Changes(what))) {
     const std::lock_guard lock(mutex);
     return {trees.Do(what, message.dump())};
@@ -272,7 +286,12 @@ SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
   if (what == "keep") return Keep();
   if (what == "save") return Save();
   if (what == "reset") return Reset();
-  throw InputError("do: '" + what + "' is none of picture, planes, set, keep, save, reset, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
+  if (what == "car") {
+    const std::lock_guard lock(mutex);
+    BringCar(loop, message.value("car", ""), PointOf(message));
+    return Said({{"done", "car"}});
+  }
+  throw InputError("do: '" + what + "' is none of picture, planes, set, keep, save, reset, cars, car, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
 }
 
 LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(std::make_unique<Impl>(std::move(stage), std::move(options))) {}
@@ -292,12 +311,8 @@ SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token)
 
 std::string LiveWorld::DescriptionJson() const {
   const Scene& scene = impl_->stage->scene();
-  Json about{{"world", impl_->stage->name()}, {"products", kShown}, {"scale", {kNear, kFar}}, {"weathers", EnvironmentPresetNames()},
-             {"keeps", static_cast<bool>(impl_->options.save)}, {"flies", true}, {"follows", false}, {"categories", Json::array()}};
-  for (const auto& [id, category] : scene.tree.categories()) {
-    const Rgb8 color = CategoryColor(scene.tree, id);
-    about["categories"].push_back({{"id", id}, {"path", category.path}, {"color", {color.r, color.g, color.b}}, {"thing", category.thing}});
-  }
+  const Json about{{"world", impl_->stage->name()}, {"seed", impl_->stage->seed()}, {"products", kShown}, {"scale", {kNear, kFar}}, {"weathers", EnvironmentPresetNames()},
+             {"keeps", static_cast<bool>(impl_->options.save)}, {"flies", true}, {"follows", false}, {"resets", true}, {"categories", Json::parse(CategoriesJson(scene.tree))}};
   return about.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -40,6 +40,8 @@ void PlaneMessage::AddPicture(const Image<Rgb8>& rgb) {
   Add("rgb", "file", "jpeg", rgb.width(), rgb.height(), file.data(), file.size());
 }
 
+void PlaneMessage::AddJpeg(std::string_view file, int width, int height) { Add("rgb", "file", "jpeg", width, height, file.data(), file.size()); }
+
 bool PlaneMessage::AddProduct(const Frame& frame, const std::string& name) {
   const auto add = [&](const auto& image, const char* plane, const char* type, const auto& values) {
     Add(name, plane, type, image.width(), image.height(), values.data(), values.size() * sizeof(values[0]));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "airsim360/dataset/stored_pictures.h"
@@ -15,6 +16,8 @@ class PlaneMessage {
  public:
   /// A JPEG file of the colours.
   void AddPicture(const Image<Rgb8>& rgb);
+  /// The same of a file that is one.
+  void AddJpeg(std::string_view file, int width, int height);
   /// A product of the frame under its name in datasets: range, semantic, entity, normal (8 bits), albedo, material, position,
   /// flow (dx and dy), coverage (the largest share). False for a name that is none.
   bool AddProduct(const Frame& frame, const std::string& name);

@@ -70,9 +70,9 @@ HttpResponse ViewSite::Find(std::string_view path) const {
 }
 
 HttpResponse ViewSite::Data(std::string_view path) const {
-  if (plan_ && path.starts_with("0/")) {
+  if (drawn_ && path.starts_with("0/")) {
     path.remove_prefix(2);
-    auto made = plan_->Made(path);
+    auto made = drawn_->Made(path);
     if (!made) return NotFound();
     return {.content_type = path.ends_with(".json") ? "application/json" : "application/octet-stream", .body = std::move(*made)};
   }
@@ -91,7 +91,7 @@ HttpResponse ViewSite::Data(std::string_view path) const {
 std::string ViewSite::Session() const {
   Json session{{"datasets", Json::array()}, {"live", nullptr}};
   for (size_t i = 0; i < datasets_.size(); ++i) session["datasets"].push_back(std::string(kData) + std::to_string(i) + "/");
-  if (plan_) session["datasets"].push_back(std::string(kData) + "0/");
+  if (drawn_) session["datasets"].push_back(std::string(kData) + "0/");
   if (live_) {
     session["live"] = Json::parse(live_->DescriptionJson());
     session["live"]["token"] = token_;

@@ -9,8 +9,8 @@
 
 #include "airsim360/dataset/viewing/viewed_dataset.h"
 #include "airsim360/http/http_server.h"
+#include "airsim360/view/drawn_frames.h"
 #include "airsim360/view/live_source.h"
-#include "airsim360/view/viewed_plan.h"
 
 namespace airsim360 {
 
@@ -19,8 +19,8 @@ class ViewSite {
  public:
   /// At most two datasets, side by side; or a live world, to which `token` gives control.
   ViewSite(std::vector<std::shared_ptr<ViewedDataset>> datasets, std::shared_ptr<LiveSource> live = nullptr, std::string token = {});
-  /// The frames of a plan.
-  explicit ViewSite(std::shared_ptr<ViewedPlan> plan) : plan_(std::move(plan)) {}
+  /// Frames that are drawn when they are looked at.
+  explicit ViewSite(std::shared_ptr<DrawnFrames> drawn) : drawn_(std::move(drawn)) {}
 
   /// GET alone. Never throws.
   HttpResponse Answer(const HttpRequest& request) const;
@@ -39,7 +39,7 @@ class ViewSite {
   std::vector<std::shared_ptr<ViewedDataset>> datasets_;
   std::shared_ptr<LiveSource> live_;
   std::string token_;
-  std::shared_ptr<ViewedPlan> plan_;
+  std::shared_ptr<DrawnFrames> drawn_;
 };
 
 /// Options of a server of it: this machine alone, and headers that let the page load nothing from elsewhere.

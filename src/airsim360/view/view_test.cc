@@ -2,11 +2,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
 
+#include "airsim360/view/fair_mutex.h"
 #include "airsim360/view/folder_file.h"
 #include "airsim360/view/live_world.h"
 #include "airsim360/view/page_files.h"
@@ -176,6 +181,26 @@ TEST_F(Live, TimeStandsWhileTheClockDoesAndNeverJumps) {
   EXPECT_NEAR(time(), 0.25, 1e-9);
   now = -5;
   EXPECT_NEAR(time(), 0.25, 1e-9);
+}
+
+TEST(FairMutex, TwoWhoWantItAllTheTimeHaveItByTurns) {
+  FairMutex mutex;
+  std::string order;
+  const auto take = [&](char who) {
+    for (int i = 0; i < 200; ++i) {
+      const std::lock_guard lock(mutex);
+      order += who;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // the other one asks meanwhile
+    }
+  };
+  std::thread other([&] { take('b'); });
+  take('a');
+  other.join();
+  // A std::mutex goes to whoever held it last, hundreds of times.
+  const size_t both = std::min(order.find_last_of('a'), order.find_last_of('b')), first = std::max(order.find('a'), order.find('b'));
+  size_t longest = 0, run = 0;
+  for (size_t i = first + 1; i <= both; ++i) longest = std::max(longest, run = order[i] == order[i - 1] ? run + 1 : 0);
+  EXPECT_LE(longest, 20U) << order;
 }
 
 }  // namespace

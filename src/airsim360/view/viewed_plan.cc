@@ -1,12 +1,10 @@
 #include "airsim360/view/viewed_plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "airsim360/base/error.h"
 #include "airsim360/dataset/plan/plan_spec.h"
-#include "airsim360/scene/category_colors.h"
 #include "airsim360/view/planes.h"
 
 namespace airsim360 {
@@ -15,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostColumns = 1024;
-constexpr std::string_view kFramePath = "frame/";
 // Those that a plane message holds.
 constexpr const char* kShown[] = {"rgb", "range", "semantic", "entity", "normal", "albedo", "position", "coverage", "flow"};
 
@@ -36,12 +33,9 @@ ViewedPlan::ViewedPlan(const std::filesystem::path& file, const DeviceChoice& de
 std::optional<std::string> ViewedPlan::Made(std::string_view path) {
   if (path == "index.json") return Index();
   if (path == "entities.json") return Entities();
-  if (!path.starts_with(kFramePath)) return std::nullopt;
-  int64_t number = -1;
-  const std::string_view digits = path.substr(kFramePath.size());
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size() || number < 0 || number >= frames_.plan().frames()) return std::nullopt;
-  return Frame(number);
+  const std::optional<int64_t> number = FrameNumber(path, frames_.plan().frames());
+  if (!number) return std::nullopt;
+  return Frame(*number);
 }
 
 std::string ViewedPlan::Index() const {
@@ -53,19 +47,10 @@ std::string ViewedPlan::Index() const {
     if (std::ranges::find(names, Json(row.world)) == names.end()) names.push_back(row.world);
     for (int64_t i = 0; i < static_cast<int64_t>(row.frames); ++i) worlds.push_back(row.world);
   }
-  for (int64_t i = 0; i < plan.frames(); ++i) {
-    const std::string digits = std::to_string(i);
-    stems.push_back(std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits);
-  }
-  Json categories = Json::array();
-  const SemanticTree tree = frames_.Categories();
-  for (const auto& [id, category] : tree.categories()) {
-    const Rgb8 color = CategoryColor(tree, id);
-    categories.push_back({{"id", id}, {"path", category.path}, {"color", {color.r, color.g, color.b}}, {"thing", category.thing}});
-  }
+  for (int64_t i = 0; i < plan.frames(); ++i) stems.push_back(FrameStem(i));
   const std::string world = names.size() == 1 ? names[0].get<std::string>() : std::to_string(names.size()) + " worlds";
   return Json{{"name", name_}, {"planned", true}, {"world", world}, {"seed", plan.seed}, {"people", std::ranges::any_of(plan.recipe.rows, [](const RecipeRow& row) { return row.people > 0; })},
-              {"products", products}, {"categories", categories}, {"frames", {{"stem", stems}, {"t", Json::array()}, {"range", Json::array()}, {"world", worlds}}},
+              {"products", products}, {"categories", Json::parse(CategoriesJson(frames_.Categories()))}, {"frames", {{"stem", stems}, {"t", Json::array()}, {"range", Json::array()}, {"world", worlds}}},
               {"views", {{{"suffix", ""}, {"projection", "erp"}}}}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -8,20 +8,18 @@
 #include <string_view>
 
 #include "airsim360/dataset/plan/plan_frames.h"
+#include "airsim360/view/drawn_frames.h"
 
 namespace airsim360 {
 
-/// All functions may be called from several threads; one frame is drawn at a time.
-class ViewedPlan {
+class ViewedPlan : public DrawnFrames {
  public:
   /// Panoramas of at most 1024 columns, otherwise as the plan's recipe says. InputError for what is no plan.
   ViewedPlan(const std::filesystem::path& file, const DeviceChoice& device);
 
-  /// index.json: as that of ViewedDataset, without poses and times, with "planned": true and the world of each frame.
-  /// entities.json: things of the worlds that were opened so far.
-  /// frame/N: a plane message (view/planes.h) whose header is PlannedFrameJson with "p", "q" and "persons".
-  /// nullopt for a path that is none; InputError for a frame whose world did not exist when it was planned.
-  std::optional<std::string> Made(std::string_view path);
+  /// Headers of frames are PlannedFrameJson with "p", "q" and "persons". InputError for a frame whose world did not exist when
+  /// it was planned.
+  std::optional<std::string> Made(std::string_view path) override;
 
  private:
   std::string Index() const;

@@ -1,12 +1,13 @@
 // The page: what is chosen, and what follows from it.
 import {boxOf, cardRows, fillList} from "./card.js";
 import {Dataset} from "./dataset.js";
+import {Flights} from "./flights.js";
 import {FrameList} from "./frame_list.js";
 import {Live} from "./live.js";
 import {Minimap} from "./minimap.js";
 import {paintOverlay, planesFor, rampColor, rangeScale, shownProducts} from "./overlay.js";
 import {Panorama} from "./panorama.js";
-import {parseQuestion, search} from "./search.js";
+import {nearMisses, parseQuestion, search} from "./search.js";
 import {Look, pointOfRay, rayOfPoint, turn, turnBack} from "./sphere.js";
 
 const PLAY_MS = 100, ADDRESS_MS = 300;
@@ -21,7 +22,7 @@ class App {
   async open() {
     const session = await (await fetch("session.json")).json();
     document.body.className = session.live ? "live" : "recorded";
-    this.map = new Minimap($("map"), i => this.showFrame(this.visited ? this.visited[i].frame : i));
+    this.map = new Minimap($("map"), i => this.showFrame(this.flights ? this.flights.current.first + i : this.visited ? this.visited[i].frame : i));
     this.addPane($("pane-a"));
     this.listen();
     this.readAddress();
@@ -52,7 +53,9 @@ class App {
     this.fillViews(index.views);
     $("people-choice").hidden = !index.people;
     $("time").max = this.main.dataset.size - 1;
-    if (index.planned) this.openPlan();
+    if (index.planned) $("search-form").closest("details").hidden = true;
+    if (index.flights) this.flights = new Flights(this, index.flights);
+    else if (index.planned) this.openPlan();
     else this.map.setFlight(index.views[0].p);
     this.list = new FrameList($("frame-list"), frame => this.showFrame(frame));
     this.listAll();
@@ -61,7 +64,6 @@ class App {
   openPlan() {
     this.visited = [];
     this.map.setFlight([]);
-    $("search-form").closest("details").hidden = true;
   }
   async openSecond(base) {
     $("pane-b").hidden = false;
@@ -100,6 +102,7 @@ class App {
     this.list.set([...Array(this.main.dataset.size).keys()], frame => this.describe(frame));
     this.list.choose(this.frame);
   }
+  listFlight({id, first, last}) { this.listSome([...Array(last - first + 1).keys()].map(i => first + i), id); }
   listSome(frames, what) {
     $("all-frames").hidden = false;
     $("frames-title").textContent = `${what} (${frames.length})`;
@@ -169,6 +172,7 @@ class App {
     $("time").setAttribute("aria-valuetext", this.describe(frame));
     $("now").textContent = `${frame + 1} / ${this.main.dataset.size}`;
     this.list.choose(frame);
+    this.flights?.show(frame);
     return this.refresh();
   }
   pictureOf(pane) {
@@ -206,7 +210,7 @@ class App {
   async drawn(picture) {
     if (!picture.shown) $("pose").textContent = `Drawing frame ${picture.index} …`;
     await picture.ready();
-    if (this.visited.some(({frame}) => frame === picture.index)) return;
+    if (!this.visited || this.visited.some(({frame}) => frame === picture.index)) return;
     this.visited.push({frame: picture.index, p: picture.p});
     this.map.setFlight(this.visited.map(({p}) => p));
   }
@@ -216,6 +220,7 @@ class App {
     panorama.setPicture(bitmap, picture.panoramic);
     panorama.setOverlay(paintOverlay({...this.wanted(), product: this.product === "difference" && pane === this.main ? "" : this.product, picture, planes, categories, others}));
     panorama.people = $("skeletons").checked ? people : [];
+    panorama.signs = (this.flights ?? this.live)?.signs?.(picture).map(({p, text}) => ({ray: turnBack(picture.R, p.map((v, a) => v - picture.p[a])), text})) ?? [];
     panorama.flow = this.product === "flow" && $("arrows").checked ? planes.flow : null;
     panorama.draw();
   }
@@ -312,14 +317,15 @@ class App {
     Object.assign(this, {chosen: id, box, chosenName: entities[id]?.name ?? String(id)});
     this.picked = {id, x, y, p: picture.p, range: range?.planes.Y[i], category: semantic?.planes.value[i]};
     await this.showCard(rows, source, id);
-    if (this.live && range) await this.offerPeople(picture, range, [x, y]);
+    if (this.live && range) await this.offerPlacing(picture, range, [x, y]);
     await this.refresh();
   }
-  /// People can be sent to the point that was clicked.
-  offerPeople(picture, range, [x, y]) {
+  /// People can be sent, and cars put, to the point that was clicked.
+  offerPlacing(picture, range, [x, y]) {
     const along = turn(picture.R, rayOfPoint(x + 0.5, y + 0.5, range.width, range.height));
     this.picked.point = along.map((v, a) => picture.p[a] + v * range.planes.Y[y * range.width + x]);
-    return this.live.offerPeople();
+    this.live.drawing?.picked(this.chosenName);
+    return this.live.offerPlacing();
   }
   async showCard(rows, source, id) {
     $("card-hint").hidden = true;
@@ -359,14 +365,36 @@ class App {
     const onProgress = (done, all) => { $("search-state").textContent = done < all ? `${done} of ${all} frames looked at, ${hits.length} found` : `${hits.length} frames`; };
     const ids = await search(this.main.dataset, this.view, question, signal, onHit, onProgress);
     if (signal.aborted) return;
-    if (!ids.length) $("search-state").textContent = `No thing is called "${question.words.join(" ")}".`;
+    if (!ids.length) await this.offerInstead(question);
     else if (hits.length) this.listSome(hits.map(h => h.frame), text);
   }
-  hitRow({frame, least}) {
+  /// Nothing has all the words: what has most of them is offered.
+  async offerInstead({said, words, within}) {
+    const names = nearMisses(await this.main.dataset.entities(), words);
+    $("search-state").textContent = `No thing is called "${said}".${names.length ? " Did you mean:" : ""}`;
+    for (const name of names) {
+      const row = document.createElement("li"), button = document.createElement("button");
+      button.type = "button";
+      button.textContent = name;
+      button.addEventListener("click", () => { $("question").value = name + (within < Infinity ? ` within ${within} m` : ""); this.guard(this.find($("question").value)); });
+      row.append(button);
+      $("hits").append(row);
+    }
+  }
+  /// A hit: its frame, with the nearest of the things that were looked for in the middle.
+  async showHit(frame, ids) {
+    await this.showFrame(frame);
+    if (!this.main.dataset.has("range") || !this.main.dataset.has("entity")) return;
+    const {at} = await this.main.dataset.nearest(frame, this.view, ids);
+    if (!at || this.frame !== frame) return;
+    await this.pick(this.main, ...at);
+    if (this.box?.known) this.lookAt();
+  }
+  hitRow({frame, least, ids}) {
     const row = document.createElement("li"), button = document.createElement("button");
     button.type = "button";
     button.textContent = this.describe(frame) + (least === null ? "" : ` · ${least.toFixed(1)} m`);
-    button.addEventListener("click", () => this.showFrame(frame));
+    button.addEventListener("click", () => this.guard(this.showHit(frame, ids)));
     row.append(button);
     return row;
   }

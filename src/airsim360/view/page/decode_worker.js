@@ -23,13 +23,13 @@ async function plane({url, product}) {
   return product === "entity" ? {width, height, planes: {id: idsOf(picture)}} : {width, height, channels, planes: {value: picture.data}};
 }
 
-// Least range of any of `ids`, Infinity where none is seen or has one.
+// Least range of any of `ids`, Infinity where none is seen or has one, and the pixel that has it.
 async function nearest({entity, range, ids}) {
   const [labels, far] = await Promise.all([plane({url: entity, product: "entity"}), plane({url: range})]);
   const wanted = new Set(ids), id = labels.planes.id, metres = far.planes.Y;
-  let least = Infinity;
-  for (let i = 0; i < id.length; ++i) if (metres[i] > 0 && metres[i] < least && wanted.has(id[i])) least = metres[i];
-  return {least};
+  let least = Infinity, at = -1;
+  for (let i = 0; i < id.length; ++i) if (metres[i] > 0 && metres[i] < least && wanted.has(id[i])) { least = metres[i]; at = i; }
+  return {least, at: at < 0 ? null : [at % labels.width, Math.floor(at / labels.width)]};
 }
 
 onmessage = async ({data}) => {

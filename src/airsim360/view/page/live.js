@@ -18,8 +18,9 @@ class LivePicture {
   }
   async bitmap() { return this.shown; }
   async people() { return []; }
+  // One question for all of them: the server forgets pictures while others follow.
   async plane(product) {
-    if (!this.planes[product]) Object.assign(this.planes, (await this.live.ask({do: "planes", number: this.number})).planes);
+    if (!this.planes[product]) await (this.coming ??= this.live.ask({do: "planes", number: this.number}).then(({planes}) => Object.assign(this.planes, planes)));
     return this.planes[product] ?? null;
   }
 }
@@ -58,8 +59,8 @@ class Line {
 
 export class Live {
   /// `flies`: the hands may steer; `follows`: the world is in another server, which passes its time and has its own light.
-  constructor({token, world, categories, weathers, keeps, flies, follows}, box, app) {
-    Object.assign(this, {token, world, app, flies, follows, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
+  constructor({token, world, seed, categories, weathers, keeps, flies, follows, resets}, box, app) {
+    Object.assign(this, {token, world, seed, app, flies, follows, resets, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
     this.categories = new Map(categories.map(c => [c.id, c]));
     this.controls(box, weathers, keeps);
     for (const id of ["trees", "drawing"]) document.getElementById(id).hidden = follows;
@@ -74,16 +75,28 @@ export class Live {
     this.run();
   }
   entities() { return this.named; }
-  /// Buttons that send and bring people to the point that was clicked; nothing in worlds without people.
-  async offerPeople() {
+  /// Buttons that send and bring people, and put vehicles, to the point that was clicked; nothing in worlds without them.
+  async offerPlacing() {
     if (this.follows || this.peopled) return;
     this.peopled = true;
+    await this.offerCars();
     const {people} = await this.ask({do: "trees"}), $ = id => document.getElementById(id);
     if (!people.length) return;
     for (const {name} of people) $("placed-person").append(new Option(name, name));
     for (const [id, action] of [["person-send", "send"], ["person-bring", "bring"], ["person-remove", "remove"]])
       $(id).addEventListener("click", () => this.app.guard(this.place(action, $("placed-person").value)).catch(() => {}));
     $("person-tools").hidden = false;
+  }
+  async offerCars() {
+    const {cars} = await this.ask({do: "cars"}), $ = id => document.getElementById(id);
+    if (!cars.length) return;
+    for (const {name, kind} of cars) $("placed-car").append(new Option(`${name} · ${kind.split("/").at(-1)}`, name));
+    $("car-bring").addEventListener("click", () => this.app.guard(this.putCar($("placed-car").value)).catch(() => {}));
+    $("car-tools").hidden = false;
+  }
+  async putCar(car) {
+    await this.ask({do: "car", car, point: this.app.picked.point});
+    this.app.say(`${car} stands there and drives on`);
   }
   async place(action, person) {
     await this.ask({do: "person", action, person, point: this.app.picked.point});
@@ -139,10 +152,21 @@ export class Live {
     while (this.frames[0] < performance.now() - 3000) this.frames.shift();
     return this.frames.length / 3;
   }
-  tellFollowed({t}, ms) {
+  tellFollowed({t, episode, instruction, step, end, distance, goal, score}, ms) {
     this.figures = {ms, rate: this.countRate()};
-    this.state.textContent = `${this.flies ? "flying" : "looking on"} · ${this.figures.rate.toFixed(1)} pictures/s · time ${t.toFixed(1)} s`;
+    const task = episode ? ` · episode ${episode}, ${step} actions, ${distance.toFixed(1)} m from the goal${end === "running" ? "" : ` · ${end}, ${score?.success ? "success" : "failure"}`}` : "";
+    this.state.textContent = `${this.flies ? "flying" : "looking on"} · ${this.figures.rate.toFixed(1)} pictures/s · time ${t.toFixed(1)} s${task}`;
+    this.task.textContent = instruction ?? "";
+    this.goal = goal;
+    if (episode !== this.episode) this.enter(episode);
   }
+  /// Another episode: its world may be another one, its way begins here.
+  enter(episode) {
+    this.episode = episode;
+    this.path = [];
+    fetch("entities.json").then(said => said.json()).then(named => { this.named = named; }).catch(() => {});
+  }
+  signs() { return this.goal ? [{p: this.goal, text: "goal"}] : this.drawing?.signs() ?? []; }
   tellFlown({v, render_ms, collisions, touched, kept, charge}, ms) {
     this.figures = {ms, render_ms, rate: this.countRate()};
     this.state.textContent = `${Math.hypot(...v).toFixed(1)} m/s · ${this.figures.rate.toFixed(1)} pictures/s (${render_ms.toFixed(0)} ms rendering) · battery ${Math.round(100 * charge)} %` +
@@ -181,21 +205,22 @@ export class Live {
     return true;
   }
   controls(box, weathers, keeps) {
-    const {flies, follows} = this;
+    const {flies, follows, resets} = this;
     addEventListener("keyup", e => this.key(e, false));
     addEventListener("blur", () => this.held.clear());
     if (flies) box.append(this.pad(), this.slider("Speed", 1, SPEEDS * 4, 1, 5, value => { this.speed = value / 16; }));
     if (!follows) box.append(this.choice("Weather", ["the world's own", ...weathers], value => this.set({weather: value === "the world's own" ? "" : value})),
                this.slider("Hour", 0, 24, 0.5, 12, value => this.set({hour: value})),
-               this.choice("Size", ["512", "1024", "2048", "4096"], value => { this.width = Number(value); }, "1024"),
-               this.button("To the start", () => this.ask({do: "reset"})));
+               this.choice("Size", ["512", "1024", "2048", "4096"], value => { this.width = Number(value); }, "1024"));
+    if (resets) box.append(this.button("To the start", () => this.ask({do: "reset"})));
     if (keeps) {
       this.save = this.button("Save 0 frames", async () => { const said = await this.ask({do: "save"}); this.app.say(`Saved ${said.frames} frames in ${said.folder}`); this.note.textContent = `saved: ${said.folder}`; });
       this.note = document.createElement("span");
       box.append(this.button("Keep this frame", () => this.ask({do: "keep"})), this.save, this.note);
     }
     this.state = document.createElement("output");
-    box.append(this.state);
+    this.task = document.createElement("p");
+    box.append(this.state, this.task);
   }
   set(message) {
     clearTimeout(this.setting);

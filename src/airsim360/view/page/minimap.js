@@ -10,9 +10,10 @@ export class Minimap {
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
   /// Places of the frames, in W.
-  setFlight(points) {
+  setFlight(points, count = points.length) {
     this.points = points;
     this.fit();
+    this.points = points.slice(0, count);  // those behind only have to be on the map
   }
   fit() {
     let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
@@ -71,14 +72,18 @@ export class Minimap {
     g.stroke();
     if (this.points.length <= 400) for (const p of this.points) { const [x, y] = this.at(p); g.fillRect(x - 1.5, y - 1.5, 3, 3); }
   }
-  /// What is being drawn by hand: {points, closed}.
-  drawMark(g, {points, closed}) {
-    g.strokeStyle = g.fillStyle = "#7ee787";
+  /// Lines and places over the flight, such as what is drawn by hand: {points, closed, color, dots, radius in metres}.
+  drawMark(g, {points, closed, color = "#7ee787", dots = true, radius = 0}) {
+    g.strokeStyle = g.fillStyle = color;
     g.beginPath();
     for (const p of points) g.lineTo(...this.at(p));
     if (closed) g.closePath();
     g.stroke();
-    for (const p of points) { const [x, y] = this.at(p); g.fillRect(x - 2.5, y - 2.5, 5, 5); }
+    if (dots) for (const p of points) { const [x, y] = this.at(p); g.fillRect(x - 2.5, y - 2.5, 5, 5); }
+    if (!radius) return;
+    g.beginPath();
+    g.arc(...this.at(points[0]), radius * this.scale(), 0, 7);
+    g.stroke();
   }
   drawBox(g) {
     const [x0, y0] = this.at(this.box.low), [x1, y1] = this.at(this.box.high);

@@ -1,5 +1,6 @@
 // One picture on the screen: drawing, looking around by mouse, touch and keys, and what is drawn over it in lines.
 import {Painter} from "./painter.js";
+import {pointOfRay} from "./sphere.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 // COCO-17.
@@ -9,7 +10,7 @@ const KEY_STEP = 0.12, CLICK_SLACK = 4, ARROW_SPACING = 44, MOST_ARROW = 60;
 export class Panorama {
   /// `onPick(x, y)`: a pixel was clicked; `onLook()`: one looks elsewhere.
   constructor(box, look, {onPick, onLook}) {
-    Object.assign(this, {box, look, onPick, onLook, people: [], flow: null, panoramic: true, flat: false, pointers: new Map()});
+    Object.assign(this, {box, look, onPick, onLook, people: [], flow: null, signs: [], panoramic: true, flat: false, pointers: new Map()});
     this.canvas = box.querySelector("canvas");
     this.lines = box.querySelector("svg");
     this.painter = new Painter(this.canvas);
@@ -114,6 +115,14 @@ export class Panorama {
     this.lines.replaceChildren();
     for (const person of this.people) this.drawPerson(person);
     if (this.flow) this.drawFlow();
+    for (const sign of this.signs) this.drawSign(sign);
+  }
+  /// A place of the world: a ring and what is said of it.
+  drawSign({ray, text}) {
+    const at = this.screenOf(...pointOfRay(ray, ...this.size));
+    if (!at) return;
+    this.add("circle", {cx: at[0], cy: at[1], r: 9, class: "sign"});
+    this.add("text", {x: at[0], y: at[1] - 14, class: "tag"}, text);
   }
   drawPerson({keypoints, track_id, behaviour, locomotion, area}) {
     if (!keypoints || !(area > 0)) return;

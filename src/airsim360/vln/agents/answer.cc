@@ -81,6 +81,27 @@ Answer ParseAnswer(std::string_view text, Decisions decisions) {
   return answer;
 }
 
+std::string AnswerText(const Answer& answer) {
+  VlnJson said = VlnJson::object();
+  const auto degrees = [](double radians) { return internal::Rounded(radians / kDegree); };
+  if (answer.action) {
+    const AgentAction& action = *answer.action;
+    if (const auto* preset = std::get_if<PresetAction>(&action)) {
+      said["action"] = kPresetNames[static_cast<int>(preset->preset)];
+    } else if (const auto* goal = std::get_if<RelativeGoalAction>(&action)) {
+      said = {{"azimuth_deg", degrees(goal->azimuth)}, {"elevation_deg", degrees(goal->elevation)}, {"distance_m", internal::Rounded(goal->distance)}};
+    } else if (const auto* way = std::get_if<WaypointsAction>(&action)) {
+      VlnJson points = VlnJson::array();
+      for (const Vec3d& p : way->points) points.push_back(internal::ToJson(p));
+      said[way->body_frame ? "waypoints" : "waypoints_world"] = std::move(points);
+    } else {
+      said["action"] = kActionNames[action.index()];
+    }
+  }
+  if (answer.stop) said["stop"] = true;
+  return said.dump();
+}
+
 std::string AnswerGrammar(Decisions decisions) {
   switch (decisions) {
     case Decisions::kYomo:

@@ -34,6 +34,9 @@ inline constexpr size_t kMostWaypoints = 64;
 /// none, texts around the object.
 Answer ParseAnswer(std::string_view text, Decisions decisions);
 
+/// An answer as a text of that grammar, or of the action's name where the grammar has none.
+std::string AnswerText(const Answer& answer);
+
 /// The grammar in words, for whoever answers.
 std::string AnswerGrammar(Decisions decisions);
 

@@ -36,6 +36,18 @@ TEST(Answer, StepsAndWaypointsAreRead) {
   EXPECT_TRUE(way.stop);
 }
 
+TEST(Answer, ItsTextIsReadAsTheSameAnswer) {
+  const std::pair<const char*, Decisions> cases[] = {{R"({"azimuth_deg":-90.0,"elevation_deg":10.0,"distance_m":30.0})", Decisions::kYomo},
+                                                     {R"({"action":"turn_left"})", Decisions::kDiscrete},
+                                                     {R"({"waypoints":[[1.0,2.0,3.0]],"stop":true})", Decisions::kWaypoints}};
+  for (const auto& [text, decisions] : cases) {
+    const Answer answer = ParseAnswer(text, decisions);
+    const std::string said = AnswerText(answer);
+    EXPECT_EQ(said.substr(0, std::string_view(text).size() - 1), std::string_view(text).substr(0, std::string_view(text).size() - 1));
+    EXPECT_EQ(said.find("stop") != std::string::npos, answer.stop);
+  }
+}
+
 TEST(Answer, WhateverElseIsRefusedWithItsField) {
   struct Case {
     const char* text;

@@ -7,7 +7,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/base/hash.h"
-#include "airsim360/vln/agents/http_post.h"
+#include "airsim360/http/http_client.h"
 #include "airsim360/vln/agents/observation.h"
 #include "airsim360/vln/agents/told_agents.h"
 
@@ -79,6 +79,7 @@ class ChatAgent : public VlnAgent {
         break;  // the request was tried often enough
       }
       try {
+        decision.said = exchange.text;
         decision.answer = ParseAnswer(exchange.text, s.decisions);
         in_a_row_ = 0;
         return decision;
@@ -141,7 +142,7 @@ class ChatAgent : public VlnAgent {
     double wait = options_.first_wait;
     for (int attempt = 1;; ++attempt) {
       Pace();
-      const internal::HttpAnswer answer = internal::PostJson(options_.base_url, options_.key, body, options_.seconds, kMostBody);
+      const HttpAnswer answer = PostJson(options_.base_url, options_.key, body, options_.seconds, kMostBody);
       exchange.seconds += answer.seconds;
       if (answer.fault.empty()) {
         ReadBody(answer.body, exchange);

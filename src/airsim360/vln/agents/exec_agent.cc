@@ -139,6 +139,7 @@ class ExecAgent : public VlnAgent {
         return decision;
       }
       try {
+        decision.said = text;
         decision.answer = ParseAnswer(text, s.decisions);
         in_a_row_ = 0;
         return decision;

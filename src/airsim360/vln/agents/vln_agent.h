@@ -31,6 +31,7 @@ struct Decision {
   Answer answer;
   std::vector<std::string> faults = {};  ///< of endpoints and grammar, in words, in order
   bool give_up = false;                  ///< the agent cannot go on: the episode ends where it is
+  std::string said = {};                 ///< by a program or a model, word for word; "" = `answer` says it all
 };
 
 class VlnAgent {

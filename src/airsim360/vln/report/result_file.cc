@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -13,16 +15,52 @@ using internal::Rounded;
 using internal::VlnFields;
 using internal::VlnJson;
 
+constexpr size_t kMostSteps = 1'000'000;
+
 VlnJson PointsJson(const std::vector<Vec3d>& points) {
   VlnJson list = VlnJson::array();
   for (const Vec3d& p : points) list.push_back(internal::ToJson(p));
   return list;
 }
 
+VlnJson LogJson(const std::vector<VlnStep>& log) {
+  VlnJson list = VlnJson::array();
+  for (const VlnStep& step : log) {
+    VlnJson& said = list.emplace_back(VlnJson{{"t", Rounded(step.t)}, {"p", internal::ToJson(step.p)}, {"yaw_deg", Rounded(step.yaw_deg)}, {"said", step.said}});
+    if (!step.told.empty()) said["told"] = step.told;
+  }
+  return list;
+}
+
+std::vector<VlnStep> ReadLog(const VlnJson& list, const std::string& where) {
+  if (!list.is_array() || list.size() > kMostSteps) throw InputError(where + ": is no list of decisions");
+  std::vector<VlnStep> log;
+  for (const VlnJson& entry : list) {
+    VlnFields fields(entry, where + "[" + std::to_string(log.size()) + "]");
+    VlnStep step;
+    step.t = fields.Number("t", 0, 0, 1e9);
+    step.p = fields.Point("p");
+    step.yaw_deg = fields.Number("yaw_deg", 0, -360, 360);
+    step.said = fields.Text("said", "");
+    step.told = fields.Text("told", "");
+    fields.Finish();
+    log.push_back(std::move(step));
+  }
+  return log;
+}
+
+std::vector<double> ReadHeadings(const VlnJson& list, size_t count, const std::string& where) {
+  std::vector<double> headings;
+  if (list.is_array())
+    for (const VlnJson& value : list) headings.push_back(value.is_number() && std::abs(value.get<double>()) <= 360 ? value.get<double>() : 1e9);
+  if (headings.size() != count || std::ranges::count(headings, 1e9) > 0) throw InputError(where + ": is no list of an angle in degrees for each place of 'pred'");
+  return headings;
+}
+
 }  // namespace
 
 std::string ResultLine(const VlnResult& r) {
-  const VlnJson json = {{"id", r.id},
+  VlnJson json = {{"id", r.id},
                         {"template", r.template_id},
                         {"world", r.world},
                         {"difficulty", r.difficulty},
@@ -49,6 +87,8 @@ std::string ResultLine(const VlnResult& r) {
                         {"parts", PointsJson(r.parts)},
                         {"ref", PointsJson(r.ref)},
                         {"pred", PointsJson(r.pred)}};
+  if (!r.heading_deg.empty()) json["heading_deg"] = r.heading_deg;
+  if (!r.log.empty()) json["log"] = LogJson(r.log);
   return json.dump(-1, ' ', false, VlnJson::error_handler_t::replace);
 }
 
@@ -84,6 +124,8 @@ VlnResult ParseResultLine(const std::string& line, const std::string& where) {
   if (const VlnJson* parts = fields.Find("parts"); parts != nullptr) r.parts = fields.Points("parts", kMostParts);
   r.ref = fields.Points("ref", 100'000);
   r.pred = fields.Points("pred", 1'000'000);
+  if (const VlnJson* headings = fields.Find("heading_deg"); headings != nullptr) r.heading_deg = ReadHeadings(*headings, r.pred.size(), where + ".heading_deg");
+  if (const VlnJson* log = fields.Find("log"); log != nullptr) r.log = ReadLog(*log, where + ".log");
   fields.Finish();
   if (r.ref.empty() || r.pred.empty()) throw InputError(where + ": 'ref' and 'pred' need a point each");
   return r;

@@ -16,6 +16,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/log.h"
 #include "airsim360/math/transform.h"
+#include "airsim360/vln/agents/observation.h"
 
 namespace airsim360 {
 namespace {
@@ -24,11 +25,13 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSpeed = 5;            // m/s
 constexpr double kLongestFlight = 1800;  // simulated seconds
 constexpr int64_t kYomoTurns = 8;       // decisions of a flight of one move
-constexpr size_t kPathStep = 5;         // every so many places of a flight are written: 0.5 s
+constexpr size_t kPathStep = kPathEveryNs / Episode::kPathPeriodNs;  // every so many places of a flight are written
 constexpr size_t kMostExplained = 3;    // faults told in an explanation
 
 // As files hold it.
 Vec3d Milli(Vec3d p) { return {std::round(p.x * 1000) / 1000, std::round(p.y * 1000) / 1000, std::round(p.z * 1000) / 1000}; }
+
+double Degrees(double radians) { return std::round(std::remainder(radians, 2 * std::numbers::pi) / kDegree * 1000) / 1000; }
 
 std::unique_ptr<VlnAgent> MakeAgent(const VlnRunOptions& options, const LanguageEpisode& episode, Transcript& transcript) {
   const std::string& name = options.agent;
@@ -98,7 +101,10 @@ class Flight {
       : options_(options), protocol_(protocol), eyes_(eyes), episode_(episode), radius_(protocol.radius > 0 ? protocol.radius : episode.radius),
         decisions_(options.decisions.value_or(protocol.decisions)), solid_(world->stage().solid()),
         flight_(std::move(world), SpecOf(episode, protocol, radius_)) {
-    if (options.watch) flight_.Watch(options.watch);
+    flight_.Watch([this](const Episode& flight) {
+      headings_.push_back(HeadingOfBody(flight.vehicle().motion.X_WB));
+      if (options_.watch) options_.watch(flight);
+    });
   }
 
   VlnResult Fly(VlnAgent& agent) {
@@ -116,9 +122,11 @@ class Flight {
       if (options_.realtime) flight_.Wait(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
       ++result_.decisions;
       told.clear();
+      Log(decision);
       for (std::string& fault : decision.faults) Note(fault);
       if (flight_.end() != EpisodeEnd::kRunning) break;
       if (decision.answer.action) told = Act(*decision.answer.action);
+      if (!told.empty()) result_.log.back().told = internal::Tame(told, kLongestSaid);
       const double now = HeadingOfBody(flight_.vehicle().motion.X_WB);
       result_.yaw_turned_deg += std::abs(std::remainder(now - yaw, 2 * std::numbers::pi)) / kDegree;
       yaw = now;
@@ -131,6 +139,15 @@ class Flight {
   }
 
  private:
+  // Where the drone is and what was said there; faults of the answer as what it was told.
+  void Log(const Decision& decision) {
+    const RigidTransform& X_WB = flight_.vehicle().motion.X_WB;
+    const std::string said = decision.said.empty() ? AnswerText(decision.answer) : decision.said;
+    std::string faults;
+    for (const std::string& fault : decision.faults) faults += (faults.empty() ? "" : " | ") + fault;
+    result_.log.push_back({flight_.seconds(), Milli(X_WB.p), Degrees(HeadingOfBody(X_WB)), internal::Tame(said, kLongestSaid), internal::Tame(faults, kLongestSaid)});
+  }
+
   void Note(const std::string& fault) {
     ++result_.faults;
     if (faults_.size() < kMostExplained) faults_.push_back(fault);
@@ -163,8 +180,12 @@ class Flight {
     r.radius = radius_;
     r.collided = flight_.vehicle().collision.count > 0;
     const auto& path = flight_.path();
-    for (size_t i = 0; i < path.size(); i += kPathStep) r.pred.push_back(Milli(path[i]));
+    for (size_t i = 0; i < path.size(); i += kPathStep) {
+      r.pred.push_back(Milli(path[i]));
+      r.heading_deg.push_back(Degrees(headings_[std::min(i, headings_.size() - 1)]));
+    }
     r.pred.push_back(Milli(flight_.vehicle().motion.X_WB.p));
+    r.heading_deg.push_back(Degrees(HeadingOfBody(flight_.vehicle().motion.X_WB)));
     r.ref = episode_.ref;
     for (const EpisodePart& part : episode_.before) r.parts.push_back(Milli(part.goal));
     r.geodesic_length = std::round(episode_.geodesic_length * 1000) / 1000;
@@ -207,6 +228,7 @@ class Flight {
   Episode flight_;
   VlnResult result_;
   std::vector<std::string> faults_;
+  std::vector<double> headings_;  // at each place of the path
 };
 
 VlnResult NotFlown(const LanguageEpisode& e, const VlnRunOptions& options, const FlightRules& rules, const std::string& why) {

@@ -33,6 +33,16 @@ struct VlnRunOptions {
   std::function<std::shared_ptr<Stage>(const std::string& world, uint64_t seed, int64_t people)> open = {};
 };
 
+/// A decision of a flight.
+struct VlnStep {
+  double t = 0;             ///< simulated seconds
+  Vec3d p;                  ///< where it was taken
+  double yaw_deg = 0;       ///< heading there, counter-clockwise from +X
+  std::string said, told;   ///< by the agent (kLongestSaid bytes at most, printable); of what went wrong, "" = nothing
+};
+inline constexpr size_t kLongestSaid = 1000;
+inline constexpr int64_t kPathEveryNs = 500'000'000;  ///< between two places of `pred`
+
 /// What came of one episode: a line of results.jsonl.
 struct VlnResult {
   std::string id, template_id, world, difficulty, agent, view, decisions_by, protocol;
@@ -44,7 +54,9 @@ struct VlnResult {
   int64_t decisions = 0, faults = 0, moves = 0;
   double yaw_turned_deg = 0, seconds = 0;
   std::vector<Vec3d> parts = {};  ///< goals of the parts of the instruction before the last
-  std::vector<Vec3d> ref, pred;
+  std::vector<Vec3d> ref, pred;  ///< the way that was meant; the one flown, every kPathEveryNs and the end
+  std::vector<double> heading_deg = {};  ///< at each place of `pred`; empty in files of versions that did not write it
+  std::vector<VlnStep> log = {};         ///< as well
 };
 
 /// Flies what `out` does not hold yet, in the order of the file, and gives the results of all. Killed at any time and run

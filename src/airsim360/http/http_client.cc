@@ -1,4 +1,4 @@
-#include "airsim360/vln/agents/http_post.h"
+#include "airsim360/http/http_client.h"
 
 #include <curl/curl.h>
 
@@ -7,7 +7,7 @@
 
 #include "airsim360/base/error.h"
 
-namespace airsim360::internal {
+namespace airsim360 {
 namespace {
 
 struct Inbox {
@@ -42,33 +42,30 @@ std::string FaultOf(CURLcode code, double seconds, size_t most) {
   }
 }
 
-}  // namespace
+using Handle = std::unique_ptr<CURL, decltype(&curl_easy_cleanup)>;
 
-HttpAnswer PostJson(const std::string& url, const std::string& key, const std::string& body, double seconds, size_t most_bytes) {
+Handle NewHandle(const std::string& url, double seconds) {
   static std::once_flag once;
   std::call_once(once, [] { curl_global_init(CURL_GLOBAL_DEFAULT); });
-  const std::unique_ptr<CURL, decltype(&curl_easy_cleanup)> handle(curl_easy_init(), curl_easy_cleanup);
+  Handle handle(curl_easy_init(), curl_easy_cleanup);
   if (!handle) throw RuntimeError("libcurl cannot be started");
-  curl_slist* list = curl_slist_append(nullptr, "Content-Type: application/json");
-  list = curl_slist_append(list, "Expect:");
-  if (!key.empty()) list = curl_slist_append(list, ("Authorization: Bearer " + key).c_str());
-  const std::unique_ptr<curl_slist, decltype(&curl_slist_free_all)> headers(list, curl_slist_free_all);
-  Inbox inbox{{}, most_bytes};
   curl_easy_setopt(handle.get(), CURLOPT_URL, url.c_str());
   curl_easy_setopt(handle.get(), CURLOPT_PROTOCOLS_STR, "http,https");
   curl_easy_setopt(handle.get(), CURLOPT_FOLLOWLOCATION, 0L);
   curl_easy_setopt(handle.get(), CURLOPT_NOSIGNAL, 1L);
   curl_easy_setopt(handle.get(), CURLOPT_TIMEOUT_MS, static_cast<long>(seconds * 1000));
-  curl_easy_setopt(handle.get(), CURLOPT_HTTPHEADER, headers.get());
-  curl_easy_setopt(handle.get(), CURLOPT_POSTFIELDS, body.data());
-  curl_easy_setopt(handle.get(), CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
-  curl_easy_setopt(handle.get(), CURLOPT_WRITEFUNCTION, Receive);
-  curl_easy_setopt(handle.get(), CURLOPT_WRITEDATA, &inbox);
-  const CURLcode code = curl_easy_perform(handle.get());
+  return handle;
+}
+
+HttpAnswer Perform(CURL* handle, double seconds, size_t most_bytes) {
+  Inbox inbox{{}, most_bytes};
+  curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, Receive);
+  curl_easy_setopt(handle, CURLOPT_WRITEDATA, &inbox);
+  const CURLcode code = curl_easy_perform(handle);
   HttpAnswer answer;
   long status = 0;
-  curl_easy_getinfo(handle.get(), CURLINFO_RESPONSE_CODE, &status);
-  curl_easy_getinfo(handle.get(), CURLINFO_TOTAL_TIME, &answer.seconds);
+  curl_easy_getinfo(handle, CURLINFO_RESPONSE_CODE, &status);
+  curl_easy_getinfo(handle, CURLINFO_TOTAL_TIME, &answer.seconds);
   answer.status = static_cast<int>(status);
   if (code != CURLE_OK) {
     answer.fault = FaultOf(code, seconds, most_bytes);
@@ -76,10 +73,29 @@ HttpAnswer PostJson(const std::string& url, const std::string& key, const std::s
     return answer;
   }
   answer.body = std::move(inbox.body);
-  if (status == 200) return answer;
+  if (status / 100 == 2) return answer;
   answer.fault = "status " + std::to_string(status);
   answer.again = status == 408 || status == 409 || status == 425 || status == 429 || status >= 500;
   return answer;
 }
 
-}  // namespace airsim360::internal
+}  // namespace
+
+HttpAnswer PostJson(const std::string& url, const std::string& key, const std::string& body, double seconds, size_t most_bytes) {
+  const Handle handle = NewHandle(url, seconds);
+  curl_slist* list = curl_slist_append(nullptr, "Content-Type: application/json");
+  list = curl_slist_append(list, "Expect:");
+  if (!key.empty()) list = curl_slist_append(list, ("Authorization: Bearer " + key).c_str());
+  const std::unique_ptr<curl_slist, decltype(&curl_slist_free_all)> headers(list, curl_slist_free_all);
+  curl_easy_setopt(handle.get(), CURLOPT_HTTPHEADER, headers.get());
+  curl_easy_setopt(handle.get(), CURLOPT_POSTFIELDS, body.data());
+  curl_easy_setopt(handle.get(), CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
+  return Perform(handle.get(), seconds, most_bytes);
+}
+
+HttpAnswer GetHttp(const std::string& url, double seconds, size_t most_bytes) {
+  const Handle handle = NewHandle(url, seconds);
+  return Perform(handle.get(), seconds, most_bytes);
+}
+
+}  // namespace airsim360

@@ -1,9 +1,9 @@
-// One POST to a server that may do anything. For the .cc files of this folder.
+// One request to a server that may do anything. libcurl lives in http_client.cc alone.
 #pragma once
 
 #include <string>
 
-namespace airsim360::internal {
+namespace airsim360 {
 
 struct HttpAnswer {
   int status = 0;           ///< 0: none came
@@ -13,7 +13,10 @@ struct HttpAnswer {
   double seconds = 0;       ///< it took
 };
 
-/// No redirects, nothing but http and https. Never throws for what the server does.
-HttpAnswer PostJson(const std::string& url, const std::string& key, const std::string& body, double seconds, size_t most_bytes);
+// No redirects, nothing but http and https. They never throw for what the server does.
 
-}  // namespace airsim360::internal
+/// `key`: of an Authorization header; "" = none.
+HttpAnswer PostJson(const std::string& url, const std::string& key, const std::string& body, double seconds, size_t most_bytes);
+HttpAnswer GetHttp(const std::string& url, double seconds, size_t most_bytes);
+
+}  // namespace airsim360

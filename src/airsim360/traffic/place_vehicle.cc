@@ -1,0 +1,69 @@
+#include "airsim360/traffic/place_vehicle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "airsim360/base/error.h"
+#include "airsim360/traffic/turns.h"
+
+namespace airsim360 {
+namespace {
+
+struct LanePlace {
+  LaneId lane = kNoLane;
+  double s = 0, distance = std::numeric_limits<double>::infinity();
+};
+
+// The place of one lane that is nearest to p.
+LanePlace NearestOn(const LaneMap& lanes, LaneId id, Vec3d p) {
+  LanePlace best{.lane = id};
+  double s = 0;
+  const auto& points = lanes.lane(id).points;
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    const Vec3d a = VecCast<double>(points[i]), along = VecCast<double>(points[i + 1]) - a;
+    const double length = Norm(along), t = length > 0 ? std::clamp(Dot(p - a, along) / (length * length), 0.0, 1.0) : 0;
+    const double distance = Norm(p - (a + along * t));
+    if (distance < best.distance) best = {id, s + t * length, distance};
+    s += length;
+  }
+  return best;
+}
+
+constexpr double kRoom = 0.5;  // metres before and behind
+
+// Others are taken as long as they are in the direction of this one: those beside it are on lanes of their own.
+void CheckFree(const TrafficModel& model, const TrafficState& state, uint32_t vehicle) {
+  const RigidTransform X_WB = PoseOf(model, state, vehicle, state.t_ns);
+  const VehicleShape& own = model.vehicles[vehicle].shape;
+  for (size_t i = 0; i < state.vehicles.size(); ++i) {
+    const VehicleShape& other = model.vehicles[i].shape;
+    const Vec3d away = PoseOf(model, state, i, state.t_ns).p - X_WB.p;
+    if (i != vehicle && std::abs(Dot(away, X_WB.R.column(0))) < (own.length + other.length) / 2 + kRoom && std::abs(Dot(away, X_WB.R.column(1))) < (own.width + other.width) / 2)
+      throw InputError("point: another vehicle is in the way");
+  }
+}
+
+}  // namespace
+
+TrafficState WithVehicleAt(const TrafficModel& model, const TrafficState& state, uint32_t vehicle, Vec3d p) {
+  const VehicleShape& shape = model.vehicles[vehicle].shape;
+  LanePlace best;
+  for (LaneId id = 0; id < model.lanes.size(); ++id) {
+    const Lane& lane = model.lanes.lane(id);
+    if (lane.junction >= 0 || (lane.bus && !shape.bus) || model.lanes.length(id) < shape.length) continue;
+    const LanePlace place = NearestOn(model.lanes, id, p);
+    if (place.distance < best.distance) best = place;
+  }
+  if (!(best.distance <= kFarthestLane))
+    throw InputError("point: no lane is within " + std::to_string(static_cast<int>(kFarthestLane)) + " m of it");
+  TrafficState changed = state;
+  const double front = std::clamp(best.s + shape.length / 2, shape.length, model.lanes.length(best.lane));
+  changed.vehicles[vehicle] = {.lane = best.lane, .s = front, .choices = state.vehicles[vehicle].choices};
+  internal::ChooseAhead(model, vehicle, changed.vehicles[vehicle]);
+  CheckFree(model, changed, vehicle);
+  return changed;
+}
+
+}  // namespace airsim360
