@@ -71,7 +71,7 @@ constexpr Row kRows[] = {
     {"furniture/whiteboard", 30, 35, 2},
     {"ground/floor", 2, 2, 9},
     {"ground/parking", 2, 2, 9},
-    {"human", 31, 39, kClutter},
+    {"human", 31, 40, kClutter},
     {"object", 40, 39, kClutter},
     {"object/bag", 37, 39, kClutter},
     {"signage", 40, 39, 2},

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/random.h"
+#include "airsim360/render/indoor/plain_lamps.h"
 #include "airsim360/render/lights/clear_panes.h"
 #include "airsim360/render/shared/shading_scalar.h"
 
@@ -83,8 +84,9 @@ void AddSun(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, in
   }
 }
 
-void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, int rays, uint32_t seed,
+void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, const LampMix& mix, uint32_t seed,
               ShadowQueue& queue) {
+  const int rays = mix.to_lamps;
   if (world.lights == nullptr || world.lights->empty() || rays == 0) return;
   const Vec2f shift = ShiftOf(seed * 2654435761ull + 1);
   const float first = ShiftOf(seed * 2654435761ull + 7).x;
@@ -103,7 +105,9 @@ void AddLamps(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f n, 
     if (!(here > 0 && there > 0)) continue;
     const uint32_t lamp = world.lights->tree().Choose(p, n, w).lamp;
     const bool held = world.lamps != nullptr && world.lamps->Holds(lamp);
-    const float weight = here * there / (distance * distance * sample.pdf * static_cast<float>(rays));
+    const float shape = here * there / (distance * distance);
+    const bool shared = mix.plain != nullptr && mix.plain->Holds(lamp);
+    const float weight = shape / (sample.pdf * static_cast<float>(rays)) * (shared ? mix.OfLampRays(sample.pdf, shape / kPi) : 1);
     queue.Add(p + n * kLift, d, distance * 0.999f - 2 * kLift, sample.radiance * weight,
               held ? &DirectLight::held : &DirectLight::others);
   }
@@ -178,12 +182,12 @@ MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int l
   return met;
 }
 
-DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, int lamp_rays,
+DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps,
                            uint32_t seed, int sun_rays) {
   DirectLight sum;
   ShadowQueue queue(world, sum);
   AddSun(world, points, normal, sun_rays, ShiftOf(seed), queue);
-  AddLamps(world, points, normal, lamp_rays, seed, queue);
+  AddLamps(world, points, normal, lamps, seed, queue);
   queue.Send();
   return sum;
 }

@@ -52,13 +52,16 @@ struct MetSurface {
 };
 MetSurface SurfaceUnder(const IndoorWorld& world, const RayPacket& packet, int lane);
 
+struct LampMix;  // plain_lamps.h
+
 /// Light that arrives directly at a place that faces `normal`, each the mean over `points` on its surface.
 struct DirectLight {
   Vec3f sun;     ///< irradiance
   Vec3f held;    ///< of lamps that the grid holds
   Vec3f others;  ///< of the others
 };
-DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, int lamp_rays,
+/// `lamps`: how many rays look for them, and what is left to other rays.
+DirectLight LightFromAbove(const IndoorWorld& world, std::span<const Vec3f> points, Vec3f normal, const LampMix& lamps,
                            uint32_t seed, int sun_rays);
 inline constexpr int kSunRays = 16;
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kLift = 1.5e-3f;
 constexpr int kMostMirrors = 6;
+constexpr float kSectors = 8;      // of directions about the normal
 constexpr float kGuided = 0.8f;    // of the density that follows the light
 constexpr float kMostDense = 64;
 
@@ -26,15 +27,16 @@ void DimPacket(const IndoorWorld& world, const RayPacket& hit, const RayPacket& 
   for (size_t i = 0; i < 16; ++i) share[i] *= Luminance(tint[i]);
 }
 
-// Ends one ray, or turns it at a mirror; true: it goes on.
+// Ends one ray, or turns it at a mirror; true: it goes on. lamps: for the first surface of an even ray, else nullptr.
 bool Land(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, RayPacket& packet, int i,
-          bool last, Landing& out) {
+          bool last, const LampMix* lamps, Vec3f normal, Landing& out) {
   out.direction = packet.Direction(i);
   if (!packet.Hit(i)) {
     out.target = LightLink::kSky;
     return false;
   }
   const MetSurface met = SurfaceUnder(world, packet, i);
+  if (lamps != nullptr) out.glow = GlowUnder(world, *lamps, packet, i, met, normal);
   if (met.mirror) {
     out.share *= Luminance(met.base);
     out.target = LightLink::kNothing;
@@ -58,15 +60,20 @@ Vec3f PointToDirection(const Surfel& s, float u, float v) {
 }
 
 void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, const Surfel& from,
-              std::span<const Vec2f> points, std::vector<Landing>& landings) {
+              std::span<const Vec2f> points, const LampMix& lamps, std::vector<Landing>& landings) {
   landings.assign(points.size(), {});
+  // Rays of a packet go about the same way.
+  std::vector<std::pair<uint32_t, uint32_t>> order(points.size());
+  for (uint32_t i = 0; i < points.size(); ++i)
+    order[i] = {static_cast<uint32_t>(points[i].y * kSectors) << 16 | static_cast<uint32_t>(points[i].x * 256), i};
+  std::sort(order.begin(), order.end());
   for (size_t first = 0; first < points.size(); first += 16) {
     const int count = static_cast<int>(std::min<size_t>(16, points.size() - first));
     RayPacket packet;
     float share[16];
     std::fill(share, share + 16, 1.0f);
     for (int i = 0; i < count; ++i) {
-      const Vec2f point = points[first + static_cast<size_t>(i)];
+      const Vec2f point = points[order[first + static_cast<size_t>(i)].second];
       // As far as the link will remember.
       const auto kept = [](float x) { return (std::floor(std::min(x, 0.99999f) * 256) + 0.5f) / 256; };
       packet.Set(i, from.p + from.n * kLift, PointToDirection(from, kept(point.x), kept(point.y)), INFINITY);
@@ -79,9 +86,13 @@ void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const Su
       mirrored = false;
       for (int i = 0; i < count; ++i) {
         if (packet.valid[i] == 0) continue;
-        Landing& landing = landings[first + static_cast<size_t>(i)];
+        const uint32_t ray = order[first + static_cast<size_t>(i)].second;
+        Landing& landing = landings[ray];
         landing.share = share[i];
-        if (Land(world, reflectance, coarse, packet, i, bounce == kMostMirrors, landing)) {
+        const bool meets = bounce == 0 && static_cast<int>(ray) < lamps.even;
+        const bool turned = Land(world, reflectance, coarse, packet, i, bounce == kMostMirrors, meets ? &lamps : nullptr, from.n, landing);
+        if (meets) landing.glow.radiance = landing.glow.radiance * share[i];
+        if (turned) {
           share[i] = landing.share;
           mirrored = true;
         } else {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "airsim360/render/indoor/plain_lamps.h"
 #include "airsim360/render/indoor/surfels.h"
 
 namespace airsim360::internal {
@@ -33,12 +34,13 @@ struct Landing {
   float share;      ///< of light that panes and mirrors on the way leave
   Vec3f direction;  ///< at its end
   OutsidePlace outside;
+  MetGlow glow;     ///< of the first surface met
   static constexpr uint32_t kOutside = UINT32_MAX - 2;
 };
 
-/// Sends rays from a surfel to the surfels of `coarse`.
+/// Sends rays from a surfel to the surfels of `coarse`. The first lamps.even of them meet lamps.
 void SendRays(const IndoorWorld& world, const Reflectance& reflectance, const SurfelSet& coarse, const Surfel& from,
-              std::span<const Vec2f> points, std::vector<Landing>& landings);
+              std::span<const Vec2f> points, const LampMix& lamps, std::vector<Landing>& landings);
 
 /// Where over the hemisphere most light comes from, in 16 x 16 cells of (u, v).
 class LightGuide {

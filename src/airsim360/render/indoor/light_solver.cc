@@ -21,6 +21,7 @@ constexpr float kStratified = 0.6f;       // of the variance of random rays
 constexpr float kRefine = 1.5f;          // ratio of neighbours
 constexpr double kMostFine = 300000;      // surfels, about
 constexpr float kFinest = 1.0f / 3, kLeastFine = 0.6f;  // cells of the fine level, of the coarse one's
+constexpr float kOnePlane = 0.2f;         // of a cell: what is farther off is another surface
 constexpr float kNear = 0.6f;             // of a cell: something as near needs the fine level
 
 // Directions of links in the frame of a surfel.
@@ -70,6 +71,12 @@ void ForNeighbours(const SurfelSet& set, const Surfel& s, int step, const Each& 
   }
 }
 
+// Irradiance of what the first `even` rays met.
+void AddGlow(std::span<const Landing> landings, int even, Vec3f& held, Vec3f& others) {
+  for (const Landing& landing : landings.first(static_cast<size_t>(even)))
+    (landing.glow.held ? held : others) += landing.glow.radiance * (kPi / static_cast<float>(even));
+}
+
 float CellOf(std::span<const SurfacePiece> pieces, float wanted) {
   if (wanted > 0) return wanted;
   return std::max(kHomeCell, static_cast<float>(std::sqrt(AreaOf(pieces) / kMostCoarse)));
@@ -103,7 +110,7 @@ LightSolver::LightSolver(const IndoorWorld& world, const Enclosure& enclosure, c
     : LightSolver(world, EnclosedPieces(world, enclosure, Reflectance(world.tables)), options) {}
 
 LightSolver::LightSolver(const IndoorWorld& world, const std::vector<SurfacePiece>& pieces, const IndoorOptions& options)
-    : world_(world), options_(options), reflectance_(world.tables), coarse_(world, pieces, CellOf(pieces, options.cell)) {
+    : world_(world), options_(options), reflectance_(world.tables), plain_(world), coarse_(world, pieces, CellOf(pieces, options.cell)) {
   TraceEven();
   FindDirect();
   Bounce(kFirstBounces);
@@ -130,13 +137,16 @@ Vec3f LightSolver::Seen(uint32_t target, const Surfel& from, const LightLink& li
 void LightSolver::TraceEven() {
   const auto rays = static_cast<size_t>(options_.rays);
   const size_t count = coarse_.surfels().size();
+  others_.assign(count, {});
+  coarse_light_.lamps.assign(count, {});
   links_.assign(count * 2 * rays, {LightLink::kNothing, 0, 0, 0});
   std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(count / kChunk + 1);
   ForSurfels(count, [&](size_t i, size_t chunk) {
     std::vector<Vec2f> points;
     std::vector<Landing> landings;
     SampleEvenly(options_.rays, ShiftOf(i), points);
-    SendRays(world_, reflectance_, coarse_, coarse_.surfels()[i], points, landings);
+    SendRays(world_, reflectance_, coarse_, coarse_.surfels()[i], points, {&plain_, options_.lamp_rays, options_.rays}, landings);
+    AddGlow(landings, options_.rays, coarse_light_.lamps[i], others_[i]);
     for (size_t k = 0; k < rays; ++k) {
       const size_t at = i * 2 * rays + k;
       if (landings[k].target == Landing::kOutside) outside[chunk].push_back({at, landings[k].outside});
@@ -177,15 +187,13 @@ void LightSolver::AddOutside(std::vector<std::vector<std::pair<size_t, OutsidePl
 void LightSolver::FindDirect() {
   const auto& surfels = coarse_.surfels();
   direct_.assign(surfels.size(), {});
-  others_.assign(surfels.size(), {});
-  coarse_light_.lamps.assign(surfels.size(), {});
   ForSurfels(surfels.size(), [&](size_t i, size_t) {
     const Surfel& s = surfels[i];
-    const DirectLight d = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, options_.lamp_rays,
-                                         static_cast<uint32_t>(i), kSunRays);
-    direct_[i] = d.sun + d.held + d.others;
-    others_[i] = d.others;
-    coarse_light_.lamps[i] = d.held;
+    const DirectLight d = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n,
+                                         {&plain_, options_.lamp_rays, options_.rays}, static_cast<uint32_t>(i), kSunRays);
+    others_[i] += d.others;
+    coarse_light_.lamps[i] += d.held;
+    direct_[i] = d.sun + coarse_light_.lamps[i] + others_[i];
     radiance_[i] = s.albedo * direct_[i] * (1 / kPi);
   });
 }
@@ -265,7 +273,7 @@ void LightSolver::TraceGuided() {
     std::vector<Vec2f> points;
     std::vector<Landing> landings;
     guide.Sample(options_.rays, ShiftOf(i + 0x100000000ull), points);
-    SendRays(world_, reflectance_, coarse_, surfels[i], points, landings);
+    SendRays(world_, reflectance_, coarse_, surfels[i], points, {}, landings);
     // The balance heuristic of both kinds of rays.
     const auto share = [&](Vec2f point) { return 1 / (static_cast<float>(rays) * (1 + guide.Density(point))); };
     for (size_t k = 0; k < rays; ++k) {
@@ -365,16 +373,18 @@ void LightSolver::MakeFine(std::span<const SurfacePiece> pieces) {
 
 void LightSolver::LightFine(size_t i, std::unordered_map<uint32_t, LightGuide>& kept) {
   const Surfel& s = fine_->surfels()[i];
-  const DirectLight direct = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, options_.lamp_rays,
-                                            static_cast<uint32_t>(i) ^ 0x80000000u, 0);
-  fine_light_.lamps[i] = direct.held;
+  const LampMix lamps{&plain_, options_.lamp_rays, options_.fine_rays};
+  DirectLight direct = LightFromAbove(world_, {s.points, static_cast<size_t>(s.point_count)}, s.n, lamps,
+                                      static_cast<uint32_t>(i) ^ 0x80000000u, 0);
   const uint32_t near = coarse_.Nearest(s.p, s.n);
   const LightGuide guide = near == SurfelSet::kNone ? LightGuide() : KeptGuide(s, near, kept);
   std::vector<Vec2f> points;
   std::vector<Landing> landings;
   SampleEvenly(options_.fine_rays, ShiftOf(i + 0x200000000ull), points);
   guide.Sample(options_.fine_rays, ShiftOf(i + 0x300000000ull), points);
-  SendRays(world_, reflectance_, coarse_, s, points, landings);
+  SendRays(world_, reflectance_, coarse_, s, points, lamps, landings);
+  AddGlow(landings, options_.fine_rays, direct.held, direct.others);
+  fine_light_.lamps[i] = direct.held;
   Sum sum;
   for (size_t k = 0; k < landings.size(); ++k) {
     const Landing& landing = landings[k];
@@ -402,7 +412,8 @@ void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) co
       Vec3f sum = light.light[i], bend = light.bend[i];
       float mean = light.mean[i], weight = 1, variance = light.variance[i];
       ForNeighbours(set, s, pass >= 2 ? 2 : 1, [&](uint32_t j, const Surfel& other) {
-        if (j == i || Dot(other.n, s.n) < 0.9f || set.Weight(s, other.p, other.n) <= 1e-5f || set.Weight(other, s.p, s.n) <= 1e-5f) return;
+        if (j == i || Dot(other.n, s.n) < 0.9f || std::fabs(Dot(other.p - s.p, s.n)) > kOnePlane * set.cell()) return;
+        if (set.Weight(s, other.p, other.n) <= 1e-5f || set.Weight(other, s.p, s.n) <= 1e-5f) return;
         const float d = Luminance(light.light[j]) - own;
         const float w = std::exp(-d * d / (4 * (light.variance[i] + light.variance[j]) + 4e-4f * own * own + 1e-20f));
         sum += light.light[j] * w, bend += light.bend[j] * w, mean += light.mean[j] * w;
@@ -417,7 +428,7 @@ void LightSolver::Smooth(const SurfelSet& set, int passes, LevelLight& light) co
 
 Vec3f LightSolver::RadianceOutside(const OutsidePlace& place, size_t seed) const {
   if (place.n == Vec3f{}) return place.radiance;
-  Vec3f irradiance = LightFromAbove(world_, {&place.p, 1}, place.n, 0, static_cast<uint32_t>(seed), 1).sun;
+  Vec3f irradiance = LightFromAbove(world_, {&place.p, 1}, place.n, {}, static_cast<uint32_t>(seed), 1).sun;
   if (world_.around) irradiance += world_.around(place.p, place.n);
   return place.radiance + place.albedo * irradiance * (1 / kPi);
 }

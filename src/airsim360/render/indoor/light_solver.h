@@ -73,6 +73,7 @@ class LightSolver {
   const IndoorWorld& world_;
   IndoorOptions options_;
   Reflectance reflectance_;
+  PlainLamps plain_;
   SurfelSet coarse_;
   std::vector<LightLink> links_;  ///< 2 x rays a surfel
   std::vector<OutsidePlace> outside_;

@@ -8,6 +8,8 @@
 namespace airsim360::internal {
 namespace {
 
+constexpr float kTiny = 1e-4f;    // m^2 of a triangle, below which it counts by chance
+
 Box3f BoxOf(const SurfacePiece& piece) {
   Box3f box;
   for (const Vec3f& p : piece.corner) box.Add(p);
@@ -57,11 +59,20 @@ void CutInstance(const IndoorWorld& world, const Enclosure& enclosure, const Ref
     piece.normal = Normalized(cross);
     const Vec3f tint{record.tint[0], record.tint[1], record.tint[2]};
     piece.albedo = reflectance.Of(material, world.tables.mean_colors[material] * tint * world.tables.MeanColor(record, k));
-    Cut(enclosure, piece, largest, out);
+    if (StandsForTiny(piece, kTiny, ShiftOf(static_cast<uint64_t>(index) << 32 | k).x)) Cut(enclosure, piece, largest, out);
   }
 }
 
 }  // namespace
+
+bool StandsForTiny(SurfacePiece& piece, float least, float u) {
+  constexpr float kMost = 64;  // pieces that one stands for
+  const float area = 0.5f * piece.stands_for * Norm(Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
+  if (area >= least) return true;
+  const float kept = std::max(area / least, 1 / kMost);
+  piece.stands_for /= kept;
+  return u < kept;
+}
 
 std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
                                          const Reflectance& reflectance) {
@@ -73,14 +84,20 @@ std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosu
       CutInstance(world, enclosure, reflectance, static_cast<uint32_t>(i), kPieceSize, of_instance[static_cast<size_t>(i)]);
   });
   std::vector<SurfacePiece> all;
-  for (const auto& pieces : of_instance) all.insert(all.end(), pieces.begin(), pieces.end());
+  size_t count = 0;
+  for (const auto& pieces : of_instance) count += pieces.size();
+  all.reserve(count);
+  for (auto& pieces : of_instance) {
+    all.insert(all.end(), pieces.begin(), pieces.end());
+    pieces = {};
+  }
   return all;
 }
 
 double AreaOf(std::span<const SurfacePiece> pieces) {
   double area = 0;
   for (const SurfacePiece& piece : pieces)
-    area += 0.5 * Norm(Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
+    area += 0.5 * piece.stands_for * Norm(Cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
   return area;
 }
 
@@ -89,24 +106,21 @@ void SamplePiece(const SurfacePiece& piece, float step, bool back,
   const Vec3f a = piece.corner[1] - piece.corner[0], b = piece.corner[2] - piece.corner[0];
   const int across = std::max(1, static_cast<int>(std::ceil(Norm(a) / step))),
             along = std::max(1, static_cast<int>(std::ceil(Norm(b) / step)));
-  const float area = 0.5f * Norm(Cross(a, b));
-  const bool one = across * along == 1;
+  // First corners of the lattice's cells, moved by a third, so that their mean is the triangle's.
+  const auto at = [](int i, int of) { return (static_cast<float>(i) + 1.0f / 3) / static_cast<float>(of); };
+  int count = 0;
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < along; ++j) count += at(i, across) + at(j, along) < 1;
   SurfaceSample sample{{}, back ? -piece.normal : piece.normal, piece.albedo,
-                       one ? area : 2 * area / static_cast<float>(across * along)};
-  bool any = false;
-  const auto put = [&](float u, float v) {
-    sample.p = piece.corner[0] + a * u + b * v;
-    each(sample);
-    any = true;
-  };
-  for (int i = 0; i < across && !one; ++i) {
+                       0.5f * Norm(Cross(a, b)) * piece.stands_for / static_cast<float>(std::max(1, count))};
+  for (int i = 0; i < across; ++i) {
     for (int j = 0; j < along; ++j) {
-      const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(across),
-                  v = (static_cast<float>(j) + 0.5f) / static_cast<float>(along);
-      if (u + v <= 1) put(u, v);
+      const float u = at(i, across), v = at(j, along);
+      if (!(u + v < 1)) continue;
+      sample.p = piece.corner[0] + a * u + b * v;
+      each(sample);
     }
   }
-  if (!any) put(1.0f / 3, 1.0f / 3);
 }
 
 }  // namespace airsim360::internal

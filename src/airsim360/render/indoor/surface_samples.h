@@ -22,8 +22,11 @@ struct SurfacePiece {
   Vec3f corner[3];
   Vec3f normal;  ///< unit, of the front
   Vec3f albedo;
+  float stands_for = 1;  ///< pieces of its size
 };
 
+/// Of pieces of less than `least` m^2 some stand for all; u: a random number in [0, 1). False if this one is left out.
+bool StandsForTiny(SurfacePiece& piece, float least, float u);
 /// Triangles of what does not move and is no clear pane, cut to pieces of at most kPieceSize m, in their order.
 std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosure& enclosure,
                                          const Reflectance& reflectance);

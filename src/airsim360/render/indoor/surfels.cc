@@ -11,11 +11,14 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kSampleStep = 0.45f;   // of a cell
-constexpr size_t kMostSamples = 64;    // of a cell and direction
+constexpr float kTinyShare = 0.05f;    // of a cell's face: smaller pieces have samples by chance
+constexpr size_t kMostSamples = 20;    // of a cell and direction
+constexpr float kFlat = 0.002f;        // m
 constexpr size_t kMostSurfels = 3;
 constexpr float kBuriedNear = 0.02f;   // m
 constexpr float kFacing = 0.35f;       // least cosine between the normals of a place and its surfel
 constexpr float kPlane = 0.6f;         // of a cell: thickness of the disc
+constexpr float kOffPlane = 24;        // how much farther a surfel is that lies in another plane
 
 float Lift(float cell) { return std::min(0.012f, cell * 0.2f); }
 
@@ -38,13 +41,16 @@ std::vector<Sorted> SortSamples(std::span<const SurfacePiece> pieces, float cell
                                 const std::function<bool(Vec3f, Vec3f)>& wanted) {
   constexpr int64_t kChunk = 256;
   const Vec3f origin = OriginOf(cell);
+  const float least = kTinyShare * cell * cell;
   const int64_t chunks = (static_cast<int64_t>(pieces.size()) + kChunk - 1) / kChunk;
   std::vector<std::vector<Sorted>> parts(static_cast<size_t>(chunks));
   ParallelFor(chunks, [&](int64_t chunk) {
     std::vector<Sorted>& out = parts[static_cast<size_t>(chunk)];
     for (int64_t i = chunk * kChunk; i < std::min<int64_t>((chunk + 1) * kChunk, static_cast<int64_t>(pieces.size())); ++i) {
+      SurfacePiece piece = pieces[static_cast<size_t>(i)];
+      if (!StandsForTiny(piece, least, ShiftOf(static_cast<uint64_t>(i)).y)) continue;
       for (const bool back : {false, true}) {
-        SamplePiece(pieces[static_cast<size_t>(i)], cell * kSampleStep, back, [&](const SurfaceSample& s) {
+        SamplePiece(piece, cell * kSampleStep, back, [&](const SurfaceSample& s) {
           if (wanted && !wanted(s.p, s.n)) return;
           const Vec3f q = (s.p - origin) / cell;
           out.push_back({IndoorKey(CellOf(q.x), CellOf(q.y), CellOf(q.z)) << 3 | SideOf(s.n), s});
@@ -53,6 +59,9 @@ std::vector<Sorted> SortSamples(std::span<const SurfacePiece> pieces, float cell
     }
   });
   std::vector<Sorted> all;
+  size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  all.reserve(count);
   for (auto& part : parts) {
     all.insert(all.end(), part.begin(), part.end());
     part = {};
@@ -107,18 +116,29 @@ std::vector<Surfel> PlaceInCell(const IndoorWorld& world, float cell, std::span<
   const uint64_t key = samples[0].key >> 3;
   const int32_t at[3] = {static_cast<int32_t>(key >> 40) - kFarCell, static_cast<int32_t>(key >> 20 & 0xfffff) - kFarCell,
                          static_cast<int32_t>(key & 0xfffff) - kFarCell};
-  const Vec3f middle = OriginOf(cell) + Vec3f{at[0] + 0.5f, at[1] + 0.5f, at[2] + 0.5f} * cell;
+  // Of what surface there is: cells are cut by edges.
+  Vec3f middle;
+  float area = 0;
+  for (const Sorted& s : samples) middle += s.sample.p * s.sample.area, area += s.sample.area;
+  middle = middle / std::max(area, 1e-20f);
   const auto far = [&](const Sorted& s) { return Dot(s.sample.p - middle, s.sample.p - middle); };
   std::stable_sort(samples.begin(), samples.end(), [&](const Sorted& a, const Sorted& b) { return far(a) < far(b); });
   std::vector<Surfel> out;
-  for (size_t i = 0; i < std::min(samples.size(), kMostSamples); ++i) {
-    const SurfaceSample& s = samples[i].sample;
+  // Of many samples some, from near to far.
+  const size_t asked = std::min(samples.size(), kMostSamples);
+  const float weight = static_cast<float>(samples.size()) / static_cast<float>(asked);
+  for (size_t k = 0; k < asked; ++k) {
+    const size_t i = k * samples.size() / asked;
+    SurfaceSample s = samples[i].sample;
+    s.area *= weight;
     Surfel* seen = nullptr;
     for (Surfel& surfel : out) {
       if (seen == nullptr && Sees(world, surfel, s, Lift(cell))) seen = &surfel;
     }
     if (seen != nullptr) {
-      if (Buried(world, s, samples[0].key + i)) continue;
+      // In sight along one plane both are in the open.
+      const bool flat = s.n == seen->n && std::fabs(Dot(s.p - seen->p, s.n)) < kFlat;
+      if (!flat && Buried(world, s, samples[0].key + i)) continue;
       seen->area += s.area, seen->albedo += s.albedo * s.area;
       if (seen->point_count < Surfel::kPoints) seen->points[seen->point_count++] = s.p;
     } else if (out.size() < kMostSurfels && !Buried(world, s, samples[0].key + i)) {
@@ -203,10 +223,10 @@ uint32_t SurfelSet::Nearest(Vec3f p, Vec3f n) const {
   const auto look = [&](int cx, int cy, int cz) {
     const auto [first, count] = In(cx, cy, cz);
     for (uint32_t i = first; i < first + count; ++i) {
-      if (Weight(surfels_[i], p, n) <= 0) continue;
       const Vec3f d = p - surfels_[i].p;
-      const float far = Dot(d, d) * (2 - Dot(n, surfels_[i].n));
-      if (far < least) least = far, best = i;
+      const float h = Dot(d, surfels_[i].n), c = Dot(n, surfels_[i].n);
+      const float far = (Dot(d, d) + kOffPlane * h * h) * (2 - c);
+      if (c >= kFacing && far < least && Weight(surfels_[i], p, n) > 0) least = far, best = i;
     }
   };
   look(x, y, z);

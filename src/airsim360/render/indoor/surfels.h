@@ -38,7 +38,7 @@ struct Surfel {
 class SurfelSet {
  public:
   /// On all pieces of surface where `wanted` says so (nullptr: everywhere): of every cell, and there of
-  /// each of six directions, the sample nearest to the middle; more where samples do not see each other.
+  /// each of six directions, the sample nearest to the middle of them; more where samples do not see each other.
   SurfelSet(const IndoorWorld& world, std::span<const SurfacePiece> pieces, float cell,
             const std::function<bool(Vec3f p, Vec3f n)>& wanted = nullptr);
 

@@ -21,7 +21,8 @@ Lighting LightingOf(const BuildingPlan& plan, const PlanRoom& room) {
   using T = RoomType;
   const bool home = plan.spec.use == BuildingUse::kApartment;
   switch (room.type) {
-    case T::kLivingRoom: case T::kDiningRoom: case T::kBedroom: case T::kChildRoom: case T::kStudy: return {"pendant_lamp", 9, 9};
+    case T::kLivingRoom: return {"pendant_lamp", 2.9f, 2.9f};
+    case T::kDiningRoom: case T::kBedroom: case T::kChildRoom: case T::kStudy: return {"pendant_lamp", 9, 9};
     case T::kKitchen: case T::kBathroom: case T::kToilet:
       if (home) return {"downlight", 1.3f, 1.4f};
       return {"ceiling_panel", 2.4f, 2.4f};

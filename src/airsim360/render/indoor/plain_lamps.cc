@@ -1,0 +1,44 @@
+#include "airsim360/render/indoor/plain_lamps.h"
+
+#include <algorithm>
+
+namespace airsim360::internal {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+uint32_t MaterialOf(const IndoorWorld& world, uint32_t instance, uint32_t triangle) {
+  return world.tables.triangles[world.tables.instances[instance].first_triangle + triangle].material & ~kMirroredUv;
+}
+
+}  // namespace
+
+PlainLamps::PlainLamps(const IndoorWorld& world) {
+  if (world.lights == nullptr) return;
+  for (uint32_t i = 0; i < world.lights->size(); ++i) {
+    const auto triangles = world.lights->TrianglesOf(i);
+    const uint32_t instance = world.lights->lamps()[i].instance;
+    plain_.push_back(std::all_of(triangles.begin(), triangles.end(), [&](uint32_t triangle) {
+      const MaterialRecord& look = world.tables.materials[MaterialOf(world, instance, triangle)];
+      return look.beam == 0 && look.emission_texture == 0;
+    }));
+  }
+}
+
+MetGlow GlowUnder(const IndoorWorld& world, const LampMix& rays, const RayPacket& packet, int lane, const MetSurface& met,
+                  Vec3f normal) {
+  if (rays.plain == nullptr || met.behind) return {};
+  const Material& material = world.tracer.scene().materials[met.material];
+  if (material.emission == Vec3f{}) return {};
+  const SurfaceRef ref = world.tracer.Resolve(packet.rays.geometry[lane], packet.rays.instance[lane], packet.rays.primitive[lane]);
+  const uint32_t lamp = world.lights->LampOf(ref.instance, ref.triangle);
+  if (lamp == LightTable::kNoLamp || !rays.plain->Holds(lamp)) return {};
+  const Vec3f from = packet.Origin(lane), d = packet.Direction(lane);
+  const float distance = std::max(packet.rays.t_far[lane], 1e-4f);
+  const float even = std::max(0.0f, Dot(d, normal)) * -Dot(d, met.normal) / (kPi * distance * distance);
+  const float left = rays.OfLampRays(world.lights->Pdf(from, normal, ref.instance, ref.triangle), even);
+  return {material.emission * world.tables.GlowOf(ref.instance) * (1 - left),
+          world.lamps != nullptr && world.lamps->Holds(lamp)};
+}
+
+}  // namespace airsim360::internal
