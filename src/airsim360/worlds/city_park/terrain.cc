@@ -112,18 +112,16 @@ size_t LevelOf(const Cell& cell) {
   return reach < kGroundSquares[0] ? 0 : reach < kGroundSquares[1] ? 1 : 2;
 }
 
-}  // namespace
-
-size_t LayTerrain(Park& park) {
-  std::vector<Cell> leaves;
-  Subdivide(park.layout, {-kRoot / 2, -kRoot / 2, kRoot}, leaves);
-  Lattice lattice(leaves);
-  lattice.Raise(park.layout);
-  const std::vector<Vec3f>& points = lattice.points();
-
-  // Triangles by (level, entity); normals are summed over all of them.
+/// Triangles by (level, entity), and at every point of the lattice the sum of the normals of all triangles around it.
+struct Triangulation {
   std::map<std::pair<size_t, EntityId>, std::vector<Vec3u>> parts;
-  std::vector<Vec3f> normals(points.size());
+  std::vector<Vec3f> normals;
+};
+
+Triangulation TriangulateCells(const Park& park, const std::vector<Cell>& leaves, Lattice& lattice) {
+  const std::vector<Vec3f>& points = lattice.points();
+  Triangulation out;
+  out.normals.resize(points.size());
   std::vector<uint32_t> border;
   for (const Cell& c : leaves) {
     border.clear();
@@ -133,42 +131,56 @@ size_t LayTerrain(Park& park) {
     AddBorder(lattice, x1, y1, c.x, y1, border);
     AddBorder(lattice, c.x, y1, c.x, c.y, border);
     const uint32_t middle = lattice.At(c.x + c.size / 2, c.y + c.size / 2);
-    auto& triangles = parts[{LevelOf(c), park.lawns.At(c.middle())}];
+    auto& triangles = out.parts[{LevelOf(c), park.lawns.At(c.middle())}];
     for (size_t i = 0; i < border.size(); ++i) {
       const uint32_t a = border[i], b = border[(i + 1) % border.size()];
       triangles.push_back({middle, a, b});
       const Vec3f n = Cross(points[a] - points[middle], points[b] - points[middle]);
-      for (uint32_t k : {middle, a, b}) normals[k] += n;
+      for (uint32_t k : {middle, a, b}) out.normals[k] += n;
     }
   }
+  return out;
+}
 
-  // One mesh a level: its vertices have the uv of the level's picture.
+// The vertices have the uv of the level's picture.
+Mesh MeshOfLevel(const Park& park, size_t level, const std::vector<Vec3f>& points, const Triangulation& ground) {
+  Mesh mesh;
+  mesh.name = "terrain " + std::to_string(level);
+  std::vector<uint32_t> index(points.size(), 0xffffffffu);
+  const float half = kGroundSquares[level];
+  for (const auto& [key, triangles] : ground.parts) {
+    if (key.first != level) continue;
+    mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()), static_cast<uint32_t>(triangles.size()),
+                          park.materials.ground[level], key.second});
+    for (Vec3u t : triangles) {
+      for (uint32_t* k : {&t.x, &t.y, &t.z}) {
+        uint32_t& to = index[*k];
+        if (to == 0xffffffffu) {
+          to = static_cast<uint32_t>(mesh.positions.size());
+          const Vec3f p = points[*k];
+          mesh.positions.push_back(p);
+          mesh.normals.push_back(Normalized(ground.normals[*k]));
+          mesh.uvs.push_back({0.5f + 0.5f * p.x / half, 0.5f - 0.5f * p.y / half});
+        }
+        *k = to;
+      }
+      mesh.triangles.push_back(t);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+size_t LayTerrain(Park& park) {
+  std::vector<Cell> leaves;
+  Subdivide(park.layout, {-kRoot / 2, -kRoot / 2, kRoot}, leaves);
+  Lattice lattice(leaves);
+  lattice.Raise(park.layout);
+  const Triangulation ground = TriangulateCells(park, leaves, lattice);
   size_t total = 0;
   for (size_t level = 0; level < kGroundSquares.size(); ++level) {
-    Mesh mesh;
-    mesh.name = "terrain " + std::to_string(level);
-    std::vector<uint32_t> index(points.size(), 0xffffffffu);
-    const float half = kGroundSquares[level];
-    for (const auto& [key, triangles] : parts) {
-      if (key.first != level) continue;
-      mesh.parts.push_back({static_cast<uint32_t>(mesh.triangles.size()),
-                            static_cast<uint32_t>(triangles.size()), park.materials.ground[level],
-                            key.second});
-      for (Vec3u t : triangles) {
-        for (uint32_t* k : {&t.x, &t.y, &t.z}) {
-          uint32_t& to = index[*k];
-          if (to == 0xffffffffu) {
-            to = static_cast<uint32_t>(mesh.positions.size());
-            const Vec3f p = points[*k];
-            mesh.positions.push_back(p);
-            mesh.normals.push_back(Normalized(normals[*k]));
-            mesh.uvs.push_back({0.5f + 0.5f * p.x / half, 0.5f - 0.5f * p.y / half});
-          }
-          *k = to;
-        }
-        mesh.triangles.push_back(t);
-      }
-    }
+    Mesh mesh = MeshOfLevel(park, level, lattice.points(), ground);
     total += mesh.triangles.size();
     if (mesh.triangles.empty()) continue;
     park.builder.AddInstance({park.builder.AddMesh(std::move(mesh)), {}, kNoEntity});

@@ -260,18 +260,20 @@ bool IsOpenCountry(const OsmTags& tags) {
   return kind && kind->value != "pitch" && (kind->category == "ground/terrain/landscape" || kind->category == "ground/grass" || kind->category == "ground/dirt");
 }
 
-void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, Neighbours& near) {
+namespace {
+
+LineIndex WallsAtTheGround(const std::vector<OsmBuilding>& buildings) {
   LineIndex walls;
   for (size_t i = 0; i < buildings.size(); ++i)
     for (const OsmVolume& volume : buildings[i].volumes) {
       if (volume.bottom > 3 || volume.canopy) continue;
       for (const Patch& patch : volume.footprint) walls.AddRing(patch.outer, static_cast<uint32_t>(i));
     }
-  RoadGraph graph = PlanRoads(scene.data, walls);
-  GroundBuilder ground(scene);
-  SemanticTree& tree = scene.builder.tree();
+  return walls;
+}
 
-  // Junctions, then the segments between them; side streets give way to main ones.
+// Junctions, then the segments between them; side streets give way to main ones. Then the kerbs of all.
+std::vector<Patch> LayRoads(OsmScene& scene, RoadGraph& graph, GroundBuilder& ground, Neighbours& near) {
   std::vector<Patch> junctions(graph.nodes.size());
   for (size_t i = 0; i < graph.nodes.size(); ++i) {
     junctions[i] = JunctionOf(graph, i);
@@ -292,11 +294,15 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   }
   const size_t carriageways = ground.pieces().size();
   for (size_t i = 0; i < carriageways; ++i) {
-    ground.mesh().SetEntity(scene.builder.AddEntity(ground.pieces()[i].id + "/kerb", tree.At("ground/kerb")));
+    ground.mesh().SetEntity(scene.builder.AddEntity(ground.pieces()[i].id + "/kerb", scene.builder.tree().At("ground/kerb")));
     ground.mesh().SetMaterial(scene.surfaces[Surface::kKerb]);
     ground.Rim(i, kRoadDrop, 0.15);
   }
-  // Pavements on both sides, then around the corners.
+  return junctions;
+}
+
+// Pavements on both sides, then around the corners.
+void LayPavements(const RoadGraph& graph, const std::vector<Patch>& junctions, GroundBuilder& ground) {
   for (const RoadSegment& segment : graph.segments) {
     for (int side = 0; side < 2; ++side) {
       if (segment.pavement[side] < 0.5) continue;
@@ -315,6 +321,22 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
     ring.push_back(Ring::value_type(ring[1]));
     ground.Lay(OsmId("node", graph.nodes[i].id) + "/pavement", "ground/sidewalk", Surface::kSlabs, Band(ring, 0, std::min(width, 4.5)), 0);
   }
+}
+
+// Buildings cover so much of the extent that a town goes on around it.
+bool IsTown(const OsmScene& scene, const std::vector<OsmBuilding>& buildings) {
+  double built = 0;
+  for (const OsmBuilding& building : buildings) built += Area(building.outline);
+  return built > 0.2 * scene.data.extent.width() * scene.data.extent.depth() && (!scene.dress || scene.dress->town_around);
+}
+
+}  // namespace
+
+void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, Neighbours& near) {
+  RoadGraph graph = PlanRoads(scene.data, WallsAtTheGround(buildings));
+  GroundBuilder ground(scene);
+  const std::vector<Patch> junctions = LayRoads(scene, graph, ground, near);
+  LayPavements(graph, junctions, ground);
   LayPaths(scene, ground);
   LayPiers(scene, ground);
   const EntityId sea = LayAreas(scene, ground);
@@ -323,9 +345,7 @@ void BuildOsmGround(OsmScene& scene, const std::vector<OsmBuilding>& buildings, 
   PaintCrossings(scene, ground.mesh(), graph, -kRoadDrop);
   BuildBridges(scene, ground.mesh());
   near.lawns = ground.Lawns();
-  double built = 0;
-  for (const OsmBuilding& building : buildings) built += Area(building.outline);
-  const bool town = built > 0.2 * scene.data.extent.width() * scene.data.extent.depth() && (!scene.dress || scene.dress->town_around);
+  const bool town = IsTown(scene, buildings);
   const std::vector<EdgeStretch> edge = EdgeOf(scene, ground, town);
   LayCountry(scene, ground, edge, town, sea);
   if (town && scene.options.fill) RaiseBackdrop(scene, ground.mesh(), buildings, edge);

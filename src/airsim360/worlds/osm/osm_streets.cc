@@ -175,15 +175,27 @@ RoadGraph PlanRoads(const OsmData& data, const LineIndex& walls) {
   return graph;
 }
 
-Patch JunctionOf(RoadGraph& graph, size_t index) {
-  RoadNode& node = graph.nodes[index];
-  if (node.arms.size() < 3) return {};
-  struct Arm {
-    RoadSegment* segment;
-    bool out;
-    Vec2d along;
-    double angle, half, reach, most;
-  };
+namespace {
+
+/// A road that leaves a junction.
+struct Arm {
+  RoadSegment* segment;
+  bool out;       // from its start
+  Vec2d along;    // unit vector away from the junction
+  double angle, half, reach, most;
+
+  Vec2d left() const { return {-along.y, along.x}; }
+};
+
+/// Where the left edge of an arm meets the right edge of the next.
+struct JunctionCorner {
+  bool meets = false;
+  Vec2d p;
+  double s = 0, t = 0;  // along this arm and the next
+};
+
+// Counter-clockwise.
+std::vector<Arm> ArmsOf(RoadGraph& graph, const RoadNode& node) {
   std::vector<Arm> arms;
   for (const auto& entry : node.arms) {
     RoadSegment& segment = graph.segments[entry.first];
@@ -194,44 +206,49 @@ Patch JunctionOf(RoadGraph& graph, size_t index) {
                     std::min(kMostArm, length * 0.48)});
   }
   std::stable_sort(arms.begin(), arms.end(), [](const Arm& a, const Arm& b) { return a.angle < b.angle; });
-  const size_t n = arms.size();
-  struct Corner {
-    bool meets = false;
-    Vec2d p;
-    double s = 0, t = 0;  // along this arm and the next
-  };
-  std::vector<Corner> corners(n);
-  for (size_t i = 0; i < n; ++i) {
-    Arm &a = arms[i], &b = arms[(i + 1) % n];
-    // Left edge of a against right edge of b.
-    const Vec2d na{-a.along.y, a.along.x}, nb{b.along.y, -b.along.x};
-    const double cross = a.along.x * b.along.y - a.along.y * b.along.x;
-    double gap = b.angle - a.angle;
-    if (gap <= 0) gap += 2 * M_PI;
-    const double radius = std::min(a.segment->rank, b.segment->rank) >= 6 ? 2 : 5;
-    if (std::abs(cross) < 0.08 || gap > M_PI) {
-      const double reach = std::max(a.half, b.half) * (gap > M_PI ? 0.4 : 0.8);
-      a.reach = std::max(a.reach, reach);
-      b.reach = std::max(b.reach, reach);
-      continue;
-    }
-    const Vec2d d = node.p + nb * b.half - (node.p + na * a.half);
-    const double s = (d.x * b.along.y - d.y * b.along.x) / cross, t = (d.x * a.along.y - d.y * a.along.x) / cross;
-    const double fillet = radius / std::tan(std::max(gap, 0.2) / 2);
-    corners[i] = {true, node.p + na * a.half + a.along * s, s, t};
-    a.reach = std::max(a.reach, s + std::clamp(fillet, 0.5, 9.0));
-    b.reach = std::max(b.reach, t + std::clamp(fillet, 0.5, 9.0));
+  return arms;
+}
+
+// The corner between two arms, which then reach beyond it.
+JunctionCorner Meet(Vec2d node, Arm& a, Arm& b) {
+  const Vec2d na = a.left(), nb = b.left() * -1;
+  const double cross = a.along.x * b.along.y - a.along.y * b.along.x;
+  double gap = b.angle - a.angle;
+  if (gap <= 0) gap += 2 * M_PI;
+  const double radius = std::min(a.segment->rank, b.segment->rank) >= 6 ? 2 : 5;
+  if (std::abs(cross) < 0.08 || gap > M_PI) {
+    const double reach = std::max(a.half, b.half) * (gap > M_PI ? 0.4 : 0.8);
+    a.reach = std::max(a.reach, reach);
+    b.reach = std::max(b.reach, reach);
+    return {};
   }
+  const Vec2d d = node + nb * b.half - (node + na * a.half);
+  const double s = (d.x * b.along.y - d.y * b.along.x) / cross, t = (d.x * a.along.y - d.y * a.along.x) / cross;
+  const double fillet = radius / std::tan(std::max(gap, 0.2) / 2);
+  a.reach = std::max(a.reach, s + std::clamp(fillet, 0.5, 9.0));
+  b.reach = std::max(b.reach, t + std::clamp(fillet, 0.5, 9.0));
+  return {true, node + na * a.half + a.along * s, s, t};
+}
+
+}  // namespace
+
+Patch JunctionOf(RoadGraph& graph, size_t index) {
+  RoadNode& node = graph.nodes[index];
+  if (node.arms.size() < 3) return {};
+  std::vector<Arm> arms = ArmsOf(graph, node);
+  const size_t n = arms.size();
+  std::vector<JunctionCorner> corners(n);
+  for (size_t i = 0; i < n; ++i) corners[i] = Meet(node.p, arms[i], arms[(i + 1) % n]);
   Patch patch;
   for (Arm& a : arms) a.reach = std::clamp(a.reach, 0.3, a.most);
   for (size_t i = 0; i < n; ++i) {
     const Arm &a = arms[i], &b = arms[(i + 1) % n];
-    const Vec2d na{-a.along.y, a.along.x}, nb{b.along.y, -b.along.x};
+    const Vec2d na = a.left(), nb = b.left() * -1;
     const Vec2d right = node.p + a.along * a.reach - na * a.half, left = node.p + a.along * a.reach + na * a.half,
                 next = node.p + b.along * b.reach + nb * b.half;
     patch.outer.push_back(right);
     patch.outer.push_back(left);
-    const Corner& c = corners[i];
+    const JunctionCorner& c = corners[i];
     if (!c.meets || c.s > a.reach - 0.05 || c.t > b.reach - 0.05) continue;
     // The kerb return, as a parabola through both edges' ends towards their meeting point.
     for (int k = 1; k < 6; ++k) {

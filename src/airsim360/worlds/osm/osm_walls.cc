@@ -235,13 +235,13 @@ class WallBuilder {
   WallBuilder(OsmScene& scene, const Neighbours& near, MeshBuilder& mesh, MeshId balcony, MeshId window_box)
       : scene_(scene), near_(near), mesh_(mesh), balcony_(balcony), window_box_(window_box) {}
 
-  void Build(const OsmBuilding& building, const OsmVolume& volume, const Look& look, double ground, EntityId entity) {
+  void Build(const OsmVolume& volume, const Look& look, double ground, EntityId entity) {
     const double base = ground + volume.bottom, walls = volume.top - volume.bottom - volume.roof_height;
     // Down into the ground where it slopes, so that nothing stands in the air.
     const double foot = volume.bottom < 0.3 && !scene_.relief.flat() ? 3 : 0;
     for (const Patch& patch : volume.footprint) {
-      Ring_(building, volume, look, patch.outer, base, walls, foot, entity);
-      for (const Ring& hole : patch.holes) Ring_(building, volume, look, hole, base, walls, foot, entity);
+      BuildRing(volume, look, patch.outer, {base, walls, foot, entity});
+      for (const Ring& hole : patch.holes) BuildRing(volume, look, hole, {base, walls, foot, entity});
       if (volume.bottom > 0.05) Underside(patch, base, look, entity);
     }
   }
@@ -258,83 +258,97 @@ class WallBuilder {
     for (size_t i = 0; i + 2 < t.size(); i += 3) mesh_.Triangle(at(t[i]), at(t[i + 2]), at(t[i + 1]), uv(t[i]), uv(t[i + 2]), uv(t[i + 1]));
   }
 
-  void Ring_(const OsmBuilding& building, const OsmVolume& volume, const Look& look, const Ring& ring, double base,
-             double walls, double foot, EntityId entity) {
-    if (walls < 0.02) return;
-    const auto z0 = static_cast<float>(base), z1 = static_cast<float>(base + walls), height = static_cast<float>(walls);
-    Look own = look;
+  /// Heights of the walls of a ring (metres): where they begin, how high they are, how far they go on into the ground.
+  struct Walls {
+    double base, height, foot;
+    EntityId entity;
+  };
+  enum class Kind { kParty, kPlain, kLow, kDressed };
+  struct Edge {
+    Kind kind = Kind::kParty;
+    EdgeFacts facts;
+    FacadeDetail detail = FacadeDetail::kSimple;
+  };
+
+  // What an edge is; dressed walls get their entries of the plan.
+  Edge Classify(const OsmVolume& volume, const Look& look, const Ring& ring, size_t i, float height, BuildingPlan& plan) const {
+    const Vec2d a = ring[i], b = ring[(i + 1) % ring.size()];
+    const double length = std::hypot(b.x - a.x, b.y - a.y), far = scene_.Far((a + b) * 0.5);
+    Edge edge;
+    if (!look.plain && length > 0.02) edge.facts = FactsOf(near_, volume, a, b);
+    const bool distant = far > kSimpleDetail, street = edge.facts.front == Front::kStreet;
+    if (edge.facts.front == Front::kParty) {
+      edge.kind = Kind::kParty;
+    } else if (look.plain || length < 2.2 || (distant && height < 5)) {
+      edge.kind = Kind::kPlain;
+    } else if (height < 4.4f || look.stretch < 0.72f) {
+      edge.kind = Kind::kLow;
+    } else {
+      edge.kind = Kind::kDressed;
+      plan.edges[i] = street ? EdgeKind::kStreet : EdgeKind::kRear;
+      plan.party_height[i] = 0;
+      plan.shops = plan.shops && (!street || edge.facts.shops);
+      edge.detail = distant ? FacadeDetail::kFlat : far > kFullDetail || !street ? FacadeDetail::kSimple : FacadeDetail::kFull;
+    }
+    return edge;
+  }
+
+  void BuildRing(const OsmVolume& volume, const Look& look, const Ring& ring, const Walls& walls) {
+    if (walls.height < 0.02) return;
     const size_t n = ring.size();
+    Look own = look;
     own.plan.edges.assign(n, EdgeKind::kParty);
     own.plan.party_height.assign(n, 1e6f);  // left as it is, BuildFacades draws nothing there
     own.plan.canopies = false;  // nothing leaves the outline
     own.plan.cornice = 0.45f;
-    std::vector<FacadeDetail> detail(n, FacadeDetail::kSimple);
-
-    // What each edge is; dressed walls stand back a hand's breadth, so that sills and courses stay in the outline.
-    enum class Kind { kParty, kPlain, kLow, kDressed };
-    std::vector<Kind> kinds(n);
-    std::vector<EdgeFacts> facts(n);
-    std::vector<double> back(n, 0.0);
+    std::vector<Edge> edges(n);
+    std::vector<FacadeDetail> detail(n);
+    std::vector<double> back(n, 0.0);  // dressed walls stand back a hand's breadth, so that sills and courses stay in the outline
     for (size_t i = 0; i < n; ++i) {
-      const Vec2d a = ring[i], b = ring[(i + 1) % n];
-      const double length = std::hypot(b.x - a.x, b.y - a.y), far = scene_.Far((a + b) * 0.5);
-      if (!look.plain && length > 0.02) facts[i] = FactsOf(near_, volume, a, b);
-      const bool distant = far > kSimpleDetail;
-      if (facts[i].front == Front::kParty) {
-        kinds[i] = Kind::kParty;
-      } else if (look.plain || length < 2.2 || (distant && height < 5)) {
-        kinds[i] = Kind::kPlain;
-      } else if (height < 4.4f || look.stretch < 0.72f) {
-        kinds[i] = Kind::kLow;
-      } else {
-        kinds[i] = Kind::kDressed;
-        back[i] = kSetBack;
-        own.plan.edges[i] = facts[i].front == Front::kStreet ? EdgeKind::kStreet : EdgeKind::kRear;
-        own.plan.party_height[i] = 0;
-        own.plan.shops = own.plan.shops && (facts[i].front != Front::kStreet || facts[i].shops);
-        detail[i] = distant ? FacadeDetail::kFlat
-                    : far > kFullDetail || facts[i].front != Front::kStreet ? FacadeDetail::kSimple
-                                                                            : FacadeDetail::kFull;
-      }
+      edges[i] = Classify(volume, look, ring, i, static_cast<float>(walls.height), own.plan);
+      detail[i] = edges[i].detail;
+      if (edges[i].kind == Kind::kDressed) back[i] = kSetBack;
     }
     own.plan.outline = SetBack(ring, back);
-
     float u = 0;
-    for (size_t i = 0; i < n; ++i) {
-      const Vec2f a = own.plan.outline[i], b = own.plan.outline[(i + 1) % n];
-      const float length = std::hypot(b.x - a.x, b.y - a.y);
-      const bool distant = scene_.Far(ring[i]) > kSimpleDetail;
-      mesh_.SetTransform({});
-      mesh_.SetEntity(entity);
-      if (foot > 0) {
-        mesh_.SetMaterial(own.surfaces[Surface::kConcrete]);
-        PlainWall(mesh_, a, b, static_cast<float>(base - foot), z0, u);
-      }
-      if (kinds[i] == Kind::kParty) {
-        const float hidden = std::min(facts[i].hidden, height);
-        if (height - hidden > 3.5f && length > 3 && !distant) {
-          own.plan.party_height[i] = hidden / look.stretch;
-        } else if (height - hidden > 0.01f) {
-          mesh_.SetMaterial(own.surfaces[DressOf(own.plan).party]);
-          PlainWall(mesh_, a, b, z0 + hidden, z1, u);
-        }
-      } else if (kinds[i] == Kind::kPlain) {
-        const bool pictured = !look.plain && height > 4.5f && Perimeter(ring) > 25;
-        mesh_.SetMaterial(own.surfaces[pictured ? DressOf(own.plan).far : look.wall]);
-        PlainWall(mesh_, a, b, z0, z1, u);
-      } else if (kinds[i] == Kind::kLow) {
-        RngStream rng(look.plan.seed, "low wall", i);
-        BuildLowWall(mesh_, own.surfaces, DressOf(own.plan), a, b, z0, height, entity, rng);
-      }
-      u += length;
-    }
+    for (size_t i = 0; i < n; ++i) u = BuildEdge(own, ring, edges[i], i, walls, u);
     FacadeContext context{scene_.builder, own.surfaces, mesh_, balcony_, window_box_};
-    context.base = z0;
+    context.base = static_cast<float>(walls.base);
     context.stretch = look.stretch;
     context.reach = 0.6f;
     context.next_sign = static_cast<int>(look.plan.seed % kSignCount);
-    BuildFacades(context, own.plan, entity, detail);
-    static_cast<void>(building);
+    BuildFacades(context, own.plan, walls.entity, detail);
+  }
+
+  // All of an edge but a dressed wall; u is where its texture begins. Returns where that of the next does.
+  float BuildEdge(Look& own, const Ring& ring, const Edge& edge, size_t i, const Walls& walls, float u) {
+    const auto z0 = static_cast<float>(walls.base), z1 = static_cast<float>(walls.base + walls.height), height = static_cast<float>(walls.height);
+    const Vec2f a = own.plan.outline[i], b = own.plan.outline[(i + 1) % ring.size()];
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    const bool distant = scene_.Far(ring[i]) > kSimpleDetail;
+    mesh_.SetTransform({});
+    mesh_.SetEntity(walls.entity);
+    if (walls.foot > 0) {
+      mesh_.SetMaterial(own.surfaces[Surface::kConcrete]);
+      PlainWall(mesh_, a, b, static_cast<float>(walls.base - walls.foot), z0, u);
+    }
+    if (edge.kind == Kind::kParty) {
+      const float hidden = std::min(edge.facts.hidden, height);
+      if (height - hidden > 3.5f && length > 3 && !distant) {
+        own.plan.party_height[i] = hidden / own.stretch;
+      } else if (height - hidden > 0.01f) {
+        mesh_.SetMaterial(own.surfaces[DressOf(own.plan).party]);
+        PlainWall(mesh_, a, b, z0 + hidden, z1, u);
+      }
+    } else if (edge.kind == Kind::kPlain) {
+      const bool pictured = !own.plain && height > 4.5f && Perimeter(ring) > 25;
+      mesh_.SetMaterial(own.surfaces[pictured ? DressOf(own.plan).far : own.wall]);
+      PlainWall(mesh_, a, b, z0, z1, u);
+    } else if (edge.kind == Kind::kLow) {
+      RngStream rng(own.plan.seed, "low wall", i);
+      BuildLowWall(mesh_, own.surfaces, DressOf(own.plan), a, b, z0, height, walls.entity, rng);
+    }
+    return u + length;
   }
 
   static double Perimeter(const Ring& ring) {
@@ -431,7 +445,7 @@ std::vector<EntityId> BuildOsmBuildings(OsmScene& scene, const std::vector<OsmBu
       if (volume.canopy)
         BuildCanopy(scene, mesh, volume, ground, entity);
       else
-        WallBuilder(scene, near, mesh, balcony, window_box).Build(building, volume, look, ground, entity);
+        WallBuilder(scene, near, mesh, balcony, window_box).Build(volume, look, ground, entity);
       CloseOnSupports(mesh, near, volume, ground, look.surfaces[look.wall], entity);
       BuildOsmRoof(mesh, volume, ground, entity, roof, look.surfaces[look.wall],
                    RoofCover(scene, volume, *building.tags, look.plan.seed));

@@ -17,11 +17,8 @@ void SideWindow(PropBuilder& b, float side, float y0, float y1, float z0, float 
   b.BevelBox({x0, y0, z0}, {x0 + 0.024f, y1, z1}, 0.003f);
 }
 
-// Rounded box body with a window band, doors on the right, lights, destination display and roof units.
-Model MakeBus(uint32_t variant, uint64_t) {
-  PropBuilder b("bus");
-  const Vec3f stripe = variant ? Vec3f{0.03f, 0.22f, 0.11f} : Vec3f{0.02f, 0.08f, 0.30f};
-  const Material paint = CarPaint({0.68f, 0.68f, 0.67f});
+// Rounded box with a stripe, a dark foot and a dark band for the windows.
+void AddBusBody(PropBuilder& b, const Material& paint, Vec3f stripe) {
   b.Use(paint);
   // The roof is rounded across, nose and tail along; the outline is seen from the front and runs along Y.
   const auto outline = RoundedRectangle({-kHalfWidth, 0.32f}, {kHalfWidth, kHeight}, 0.20f, 5);
@@ -38,9 +35,11 @@ Model MakeBus(uint32_t variant, uint64_t) {
   b.BevelBox({-1.15f, -kHalfLength + 0.2f, 0.22f}, {1.15f, kHalfLength - 0.2f, 0.40f}, 0.03f);
   for (float side : {1.0f, -1.0f})
     SideWindow(b, side, -kHalfLength + 0.45f, kHalfLength - 0.35f, 1.28f, 2.42f);
-  // Panes over the black band; the doors reach down.
-  const Material glass = Glass({0.014f, 0.017f, 0.019f});
-  b.Use(glass);
+}
+
+// Panes over the black band; the doors reach down.
+void AddBusGlass(PropBuilder& b) {
+  b.Use(Glass({0.014f, 0.017f, 0.019f}));
   for (int i = 0; i < 7; ++i) {
     const float y = -kHalfLength + 0.50f + 1.58f * static_cast<float>(i);
     for (float side : {1.0f, -1.0f}) {
@@ -55,6 +54,10 @@ Model MakeBus(uint32_t variant, uint64_t) {
   }
   b.BevelBox({-1.08f, -kHalfLength - 0.012f, 1.05f}, {1.08f, -kHalfLength + 0.02f, 2.45f}, 0.01f);
   b.BevelBox({-0.95f, kHalfLength - 0.02f, 1.55f}, {0.95f, kHalfLength + 0.012f, 2.35f}, 0.01f);
+}
+
+// Above the windscreen: line and destination.
+void AddBusDisplay(PropBuilder& b, uint32_t variant) {
   Canvas sign(256, 48, {0.008f, 0.008f, 0.008f});
   sign.Letters(variant ? "24 GROVE AVE" : "7 MARKET ST", {0.5f, 0.5f}, 0.62f, {0.90f, 0.38f, 0.02f});
   Material display = Paint({1, 1, 1}, 0.5f);
@@ -63,6 +66,10 @@ Model MakeBus(uint32_t variant, uint64_t) {
   b.Use(display, sign.Finish(variant ? "line 24" : "line 7"));
   b.Picture({-0.80f, -kHalfLength - 0.002f, 2.52f}, {0.80f, -kHalfLength - 0.002f, 2.52f},
             {0.80f, -kHalfLength - 0.002f, 2.80f}, {-0.80f, -kHalfLength - 0.002f, 2.80f});
+}
+
+// Head and tail lamps, mirrors, wheels.
+void AddBusSides(PropBuilder& b) {
   for (float x : {-1.0f, 1.0f}) {
     b.Use(Glass({0.42f, 0.43f, 0.44f}));
     b.BevelBox({x * 0.90f - 0.17f, -kHalfLength - 0.015f, 0.62f},
@@ -85,6 +92,15 @@ Model MakeBus(uint32_t variant, uint64_t) {
       AddWheel(b, {x * (kHalfWidth - 0.13f), y, 0.48f}, 0.48f, 0.30f, x);
     }
   }
+}
+
+Model MakeBus(uint32_t variant, uint64_t) {
+  PropBuilder b("bus");
+  const Material paint = CarPaint({0.68f, 0.68f, 0.67f});
+  AddBusBody(b, paint, variant ? Vec3f{0.03f, 0.22f, 0.11f} : Vec3f{0.02f, 0.08f, 0.30f});
+  AddBusGlass(b);
+  AddBusDisplay(b, variant);
+  AddBusSides(b);
   b.Use(paint);
   b.BevelBox({-0.85f, -1.6f, kHeight - 0.02f}, {0.85f, 1.2f, kHeight + 0.20f}, 0.08f);
   b.BevelBox({-0.55f, 2.8f, kHeight - 0.02f}, {0.55f, 4.2f, kHeight + 0.14f}, 0.05f);

@@ -12,6 +12,40 @@ void Stand(District& d, std::string name, std::string_view kind, Vec2f at, float
   PlaceNamed(d, std::move(name), kind, {at.x, at.y, z}, yaw);
 }
 
+bool AtCorner(const BuildingPlan& b) { return std::count(b.edges.begin(), b.edges.end(), EdgeKind::kStreet) > 1; }
+
+// The first of three neighbours in one row, nearest to c, that can be made alike; buildings.size(): none.
+size_t FindNeighbours(const std::vector<BuildingPlan>& buildings, Vec2f c, const GroundRect& reach) {
+  size_t first = buildings.size();
+  float least = 1e9f;
+  for (size_t i = 0; i + 2 < buildings.size(); ++i) {
+    const Vec2f v = buildings[i].bounds().center() - c;
+    bool fits = std::hypot(v.x, v.y) < least && reach.Contains(buildings[i].bounds().center());
+    for (size_t k = i; k < i + 3; ++k) {
+      const BuildingPlan &b = buildings[k], &before = buildings[i];
+      const Vec2f u = b.outline[1] - b.outline[0], w = before.outline[1] - before.outline[0];
+      fits = fits && b.block == before.block && !AtCorner(b) && b.curtain_floor < 0 && b.kept_free.area() == 0 &&
+             std::abs(u.x * w.y - u.y * w.x) < 0.1f;
+    }
+    if (!fits) continue;
+    first = i;
+    least = std::hypot(v.x, v.y);
+  }
+  return first;
+}
+
+void MakeAlike(std::vector<BuildingPlan>& buildings, size_t first) {
+  for (size_t k = first; k < std::min(first + 3, buildings.size()); ++k) {
+    BuildingPlan& b = buildings[k];
+    b.name = "similar building ";
+    b.name += std::to_string(k - first + 1);
+    b.style = FacadeStyle::kClassicStone;
+    b.floors = 5;
+    b.palette = 1;
+    b.roof = RoofKind::kFlatGravel;
+  }
+}
+
 }  // namespace
 
 void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& buildings) {
@@ -35,8 +69,7 @@ void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& bu
   const auto plain = [](FacadeStyle style) {
     return style == FacadeStyle::kBrickWalkUp || style == FacadeStyle::kClassicStone || style == FacadeStyle::kBrickLoft;
   };
-  const auto corner = [](const BuildingPlan& b) { return std::count(b.edges.begin(), b.edges.end(), EdgeKind::kStreet) > 1; };
-  if (BuildingPlan* curtains = nearest([&](const BuildingPlan& b) { return plain(b.style) && corner(b) && b.floors >= 4; }))
+  if (BuildingPlan* curtains = nearest([&](const BuildingPlan& b) { return plain(b.style) && AtCorner(b) && b.floors >= 4; }))
     curtains->curtain_floor = 3;
   BuildingPlan* bottle = nearest([&](const BuildingPlan& b) {
     const bool flat = b.roof == RoofKind::kFlatGravel || b.roof == RoofKind::kFlatBitumen;
@@ -48,31 +81,7 @@ void MarkDowntownLandmarks(const StreetPlan& plan, std::vector<BuildingPlan>& bu
     const Vec2f at = a + in * (3.4f / std::hypot(in.x, in.y));
     bottle->kept_free = {at.x - 1.9f, at.y - 1.9f, at.x + 1.9f, at.y + 1.9f};
   }
-  // Three neighbours in one row become alike.
-  size_t first = buildings.size();
-  float least = 1e9f;
-  for (size_t i = 0; i + 2 < buildings.size(); ++i) {
-    const Vec2f v = buildings[i].bounds().center() - c;
-    bool fits = std::hypot(v.x, v.y) < least && reach.Contains(buildings[i].bounds().center());
-    for (size_t k = i; k < i + 3; ++k) {
-      const BuildingPlan &b = buildings[k], &before = buildings[i];
-      const Vec2f u = b.outline[1] - b.outline[0], w = before.outline[1] - before.outline[0];
-      fits = fits && b.block == before.block && !corner(b) && b.curtain_floor < 0 && b.kept_free.area() == 0 &&
-             std::abs(u.x * w.y - u.y * w.x) < 0.1f;
-    }
-    if (!fits) continue;
-    first = i;
-    least = std::hypot(v.x, v.y);
-  }
-  for (size_t k = first; k < std::min(first + 3, buildings.size()); ++k) {
-    BuildingPlan& b = buildings[k];
-    b.name = "similar building ";
-    b.name += std::to_string(k - first + 1);
-    b.style = FacadeStyle::kClassicStone;
-    b.floors = 5;
-    b.palette = 1;
-    b.roof = RoofKind::kFlatGravel;
-  }
+  MakeAlike(buildings, FindNeighbours(buildings, c, reach));
   HidePartyWalls(buildings, 0);
 }
 

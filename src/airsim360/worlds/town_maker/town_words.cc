@@ -285,13 +285,39 @@ class Reader {
   // Numbers with what they count: words read, 0 = not this.
   size_t Counted(size_t i) {
     const double value = *tokens_[i].number;
-    const auto word = [&](size_t k) { return k < tokens_.size() ? tokens_[k].plain : std::string(); };
-    const auto metre = [&](size_t k) { return IsAny(word(k), {"m", "metre", "meter"}); };
-    size_t k = i + 1;
-    // 300 m by 400 m
-    const size_t cross = metre(k) ? k + 1 : k;
+    const auto word = [&](size_t at) { return WordAt(at); };
+    const size_t k = i + 1;
+    if (const size_t read = Extent(i, value)) return read;
+    // 2 to 5 storeys
+    if (word(k) == "to" && k + 1 < tokens_.size() && tokens_[k + 1].number && IsStorey(word(k + 2))) return Storeys(i, 4, value, *tokens_[k + 1].number);
+    if (k < tokens_.size() && tokens_[k].number && IsStorey(word(k + 1))) return Storeys(i, 3, value, *tokens_[k].number);
+    if (IsStorey(word(k))) return Storeys(i, IsAny(word(k + 1), {"high", "tall"}) ? 3 : 2, value <= 3 ? value : std::round((value > 12 ? 0.3 : 0.7) * value), value);
+    if (const size_t read = Things(i, value)) return read;
+    if (IsAny(word(k), {"percent"}) && IsAny(word(k + 1), {"slope", "gradient", "grade"})) {
+      Bound(i, 3, value, 0, 26, "per cent");
+      slope_ = value / 100;
+      Note(i, 3, "climb: " + Number(value) + " % of the depth");
+      return 3;
+    }
+    if (IsMetre(k) && IsAny(word(k + 1), {"wide"}) && IsAny(word(k + 2), {"street", "road", "lane"})) {
+      Bound(i, 4, value, 4, 40, "m");
+      street_ = value;
+      Note(i, 4, "street: " + Number(value));
+      return 4;
+    }
+    return 0;
+  }
+
+  std::string WordAt(size_t k) const { return k < tokens_.size() ? tokens_[k].plain : std::string(); }
+  bool IsMetre(size_t k) const { return IsAny(WordAt(k), {"m", "metre", "meter"}); }
+
+  // "300 m by 400 m", "40 ha", "2 square kilometres".
+  size_t Extent(size_t i, double value) {
+    const auto word = [&](size_t at) { return WordAt(at); };
+    const size_t k = i + 1;
+    const size_t cross = IsMetre(k) ? k + 1 : k;
     if (IsAny(word(cross), {"by", "x", "times"}) && cross + 1 < tokens_.size() && tokens_[cross + 1].number) {
-      const size_t n = cross + 2 + (metre(cross + 2) ? 1 : 0) - i;
+      const size_t n = cross + 2 + (IsMetre(cross + 2) ? 1 : 0) - i;
       const double other = *tokens_[cross + 1].number;
       for (double side : {value, other}) Bound(i, n, side, TownSpec::kLeastSide, TownSpec::kMostSide, "m");
       return Size(i, n, value, other);
@@ -305,10 +331,13 @@ class Reader {
       const double wide = std::sqrt(value * unit * 1.12);
       return Size(i, n, std::min(wide, TownSpec::kMostSide), value * unit / std::min(wide, TownSpec::kMostSide));
     }
-    // 2 to 5 storeys
-    if (word(k) == "to" && k + 1 < tokens_.size() && tokens_[k + 1].number && IsStorey(word(k + 2))) return Storeys(i, 4, value, *tokens_[k + 1].number);
-    if (k < tokens_.size() && tokens_[k].number && IsStorey(word(k + 1))) return Storeys(i, 3, value, *tokens_[k].number);
-    if (IsStorey(word(k))) return Storeys(i, IsAny(word(k + 1), {"high", "tall"}) ? 3 : 2, value <= 3 ? value : std::round((value > 12 ? 0.3 : 0.7) * value), value);
+    return 0;
+  }
+
+  // Houses, people, parks and squares.
+  size_t Things(size_t i, double value) {
+    const auto word = [&](size_t at) { return WordAt(at); };
+    const size_t k = i + 1;
     if (IsAny(word(k), {"house", "home", "building", "cabin", "hut", "cottage"})) {
       Whole(i, value, 1, 4000, "houses");
       Agree("houses", "houses: " + Number(value), Joined(i, 2, false));
@@ -332,18 +361,6 @@ class Reader {
       (park ? parks_ : squares_) = value;
       Note(i, 2, (park ? "parks: " : "squares: ") + Number(value));
       return 2;
-    }
-    if (IsAny(word(k), {"percent"}) && IsAny(word(k + 1), {"slope", "gradient", "grade"})) {
-      Bound(i, 3, value, 0, 26, "per cent");
-      slope_ = value / 100;
-      Note(i, 3, "climb: " + Number(value) + " % of the depth");
-      return 3;
-    }
-    if (metre(k) && IsAny(word(k + 1), {"wide"}) && IsAny(word(k + 2), {"street", "road", "lane"})) {
-      Bound(i, 4, value, 4, 40, "m");
-      street_ = value;
-      Note(i, 4, "street: " + Number(value));
-      return 4;
     }
     return 0;
   }

@@ -67,6 +67,17 @@ Model Foliage(bool straps, Vec3f c, float r, int leaves, RngStream& random) {
   return JoinLayers("foliage", layers);
 }
 
+// Outlines from the axis outwards and back over the rim, (radius, height) in metres.
+const std::vector<Vec2f> kPotProfiles[4] = {
+    {{0, 0}, {0.19f, 0}, {0.20f, 0.01f}, {0.275f, 0.40f}, {0.30f, 0.41f}, {0.305f, 0.48f}, {0.295f, 0.49f},
+     {0.265f, 0.49f}, {0.255f, 0.42f}, {0, 0.42f}},
+    {{0, 0}, {0.15f, 0}, {0.24f, 0.12f}, {0.29f, 0.28f}, {0.27f, 0.44f}, {0.22f, 0.52f}, {0.24f, 0.56f},
+     {0.23f, 0.57f}, {0.20f, 0.53f}, {0.20f, 0.49f}, {0, 0.49f}},
+    {{0, 0}, {0.22f, 0}, {0.22f, 0.05f}, {0.40f, 0.22f}, {0.46f, 0.36f}, {0.46f, 0.40f}, {0.42f, 0.41f},
+     {0.40f, 0.35f}, {0, 0.35f}},
+    {{0, 0}, {0.15f, 0}, {0.155f, 0.01f}, {0.24f, 0.72f}, {0.245f, 0.75f}, {0.22f, 0.755f}, {0.21f, 0.69f},
+     {0, 0.69f}}};
+
 // Turned pots: terracotta, glazed, concrete bowl, tall tapered.
 Model MakePot(uint32_t variant, uint64_t seed) {
   RngStream random(seed, "pot");
@@ -75,48 +86,11 @@ Model MakePot(uint32_t variant, uint64_t seed) {
       {0.38f, 0.15f, 0.075f}, {0.03f, 0.08f, 0.13f}, {0.40f, 0.385f, 0.36f}, {0.055f, 0.056f, 0.06f}};
   const bool glazed = variant == 1;
   b.Use(Stone(tones[variant], glazed ? 0.15f : 0.8f), ConcreteTexture());
-  const std::vector<Vec2f> profiles[4] = {{{0, 0},
-                                           {0.19f, 0},
-                                           {0.20f, 0.01f},
-                                           {0.275f, 0.40f},
-                                           {0.30f, 0.41f},
-                                           {0.305f, 0.48f},
-                                           {0.295f, 0.49f},
-                                           {0.265f, 0.49f},
-                                           {0.255f, 0.42f},
-                                           {0, 0.42f}},
-                                          {{0, 0},
-                                           {0.15f, 0},
-                                           {0.24f, 0.12f},
-                                           {0.29f, 0.28f},
-                                           {0.27f, 0.44f},
-                                           {0.22f, 0.52f},
-                                           {0.24f, 0.56f},
-                                           {0.23f, 0.57f},
-                                           {0.20f, 0.53f},
-                                           {0.20f, 0.49f},
-                                           {0, 0.49f}},
-                                          {{0, 0},
-                                           {0.22f, 0},
-                                           {0.22f, 0.05f},
-                                           {0.40f, 0.22f},
-                                           {0.46f, 0.36f},
-                                           {0.46f, 0.40f},
-                                           {0.42f, 0.41f},
-                                           {0.40f, 0.35f},
-                                           {0, 0.35f}},
-                                          {{0, 0},
-                                           {0.15f, 0},
-                                           {0.155f, 0.01f},
-                                           {0.24f, 0.72f},
-                                           {0.245f, 0.75f},
-                                           {0.22f, 0.755f},
-                                           {0.21f, 0.69f},
-                                           {0, 0.69f}}};
-  b.Lathe(profiles[variant], 32);
-  const float soil = profiles[variant].back().y;
+  const std::vector<Vec2f>& profile = kPotProfiles[variant];
+  b.Lathe(profile, 32);
+  const float soil = profile.back().y;
   b.Use(Stone({0.045f, 0.032f, 0.022f}, 0.95f));
-  const float r = profiles[variant][profiles[variant].size() - 2].x;
+  const float r = profile[profile.size() - 2].x;
   const Vec2f earth[] = {{r, soil + 0.005f}, {r * 0.5f, soil + 0.03f}, {0, soil + 0.035f}};
   b.Lathe(earth, 24);
   Model model = b.Finish();
