@@ -14,6 +14,7 @@
 #include "airsim360/render/shared/shading_interior.h"
 #include "airsim360/render/shared/shading_weather.h"
 #include "airsim360/render/shared/shading_ground.h"
+#include "airsim360/render/shared/shading_marks.h"
 
 layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Floats { float v[]; };

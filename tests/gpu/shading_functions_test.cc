@@ -12,6 +12,14 @@
 #include "airsim360/render/vulkan/gpu_shaders.h"
 #include "gpu_fixture.h"
 
+#define SHARED static inline __attribute__((unused))
+#define INOUT(T) T&
+namespace airsim360::internal::scalar {
+#include "airsim360/render/shared/shading_marks.h"
+}
+#undef SHARED
+#undef INOUT
+
 namespace airsim360 {
 namespace {
 

@@ -9,6 +9,12 @@ namespace airsim360::internal::AIRSIM360_ISA {
 
 constexpr float kLowBeam = 10;  // of scene/material.h
 
+#define SHARED KERNEL
+#define INOUT(type) type&
+#include "airsim360/render/shared/shading_marks.h"
+#undef SHARED
+#undef INOUT
+
 /// A function of its own: inlined into the kernel, these make it so large that compilers take minutes.
 #define SEPARATE static __attribute__((noinline))
 
@@ -141,7 +147,7 @@ KERNEL real3 UnitTint(const Fetched& f, real u, real v, real footprint) {
 constexpr float kAsphalt = 1, kCarriageway = 2, kPaving = 3, kLawn = 4, kGravel = 5, kSoil = 6, kRoof = 7,
                 kRoofRolls = 8;
 
-/// Lanes of every kind of ground that the vector holds; see shading_ground.h.
+/// Lanes of every kind of ground that the vector holds; see shading_ground.h and shading_marks.h.
 SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, real width, real3& color,
                          real& roughness) {
   const real ground = load(f.ground);
@@ -151,11 +157,15 @@ SEPARATE void WearGround(const Fetched& f, const Noises& s, real3 p, real u, rea
     real gain = one, tar = zero, polish = zero;
     asphalt_wear(p.x, p.y, u * load(f.tile), sel(street, one, zero), s.wide, s.mid, s.fine, s.detail, width,
                  gain, tar, polish);
-    color = sel3(asphalt, lerp3(color * gain, make3(real(0.034f), real(0.034f), real(0.035f)), tar), color);
+    const real3 marked = asphalt_marks(color * gain, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width);
+    color = sel3(asphalt, lerp3(marked, make3(real(0.034f), real(0.034f), real(0.035f)), tar), color);
     roughness = sel(asphalt, lerp1(roughness - polish, real(0.45f), tar), roughness);
   }
   const mask_t paving = (ground == kPaving);
-  if (stdx::any_of(paving)) color = sel3(paving, color * paving_wear(s.wide, s.mid, s.fine, s.detail), color);
+  if (stdx::any_of(paving)) {
+    const real3 worn = color * paving_wear(s.wide, s.mid, s.fine, s.detail);
+    color = sel3(paving, paving_marks(worn, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);
+  }
   const mask_t lawn = (ground == kLawn);
   if (stdx::any_of(lawn))
     color = sel3(lawn, lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width), color);

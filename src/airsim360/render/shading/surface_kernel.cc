@@ -40,10 +40,10 @@ KERNEL real3 GlassNormal(const Fetched& f, real3 n, real3 p) {
   const real side = rroot(rmax(n.x * n.x + n.y * n.y, real(1e-8f)));
   const real3 across = make3(0.0f - n.y, n.x, real(0.0f)) * (1.0f / side);
   const real along = (p.x * across.x + p.y * across.y) * 2.1f + h1 * 40.0f;
-  const real bend = sin_approx(along) * 0.0035f, rise = sin_approx(p.z * 1.9f + h2 * 40.0f) * 0.0035f;
+  const real bend = sin_approx(along) * 0.0045f, rise = sin_approx(p.z * 1.9f + h2 * 40.0f) * 0.0045f;
   const mask_t upright = side > 0.3f;
   const real3 tilted =
-      n + across * ((h1 - 0.5f) * 0.011f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.011f + rise);
+      n + across * ((h1 - 0.5f) * 0.018f + bend) + make3(real(0.0f), real(0.0f), (h2 - 0.5f) * 0.018f + rise);
   return sel3(upright, normalize3(tilted), n);
 }
 
@@ -154,6 +154,10 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
                        clamp01((0.3f - rabs(facing.z)) * 8.0f);
     const real shade = sel(glass && !window, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
     color = color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
+    // No two blinds or curtains have the same colour.
+    const mask_t hung = glass && !window && (load(f.transmission) < 0.01f) && (luminance(color) > 0.10f);
+    const real h = load(f.pane), warm = 0.16f * (hash_again(h, real(61.7f)) - 0.5f), light = 0.58f + 0.74f * h;
+    color = sel3(hung, make3(color.x * light * (1.0f + warm), color.y * light, color.z * light * (1.0f - warm)), color);
   }
   if (f.any_window) FurnishPane(view, f, room, window, color, emission);
   if (f.any_water) {

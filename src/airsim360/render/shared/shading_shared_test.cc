@@ -13,6 +13,17 @@
 #include "airsim360/render/shared/shading_scalar.h"
 #include "airsim360/render/shared/shading_simd.h"
 
+#define SHARED static inline __attribute__((unused))
+#define INOUT(T) T&
+namespace airsim360::internal::scalar {
+#include "airsim360/render/shared/shading_marks.h"
+}
+namespace airsim360::internal::isa_test {
+#include "airsim360/render/shared/shading_marks.h"
+}
+#undef SHARED
+#undef INOUT
+
 namespace airsim360 {
 namespace {
 
@@ -234,7 +245,59 @@ TEST(ShadingShared, ScalarAndSimdAgree) {
   SAME(0, 2, water_normal(a * 100.0f, b * 100.0f, c, a).x + a);
   SAME(0, 1, hash_cell(a * 1000.0f, b * 1000.0f) + wet_albedo(c));
   SAME(-1, 1, snow_cover(a, b, c, a) + puddle_cover(b, c));
+  SAME(0, 1, paving_marks(make3(a, b, c), a * 90.0f, b * 70.0f, make3(b, c, a), make3(c, a, b), make3(a, c, b), a, b * 0.01f).y);
+  SAME(0, 1, asphalt_marks(make3(a, b, c), a * 90.0f, b * 70.0f, make3(b, c, a), make3(c, a, b), make3(a, c, b), a, b * 0.01f).z);
 #undef SAME
+}
+
+// Mean of what `marks` makes of `color` over 12 x 12 m of average noise, seen with pixels of `width`.
+template <typename Marks>
+double MeanOver(Marks marks, Vec3f color, float width) {
+  const Vec3f middle{0.5f, 0.5f, 0.5f};
+  RngStream random(5, "marks");
+  double sum = 0;
+  constexpr int kPlaces = 40000;
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto at = [&] { return static_cast<float>(random.Uniform(-6, 6)); };
+    sum += marks(color, at(), at(), middle, middle, middle, 1.0f, width).y;
+  }
+  return sum / kPlaces;
+}
+
+TEST(GroundMarks, AreOfTheSameMeanFromNearAndFar) {
+  for (float y : {0.10f, 0.30f}) {
+    const Vec3f color{y, y, y};
+    EXPECT_NEAR(MeanOver(scalar::paving_marks, color, 0.05f), MeanOver(scalar::paving_marks, color, 0.001f), 0.03 * y);
+    EXPECT_NEAR(MeanOver(scalar::asphalt_marks, color, 0.05f), MeanOver(scalar::asphalt_marks, color, 0.001f), 0.06 * y);
+  }
+}
+
+TEST(GroundMarks, SpotsCoverTheShareThatTheirRadiiGive) {
+  // Radii r = a + (b - a) h^2 with h uniform: the mean of r^2 is a^2 + 2 a (b - a) / 3 + (b - a)^2 / 5. Squeezing keeps the area.
+  constexpr float kCell = 0.5f, kLeast = 0.05f, kMost = 0.09f, kShare = 0.4f;
+  RngStream random(6, "spots");
+  double sum = 0;
+  constexpr int kPlaces = 200000;
+  for (int i = 0; i < kPlaces; ++i) {
+    float tone = 0, rim = 0;
+    sum += scalar::ground_spot(static_cast<float>(random.Uniform(0, 400)), static_cast<float>(random.Uniform(0, 400)), kCell, kShare, kLeast, kMost,
+                               0, 1e-4f, tone, rim);
+  }
+  const double d = kMost - kLeast, area = kPi * (kLeast * kLeast + 2 * kLeast * d / 3 + d * d / 5);
+  EXPECT_NEAR(sum / kPlaces, kShare * area / (kCell * kCell), 0.004);
+}
+
+TEST(GroundMarks, WearTakesPaintToTheColourOfTheRoadAndLeavesAsphaltNearIt) {
+  const Vec3f paint{0.55f, 0.55f, 0.55f}, road{0.09f, 0.09f, 0.09f}, worn{0.5f, 0.5f, 0.5f}, torn{0.75f, 0.5f, 0.85f}, kept{0.3f, 0.3f, 0.3f};
+  const auto y = [&](Vec3f color, Vec3f noise, float x) { return scalar::asphalt_marks(color, x, 3.3f, worn, noise, noise, 1.0f, 0.001f).y; };
+  double gone = 0, left = 0, bare = 0;
+  for (int i = 0; i < 500; ++i) {
+    const float x = 0.013f * static_cast<float>(i);
+    gone += y(paint, torn, x) / 500, left += y(paint, kept, x) / 500, bare += y(road, kept, x) / 500;
+  }
+  EXPECT_LT(gone, 0.25);
+  EXPECT_GT(left, 0.40);
+  EXPECT_NEAR(bare, 0.09, 0.02);
 }
 
 TEST(ShadingShared, CompilesAsGlsl) {
@@ -242,7 +305,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
     GTEST_SKIP() << "glslangValidator is not installed";
   // A compute shader that uses the functions, pasted together from our headers.
   const auto read = [](const std::string& name) {
-    std::ifstream file("src/airsim360/render/shading/" + name);
+    std::ifstream file("src/airsim360/render/shared/" + name);
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();
@@ -256,6 +319,7 @@ TEST(ShadingShared, CompilesAsGlsl) {
     out << "#version 450\nlayout(local_size_x = 1) in;\nlayout(binding = 0) buffer Values { float v[]; };\n"
         << read("shading_glsl.h") << shared << read("shading_tone.h") << read("shading_interior.h")
         << read("shading_weather.h") << read("shading_moon.h") << read("shading_ground.h")
+        << read("shading_marks.h")
         << "void main() { float lost = 0.0; vec3 n = water_normal(v[0], v[1], v[2], lost);\n"
            "  vec3 c = specular_brdf(n, v[1], v[2], v[3], v[4], v[5]) + environment_brdf(n, v[0], v[1]) + "
            "leaf_diffuse(n, v[0], v[1]);\n"
@@ -272,7 +336,8 @@ TEST(ShadingShared, CompilesAsGlsl) {
            "  float sx, sy, tar, polish, gain; drop_rings(v[0], v[1], v[2], sx, sy);\n"
            "  asphalt_wear(v[0], v[1], v[2], v[3], n, c, day, v[4], v[5], gain, tar, polish);\n"
            "  v[1] = lawn_life(day, a, b, n, c, lamp, v[2], v[3]).x + puddle_cover(v[0], v[1]) + moon_face(n, c, day) + sx + gain + "
-           "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]); }\n";
+           "snow_cover(v[0], v[1], v[2], v[3]) + roof_wear(v[0], n, c, day, v[1], v[2], v[3]) + paving_marks(c, a, b, n, c, day, v[1], v[2]).x + "
+           "asphalt_marks(c, a, b, n, c, day, v[1], v[2]).x; }\n";
   }
   const int status = std::system(
       ("glslangValidator -V " + stem + ".comp -o " + stem + ".spv > " + stem + ".log 2>&1").c_str());

@@ -60,6 +60,8 @@ void Furnish(FacadePen::Sash& sash, RngStream& rng) {
     sash.blind = 1;
     sash.cover = S::kGlassLit;
   }
+  // Sashes that slide stand open here and there.
+  if (sash.nz == 1 && rng.Chance(0.13)) sash.open = static_cast<float>(rng.Uniform(0.06, 0.45));
 }
 
 Opening OpeningOf(FacadeStyle style, const Bay& b) {
@@ -90,6 +92,14 @@ Opening OpeningOf(FacadeStyle style, const Bay& b) {
 
 namespace {
 
+// An air conditioner on the sill of some windows, a little off the middle.
+void HangCooler(FacadeContext& context, FacadePen& pen, const Opening& o, double share, RngStream& rng) {
+  if (!rng.Chance(share)) return;
+  const float slack = (o.x1 - o.x0) / 2 - 0.42f, x = (o.x0 + o.x1) / 2 + (slack > 0 ? slack * static_cast<float>(rng.Uniform(-1, 1)) : 0);
+  context.builder.AddInstance(
+      {context.window_box, context.Place(pen.X_WF() * AffineTransform{{}, {x, 0.42f * (1 - context.reach), o.z0}}), context.building});
+}
+
 void Wall(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o) {
   pen.Use(dress.wall);
   pen.WallAround(b.x0, b.x1, b.z0, b.z1, o.x0, o.x1, o.z0, o.z1);
@@ -105,12 +115,10 @@ void BrickBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const 
   pen.Bar(o.x0 - 0.10f, o.x1 + 0.10f, o.z0 - 0.11f, o.z0, -0.08f, 0.12f);
   pen.Bar(o.x0 - 0.16f, o.x1 + 0.16f, o.z1, o.z1 + 0.24f, -0.03f, 0);
   pen.Bar(b.middle() - 0.10f, b.middle() + 0.10f, o.z1 - 0.02f, o.z1 + 0.30f, -0.07f, 0);
-  if (!rng.Chance(0.10)) return;
-  context.builder.AddInstance(
-      {context.window_box, context.Place(pen.X_WF() * AffineTransform{{}, {b.middle(), 0.42f * (1 - context.reach), o.z0}}), context.building});
+  HangCooler(context, pen, o, 0.14, rng);
 }
 
-void ClassicBay(FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {
+void ClassicBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o, RngStream& rng) {
   FacadePen::Sash sash{.t = 0.07f, .nx = 1, .nz = 1, .frame = dress.frame, .glass = dress.glass};
   Furnish(sash, rng);
   pen.Window(o.x0, o.x1, o.z0, o.z1, o.depth, sash);
@@ -137,6 +145,7 @@ void ClassicBay(FacadePen& pen, const Dress& dress, const Bay& b, const Opening&
   pen.Use(dress.trim);
   if (b.floor > 0 && b.floor % 3 == 1)
     pen.Bar(b.x0 - 0.01f, b.x1 + 0.01f, b.z0 - 0.06f, b.z0 + 0.16f, -0.18f, 0);
+  HangCooler(context, pen, o, 0.05, rng);
 }
 
 void StuccoBay(FacadeContext& context, FacadePen& pen, const Dress& dress, const Bay& b, const Opening& o,
@@ -287,7 +296,7 @@ void BuildBay(FacadeContext& context, FacadePen& pen, FacadeStyle style, const D
     case FacadeStyle::kBrickWalkUp:
       return BrickBay(context, pen, dress, bay, o, rng);
     case FacadeStyle::kClassicStone:
-      return ClassicBay(pen, dress, bay, o, rng);
+      return ClassicBay(context, pen, dress, bay, o, rng);
     case FacadeStyle::kStuccoShutters:
       return StuccoBay(context, pen, dress, bay, o, rng);
     case FacadeStyle::kConcreteGrid:

@@ -113,7 +113,32 @@ void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStre
   }
 }
 
+namespace {
+
+// Down pipes from the gutter to the shops' fascia, with brackets; some walls have a second, or a cable beside it.
+void BuildDownPipes(FacadePen& pen, const BuildingPlan& plan, RngStream& rng) {
+  const bool old = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft || plan.style == FacadeStyle::kBrownstone ||
+                   plan.style == FacadeStyle::kStuccoShutters || plan.style == FacadeStyle::kClassicStone;
+  if (!old || plan.base > 0 || pen.length() < 6 || !rng.Chance(0.7)) return;
+  static constexpr S kPipes[] = {S::kTrimDark, S::kMetal, S::kFrameGreen, S::kBronze};
+  const float from = plan.first_storey() + 0.05f, to = plan.height() - 0.35f;
+  const S pipe = kPipes[rng.Index(4)];
+  const bool left = rng.Chance(0.5), both = rng.Chance(0.3);
+  for (bool at_left : {true, false}) {
+    if (!both && at_left != left) continue;
+    const float x = at_left ? 0.17f : pen.length() - 0.27f;
+    pen.Use(pipe);
+    pen.Bar(x, x + 0.10f, from, to, -0.21f, -0.11f);
+    for (float z = from + 0.6f; z < to; z += 2.4f) pen.Bar(x - 0.03f, x + 0.13f, z, z + 0.05f, -0.22f, 0);
+    pen.Use(S::kFrameDark);
+    if (rng.Chance(0.5)) pen.Bar(at_left ? x + 0.22f : x - 0.15f, at_left ? x + 0.24f : x - 0.13f, from, to, -0.025f, 0, true, false);
+  }
+}
+
+}  // namespace
+
 void BuildWallExtras(FacadeContext& context, FacadePen& pen, const BuildingPlan& plan, RngStream& rng) {
+  BuildDownPipes(pen, plan, rng);
   const StyleMetrics& metrics = MetricsOf(plan.style);
   const float L = pen.length();
   if (plan.style == FacadeStyle::kBracedGlass) {

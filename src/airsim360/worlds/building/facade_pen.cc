@@ -95,10 +95,18 @@ void FacadePen::Window(float x0, float x1, float z0, float z1, float y, const Sa
     Up(x0 + t, x1 - t, front + 0.012f, y, z + h);
     Down(x0 + t, x1 - t, front + 0.012f, y, z - h);
   }
+  // The bottom rail of a sash that is pushed up, and the dark below it.
+  const float foot = z0 + t + (z1 - z0 - 2 * t) * std::min(sash.open, 1 - sash.blind);
+  if (foot > z0 + t) {
+    Use(sash.frame);
+    Bar(x0 + t, x1 - t, foot, foot + 0.8f * t, front + 0.02f, y, false, true);
+    Use(Surface::kPanelDark);
+    Front(x0 + t, x1 - t, z0 + t, foot, y + 0.001f);
+  }
   // Pane, covered from above as far as the blind is drawn.
   const float edge = z1 - t - (z1 - z0 - 2 * t) * sash.blind;
   Use(sash.glass);
-  if (sash.blind < 0.99f) Front(x0 + t, x1 - t, z0 + t, edge, y);
+  if (sash.blind < 0.99f && edge > foot) Front(x0 + t, x1 - t, foot, edge, y);
   Use(sash.cover);
   if (sash.blind > 0.01f) Front(x0 + t, x1 - t, edge, z1 - t, y);
 }

@@ -40,12 +40,12 @@ class FacadePen {
   /// Wall around an opening within [x0, x1] x [z0, z1].
   void WallAround(float x0, float x1, float z0, float z1, float ox0, float ox1, float oz0, float oz1);
   /// Frame of width `t`, `nx` and `nz` glazing bars, and the pane behind: its upper part `blind` (0..1)
-  /// covered.
+  /// covered. `open` (0..0.6, of the height): the lower sash is pushed up that far and the opening below is dark.
   struct Sash {
     float t = 0.06f;
     int nx = 1, nz = 1;
     Surface frame = Surface::kFrameWhite, glass = Surface::kGlassDark, cover = Surface::kGlassBlind;
-    float blind = 0;
+    float blind = 0, open = 0;
   };
   void Window(float x0, float x1, float z0, float z1, float y, const Sash& sash);
 

@@ -8,13 +8,14 @@ namespace {
 constexpr float kSignFrom = 3.15f, kSignTo = 3.85f;
 
 void BuildAwning(FacadeContext& context, FacadePen& pen, float x0, float x1, RngStream& rng) {
-  static constexpr Surface kCloths[] = {Surface::kAwningRed, Surface::kAwningGreen, Surface::kAwningBlue,
-                                        Surface::kAwningYellow};
+  // Striped, and as many of one dull colour.
+  static constexpr Surface kCloths[] = {Surface::kAwningRed, Surface::kAwningGreen, Surface::kAwningBlue,   Surface::kAwningYellow,
+                                        Surface::kTrimDark,  Surface::kFrameGreen,  Surface::kShutterGreen, Surface::kBrownstoneTrim};
   const EntityId entity =
       context.builder.AddEntity("awning", context.builder.tree().At("construction/awning"));
   const float out = -static_cast<float>(rng.Uniform(1.1, 1.5)), top = kSignFrom - 0.02f, low = top - 0.62f;
   pen.UseEntity(entity);
-  pen.Use(kCloths[rng.Index(4)]);
+  pen.Use(kCloths[rng.Index(8)]);
   // Cloth, valance and cheeks; two layers so that both sides show.
   MeshBuilder& mesh = pen.mesh();
   const float w = x1 - x0;
@@ -33,15 +34,16 @@ void BuildAwning(FacadeContext& context, FacadePen& pen, float x0, float x1, Rng
     mesh.Beam({x, -0.02f, low - 0.5f}, {x, out + 0.05f, low - 0.05f}, 0.03f);
 }
 
-void BuildSign(FacadeContext& context, FacadePen& pen, float x0, float x1, RngStream& rng) {
+void BuildSign(FacadeContext& context, FacadePen& pen, float x0, float x1) {
   const float width = std::min(4.6f, x1 - x0), middle = (x0 + x1) / 2;
-  context.next_sign = (context.next_sign + 5 + static_cast<int>(rng.Index(2)) * 2) % kSignCount;
-  const auto row = static_cast<float>(context.next_sign), n = static_cast<float>(kSignCount);
+  // All of them before one comes again: the step has no factor in common with their number.
+  context.next_sign = (context.next_sign + 57) % kSignCount;
+  const SignBox box = ShopSignBox(context.next_sign);
   pen.UseEntity(context.builder.AddEntity("shop sign", context.builder.tree().At("signage/shop_sign")));
   pen.Use(Surface::kSigns);
   const float crop = std::min((1 - width / 5) / 2, 0.06f);  // narrower signs squeeze their letters
   pen.Picture(middle - width / 2, middle + width / 2, kSignFrom + 0.04f, kSignTo - 0.04f, -0.16f,
-              {crop, row / n}, {1 - crop, (row + 1) / n});
+              {box.uv0.x + crop / kSignColumns, box.uv0.y}, {box.uv1.x - crop / kSignColumns, box.uv1.y});
 }
 
 constexpr float kPier = 0.38f, kHead = kSignFrom - 0.05f, kPost = 0.12f;
@@ -148,7 +150,7 @@ void BuildShop(FacadeContext& context, FacadePen& pen, const GroundFloor& floor,
   BuildPiers(pen, floor, shop);
   pen.Use(floor.frame);
   pen.Bar(shop.a, shop.b, kHead, kSignTo, -0.12f, 0.3f, false, true);
-  BuildSign(context, pen, shop.a + 0.1f, shop.b - 0.1f, rng);
+  BuildSign(context, pen, shop.a + 0.1f, shop.b - 0.1f);
   pen.UseEntity(floor.entity);
   BuildDisplay(pen, floor, shop, rng);
   BuildDoor(pen, floor, shop);

@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <set>
+
 #include "airsim360/worlds/kit/test_mesh.h"
+#include "airsim360/worlds/texture/shop_signs.h"
 #include "airsim360/worlds/texture/test_surfaces.h"
 
 namespace airsim360::internal {
@@ -86,7 +91,7 @@ TEST_P(EveryShopFront, IsClosedToRaysFromTheStreet) {
 TEST_P(EveryShopFront, SignsAreOnTheirShopsAndDifferFromTheirNeighbours) {
   const Built built = Build();
   std::map<EntityId, Box3f> boxes;
-  std::map<EntityId, Vec2f> rows;
+  std::map<EntityId, Box3f> signs;  // of texture coordinates
   for (const MeshPart& part : built.mesh.parts) {
     if (part.entity == built.house) continue;
     for (uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k) {
@@ -95,15 +100,11 @@ TEST_P(EveryShopFront, SignsAreOnTheirShopsAndDifferFromTheirNeighbours) {
         boxes[part.entity].Add(built.mesh.positions[i]);
         if (built.paths.at(part.entity) != "signage/shop_sign") continue;
         const Vec2f uv = built.mesh.uvs[i];
-        auto& [low, high] = rows.try_emplace(part.entity, Vec2f{9, -9}).first->second;
-        low = std::min(low, uv.y);
-        high = std::max(high, uv.y);
-        EXPECT_GE(uv.x, 0);
-        EXPECT_LE(uv.x, 1);
+        signs[part.entity].Add(Vec3f{uv.x, uv.y, 0});
       }
     }
   }
-  EXPECT_EQ(rows.size(), 3u);
+  EXPECT_EQ(signs.size(), 3u);
   const float w = std::get<0>(GetParam());
   for (const auto& [entity, box] : boxes) {
     const auto shop = std::floor(box.center().x / w);
@@ -114,13 +115,50 @@ TEST_P(EveryShopFront, SignsAreOnTheirShopsAndDifferFromTheirNeighbours) {
     EXPECT_LE(box.max.z, 3.9f);
     EXPECT_GE(box.min.y, -1.6f);
   }
-  for (const auto& [entity, row] : rows) {
-    EXPECT_NEAR((row.y - row.x) * kSignCount, 1, 1e-3);
-    EXPECT_NEAR(row.x * kSignCount, std::round(row.x * kSignCount), 1e-3);
+  // Each shows one sign of the sheet.
+  for (const auto& [entity, box] : signs) {
+    const bool found = std::any_of(built.signs.begin(), built.signs.end(), [&](int i) {
+      const SignBox whole = ShopSignBox(i);
+      return box.min.x >= whole.uv0.x && box.max.x <= whole.uv1.x && std::abs(box.min.y - whole.uv0.y) < 1e-6f &&
+             std::abs(box.max.y - whole.uv1.y) < 1e-6f;
+    });
+    EXPECT_TRUE(found);
   }
   for (size_t i = 0; i + 1 < built.signs.size(); ++i) {
     EXPECT_NE(built.signs[i], built.signs[i + 1]);
     EXPECT_LT(built.signs[i], kSignCount);
+  }
+}
+
+TEST(ShopSigns, NoTwoNamesAreAlikeAndAllCanBeLettered) {
+  std::set<std::string> names;
+  for (int i = 0; i < kSignCount; ++i) {
+    const std::string name = ShopName(i);
+    EXPECT_LE(name.size(), 26u);
+    EXPECT_EQ(name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 .,-+!&%'/"), std::string::npos) << name;
+    names.insert(name);
+  }
+  EXPECT_EQ(names.size(), static_cast<size_t>(kSignCount));
+  EXPECT_GE(kSignCount, 200);
+}
+
+TEST(ShopSigns, AShopComesAgainOnlyAfterAllOthers) {
+  SceneBuilder builder("street");
+  const Surfaces surfaces = AddTestSurfaces(builder);
+  std::set<int> seen;
+  int next = 0;
+  for (int i = 0; i < kSignCount; ++i) {
+    MeshBuilder mesh;
+    FacadeContext context{builder, surfaces, mesh, 0, 0};
+    context.next_sign = next;
+    FacadePen pen(mesh, surfaces);
+    pen.SetWall({0, 0}, {5, 0});
+    const BuildingPlan plan;
+    const GroundFloor floor{plan, kNoEntity, 4.6f, Surface::kBrickRed, Surface::kTrimStone, Surface::kFrameDark};
+    RngStream rng(3, "shop");
+    BuildShop(context, pen, floor, 0, 5, rng);
+    next = context.next_sign;
+    EXPECT_TRUE(seen.insert(next).second);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/new_york_city/city.h"
+#include "airsim360/worlds/props/billboards.h"
 
 namespace airsim360::internal {
 namespace {
@@ -107,13 +108,13 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
   hang("grid tower", false, "billboard", "billboard", 11, 14, 9, 0.9f);
   hang("brown tower", false, "light box", "light_box", 5, 11, 6.2f, 0.9f);
   hang("braced corner", false, "billboard", "billboard", 9, 5.5f, 17.5f, 0.8f);
-  hang("braced corner", true, "billboard", "billboard", 8, 18, 10.5f, 1.15f);
-  hang("braced corner", true, "banner", "banner", 0, 5, 8.5f, 1.3f);
+  hang("braced corner", true, "billboard", "billboard", kDrawnBoards + kVistaBoards - 1, 18, 10.5f, 1.15f);
+  hang("braced corner", true, "banner", "banner", 2, 5, 8.5f, 1.3f);
   hang("braced corner", true, "light box", "light_box", 4, 15, 6.0f, 0.9f);
   hang("brown tower", true, "light box", "light_box", 2, 8, 6.1f, 1.0f);
   hang("ribbon low", false, "billboard", "billboard", 10, 7, 8, 0.8f);
   hang("blue tower", true, "banner", "banner", 3, 6, 9, 1.1f);
-  hang("north deco", true, "banner", "banner", 1, 5, 9, 1.0f);
+  hang("north deco", true, "banner", "banner", 3, 5, 9, 1.0f);
   hang("loft corner", true, "billboard", "billboard", 6, 12, 10, 1.1f);
   hang("glass slab", true, "banner", "banner", 2, 6, 8, 1.0f);
   RaiseRoofBoard(d, lot("braced corner"), StreetWall(lot("braced corner")), "roof billboard", 7, 1.25f);
@@ -128,7 +129,9 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
     const Vec2f out = Vec2f{v.y, -v.x} * (1 / length), p = a + v * 0.5f + out * 0.01f;
     PlaceNamed(d, "mural", "mural", {p.x, p.y, foot + (bare - 9 * scale) * 0.6f}, FacingYaw(out), murals++, scale);
   }
-  // Other corners of the core by chance.
+  // Other corners of the core by chance; no board or box comes again before all others have.
+  uint32_t adverts = 0, boxes = 6;
+  const auto advert = [&] { return kDrawnBoards + adverts++ % kVistaBoards; };
   const GroundRect reach = d.plan.reach();
   for (size_t i = 0; i < city.lots.size(); ++i) {
     const Lot& at = city.lots[i];
@@ -139,17 +142,17 @@ void HangSigns(District& d, const Manhattan& city, bool more) {
     if (at.corner() && free) {
       const WallLine wall = AvenueWall(at);
       if (rng.Chance(0.75) && at.boards)
-        boards.Hang(wall, at.style, "billboard", "billboard", 5 + rng.Index(7),
+        boards.Hang(wall, at.style, "billboard", "billboard", advert(),
                     std::min(10.0f, wall.length / 2), static_cast<float>(rng.Uniform(7.5, 9)),
                     static_cast<float>(rng.Uniform(0.75, 1.05)));
       if (rng.Chance(0.5) && at.boards)
         boards.Hang(wall, at.style, "banner", "banner", rng.Index(4), wall.length - 4, 7.5f,
                     at.podium > 20 && !at.houses ? 0.9f : 0.6f);
       if (rng.Chance(0.35) && at.height < 45 && !at.houses)
-        RaiseRoofBoard(d, at, StreetWall(at), "roof billboard", 5 + rng.Index(7), 0.9f);
+        RaiseRoofBoard(d, at, StreetWall(at), "roof billboard", advert(), 0.9f);
     } else if (!at.corner() && free && at.style != FacadeStyle::kBrickWalkUp && rng.Chance(0.3)) {
       const WallLine wall = StreetWall(at);
-      boards.Hang(wall, at.style, "light box", "light_box", rng.Index(6), wall.length / 2, 5.8f,
+      boards.Hang(wall, at.style, "light box", "light_box", boxes++ % kLightBoxes, wall.length / 2, 5.8f,
                   std::min(1.0f, wall.length / 11));
     }
     if (at.corner() && at.boards && rng.Chance(0.6)) {

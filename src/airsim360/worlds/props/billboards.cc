@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "airsim360/worlds/props/billboards.h"
 #include "airsim360/worlds/props/drawing.h"
 #include "airsim360/worlds/props/families.h"
 #include "airsim360/worlds/props/finishes.h"
@@ -59,14 +60,90 @@ void Gradient(Canvas& c, Vec3f top, Vec3f bottom) {
   }
 }
 
-// A sitter whose head's middle is at x, before what the canvas shows already.
+float Luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// A sitter whose middle is at x, before what the canvas shows already. No face is shown: a suit from the neck down, or a
+// head against the light in grey.
 void Portrait(Canvas& c, float x, const Sitter& sitter, bool gray) {
-  constexpr float kHeads = 2.35f;  // the picture is that high
+  const float heads = gray ? 2.35f : 0.98f, top = gray ? 0.86f : -0.52f;  // height of the picture, and where its upper edge lies
   c.Paint([&](float u, float v, Vec3f old) {
-    const Vec3f color = PortraitColor(sitter, (u - x) * kHeads * kBoard.x / kBoard.y, 0.86f - v * kHeads, old);
-    const float y = 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z;
+    constexpr Vec3f kNobody{-1, -1, -1};
+    const Vec3f color = PortraitColor(sitter, (u - x) * heads * kBoard.x / kBoard.y, top - v * heads, kNobody);
+    if (color.x < 0) return old;
+    const float y = 0.010f + 0.10f * Luminance(color);
     return gray ? Vec3f{y, y, y} : color;
   });
+}
+
+// Ink on `sheets` pasted sheets after some summers: colours fade towards grey, blacks lift, sheets differ a little and show
+// their seams, rain leaves streaks and dust.
+void PrintAndAge(Canvas& c, uint32_t seed, int sheets_x, int sheets_y) {
+  const auto dice = [&](int k) { return TileNoise(static_cast<float>(seed % 61) + 0.37f * static_cast<float>(k), 0.5f, 64, 64, 301); };
+  const float faded = 0.16f + 0.22f * dice(1), lift = 0.012f + 0.02f * dice(2);
+  c.Paint([&](float u, float v, Vec3f old) {
+    const float su = u * static_cast<float>(sheets_x), sv = v * static_cast<float>(sheets_y), fu = su - std::floor(su), fv = sv - std::floor(sv);
+    const float sheet = TileNoise(std::floor(su) * 3.7f + 0.4f, std::floor(sv) * 5.3f + 0.6f, 64, 64, 311 + seed);
+    const bool seam = (fu < 0.012f && su >= 1) || (fv < 0.016f && sv >= 1);
+    const float cloud = TileFractal(u, v, 4, 3, 4, 321 + seed), streak = TileFractal(u, 0.3f, 37, 2, 2, 331 + seed);
+    const float grey = Luminance(old);
+    Vec3f color = old * (1 - faded) + Vec3f{grey, grey, 1.04f * grey} * faded;
+    color = color * (0.80f * (0.95f + 0.10f * sheet) * (0.92f + 0.16f * cloud)) + Vec3f{lift, lift, lift};
+    color = color * (1 - 0.20f * std::max(0.0f, 2 * streak - 1) - 0.14f * v * v);
+    return color * (seam ? 0.80f : 1.0f);
+  });
+}
+
+// What landscapes of posters are called, and what their advertisers promise: no two alike.
+struct Advert {
+  const char* name;
+  const char* line;
+};
+constexpr Advert kAdverts[] = {{"NORTHFIELD", "THE LONG WAY HOME"},      {"LAKE & PINE", "CABINS BY THE WEEK"},    {"HELIA", "SUN CARE SINCE 1974"},
+                               {"AURELIO", "OLIVE OIL FROM THE COAST"},  {"MERIDIAN BANK", "A PLAN FOR LATER"},    {"SOLWAY FERRIES", "FOUR SAILINGS A DAY"},
+                               {"TIDEWATER FM", "98.3 MORNINGS"},        {"HARROW COATS", "WINTER COLLECTION"},    {"ALTO WATER", "FROM 2100 METRES"},
+                               {"KESTREL", "BOOTS FOR LIFE"},            {"COLD HARBOR", "A NEW SERIES"},          {"VALE INSURANCE", "CALL BEFORE IT RAINS"},
+                               {"GRANDVIEW", "APARTMENTS FROM SPRING"},  {"THE ORCHARD", "CIDER AS IT WAS"},       {"OSPREY RAIL", "CITY TO SEA IN 90 MIN"},
+                               {"FOLKLORE", "FESTIVAL 12 - 14 JUNE"},    {"MUSEUM OF THE SEA", "OPEN LATE FRIDAYS"}, {"EASTERLY", "COFFEE ROASTERS"},
+                               {"PLATEAU", "TYRES FOR ALL SEASONS"},     {"BRIGHT & DAWE", "ATTORNEYS AT LAW"}};
+static_assert(std::size(kAdverts) == kVistaBoards);
+
+// A photographed country: sky with clouds, ridges one behind the other in haze, a near slope or water, and a line of print.
+Texture Vista(uint32_t k) {
+  constexpr Vec2f kSize{480, 288};
+  Canvas c(static_cast<int>(kSize.x), static_cast<int>(kSize.y), kBlack);
+  const auto dice = [&](uint32_t i) { return TileNoise(static_cast<float>(k) * 2.31f + 0.5f, static_cast<float>(i) * 1.7f + 0.3f, 64, 64, 401); };
+  const float evening = k % 3 == 0 ? 1.0f : k % 3 == 1 ? 0.25f : 0.0f, horizon = 0.42f + 0.16f * dice(1);
+  const bool water = k % 4 == 1;
+  const Vec3f zenith = Vec3f{0.10f, 0.20f, 0.42f} * (1 - 0.5f * evening), low = Vec3f{0.55f, 0.60f, 0.66f} * (1 - evening) + Vec3f{0.66f, 0.36f, 0.17f} * evening;
+  const Vec3f ground = water ? Vec3f{0.05f, 0.10f, 0.13f} : k % 2 ? Vec3f{0.09f, 0.12f, 0.035f} : Vec3f{0.20f, 0.15f, 0.07f};
+  c.Paint([&](float u, float v, Vec3f) {
+    const float up = std::clamp(v / horizon, 0.0f, 1.0f), cloud = std::clamp((TileFractal(u, v * 1.6f, 3, 4, 6, 411 + k) - 0.50f) * 5, 0.0f, 1.0f);
+    Vec3f color = zenith * (1 - up * up) + low * (up * up);
+    color = color * (1 - 0.7f * cloud) + (Vec3f{0.72f, 0.70f, 0.68f} * (1 - evening) + Vec3f{0.62f, 0.34f, 0.22f} * evening) * (0.7f * cloud);
+    for (int layer = 0; layer < 3; ++layer) {
+      const float base = horizon + 0.05f * static_cast<float>(layer), rough = TileFractal(u + 0.31f * static_cast<float>(layer), 0.2f, 3 + 2 * layer, 2, 6, 421 + k * 5);
+      if (v < base - (0.26f - 0.06f * static_cast<float>(layer)) * (rough - 0.22f)) continue;
+      const float haze = 0.70f - 0.28f * static_cast<float>(layer), light = 0.6f + 0.8f * TileFractal(u, v, 24, 24, 4, 431 + k);
+      color = (ground * 0.6f + Vec3f{0.02f, 0.03f, 0.035f}) * light * (1 - haze) + low * (0.62f * haze);
+    }
+    const float near = horizon + 0.20f + 0.05f * TileFractal(u, 0.7f, 5, 2, 4, 441 + k);
+    if (v > near) {
+      const float t = (v - near) / (1 - near), grain = TileFractal(u, v / (0.3f + t), water ? 6 : 40, 48, 4, 451 + k);
+      color = water ? ground * (0.5f + grain) + low * (0.28f * (1 - t) * grain) : ground * (0.45f + 1.1f * grain);
+    }
+    const float du = u - 0.5f, dv = v - 0.5f;
+    return color * (1.05f - 0.55f * (du * du + dv * dv));
+  });
+  const Advert& advert = kAdverts[k];
+  const bool above = dice(3) < 0.5f, panel = k % 5 == 2;
+  const float y = above ? 0.16f : 0.78f, wide = 0.62f + 0.25f * dice(4);
+  if (panel) c.Rectangle({0, above ? 0.0f : 0.66f}, {1, above ? 0.32f : 1.0f}, k % 2 ? Vec3f{0.58f, 0.57f, 0.53f} : Vec3f{0.05f, 0.07f, 0.09f});
+  const Vec3f ink = panel && k % 2 ? kBlack : kWhite;
+  const auto letters = static_cast<float>(std::string_view(advert.name).size());
+  c.Letters(advert.name, {0.5f, y}, std::min(0.17f, 1.62f / letters), ink, wide);
+  c.Letters(advert.line, {0.5f, y + 0.135f}, 0.045f, ink, 0.95f);
+  PrintAndAge(c, k + 40, 4, 2);
+  return c.Finish("board vista " + std::to_string(k));
 }
 
 void RedCar(Canvas& c) {
@@ -94,6 +171,16 @@ void RedCar(Canvas& c) {
     c.Disc({x, 0.80f}, 0.03f, kBlack);
   }
   Ellipse(c, s, {0.115f, 0.635f}, {0.03f, 0.022f}, {0.85f, 0.83f, 0.7f});
+  // Studio light: a bright line along the shoulder, dark flanks, the floor's glow at the sills; a mirror image on the floor.
+  c.Paint([](float u, float v, Vec3f old) {
+    const auto bell = [](float x, float w) { return std::exp(-x * x / (w * w)); };
+    if (old.x > 3.5f * old.y && old.x > 0.2f) {
+      const float shoulder = bell(v - 0.575f - 0.02f * std::sin(5 * u), 0.016f), roof = bell(v - 0.41f, 0.014f);
+      return old * (0.85f + 0.30f * bell(v - 0.76f, 0.05f)) + Vec3f{0.40f, 0.22f, 0.20f} * (0.75f * shoulder + 0.6f * roof);
+    }
+    if (v > 0.82f) return old + Vec3f{0.10f, 0.012f, 0.012f} * (bell(u - 0.5f, 0.34f) * bell(v - 0.84f, 0.06f));
+    return old * (0.75f + 0.35f * TileFractal(u, v, 3, 2, 3, 61));
+  });
   c.Letters("DRIVE RED", {0.5f, 0.18f}, 0.19f, kWhite, 0.95f);
 }
 
@@ -110,6 +197,7 @@ void Skyline(Canvas& c, Vec3f color, float base, uint32_t seed) {
 }
 
 Texture Board(uint32_t variant) {
+  if (variant >= kDrawnBoards) return Vista(variant - kDrawnBoards);
   Canvas c(static_cast<int>(kBoard.x), static_cast<int>(kBoard.y), kBlack);
   switch (variant) {
     case 0:
@@ -216,6 +304,7 @@ Texture Board(uint32_t variant) {
                          : Vec3f{0.75f, 0.08f, 0.25f});
       c.Letters("JAZZ CLUB", {0.5f, 0.30f}, 0.24f, {0.10f, 0.70f, 0.62f}, 0.85f);
   }
+  PrintAndAge(c, variant, 5, 2);
   return c.Finish("board " + std::to_string(variant));
 }
 
@@ -327,6 +416,7 @@ Texture Banner(uint32_t variant) {
       c.Letters("MODERN", {0.5f, 0.74f}, 0.05f, kBlack, 1.05f);
       c.Letters("ART", {0.5f, 0.86f}, 0.10f, kBlack, 1.2f);
   }
+  PrintAndAge(c, variant + 20, 1, 4);
   return c.Finish("banner " + std::to_string(variant));
 }
 
@@ -336,14 +426,18 @@ Model MakeBanner(uint32_t variant, uint64_t) {
   return b.Finish();
 }
 
+constexpr const char* kBoxes[] = {"NY PUPPETS",  "CAFE BISTRO",  "HOTEL ASTOR", "ARCADE",       "PIZZA SLICE",   "CINEMA",        "DANCE STUDIO", "PAWN & LOAN",
+                                  "MUSIC HALL", "STEAK HOUSE", "BILLIARDS",   "TEXTILE CO", "ROOMS BY DAY", "CAMERA WORLD", "THE OYSTER BAR", "PARKING"};
+static_assert(std::size(kBoxes) == kLightBoxes);
+
 Model MakeLightBox(uint32_t variant, uint64_t) {
   PropBuilder b("light_box");
-  constexpr const char* kWords[] = {"NY PUPPETS", "CAFE BISTRO", "HOTEL ASTOR",
-                                    "ARCADE",     "PIZZA SLICE", "CINEMA"};
-  constexpr Vec3f kColors[] = {{0.12f, 0.80f, 0.10f}, {0.05f, 0.60f, 0.75f}, {0.80f, 0.30f, 0.05f},
-                               {0.75f, 0.05f, 0.45f}, {0.80f, 0.55f, 0.04f}, {0.70f, 0.72f, 0.80f}};
-  Canvas c(576, 128, {0.010f, 0.010f, 0.012f});
-  c.Letters(kWords[variant], {0.5f, 0.5f}, 0.60f, kColors[variant], 0.85f);
+  Canvas c(576, 128, variant % 3 == 1 ? Vec3f{0.42f, 0.41f, 0.39f} : Vec3f{0.018f, 0.018f, 0.020f});
+  constexpr Vec3f kColors[] = {{0.60f, 0.58f, 0.52f}, {0.30f, 0.045f, 0.04f}, {0.58f, 0.32f, 0.12f},
+                               {0.62f, 0.60f, 0.57f}, {0.05f, 0.075f, 0.18f}, {0.52f, 0.55f, 0.60f}};
+  c.Letters(kBoxes[variant], {0.5f, 0.5f}, std::min(0.52f, 5.6f / static_cast<float>(std::string_view(kBoxes[variant]).size())),
+            kColors[variant % 6], 0.85f);
+  PrintAndAge(c, variant + 60, 6, 1);
   AddBoard(b, 9, 1.9f, c.Finish("light box " + std::to_string(variant)), 350);
   return b.Finish();
 }
@@ -369,10 +463,10 @@ Model MakeBillboardFrame(uint32_t, uint64_t) {
 
 std::vector<PropKind> BillboardKinds() {
   return {
-      {"billboard", "signage/billboard", 12, MakeBillboard, 5.2f, 6.0f, 6.5f, 100},
+      {"billboard", "signage/billboard", kDrawnBoards + kVistaBoards, MakeBillboard, 5.2f, 6.0f, 6.5f, 100},
       {"banner", "signage/billboard", 4, MakeBanner, 2.2f, 11.0f, 11.5f, 100},
       {"mural", "signage/billboard", 4, MakeMural, 6.4f, 8.9f, 9.1f, 50},
-      {"light_box", "signage/billboard", 6, MakeLightBox, 4.7f, 2.0f, 2.3f, 100},
+      {"light_box", "signage/billboard", kLightBoxes, MakeLightBox, 4.7f, 2.0f, 2.3f, 100},
       {"billboard_frame", "signage/billboard", 1, MakeBillboardFrame, 5.0f, 8.0f, 8.4f, 600},
   };
 }

@@ -18,7 +18,7 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 Model MakeNewspaperBox(uint32_t variant, uint64_t) {
   PropBuilder b("newspaper_box");
   constexpr Vec3f kTones[4] = {
-      {0.42f, 0.02f, 0.02f}, {0.02f, 0.06f, 0.28f}, {0.62f, 0.36f, 0.02f}, {0.03f, 0.16f, 0.07f}};
+      {0.30f, 0.045f, 0.040f}, {0.045f, 0.075f, 0.19f}, {0.46f, 0.31f, 0.09f}, {0.05f, 0.14f, 0.08f}};
   constexpr const char* kTitles[4] = {"THE DAILY", "CITY POST", "VOICE", "METRO"};
   b.Use(Paint(kTones[variant], 0.4f), ScratchedTexture());
   b.BevelBox({-0.24f, -0.20f, 0.42f}, {0.24f, 0.20f, 1.10f}, 0.03f);
@@ -173,10 +173,10 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
   b.BevelBox({-0.95f, -0.42f, 0.42f}, {0.95f, 0.42f, 1.12f}, 0.02f);
   b.BevelBox({-1.05f, -0.52f, 1.10f}, {1.05f, 0.50f, 1.15f}, 0.01f);
   for (float x : {-0.6f, -0.1f, 0.4f}) b.BevelBox({x - 0.2f, -0.2f, 1.15f}, {x + 0.2f, 0.2f, 1.22f}, 0.02f);
-  Canvas board(256, 96, variant ? Vec3f{0.03f, 0.08f, 0.35f} : Vec3f{0.62f, 0.36f, 0.01f});
+  Canvas board(256, 96, variant ? Vec3f{0.045f, 0.085f, 0.22f} : Vec3f{0.46f, 0.31f, 0.09f});
   board.Letters("HOT DOGS", {0.5f, 0.34f}, 0.36f,
-                variant ? Vec3f{0.8f, 0.5f, 0.02f} : Vec3f{0.45f, 0.02f, 0.02f}, 0.85f);
-  board.Letters("PRETZEL   COLD DRINKS", {0.5f, 0.78f}, 0.14f, {0.8f, 0.8f, 0.76f});
+                variant ? Vec3f{0.60f, 0.45f, 0.16f} : Vec3f{0.33f, 0.050f, 0.045f}, 0.85f);
+  board.Letters("PRETZEL   COLD DRINKS", {0.5f, 0.78f}, 0.14f, {0.62f, 0.62f, 0.58f});
   const Texture face = board.Finish(variant ? "hot dogs blue" : "hot dogs yellow");
   b.Use(Paint({1, 1, 1}, 0.4f), face);
   b.Picture({-0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 0.48f}, {0.88f, -0.424f, 1.06f},
@@ -191,7 +191,7 @@ Model MakeHotdogCart(uint32_t variant, uint64_t) {
   b.mesh().Tube({0.55f, 0.2f, 1.1f}, {0.55f, 0.2f, 2.62f}, 0.02f, 0.02f, 8);
   // Eight gores by turns, each with a valance.
   for (int i = 0; i < 8; ++i) {
-    b.Use(Fabric(i % 2 ? Vec3f{0.78f, 0.50f, 0.02f} : Vec3f{0.04f, 0.12f, 0.52f}));
+    b.Use(Fabric(i % 2 ? Vec3f{0.58f, 0.42f, 0.12f} : Vec3f{0.09f, 0.14f, 0.32f}));
     const auto rim = [&](int k, float z) {
       const float a = kTau * static_cast<float>(k) / 8;
       return Vec3f{0.55f + 1.25f * std::cos(a), 0.2f + 1.25f * std::sin(a), z};

@@ -13,7 +13,7 @@ namespace {
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 const Vec3f kCloth[4] = {
-    {0.62f, 0.58f, 0.47f}, {0.40f, 0.045f, 0.035f}, {0.035f, 0.16f, 0.11f}, {0.05f, 0.10f, 0.28f}};
+    {0.62f, 0.58f, 0.47f}, {0.30f, 0.085f, 0.070f}, {0.070f, 0.135f, 0.105f}, {0.085f, 0.115f, 0.19f}};
 
 // Cloth of two colours in stripes across u, with a weave.
 Texture Stripes(const char* name, Vec3f a, Vec3f b) {

@@ -11,7 +11,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
-const Vec3f kTones[3] = {{0.45f, 0.03f, 0.025f}, {0.03f, 0.19f, 0.13f}, {0.62f, 0.34f, 0.03f}};
+const Vec3f kTones[3] = {{0.31f, 0.060f, 0.050f}, {0.060f, 0.15f, 0.115f}, {0.47f, 0.31f, 0.10f}};
 constexpr const char* kNames[3] = {"HOT DOGS", "FRESH TACOS", "ICE CREAM"};
 
 Texture MenuBoard(uint32_t variant) {

@@ -54,7 +54,6 @@ Texel FarRibbons(float u, float v);
 /// What shines behind the panes of one of the three by night, 1 at most; `columns`, `rows`: bays of its tile.
 Vec3f FarLights(Texel (*wall)(float u, float v), int columns, int rows, float u, float v);
 Texel Shop(float u, float v, uint32_t kind);
-Texel Sign(float u, float v);
 
 /// Lattice of a wall or pavement: `columns` by `rows` units a tile, rows shifted by half a unit by turns. The
 /// same numbers go into Material::units.

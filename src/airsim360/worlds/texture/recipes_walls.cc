@@ -35,8 +35,8 @@ void PaintBricks(SurfaceMaps& m, const BrickStyle& s) {
     Vec3f shown = Mix(color, mortar, joint);
     float rough = 0.58f + 0.035f * grain[i] + 0.09f * joint;
     if (s.paint > 0) {
-      // Paint bridges the joint and flakes off where bricks spall.
-      const float left = Step(-0.10f, 0.06f, s.paint + 0.16f * -soft[i] + 0.10f * chip[i] - 0.05f * rim);
+      // Paint bridges the joint and flakes off where bricks spall: in specks, since larger bare places would repeat with the tile.
+      const float left = Step(-0.10f, 0.06f, s.paint - 0.04f * soft[i] + 0.12f * chip[i] - 0.05f * rim);
       shown = Mix(shown, Vec3f{0.66f, 0.64f, 0.59f} * (1 + 0.03f * grain[i] - 0.07f * joint), left);
       rough = Mix(rough, 0.52f + 0.03f * grain[i], left);
     }
@@ -80,7 +80,7 @@ void BrickPainted(SurfaceMaps& m) {
                   {0.36f, 0.33f, 0.29f},
                   1.2f,
                   0.7f,
-                  0.28f,
+                  0.19f,
                   291});
 }
 

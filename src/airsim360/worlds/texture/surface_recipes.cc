@@ -72,7 +72,6 @@ int SizeOf(Recipe recipe) {
   switch (recipe) {
     case R::kAsphalt:
     case R::kSlabs:
-    case R::kSigns:
       return 1024;
     case R::kShop0:
     case R::kShop1:
@@ -147,8 +146,6 @@ TextureRecipe MakeRecipe(Recipe recipe) {
       return {"shop 1", 1, 0.17f, [](float u, float v) { return Shop(u, v, 1); }};
     case R::kShop2:
       return {"shop 2", 1, 0.17f, [](float u, float v) { return Shop(u, v, 2); }};
-    case R::kSigns:
-      return {"signs", 1, 0.22f, Sign};
     default:
       return {"plain", 1, 0.5f, [](float, float) { return Texel{}; }};
   }

@@ -40,7 +40,6 @@ enum class Recipe {
   kShop0,
   kShop1,
   kShop2,
-  kSigns,
   kCount,
   kNone
 };

@@ -7,6 +7,7 @@
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/worlds/texture/recipe_shapes.h"
+#include "airsim360/worlds/texture/shop_signs.h"
 #include "airsim360/worlds/texture/surface_recipes.h"
 
 namespace airsim360 {
@@ -35,15 +36,15 @@ using R = Recipe;
 using G = GroundWear;
 constexpr SurfaceKind kSolid = SurfaceKind::kStandard;
 constexpr Row kRows[] = {
-    {S::kAsphalt, "asphalt", R::kAsphalt, Gray(0.88f), 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
-    {S::kAsphaltPatch, "asphalt patch", R::kAsphaltFresh, Gray(1.15f), 0.8f, 0.05f},
-    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {1.06f, 1.04f, 1.00f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kAsphalt, "asphalt", R::kAsphalt, {0.75f, 0.765f, 0.785f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
+    {S::kAsphaltPatch, "asphalt patch", R::kAsphaltFresh, Gray(1.15f), 0.8f, 0.08f, 0, kSolid, G::kAsphalt},
+    {S::kAsphaltOld, "asphalt old", R::kAsphalt, {0.90f, 0.905f, 0.91f}, 0.8f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kTar, "tar", R::kNone, Gray(0.035f), 0.5f},
-    {S::kGutter, "gutter", R::kConcrete, Gray(0.62f), 0.7f, 0.1f},
-    {S::kKerb, "kerb stone", R::kConcrete, {0.86f, 0.85f, 0.83f}, 0.7f, 0.06f},
-    {S::kSlabs, "slabs", R::kSlabs, {0.80f, 0.79f, 0.76f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kGutter, "gutter", R::kConcrete, Gray(0.50f), 0.7f, 0.1f, 0, kSolid, G::kPaving},
+    {S::kKerb, "kerb stone", R::kConcrete, {0.72f, 0.71f, 0.69f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
+    {S::kSlabs, "slabs", R::kSlabs, {0.78f, 0.77f, 0.74f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
     {S::kSlabsWarm, "slabs warm", R::kSlabs, {0.9f, 0.81f, 0.70f}, 0.7f, 0.08f, 0, kSolid, G::kPaving},
-    {S::kTactile, "tactile slabs", R::kSlabs, {1.35f, 1.0f, 0.35f}, 0.7f},
+    {S::kTactile, "tactile slabs", R::kSlabs, {1.20f, 0.90f, 0.38f}, 0.7f, 0.06f, 0, kSolid, G::kPaving},
     {S::kPlazaBrick,
      "plaza brick",
      R::kPavingBrick,
@@ -67,27 +68,28 @@ constexpr Row kRows[] = {
     {S::kLawn, "lawn", R::kGrass, {1.0f, 1.0f, 1.0f}, 0.8f, 0.14f, 0, kSolid, G::kLawn},
     {S::kSoil, "soil", R::kSoil, Gray(1.0f), 0.9f, 0.10f, 0, kSolid, G::kSoil},
     {S::kWater, "water", R::kNone, {0.020f, 0.036f, 0.034f}, 0.08f, 0, 0, SurfaceKind::kWater},
-    {S::kPaintWhite, "road paint white", R::kPaintWorn, Gray(1.05f), 0.65f},
-    {S::kPaintYellow, "road paint yellow", R::kPaintWorn, {1.12f, 0.70f, 0.09f}, 0.65f},
-    {S::kBikeLane, "bike lane", R::kAsphalt, {0.55f, 1.45f, 0.75f}, 0.75f, 0.08f},
+    // Cracks, oil and dirt of the road go through its paint.
+    {S::kPaintWhite, "road paint white", R::kPaintWorn, Gray(1.00f), 0.65f, 0.08f, 0, kSolid, G::kAsphalt},
+    {S::kPaintYellow, "road paint yellow", R::kPaintWorn, {1.02f, 0.66f, 0.13f}, 0.65f, 0.08f, 0, kSolid, G::kAsphalt},
+    {S::kBikeLane, "bike lane", R::kAsphalt, {0.54f, 1.08f, 0.66f}, 0.75f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kIron, "cast iron", R::kNone, Gray(0.075f), 0.5f, 0, 0.6f},
-    {S::kBrickRed, "brick red", R::kBrickRed, Gray(1.0f), 0.7f, 0.06f},
-    {S::kBrickBrown, "brick brown", R::kBrickRed, {0.74f, 0.80f, 0.84f}, 0.7f, 0.06f},
-    {S::kBrickYellow, "brick yellow", R::kBrickStock, Gray(1.05f), 0.7f, 0.06f},
-    {S::kBrickWhite, "brick painted", R::kBrickPainted, {1.0f, 0.97f, 0.90f}, 0.7f, 0.06f},
-    {S::kLimestone, "limestone", R::kAshlar, {1.02f, 0.92f, 0.76f}, 0.7f, 0.06f},
-    {S::kSandstone, "sandstone", R::kAshlar, {0.86f, 0.66f, 0.46f}, 0.7f, 0.06f},
-    {S::kGranite, "granite", R::kAshlar, {0.50f, 0.49f, 0.48f}, 0.5f, 0.04f},
-    {S::kStuccoOchre, "stucco ochre", R::kPlaster, {1.12f, 0.76f, 0.38f}, 0.8f, 0.06f},
-    {S::kStuccoWhite, "stucco white", R::kPlaster, {1.16f, 1.10f, 0.98f}, 0.8f, 0.06f},
-    {S::kStuccoRose, "stucco rose", R::kPlaster, {1.08f, 0.70f, 0.58f}, 0.8f, 0.06f},
-    {S::kStuccoBlue, "stucco blue", R::kPlaster, {0.66f, 0.82f, 0.95f}, 0.8f, 0.06f},
-    {S::kConcrete, "facade concrete", R::kConcrete, {0.92f, 0.90f, 0.86f}, 0.7f, 0.07f},
-    {S::kConcreteWarm, "facade concrete warm", R::kConcrete, {0.86f, 0.76f, 0.62f}, 0.7f, 0.07f},
-    {S::kPanelWhite, "panel white", R::kPlaster, {1.10f, 1.09f, 1.06f}, 0.5f, 0.03f},
+    {S::kBrickRed, "brick red", R::kBrickRed, Gray(1.0f), 0.7f, 0.15f},
+    {S::kBrickBrown, "brick brown", R::kBrickRed, {0.74f, 0.80f, 0.84f}, 0.7f, 0.15f},
+    {S::kBrickYellow, "brick yellow", R::kBrickStock, Gray(1.05f), 0.7f, 0.15f},
+    {S::kBrickWhite, "brick painted", R::kBrickPainted, {1.0f, 0.97f, 0.90f}, 0.7f, 0.15f},
+    {S::kLimestone, "limestone", R::kAshlar, {1.02f, 0.92f, 0.76f}, 0.7f, 0.15f},
+    {S::kSandstone, "sandstone", R::kAshlar, {0.86f, 0.66f, 0.46f}, 0.7f, 0.15f},
+    {S::kGranite, "granite", R::kAshlar, {0.50f, 0.49f, 0.48f}, 0.5f, 0.15f},
+    {S::kStuccoOchre, "stucco ochre", R::kPlaster, {1.02f, 0.78f, 0.50f}, 0.8f, 0.15f},
+    {S::kStuccoWhite, "stucco white", R::kPlaster, {1.16f, 1.10f, 0.98f}, 0.8f, 0.15f},
+    {S::kStuccoRose, "stucco rose", R::kPlaster, {0.98f, 0.72f, 0.62f}, 0.8f, 0.15f},
+    {S::kStuccoBlue, "stucco blue", R::kPlaster, {0.68f, 0.78f, 0.86f}, 0.8f, 0.15f},
+    {S::kConcrete, "facade concrete", R::kConcrete, {0.92f, 0.90f, 0.86f}, 0.7f, 0.15f},
+    {S::kConcreteWarm, "facade concrete warm", R::kConcrete, {0.86f, 0.76f, 0.62f}, 0.7f, 0.15f},
+    {S::kPanelWhite, "panel white", R::kPlaster, {1.10f, 1.09f, 1.06f}, 0.5f, 0.10f},
     {S::kPanelDark, "panel dark", R::kNone, {0.07f, 0.075f, 0.085f}, 0.45f, 0.03f},
-    {S::kTrimStone, "trim stone", R::kConcrete, {1.08f, 1.0f, 0.86f}, 0.7f, 0.05f},
-    {S::kTrimWhite, "trim white", R::kPlaster, {1.36f, 1.34f, 1.28f}, 0.7f, 0.04f},
+    {S::kTrimStone, "trim stone", R::kConcrete, {1.08f, 1.0f, 0.86f}, 0.7f, 0.10f},
+    {S::kTrimWhite, "trim white", R::kPlaster, {1.36f, 1.34f, 1.28f}, 0.7f, 0.10f},
     {S::kTrimDark, "trim dark", R::kNone, {0.085f, 0.080f, 0.078f}, 0.6f},
     {S::kFrameWhite, "frame white", R::kNone, Gray(0.66f), 0.5f},
     {S::kFrameDark, "frame dark", R::kNone, Gray(0.045f), 0.45f},
@@ -103,19 +105,19 @@ constexpr Row kRows[] = {
     {S::kShopInside0, "shop window 0", R::kShop0, Gray(1), 0.05f, 0, 0, kPane},
     {S::kShopInside1, "shop window 1", R::kShop1, Gray(1), 0.05f, 0, 0, kPane},
     {S::kShopInside2, "shop window 2", R::kShop2, Gray(1), 0.05f, 0, 0, kPane},
-    {S::kSigns, "shop signs", R::kSigns, Gray(1), 0.5f},
+    {S::kSigns, "shop signs", R::kNone, Gray(1), 0.5f},
     {S::kDoorRed, "door red", R::kNone, {0.30f, 0.035f, 0.03f}, 0.4f},
     {S::kDoorGreen, "door green", R::kNone, {0.03f, 0.11f, 0.07f}, 0.4f},
     {S::kDoorWood, "door wood", R::kPlanks, {0.5f, 0.36f, 0.24f}, 0.55f},
-    {S::kAwningRed, "awning red", R::kStripes, {1.30f, 0.22f, 0.17f}, 0.85f},
-    {S::kAwningGreen, "awning green", R::kStripes, {0.36f, 0.80f, 0.44f}, 0.85f},
-    {S::kAwningBlue, "awning blue", R::kStripes, {0.34f, 0.52f, 1.05f}, 0.85f},
-    {S::kAwningYellow, "awning yellow", R::kStripes, {1.20f, 0.87f, 0.31f}, 0.85f},
+    {S::kAwningRed, "awning red", R::kStripes, {0.98f, 0.26f, 0.21f}, 0.85f},
+    {S::kAwningGreen, "awning green", R::kStripes, {0.34f, 0.60f, 0.40f}, 0.85f},
+    {S::kAwningBlue, "awning blue", R::kStripes, {0.36f, 0.48f, 0.76f}, 0.85f},
+    {S::kAwningYellow, "awning yellow", R::kStripes, {1.02f, 0.82f, 0.46f}, 0.85f},
     {S::kRoofGravel, "roof gravel", R::kRoofGravel, Gray(1.1f), 0.85f, 0.14f, 0, kSolid, G::kRoof},
     {S::kRoofBitumen, "roof bitumen", R::kBitumen, Gray(0.95f), 0.8f, 0.16f, 0, kSolid, G::kRoofRolls},
     {S::kRoofTile, "roof tile", R::kRoofTile, Gray(1), 0.8f, 0.1f},
     {S::kRoofSlate, "roof slate", R::kSlate, Gray(1.15f), 0.7f, 0.08f},
-    {S::kCoping, "coping", R::kConcrete, {0.82f, 0.80f, 0.77f}, 0.7f},
+    {S::kCoping, "coping", R::kConcrete, {0.82f, 0.80f, 0.77f}, 0.7f, 0.10f},
     {S::kMetal, "galvanised metal", R::kGalvanised, Gray(1.0f), 0.4f, 0.04f, 0.85f},
     {S::kFarWalls0, "far walls brick", R::kFarWalls, {0.74f, 0.46f, 0.34f}, 0.8f, 0.06f},
     {S::kFarWalls1, "far walls stone", R::kFarWalls, {1.05f, 0.95f, 0.80f}, 0.8f, 0.06f},
@@ -124,27 +126,27 @@ constexpr Row kRows[] = {
     {S::kMountain, "mountain", R::kRock, Gray(1), 0.9f},
     {S::kMountainFar, "mountain far", R::kRock, {0.9f, 0.95f, 1.1f}, 0.9f},
     {S::kPlain, "plain", R::kFields, Gray(1), 0.9f},
-    {S::kBusLane, "bus lane", R::kAsphalt, {1.75f, 0.52f, 0.50f}, 0.75f, 0.10f},
+    {S::kBusLane, "bus lane", R::kAsphalt, {1.38f, 0.54f, 0.50f}, 0.75f, 0.14f, 0, kSolid, G::kAsphalt},
     {S::kDirt, "dirt", R::kSoil, {0.94f, 0.92f, 0.90f}, 0.9f, 0.12f, 0, kSolid, G::kSoil},
-    {S::kBrownstone, "brownstone", R::kAshlar, {0.44f, 0.29f, 0.21f}, 0.75f, 0.06f},
-    {S::kBrownstoneTrim, "brownstone trim", R::kConcrete, {0.42f, 0.27f, 0.19f}, 0.75f, 0.05f},
+    {S::kBrownstone, "brownstone", R::kAshlar, {0.44f, 0.29f, 0.21f}, 0.75f, 0.15f},
+    {S::kBrownstoneTrim, "brownstone trim", R::kConcrete, {0.42f, 0.27f, 0.19f}, 0.75f, 0.10f},
     {S::kBronze, "bronze spandrel", R::kNone, {0.13f, 0.105f, 0.075f}, 0.5f, 0.03f},
     {S::kGlassBlack, "glass black", R::kNone, {0.012f, 0.014f, 0.017f}, 0.04f, 0, 0, kPane},
     {S::kGlassRedCurtain, "glass with red curtain", R::kNone, {0.42f, 0.012f, 0.015f}, 0.05f, 0, 0, kPane},
     {S::kIronBlack, "iron black", R::kNone, {0.022f, 0.022f, 0.024f}, 0.55f},
-    {S::kCarriageway, "carriageway", R::kAsphalt, Gray(0.86f), 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kCarriageway, "carriageway", R::kAsphalt, {0.73f, 0.745f, 0.765f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
     {S::kCarriagewayOld,
      "carriageway old",
      R::kAsphalt,
-     {1.04f, 1.02f, 0.98f},
+     {0.89f, 0.895f, 0.90f},
      0.8f,
      0.14f,
      0,
      kSolid,
      G::kCarriageway},
     {S::kCarriagewayFresh, "carriageway fresh", R::kAsphaltFresh, Gray(1.45f), 0.8f, 0.10f, 0, kSolid, G::kCarriageway},
-    {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.36f, 1.33f, 1.27f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
-    {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.40f, 1.37f, 1.30f}, 0.8f, 0.10f},
+    {S::kCarriagewayPale, "carriageway pale", R::kAsphalt, {1.12f, 1.11f, 1.09f}, 0.8f, 0.14f, 0, kSolid, G::kCarriageway},
+    {S::kAsphaltPale, "asphalt pale", R::kAsphalt, {1.14f, 1.13f, 1.11f}, 0.8f, 0.10f, 0, kSolid, G::kAsphalt},
     {S::kFarWalls3, "far walls brown", R::kFarWalls, {0.54f, 0.39f, 0.31f}, 0.8f, 0.06f},
     {S::kFarPiers0, "far piers stone", R::kFarPiers, {1.06f, 0.94f, 0.78f}, 0.8f, 0.06f},
     {S::kFarPiers1, "far piers brick", R::kFarPiers, {0.78f, 0.52f, 0.40f}, 0.8f, 0.06f},
@@ -158,7 +160,7 @@ struct TextureIds {
   float tile = 1;
 };
 
-bool IsPicture(Recipe recipe) { return recipe >= R::kShop0 && recipe <= R::kSigns; }
+bool IsPicture(Recipe recipe) { return recipe >= R::kShop0 && recipe <= R::kShop2; }
 
 // Textures without a lattice are mixed from patches of themselves; bricks and slabs are tinted one by one.
 bool IsShapeless(Recipe recipe) {
@@ -218,6 +220,7 @@ std::vector<TextureIds> AddTextures(SceneBuilder& builder) {
 
 Surfaces AddSurfaces(SceneBuilder& builder) {
   const std::vector<TextureIds> textures = AddTextures(builder);
+  const TextureId signs = builder.AddTexture(internal::MakeShopSigns());
   Surfaces surfaces;
   for (const Row& row : kRows) {
     Material material;
@@ -240,9 +243,9 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
       material.metallic_roughness_texture = ids.roughness;
       if (ids.roughness != kNoTexture) material.roughness = 1;
       material.uv_scale = {1 / ids.tile, 1 / ids.tile};
-      // Shops and their signs shine in the evening.
+      // Shops shine in the evening.
       if (IsPicture(row.recipe)) {
-        material.emission = Vec3f{1.0f, 0.88f, 0.70f} * ((row.recipe == R::kSigns ? 45 : 120) * kNit);
+        material.emission = Vec3f{1.0f, 0.88f, 0.70f} * (120 * kNit);
         material.emission_texture = ids.color;
         material.lamp = true;
       }
@@ -251,6 +254,12 @@ Surfaces AddSurfaces(SceneBuilder& builder) {
         material.emission_texture = ids.lights;
         material.lamp = true;
       }
+    }
+    // So do their signs.
+    if (row.surface == S::kSigns) {
+      material.base_color_texture = material.emission_texture = signs;
+      material.emission = Vec3f{1.0f, 0.88f, 0.70f} * (45 * kNit);
+      material.lamp = true;
     }
     // Somebody is at home behind these; through a curtain or a blind less of it comes out. In the mean over all panes.
     if (row.surface == S::kGlassLit || row.surface == S::kGlassCurtain || row.surface == S::kGlassBlind) {

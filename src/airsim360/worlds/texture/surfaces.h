@@ -123,8 +123,15 @@ class Surfaces {
 /// Generates the textures (in parallel, a second or two) and adds all materials. Textures tile in metres.
 Surfaces AddSurfaces(SceneBuilder& builder);
 
-/// Number of different shop signs on Surface::kSigns: sign i covers v in [i, i + 1] / kSignCount of the
-/// texture.
-inline constexpr int kSignCount = 16;
+/// Number of different shop signs on Surface::kSigns, in columns on one sheet.
+inline constexpr int kSignCount = 208, kSignColumns = 4;
+/// Where sign i lies on the sheet: texture coordinates of its upper left and lower right corner.
+struct SignBox {
+  Vec2f uv0, uv1;
+};
+constexpr SignBox ShopSignBox(int i) {
+  const float u = static_cast<float>(i % kSignColumns) / kSignColumns, v = static_cast<float>(i / kSignColumns) * kSignColumns / kSignCount;
+  return {{u, v}, {u + 1.0f / kSignColumns, v + static_cast<float>(kSignColumns) / kSignCount}};
+}
 
 }  // namespace airsim360

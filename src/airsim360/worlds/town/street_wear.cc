@@ -47,14 +47,40 @@ void LayBand(Ground& ground, const Place& at, Vec2f a, Vec2f b, float wa, float 
   ground.Quad(corners[0], corners[1], corners[2], corners[3]);
 }
 
+// A flat scrap of `size` metres, turned at random: a leaf (pointed) or paper.
+void LayScrap(Ground& ground, const Place& at, float s, float d, float size, bool leaf, float lift, RngStream& rng) {
+  const float a = Uniform(rng, 0, 6.283f), narrow = leaf ? Uniform(rng, 0.3f, 0.5f) : Uniform(rng, 0.25f, 0.75f);
+  const Vec2f along{size / 2 * std::cos(a), size / 2 * std::sin(a)}, across{-narrow * along.y, narrow * along.x};
+  const auto p = [&](float x, float y) { return at(s + x * along.x + y * across.x, d + x * along.y + y * across.y, lift); };
+  Vec3f corners[4] = {p(-1, -1), p(1, -0.9f), p(0.9f, 1), p(-1, 0.8f)};
+  if (leaf) corners[0] = p(-1, 0), corners[1] = p(0.1f, -1), corners[2] = p(1, 0), corners[3] = p(0.1f, 1);
+  const float side = Cross(corners[1] - corners[0], corners[2] - corners[0]).z;
+  if (std::abs(side) < kLeastArea) return;
+  if (side < 0) std::swap(corners[1], corners[3]);
+  ground.Quad(corners[0], corners[1], corners[2], corners[3]);
+}
+
+// Leaves of last autumn, and now and then a butt, a ticket, a scrap of packing.
+void DropScrap(Ground& ground, const Place& at, float s, float d, float lift, RngStream& rng) {
+  static constexpr Surface kLeaves[] = {Surface::kDirt, Surface::kDoorWood, Surface::kSandstone, Surface::kFrameWood};
+  static constexpr Surface kRubbish[] = {Surface::kFrameWhite, Surface::kTrimWhite, Surface::kStuccoRose, Surface::kShutterBlue};
+  const bool leaf = rng.Chance(0.68), butt = !leaf && rng.Chance(0.6);
+  ground.Use(leaf ? kLeaves[rng.Index(4)] : butt ? Surface::kTrimWhite : kRubbish[rng.Index(4)]);
+  LayScrap(ground, at, s, d, leaf ? Uniform(rng, 0.035f, 0.085f) : butt ? 0.028f : Uniform(rng, 0.04f, 0.12f), leaf, lift, rng);
+}
+
 // A wandering sealed crack of `steps` pieces from (s, d) towards `heading`, kept within |d - middle| <= half.
 void LayCrack(Ground& ground, const Place& at, Vec2f p, float heading, int steps, float half, RngStream& rng) {
-  for (int k = 0; k < steps; ++k) {
-    heading += Uniform(rng, -0.5f, 0.5f);
-    const float step = Uniform(rng, 0.3f, 0.8f);
+  // Each piece bends in four; the sealer is poured thick and thin, and thins out at both ends.
+  float bend = 0, width = 0.004f;
+  for (int k = 0; k < 4 * steps; ++k) {
+    if (k % 4 == 0) bend = Uniform(rng, -0.22f, 0.22f);
+    heading += bend + Uniform(rng, -0.16f, 0.16f);
+    const float step = Uniform(rng, 0.07f, 0.2f), ends = 0.25f * static_cast<float>(std::min(k + 1, 4 * steps - k - 1));
+    const float next_width = std::min(Uniform(rng, 0.004f, 0.019f), 0.002f + 0.012f * ends);
     const Vec2f next{p.x + step * std::cos(heading), std::clamp(p.y + step * std::sin(heading), -half, half)};
-    LayBand(ground, at, p, next, Uniform(rng, 0.012f, 0.028f), Uniform(rng, 0.012f, 0.028f), kSealLift);
-    p = next;
+    LayBand(ground, at, p, next, width, next_width, kSealLift);
+    p = next, width = next_width;
   }
 }
 
@@ -101,11 +127,11 @@ void LaySeams(Ground& ground, const StreetStretch& street, const Place& at, floa
 
 // Oil where cars stand, and the marks of tyres that braked or turned out.
 void LayOilAndTyres(Ground& ground, const StreetStretch& street, const Place& at, float hw, RngStream& rng) {
-  for (float s = street.s0 + 6; s < street.s1 - 6; s += Uniform(rng, 1.6f, 5)) {
+  for (float s = street.s0 + 6; s < street.s1 - 6; s += Uniform(rng, 6, 17)) {
     const bool bay = rng.Chance(0.5);
     const float side = rng.Chance(0.5) ? 1.0f : -1.0f, d = side * (bay ? hw - Uniform(rng, 0.4f, 1.2f) : Uniform(rng, 0.8f, hw - 1.5f));
     ground.Use(rng.Chance(0.7) ? Surface::kAsphaltPatch : Surface::kTar);
-    LaySpot(ground, at, s, d, Uniform(rng, 0.05f, 0.28f), Uniform(rng, 1, 2), kStainLift, 8, rng);
+    LaySpot(ground, at, s, d, Uniform(rng, 0.03f, 0.13f), Uniform(rng, 1, 2), kStainLift, 14, rng);
   }
   ground.Use(Surface::kAsphaltPatch);
   for (int i = 0; i < static_cast<int>((street.s1 - street.s0) / 9); ++i) {
@@ -120,6 +146,27 @@ void LayOilAndTyres(Ground& ground, const StreetStretch& street, const Place& at
       LayBand(ground, at, {p.x, p.y + side * 1.5f}, {next.x, next.y + side * 1.5f}, width(k), width(k + 1), kStainLift + 0.0003f);
       p = next;
       drift += Uniform(rng, -0.03f, 0.03f);
+    }
+  }
+}
+
+// What rain and brooms leave along the kerb: silt in long tongues, leaves and litter, in drifts with bare lengths between.
+void LayGutterDirt(Ground& ground, const StreetStretch& street, RngStream& rng) {
+  const float hw = street.line.half_width;
+  for (float side : {-1.0f, 1.0f}) {
+    const Place at = [&](float s, float d, float lift) {
+      return street.At(std::clamp(s, street.s0, street.s1), side * std::clamp(d, hw - 0.34f, hw - 0.005f), lift);
+    };
+    float much = 0.5f;
+    for (float s = street.s0 + 0.5f; s < street.s1 - 0.5f; s += Uniform(rng, 0.3f, 1.1f)) {
+      much = std::clamp(much + Uniform(rng, -0.25f, 0.25f), 0.0f, 1.0f);
+      if (rng.Chance(0.15 + 0.6 * much)) {
+        ground.Use(rng.Chance(0.6) ? Surface::kDirt : Surface::kAsphaltPatch);
+        LaySpot(ground, at, s, hw - Uniform(rng, 0.01f, 0.09f), Uniform(rng, 0.03f, 0.05f + 0.10f * much), Uniform(rng, 2, 7), kStainLift, 9, rng);
+      }
+      const int scraps = static_cast<int>(Uniform(rng, 0, 0.4f + 4.5f * much * much));
+      for (int i = 0; i < scraps; ++i)
+        DropScrap(ground, at, s + Uniform(rng, -0.5f, 0.5f), hw - 0.03f - 0.28f * Uniform(rng, 0, 1) * Uniform(rng, 0, 1), kSealLift, rng);
     }
   }
 }
@@ -152,6 +199,7 @@ void LayWear(Ground& ground, const StreetStretch& street, RngStream& rng) {
     LayCrack(ground, at, p, along ? 0 : 1.57f, along ? 14 : 8, hw, rng);
   }
   LaySprayedMarks(ground, street, at, hw, rng);
+  LayGutterDirt(ground, street, rng);
 }
 
 void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
@@ -160,9 +208,9 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
     const Vec2f p{fan.middle.x + std::clamp(x, -10.5f, 10.5f), fan.middle.y + std::clamp(y, -10.5f, 10.5f)};
     return Vec3f{p.x, p.y, fan.Height(p) + lift};
   };
-  for (int i = 0; i < 26; ++i) {
+  for (int i = 0; i < 8; ++i) {
     ground.Use(rng.Chance(0.7) ? Surface::kAsphaltPatch : Surface::kTar);
-    LaySpot(ground, on, Uniform(rng, -reach, reach), Uniform(rng, -reach, reach), Uniform(rng, 0.05f, 0.3f), 1.3f, 0.003f, 8, rng);
+    LaySpot(ground, on, Uniform(rng, -reach, reach), Uniform(rng, -reach, reach), Uniform(rng, 0.03f, 0.13f), 1.3f, 0.003f, 14, rng);
   }
   // Lanes resurfaced across, and repairs: in small squares, which follow the fan.
   static constexpr Surface kLanes[] = {Surface::kAsphaltPale, Surface::kAsphaltPatch, Surface::kAsphaltOld};
@@ -206,7 +254,7 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng) {
     }
   }
   ground.Use(Surface::kTar);
-  for (int i = 0; i < 24; ++i)
+  for (int i = 0; i < 15; ++i)
     LayCrack(ground, [&](float x, float y, float) { return on(x, y, 0.009f); }, {Uniform(rng, -reach, reach), Uniform(rng, -reach, reach)},
              Uniform(rng, 0, 6.283f), 12, reach + 1, rng);
 }
@@ -222,16 +270,15 @@ void LayPavementWear(Ground& ground, const PavementPoint& at, float s0, float s1
     ground.Use(rng.Chance(0.35) ? Surface::kAsphaltPatch : rng.Chance(0.5) ? Surface::kGutter : Surface::kKerb);
     ground.Quad(at(s, d, lift(0.0008f)), at(s + l, d, lift(0.0008f)), at(s + l, d + w, lift(0.0008f)), at(s, d + w, lift(0.0008f)));
   }
-  for (int i = 0; i < static_cast<int>(area * 0.06f + Uniform(rng, 0, 1)); ++i) {
+  for (int i = 0; i < static_cast<int>(area * 0.015f + Uniform(rng, 0, 1)); ++i) {
     ground.Use(rng.Chance(0.6) ? Surface::kAsphaltOld : Surface::kAsphaltPatch);
     LaySpot(ground, at, Uniform(rng, s0 + 0.3f, s1 - 0.3f), Uniform(rng, d0 + 0.3f, d1 - 0.3f),
-        Uniform(rng, 0.04f, 0.16f), 1.3f, lift(0.0010f), 7, rng);
+        Uniform(rng, 0.03f, 0.10f), 1.3f, lift(0.0010f), 13, rng);
   }
-  // Gum of all ages.
-  for (int i = 0; i < static_cast<int>(area * 1.6f); ++i) {
-    ground.Use(rng.Chance(0.75) ? Surface::kAsphaltPatch : Surface::kTar);
-    LaySpot(ground, at, Uniform(rng, s0 + 0.05f, s1 - 0.05f), Uniform(rng, d0 + 0.05f, d1 - 0.05f),
-        Uniform(rng, 0.012f, 0.03f), 1, lift(0.0014f), 5, rng);
+  // Litter, more of it at the walls than where people walk. (Gum is the shader's: render/shared/shading_marks.h.)
+  for (int i = 0; i < static_cast<int>(area * 0.45f + Uniform(rng, 0, 1)); ++i) {
+    const float edge = Uniform(rng, 0, 1);
+    DropScrap(ground, at, Uniform(rng, s0 + 0.07f, s1 - 0.07f), d1 - 0.07f - (d1 - d0 - 0.14f) * edge * edge, lift(0.0014f), rng);
   }
   ground.Use(slabs);
 }

@@ -1,4 +1,4 @@
-// What years leave on carriageways and pavements: repairs, trenches, seams, sealed cracks, oil, tyre marks, gum.
+// What years leave on carriageways and pavements: repairs, trenches, seams, sealed cracks, oil, tyre marks, silt and litter.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ void LayJunctionWear(Ground& ground, const Fan& fan, RngStream& rng);
 
 /// A point of a pavement at (s along, d from the kerb), metres.
 using PavementPoint = std::function<Vec3f(float s, float d, float lift)>;
-/// Gum, stains and replaced slabs between s0 and s1, d0 and d1; part of the entity that was laid last, whose surface is
+/// Litter, stains and replaced slabs between s0 and s1, d0 and d1; part of the entity that was laid last, whose surface is
 /// `slabs`.
 void LayPavementWear(Ground& ground, const PavementPoint& at, float s0, float s1, float d0, float d1, Surface slabs, RngStream& rng);
 

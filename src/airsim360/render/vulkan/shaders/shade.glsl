@@ -27,6 +27,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Shade { Gpu
 #include "airsim360/render/shared/shading_weather.h"
 #include "airsim360/render/shared/shading_moon.h"
 #include "airsim360/render/shared/shading_ground.h"
+#include "airsim360/render/shared/shading_marks.h"
 
 const float kFoliage = 1.0, kGlass = 2.0, kWater = 3.0;
 const uint kMirroredUv = 0x80000000u;

@@ -143,10 +143,12 @@ void WearGround(GpuMaterial m, Noises s, vec3 p, float u, float width, inout vec
   if (ground == 1 || ground == 2) {
     float gain = 1.0, tar = 0.0, polish = 0.0;
     asphalt_wear(p.x, p.y, u * m.tile, ground == 2 ? 1.0 : 0.0, s.wide, s.mid, s.fine, s.detail, width, gain, tar, polish);
-    color = lerp3(color * gain, vec3(0.034, 0.034, 0.035), tar);
+    color = asphalt_marks(color * gain, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width);
+    color = lerp3(color, vec3(0.034, 0.034, 0.035), tar);
     roughness = lerp1(roughness - polish, 0.45, tar);
   } else if (ground == 3) {
     color *= paving_wear(s.wide, s.mid, s.fine, s.detail);
+    color = paving_marks(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width);
   } else if (ground == 4) {
     color = lawn_life(color, p.x, p.y, s.wide, s.mid, s.fine, s.detail, width);
   } else if (ground == 5 || ground == 6) {
@@ -162,8 +164,8 @@ vec3 GlassNormal(float h1, vec3 n, vec3 p) {
   if (!(side > 0.3)) return n;
   const vec3 across = vec3(-n.y, n.x, 0.0) * (1.0 / side);
   const float along = (p.x * across.x + p.y * across.y) * 2.1 + h1 * 40.0;
-  const float bend = sin_approx(along) * 0.0035, rise = sin_approx(p.z * 1.9 + h2 * 40.0) * 0.0035;
-  return normalize3(n + across * ((h1 - 0.5) * 0.011 + bend) + vec3(0.0, 0.0, (h2 - 0.5) * 0.011 + rise));
+  const float bend = sin_approx(along) * 0.0045, rise = sin_approx(p.z * 1.9 + h2 * 40.0) * 0.0045;
+  return normalize3(n + across * ((h1 - 0.5) * 0.018 + bend) + vec3(0.0, 0.0, (h2 - 0.5) * 0.018 + rise));
 }
 
 vec3 Waves(vec3 p, float footprint, inout float lost) {
@@ -381,6 +383,11 @@ Shaded Prepare(Ray ray) {
       const float blind = clamp01((0.30 - pane) * 40.0) * clamp01((t.area - 0.7) * 4.0) * clamp01((0.3 - abs(facing.z)) * 8.0);
       const float shade = blind * 0.16 * (0.6 + 1.3 * pane);
       color = color * (1.0 - shade) + vec3(shade, shade * 0.97, shade * 0.88);
+      // No two blinds or curtains have the same colour.
+      if (m.transmission < 0.01 && luminance(color) > 0.10) {
+        const float warm = 0.16 * (hash_again(pane, 61.7) - 0.5), light = 0.58 + 0.74 * pane;
+        color = vec3(color.x * light * (1.0 + warm), color.y * light, color.z * light * (1.0 - warm));
+      }
     }
   }
   if (window) {
