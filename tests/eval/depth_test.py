@@ -112,6 +112,25 @@ class Depth(EvalTest):
         self.assertEqual(found["rolled"][0]["absrel"], found["absrel"])
         self.assertEqual(found["spread"]["rmse"], 0)
 
+    def test_turned_predictions_are_turned_back(self):
+        # A prediction that is a function of the direction, as cameras see it that are turned by yaw, pitch and roll.
+        height = 64
+        theta, phi = np.meshgrid(2 * np.pi * ((np.arange(2 * height) + 0.5) / (2 * height) - 0.5), np.pi * (0.5 - (np.arange(height) + 0.5) / height))
+        rays = np.stack([np.cos(phi) * np.sin(theta), -np.sin(phi), np.cos(phi) * np.cos(theta)], -1)
+        y, p, r = np.radians([130, -40, 75])
+        about_y = np.array([[np.cos(y), 0, np.sin(y)], [0, 1, 0], [-np.sin(y), 0, np.cos(y)]])
+        about_x = np.array([[1, 0, 0], [0, np.cos(p), -np.sin(p)], [0, np.sin(p), np.cos(p)]])
+        about_z = np.array([[np.cos(r), -np.sin(r), 0], [np.sin(r), np.cos(r), 0], [0, 0, 1]])
+        seen = lambda directions: 5 + directions @ [0.5, -1.5, 2]
+        for name, picture in (("g", np.full(theta.shape, 5.0)), ("p", seen(rays)), ("t", seen(rays @ (about_y @ about_x @ about_z).T))):
+            np.save(self.folder / f"{name}.npy", picture)
+        p, g, t = (self.folder / f"{name}.npy" for name in "pgt")
+        found = self.eval("depth", p, g, "--bootstrap", "0", "--turned", f"130,-40,75={t}", "--turned", f"-130,40,-75={t}", "--min-depth", "1")
+        self.assertEqual(found["turned"][0]["yaw_pitch_roll_deg"], [130, -40, 75])
+        self.assertLess(abs(found["turned"][0]["mae"] - found["mae"]), 2e-3)
+        self.assertGreater(abs(found["turned"][1]["mae"] - found["mae"]), 2e-2)
+        self.assertAlmostEqual(found["spread"]["mae"], max(abs(a["mae"] - b["mae"]) for a in (found, *found["turned"]) for b in found["turned"]), 12)
+
     def test_protocols_say_and_do_what_differs(self):
         pred, gt = scene(3, holes=False)
         gt[3:9] *= 40

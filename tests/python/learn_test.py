@@ -21,7 +21,7 @@ except ImportError as error:
 
 torch.set_num_threads(1)
 from airsim360.learn import attitude, classes, frames, labels, segment, sphere, training  # noqa: E402
-from airsim360.learn.augment import KINDS, augment  # noqa: E402
+from airsim360.learn.augment import KINDS, augment, resurface  # noqa: E402
 from airsim360.learn.nets import PictureNet, SphereNet  # noqa: E402
 
 CPU = torch.device("cpu")
@@ -167,6 +167,49 @@ class Files(unittest.TestCase):
         self.assertTrue((augment(picture, np.random.default_rng(1), frozenset(), np.zeros((32, 32), bool)) == picture).all())
         self.assertFalse((augment(picture, np.random.default_rng(1), frozenset(KINDS), np.zeros((32, 32), bool)) == picture).all())
 
+    def test_other_materials_leave_the_sky_and_follow_the_classes(self):
+        label = np.zeros((64, 64), np.uint8)
+        for k, name in enumerate(("sky", "building", "road", "vegetation")):
+            label[16 * k:16 * k + 16] = classes.CLASSES.index(name)
+        label[60:] = classes.IGNORED
+        changed, summers = 0, 0
+        for seed in range(40):
+            found = resurface(np.full((64, 64, 3), 100, np.uint8), np.random.default_rng(seed), label)
+            self.assertTrue((found[:16] == 100).all() and (found[60:] == 100).all())
+            self.assertTrue((found[16:48] == found[16:48:1, :1]).all())  # one material a class
+            changed += bool((found[16:48] != 100).any())
+            summers += bool((found[48:60] == found[48, 0]).all())
+        self.assertTrue(10 < changed < 30, changed)
+        self.assertGreater(summers, 20)
+
+    def test_crowns_are_filled_as_annotators_draw_them(self):
+        tree, sky, car = (classes.CLASSES.index(name) for name in ("vegetation", "sky", "car"))
+        label = np.full((40, 40), sky, np.uint8)
+        label[10:30, 10:30] = tree
+        label[15:17, 15:17], label[20:22, 20:22] = sky, car
+        filled = segment._filled(label)
+        self.assertTrue((filled[15:17, 15:17] == tree).all())
+        self.assertTrue((filled[20:22, 20:22] == car).all())
+        self.assertEqual((filled == sky).sum(), 40 * 40 - 20 * 20)
+
+    def test_the_model_can_be_used_before_training_ends(self):
+        folder = self.frames()
+        crops = segment.Crops(frames.Frames(folder), 64, frozenset())
+
+        def batch(step, random):
+            if step == 2:
+                raise KeyboardInterrupt
+            return crops.batch(step, random)
+
+        with self.assertRaises(KeyboardInterrupt):
+            training.train(self.folder / "early", {"task": "segment"}, lambda: PictureNet(9), batch, segment._loss, training.Schedule(9, 1e-3, save_seconds=0), seed=0,
+                           device=CPU, workers=0, precision="bfloat16")
+        shares, _ = segment.Segmenter.load(self.folder / "early", CPU).photograph(np.zeros((48, 64, 3), np.uint8), (64,))
+        self.assertLess(np.abs(shares.sum(-1) - 1).max(), 1e-4)
+        self.assertTrue(all(v.dtype != torch.bfloat16 for v in training.read_checkpoint(self.folder / "early" / "model.pt")["model"].values()))
+        with self.assertRaisesRegex(ValueError, "--precision: 'half'"):
+            training.precision_of("half", CPU)
+
     def test_the_same_seed_gives_the_same_weights_also_after_an_interruption(self):
         folder = self.frames()
 
@@ -195,6 +238,7 @@ class Files(unittest.TestCase):
         with torch.no_grad():
             self.assertEqual(tuple(PictureNet(9)(torch.rand(1, 3, 64, 96)).shape), (1, 9, 64, 96))
             self.assertEqual(tuple(SphereNet(2, 32)(torch.rand(2, 3, 32, 64)).shape), (2, 2, 16, 32))
+            self.assertEqual(tuple(SphereNet(2, 32, coarse=True)(torch.rand(2, 3, 32, 64)).shape), (2, 2, 8, 16))
 
     def test_scores_are_those_of_a_matrix_counted_by_hand(self):
         matrix = np.zeros((8, 8), int)
@@ -212,6 +256,12 @@ class Files(unittest.TestCase):
         for task in ("depth", "attitude"):
             done = learn(task, "train", "--out", out / task, "--frames", folder, "--steps", 1, "--size", 32, "--workers", 0, "--threads", 1)
             self.assertEqual(done.returncode, 0, done.stderr)
+        done = learn("attitude", "train", "--out", out / "both", "--frames", folder, "--steps", 1, "--size", 32, "--workers", 0, "--threads", 1,
+                     "--photographs", panorama, "--share", 1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('"photographs": ["town_street_00000.jpg"]', training.read_checkpoint(out / "both" / "model.pt")["about"])
+        done = learn("attitude", "train", "--out", out / "none", "--frames", folder, "--photographs", panorama, "--share", 0)
+        self.assertEqual((done.returncode, "--share" in done.stderr), (2, True))
         done = learn("depth", "apply", panorama, "--model", out / "depth", "--out", out / "ranges", "--threads", 1)
         self.assertEqual(done.returncode, 0, done.stderr)
         ranges = np.load(out / "ranges/town_street_00000.npy")

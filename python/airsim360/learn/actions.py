@@ -14,10 +14,10 @@ from .augment import kinds_of
 from .classes import PALETTE, write_legend
 from .depth import Depth, evaluate_depth, train_depth
 from .frames import Frames, draw
-from .labels import check_photographs, read_photograph, write_labels, write_picture
+from .labels import check_photographs, read_panorama, read_photograph, write_labels, write_picture
 from .segment import Segmenter, evaluate, labels_of, train_segmenter
 from .sphere import directions, sample
-from .training import device_of
+from .training import device_of, precision_of
 
 __all__ = ["run"]
 
@@ -62,13 +62,18 @@ def _train(a: argparse.Namespace) -> Dict[str, Any]:
     if a.frames is None:
         _draw(a, a.out / "frames")
     frames = _chosen(a, a.frames or a.out / "frames")
-    common: Dict[str, Any] = {"steps": a.steps, "kinds": kinds, "seed": a.seed, "device": device, "workers": a.workers, "rate": a.rate}
+    common: Dict[str, Any] = {"steps": a.steps, "kinds": kinds, "seed": a.seed, "device": device, "workers": a.workers, "rate": a.rate,
+                              "precision": precision_of(a.precision, device)}
     if a.task == "segment":
         train_segmenter(a.out, frames, size=a.size, views=not a.level_views, **common)
     elif a.task == "depth":
         train_depth(a.out, frames, height=a.size, **common)
     else:
-        train_attitude(a.out, frames, height=a.size, **common)
+        if a.photographs:
+            check_photographs(a.photographs)
+        if not 0 < a.share <= 1:
+            raise ValueError(f"--share: {a.share}; give a number above 0, up to 1")
+        train_attitude(a.out, frames, height=a.size, photographs=a.photographs, share=a.share, **common)
     return {"model": str(a.out / "model.pt"), "frames": len(frames), "steps": a.steps}
 
 
@@ -80,9 +85,7 @@ def _apply_segment(a: argparse.Namespace) -> Dict[str, Any]:
     a.out.mkdir(parents=True, exist_ok=True)
     write_legend(a.out / "legend.json")
     for path in a.pictures:
-        rgb = read_photograph(path)
-        if a.projection == "erp" and rgb.shape[1] != 2 * rgb.shape[0]:
-            raise ValueError(f"{path}: {rgb.shape[1]}x{rgb.shape[0]} is no panorama, which is twice as wide as high")
+        rgb = read_panorama(path) if a.projection == "erp" else read_photograph(path)
         shares, border = segmenter.panorama(rgb) if a.projection == "erp" else segmenter.photograph(rgb)
         labels = labels_of(shares, a.other)
         write_labels(a.out / f"{path.stem}.png", labels)
@@ -98,15 +101,8 @@ def _apply_depth(a: argparse.Namespace) -> Dict[str, Any]:
     depth = Depth.load(a.model, device_of(a.device))
     a.out.mkdir(parents=True, exist_ok=True)
     for path in a.pictures:
-        np.save(a.out / f"{path.stem}.npy", depth.range(_panorama(path)))
+        np.save(a.out / f"{path.stem}.npy", depth.range(read_panorama(path)))
     return {"pictures": len(a.pictures), "out": str(a.out)}
-
-
-def _panorama(path: Path) -> Any:
-    rgb = read_photograph(path)
-    if rgb.shape[1] != 2 * rgb.shape[0]:
-        raise ValueError(f"{path}: {rgb.shape[1]}x{rgb.shape[0]} is no panorama, which is twice as wide as high")
-    return rgb
 
 
 def _apply_attitude(a: argparse.Namespace) -> Dict[str, Any]:
@@ -114,7 +110,7 @@ def _apply_attitude(a: argparse.Namespace) -> Dict[str, Any]:
     attitude = Attitude.load(a.model, device_of(a.device))
     found: Dict[str, Any] = {}
     for path in a.pictures:
-        rgb = _panorama(path)
+        rgb = read_panorama(path)
         up = attitude.up(rgb)
         found[path.name] = {"up": [round(float(v), 5) for v in up], **angles_of(up)}
         if a.out:
@@ -137,7 +133,7 @@ def _eval_attitude(a: argparse.Namespace) -> Dict[str, Any]:
         raise ValueError("--turns: 1 or more; --seed: 0 or more; --tilt: above 0, up to 180")
     errors: Dict[str, List[float]] = {}
     for number, path in enumerate(a.pictures):
-        rgb, random = _panorama(path), np.random.default_rng([a.seed, number])
+        rgb, random = read_panorama(path), np.random.default_rng([a.seed, number])
         for _ in range(a.turns):
             turn = random_rotation(random)
             while np.degrees(np.arccos(np.clip((turn.T @ _UP) @ _UP, -1, 1))) > a.tilt:

@@ -19,6 +19,7 @@ from torch.nn import functional as F
 from .augment import augment
 from .classes import CLASSES
 from .frames import Frames
+from .labels import read_panorama
 from .nets import SphereNet
 from .sphere import directions, sample, solid_angles
 from .training import Schedule, load_model, train
@@ -80,6 +81,10 @@ def small(frames: Frames, height: int) -> Any:
     return pictures, skies
 
 
+def _network(height: int) -> SphereNet:
+    return SphereNet(2, height, coarse=True)
+
+
 class _Fit:
     # What solves for up, on one device.
     def __init__(self, height: int, device: torch.device) -> None:
@@ -95,7 +100,7 @@ class _Fit:
 
 
 def _loss_of(height: int, device: torch.device) -> Any:
-    fit = _Fit(height // 2, device)
+    fit = _Fit(height // 4, device)
 
     def loss(model: Any, data: Sequence[Any]) -> Any:
         pictures, up = data
@@ -108,19 +113,24 @@ def _loss_of(height: int, device: torch.device) -> Any:
 
 
 def train_attitude(out: Path, frames: Frames, *, steps: int = 3000, height: int = 64, kinds: FrozenSet[str], seed: int = 0,
-                   device: torch.device, workers: int = 1, rate: float = 3e-3) -> "Attitude":
-    """Trains on frames, which are level, and writes OUT/model.pt."""
+                   device: torch.device, workers: int = 1, rate: float = 3e-3, precision: str = "float32",
+                   photographs: Sequence[Path] = (), share: float = 0.3) -> "Attitude":
+    """Trains on frames, which are level, and writes OUT/model.pt. A share of every batch is of `photographs`, level panoramas too, if there are any;
+    with 1 the batches have them alone."""
     pictures, skies = small(frames, height)
+    real = [cv2.resize(read_panorama(path), (2 * height, height), interpolation=cv2.INTER_AREA) for path in photographs]
+    shares = [(1 - share) / len(pictures)] * len(pictures) + [share / len(real)] * len(real) if real else None
     about = {"task": "attitude", "height": height, "kinds": sorted(kinds), "frames": len(frames), "rate": rate,
-             "worlds": sorted({frame["world"] for frame in frames.about})}
-    return fit_attitude(out, Turned(pictures, skies, kinds), about, steps, height, seed, device, workers, rate)
+             "worlds": sorted({frame["world"] for frame in frames.about}), "photographs": sorted(path.name for path in photographs), "share": share}
+    turned = Turned([*pictures, *real], [*skies, *[np.zeros(picture.shape[:2], bool) for picture in real]], kinds, shares=shares)
+    return fit_attitude(out, turned, about, steps, height, seed, device, workers, rate, precision)
 
 
 def fit_attitude(out: Path, turned: Turned, about: Dict[str, Any], steps: int, height: int, seed: int, device: torch.device, workers: int,
-                 rate: float) -> "Attitude":
+                 rate: float, precision: str = "float32") -> "Attitude":
     """Trains on any level pictures."""
-    model = train(out, about, lambda: SphereNet(2, height), turned.batch, _loss_of(height, device), Schedule(steps, rate), seed=seed,
-                  device=device, workers=workers)
+    model = train(out, about, lambda: _network(height), turned.batch, _loss_of(height, device), Schedule(steps, rate), seed=seed,
+                  device=device, workers=workers, precision=precision)
     return Attitude(model, height, device)
 
 
@@ -129,14 +139,14 @@ class Attitude:
 
     def __init__(self, model: Any, height: int, device: torch.device) -> None:
         self.model, self.height, self.device = model, height, device
-        self.fit = _Fit(height // 2, device)
+        self.fit = _Fit(height // 4, device)
         random = np.random.default_rng(0)
         self.turns = [np.eye(3), *(random_rotation(random) for _ in range(7))]
 
     @staticmethod
     def load(path: Path, device: torch.device) -> "Attitude":
         """Of `train --out`, or its model.pt."""
-        model = load_model(path, "attitude", lambda about: SphereNet(2, int(about["height"])), device)
+        model = load_model(path, "attitude", lambda about: _network(int(about["height"])), device)
         return Attitude(model, model.height, device)
 
     def up(self, rgb: _Array, votes: int = 8) -> _Array:

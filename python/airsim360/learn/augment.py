@@ -7,11 +7,14 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["KINDS", "augment", "kinds_of"]
+from .classes import CLASSES
 
-KINDS = ("color", "tone", "blur", "noise", "jpeg", "light")
+__all__ = ["KINDS", "augment", "kinds_of", "resurface"]
+
+KINDS = ("color", "tone", "blur", "noise", "jpeg", "light", "surface")
 """color: white balance, saturation, hue, grey; tone: exposure, contrast, gamma; blur: defocus, resampling, sharpening; noise: of
-sensors; jpeg: blocks; light: vignette, veils, burnt skies."""
+sensors; jpeg: blocks; light: vignette, veils, shadows, burnt skies, sky and ground lit apart; surface: each class
+brighter or darker than it is, trees in autumn and winter (segment alone)."""
 
 _Array = npt.NDArray[Any]
 
@@ -47,8 +50,43 @@ def augment(picture: _Array, random: np.random.Generator, kinds: FrozenSet[str],
     return out
 
 
+def resurface(picture: _Array, random: np.random.Generator, label: _Array) -> _Array:
+    """RGB (H, W, 3) uint8 with classes (H, W) -> the same, with other materials: dark pavements, light roads, brown or bare trees."""
+    x = picture.astype(np.float32) / 255
+    if random.random() < 0.5:
+        gain = np.exp(random.normal(0, 0.3, (len(CLASSES), 1)) + random.normal(0, 0.08, (len(CLASSES), 3))).astype(np.float32)
+        gain[CLASSES.index("sky")] = 1
+        x = x * np.vstack([gain, np.ones((256 - len(CLASSES), 3), np.float32)])[label]
+    green = label == CLASSES.index("vegetation")
+    if green.any() and random.random() < 0.35:
+        x = _season(x, random, green, label == CLASSES.index("sky"))
+    return (np.clip(x, 0, 1) * 255 + 0.5).astype(np.uint8)
+
+
+def _season(x: _Array, random: np.random.Generator, green: _Array, sky: _Array) -> _Array:
+    h, w = green.shape
+    grey = x.mean(-1, keepdims=True)
+    tint = np.array([random.uniform(0.8, 1.5), random.uniform(0.7, 1.1), random.uniform(0.3, 0.9)], np.float32)
+    x = np.where(green[..., None], x + (grey * tint - x) * random.uniform(0.4, 1), x)
+    if random.random() < 0.5:
+        return x
+    # Bare: lines of twigs, and between them what is behind; what is low in the picture is grass and stays.
+    twigs = np.full((h, w), np.inf, np.float32)
+    for cell in random.uniform(3, 16, 2):
+        coarse = random.standard_normal((max(2, int(h / cell)), max(2, int(w / cell))), np.float32)
+        twigs = np.minimum(twigs, np.abs(cv2.resize(coarse, (w, h), interpolation=cv2.INTER_CUBIC)))
+    behind = x[sky].mean(0) if sky.any() else random.uniform(0.5, 0.95, 3).astype(np.float32)
+    through = green & (twigs > random.uniform(0.1, 0.35)) & (np.arange(h)[:, None] < 0.55 * h)
+    share = random.uniform(0.4, 0.95)
+    return np.asarray(np.where(through[..., None], x * (1 - share) + share * behind, x), np.float32)
+
+
 def _light(x: _Array, random: np.random.Generator, sky: _Array) -> _Array:
     h, w = x.shape[:2]
+    if random.random() < 0.35:  # dusk, backlight, snow, red earth: sky and ground brighter or darker, and tinted, apart
+        soft = cv2.GaussianBlur(sky.astype(np.float32), (0, 0), 0.7)[..., None]
+        above, below = (np.exp(random.normal(0, 0.4) + random.normal(0, 0.1, 3)).astype(np.float32) for _ in range(2))
+        x = x * (soft * above + (1 - soft) * below)
     if random.random() < 0.35:  # a sky as cameras see it: burnt, or of another even colour
         soft = cv2.GaussianBlur(sky.astype(np.float32), (0, 0), random.uniform(0.5, 2))[..., None]
         grey = random.uniform(0.55, 1.05)

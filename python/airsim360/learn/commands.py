@@ -49,7 +49,7 @@ def _parser() -> argparse.ArgumentParser:
     frames.add_argument("--out", type=Path, required=True, help="folder of frames; the same command goes on after an interruption")
     _drawing(frames)
     _machine(frames)
-    for task, what, steps in (("segment", "classes of outdoor pictures", 3000), ("depth", "range of panoramas", 3000),
+    for task, what, steps in (("segment", "classes of outdoor pictures", 5000), ("depth", "range of panoramas", 3000),
                               ("attitude", "which way is up in a panorama", 3000)):
         actions = tasks.add_parser(task, help=what).add_subparsers(dest="action", required=True)
         _train_parser(actions.add_parser("train", help="train on frames of ours"), task, steps)
@@ -64,10 +64,10 @@ def _machine(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="machine-readable result")
 
 
-def _drawing(parser: argparse.ArgumentParser) -> None:
+def _drawing(parser: argparse.ArgumentParser, width: int = 1280) -> None:
     parser.add_argument("--draw-worlds", default=",".join(WORLDS), help="worlds that are drawn")
     parser.add_argument("--draw", type=int, default=1000, help="how many frames")
-    parser.add_argument("--width", type=int, default=1280, help="of the panoramas, pixels")
+    parser.add_argument("--width", type=int, default=width, help=f"of the panoramas, pixels ({width})")
     parser.add_argument("--skies-of", type=int, default=16, help="consecutive frames that share a sky")
     parser.add_argument("--clean", action="store_true", help="without the look of a camera")
     parser.add_argument("--seed", type=int, default=0, help="of everything random")
@@ -88,12 +88,16 @@ def _train_parser(parser: argparse.ArgumentParser, task: str, steps: int) -> Non
     size = {"segment": 224, "depth": 128, "attitude": 64}[task]
     parser.add_argument("--size", type=int, default=size, help=f"side of crops, height of panoramas ({size})")
     parser.add_argument("--rate", type=float, default=2e-3, help="of learning, at most (0.002)")
-    parser.add_argument("--augment", default="all", help="domain randomisation: all, none, or a list of color, tone, blur, noise, jpeg, light")
+    parser.add_argument("--augment", default="all", help="domain randomisation: all, none, or a list of color, tone, blur, noise, jpeg, light, surface")
+    parser.add_argument("--precision", default="auto", help="of activations: float32, bfloat16 or auto, what is faster on this CPU")
     if task == "segment":
         parser.add_argument("--level-views", action="store_true", help="all crops level, 70 degrees wide")
+    if task == "attitude":
+        parser.add_argument("--photographs", nargs="*", type=Path, default=[], help="level panoramas of yours that join the batches")
+        parser.add_argument("--share", type=float, default=0.3, help="of the batches that they have (0.3; 1: they alone)")
     parser.add_argument("--workers", type=int, default=1, help="processes that prepare batches")
     _choosing(parser)
-    _drawing(parser)
+    _drawing(parser, 1280 if task == "segment" else 512)
     _machine(parser)
 
 

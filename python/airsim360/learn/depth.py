@@ -58,12 +58,12 @@ def _loss(model: Any, data: Sequence[Any]) -> Any:
 
 
 def train_depth(out: Path, frames: Frames, *, steps: int = 3000, height: int = 128, kinds: FrozenSet[str], seed: int = 0, device: torch.device,
-                workers: int = 1, rate: float = 2e-3) -> "Depth":
+                workers: int = 1, rate: float = 2e-3, precision: str = "float32") -> "Depth":
     """Trains on frames and writes OUT/model.pt."""
     about = {"task": "depth", "height": height, "kinds": sorted(kinds), "frames": len(frames), "rate": rate,
              "worlds": sorted({frame["world"] for frame in frames.about})}
     model = train(out, about, lambda: SphereNet(1, height, level=True), _Panoramas(frames, height, kinds).batch, _loss, Schedule(steps, rate),
-                  seed=seed, device=device, workers=workers)
+                  seed=seed, device=device, workers=workers, precision=precision)
     return Depth(model, height, device)
 
 

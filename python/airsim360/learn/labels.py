@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from .classes import PALETTE
 
-__all__ = ["check_photographs", "read_photograph", "write_labels", "write_picture"]
+__all__ = ["check_photographs", "read_panorama", "read_photograph", "write_labels", "write_picture"]
 
 _MOST_PIXELS = 100_000_000
 _Array = npt.NDArray[Any]
@@ -53,6 +53,14 @@ def check_photographs(paths: Sequence[Path]) -> None:
         if path.stem in stems:
             raise ValueError(f"{path}: another picture is called {path.stem} too; their results would have one name")
         stems.append(path.stem)
+
+
+def read_panorama(path: Path) -> _Array:
+    """As read_photograph, of a panorama: ValueError unless it is twice as wide as high."""
+    rgb = read_photograph(path)
+    if rgb.shape[1] != 2 * rgb.shape[0]:
+        raise ValueError(f"{path}: {rgb.shape[1]}x{rgb.shape[0]} is no panorama, which is twice as wide as high")
+    return rgb
 
 
 def write_labels(path: Path, labels: npt.NDArray[np.uint8]) -> None:

@@ -91,22 +91,24 @@ class _SphereBlock(nn.Module):  # type: ignore[misc]
 class SphereNet(nn.Module):  # type: ignore[misc]
     """Encoder and decoder on the sphere for panoramas of `height` x 2 `height`, a multiple of 16.
 
-    (B, 3, H, 2 H), values 0 to 1 -> (B, outputs, H / 2, H); distortion-aware convolutions throughout, no input tells the latitude
-    unless `level`: then the rows of the panorama are known to be level.
+    (B, 3, H, 2 H), values 0 to 1 -> (B, outputs, H / 2, H), or with `coarse` a quarter, (B, outputs, H / 4, H / 2), for less than half the
+    work; distortion-aware convolutions throughout, no input tells the latitude unless `level`: then the rows of the panorama are known to
+    be level.
     """
 
-    def __init__(self, outputs: int, height: int, widths: Tuple[int, ...] = (16, 32, 64, 96), level: bool = False) -> None:
+    def __init__(self, outputs: int, height: int, widths: Tuple[int, ...] = (16, 32, 64, 96), level: bool = False, coarse: bool = False) -> None:
         super().__init__()
         a, b, c, d = widths
         self.level, self.height, h = level, height, height
+        self.levels = (2, 1) if coarse else (2, 1, 0)  # of the decoder
         self.stem, self.norm = SphereConv(4 if level else 3, a, h, 2), _Mixed(a)
         self.stage1 = _SphereBlock(a, b, h // 2, 2, mixed=True)
         self.stage2 = _SphereBlock(b, c, h // 4, 2)
         self.stage3 = nn.Sequential(_SphereBlock(c, d, h // 8, 2), _SphereBlock(d, d, h // 16))
         self.whole = nn.Linear(d, 32)
-        self.up = nn.ModuleList([nn.Conv2d(n, 32, 1) for n in (a, b, c, d)])
-        self.mix = nn.ModuleList([SphereConv(32, 32, h // n) for n in (2, 4, 8)])
-        self.norms = nn.ModuleList([nn.BatchNorm2d(32) for _ in range(3)])
+        self.up = nn.ModuleList([nn.Conv2d(n, 32, 1) for n in (a, b, c, d)])  # the first is not used with `coarse`
+        self.mix = nn.ModuleList([SphereConv(32, 32, h // (2 << k)) for k in reversed(self.levels)])
+        self.norms = nn.ModuleList([nn.BatchNorm2d(32) for _ in self.levels])
         self.head = nn.Conv2d(32, outputs, 1)
 
     def forward(self, x: Any) -> Any:
@@ -120,7 +122,7 @@ class SphereNet(nn.Module):  # type: ignore[misc]
         weight = torch.cos((torch.arange(at[3].shape[2], device=x.device) + 0.5 - at[3].shape[2] / 2) * (torch.pi / at[3].shape[2]))
         mean = (at[3] * (weight / weight.mean())[:, None]).mean((2, 3))
         y = self.up[3](at[3]) + self.whole(mean)[..., None, None]
-        for k in (2, 1, 0):
+        for k in self.levels:
             y = F.interpolate(y, scale_factor=2, mode="bilinear", align_corners=False) + self.up[k](at[k])
-            y = F.relu(self.norms[k](self.mix[k](F.relu(y))))
+            y = F.relu(self.norms[k - self.levels[-1]](self.mix[k - self.levels[-1]](F.relu(y))))
         return self.head(y)

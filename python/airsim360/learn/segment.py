@@ -11,7 +11,7 @@ import numpy.typing as npt
 import torch
 from torch.nn import functional as F
 
-from .augment import augment
+from .augment import augment, resurface
 from .classes import CLASSES, IGNORED
 from .frames import Frames
 from .nets import PictureNet
@@ -49,6 +49,8 @@ class Crops:
                 edges.append(border)
         if self.kinds:
             self._paste(pictures, labels, edges, random)
+            if "surface" in self.kinds:
+                pictures = [resurface(p, random, label) for p, label in zip(pictures, labels)]
             pictures = [augment(p, random, self.kinds, label == CLASSES.index("sky")) for p, label in zip(pictures, labels)]
         return [torch.from_numpy(np.stack(pictures).transpose(0, 3, 1, 2).copy()), torch.from_numpy(np.stack(labels).astype(np.int64)),
                 torch.from_numpy(np.stack(edges).astype(np.float32))]
@@ -68,7 +70,7 @@ class Crops:
         width = 2 * np.tan(fov / 2) / self.size  # of a pixel; one of the panorama is π / H
         if width > 1.5 * np.pi / len(rgb):
             rgb = cv2.GaussianBlur(rgb, (0, 0), 0.4 * width / (np.pi / len(rgb)))
-        return sample(rgb, rays), sample(classes, rays, nearest=True), sample(edge.astype(np.uint8), rays, nearest=True)
+        return sample(rgb, rays), _filled(sample(classes, rays, nearest=True)), sample(edge.astype(np.uint8), rays, nearest=True)
 
     @staticmethod
     def _aim(classes: _Array, random: np.random.Generator, yaw: float) -> float:
@@ -95,6 +97,16 @@ class Crops:
                     edges[i] = np.where(mask, edge, edges[i])
 
 
+def _filled(label: _Array) -> _Array:
+    # Crowns as annotators draw them: what is seen between leaves belongs to the tree.
+    green = (label == CLASSES.index("vegetation")).astype(np.uint8)
+    if not green.any():
+        return label
+    crowns = cv2.morphologyEx(green, cv2.MORPH_CLOSE, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))) > 0
+    between = np.isin(label, [CLASSES.index(name) for name in ("other", "sky", "building")])
+    return np.where(crowns & between, CLASSES.index("vegetation"), label).astype(np.uint8)
+
+
 def _loss(model: Any, data: Sequence[Any]) -> Any:
     pictures, labels, edges = data
     out = model(pictures.float() / 255)
@@ -106,13 +118,14 @@ def _loss(model: Any, data: Sequence[Any]) -> Any:
 
 
 def train_segmenter(out: Path, frames: Frames, *, steps: int = 3000, size: int = 224, kinds: FrozenSet[str], views: bool = True,
-                    seed: int = 0, device: torch.device, workers: int = 1, rate: float = 2e-3) -> "Segmenter":
+                    seed: int = 0, device: torch.device, workers: int = 1, rate: float = 2e-3,
+                    precision: str = "float32") -> "Segmenter":
     """Trains on crops of frames, writes OUT/model.pt. A batch has 12 crops of 4 panoramas."""
     about = {"task": "segment", "size": size, "kinds": sorted(kinds), "views": views, "frames": len(frames), "rate": rate,
              "worlds": sorted({frame["world"] for frame in frames.about})}
     crops = Crops(frames, size, kinds, views)
     model = train(out, about, lambda: PictureNet(len(CLASSES) + 1), crops.batch, _loss, Schedule(steps, rate), seed=seed, device=device,
-                  workers=workers)
+                  workers=workers, precision=precision)
     return Segmenter(model, device)
 
 

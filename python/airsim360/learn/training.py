@@ -13,7 +13,9 @@ from typing import Any, Callable, Dict, Mapping, Optional
 import numpy as np
 import torch
 
-__all__ = ["Schedule", "device_of", "load_model", "read_checkpoint", "train", "write_checkpoint"]
+__all__ = ["PRECISIONS", "Schedule", "device_of", "load_model", "precision_of", "read_checkpoint", "train", "write_checkpoint"]
+
+PRECISIONS = ("auto", "float32", "bfloat16")
 
 FORMAT = "airsim360.learn 1"
 
@@ -41,6 +43,16 @@ def device_of(name: str) -> torch.device:
     return torch.device(name)
 
 
+def precision_of(name: str, device: torch.device) -> str:
+    """float32 or bfloat16, in which activations are kept; auto: bfloat16 on a CPU that has instructions for it, where it is nearly twice as fast."""
+    if name not in PRECISIONS:
+        raise ValueError(f"--precision: {name!r}; give {', '.join(PRECISIONS)}")
+    if name != "auto":
+        return name
+    words = Path("/proc/cpuinfo")
+    return "bfloat16" if device.type == "cpu" and words.exists() and "avx512_bf16" in words.read_text(encoding="utf-8") else "float32"
+
+
 class _Steps(torch.utils.data.Dataset):  # type: ignore[misc]
     def __init__(self, batch: Callable[[int, np.random.Generator], Any], seed: int, first: int, steps: int) -> None:
         self.batch, self.seed, self.first, self.steps = batch, seed, first, steps
@@ -56,15 +68,23 @@ class _Steps(torch.utils.data.Dataset):  # type: ignore[misc]
 
 
 def train(out: Path, about: Dict[str, Any], make: Callable[[], Any], batch: Callable[[int, np.random.Generator], Any],
-          loss: Callable[[Any, Any], Any], schedule: Schedule, *, seed: int, device: torch.device, workers: int = 1) -> Any:
-    """Trains what `make` makes on what `batch` gives, and writes OUT/model.pt; returns the model with averaged weights.
+          loss: Callable[[Any, Any], Any], schedule: Schedule, *, seed: int, device: torch.device, workers: int = 1, precision: str = "float32") -> Any:
+    """Trains what `make` makes on what `batch` gives, and writes OUT/model.pt every minute; returns the model with averaged weights.
 
-    `about` tells one run from another: OUT/last.pt of another is refused. loss(model, batch on the device) -> scalar.
+    `about` tells one run from another: OUT/last.pt of another is refused. loss(model, batch on the device) -> scalar. With `precision`
+    bfloat16 the model's activations are; weights, their averages and the loss stay float32.
     """
     out.mkdir(parents=True, exist_ok=True)
-    about = {**about, "steps": schedule.steps, "seed": seed}
+    about = {**about, "steps": schedule.steps, "seed": seed, "precision": precision}
     torch.manual_seed(seed)
-    model = make().to(device)
+    coarse = precision == "bfloat16"
+    layout = torch.channels_last if coarse else torch.contiguous_format  # the faster one of each
+    model = make().to(device, memory_format=layout)
+
+    def forward(x: Any) -> Any:
+        with torch.autocast(device.type, dtype=torch.bfloat16, enabled=coarse):
+            found = model(x.contiguous(memory_format=layout))
+        return found.float()
     averaged = {k: v.detach().clone() for k, v in model.state_dict().items()}
     optimizer = torch.optim.AdamW(model.parameters(), lr=schedule.top, weight_decay=schedule.decay)
     first = 0
@@ -83,7 +103,7 @@ def train(out: Path, about: Dict[str, Any], make: Callable[[], Any], batch: Call
     for step, data in enumerate(loader, first):
         for group in optimizer.param_groups:
             group["lr"] = schedule.rate(step)
-        value = loss(model, [part.to(device) for part in data])
+        value = loss(forward, [part.to(device) for part in data])
         optimizer.zero_grad(set_to_none=True)
         value.backward()
         torch.nn.utils.clip_grad_norm_(model.parameters(), 2.0)
@@ -102,11 +122,10 @@ def train(out: Path, about: Dict[str, Any], make: Callable[[], Any], batch: Call
         if now - saved > schedule.save_seconds or step + 1 == schedule.steps:
             write_checkpoint(out / "last.pt", {"about": json.dumps(about, sort_keys=True), "model": model.state_dict(), "step": step + 1,
                                                "optimizer": optimizer.state_dict()["state"], "averaged": averaged})
+            write_checkpoint(out / "model.pt", {"about": json.dumps(about, sort_keys=True), "model": {k: v.cpu() for k, v in averaged.items()}})
             saved = now
     model.load_state_dict(averaged)
-    model.eval()
-    write_checkpoint(out / "model.pt", {"about": json.dumps(about, sort_keys=True), "model": {k: v.cpu() for k, v in averaged.items()}})
-    return model
+    return model.eval()
 
 
 def write_checkpoint(path: Path, state: Mapping[str, Any]) -> None:

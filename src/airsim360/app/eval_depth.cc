@@ -121,7 +121,7 @@ Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, c
   for (size_t r = 0; r < turns.size(); ++r) {
     NumberPicture turned = ReadScaled(rolled[r].pairs[index].prediction, a, true);
     CheckSizes(turned, gt, rolled[r].pairs[index].prediction, pair.truth);
-    turned.values = RollBack<double>(turned.values, turned.width, turns[r].columns);
+    turned.values = turns[r].Back<double>(turned.values, turned.width);
     result.rolled.push_back(Measure(turned, gt, views->front(), a.depth, rolled[r].pairs[index].prediction));
   }
   return result;

@@ -70,7 +70,7 @@ Json ViewJson(const std::vector<Result>& results, size_t view) {
 
 void Run(const Arguments& a, const GlobalOptions& globals) {
   CheckViewOptions(a.view);
-  if (!a.view.rolled.empty()) throw InputError("--rolled is not for flow: it moves between pictures");
+  if (!a.view.rolled.empty() || !a.view.turned.empty()) throw InputError("--rolled and --turned are not for flow: it moves between pictures");
   const FilePairs files = PairFiles(a.pred, a.gt, {".flo", ".npy", ".exr", ".png"}, "flow");
   ViewCache cache(a.view);
   const auto results = MeasureAll<Result>("eval flow", files.pairs.size(), [&](size_t i) { return MeasurePair(files.pairs[i], a, cache); });

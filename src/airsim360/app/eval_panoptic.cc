@@ -56,7 +56,7 @@ Result MeasureFrame(const PanopticInput& input, size_t i, const std::vector<Pano
     for (const PixelView& view : *views) result.views.push_back(Measure(pred, gt, pred_frame, gt_frame, view, categories));
     for (size_t r = 0; r < turns.size(); ++r) {
       LabelPicture turned = rolled[r].Read(i).first;
-      turned.ids = RollBack<uint32_t>(turned.ids, turned.width, turns[r].columns);
+      turned.ids = turns[r].Back<uint32_t>(turned.ids, turned.width);
       result.rolled.push_back(Measure(turned, gt, rolled[r].Prediction(i), gt_frame, views->front(), categories));
     }
   } catch (const InputError& error) {

@@ -84,7 +84,7 @@ Result MeasurePair(const FilePair& pair, const std::vector<FilePairs>& rolled, c
   for (const PixelView& view : *views) result.views.push_back(Measure(pred_classes, gt_classes, view, classes));
   for (size_t r = 0; r < turns.size(); ++r) {
     const LabelPicture turned = ReadPrediction(rolled[r].pairs[i].prediction, gt, pair.truth);
-    result.rolled.push_back(Measure(RollBack<uint16_t>(ClassesOf(turned, index), gt.width, turns[r].columns), gt_classes, views->front(), classes));
+    result.rolled.push_back(Measure(turns[r].Back<uint16_t>(ClassesOf(turned, index), gt.width), gt_classes, views->front(), classes));
   }
   return result;
 }

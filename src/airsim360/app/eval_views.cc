@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "airsim360/app/arguments.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/file.h"
 #include "airsim360/eval/statistics/bootstrap.h"
@@ -33,6 +34,7 @@ void AddViewFlags(CLI::App& command, ViewOptions& options) {
   command.add_option("--seam", options.seam, "also within so many columns of the panorama's seam, and apart from it");
   command.add_option("--latitude-bands", options.bands, "also in so many bands of equal latitude");
   command.add_option("--rolled", options.rolled, "COLUMNS=PRED: also predictions made of pictures whose columns were moved so far to the right; several may be given");
+  command.add_option("--turned", options.turned, "YAW,PITCH,ROLL=PRED: also predictions made of panoramas of a camera that was turned so (degrees: right, up, clockwise); several may be given");
   command.add_flag("--force", options.force, "measure in spite of what looks like a mistake of units, axes or orientation");
 }
 
@@ -81,6 +83,15 @@ std::vector<Rolled> ParseRolled(const ViewOptions& options) {
     one.path = text.substr(equals + 1);
     list.push_back(std::move(one));
   }
+  for (const std::string& text : options.turned) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals + 1 == text.size()) throw InputError("--turned: '" + text + "' is not YAW,PITCH,ROLL=PRED");
+    const std::vector<double> angles = ParseNumbers("--turned", text.substr(0, equals), 3, "YAW,PITCH,ROLL=PRED");
+    Rolled one;
+    one.turn_deg = Vec3d{angles[0], angles[1], angles[2]};
+    one.path = text.substr(equals + 1);
+    list.push_back(std::move(one));
+  }
   return list;
 }
 
@@ -106,9 +117,15 @@ void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, 
     spread.emplace_back(main[f].first, high - low);
   }
   for (size_t r = 0; r < rolled.size(); ++r) {
-    nlohmann::ordered_json one = {{"columns", rolled[r].columns}, {"pred", rolled[r].path}};
+    nlohmann::ordered_json one;
+    if (const auto& turn = rolled[r].turn_deg) {
+      one["yaw_pitch_roll_deg"] = {turn->x, turn->y, turn->z};
+    } else {
+      one["columns"] = rolled[r].columns;
+    }
+    one["pred"] = rolled[r].path;
     one.update(ToJson(figures[r]));
-    json["rolled"].push_back(std::move(one));
+    json[rolled[r].turn_deg ? "turned" : "rolled"].push_back(std::move(one));
   }
   json["spread"] = ToJson(spread);
 }
@@ -171,8 +188,11 @@ void PrintParts(const nlohmann::ordered_json& json) {
   }
   if (json.contains("rolled")) {
     for (const auto& one : json["rolled"]) PrintPart("rolled by " + std::to_string(one["columns"].get<int>()), one);
-    PrintPart("spread", json["spread"]);
   }
+  if (json.contains("turned")) {
+    for (const auto& one : json["turned"]) PrintPart("turned by " + one["yaw_pitch_roll_deg"].dump(), one);
+  }
+  if (json.contains("spread")) PrintPart("spread", json["spread"]);
   if (json.contains("worst")) {
     for (const auto& one : json["worst"]) PrintPart("worst: " + one["picture"].get<std::string>(), one);
   }

@@ -8,6 +8,8 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "airsim360/base/log.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/eval/sphere/pixel_view.h"
+#include "airsim360/math/vector.h"
 
 namespace airsim360 {
 
@@ -29,12 +32,12 @@ void AddReportFlags(CLI::App& command, ReportOptions& options, const char* csv_r
 struct ViewOptions {
   std::string weights = "pixel", projection = "erp";
   int seam = 0, bands = 0;
-  std::vector<std::string> rolled;  ///< "COLUMNS=PRED"
+  std::vector<std::string> rolled, turned;  ///< "COLUMNS=PRED", "YAW,PITCH,ROLL=PRED"
   int resize_width = 0, resize_height = 0;  ///< of a protocol; 0 = as they are
   bool cos_latitude = false;                ///< of a protocol
   bool force = false;
 };
-/// --weights, --projection, --seam, --latitude-bands and --rolled; --force where likely mistakes are refused.
+/// --weights, --projection, --seam, --latitude-bands, --rolled and --turned; --force where likely mistakes are refused.
 void AddViewFlags(CLI::App& command, ViewOptions& options);
 /// InputError for values that do not exist or go together.
 void CheckViewOptions(const ViewOptions& options);
@@ -54,17 +57,29 @@ class ViewCache {
   std::map<std::pair<int, int>, std::shared_ptr<const PictureViews>> views_;
 };
 
+/// Predictions of pictures that were moved: by columns, or as a camera turns.
 struct Rolled {
   int columns = 0;
+  std::optional<Vec3d> turn_deg;  ///< yaw to the right, pitch upwards, roll clockwise
   std::string path;
+
+  /// What `pixels` were before.
+  template <class Pixel>
+  std::vector<Pixel> Back(std::span<const Pixel> pixels, int width) const {
+    if (!turn_deg) return RollBack<Pixel>(pixels, width, columns);
+    constexpr double kRadians = std::numbers::pi / 180;
+    const int height = static_cast<int>(pixels.size() / static_cast<size_t>(width));
+    return Take<Pixel>(pixels, TurnedView(width, height, turn_deg->x * kRadians, turn_deg->y * kRadians, turn_deg->z * kRadians));
+  }
 };
+/// Those of --rolled, then those of --turned.
 std::vector<Rolled> ParseRolled(const ViewOptions& options);
 
 /// Figures of one view, by name.
 using Figure = std::pair<std::string, double>;
 /// Appends what `of_view` says of the views after the first: `seam` with `near` and `far`, and `latitude_bands` from north to south.
 void AppendViews(nlohmann::ordered_json& json, const ViewOptions& options, const std::function<nlohmann::ordered_json(size_t view)>& of_view);
-/// `rolled` with the figures of each, and `spread`: largest less smallest of each figure over all of them and the main ones.
+/// `rolled` and `turned` with the figures of each, and `spread`: largest less smallest of each figure over all of them and the main ones.
 void AppendRolled(nlohmann::ordered_json& json, std::span<const Rolled> rolled, const std::vector<std::vector<Figure>>& figures, const std::vector<Figure>& main);
 /// `intervals`: [low, high] of each figure.
 void AppendIntervals(nlohmann::ordered_json& json, const ReportOptions& options, uint64_t seed, size_t items, const std::vector<std::string>& names,

@@ -143,6 +143,24 @@ PixelView TangentView(int width, int height) {
   return view;
 }
 
+PixelView TurnedView(int width, int height, double yaw, double pitch, double roll) {
+  CheckPanorama(width, height, "turning");
+  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch), cr = std::cos(roll), sr = std::sin(roll);
+  // Columns of R_C_turned: what the turned camera's axes are in the first one.
+  const Vec3d right{cy * cr + sy * sp * sr, cp * sr, -sy * cr + cy * sp * sr}, down{-cy * sr + sy * sp * cr, cp * cr, sy * sr + cy * sp * cr}, ahead{sy * cp, -sp, cy * cp};
+  PixelView view;
+  view.source.reserve(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (int y = 0; y < height; ++y) {
+    const double phi = kPi * (0.5 - (y + 0.5) / height);
+    for (int x = 0; x < width; ++x) {
+      const double theta = 2 * kPi * ((x + 0.5) / width - 0.5);
+      const Vec3d d{std::cos(phi) * std::sin(theta), -std::sin(phi), std::cos(phi) * std::cos(theta)};
+      view.source.push_back(PixelOf({Dot(d, right), Dot(d, down), Dot(d, ahead)}, width, height));
+    }
+  }
+  return view;
+}
+
 PixelView ResizedView(int width, int height, int new_width, int new_height) {
   PixelView view;
   for (int y = 0; y < new_height; ++y) {

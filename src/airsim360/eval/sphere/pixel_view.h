@@ -42,6 +42,10 @@ PixelView TangentView(int width, int height);
 /// The nearest pixel for each pixel of a picture of another size.
 PixelView ResizedView(int width, int height, int new_width, int new_height);
 
+/// Where the pixels of a panorama went when the camera turned: yaw to the right, pitch upwards, roll clockwise, radians, in this order from
+/// outside. Of each pixel the one of the turned picture that shows the same direction, so that Take(turned, view) turns it back.
+PixelView TurnedView(int width, int height, double yaw, double pitch, double roll);
+
 /// The pixels of a view.
 template <class Pixel>
 std::vector<Pixel> Take(std::span<const Pixel> pixels, const PixelView& view) {

@@ -72,6 +72,21 @@ TEST(Views, RollingBackUndoesARoll) {
   EXPECT_EQ(RollBack<int>(rolled, 4, 5), picture);
 }
 
+TEST(Views, TurningBackUndoesATurn) {
+  const int width = 64, height = 32;
+  std::vector<int> picture(static_cast<size_t>(width) * height);
+  std::iota(picture.begin(), picture.end(), 0);
+  EXPECT_EQ(Take<int>(picture, TurnedView(width, height, 0, 0, 0)), picture);
+  // A camera that turned 8 columns to the right sees everything 8 columns farther left.
+  EXPECT_EQ(Take<int>(picture, TurnedView(width, height, 8 * 2 * kPi / width, 0, 0)), RollBack<int>(picture, width, -8));
+  // Nose up by 90 degrees: what was ahead is at the lower end, what was above is ahead. Right side down: the right is above the middle.
+  const auto pitched = TurnedView(width, height, 0, kPi / 2, 0).source, rolled = TurnedView(width, height, 0, 0, kPi / 2).source;
+  EXPECT_GE(pitched[static_cast<size_t>(16 * width + 32)] / width, 31u);
+  EXPECT_NEAR(pitched[32] / width, 16, 1);
+  EXPECT_LE(rolled[static_cast<size_t>(16 * width + 48)] / width, 1u);
+  EXPECT_THROW(TurnedView(30, 20, 0, 0, 0), InputError);
+}
+
 TEST(Views, ResizingTakesTheNearestPixel) {
   const PixelView half = ResizedView(4, 2, 2, 1), twice = ResizedView(2, 1, 4, 2);
   EXPECT_EQ(half.source, (std::vector<uint32_t>{5, 7}));
