@@ -237,6 +237,21 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
   EXPECT_GT(Norm(crowd[0].p_WP - seat), 3);
 }
 
+// A branch that is tried and fails gives up the bench that another one is on its way to.
+TEST_F(CrowdFiles, WhoLosesTheirPlaceOnTheWayGoesNowhereInOneLeap) {
+  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><ReactiveFallback><Sequence><DroneWithin distance="8"/><GoTo point="900;900"/></Sequence><Sequence><GoToPlace kind="bench"/><SetState state="sitting"/></Sequence></ReactiveFallback></BehaviorTree></root>)";
+  TestCrowd crowd(Park(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [12, 20], behaviour: rest, age: 40}\n", tree));
+  Vec3d before = crowd[0].p_WP;
+  for (int step = 0; step < 200; ++step) {
+    // Near for half a second, every four.
+    crowd.drones = {};
+    if (step % 40 > 34) crowd.drones = {{crowd[0].p_WP + Vec3d{3, 0, 2}, {}, 0.3}};
+    crowd.Run(0.1);
+    ASSERT_LT(Norm(crowd[0].p_WP - before), 0.5) << "step " << step;
+    before = crowd[0].p_WP;
+  }
+}
+
 // The example of docs/guide/people_behaviour.md (tests run in the root of the sources), with trees in the file it names.
 TEST_F(CrowdFiles, TheFileOfTheDocsWorks) {
   std::ifstream docs("docs/guide/people_behaviour.md");

@@ -70,6 +70,8 @@ Status Mind::GoToPlace(bool fresh, PlaceKind kind, double reach) {
     SetGoal(tick_, self_, tick_.plan.places[static_cast<size_t>(agent_.place)].approach, 0, kRightHere);
     return Status::kRunning;
   }
+  // Whoever stepped away from a drone meanwhile, or was sent elsewhere, has no place any more.
+  if (agent_.place < 0) return Status::kFailure;
   if (!agent_.at_place) {
     const Status status = OnTheWay();
     if (status == Status::kFailure) LeavePlace(tick_, self_);

@@ -23,7 +23,7 @@ using internal::VlnGround;
 using internal::VlnJson;
 
 constexpr int64_t kBatch = 32;        // lookouts at a time
-constexpr int64_t kMostFruitless = 60;  // batches in a row without an item: the world gives no more
+constexpr int64_t kMostFruitless = 15;  // batches in a row without an item: the world gives no more
 constexpr int kCameras = 3;           // at each place
 constexpr size_t kMostOfType = 24;    // drafts of one type and place: more would be too alike
 
