@@ -53,6 +53,8 @@ class BadFlags(ProgramTest):
 
     def test_missing_flags_are_named(self):
         self.run_bad(2, "collect", "--world", "box_room", says=["--out"])
+        self.run_bad(2, "collect", "--recipe", "omni360-human", "--world", "downtown_west", "--out", self.folder / "crowd",
+                     says=["--world", "did you mean 'downtown_city'"])
         self.run_bad(2, "render", "--out", self.folder / "out", says=["--world"])
         self.run_bad(2)
 

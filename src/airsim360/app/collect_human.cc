@@ -96,15 +96,25 @@ nlohmann::ordered_json ListOf(std::span<const HumanSubset> subsets, const fs::pa
   return list;
 }
 
+// Of the recipe's subsets and worlds, if one is asked for.
+void CheckChoice(const std::vector<HumanSubset>& subsets, const HumanRun& run) {
+  std::vector<std::string> names, worlds;
+  for (const HumanSubset& subset : subsets) {
+    names.push_back(subset.name);
+    if (std::ranges::count(worlds, subset.world) == 0) worlds.push_back(subset.world);
+  }
+  if (!run.subset.empty() && std::ranges::count(names, run.subset) == 0)
+    throw InputError("--subset: " + UnknownChoiceMessage("subset", run.subset, names));
+  if (!run.world.empty() && std::ranges::count(worlds, run.world) == 0)
+    throw InputError("--world: " + UnknownChoiceMessage("world of the recipe", run.world, worlds));
+}
+
 }  // namespace
 
 void CollectHumanSets(const HumanRun& run, const GlobalOptions& globals) {
   const HumanRecipe recipe = run.recipe == "omni360-human" ? PaperHumanRecipe() : ReadHumanRecipe(run.recipe);
   std::vector<HumanSubset> subsets = SubsetsOf(recipe);
-  std::vector<std::string> names;
-  for (const HumanSubset& subset : subsets) names.push_back(subset.name);
-  if (!run.subset.empty() && std::ranges::count(names, run.subset) == 0)
-    throw InputError("--subset: " + UnknownChoiceMessage("subset", run.subset, names));
+  CheckChoice(subsets, run);
   HumanRun one = run;
   one.spec.shard = 0, one.spec.shards = 1;
   TakeCameras(recipe, one);
