@@ -4,18 +4,19 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <deque>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <thread>
 
+#include "airsim360/app/followed_pictures.h"
 #include "airsim360/base/base64.h"
 #include "airsim360/base/error.h"
 #include "airsim360/base/json_depth.h"
 #include "airsim360/http/http_client.h"
 #include "airsim360/math/transform.h"
+#include "airsim360/view/live_messages.h"
 #include "airsim360/view/planes.h"
 
 namespace airsim360 {
@@ -24,8 +25,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMostMessage = 4096, kKeptFrames = 4, kMostAnswer = size_t{256} << 20;
-constexpr int kDeepest = 12, kMessageDepth = 4;
+constexpr size_t kMostAnswer = size_t{256} << 20;
+constexpr int kDeepest = 12;
 constexpr double kPatience = 10, kFirstPatience = 3;        // seconds
 constexpr double kShortest = 0.05, kLongest = 0.5;          // seconds of a move
 constexpr double kNear = 0.5, kFar = 200, kMostSpeed = 15, kTurnRateDeg = 86;
@@ -46,12 +47,6 @@ std::string Complaint(const HttpAnswer& answer) {
   if (json.is_object() && json.contains("error") && json["error"].is_object()) return json["error"].value("message", answer.fault);
   return answer.fault;
 }
-
-// A picture that may still be asked about.
-struct Seen {
-  int64_t number = 0;
-  Frame frame;
-};
 
 template <class Pixel>
 Image<Pixel> ImageOf(const Json& json, const char* key, int width, int height) {
@@ -77,12 +72,6 @@ WatchedPicture PictureOf(const Json& watched) {
   picture.labels.range = ImageOf<float>(watched, "range", width, height);
   picture.labels.entity = ImageOf<EntityId>(watched, "entity", width, height);
   return picture;
-}
-
-double Stick(const Json& input, size_t i) {
-  const double value = input[i].is_number() ? input[i].get<double>() : std::nan("");
-  if (!(std::abs(value) <= 1)) throw InputError("input: " + input[i].dump() + " is not in -1 ... 1");
-  return value;
 }
 
 }  // namespace
@@ -113,7 +102,7 @@ struct FollowedAgent::Impl {
   SocketMessage last;       // picture
   Clock::time_point moved_at = {};
   int64_t next_number = 1;
-  std::deque<Seen> seen;  // newest last
+  FollowedPictures pictures;
 };
 
 Json FollowedAgent::Impl::Get(const std::string& path) const {
@@ -142,8 +131,7 @@ std::string FollowedAgent::Impl::Episode() {
 
 // Time in the episode passes in moves alone: as much as has passed here.
 void FollowedAgent::Impl::Fly(const std::string& episode, const Json& input) {
-  if (!input.is_array() || input.size() != 4) throw InputError("input: four numbers in -1 ... 1: forward, left, up, turn left");
-  const double ahead = Stick(input, 0), left = Stick(input, 1), up = Stick(input, 2), turn = Stick(input, 3);
+  const auto [ahead, left, up, turn] = SticksOf(input);
   if (ahead == 0 && left == 0 && up == 0 && turn == 0) return;
   const auto now = Clock::now();
   const double passed = std::clamp(std::chrono::duration<double>(now - moved_at).count(), kShortest, kLongest);
@@ -182,27 +170,20 @@ SocketMessage FollowedAgent::Impl::Picture(const Json& message, bool may_fly) {
     return last;
   }
   WatchedPicture picture = PictureOf(watched);
-  Seen next{next_number, std::move(picture.labels)};
   PlaneMessage planes;
-  planes.AddJpeg(picture.jpeg, next.frame.range.width(), next.frame.range.height());
-  planes.AddProduct(next.frame, "range");
-  planes.AddProduct(next.frame, "entity");
+  planes.AddJpeg(picture.jpeg, picture.labels.range.width(), picture.labels.range.height());
+  planes.AddProduct(picture.labels, "range");
+  planes.AddProduct(picture.labels, "entity");
   last = {planes.Finish(HeaderOf(watched)), true};
-  ++next_number;
+  pictures.Add(next_number++, std::move(picture.labels));
   shown = episode, shown_width = width, shown_moment = watched.at("number").get<int64_t>();
-  seen.push_back(std::move(next));
-  if (seen.size() > kKeptFrames) seen.pop_front();
   return last;
 }
 
 SocketMessage FollowedAgent::Impl::Planes(const Json& message) {
   const std::lock_guard lock(mutex);
   const int64_t number = message.contains("number") && message["number"].is_number_integer() ? message["number"].get<int64_t>() : -1;
-  const auto found = std::ranges::find(seen, number, &Seen::number);
-  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone");
-  PlaneMessage planes;
-  for (const char* name : {"range", "entity"}) planes.AddProduct(found->frame, name);
-  return {planes.Finish("\"number\":" + std::to_string(number)), true};
+  return pictures.Planes(number);
 }
 
 SocketMessage FollowedAgent::Impl::Reset() {
@@ -222,7 +203,8 @@ SocketMessage FollowedAgent::Impl::Do(const Json& message, bool may_fly) {
   throw InputError("do: '" + what + "' is none of picture, planes" + (options.lease ? ", reset" : "") + ": the world is elsewhere");
 }
 
-FollowedAgent::FollowedAgent(const FollowOptions& options) : impl_(new Impl{.options = options}) {
+FollowedAgent::FollowedAgent(const FollowOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
   if (!options.vehicle.empty()) throw InputError("--vehicle: an agent server has episodes; give --episode");
   impl_->world = impl_->Get("/").at("world").get<std::string>();
   if (!options.episode.empty()) impl_->Get("/v1/episodes/" + options.episode + "/entities");
@@ -243,15 +225,7 @@ std::string FollowedAgent::EntitiesJson() const {
 }
 
 SocketMessage FollowedAgent::Answer(std::string_view text, const std::string& token) {
-  const auto problem = [](const std::string& what) { return SocketMessage{Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace)}; };
-  if (text.size() > kMostMessage) return problem("a message has at most " + std::to_string(kMostMessage) + " bytes");
-  const Json message = JsonDepth(text) > kMessageDepth ? Json() : Json::parse(text, nullptr, false);
-  if (!message.is_object()) return problem("a message is a JSON object");
-  try {
-    return impl_->Do(message, message.contains("token") && message["token"] == token);
-  } catch (const std::exception& error) {
-    return problem(error.what());
-  }
+  return AnswerMessage(text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 }  // namespace airsim360

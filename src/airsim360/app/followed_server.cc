@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <deque>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "airsim360/app/followed_pictures.h"
 #include "airsim360/app/rpc_client.h"
 #include "airsim360/base/error.h"
 #include "airsim360/rpc/airsim_image_types.h"
 #include "airsim360/rpc/ned.h"
+#include "airsim360/view/live_messages.h"
 #include "airsim360/view/planes.h"
 
 namespace airsim360 {
@@ -18,7 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMostMessage = 4096, kKeptFrames = 4;
 constexpr double kNear = 0.5, kFar = 200, kMostSpeed = 15, kTurnRateDeg = 86;
 constexpr float kMoveSeconds = 0.5F;  // after which a drone that is told nothing stops
 constexpr const char* kCameras[] = {"panorama_original", "panorama_depth", "panorama_entity"};
@@ -27,12 +27,6 @@ constexpr const char* kCameras[] = {"panorama_original", "panorama_depth", "pano
 struct Panorama {
   int width = 0, height = 0;
   std::string bytes;
-};
-
-// A picture that may still be asked about.
-struct Seen {
-  int64_t number = 0;
-  Frame frame;
 };
 
 void WriteRequests(WireWriter& writer, const std::string& vehicle) {
@@ -79,12 +73,6 @@ Mat3d CameraRotation(const Mat3d& R_WB) {
   return R;
 }
 
-double Stick(const Json& input, size_t i) {
-  const double value = input[i].is_number() ? input[i].get<double>() : std::nan("");
-  if (!(std::abs(value) <= 1)) throw InputError("input: " + input[i].dump() + " is not in -1 ... 1");
-  return value;
-}
-
 }  // namespace
 
 bool IsAirSimServer(const std::string& address) {
@@ -113,7 +101,7 @@ struct FollowedServer::Impl {
   RpcClient client, moves;  // a move is answered when it ends
   std::mutex mutex;         // of what follows
   int64_t next_number = 1;
-  std::deque<Seen> seen;  // newest last
+  FollowedPictures pictures;
 };
 
 void FollowedServer::Impl::Control(bool enabled) {
@@ -121,8 +109,7 @@ void FollowedServer::Impl::Control(bool enabled) {
 }
 
 void FollowedServer::Impl::Fly(const Json& input) {
-  if (!input.is_array() || input.size() != 4) throw InputError("input: four numbers in -1 ... 1: forward, left, up, turn left");
-  const double ahead = Stick(input, 0), left = Stick(input, 1), up = Stick(input, 2), turn = Stick(input, 3);
+  const auto [ahead, left, up, turn] = SticksOf(input);
   if (ahead == 0 && left == 0 && up == 0 && turn == 0) return;
   moves.Post("moveByVelocityBodyFrame", 7, [&](WireWriter& w) {
     w.Float(static_cast<float>(ahead * kMostSpeed)), w.Float(static_cast<float>(-left * kMostSpeed)), w.Float(static_cast<float>(-up * kMostSpeed));
@@ -149,25 +136,22 @@ std::string FollowedServer::Impl::HeaderOf(const WireValue& image) {
 SocketMessage FollowedServer::Impl::Picture() {
   PlaneMessage planes;
   SocketMessage answer;
-  Seen next;
+  Frame next;
   client.Call("simGetImages", 3, [&](WireWriter& w) { WriteRequests(w, options.vehicle); }, [&](const WireValue& images) {
     if (images.items.size() != std::size(kCameras)) throw RuntimeError("the server's pictures are not understood");
-    next.frame.rgb = ColorsOf(PanoramaOf(images.items[0], "image_data_uint8", 3));
+    next.rgb = ColorsOf(PanoramaOf(images.items[0], "image_data_uint8", 3));
     const Panorama range = PanoramaOf(images.items[1], "image_data_float", sizeof(float)), entity = PanoramaOf(images.items[2], "image_data_uint8", 3);
-    next.frame.range = Image<float>(range.width, range.height);
-    std::memcpy(next.frame.range.pixels().data(), range.bytes.data(), range.bytes.size());
+    next.range = Image<float>(range.width, range.height);
+    std::memcpy(next.range.pixels().data(), range.bytes.data(), range.bytes.size());
     const Image<Rgb8> ids = ColorsOf(entity);
-    next.frame.entity = Image<EntityId>(entity.width, entity.height);
-    for (size_t i = 0; i < ids.size(); ++i) next.frame.entity.pixels()[i] = ids.pixels()[i].r + 256U * ids.pixels()[i].g + 65536U * ids.pixels()[i].b;
+    next.entity = Image<EntityId>(entity.width, entity.height);
+    for (size_t i = 0; i < ids.size(); ++i) next.entity.pixels()[i] = ids.pixels()[i].r + 256U * ids.pixels()[i].g + 65536U * ids.pixels()[i].b;
     const std::lock_guard lock(mutex);
-    next.number = next_number;
-    planes.AddPicture(next.frame.rgb);
-    planes.AddProduct(next.frame, "range");
-    planes.AddProduct(next.frame, "entity");
+    planes.AddPicture(next.rgb);
+    planes.AddProduct(next, "range");
+    planes.AddProduct(next, "entity");
     answer = {planes.Finish(HeaderOf(images.items[0])), true};
-    ++next_number;
-    seen.push_back(std::move(next));
-    if (seen.size() > kKeptFrames) seen.pop_front();
+    pictures.Add(next_number++, std::move(next));
   });
   return answer;
 }
@@ -175,11 +159,7 @@ SocketMessage FollowedServer::Impl::Picture() {
 SocketMessage FollowedServer::Impl::Planes(const Json& message) {
   const std::lock_guard lock(mutex);
   const auto number = message.value("number", int64_t{0});
-  const auto found = std::ranges::find(seen, number, &Seen::number);
-  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone");
-  PlaneMessage planes;
-  for (const char* name : {"range", "entity"}) planes.AddProduct(found->frame, name);
-  return {planes.Finish("\"number\":" + std::to_string(number)), true};
+  return pictures.Planes(number);
 }
 
 SocketMessage FollowedServer::Impl::Do(const Json& message, bool may_fly) {
@@ -228,15 +208,8 @@ std::string FollowedServer::EntitiesJson() const {
 }
 
 SocketMessage FollowedServer::Answer(std::string_view text, const std::string& token) {
-  const auto problem = [](const std::string& what) { return SocketMessage{Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace)}; };
-  if (text.size() > kMostMessage) return problem("a message has at most " + std::to_string(kMostMessage) + " bytes");
-  const Json message = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16 ? Json() : Json::parse(text, nullptr, false);
-  if (!message.is_object()) return problem("a message is a JSON object");
-  try {
-    return impl_->Do(message, message.contains("token") && message["token"] == token);
-  } catch (const std::exception& error) {
-    return problem(error.what());
-  }
+  const bool tangled = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16;
+  return AnswerMessage(tangled ? "" : text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 }  // namespace airsim360

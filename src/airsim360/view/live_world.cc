@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "airsim360/base/error.h"
-#include "airsim360/base/json_depth.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/math/coordinate_limit.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/view/drawing.h"
 #include "airsim360/view/drawn_frames.h"
 #include "airsim360/view/fair_mutex.h"
+#include "airsim360/view/live_messages.h"
 #include "airsim360/view/placing.h"
 #include "airsim360/view/planes.h"
 #include "airsim360/view/tree_desk.h"
@@ -30,7 +30,6 @@ constexpr int64_t kSilenceNs = 500'000'000;  // after which the drone stops
 constexpr double kFlowSeconds = 0.1;
 constexpr double kMostSpeed = 15, kTurnRate = 1.5;  // m/s, rad/s
 constexpr size_t kKeptFrames = 4, kMostKept = 1000, kMostMessage = 65536;
-constexpr int kDeepest = 4;  // levels of a message
 constexpr int kSmallest = 128, kLargest = 4096;  // columns
 constexpr const char* kShown[] = {"range", "semantic", "entity", "normal", "albedo", "material", "position", "coverage", "flow"};
 constexpr double kNear = 0.5, kFar = 200;  // metres, ends of the scale of ranges
@@ -43,7 +42,6 @@ std::string TimeOfDay(double hour) {
 }
 
 SocketMessage Said(const Json& json) { return {json.dump(-1, ' ', false, Json::error_handler_t::replace)}; }
-SocketMessage Problem(const std::string& message) { return Said({{"error", message}}); }
 
 double Number(const Json& message, const char* key, double low, double high, double otherwise) {
   if (!message.contains(key)) return otherwise;
@@ -134,14 +132,9 @@ struct LiveWorld::Impl {
 };
 
 void LiveWorld::Impl::Fly(const Json& input) {
-  if (!input.is_array() || input.size() != 4) throw InputError("input: four numbers in -1 ... 1: forward, left, up, turn left");
-  double stick[4];
-  for (size_t i = 0; i < 4; ++i) {
-    stick[i] = input[i].is_number() ? input[i].get<double>() : std::nan("");
-    if (!(std::abs(stick[i]) <= 1)) throw InputError("input: " + input[i].dump() + " is not in -1 ... 1");
-  }
-  VelocityCommand command{.v = Vec3d{stick[0], stick[1], stick[2]} * kMostSpeed, .body_heading = true};
-  command.yaw = {YawTarget::Mode::kRate, stick[3] * kTurnRate};
+  const auto [ahead, left, up, turn] = SticksOf(input);
+  VelocityCommand command{.v = Vec3d{ahead, left, up} * kMostSpeed, .body_heading = true};
+  command.yaw = {YawTarget::Mode::kRate, turn * kTurnRate};
   loop.Post({0, FlightCommand{command, kSilenceNs}});
 }
 
@@ -298,15 +291,7 @@ LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(
 LiveWorld::~LiveWorld() = default;
 
 SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token) {
-  if (text.size() > kMostMessage) return Problem("a message has at most " + std::to_string(kMostMessage) + " bytes");
-  const Json message = JsonDepth(text) > kDeepest ? Json() : Json::parse(text, nullptr, false);
-  if (!message.is_object()) return Problem("a message is a JSON object");
-  try {
-    const bool may_fly = message.contains("token") && message["token"] == token;
-    return impl_->Do(message, may_fly);
-  } catch (const std::exception& error) {
-    return Problem(error.what());
-  }
+  return AnswerMessage(text, {.bytes = kMostMessage}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 std::string LiveWorld::DescriptionJson() const {

@@ -209,9 +209,10 @@ void Reader::ReadLength(const Quantity& q) {
   // A figure of what is carried: "1 inch camera", "30 cm box".
   const bool load_only = noun == kNone && head != kNone && kind_of(head) == WordKind::kLoad &&
                          (!inches || q.value < 0.04 || tokens_[head].text == "sensor");
-  const bool beyond = noun != kNone && kind_of(noun) == WordKind::kAcross && q.value > 3;  // "across campus (400 m)"
-  const bool far = beyond || (kind != WordKind::kPropeller && kind != WordKind::kWheelbase && kind != WordKind::kArm &&
-                   kind != WordKind::kRotorNoun && kind != WordKind::kFrame && q.value > 3);
+  const bool across = noun != kNone && kind_of(noun) == WordKind::kAcross;  // "across campus (400 m)"
+  const bool of_drone = kind == WordKind::kPropeller || kind == WordKind::kWheelbase || kind == WordKind::kArm ||
+                        kind == WordKind::kRotorNoun || kind == WordKind::kFrame;
+  const bool far = q.value > 3 && (!of_drone || across);
   if (kind == WordKind::kElse || kind == WordKind::kThing || load_only || far) return NameElse(q, noun);
   if (noun == kNone && !inches && IsOfPlace(q)) {
     loose_lengths_.push_back(q);

@@ -83,15 +83,7 @@ std::vector<SurfacePiece> EnclosedPieces(const IndoorWorld& world, const Enclosu
     if (!moving[static_cast<size_t>(i)])
       CutInstance(world, enclosure, reflectance, static_cast<uint32_t>(i), kPieceSize, of_instance[static_cast<size_t>(i)]);
   });
-  std::vector<SurfacePiece> all;
-  size_t count = 0;
-  for (const auto& pieces : of_instance) count += pieces.size();
-  all.reserve(count);
-  for (auto& pieces : of_instance) {
-    all.insert(all.end(), pieces.begin(), pieces.end());
-    pieces = {};
-  }
-  return all;
+  return JoinParts(std::move(of_instance));
 }
 
 double AreaOf(std::span<const SurfacePiece> pieces) {

@@ -11,6 +11,20 @@
 
 namespace airsim360::internal {
 
+/// All parts one after the other; each is let go as soon as it is copied.
+template <class T>
+std::vector<T> JoinParts(std::vector<std::vector<T>> parts) {
+  size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  std::vector<T> all;
+  all.reserve(count);
+  for (auto& part : parts) {
+    all.insert(all.end(), part.begin(), part.end());
+    part = {};
+  }
+  return all;
+}
+
 struct SurfaceSample {
   Vec3f p, n;  ///< unit geometric normal; surfaces have two sides, so points come in pairs
   Vec3f albedo;

@@ -58,14 +58,7 @@ std::vector<Sorted> SortSamples(std::span<const SurfacePiece> pieces, float cell
       }
     }
   });
-  std::vector<Sorted> all;
-  size_t count = 0;
-  for (const auto& part : parts) count += part.size();
-  all.reserve(count);
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    part = {};
-  }
+  std::vector<Sorted> all = JoinParts(std::move(parts));
   std::stable_sort(all.begin(), all.end(), [](const Sorted& a, const Sorted& b) { return a.key < b.key; });
   return all;
 }

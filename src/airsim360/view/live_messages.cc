@@ -1,0 +1,35 @@
+#include "airsim360/view/live_messages.h"
+
+#include <cmath>
+
+#include "airsim360/base/error.h"
+#include "airsim360/base/json_depth.h"
+
+namespace airsim360 {
+
+using Json = nlohmann::ordered_json;
+
+SocketMessage AnswerMessage(std::string_view text, const MessageLimits& limits, const std::string& token,
+                            const std::function<SocketMessage(const Json& message, bool may_fly)>& act) {
+  const auto problem = [](const std::string& what) { return SocketMessage{Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace)}; };
+  if (text.size() > limits.bytes) return problem("a message has at most " + std::to_string(limits.bytes) + " bytes");
+  const Json message = JsonDepth(text) > limits.depth ? Json() : Json::parse(text, nullptr, false);
+  if (!message.is_object()) return problem("a message is a JSON object");
+  try {
+    return act(message, message.contains("token") && message["token"] == token);
+  } catch (const std::exception& error) {
+    return problem(error.what());
+  }
+}
+
+std::array<double, 4> SticksOf(const Json& input) {
+  if (!input.is_array() || input.size() != 4) throw InputError("input: four numbers in -1 ... 1: forward, left, up, turn left");
+  std::array<double, 4> sticks{};
+  for (size_t i = 0; i < sticks.size(); ++i) {
+    sticks[i] = input[i].is_number() ? input[i].get<double>() : std::nan("");
+    if (!(std::abs(sticks[i]) <= 1)) throw InputError("input: " + input[i].dump() + " is not in -1 ... 1");
+  }
+  return sticks;
+}
+
+}  // namespace airsim360
