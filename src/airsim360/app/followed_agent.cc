@@ -225,7 +225,7 @@ std::string FollowedAgent::EntitiesJson() const {
 }
 
 SocketMessage FollowedAgent::Answer(std::string_view text, const std::string& token) {
-  return AnswerMessage(text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
+  return AnswerMessage<Json>(text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 }  // namespace airsim360

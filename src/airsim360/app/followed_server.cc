@@ -209,7 +209,7 @@ std::string FollowedServer::EntitiesJson() const {
 
 SocketMessage FollowedServer::Answer(std::string_view text, const std::string& token) {
   const bool tangled = std::ranges::count(text, '[') + std::ranges::count(text, '{') > 16;
-  return AnswerMessage(tangled ? "" : text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
+  return AnswerMessage<Json>(tangled ? "" : text, {}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 }  // namespace airsim360

@@ -291,7 +291,7 @@ LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(
 LiveWorld::~LiveWorld() = default;
 
 SocketMessage LiveWorld::Answer(std::string_view text, const std::string& token) {
-  return AnswerMessage(text, {.bytes = kMostMessage}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
+  return AnswerMessage<Json>(text, {.bytes = kMostMessage}, token, [&](const Json& message, bool may_fly) { return impl_->Do(message, may_fly); });
 }
 
 std::string LiveWorld::DescriptionJson() const {
