@@ -50,6 +50,7 @@ inline double ExamFigure(const DroneDesign& design, const std::string& name) {
   if (name == "payload_kg") return design.parts.payload;
   if (name == "hover_time_s") return design.hover_time;
   if (name == "flight_time_s") return design.flight_time;
+  if (name == "endurance_s") return design.endurance;  // hovering or flying, whichever was said
   if (name == "max_speed_m_s") return design.level_speed;
   if (name == "thrust_to_weight") return FiguresOf(model).thrust_to_weight;
   if (name == "battery_cells") return model.battery.cells;

@@ -195,14 +195,46 @@ TEST(Wording, MorePowerThanTheBatteryHoldsIsRefusedAndNoLessIs) {
   EXPECT_NO_THROW(DroneFromPrompt("2 kg quad, 10 inch props, hovers at 250 W"));
 }
 
+TEST(Wording, PacksInParallelAddTheirChargeAndNoOthersDo) {
+  const auto capacity = &DroneRequest::capacity_ah;
+  Tally tally;
+  for (const char* sentence : {"two 6S 16000 mAh packs in parallel, hexa, 20 kg", "hexa, 20 kg, 2x 6S 16Ah in parallel",
+                               "hexa 20 kg 6S 2x16000 parallel", "hexa, 20 kg, 6S 32Ah"})
+    Check(tally, sentence, capacity, 32);
+  for (const char* sentence : {"hexa, 6S2P 16000 mAh li-ion, 20 kg", "hexa, 20 kg, two 3S 16Ah packs in series",
+                               "hexa, 20 kg, 6S 16000 with two spare 6S 16000 packs"})
+    Check(tally, sentence, capacity, 16);
+  Check(tally, "quad, 6S4P from 5 Ah 21700 cells, 4.5 kg", capacity, 20);
+  EXPECT_EQ(tally.share(), 1) << tally.bad();
+}
+
+TEST(Wording, ListsOfThingsAddUp) {
+  const auto payload = &DroneRequest::payload;
+  Tally tally;
+  for (const char* sentence :
+       {"hexa, payload: lidar 1 kg, camera 300 g, gimbal 200 g, 9 kg AUW", "hexa carrying a 1 kg lidar, a 300 g camera and a 200 g gimbal, 9 kg AUW",
+        "hexa that carries 3 cartons of 500 g, 9 kg", "hexa, 9 kg AUW including a 1.5 kg payload", "hexa, 9 kg incl. 1.5 kg radiosonde"})
+    Check(tally, sentence, payload, 1.5);
+  const auto mass = &DroneRequest::mass;
+  Check(tally, "quad: frame 400 g, motors 320 g, electronics 130 g, battery 350 g, 9 inch props", mass, 1.2);
+  Check(tally, "hexa, seven point five kilos", mass, 7.5);
+  EXPECT_EQ(tally.share(), 1) << tally.bad();
+}
+
 TEST(Wording, FiguresThatNoLawLetsBeAreRefused) {
   for (const char* prompt :
        {"4S 22.2V quad, 1.8 kg", "quad with a 3S (14.8 V) pack, 1.2 kg", "5 kg quad, TWR 15:1, 4 motors, 2 kg thrust each",
         "2 kg quad, total thrust 1.5 kg", "quad without battery, dynamos on the props recharge it",
-        "quad, 1 kg, hovers indefinitely", "F450 carrying me, 75 kg", "Drohne, Abfluggewicht 3 kg, Gesamtschub 2 kg"})
+        "quad, 1 kg, hovers indefinitely", "F450 carrying me, 75 kg", "Drohne, Abfluggewicht 3 kg, Gesamtschub 2 kg",
+        "quad at 30 km altitude, 5 kg", "quad, 2 kg, 100 Wh, flies 500 km", "quad with no battery and no cable, 1 kg",
+        "quad without any battery, fuel or other energy source, 1 kg", "20 inch props, 2000 kv motors, 12S, quad",
+        "quad 2 kg, maximum thrust of 0.3 times its weight", "quad weighing 250 g all up including its 300 g camera",
+        "2000 Wh lipo that weighs 500 g, 3 kg quad"})
     EXPECT_THROW(DroneFromPrompt(prompt), InputError) << prompt;
   for (const char* prompt : {"4S 14.8V quad, 1.8 kg", "6S (25.2 V) quad, 1.8 kg", "4S quad with a 12V lamp, 1.8 kg",
-                             "2 kg quad, TWR 2:1, motors with 1 kg of thrust each", "quad, often -20C outside, 1 kg"})
+                             "2 kg quad, TWR 2:1, motors with 1 kg of thrust each", "quad, often -20C outside, 1 kg",
+                             "quad, 4000 m altitude, 2 kg", "2 kg quad, flies 5 km", "quad, 1 kg, ELRS link with 100 km range",
+                             "quad 1 kg, battery not included", "quad, AUW 2 kg, motors of 90 g each"})
     EXPECT_NO_THROW(DroneFromPrompt(prompt)) << prompt;
 }
 

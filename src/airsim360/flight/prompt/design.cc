@@ -198,11 +198,12 @@ void Designer::CheckSize() const {
 
 void Designer::ChooseArms() {
   const int arms = ArmsOf(n_, layout_);
-  // Where the longer sides of an H leave the propellers no room, its motors stand in a square.
-  if (layout_ == RotorLayout::kH && said_.arm && *said_.arm * 1.2 < 1.02 * D_ &&
+  // Where the longer sides of an H or a wide X leave the propellers no room, its motors stand in a square.
+  const bool oblong = layout_ == RotorLayout::kH || layout_ == RotorLayout::kWideX;
+  if (oblong && said_.arm && *said_.arm * 1.2 < 1.02 * D_ &&
       *said_.arm * 2 * std::sin(kPi / 4) >= 1.02 * D_) {
     layout_ = RotorLayout::kX;
-    Decide("the motors of the H frame stand in a square, for the propellers to have room");
+    Decide("the motors of the frame stand in a square, for the propellers to have room");
   }
   // Distance of neighbouring hubs over arm length; H and wide X have their shorter side in between.
   const double gap =

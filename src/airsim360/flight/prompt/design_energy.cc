@@ -7,6 +7,7 @@
 
 #include "airsim360/flight/control/mixer.h"
 #include "airsim360/flight/prompt/laws.h"
+#include "airsim360/math/standard_atmosphere.h"
 
 namespace airsim360::internal {
 namespace {
@@ -55,7 +56,7 @@ void Designer::CheckBatterySaid() const {
   if (!said_.battery_mass) return;
   const double energy = EnergySaid();
   const double specific = energy / *said_.battery_mass;
-  if (energy > 0 && said_.cells && (specific < kPackLeast || specific > kPackMost)) {
+  if (energy > 0 && (said_.cells || said_.energy_wh) && (specific < kPackLeast || specific > kPackMost)) {
     Refuse("a battery of '" + Words("battery_mass") + Text("' with %.4g Wh has %.0f Wh/kg, where batteries have "
                                                            "%.0f to %.0f",
                                                            energy, specific, kPackLeast, kPackMost));
@@ -108,6 +109,24 @@ void Designer::FillBattery() {
   if (battery.resistance * out_.hover_power / voltage > 0.25 * voltage) {
     Refuse(Text("a battery of %.2g Ah cannot give the %.3g W of hovering", battery.capacity_ah,
                 out_.hover_power));
+  }
+}
+
+void Designer::CheckJourney() const {
+  if (said_.altitude) {
+    constexpr double kHighest = 11000;  // where StandardAir ends
+    const double density = StandardAir(std::min(*said_.altitude, kHighest)).density / kSeaLevelAirDensity;
+    if (*said_.altitude > kHighest || ratio_ * density < 1) {
+      Refuse("at '" + Words("altitude") +
+             Text("' the air has %.2g of its density at the sea%s, and with it goes a thrust of %.3g times the weight",
+                  density, *said_.altitude > kHighest ? " or less" : "", ratio_));
+    }
+  }
+  // Nobody cruises at top speed for as long as hovering lasts: twice that is beyond any doubt.
+  const double reach = 2 * out_.flight_time * out_.level_speed;
+  if (said_.range && *said_.range > reach) {
+    Refuse("'" + Words("range") + Text("' on one charge: %.0f s of flight at %.1f m/s end after %.3g km",
+                                       out_.flight_time, out_.level_speed, reach / 2000));
   }
 }
 

@@ -101,6 +101,7 @@ void Designer::Finish() {
   model.half_size_B = {reach_x + D_ / 2, reach_y + D_ / 2, std::max(Box().z / 2, 0.08 * L_ + 0.1 * D_)};
   out_.wheelbase = 2 * L_;
   out_.level_speed = speed_held_ ? *said_.speed : LevelSpeed();
+  CheckJourney();
   out_.unused = said_.unused;
   out_.decided.insert(out_.decided.begin(), said_.decided.begin(), said_.decided.end());
   TellLatitude();

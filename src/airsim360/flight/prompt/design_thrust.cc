@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kFastestTip = 0.65 * 340.3;  // m/s; the gate ends at Mach 0.7
 constexpr double kFastestTipAsked = 0.69 * 340.3;  // for a thrust that was said
+constexpr double kFastestIdleTip = 700;  // m/s without load: beyond what any motor and propeller are sold for
 constexpr double kLeastRatio = 1.5;           // thrust to weight that is not gone below unasked
 // Speed of a loaded motor over its speed without load, between hard and easy work.
 constexpr double kLeastLoaded = 0.5, kMostLoaded = 0.92;
@@ -78,6 +79,11 @@ void Designer::ChooseThrust() {
 void Designer::HoldToMotors() {
   if (!said_.motor_kv || !said_.cells) return;
   const double idle = *said_.motor_kv * *said_.cells * kFullCell * 2 * kPi / 60;
+  if (said_.propeller && idle * D_ / 2 > kFastestIdleTip) {
+    Refuse("'" + Words("motor_kv") + "' on '" + Words("cells") +
+           Text("' are made for tips at Mach %.1f with propellers of %.0f mm, where thrust ends below Mach 1",
+                idle * D_ / 2 / 340.3, D_ * 1000));
+  }
   const auto ratio_at = [&](double speed) { return n_ * k_f_ * speed * speed / (m_ * kGravity); };
   const double least = ratio_at(kLeastLoaded * idle), most = ratio_at(kMostLoaded * idle);
   if (most < 1.3) {

@@ -82,6 +82,8 @@ class Designer {
   void CheckBatterySaid() const;
   void FillBattery();
   [[noreturn]] void RefuseEnergy() const;
+  /// The said altitude and range against thrust and energy.
+  void CheckJourney() const;
 
   // design_latitude.cc
   /// Leaves what is usual one step further; false at the end of what is possible.

@@ -61,7 +61,7 @@ constexpr Word kWords[] = {
      "quarter|a quarter of a|a quarter of an|quarter of a|quarter of an|a quarter|quarter of"},
     {kHalf, 0.75, "", "three quarters of a|three quarters of an|three quarter"},
     // Units.
-    {kMassUnit, 1e-3, "", "g|gr|gram|grams|gramme|grammes|gm|gms"},
+    {kMassUnit, 1e-3, "", "g|gr|gram|grams|gramme|grammes|gm|gms|gf"},
     {kMassUnit, 1, "", "kg|kgs|kilo|kilos|kilogram|kilograms|kilogramme|kilogrammes|kgf"},
     {kMassUnit, 1e-6, "", "mg|milligram|milligrams"},
     {kMassUnit, 1000, "", "ton|tons|tonne|tonnes"},

@@ -102,7 +102,7 @@ constexpr Word kWords[] = {
      "achsabstand|radstand|diagonale|empattement|entraxe|轴距|对角线|distancia entre ejes|diagonales|"
      "motorabstand|interasse|batalla"},
     {kMass, 0, "",
-     "abfluggewicht|startgewicht|startmasse|abflugmasse|gewicht|gesamtgewicht|masse|wiegt|wiegen|schwer|"
+     "abfluggewicht|insgesamt|alles zusammen|startgewicht|startmasse|abflugmasse|gewicht|gesamtgewicht|masse|wiegt|wiegen|schwer|"
      "masse totale|"
      "masse au decollage|poids au decollage|poids|pese|pesant|peso maximo al despegue|peso al despegue|"
      "peso de despegue|peso|pesa|masa|al despegue|au decollage|despegue|decollage|pesa en total|peso total|"

@@ -95,6 +95,12 @@ class Joiner {
         break;
       }
     }
+    // "seven point five"
+    if (!digits && AtText(i, "point") && At(i + 1, WordKind::kNumber) && in_[i + 1].word->value < 10) {
+      value += in_[i + 1].word->value / 10;
+      text += " point " + in_[i + 1].text;
+      i += 2;
+    }
     // "two and a half", "1 1/2"
     if (AtText(i, "and") && At(i + 1, WordKind::kHalf)) {
       value += in_[i + 1].word->value;

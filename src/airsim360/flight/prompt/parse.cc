@@ -24,7 +24,8 @@ std::string PromptHelp() {
       "  size           450 mm wheelbase, 12 cm arms, 250 class\n"
       "  rotors         quad, hexacopter, octo, 6 rotors; layout X, plus, H, wide X, coaxial X8, Y6; ducts\n"
       "  flight         20 m/s, 80 km/h, 45 mph, 25 minutes, hovers 20 minutes, thrust to weight 4\n"
-      "  battery        4S, 1500 mAh, 77 Wh, li-ion; motors 920 KV\n";
+      "  battery        4S, 1500 mAh, 77 Wh, li-ion, two 16 Ah packs in parallel; motors 920 KV\n"
+      "  journey        at 4000 m altitude, flies 20 km: refused where thrust or energy do not suffice\n";
   const auto list = [&](const char* title, internal::WordKind kind) {
     help += title;
     for (const internal::Word& word : internal::NounWords()) {

@@ -74,7 +74,7 @@ TEST(Prompt, AQuantityFindsItsNounByGrammar) {
   EXPECT_DOUBLE_EQ(*ParsePrompt("65mm whoop 1S 31mm props AUW 25 g").propeller, 0.031);
   EXPECT_EQ(ParsePrompt("lifts a crate (about nine kilos)").payload, 9);
   EXPECT_EQ(ParsePrompt("carries a half-kilo canopy").payload, 0.5);
-  EXPECT_EQ(ParsePrompt("lifting two bags of 3 kg").payload, 3);
+  EXPECT_EQ(ParsePrompt("lifting two bags of 3 kg").payload, 6);
   EXPECT_FALSE(ParsePrompt("a 907 g drone, 1\" CMOS").propeller);
   EXPECT_EQ(ParsePrompt("weight=3kg; rotors=6").rotors, 6);
   EXPECT_EQ(ParsePrompt("weight (g): 1200").mass, 1.2);

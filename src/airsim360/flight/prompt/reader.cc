@@ -33,6 +33,7 @@ Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
 
 DroneRequest Reader::Run() {
   RefuseFreeEnergy();
+  RefuseNoEnergy();
   RefuseOthers();
   for (const Token& token : tokens_) {
     if (!token.respelled.empty()) Decide("'" + token.text + "' is read as '" + token.respelled + "'");
@@ -205,6 +206,7 @@ void Reader::FinishMasses() {
     request_.words.erase("battery_mass");
   }
   FinishLoadedMass();
+  SumUpParts();
   std::stable_partition(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return !loose.part; });
   for (const Loose& loose : loose_masses_) {
     const Quantity& q = loose.quantity;
@@ -222,7 +224,14 @@ void Reader::FinishMasses() {
     }
     // What is beside the mass of a drone is carried.
     const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
-    if (carried) {
+    const bool inside = loose.part || loose.thing || IsIncluded(q);
+    if (whole_of_mass_ && inside && request_.mass && q.value * loose.count > *request_.mass) {
+      throw InputError("no drone fits the description: parts of '" + q.words + "' are more than '" + request_.words["mass"] +
+                       "' in all");
+    }
+    if (whole_of_mass_ && !carried && !bound && request_.mass && q.value < 0.98 * *request_.mass) {
+      Decide("'" + q.words + "' is of a part of '" + request_.words["mass"] + "' and left to the design");
+    } else if (carried) {
       Decide("'" + q.words + "' is read as payload");
       Set(payload, request_.payload, q.value, q.words);
     } else {

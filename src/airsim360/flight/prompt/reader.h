@@ -26,6 +26,8 @@ struct FieldRange {
   const char* unit;
 };
 
+inline constexpr FieldRange kPropellerRange{"propeller", 0.02, 1.85, "m"};  // palm-sized toys to 72 inch lifters
+
 class Reader {
  public:
   explicit Reader(std::string_view prompt);
@@ -69,12 +71,22 @@ class Reader {
   bool ReadAxes(const Quantity& q);
   bool IsOfBattery(const Quantity& q) const;
   void RefuseFreeEnergy() const;
+  void RefuseNoEnergy() const;
   void CheckPower() const;
   void CheckVoltage() const;
   void CheckLoadOfModel() const;
 
+  // reader_distances.cc
+  double MetresOf(const Quantity& q) const;
+  bool HasNear(const Quantity& q, bool (*is_word)(const std::string&)) const;
+  bool ReadDistance(const Quantity& q);
+  double PacksInParallel(const Quantity& q) const;
+  double PacksOf(const Quantity& q) const;
+  double CellsInParallel(const Quantity& q) const;
+
   // reader_thrust.cc
   bool ReadThrust(const Quantity& q);
+  bool ReadThrustOfWeight(size_t i, size_t last, double factor);
   void FinishThrust();
 
   // reader_fields.cc
@@ -115,6 +127,13 @@ class Reader {
   size_t WholeBefore(const Quantity& q) const;
   bool IsWhole(size_t noun) const;
   void SumUpMass(const Quantity& q);
+  bool IsNamedBeside(const Quantity& q, size_t noun) const;
+  bool NamesThingAfter(const Quantity& q) const;
+  bool IsIncluded(const Quantity& q) const;
+  bool IsLeftOut(size_t i) const;
+  bool IsWithBattery(const Quantity& q) const;
+  void SumUpParts();
+  double CountOfParts(const Quantity& q) const;
   void FinishBareMass();
   void FinishOwnMass();
   bool IsSumOf(double whole, double own) const;
@@ -142,6 +161,7 @@ class Reader {
   bool IsBeforeFinalVerb(const Quantity& q) const;
   bool Hangs(const Quantity& q) const;
   bool IsOfThing(const Quantity& q, size_t noun) const;
+  bool ContinuesList(const Quantity& q) const;
   void SetThing(const Quantity& q);
 
   // reader_quantities.cc
@@ -153,6 +173,7 @@ class Reader {
   void ReadSpeed(const Quantity& q);
   void ReadVolume(const Quantity& q);
   void ReadVoltage(const Quantity& q);
+  void ReadCapacity(const Quantity& q);
   double PacksInSeries(size_t i) const;
   void ReadDays(const Quantity& q);
   void Dispatch(const Quantity& q);
@@ -185,6 +206,7 @@ class Reader {
     bool thing = false;  ///< "a 300 g sandwich"
     bool part = false;   ///< "a 300 g frame"
     bool loaded = false;  ///< "3 kg with camera"
+    double count = 1;     ///< parts that have it each
   };
   std::vector<Loose> loose_masses_;
   std::vector<Quantity> volts_;          ///< of the battery
@@ -194,7 +216,10 @@ class Reader {
   /// A number of rotors that no drone here has, and its words.
   std::optional<std::pair<double, std::string>> bad_rotors_;
   bool whole_said_ = false;  ///< the mass is that of take-off
+  bool whole_of_mass_ = false;  ///< the same, of request_.mass as it stands
+  Quantity mass_quantity_;      ///< that request_.mass was read from
   bool things_said_ = false;  ///< the payload is the sum of things
+  size_t last_thing_ = kNone;  ///< token that ends the mass of the last of them
   size_t rotor_words_ = 0;   ///< "quad", "Y6"
   bool coaxial_said_ = false;
   bool liquid_said_ = false;   ///< litres of something

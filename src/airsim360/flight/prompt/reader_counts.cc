@@ -98,6 +98,8 @@ void Reader::ReadRotorCount(size_t i, size_t noun) {
   // "One motor has a bent bell" counts nothing where the number of rotors is said otherwise.
   const bool known = request_.rotors || model_ || rotor_words_ > 0 || arm_count_;
   const bool chipped = noun + 1 < tokens_.size() && tokens_[noun + 1].kind == Token::Kind::kUnknown;
+  const bool exactly = i > 0 && (tokens_[i - 1].text == "exactly" || tokens_[i - 1].text == "only" || tokens_[i - 1].text == "just");
+  if (value < 3 && exactly && Is(noun, WordKind::kRotorNoun)) return SetRotors(value, words);
   if (value < 3 && (known || (chipped && !Is(noun, WordKind::kRotorNoun)))) return;
   used_[i] = true;
   if (value == 3 && request_.layout == RotorLayout::kCoaxial) return;

@@ -51,7 +51,7 @@ bool Reader::ReadPower(const Quantity& q) {
   const auto look = [&](size_t k) {
     hover |= Is(k, WordKind::kHover);
   };
-  for (size_t k = q.first; k-- > 0 && q.first - k <= 6 && tokens_[k].kind != Token::Kind::kComma;) look(k);
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 10 && tokens_[k].kind != Token::Kind::kComma && tokens_[k].kind != Token::Kind::kNumber;) look(k);
   for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 4 && !EndsPhrase(k) && tokens_[k].kind != Token::Kind::kNumber; ++k)
     look(k);
   if (!hover || power_) return false;
@@ -151,6 +151,33 @@ void Reader::RefuseFreeEnergy() const {
   throw InputError(
       "no drone fits the description: generators that its own propellers drive take more power out of the flight "
       "than they give back; it flies as long as its battery lasts");
+}
+
+/// "No battery and no cable": nothing that its motors could run on. A battery alone that is missing is one that the
+/// shop does not send along.
+void Reader::RefuseNoEnergy() const {
+  const auto is_source = [&](size_t k) {
+    return Is(k, WordKind::kBattery) ||
+           IsOneOf(tokens_[k].text, {"cable", "cables", "tether", "tethers", "fuel", "engine", "cord", "power", "energy"});
+  };
+  size_t missing = 0;
+  bool power = false;
+  for (size_t k = 0; k < tokens_.size(); ++k) {
+    missing += Is(k, WordKind::kBare) && (tokens_[k].text.starts_with("no ") || tokens_[k].text.starts_with("without"));
+    if (k == 0) continue;
+    if (!is_source(k) || !(IsOneOf(tokens_[k - 1].text, {"no", "without", "nor", "any", "or", "neither"}))) continue;
+    ++missing;
+    const bool source = k + 1 < tokens_.size() && tokens_[k + 1].text == "source";
+    power |= IsOneOf(tokens_[k].text, {"power", "energy"}) && (source || k + 1 == tokens_.size() || EndsPhrase(k + 1));
+  }
+  // "Without any battery, fuel, tether or other energy source"
+  for (size_t k = 2; k < tokens_.size(); ++k) {
+    if (tokens_[k].text != "source" || !IsOneOf(tokens_[k - 1].text, {"energy", "power"})) continue;
+    for (size_t n = k - 1; n-- > 0 && k - n <= 10 && tokens_[n].text != ".";)
+      power |= IsOneOf(tokens_[n].text, {"no", "without"}) || tokens_[n].text.starts_with("without ");
+  }
+  if (missing < 2 && !power) return;
+  throw InputError("no drone fits the description: without a battery or a cable its motors have nothing to run on");
 }
 
 }  // namespace airsim360::internal

@@ -51,6 +51,7 @@ size_t Reader::WholeBefore(const Quantity& q) const {
   bool includes = false;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
     const std::string& text = tokens_[k].text;
+    if (Is(k, WordKind::kMassUnit) && used_[k]) return kNone;  // the whole has its mass: this is what it includes
     if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos)
       return includes && !claimed_[k] ? k : kNone;
     includes |=
@@ -68,6 +69,9 @@ size_t Reader::WholeBefore(const Quantity& q) const {
 /// The noun that a mass is of, else kNone.
 size_t Reader::NounOfMass(const Quantity& q) const {
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
+  const auto is_part = [&](size_t noun) {
+    return Is(noun, WordKind::kFrame) || Is(noun, WordKind::kMotor) || Is(noun, WordKind::kPropeller);
+  };
   const auto is_label = [&](size_t noun) {
     if (noun == kNone) return false;
     const WordKind kind = kind_of(noun);
@@ -83,7 +87,7 @@ size_t Reader::NounOfMass(const Quantity& q) const {
     while (owner-- > 0 && SaysLittle(owner)) {
     }
     if (owner != kNone &&
-        (Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
+        (is_part(owner) || Is(owner, WordKind::kLoad) || Is(owner, WordKind::kBattery) ||
          (Is(owner, WordKind::kPayload) && tokens_[owner].text.starts_with("payload"))) &&
         !claimed_[owner] && !(owner + 1 < tokens_.size() && EndsPhrase(owner + 1))) {
       noun = owner;
@@ -93,6 +97,10 @@ size_t Reader::NounOfMass(const Quantity& q) const {
   const bool says_empty =
       after != kNone && (kind_of(after) == WordKind::kEmpty || kind_of(after) == WordKind::kBare);
   if (const size_t whole = WholeBefore(q); whole != kNone && !says_empty) return whole;
+  // "3 kilos all in incl. a 500 g payload": what is included has its own noun.
+  for (size_t k = q.first; noun != kNone && noun < q.first && k-- > noun + 1;) {
+    if (tokens_[k].text.starts_with("incl") || tokens_[k].text == "inkl") noun = kNone;
+  }
   if (const size_t apposed = Apposed(q); apposed != kNone && !says_empty) {
     noun = apposed;
   } else if ((!owned && !is_label(noun)) || says_empty ||
@@ -111,7 +119,26 @@ size_t Reader::NounOfMass(const Quantity& q) const {
   return noun;
 }
 
+/// "26 g with the batt in": the mass of what flies, no battery's.
+bool Reader::IsWithBattery(const Quantity& q) const {
+  size_t k = q.last + 1;
+  const auto text = [&](size_t i) { return i < tokens_.size() ? tokens_[i].text : std::string(); };
+  if (text(k) != "with" && text(k) != "w" && !text(k).starts_with("incl") && text(k) != "inc") return false;
+  ++k;
+  while (text(k) == "the" || text(k) == "a" || text(k) == "its" || text(k) == ".") ++k;
+  return Is(k, WordKind::kBattery) && (k + 1 >= tokens_.size() || tokens_[k + 1].kind != Token::Kind::kNumber);
+}
+
 void Reader::ReadMass(const Quantity& q) {
+  if (IsWithBattery(q) && !request_.mass && NounBefore(q, true) == kNone)
+    return Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+  // "19.5 kg + payload 3.5 kg = 23 kg"
+  if (q.first > 0 && tokens_[q.first - 1].text == "=" && request_.mass && q.value > *request_.mass) {
+    SumUpMass(q);
+    mass_quantity_ = q;
+    whole_of_mass_ = whole_said_ = true;
+    return Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+  }
   const size_t noun = NounOfMass(q);
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
@@ -225,7 +252,7 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
       kind == WordKind::kFrame || kind == WordKind::kWind)
     return kind == WordKind::kElse ? NameElse(q, noun)
-                                   : loose_masses_.push_back({q, false, kind != WordKind::kWind});
+                                   : loose_masses_.push_back({q, false, kind != WordKind::kWind, false, CountOfParts(q)});
   // A drone has other figures besides.
   if (kind >= WordKind::kRotorNoun) Use(noun);
   switch (kind) {
@@ -238,8 +265,10 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
         request_.words.erase("payload");
         things_said_ = false;
       }
+      if (!request_.payload && (IsNamedBeside(q, noun) || NamesThingAfter(q))) return SetThing(q);
       return Set(payload, request_.payload, q.value, q.words);
     case WordKind::kBattery:
+      if (IsLeftOut(noun)) return Set({"bare_mass", 0.004, 400, "kg"}, request_.bare_mass, q.value, q.words);
       return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
     case WordKind::kBare: {
       // The dry weight of a sprayer is that without its liquid.
@@ -265,7 +294,81 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
       request_.words.erase("mass");
     }
   }
+  if (request_.mass && std::abs(*request_.mass - q.value) > 0.02 * std::max(*request_.mass, q.value)) {
+    const bool whole = kind == WordKind::kMass && IsWhole(noun);
+    const bool smaller = q.value < *request_.mass;
+    if (whole_of_mass_ && !whole && smaller) return loose_masses_.push_back({q, false, false, false});
+    if (whole && !whole_of_mass_ && !smaller) {
+      Quantity said = mass_quantity_;
+      request_.mass.reset();
+      request_.words.erase("mass");
+      loose_masses_.push_back({said, false, false, false});
+    }
+  }
+  if (!request_.mass) {
+    mass_quantity_ = q;
+    const size_t after = NounAfter(q);
+    whole_of_mass_ = (kind == WordKind::kMass && IsWhole(noun)) || (after != kNone && Is(after, WordKind::kMass) && IsWhole(after));
+  }
   Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
+}
+
+/// "Including its 300 g camera"
+bool Reader::IsIncluded(const Quantity& q) const {
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 3;) {
+    if (tokens_[k].text.starts_with("incl") || tokens_[k].text == "inkl") return true;
+  }
+  return false;
+}
+
+/// "Without tools and battery 11 kg": whether what noun `i` names is not in the mass.
+bool Reader::IsLeftOut(size_t i) const {
+  for (size_t k = i; k-- > 0 && i - k <= 5 && tokens_[k].kind != Token::Kind::kComma && tokens_[k].kind != Token::Kind::kNumber;) {
+    const std::string& text = tokens_[k].text;
+    if (text == "with" || text == "but") return false;
+    if (text.starts_with("without") || text.starts_with("w o") || text.starts_with("excl") || text == "ohne" || text == "sans") return true;
+  }
+  return false;
+}
+
+/// "Payload: lidar 1.35 kg": a thing between the label and its mass.
+bool Reader::IsNamedBeside(const Quantity& q, size_t noun) const {
+  return noun + 1 < q.first && q.first - noun <= 5 && IsThing(q.first - 1);
+}
+
+/// "Payload is a 370 g IR cam": a thing right after the mass.
+bool Reader::NamesThingAfter(const Quantity& q) const {
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 3 && !EndsPhrase(k); ++k) {
+    if (Is(k, WordKind::kPayload) || Is(k, WordKind::kMass)) return false;
+    if (IsThing(k)) return true;
+  }
+  return false;
+}
+
+/// A list of parts without their sum: "frame 400 g, motors and ESCs 320 g, battery 350 g".
+void Reader::SumUpParts() {
+  const bool said = request_.mass || request_.empty_mass || request_.bare_mass || model_ != nullptr;
+  const auto parts = std::count_if(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return loose.part; });
+  if (said || parts < 2) return;
+  double sum = request_.battery_mass.value_or(0) + request_.payload.value_or(0);
+  for (const Loose& loose : loose_masses_) sum += loose.quantity.value * loose.count;
+  for (const Loose& loose : loose_masses_) {
+    const double value = loose.quantity.value * loose.count;
+    if (!loose.part && value > 0.8 * (sum - value)) return;  // the drone itself
+  }
+  Decide("the mass is the sum of its parts");
+  Set({"mass", 0.01, 400, "kg"}, request_.mass, sum, "the sum of the parts");
+  whole_of_mass_ = true;
+  loose_masses_.clear();
+}
+
+/// "Four motors 34 g each", "6 ESCs @ 40 g": how many parts have that mass, else 1.
+double Reader::CountOfParts(const Quantity& q) const {
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && tokens_[k].kind != Token::Kind::kComma;) {
+    const double value = tokens_[k].value;
+    if (tokens_[k].kind == Token::Kind::kNumber) return value >= 2 && value <= 12 && value == std::floor(value) ? value : 1;
+  }
+  return 1;
 }
 
 /// Whether `whole` is a mass of the drone without payload and the payload that was said.

@@ -41,7 +41,7 @@ void Reader::ReadCode(size_t i) {
   used_[i] = true;
   if (Is(i + 1, WordKind::kLengthUnit)) used_[i + 1] = true;
   Use(Beside(i, WordKind::kPropeller, true));
-  Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, token.code[0] * 0.0254, token.text);
+  Set(kPropellerRange, request_.propeller, token.code[0] * 0.0254, token.text);
   Set({"pitch", 0.005, 1, "m"}, request_.pitch, token.code[1] * 0.0254, token.text);
   if (token.code[2] > 0) Set({"blades", 2, 6, ""}, request_.blades, std::floor(token.code[2]), token.text);
 }
@@ -95,7 +95,7 @@ bool Reader::ReadInchesAsPlural(size_t i, size_t unit) {
   const std::string& before = tokens_[i - 1].text;
   if (before != "on" && before != "with" && before != "and" && before != "w") return false;
   Decide("'" + tokens_[i].text + "s' is read as propellers of " + tokens_[i].text + " inches");
-  Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, value * 0.0254, tokens_[i].text + "s");
+  Set(kPropellerRange, request_.propeller, value * 0.0254, tokens_[i].text + "s");
   return true;
 }
 
@@ -150,6 +150,7 @@ bool Reader::ReadCharge(size_t i) {
                           Is(before, WordKind::kLithiumIon))) {
     if (Is(before, WordKind::kBattery)) break;
   }
+  if (before != kNone && before > 1 && Is(before, WordKind::kTimes) && tokens_[before - 1].value <= 8) before -= 2;  // "6S 2x 4500"
   const bool cells_before = before != kNone && Is(before, WordKind::kCells) && used_[before];
   const bool cells_after = i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kNumber &&
                            Is(i + 2, WordKind::kCells);
@@ -158,8 +159,9 @@ bool Reader::ReadCharge(size_t i) {
   CorrectWith("capacity_ah", request_.capacity_ah, i);
   if (request_.capacity_ah) return false;
   Decide("'" + tokens_[i].text + "' is read as mAh");
-  Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, value / 1000, tokens_[i].text);
-  return used_[i] = true;
+  used_[i] = true;
+  ReadCapacity({i, i, value / 1000, FindWord("mah", false), tokens_[i].text});
+  return true;
 }
 
 /// What the noun before a number says of it: "rotors=6", "cells: 4", "props: 14", "weight (g): 1200", "Mach 2".
@@ -207,7 +209,7 @@ bool Reader::ReadLabelled(size_t i) {
     Use(noun);
     used_[i] = true;
     Decide("'" + token.text + "' is read as the diameter of the propellers in inches");
-    Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, token.value * 0.0254, token.text);
+    Set(kPropellerRange, request_.propeller, token.value * 0.0254, token.text);
     return true;
   }
   return false;
@@ -252,6 +254,7 @@ const Word* Reader::Comparative(size_t k) const {
 
 /// What a real drone's figure is multiplied with: "twice as heavy", "20 % heavier". True when it was read.
 bool Reader::ReadComparison(size_t i, double factor, size_t last) {
+  if (ReadThrustOfWeight(i, last, factor)) return true;
   if (model_ == nullptr) return false;
   const bool share = last + 1 < tokens_.size() && tokens_[last + 1].text == "of";  // "70 % of"
   for (size_t k = last + 1; k < tokens_.size() && k <= last + 5; ++k) {
@@ -275,7 +278,7 @@ bool Reader::ReadComparison(size_t i, double factor, size_t last) {
     } else if (word->kind == WordKind::kBigger || word->kind == WordKind::kSizeNoun) {
       if (model_->diagonal > 0) Set({"arm", 0.02, 3, "m"}, request_.arm, f * model_->diagonal / 2000, words);
       if (model_->propeller > 0)
-        Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, f * model_->propeller * 0.0254, words);
+        Set(kPropellerRange, request_.propeller, f * model_->propeller * 0.0254, words);
       if (!request_.mass) loose_masses_.push_back({{i, k, f * f * model_->mass, nullptr, words}, false});
     } else if (word->kind == WordKind::kLonger || word->kind == WordKind::kFlight || word->kind == WordKind::kHover) {
       const double minutes = model_->flight > 0 && word->kind != WordKind::kHover ? model_->flight : model_->hover;

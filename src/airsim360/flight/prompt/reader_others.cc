@@ -77,7 +77,7 @@ void Reader::RefuseOthers() const {
     }
     // "Parrot Disco? no, the Anafi"
     negated |=
-        i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kComma && tokens_[i + 2].text == "no";
+        !(strong && tokens_[i].word->meaning == "an endless flight") && i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kComma && tokens_[i + 2].text == "no";
     const bool drone_before = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<long>(i), [](const Token& t) {
       return t.kind == Token::Kind::kModel || t.Is(WordKind::kDrone) || t.Is(WordKind::kRotors);
     });

@@ -23,6 +23,10 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
   const bool thing = q.last + 1 < tokens.size() && (tokens[q.last + 1].kind == Token::Kind::kUnknown ||
                                                     tokens[q.last + 1].Is(WordKind::kLoad));
   if (i > 0 && thing && IsCountOfThings(tokens[i - 1])) return tokens[i - 1].value;
+  // "Three cartons of 400 g"
+  const bool plural = i > 2 && text(i - 1) == "of" && text(i - 2).ends_with("s") &&
+                      (tokens[i - 2].kind == Token::Kind::kUnknown || tokens[i - 2].Is(WordKind::kLoad));
+  if (plural && IsCountOfThings(tokens[i - 3])) return tokens[i - 3].value;
   const std::string after = text(q.last + 1);
   const bool each_before = i > 1 && tokens[i - 1].text == "each" && tokens[i - 2].kind == Token::Kind::kComma;
   if (after != "each" && after != "apiece" && !each_before) return 1;
@@ -100,7 +104,7 @@ void Reader::Dispatch(const Quantity& q) {
       if (!ReadThrust(q)) ReadMass(q);
       break;
     case WordKind::kLengthUnit:
-      ReadLength(q);
+      if (!ReadDistance(q)) ReadLength(q);
       break;
     case WordKind::kTimeUnit:
       ReadTime(q);
@@ -110,11 +114,10 @@ void Reader::Dispatch(const Quantity& q) {
       break;
     case WordKind::kCapacityUnit:
       CorrectWith("capacity_ah", request_.capacity_ah, i);
-      SumUp("capacity_ah", request_.capacity_ah, q);
-      Set({"capacity_ah", 0.03, 500, "Ah"}, request_.capacity_ah, q.value, q.words);
+      ReadCapacity(q);
       break;
     case WordKind::kEnergyUnit:
-      Set({"energy_wh", 0.1, 50000, "Wh"}, request_.energy_wh, q.value, q.words);
+      Set({"energy_wh", 0.1, 50000, "Wh"}, request_.energy_wh, q.value * PacksOf(q), q.words);
       break;
     case WordKind::kVolumeUnit:
       ReadVolume(q);
@@ -146,8 +149,20 @@ void Reader::Dispatch(const Quantity& q) {
       if (!ReadComparison(i, tokens_[i].value * 0.01, q.last)) NameElse(q, kNone);
       break;
     default:
+      if (q.unit->kind == WordKind::kDistanceUnit && ReadDistance(q)) return;
       if (!ReadThrust(q) && !ReadPower(q) && !ReadAxes(q)) ReadDays(q);
   }
+}
+
+void Reader::ReadCapacity(const Quantity& q) {
+  SumUp("capacity_ah", request_.capacity_ah, q);
+  const FieldRange range{"capacity_ah", 0.03, 500, "Ah"};
+  const double packs = std::max(PacksInParallel(q), CellsInParallel(q));
+  if (packs > 1 && !request_.capacity_ah)
+    Decide("the packs of '" + q.words + "' are taken in parallel");
+  // "2 x 16 Ah in parallel" after the sum of both was said says nothing new.
+  const bool sum_said = packs > 1 && request_.capacity_ah && std::abs(*request_.capacity_ah - packs * q.value) < 0.02 * *request_.capacity_ah;
+  if (!sum_said) Set(range, request_.capacity_ah, packs * q.value, q.words);
 }
 
 /// "Two 6S packs in series": how many packs, else 1.
@@ -225,7 +240,7 @@ void Reader::ReadLength(const Quantity& q) {
   const bool blades = kind == WordKind::kPropeller || kind == WordKind::kRotorNoun || kind == WordKind::kBlades;
   if (blades || (inches && kind != WordKind::kArm && kind != WordKind::kWheelbase)) {
     CorrectWith("propeller", request_.propeller, q.first);
-    return Set({"propeller", 0.02, 1.6, "m"}, request_.propeller, value, q.words);
+    return Set(kPropellerRange, request_.propeller, value, q.words);
   }
   CorrectWith("arm", request_.arm, q.first);
   Set({"arm", 0.02, 3, "m"}, request_.arm, kind == WordKind::kArm ? q.value : q.value / 2, q.words);

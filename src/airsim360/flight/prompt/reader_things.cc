@@ -93,10 +93,10 @@ bool Reader::IsThing(size_t i) const {
     return CanBeThing(code ? tokens_[i - 1].text : token.text);
   }
   if (word == nullptr) return false;
-  if (word->kind == WordKind::kClass) return IsOneOf(token.text, {"cargo", "freight", "drop", "crop"});
+  if (word->kind == WordKind::kClass) return IsOneOf(token.text, {"cargo", "freight", "drop", "crop", "spray"});
   if (word->kind == WordKind::kElse) {
     return IsOneOf(token.text, {"lens", "screen", "display", "monitor", "tv", "lcd", "oled", "antenna", "barrel",
-                                "filter", "cable", "goggles", "controller", "transmitter", "imager", "tether"});
+                                "filter", "cable", "goggles", "controller", "transmitter", "imager", "tether", "sensor"});
   }
   return word->kind == WordKind::kLoad || word->kind == WordKind::kThing || word->kind == WordKind::kVehicle ||
          (word->kind == WordKind::kPayload && token.text.starts_with("payload"));
@@ -293,7 +293,7 @@ bool Reader::IsApposedToThing(const Quantity& q) const {
     if (q.value > 2.5 * known->value) return false;
     if (q.value > 0.4 * known->value) return true;
   }
-  if (verb == kNone) return parenthesis && IsIntroduced(thing);
+  if (verb == kNone) return (parenthesis || tokens_[comma].text == "at") && IsIntroduced(thing);
   // "For carrying bait, 2.4 kg" only says what the drone is for.
   for (size_t k = verb + 1; k < thing; ++k) {
     if (IsArticle(tokens_[k].text) || tokens_[k].kind == Token::Kind::kNumber) return true;
@@ -381,9 +381,21 @@ bool Reader::IsOfThing(const Quantity& q, size_t noun) const {
     if (!weighs && !heavy && !drone && !vague) return false;
   }
   const bool labelled = noun != kNone && Is(noun, WordKind::kMass);
-  if (labelled) return IsOfWeighedThing(q);
+  if (labelled) return IsShare(q) || IsOfWeighedThing(q);
   return IsShare(q) || IsOfWeighedThing(q) || IsOfThingAfter(q) || IsApposedToThing(q) || IsOfThingBefore(q) ||
          IsBeforeFinalVerb(q) || Hangs(q);
+}
+
+/// "A 370 g camera, a 250 g camera", "camera 380 g, gimbal 420 g": whether a comma alone, and no word for the drone,
+/// stands between a thing's mass and this one.
+bool Reader::ContinuesList(const Quantity& q) const {
+  bool comma = false;
+  for (size_t k = q.first; k-- > 0 && q.first - k <= kSpanOfThing + 4;) {
+    if (k == last_thing_) return comma && !IsShare(q);
+    if (EndsSentence(tokens_[k]) || IsDroneWord(k) || IsParenthesis(tokens_[k]) || Is(k, WordKind::kMassUnit)) return false;
+    comma |= tokens_[k].text == ",";
+  }
+  return false;
 }
 
 /// A carried thing's mass: of several things that are joined the masses add up.
@@ -392,6 +404,7 @@ void Reader::SetThing(const Quantity& q) {
   CorrectWith("payload", request_.payload, q.first);
   if (!request_.payload) {
     things_said_ = true;
+    last_thing_ = q.last;
     return Set(payload, request_.payload, q.value, q.words);
   }
   bool joined = false;
@@ -399,9 +412,11 @@ void Reader::SetThing(const Quantity& q) {
     joined |= IsOneOf(tokens_[k].text, {"and", "plus", "+", "&", "und", "et", "y", "e"});
     if (EndsSentence(tokens_[k]) || tokens_[k].kind == Token::Kind::kNumber) break;
   }
+  joined |= ContinuesList(q);
   if (!things_said_ || !joined) {
     return Decide("'" + q.words + "' is part of the payload '" + request_.words["payload"] + "'");
   }
+  last_thing_ = q.last;
   *request_.payload += q.value;
   request_.words["payload"] += " and " + q.words;
 }

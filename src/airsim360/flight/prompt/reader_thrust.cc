@@ -66,6 +66,18 @@ bool Reader::ReadThrust(const Quantity& q) {
   return true;
 }
 
+/// "Max thrust twice its weight", "thrust 900 % of its weight": true when factor `i`, up to token `last`, is of thrust.
+bool Reader::ReadThrustOfWeight(size_t i, size_t last, double factor) {
+  bool weight = false, thrust = false;
+  for (size_t k = last + 1; k < tokens_.size() && k <= last + 4 && tokens_[k].kind != Token::Kind::kComma; ++k)
+    weight |= tokens_[k].text == "weight" || tokens_[k].text == "mass" || tokens_[k].text == "all up weight";
+  for (size_t k = i; k-- > 0 && i - k <= 6 && tokens_[k].kind != Token::Kind::kNumber;) thrust |= Is(k, WordKind::kThrust);
+  if (!weight || !thrust || request_.thrust_to_weight) return false;
+  for (size_t k = i; k <= last; ++k) used_[k] = true;
+  Set({"thrust_to_weight", 1.05, 20, ""}, request_.thrust_to_weight, factor, "thrust " + tokens_[i].text + " times the weight");
+  return true;
+}
+
 /// Thrust over the weight is the ratio; where that goes with nothing else it gives way, unless it does not
 /// lift.
 void Reader::FinishThrust() {

@@ -33,6 +33,8 @@ struct DroneRequest {
   std::optional<double> flight_time;  ///< seconds at the speed of least power
   std::optional<double> speed;        ///< m/s, level
   std::optional<double> least_speed;  ///< m/s that level flight reaches at least: of a wind, of cruising
+  std::optional<double> altitude;  ///< metres above the sea that it flies at
+  std::optional<double> range;     ///< metres that it flies on one charge
   std::optional<double> cells;
   std::optional<double> capacity_ah;
   std::optional<double> energy_wh;

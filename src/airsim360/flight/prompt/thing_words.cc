@@ -95,7 +95,7 @@ constexpr std::string_view kArticles =
     "mio mia um uma another";
 
 constexpr std::string_view kJoiners =
-    "with w for and plus & + including incl featuring having wearing equipped fitted mit und fur plus samt avec et pour "
+    "with w for and plus & + including incl inkl includes included featuring having wearing equipped fitted mit und fur plus samt avec et pour "
     "con y para e per com mais 与 和 带";
 
 bool IsOneOf(std::string_view word, const Words& words) { return words.count(word) > 0; }

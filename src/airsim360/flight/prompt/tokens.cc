@@ -76,8 +76,18 @@ class Cutter {
     }
     const bool ends = c == ',' || c == ';' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')' ||
                       c == '[' || c == ']' || c == '|';
+    if (c == '.' && FollowsAbbreviation()) return void(++at_);
     if (ends) return AddKind(Token::Kind::kComma, 1);
     ++at_;
+  }
+
+  /// The point of "incl." ends no sentence.
+  bool FollowsAbbreviation() const {
+    for (const std::string_view word : {"incl", "inkl", "inc", "approx", "ca", "excl", "dia", "resp"}) {
+      const bool follows = at_ >= word.size() && std::string_view(text_).substr(at_ - word.size(), word.size()) == word;
+      if (follows && (at_ == word.size() || !IsLetter(text_[at_ - word.size() - 1]))) return true;
+    }
+    return false;
   }
 
   size_t EndOfChunk(size_t begin) const {

@@ -1,0 +1,142 @@
+// How high and how far it is to fly, and how many packs feed it.
+#include <algorithm>
+#include <cmath>
+
+#include "airsim360/flight/prompt/reader.h"
+
+namespace airsim360::internal {
+namespace {
+
+constexpr size_t kNear = 5;  // tokens on either side that say what a distance is of
+
+bool StartsAny(const std::string& text, std::initializer_list<const char*> stems) {
+  return std::any_of(stems.begin(), stems.end(), [&](const char* stem) { return text.starts_with(stem); });
+}
+
+bool IsOneOf(const std::string& text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return text == word; });
+}
+
+bool SaysAltitude(const std::string& text) {
+  return StartsAny(text, {"altitude", "ceiling", "elevation", "hohe", "flughohe", "altura", "stratosphere"}) ||
+         IsOneOf(text, {"asl", "amsl", "msl", "agl", "above", "high", "up", "sea level", "hoch", "高", "高度", "海拔"});
+}
+
+bool SaysJourney(const std::string& text) {
+  return StartsAny(text, {"fly", "flies", "flight", "flown", "travel", "cover", "cross", "journey", "fliegt", "vole",
+                          "vuela", "flugstrecke", "reichweite", "autonomie", "autonomia", "飞", "航程"}) ||
+         IsOneOf(text, {"range", "trip", "nonstop", "non stop", "goes", "go", "away"});
+}
+
+/// What a radio, a camera or a survey reaches is no journey.
+bool SaysOtherReach(const std::string& text) {
+  return StartsAny(text, {"radio", "telemetry", "video", "transmission", "transmit", "link", "control", "elrs",
+                          "crossfire", "signal", "antenna", "lidar", "remote", "laser", "rangefinder", "receiver",
+                          "lora", "detection", "radar", "day", "week", "month", "year", "total", "battery swap"}) ||
+         IsOneOf(text, {"rc", "o3", "o4", "rx", "tx", "vtx", "fpv", "lte", "4g", "5g", "per", "swaps"});
+}
+
+}  // namespace
+
+/// Metres of a quantity; miles are kilometres to the lexicon, which otherwise drops distances.
+double Reader::MetresOf(const Quantity& q) const {
+  const std::string& text = tokens_[q.last].text;
+  const double unit = text.starts_with("mile") ? 1609.344 : text.starts_with("n") ? 1852.0 : q.unit->value;
+  return tokens_[q.first].value * unit;
+}
+
+/// Whether a word around a quantity, up to the next figure and the end of the phrase, is so.
+bool Reader::HasNear(const Quantity& q, bool (*is_word)(const std::string&)) const {
+  for (size_t k = q.first; k-- > 0 && q.first - k <= kNear && tokens_[k].kind != Token::Kind::kComma;) {
+    if (tokens_[k].kind == Token::Kind::kNumber) break;
+    if (is_word(tokens_[k].text)) return true;
+  }
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + kNear && tokens_[k].kind != Token::Kind::kComma; ++k) {
+    if (tokens_[k].kind == Token::Kind::kNumber) break;
+    if (is_word(tokens_[k].text)) return true;
+  }
+  return false;
+}
+
+/// "At 5000 m altitude", "30 km high", "flies 20 km": kept for the laws of thrust and energy; true when it was read.
+bool Reader::ReadDistance(const Quantity& q) {
+  const double metres = MetresOf(q);
+  if (metres < 1000 || HasNear(q, SaysOtherReach)) return false;
+  const bool high = HasNear(q, SaysAltitude);
+  // So far that its verb may stand anywhere: "from London to New York nonstop (5,500 km)".
+  const bool journey = HasNear(q, SaysJourney) ||
+                       (metres >= 300e3 && std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
+                          return StartsAny(token.text, {"flies", "fly", "nonstop", "cross"});
+                        }));
+  if (!high && !journey) return false;
+  Field& field = high ? request_.altitude : request_.range;
+  if (field.value_or(0) < metres) {
+    field = metres;
+    request_.words[high ? "altitude" : "range"] = q.words;
+  }
+  NameElse(q, kNone);
+  return true;
+}
+
+/// "Two 6S 16000 mAh packs in parallel", "2x 10 Ah (parallel)": how many packs share the current, else 1. The charge
+/// of a pack whose cells are parallel inside ("6S2P 8400 mAh") is that of the pack.
+double Reader::PacksInParallel(const Quantity& q) const {
+  bool parallel = false;
+  for (size_t k = q.last + 1; k < tokens_.size() && k < q.last + 8 && tokens_[k].text != "."; ++k) {
+    if (tokens_[k].kind == Token::Kind::kNumber && !Is(k + 1, WordKind::kCells)) break;
+    if (tokens_[k].text == "series" || StartsAny(tokens_[k].text, {"spare", "swap", "extra"})) return 1;
+    parallel |= tokens_[k].text.find("parallel") != std::string::npos;
+  }
+  size_t k = q.first;
+  // "Six batteries in parallel, each 6S 4500 mAh"
+  for (size_t n = k; n-- > 0 && k - n <= 4;) {
+    if (tokens_[n].text != "each") continue;
+    bool before = false;
+    for (size_t m = n; m-- > 0 && n - m <= 12 && tokens_[m].text != ".";) {
+      before |= tokens_[m].text.find("parallel") != std::string::npos;
+      const bool counts = before && tokens_[m].kind == Token::Kind::kNumber && m + 1 < tokens_.size() && Is(m + 1, WordKind::kBattery);
+      if (counts && tokens_[m].value >= 2 && tokens_[m].value <= 8) return tokens_[m].value;
+    }
+  }
+  while (k > 0 && (Is(k - 1, WordKind::kCells) || Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) ||
+                   SaysLittle(k - 1) || (tokens_[k - 1].kind == Token::Kind::kNumber && Is(k, WordKind::kCells))))
+    --k;
+  if (k > 0 && Is(k - 1, WordKind::kTimes)) --k;
+  if (k == 0) return 1;
+  const Token& count = tokens_[k - 1];
+  const bool pair = IsOneOf(count.text, {"dual", "twin", "pair"});
+  const bool counted = count.kind == Token::Kind::kNumber && count.value >= 2 && count.value <= 8 &&
+                       count.value == std::floor(count.value);
+  if (!parallel || (!pair && !counted)) return 1;
+  return pair ? 2 : count.value;
+}
+
+/// "Two batteries of 274 Wh each", "2x 99 Wh packs": energies add up however packs are wired.
+double Reader::PacksOf(const Quantity& q) const {
+  const bool each = q.last + 1 < tokens_.size() && tokens_[q.last + 1].text == "each";
+  const auto is_packs = [&](size_t k) { return IsOneOf(tokens_[k].text, {"packs", "batteries", "lipos", "akkus", "baterias"}); };
+  bool packs = q.last + 1 < tokens_.size() && is_packs(q.last + 1);
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 6 && tokens_[k].text != ".";) {
+    packs |= is_packs(k);
+    const Token& token = tokens_[k];
+    if (token.kind != Token::Kind::kNumber || Is(k + 1, WordKind::kCells)) continue;
+    const bool counts = (packs || each) && token.value >= 2 && token.value <= 8 && token.value == std::floor(token.value);
+    return counts && (is_packs(k + 1) || Is(k + 1, WordKind::kTimes) || k + 1 == q.first) ? token.value : 1;
+  }
+  return 1;
+}
+
+/// Cells of a pack that is described by its cells: "6S4P from 5 Ah 21700 cells".
+double Reader::CellsInParallel(const Quantity& q) const {
+  bool of_cell = false;
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 3; ++k)
+    of_cell |= IsOneOf(tokens_[k].text, {"21700", "18650", "cells", "cell"});
+  if (!of_cell) return 1;
+  for (size_t k = 1; k < tokens_.size(); ++k) {
+    const Token& count = tokens_[k - 1];
+    if (tokens_[k].text == "p" && count.kind == Token::Kind::kNumber && count.value >= 2 && count.value <= 20) return count.value;
+  }
+  return 1;
+}
+
+}  // namespace airsim360::internal
