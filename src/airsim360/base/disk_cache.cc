@@ -142,9 +142,11 @@ void DiskCache::Shrink() const {
     entries.push_back({used, file.path(), size});
     total += size;
   }
+  const fs::space_info disk = fs::space(folder_, error);
+  const uint64_t limit = error ? limit_ : std::min(limit_, (disk.available + total) / 4);
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
   for (const Entry& entry : entries) {
-    if (total <= limit_) return;
+    if (total <= limit) return;
     fs::remove(entry.path, error);
     total -= entry.size;
   }

@@ -45,10 +45,12 @@ class CacheKey {
 /// of the program.
 class DiskCache {
  public:
-  static constexpr uint64_t kDefaultLimit = uint64_t{2} << 30;
+  /// Room for all built-in worlds with their navigation meshes and light (a city takes up to 0.8 GB): a recipe
+  /// that goes through more worlds than fit would find none of them the second time.
+  static constexpr uint64_t kDefaultLimit = uint64_t{12} << 30;
 
-  /// An empty folder name: keeps nothing. `limit`: bytes of all entries together; the ones not used for the
-  /// longest time go first.
+  /// An empty folder name: keeps nothing. `limit`: bytes of all entries together, and never more than a quarter
+  /// of what the disk would have free without them; the ones not used for the longest time go first.
   explicit DiskCache(std::filesystem::path folder, uint64_t limit = kDefaultLimit);
   /// $AIRSIM360_CACHE, else $XDG_CACHE_HOME/airsim360, else ~/.cache/airsim360; keeps nothing where there is
   /// no home or AIRSIM360_CACHE is empty.

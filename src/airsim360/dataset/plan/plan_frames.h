@@ -22,7 +22,7 @@ struct PlanFramesOptions {
   EnvironmentFlags environment = {}; ///< over the sky of every frame
   DeviceChoice device = {};
   std::filesystem::path cache = {};  ///< folder of frames that were drawn before; empty: none are kept
-  uint64_t cache_bytes = DiskCache::kDefaultLimit;
+  uint64_t cache_bytes = uint64_t{2} << 30;
 };
 
 /// A frame, drawn or from the cache.
