@@ -15,7 +15,8 @@ PROGRAM = Path(os.environ["AIRSIM360"]).resolve()
 BUILD = PROGRAM.parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SLOW = os.environ.get("AIRSIM360_SLOW_DOCS") == "1"
-CACHE = tempfile.TemporaryDirectory()  # worlds are built once for all pages
+OWN_CACHE = tempfile.TemporaryDirectory()
+CACHE = os.environ.get("AIRSIM360_CACHE") or OWN_CACHE.name  # worlds are built once for all pages
 COMMANDS = r"(airsim360|build/bin/airsim360|curl|PYTHONPATH=|python3|/usr/bin/python3|cmake|export|import airsim360)\b"
 
 
@@ -76,7 +77,7 @@ def run_page(page):
             os.symlink(BUILD, os.path.join(folder, "build"))
             environment = {"PATH": f"{BUILD / 'bin'}:/usr/bin:/bin", "HOME": folder, "PYTHONPATH": str(BUILD / "python"),
                            "PYTHONDONTWRITEBYTECODE": "1", "LANG": "C.UTF-8", "AIRSIM360": str(PROGRAM),
-                           "AIRSIM360_CACHE": CACHE.name}
+                           "AIRSIM360_CACHE": CACHE}
             done = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True, timeout=1500)
             self.assertEqual(done.returncode, 0, f"{name_of(page)}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}")
     return test
