@@ -58,6 +58,24 @@ std::vector<Vec3f> OnGround(const std::vector<Vec2f>& points, const Height& heig
   return lane;
 }
 
+// Whether each lane of a road, also one inside of its bends, is as long as a network asks.
+bool HasRoomForLanes(const RoadSpec& road) {
+  constexpr float kLeastLane = 1.1f;
+  std::vector<Vec2f> axis = Finer(road.axis);
+  if (axis.size() < 2) return false;
+  const auto fit = [&](const std::vector<RoadLane>& lanes) {
+    return std::ranges::all_of(lanes, [&](const RoadLane& lane) {
+      const std::vector<Vec2f> points = Beside(axis, lane.offset);
+      float length = 0;
+      for (size_t i = 1; i < points.size(); ++i) length += Length(points[i] - points[i - 1]);
+      return length >= kLeastLane;
+    });
+  };
+  if (!fit(road.forward)) return false;
+  std::ranges::reverse(axis);
+  return fit(road.backward);
+}
+
 // Adds the lanes of one direction; their ids from the inner to the outer one.
 std::vector<LaneId> AddLanes(const RoadSpec& road, std::vector<Vec2f> axis, const std::vector<RoadLane>& lanes, const Height& height,
                              RoadNetwork& network) {
@@ -114,6 +132,13 @@ void Connect(LaneId from, LaneId to, size_t junction, int32_t signal, const Heig
   network.lanes.push_back(std::move(way));
 }
 
+// The only way on begins next to where the lane ends: the lane itself goes there.
+void LeadInto(LaneId from, LaneId to, RoadNetwork& network) {
+  const Vec3f goal = network.lanes[to].points.front();
+  if (!(network.lanes[from].points.back() == goal)) network.lanes[from].points.push_back(goal);
+  network.lanes[from].next.push_back(to);
+}
+
 std::vector<LaneId> ForAllVehicles(const std::vector<LaneId>& lanes, const RoadNetwork& network) {
   std::vector<LaneId> some;
   std::ranges::copy_if(lanes, std::back_inserter(some), [&](LaneId id) { return !network.lanes[id].bus; });
@@ -154,7 +179,12 @@ void ConnectRest(const std::vector<Mouth>& mouths, size_t junction, const Height
       }
       if (best == nullptr) continue;
       const std::vector<LaneId> out = ForAllVehicles(best->out, network);
-      Connect(in, out[best == &from ? 0 : std::min(rank, out.size() - 1)], junction, from.signal, height, network);
+      const LaneId on = out[best == &from ? 0 : std::min(rank, out.size() - 1)];
+      if (Touch(network.lanes[in], network.lanes[on])) {
+        LeadInto(in, on, network);
+      } else {
+        Connect(in, on, junction, from.signal, height, network);
+      }
     }
   }
 }
@@ -184,6 +214,11 @@ std::vector<RoadSpec> WithoutDeadEnds(std::vector<RoadSpec> roads, size_t juncti
 }  // namespace
 
 std::vector<SignalPhase> CrossStreetSignals() { return {{1u << kEastWestHead, 17, 3, 2}, {1u << kNorthSouthHead, 17, 3, 2}}; }
+
+void RoadBuilder::AddRoad(RoadSpec road) {
+  if (!HasRoomForLanes(road)) road.axis = {road.axis.front(), road.axis.back()};
+  if (HasRoomForLanes(road)) roads_.push_back(std::move(road));
+}
 
 size_t RoadBuilder::AddJunction(Vec2f center, float radius, std::vector<SignalPhase> phases, float offset) {
   junctions_.push_back({{center.x, center.y, height_(center)}, radius, std::move(phases), offset});

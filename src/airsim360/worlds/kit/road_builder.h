@@ -39,7 +39,8 @@ class RoadBuilder {
   explicit RoadBuilder(std::function<float(Vec2f)> height) : height_(std::move(height)) {}
 
   size_t AddJunction(Vec2f center, float radius, std::vector<SignalPhase> phases = {}, float offset = 0);
-  void AddRoad(RoadSpec road) { roads_.push_back(std::move(road)); }
+  /// A road so short and bent that a lane of it has no length is built straight; one that is too short even so, not at all.
+  void AddRoad(RoadSpec road);
   RoadNetwork Build() const;
 
  private:

@@ -6,6 +6,8 @@
 #include <functional>
 #include <set>
 
+#include "airsim360/base/random.h"
+
 namespace airsim360 {
 namespace {
 
@@ -93,12 +95,41 @@ TEST(RoadBuilder, OneWayRoadsThatEndNowhereAreLeftOut) {
   RoadBuilder builder(kFlat);
   const size_t a = builder.AddJunction({0, 0}, 5), b = builder.AddJunction({100, 0}, 5), c = builder.AddJunction({200, 0}, 5);
   builder.AddRoad({.from = a, .to = b, .axis = {{5, 0}, {95, 0}}, .forward = kOneLane, .backward = kOneLane});
-  builder.AddRoad({.from = b, .to = c, .axis = {{105, 0}, {195, 0}}, .forward = kOneLane});
+  builder.AddRoad({.from = b, .to = c, .axis = {{105, 0}, {195, 0}}, .forward = kOneLane, .backward = {}});
   const RoadNetwork roads = builder.Build();
   ASSERT_NO_THROW(CheckRoads(roads));
   for (const Lane& lane : roads.lanes)
     for (const Vec3f p : lane.points) EXPECT_LT(p.x, 106);
   EXPECT_GE(roads.lanes.size(), 4u);
+}
+
+// Streets of maps are as short and as bent as their mappers drew them: one bad lane takes the traffic of the whole town.
+TEST(RoadBuilder, WhateverIsDrawnIsANetwork) {
+  RngStream random(11, "streets");
+  size_t lanes = 0;
+  for (int town = 0; town < 400; ++town) {
+    RoadBuilder builder(kFlat);
+    std::vector<Vec2f> nodes;
+    const double size = std::exp(random.Uniform(0.5, 5));
+    const auto place = [&] { return Vec2f{static_cast<float>(random.Uniform(-size, size)), static_cast<float>(random.Uniform(-size, size))}; };
+    for (int i = 0; i < 6; ++i) {
+      nodes.push_back(place());
+      builder.AddJunction(nodes.back(), 8);
+    }
+    for (int i = 0; i < 9; ++i) {
+      const size_t from = random.Index(6), to = random.Index(6);
+      const Vec2f stub{static_cast<float>(random.Uniform(-1, 1)), static_cast<float>(random.Uniform(-1, 1))};
+      std::vector<Vec2f> axis{nodes[from] + stub};
+      for (size_t k = random.Index(4); k-- > 0;) axis.push_back(place());
+      axis.push_back(nodes[to] - stub);
+      const std::vector<RoadLane>& some = random.Chance(0.5) ? kOneLane : kTwoLanes;
+      builder.AddRoad({.from = from, .to = to, .axis = axis, .forward = some, .backward = random.Chance(0.3) ? std::vector<RoadLane>{} : some});
+    }
+    const RoadNetwork roads = builder.Build();
+    EXPECT_NO_THROW(CheckRoads(roads)) << "town " << town << " of " << size << " m";
+    lanes += roads.lanes.size();
+  }
+  EXPECT_GT(lanes, 10000u);
 }
 
 }  // namespace
