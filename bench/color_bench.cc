@@ -27,6 +27,7 @@
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/render/frame/test_room.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
 #include "ray_recorder.h"
 #include "scenes.h"
@@ -56,7 +57,7 @@ World MakeWorld(const std::string& name) {
   if (name == "instances")
     return {name, bench::BuildCity({.triangles = 2'000'000, .trees = 4000}), {0, 0, 30}};
   const auto scene = LoadWorld({.world = name});
-  return {name, scene, VecCast<double>(scene->spawn.value_or(scene->bounds.center()))};
+  return {name, scene, VecCast<double>(FirstViewpoint(*scene))};
 }
 
 double Now(bool processor) {

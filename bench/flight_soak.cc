@@ -15,6 +15,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/recording.h"
 
 namespace {
@@ -117,7 +118,7 @@ SimModel MakeModel(const std::string& world, int count) {
   const auto scene = LoadWorld({.world = world});
   SimModel model{.tracer = std::make_shared<const RayTracer>(scene)};
   model.wind.turbulence_6m = 3;
-  const Vec3d spawn = VecCast<double>(scene->spawn.value_or(scene->bounds.center()));
+  const Vec3d spawn = VecCast<double>(FirstViewpoint(*scene));
   for (int i = 0; i < count; ++i) {
     DroneSetup setup{.name = "drone " + std::to_string(i), .model = CatalogModel("hummingbird")};
     setup.model.battery = {.cells = 3, .capacity_ah = 2.2, .resistance = 0.02};

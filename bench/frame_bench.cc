@@ -16,6 +16,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/routes/survey.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/rig.h"
 #include "airsim360/sim/fly_route.h"
 
@@ -64,7 +65,7 @@ std::vector<RigidTransform> Poses(const std::shared_ptr<const RayTracer>& tracer
   if (spawn) {
     const Scene& scene = tracer->scene();
     poses.assign(static_cast<size_t>(frames),
-                 {{}, VecCast<double>(scene.spawn.value_or(scene.bounds.center()))});
+                 {{}, VecCast<double>(FirstViewpoint(scene))});
     return poses;
   }
   const auto route = std::make_shared<const Route>(PlanSurvey(*tracer, {}));

@@ -13,6 +13,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/capture.h"
 
 namespace {
@@ -99,7 +100,7 @@ int main(int argc, char** argv) {
   const double budget = std::atof(Argument(argc, argv, "--seconds", "3").c_str());
   const auto scene = LoadWorld({.world = world});
   const auto tracer = std::make_shared<const RayTracer>(scene);
-  const Vec3d p = VecCast<double>(scene->spawn.value_or(scene->bounds.center())) + Vec3d{0, 0, 1};
+  const Vec3d p = VecCast<double>(FirstViewpoint(*scene)) + Vec3d{0, 0, 1};
   std::printf("%s, %llu triangles, %d threads\n", world.c_str(),
               static_cast<unsigned long long>(scene->Count().instanced_triangles), ThreadCount());
   for (const int count : {1, 16, 1000}) {

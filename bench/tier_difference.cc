@@ -19,6 +19,7 @@
 #include "airsim360/opening/world_loader.h"
 #include "airsim360/projection/camera.h"
 #include "airsim360/render/renderer.h"
+#include "airsim360/scene/viewpoint.h"
 
 namespace {
 
@@ -49,7 +50,7 @@ std::vector<Pose> Poses(int argc, char** argv, const Scene& scene) {
     }
     poses.push_back(p);
   }
-  const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
+  const Vec3f spawn = FirstViewpoint(scene);
   if (poses.empty()) poses = {{spawn.x, spawn.y, spawn.z, 0}, {spawn.x, spawn.y, spawn.z + 12.0, 90}};
   return poses;
 }
@@ -137,9 +138,9 @@ int main(int argc, char** argv) {
   int count = 0;
   for (const Pose& pose : Poses(argc, argv, *scene)) {
     const Equirectangular camera{width, width / 2};
-    RenderRequest request{
-        .camera = camera,
-        .X_WC = BodyPose({pose.x, pose.y, pose.z}, pose.yaw_deg * M_PI / 180, 0, 0) * CameraInBody()};
+    RenderRequest request;
+    request.camera = camera;
+    request.X_WC = BodyPose({pose.x, pose.y, pose.z}, pose.yaw_deg * M_PI / 180, 0, 0) * CameraInBody();
     Image<Region> regions(width, width / 2);
     for (int y = 0; y < width / 2; ++y) {
       for (int x = 0; x < width; ++x) {

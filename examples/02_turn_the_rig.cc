@@ -16,9 +16,10 @@ int main() {
   Frame before, after;
   const double angle = kColumns * 2 * std::numbers::pi / kWidth;
   const auto capture = [&](double yaw, Frame& frame) {
-    renderer->Render({.camera = Equirectangular{kWidth, kWidth / 2},
-                      .X_WC = BodyPose({-1, 2, 1.5}, yaw, 0, 0) * CameraInBody()},
-                     frame);
+    RenderRequest request;
+    request.camera = Equirectangular{kWidth, kWidth / 2};
+    request.X_WC = BodyPose({-1, 2, 1.5}, yaw, 0, 0) * CameraInBody();
+    renderer->Render(request, frame);
   };
   capture(0, before);
   capture(angle, after);

@@ -163,13 +163,11 @@ void FinishScan(const EntityLabels* labels, LidarScan& scan) {
   for (LidarPoint& point : scan.points) point.category = labels->Of(point.entity, point.category);
 }
 
-void BindCapture(py::module_& m) {
-  py::list parts;
-  for (const char* name : kPartNames) parts.append(name);
-  m.attr("PARTS") = py::tuple(parts);
-  m.attr("PRODUCTS") = py::tuple(py::cast(ProductNames()));
-  m.attr("PICTURE_SETTINGS") =
-      py::tuple(py::cast(KeywordNames([](ConfigVisitor& v) { PictureSettings().Visit(v); })));
+namespace {
+
+using CaptureClass = py::class_<Capture, std::shared_ptr<Capture>>;
+
+void BindRig(py::module_& m) {
   py::class_<Rig> rig(m, "Rig", R"(A camera on a drone, panoramic unless told otherwise, and what it captures.
 
 width, height: pixels (height 0: half the width for panoramas, else the width). products: any of rgb, range, semantic,
@@ -196,11 +194,11 @@ pictures are made, as the flags of `airsim360 render` do.)");
           "width", [](const Rig& r) { return Width(r.rig.camera); }, "Pixels.")
       .def_property_readonly(
           "height", [](const Rig& r) { return Height(r.rig.camera); }, "Pixels.");
+}
 
-  py::class_<Capture, std::shared_ptr<Capture>>(
-      m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
-
-Pictures are views of this object's memory (no copies); one that the rig was not asked for is a ValueError.)")
+// Those that the renderer drew.
+void BindPlainPictures(CaptureClass& capture) {
+  capture
       .def("__repr__", &Describe)
       .def_property_readonly(
           "products", [](const Capture& c) { return PicturesOf(c).names; },
@@ -219,7 +217,12 @@ Pictures are views of this object's memory (no copies); one that the rig was not
       .def_property_readonly("albedo", Picture<float>(&Frame::albedo, 3, "albedo"),
                              "(H, W, 3) float32, linear base colour.")
       .def_property_readonly("material", Picture<uint16_t>(&Frame::material, 0, "material"),
-                             "(H, W) uint16, material index plus 1.")
+                             "(H, W) uint16, material index plus 1.");
+}
+
+// Those that are made of others or have another form.
+void BindOtherPictures(CaptureClass& capture) {
+  capture
       .def_property_readonly(
           "part",
           [](const py::object& self) {
@@ -241,7 +244,12 @@ Pictures are views of this object's memory (no copies); one that the rig was not
                              "(H, W, 3) float32, linear light.")
       .def_property_readonly(
           "flow", Picture<float>(&Frame::flow, 2, "flow"),  // dx, dy are first in the pixel
-          "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.")
+          "(H, W, 2) float32, pixels to where the point is flow_dt later if commands stay; x wraps.");
+}
+
+// When and how it was taken.
+void BindTrigger(CaptureClass& capture) {
+  capture
       .def(
           "tensor",
           [](const py::object& self, const std::string& product) {
@@ -276,12 +284,34 @@ Pictures are views of this object's memory (no copies); one that the rig was not
           "Milliseconds of rays and shading alone.")
       .def_property_readonly(
           "rays", [](const Capture& c) { return c.stats.rays; }, "Rays that were cast.");
+}
 
+void BindCudaCapture(py::module_& m) {
   py::class_<CudaCapture, Capture, std::shared_ptr<CudaCapture>>(m, "CudaCapture", R"(A capture whose pictures stay in memory of the GPU.
 
 rgb, range and so on are ValueErrors; tensor("rgb") is a tensor of CUDA for from_dlpack of torch, jax or cupy.)")
       .def("__repr__", [](const CudaCapture& c) { return Text("CudaCapture(at %s m, t = %.3f s)", Text(c.X_WC.p).c_str(), Seconds(c.t_ns)); })
       .def("tensor", &PictureOf, py::arg("product"), "A picture for from_dlpack of torch, jax or cupy, without a copy.");
+}
+
+}  // namespace
+
+void BindCapture(py::module_& m) {
+  py::list parts;
+  for (const char* name : kPartNames) parts.append(name);
+  m.attr("PARTS") = py::tuple(parts);
+  m.attr("PRODUCTS") = py::tuple(py::cast(ProductNames()));
+  m.attr("PICTURE_SETTINGS") =
+      py::tuple(py::cast(KeywordNames([](ConfigVisitor& v) { PictureSettings().Visit(v); })));
+  BindRig(m);
+  CaptureClass capture(
+      m, "Capture", R"(What one trigger gave: all pictures from the same rays at one instant.
+
+Pictures are views of this object's memory (no copies); one that the rig was not asked for is a ValueError.)");
+  BindPlainPictures(capture);
+  BindOtherPictures(capture);
+  BindTrigger(capture);
+  BindCudaCapture(m);
 }
 
 }  // namespace airsim360::python

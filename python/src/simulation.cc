@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "airsim360/base/error.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/traffic/traffic.h"
 #include "airsim360/sim/trajectory_reference.h"
 
@@ -33,7 +34,7 @@ RigidTransform StartOf(const Drone& drone, size_t i, size_t count, const Scene& 
   if (drone.p_WB) return BodyPose(*drone.p_WB, drone.yaw, 0, 0);
   const auto columns = static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   const auto half = 0.5 * static_cast<double>(columns - 1);
-  const Vec3d spawn = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  const Vec3d spawn = VecCast<double>(FirstViewpoint(scene));
   const Vec3d offset{static_cast<double>(i % columns) - half, static_cast<double>(i / columns) - half, 0};
   return BodyPose(spawn + kSpacing * offset, drone.yaw != 0 ? drone.yaw : scene.spawn_yaw_deg * M_PI / 180, 0,
                   0);

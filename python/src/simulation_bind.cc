@@ -59,9 +59,7 @@ py::dict ReplayFrom(const Simulation& sim, const Recording& recording, const Sna
   return d;
 }
 
-}  // namespace
-
-void BindSimulation(py::module_& m) {
+void BindSnapshot(py::module_& m) {
   py::class_<Snapshot>(
       m, "Snapshot",
       "Everything that changes in a simulation, at one instant. Simulation.restore goes back to it exactly.")
@@ -80,7 +78,9 @@ void BindSimulation(py::module_& m) {
             return StateView{s.model, s.state, i};
           },
           py::arg("drone") = 0, "DroneState of a drone by number, then.");
+}
 
+void BindRecording(py::module_& m) {
   py::class_<Recording, std::shared_ptr<Recording>>(m, "Recording",
                                                     "The commands of a run with hashes of its states.")
       .def("__repr__",
@@ -93,16 +93,10 @@ void BindSimulation(py::module_& m) {
       .def_static(
           "read", [](const std::string& path) { return std::make_shared<Recording>(ReadRecording(path)); },
           py::arg("path"), "ValueError for anything but a recording.");
+}
 
-  py::class_<Simulation> sim(
-      m, "Simulation", R"(Drones in a world, advanced in fixed steps of dt seconds; no clock but the steps.
-
-drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
-commands give the same bytes with any number of threads. people: how many
-walk about. wind: (3,) m/s in W, None: that of the world. The world says what draws the pictures.)");
-  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
-          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
-          py::arg("dt") = 0.001, py::arg("wind") = py::none())
+void BindTime(py::class_<Simulation>& sim) {
+  sim
       .def(
           "step",
           [](Simulation& s, int64_t n) {
@@ -121,7 +115,12 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
           py::arg("seconds"), "Takes the steps of so many simulated seconds.")
       .def("wait", &Wait, py::arg("drone") = 0, py::arg("timeout") = 60.0,
            "Takes steps until the drone's command has reached its end (a take-off its height, fly_to its place, a landing the "
-           "ground): True; or until it is refused or lost, or `timeout` simulated seconds are over: False.")
+           "ground): True; or until it is refused or lost, or `timeout` simulated seconds are over: False.");
+}
+
+// What is seen and measured now.
+void BindSensing(py::class_<Simulation>& sim) {
+  sim
       .def(
           "state",
           [](Simulation& s, const py::object& drone) {
@@ -165,7 +164,11 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
             const py::gil_scoped_release release;
             return s.Scan(lidar, i);
           },
-          py::arg("lidar"), py::arg("drone") = 0, "The same by the lidar of that name in the drone's sensor file.")
+          py::arg("lidar"), py::arg("drone") = 0, "The same by the lidar of that name in the drone's sensor file.");
+}
+
+void BindHistory(py::class_<Simulation>& sim) {
+  sim
       .def(
           "snapshot",
           [](Simulation& s) {
@@ -194,7 +197,11 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
           "hash", [](Simulation& s) { return HashState(*s.loop().Snapshot()); },
           "64 bits over every number of the state.")
       .def("events", &Simulation::Events,
-           "What happened since the last call: dictionaries with event, drone, t_ns, …")
+           "What happened since the last call: dictionaries with event, drone, t_ns, …");
+}
+
+void BindFacts(py::class_<Simulation>& sim) {
+  sim
       .def_property_readonly(
           "t", [](Simulation& s) { return static_cast<double>(s.loop().t_ns()) * 1e-9; },
           "Seconds since the start.")
@@ -221,6 +228,26 @@ walk about. wind: (3,) m/s in W, None: that of the world. The world says what dr
                              "The traffic now: dictionaries with entity, name, category, position and orientation in W, velocity, size, "
                              "indicator, braking, stopped.")
       .def_property_readonly("drones", &Simulation::names, "Names of the drones, in order.");
+}
+
+}  // namespace
+
+void BindSimulation(py::module_& m) {
+  BindSnapshot(m);
+  BindRecording(m);
+  py::class_<Simulation> sim(
+      m, "Simulation", R"(Drones in a world, advanced in fixed steps of dt seconds; no clock but the steps.
+
+drones: a number of hummingbirds, a Drone (or a name, words, a .yaml file), or a list of them. The same seed and the same
+commands give the same bytes with any number of threads. people: how many
+walk about. wind: (3,) m/s in W, None: that of the world. The world says what draws the pictures.)");
+  sim.def(py::init<std::shared_ptr<World>, const py::object&, int64_t, uint64_t, double, const py::object&>(),
+          py::arg("world"), py::arg("drones") = 1, py::arg("people") = 0, py::arg("seed") = 0,
+          py::arg("dt") = 0.001, py::arg("wind") = py::none());
+  BindTime(sim);
+  BindSensing(sim);
+  BindHistory(sim);
+  BindFacts(sim);
   BindCommands(sim);
   BindMissions(sim);
 }

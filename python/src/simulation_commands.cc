@@ -93,12 +93,11 @@ void BindHandCommands(py::class_<Simulation>& sim) {
           py::arg("wind"), "(3,) mean velocity of the air, m/s in W.");
 }
 
-}  // namespace
-
-void BindCommands(py::class_<Simulation>& sim) {
+void BindManoeuvres(py::class_<Simulation>& sim) {
   using O = const py::object&;
-  sim.def(
-         "arm", [](Simulation& s, O drone) { s.Post(drone, ArmCommand{}, 0); }, Drone0(), "Lets the rotors turn.")
+  sim
+      .def(
+          "arm", [](Simulation& s, O drone) { s.Post(drone, ArmCommand{}, 0); }, Drone0(), "Lets the rotors turn.")
       .def(
           "disarm", [](Simulation& s, O drone) { s.Post(drone, DisarmCommand{}, 0); }, Drone0(),
           "Stops the rotors, in the air too.")
@@ -123,7 +122,12 @@ void BindCommands(py::class_<Simulation>& sim) {
           },
           py::arg("height") = 5.0, py::arg("speed") = 0.0, py::arg("land") = true, Drone0(),
           "Climbs to at least `height` metres above where it was armed, flies there at `speed` m/s (0 = what the drone is made for), "
-          "and lands if `land`.")
+          "and lands if `land`.");
+}
+
+void BindWays(py::class_<Simulation>& sim) {
+  using O = const py::object&;
+  sim
       .def(
           "fly_velocity",
           [](Simulation& s, O v, bool body, O altitude, O yaw, O rate, O drone, double timeout) {
@@ -162,7 +166,12 @@ void BindCommands(py::class_<Simulation>& sim) {
                    0);
           },
           py::arg("plan"), NoYaw(), Drone0(),
-          "Follows a Plan from now on; yaw: a fixed heading, None = along the way.")
+          "Follows a Plan from now on; yaw: a fixed heading, None = along the way.");
+}
+
+void BindReset(py::class_<Simulation>& sim) {
+  using O = const py::object&;
+  sim
       .def(
           "reset_drone",
           [](Simulation& s, O position, double yaw, O airborne, O drone) {
@@ -174,6 +183,14 @@ void BindCommands(py::class_<Simulation>& sim) {
           },
           py::arg("position") = py::none(), py::arg("yaw") = 0.0, py::arg("airborne") = py::none(), Drone0(),
           "Puts a drone where it started, or somewhere else, as new.");
+}
+
+}  // namespace
+
+void BindCommands(py::class_<Simulation>& sim) {
+  BindManoeuvres(sim);
+  BindWays(sim);
+  BindReset(sim);
   BindHandCommands(sim);
 }
 

@@ -186,25 +186,9 @@ py::array State(const py::object& self) {
   return View(e.state().data(), {e.count(), StateColumns::kCount}, {kRow, sizeof(float)}, self);
 }
 
-}  // namespace
+using E = VectorEnvironment;
 
-void BindVectorEnvironment(py::module_& m) {
-  using E = VectorEnvironment;
-  py::class_<E> environment(
-      m, "VectorEnvironment",
-      "Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step "
-      "writes into them.");
-  {
-    py::options options;
-    options.disable_function_signatures();
-    environment.def(
-        py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
-        py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity",
-        py::arg("width") = 128, py::arg("height") = 0, py::kw_only(),
-        py::arg("observations") = std::vector<std::string>{"rgb", "range"}, py::arg("period") = 0.1,
-        py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
-        py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
-  }
+void BindActions(py::class_<E>& environment) {
   environment
       .def(
           "reset",
@@ -234,7 +218,12 @@ void BindVectorEnvironment(py::module_& m) {
       .def("__repr__",
            [](const E& e) {
              return Text("VectorEnvironment(%d of %dx%d)", e.count(), e.options().width, e.options().height);
-           })
+           });
+}
+
+// What stands after each step, one row an environment.
+void BindArrays(py::class_<E>& environment) {
+  environment
       .def_property_readonly("count", &E::count, "Environments.")
       .def_property_readonly("action_size", &E::action_size, "Numbers of an action.")
       .def_property_readonly(
@@ -252,7 +241,11 @@ void BindVectorEnvironment(py::module_& m) {
       .def_property_readonly("terminated", Flags(&E::terminated), "(count,) bool: reached or crashed")
       .def_property_readonly("truncated", Flags(&E::truncated), "(count,) bool: out of time")
       .def_property_readonly("reached", Flags(&E::reached), "(count,) bool")
-      .def_property_readonly("crashed", Flags(&E::crashed), "(count,) bool")
+      .def_property_readonly("crashed", Flags(&E::crashed), "(count,) bool");
+}
+
+void BindEpisodes(py::class_<E>& environment) {
+  environment
       .def(
           "pose_of",
           [](const E& e, int i) {
@@ -270,6 +263,29 @@ void BindVectorEnvironment(py::module_& m) {
           },
           py::arg("environment"), "(3,) goal in W.")
       .def("hash", &E::Hash, "64 bits over every number of all simulations.");
+}
+
+}  // namespace
+
+void BindVectorEnvironment(py::module_& m) {
+  py::class_<E> environment(
+      m, "VectorEnvironment",
+      "Many drones that learn at once (see airsim360.gym). Arrays stay where they are: each step "
+      "writes into them.");
+  {
+    py::options options;
+    options.disable_function_signatures();
+    environment.def(
+        py::init(&Make), py::arg("world"), py::arg("task") = "reach", py::arg("task_options") = py::dict(),
+        py::arg("count") = 1, py::arg("drone") = "hummingbird", py::arg("action") = "velocity",
+        py::arg("width") = 128, py::arg("height") = 0, py::kw_only(),
+        py::arg("observations") = std::vector<std::string>{"rgb", "range"}, py::arg("period") = 0.1,
+        py::arg("max_speed") = 3.0, py::arg("max_turn") = 1.5, py::arg("max_rate") = 6.0,
+        py::arg("level") = false, py::arg("auto_reset") = true, py::arg("seed") = 0, Documentation().c_str());
+  }
+  BindActions(environment);
+  BindArrays(environment);
+  BindEpisodes(environment);
 }
 
 }  // namespace airsim360::python

@@ -6,6 +6,7 @@
 #include "airsim360/base/file.h"
 #include "airsim360/base/parallel.h"
 #include "airsim360/opening/world_loader.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sensors/surface_label.h"
 #include "airsim360/worlds/worlds.h"
 #include "handles.h"
@@ -194,30 +195,27 @@ std::shared_ptr<World> OpenWorld(const std::string& name, uint64_t seed, bool mo
   return std::make_shared<World>(options);
 }
 
-}  // namespace
+using WorldClass = py::class_<World, std::shared_ptr<World>>;
 
-void BindWorld(py::module_& m) {
-  m.def("worlds", &ListOfWorlds,
-        "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
-  m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
-  py::class_<World, std::shared_ptr<World>>(
-      m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml.
+size_t Relabel(World& w, const py::dict& labels) {
+  std::vector<LabelPattern> patterns;
+  for (const auto& [pattern, category] : labels) {
+    if (!py::isinstance<py::str>(pattern) || !py::isinstance<py::str>(category))
+      throw InputError("relabel: give a dictionary of name pattern -> category path");
+    patterns.push_back({pattern.cast<std::string>(), category.cast<std::string>()});
+  }
+  std::vector<std::string> unused;
+  const size_t changed = w.Relabel(patterns, unused);
+  for (const std::string& pattern : unused) {
+    if (PyErr_WarnEx(PyExc_UserWarning, ("relabel: '" + pattern + "' matches no entity").c_str(), 1) < 0)
+      throw py::error_already_set();
+  }
+  return changed;
+}
 
-`labels` is a label file: categories by patterns of names (docs/guide/labels.md).
-
-`device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
-says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
-`weather`, `clouds`, `sky_seed`, `sun`, `time`, `place`, `hdri` and `environment` are the light instead of the world's own, as the
-flags of those names of `airsim360 render`. `bbox`, `centre` and `radius` cut a piece out of a map, likewise. `people`: a number, or the path of a
-people .yaml; they live in simulations of it, and captures of the world show them where they begin. `traffic`: how many vehicles drive, likewise. `wind`: a wind file, for
-simulations.
-
-ValueError names the nearest world where there is none of that name.)")
-      .def(py::init(&OpenWorld), py::arg("name"), py::arg("seed") = 0, py::arg("models") = true, py::kw_only(),
-           py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "",
-           py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "",
-           py::arg("clouds") = "", py::arg("sky_seed") = "", py::arg("bbox") = "",
-           py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "", py::arg("traffic") = 0)
+// What is in it.
+void BindContent(WorldClass& world) {
+  world
       .def("__repr__",
            [](const World& w) {
              const SceneCounts counts = w.scene().Count();
@@ -242,21 +240,7 @@ ValueError names the nearest world where there is none of that name.)")
           "Category id -> path.")
       .def(
           "relabel",
-          [](World& w, const py::dict& labels) {
-            std::vector<LabelPattern> patterns;
-            for (const auto& [pattern, category] : labels) {
-              if (!py::isinstance<py::str>(pattern) || !py::isinstance<py::str>(category))
-                throw InputError("relabel: give a dictionary of name pattern -> category path");
-              patterns.push_back({pattern.cast<std::string>(), category.cast<std::string>()});
-            }
-            std::vector<std::string> unused;
-            const size_t changed = w.Relabel(patterns, unused);
-            for (const std::string& pattern : unused) {
-              if (PyErr_WarnEx(PyExc_UserWarning, ("relabel: '" + pattern + "' matches no entity").c_str(), 1) < 0)
-                throw py::error_already_set();
-            }
-            return changed;
-          },
+          &Relabel,
           py::arg("labels"),
           "Categories by patterns of entity names ({'node/22*': 'furniture/misc'}; * any characters, ? one; the first that matches "
           "counts; paths that the tree lacks are added), from the next capture or scan on, in this world and its simulations. "
@@ -267,12 +251,17 @@ ValueError names the nearest world where there is none of that name.)")
       .def_property_readonly(
           "spawn",
           [](const World& w) {
-            return FromVec3(VecCast<double>(w.scene().spawn.value_or(w.scene().bounds.center())));
+            return FromVec3(VecCast<double>(FirstViewpoint(w.scene())));
           },
           "(3,) a good first viewpoint in W, metres.")
       .def_property_readonly("triangles",
                              [](const World& w) { return w.scene().Count().instanced_triangles; },
-                             "Triangles, those of every copy of a mesh counted.")
+                             "Triangles, those of every copy of a mesh counted.");
+}
+
+// What rays, a rig and a lidar meet.
+void BindSensing(WorldClass& world) {
+  world
       .def("raycast", &Raycast, py::arg("origins"), py::arg("directions"),
            "Nearest surfaces along rays: origins and directions (N, 3) in W -> range (N,) float32 metres (0 "
            "= nothing), "
@@ -305,6 +294,34 @@ ValueError names the nearest world where there is none of that name.)")
           },
           py::arg("position"), py::arg_v("lidar", Lidar{}, "Lidar()"), py::arg("yaw") = 0.0, py::arg("pitch") = 0.0,
           py::arg("roll") = 0.0, "LidarScan of one turn by a body that stands still, as capture.");
+}
+
+}  // namespace
+
+void BindWorld(py::module_& m) {
+  m.def("worlds", &ListOfWorlds,
+        "The built-in worlds: dictionaries with name, setting, area_m2, categories, description.");
+  m.def("gpus", &Gpus, "GPUs of this machine: dictionaries with index, name, driver, software, missing (what it lacks to render), uuid.");
+  WorldClass world(
+      m, "World", R"(A world by name, or a path to .glb, .gltf, .obj, .osm, CityJSON or world .yaml.
+
+`labels` is a label file: categories by patterns of names (docs/guide/labels.md).
+
+`device` draws the pictures of it and of simulations in it: "auto" (a GPU where there is one), "cpu", or "vulkan" (RuntimeError
+says why where there is none); `gpu` is the number of one among several, as `airsim360 doctor` lists them.
+`weather`, `clouds`, `sky_seed`, `sun`, `time`, `place`, `hdri` and `environment` are the light instead of the world's own, as the
+flags of those names of `airsim360 render`. `bbox`, `centre` and `radius` cut a piece out of a map, likewise. `people`: a number, or the path of a
+people .yaml; they live in simulations of it, and captures of the world show them where they begin. `traffic`: how many vehicles drive, likewise. `wind`: a wind file, for
+simulations.
+
+ValueError names the nearest world where there is none of that name.)");
+  world.def(py::init(&OpenWorld), py::arg("name"), py::arg("seed") = 0, py::arg("models") = true, py::kw_only(),
+           py::arg("labels") = "", py::arg("device") = "auto", py::arg("gpu") = -1, py::arg("weather") = "", py::arg("sun") = "",
+           py::arg("time") = "", py::arg("place") = "", py::arg("hdri") = "", py::arg("environment") = "",
+           py::arg("clouds") = "", py::arg("sky_seed") = "", py::arg("bbox") = "",
+           py::arg("centre") = "", py::arg("radius") = 0.0, py::arg("people") = 0, py::arg("wind") = "", py::arg("traffic") = 0);
+  BindContent(world);
+  BindSensing(world);
 }
 
 }  // namespace airsim360::python

@@ -15,6 +15,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/dataset/record/version.h"
 #include "airsim360/flight/drones/catalog.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/sim_loop.h"
 
 namespace airsim360 {
@@ -50,7 +51,7 @@ std::vector<Tier> TiersOf(const BenchArguments& arguments) {
   return tiers;
 }
 
-Vec3d SpawnOf(const Scene& scene) { return VecCast<double>(scene.spawn.value_or(scene.bounds.center())); }
+Vec3d SpawnOf(const Scene& scene) { return VecCast<double>(FirstViewpoint(scene)); }
 
 // Panoramas from the spawn, each turned on a little; the first, which fills caches, does not count.
 TierSpeed TimeFrames(Stage& stage, Tier tier, ImageSize size, int frames) {

@@ -27,6 +27,7 @@
 #include "airsim360/flight/prompt/drone_file.h"
 #include "airsim360/planning/time_allocation.h"
 #include "airsim360/routes/route_file.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/trajectory_reference.h"
 
 namespace airsim360 {
@@ -91,7 +92,7 @@ void SetStart(const FlyArguments& arguments, const Scene& scene, const Polynomia
     const PoseArgument pose = ParsePose(arguments.pose);
     setup.X_WB = BodyPose(pose.p, pose.yaw_deg * kRadians, 0, 0);
   } else {
-    setup.X_WB = BodyPose(VecCast<double>(scene.spawn.value_or(scene.bounds.center())),
+    setup.X_WB = BodyPose(VecCast<double>(FirstViewpoint(scene)),
                           scene.spawn_yaw_deg * kRadians, 0, 0);
   }
 }

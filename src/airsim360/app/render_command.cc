@@ -17,6 +17,7 @@
 #include "airsim360/app/session.h"
 #include "airsim360/app/world_flags.h"
 #include "airsim360/base/error.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/people_survey.h"
 #include "airsim360/sim/traffic/traffic.h"
 
@@ -43,7 +44,7 @@ std::string Number(double value) {
 
 // The scene's first viewpoint: facing east, or from outside the scene facing its middle.
 PoseArgument ScenePose(const Scene& scene) {
-  const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
+  const Vec3f spawn = FirstViewpoint(scene);
   PoseArgument pose;
   pose.p = VecCast<double>(spawn);
   pose.yaw_deg = scene.spawn_yaw_deg;

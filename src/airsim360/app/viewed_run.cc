@@ -161,7 +161,9 @@ ViewedRun::World& ViewedRun::Enter(const LanguageEpisode& e) {
     worlds_.splice(worlds_.begin(), worlds_, found);
   } else {
     while (worlds_.size() >= kMostWorlds) worlds_.pop_back();
-    worlds_.push_front({.key = key, .stage = options_.open(e.world, e.world_seed, e.people)});
+    worlds_.emplace_front();
+    worlds_.front().key = key;
+    worlds_.front().stage = options_.open(e.world, e.world_seed, e.people);
   }
   World& world = worlds_.front();
   if (!world.renderer || world.weather != e.weather) {

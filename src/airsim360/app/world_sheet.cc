@@ -17,6 +17,7 @@
 #include "airsim360/image/codecs.h"
 #include "airsim360/image/color.h"
 #include "airsim360/image/draw.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/worlds/survey/world_survey.h"
 
 namespace airsim360 {
@@ -35,7 +36,7 @@ bool OnGround(const Scene& scene, const SurfaceRef& surface) {
 // Open places near the spawn: nothing but ground below, air around at every height.
 std::vector<Vec3f> ChoosePlaces(Stage& stage, const SheetArguments& arguments, uint64_t seed) {
   const Scene& scene = stage.scene();
-  const Vec3f spawn = scene.spawn.value_or(scene.bounds.center());
+  const Vec3f spawn = FirstViewpoint(scene);
   RngStream rng(seed, "world sheet");
   std::vector<Vec3f> places;
   for (int tries = 0; tries < 4000 && static_cast<int>(places.size()) < arguments.poses; ++tries) {

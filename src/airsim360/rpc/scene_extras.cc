@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "airsim360/rpc/airsim_drone.h"
+#include "airsim360/scene/viewpoint.h"
 
 namespace airsim360 {
 namespace {
@@ -108,7 +109,7 @@ size_t CopiesOf(const SpawnAsset& asset) {
 
 std::vector<DroneBodySpec> ExtraBodies(const Scene& scene, const AirSimSettings& settings,
                                        const std::vector<SpawnAsset>& assets) {
-  const Vec3d somewhere = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  const Vec3d somewhere = VecCast<double>(FirstViewpoint(scene));
   std::vector<DroneBodySpec> bodies;
   const Model drone = DroneBodyModel(AirSimQuad());
   for (const auto& [name, vehicle] : settings.vehicles) {

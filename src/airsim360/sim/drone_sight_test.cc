@@ -27,8 +27,10 @@ struct TwoInTheRoom {
           {"lidar", {.channels = 32, .columns = 720, .low_deg = -20, .high_deg = 20, .sigma = 0}}};
       setup.sensors.range_finders = {
           {"ahead", {.mount = {}, .beam_deg = 6, .sigma = 0, .sigma_per_metre = 0}}};
-      setup.sensors.cameras = {{"panorama", {.width = 512, .height = 256}}};
-      setup.sensors.cameras[0].spec.tier = Tier::kLabels;
+      CameraSpec panorama;
+      panorama.width = 512, panorama.height = 256;
+      panorama.tier = Tier::kLabels;
+      setup.sensors.cameras = {{"panorama", panorama}};
       bodies.push_back({"drone", DroneBodyModel(setup.model), setup.X_WB});
     }
     base = std::make_shared<const RayTracer>(AddDroneBodies(BuildWorld("box_room", {}), bodies, refs));

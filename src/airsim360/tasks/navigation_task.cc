@@ -9,6 +9,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/base/random.h"
 #include "airsim360/routes/roadmap.h"
+#include "airsim360/scene/viewpoint.h"
 
 namespace airsim360 {
 namespace {
@@ -94,7 +95,7 @@ NavigationWorld::NavigationWorld(std::shared_ptr<const RayTracer> tracer, const 
     : tracer_(std::move(tracer)), task_(task) {
   CheckTask(task_);
   const Scene& scene = tracer_->scene();
-  const Vec3d spawn = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  const Vec3d spawn = VecCast<double>(FirstViewpoint(scene));
   std::vector<Vec3d> places = FindFreePlaces(*tracer_, {.seed = 0,
                                                         .radius = task_.clearance,
                                                         .min_height = task_.min_height,

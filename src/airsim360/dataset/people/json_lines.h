@@ -1,6 +1,7 @@
 // Walking through JSON lines of this program.
 #pragma once
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 

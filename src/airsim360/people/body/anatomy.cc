@@ -121,56 +121,41 @@ void FinishSkeleton(Body& body) {
   size.hip_half_width = std::abs(q[At(Joint::kLeftHip)].y);
 }
 
-std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
+namespace {
+
+struct SocketList {
+  const Proportions& p;
+  const std::array<Vec3d, kJointCount>& q;  // joints at rest, in P
   const double H = p.stature;
-  const auto& q = body.p_PJ;
-  std::vector<Socket> sockets;
-  // A point given in P at rest; both sides at once where the name starts with left.
-  const auto add = [&](std::string_view name, Joint joint, Vec3d p_P, double radius) {
+  std::vector<Socket> sockets = {};
+
+  // A point given in P at rest; its radius as a share of the stature.
+  void Add(std::string_view name, Joint joint, Vec3d p_P, double radius) {
     sockets.push_back({std::string(name), joint, p_P - q[At(joint)], radius * H});
-  };
-  const auto add_joint = [&](std::string_view name, Joint joint, double radius) {
-    add(name, joint, q[At(joint)], radius);
-  };
-  const auto pair = [&](std::string_view name, Joint joint, Vec3d p_P, double radius) {
-    add("left_" + std::string(name), joint, p_P, radius);
-    add("right_" + std::string(name), MirrorOf(joint), {p_P.x, -p_P.y, p_P.z}, radius);
-  };
-  const auto joint_pair = [&](std::string_view name, Joint joint, double radius) {
-    pair(name, joint, q[At(joint)], radius);
-  };
-  const double top = H, chin = H * (1 - p.head), head = H * p.head;
-  // A few millimetres below the skin, so that no camera sees past them.
-  add("nose", Joint::kHead, {0.575 * head, 0, chin + 0.365 * head}, 0.010);
-  pair("eye", Joint::kHead, {0.385 * head, 0.145 * head, chin + 0.50 * head}, 0.008);
-  pair("ear", Joint::kHead, {-0.01 * head, (p.female ? 0.317 : 0.33) * head, chin + 0.43 * head}, 0.010);
-  joint_pair("shoulder", Joint::kLeftShoulder, 0.040);
-  joint_pair("elbow", Joint::kLeftElbow, 0.026);
-  joint_pair("wrist", Joint::kLeftWrist, 0.018);
-  joint_pair("hip", Joint::kLeftHip, 0.062);
-  joint_pair("knee", Joint::kLeftKnee, 0.036);
-  joint_pair("ankle", Joint::kLeftAnkle, 0.026);
-  add("head_top", Joint::kHead, {0.02 * head, 0, top - 0.025 * head}, 0.008);
-  add("head_center", Joint::kHead, {0.06 * head, 0, chin + 0.52 * head}, 0.055);
-  add_joint("neck", Joint::kNeck, 0.036);
-  add("chin", Joint::kHead, {0.385 * head, 0, chin + 0.03 * head}, 0.010);
-  add("mid_hip", Joint::kPelvis, {0, 0, q[At(Joint::kLeftHip)].z}, 0.070);
-  add_joint("pelvis", Joint::kPelvis, 0.070);
-  add_joint("spine1", Joint::kSpine1, 0.070);
-  add_joint("spine2", Joint::kSpine2, 0.070);
-  add_joint("spine3", Joint::kSpine3, 0.075);
-  joint_pair("clavicle", Joint::kLeftClavicle, 0.045);
-  // Feet: COCO-WholeBody names big toe, small toe, heel, one side after the other.
+  }
+  void AddJoint(std::string_view name, Joint joint, double radius) { Add(name, joint, q[At(joint)], radius); }
+  // Both sides, given the left one.
+  void Pair(std::string_view name, Joint joint, Vec3d p_P, double radius) {
+    Add("left_" + std::string(name), joint, p_P, radius);
+    Add("right_" + std::string(name), MirrorOf(joint), {p_P.x, -p_P.y, p_P.z}, radius);
+  }
+  void JointPair(std::string_view name, Joint joint, double radius) { Pair(name, joint, q[At(joint)], radius); }
+};
+
+// COCO-WholeBody names big toe, small toe, heel, one side after the other.
+void AddToesAndHeels(SocketList& list) {
   for (const double side : {1.0, -1.0}) {
     const std::string name = side > 0 ? "left_" : "right_";
     const Joint toes = side > 0 ? Joint::kLeftToes : Joint::kRightToes;
     const Joint ankle = side > 0 ? Joint::kLeftAnkle : Joint::kRightAnkle;
-    const double y = side * p.hip_half * H;
-    add(name + "big_toe", toes, {0.105 * H, y - side * 0.010 * H, 0.012 * H}, 0.012);
-    add(name + "small_toe", toes, {0.082 * H, y + side * 0.020 * H, 0.012 * H}, 0.010);
-    add(name + "heel", ankle, {-0.040 * H, y, 0.014 * H}, 0.014);
+    const double y = side * list.p.hip_half * list.H;
+    list.Add(name + "big_toe", toes, {0.105 * list.H, y - side * 0.010 * list.H, 0.012 * list.H}, 0.012);
+    list.Add(name + "small_toe", toes, {0.082 * list.H, y + side * 0.020 * list.H, 0.012 * list.H}, 0.010);
+    list.Add(name + "heel", ankle, {-0.040 * list.H, y, 0.014 * list.H}, 0.014);
   }
-  joint_pair("hand", Joint::kLeftFingers1, 0.012);
+}
+
+void AddFingerTips(SocketList& list) {
   for (const double side : {1.0, -1.0}) {
     const std::string name = side > 0 ? "left_" : "right_";
     const Joint thumb = side > 0 ? Joint::kLeftThumb2 : Joint::kRightThumb2;
@@ -178,11 +163,41 @@ std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
     const Joint thumb1 = side > 0 ? Joint::kLeftThumb1 : Joint::kRightThumb1;
     const Vec3d along = Normalized(Vec3d{0, side, -1});
     // In the last pad of the thumb and of the middle finger, which lies towards the thumb of the hand's middle.
-    add(name + "thumb_tip", thumb, q[At(thumb)] + (q[At(thumb)] - q[At(thumb1)]) * 0.6, 0.006);
-    add(name + "finger_tip", finger, q[At(finger)] + 0.022 * H * along + Vec3d{0.0054 * H, 0, 0}, 0.006);
+    list.Add(name + "thumb_tip", thumb, list.q[At(thumb)] + (list.q[At(thumb)] - list.q[At(thumb1)]) * 0.6, 0.006);
+    list.Add(name + "finger_tip", finger, list.q[At(finger)] + 0.022 * list.H * along + Vec3d{0.0054 * list.H, 0, 0}, 0.006);
   }
-  joint_pair("foot", Joint::kLeftToes, 0.020);
-  return sockets;
+}
+
+}  // namespace
+
+std::vector<Socket> ProceduralSockets(const Body& body, const Proportions& p) {
+  SocketList list{p, body.p_PJ};
+  const double top = p.stature, chin = top * (1 - p.head), head = top * p.head;
+  // A few millimetres below the skin, so that no camera sees past them.
+  list.Add("nose", Joint::kHead, {0.575 * head, 0, chin + 0.365 * head}, 0.010);
+  list.Pair("eye", Joint::kHead, {0.385 * head, 0.145 * head, chin + 0.50 * head}, 0.008);
+  list.Pair("ear", Joint::kHead, {-0.01 * head, (p.female ? 0.317 : 0.33) * head, chin + 0.43 * head}, 0.010);
+  list.JointPair("shoulder", Joint::kLeftShoulder, 0.040);
+  list.JointPair("elbow", Joint::kLeftElbow, 0.026);
+  list.JointPair("wrist", Joint::kLeftWrist, 0.018);
+  list.JointPair("hip", Joint::kLeftHip, 0.062);
+  list.JointPair("knee", Joint::kLeftKnee, 0.036);
+  list.JointPair("ankle", Joint::kLeftAnkle, 0.026);
+  list.Add("head_top", Joint::kHead, {0.02 * head, 0, top - 0.025 * head}, 0.008);
+  list.Add("head_center", Joint::kHead, {0.06 * head, 0, chin + 0.52 * head}, 0.055);
+  list.AddJoint("neck", Joint::kNeck, 0.036);
+  list.Add("chin", Joint::kHead, {0.385 * head, 0, chin + 0.03 * head}, 0.010);
+  list.Add("mid_hip", Joint::kPelvis, {0, 0, body.p_PJ[At(Joint::kLeftHip)].z}, 0.070);
+  list.AddJoint("pelvis", Joint::kPelvis, 0.070);
+  list.AddJoint("spine1", Joint::kSpine1, 0.070);
+  list.AddJoint("spine2", Joint::kSpine2, 0.070);
+  list.AddJoint("spine3", Joint::kSpine3, 0.075);
+  list.JointPair("clavicle", Joint::kLeftClavicle, 0.045);
+  AddToesAndHeels(list);
+  list.JointPair("hand", Joint::kLeftFingers1, 0.012);
+  AddFingerTips(list);
+  list.JointPair("foot", Joint::kLeftToes, 0.020);
+  return std::move(list.sockets);
 }
 
 }  // namespace internal

@@ -1,6 +1,8 @@
 // The shapes of a procedural person.
 #pragma once
 
+#include <algorithm>
+
 #include "airsim360/people/body/anatomy.h"
 #include "airsim360/people/body/loft.h"
 #include "airsim360/people/body/wardrobe.h"

@@ -53,6 +53,8 @@ bool IsFinite(const RigidTransform& X) {
 }
 
 bool IsLit(Tier tier) { return tier == Tier::kFast || tier == Tier::kHigh; }
+// Whether the shaded centre rays are the picture.
+bool IsDirect(Tier tier) { return tier != Tier::kHigh && tier != Tier::kReference; }
 
 class CpuRenderer : public Renderer, public Relightable {
  public:
@@ -80,6 +82,10 @@ class CpuRenderer : public Renderer, public Relightable {
   }
   void SetState(const std::shared_ptr<const SceneState>& state);
   void ResizeFrame(const RenderRequest& request, bool color, bool edges, Frame& frame);
+  void PrepareLight(RenderRequest& request);
+  uint64_t RenderProducts(const RenderRequest& request, bool color, Frame& frame);
+  void FinishColor(RenderRequest& request, Frame& frame);
+  uint64_t Antialias(const RenderRequest& request, Frame& frame);
   uint64_t RenderTiles(const RenderRequest& request, bool color, Frame& frame);
   void RenderTile(const RenderRequest& request, bool color, int tile, Frame& frame);
   uint64_t RenderPaths(const RenderRequest& request, Image<Rgb32f>& radiance);
@@ -91,6 +97,9 @@ class CpuRenderer : public Renderer, public Relightable {
   }
   Image<Rgb32f>& RadianceOf(Frame& frame) {
     return !frame.radiance.empty() ? frame.radiance : !frame.light.empty() ? frame.light : radiance_;
+  }
+  const Image<EntityId>& EntityOf(const RenderRequest& request, const Frame& frame) const {
+    return request.products.entity ? frame.entity : entity_;
   }
   // Near the poles a 4x4 block is a sliver; a row is about as wide as it is long.
   PacketShape Shape(int row) const {
@@ -167,70 +176,82 @@ bool CpuRenderer::SetEnvironment(const Environment& environment) {
   return true;
 }
 
+// The shader that the picture needs, and how its exposure is chosen.
+void CpuRenderer::PrepareLight(RenderRequest& request) {
+  if (shader_ == nullptr) {
+    shader_ = std::make_unique<Shader>(tracer_, environment_);
+    shader_->Apply(applied_);
+  }
+  if (!rooms_) return;
+  if (IsLit(request.tier)) shader_->PrepareIndoors();
+  // Rooms are so much darker than the day that its exposure shows nothing of them.
+  if (!request.light && request.exposure_ev == 0 && !std::holds_alternative<CubeFace>(request.camera) &&
+      shader_->IsIndoors(VecCast<float>(request.X_WC.p)))
+    request.auto_exposure = true;
+}
+
+// Every product but the colours of edges. Returns the number of rays.
+uint64_t CpuRenderer::RenderProducts(const RenderRequest& request, bool color, Frame& frame) {
+  const bool paths = color && request.tier == Tier::kReference, high = color && request.tier == Tier::kHigh;
+  const bool surface = SurfaceProducts::Wanted(request.products);
+  if (surface) {
+    const bool moves_on = request.products.flow && request.next_state != nullptr;
+    products_.Update(request, rays_, shader_.get(), applied_,
+                     moves_on ? dynamic_.At(request.next_state) : applied_);
+  }
+  // Tier high fills the labels alone: what else comes from the centre rays is traced as in tier labels.
+  uint64_t rays = 0;
+  if (high) rays += high_->Render(*applied_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
+  if (!high || surface || request.products.coverage) rays += RenderTiles(request, color && !paths && !high, frame);
+  if (paths) rays += RenderPaths(request, RadianceOf(frame));
+  if (request.products.coverage) {
+    rays += static_cast<uint64_t>(coverage_.Run(
+        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), EdgeSamples(request), &EntityOf(request, frame)},
+        frame.coverage));
+  }
+  return rays;
+}
+
+// Linear light to display colours, at the picture's own exposure if asked.
+void CpuRenderer::FinishColor(RenderRequest& request, Frame& frame) {
+  const Image<Rgb32f>& radiance = RadianceOf(frame);
+  if (request.auto_exposure) {
+    request.exposure_ev += AutoExposureEv(radiance, request.camera, shader_->Exposure(), shader_->MostExposure());
+    frame.exposure = ExposureOf(request);
+  }
+  if (!IsDirect(request.tier) || request.auto_exposure) Develop(request.tone, radiance, frame);
+  if (request.light) {
+    if (request.products.radiance) frame.light = frame.radiance;
+    frame.daylight = DaylightAt(*applied_, *shader_, labels_, VecCast<float>(request.X_WC.p));
+  }
+}
+
+// More colour samples on edges; returns the number of rays.
+uint64_t CpuRenderer::Antialias(const RenderRequest& request, Frame& frame) {
+  antialiaser_.FindEdges(EntityOf(request, frame), luma_, rays_.field().separable, edges_);
+  return static_cast<uint64_t>(
+      antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
+                        request.exposure_ev, EdgeSamples(request), &edges_, &frame.rgb, &sun_, request.tone,
+                        request.light ? &frame.light : nullptr}));
+}
+
 RenderStats CpuRenderer::Render(const RenderRequest& asked, Frame& frame) {
   RenderRequest request = asked;
   if (!IsFinite(request.X_WC)) throw InputError("camera pose is not finite");
   const Products& products = request.products;
   const bool color = (products.rgb || products.radiance || request.light) && request.tier != Tier::kLabels;
-  if (color && shader_ == nullptr) {
-    shader_ = std::make_unique<Shader>(tracer_, environment_);
-    shader_->Apply(applied_);
-  }
-  if (rooms_ && color && IsLit(request.tier)) shader_->PrepareIndoors();
-  // Rooms are so much darker than the day that its exposure shows nothing of them.
-  if (rooms_ && color && !request.light && request.exposure_ev == 0 && !std::holds_alternative<CubeFace>(request.camera) &&
-      shader_->IsIndoors(VecCast<float>(request.X_WC.p)))
-    request.auto_exposure = true;
+  if (color) PrepareLight(request);
   SetState(request.state);
   const auto start = std::chrono::steady_clock::now();
   rays_.Update(request.camera, request.X_WC.R);
-  if (SurfaceProducts::Wanted(request.products)) {
-    const bool moves_on = request.products.flow && request.next_state != nullptr;
-    products_.Update(request, rays_, shader_.get(), applied_,
-                     moves_on ? dynamic_.At(request.next_state) : applied_);
-  }
-  const bool paths = color && request.tier == Tier::kReference, high = color && request.tier == Tier::kHigh;
-  const int edge_samples = EdgeSamples(request);
-  const bool antialias = color && (products.rgb || request.light) && !paths && !high && edge_samples > 1;
+  const bool antialias = color && (products.rgb || request.light) && IsDirect(request.tier) && EdgeSamples(request) > 1;
   ResizeFrame(request, color, antialias, frame);
   frame.exposure = color ? ExposureOf(request) : 1;
 
-  // Tier high fills the labels alone: what else comes from the centre rays is traced as in tier labels.
   RenderStats stats;
-  if (high)
-    stats.rays += high_->Render(*applied_, *shader_, rays_, labels_, request, RadianceOf(frame), frame);
-  const bool more = SurfaceProducts::Wanted(request.products) || request.products.coverage;
-  if (!high || more) stats.rays += RenderTiles(request, color && !paths && !high, frame);
-  if (paths) stats.rays += RenderPaths(request, RadianceOf(frame));
-  if (request.products.coverage) {
-    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
-    stats.rays += static_cast<uint64_t>(coverage_.Run(
-        {applied_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p), edge_samples, &entity},
-        frame.coverage));
-  }
-
-  // Linear light to display colours, at the picture's own exposure if asked.
-  if (color && request.auto_exposure) {
-    request.exposure_ev += AutoExposureEv(RadianceOf(frame), request.camera, shader_->Exposure(), shader_->MostExposure());
-    frame.exposure = ExposureOf(request);
-  }
-  if (high || paths || (color && request.auto_exposure)) Develop(request.tone, RadianceOf(frame), frame);
-
-  if (color && request.light) {
-    if (products.radiance) frame.light = frame.radiance;
-    frame.daylight = DaylightAt(*applied_, *shader_, labels_, VecCast<float>(request.X_WC.p));
-  }
-
-  // More colour samples on edges.
-  if (antialias) {
-    const Image<EntityId>& entity = request.products.entity ? frame.entity : entity_;
-    antialiaser_.FindEdges(entity, luma_, rays_.field().separable, edges_);
-    const int64_t rays =
-        antialiaser_.Run({applied_.get(), shader_.get(), &rays_, labels_, VecCast<float>(request.X_WC.p),
-                          request.exposure_ev, edge_samples, &edges_, &frame.rgb, &sun_, request.tone,
-                          request.light ? &frame.light : nullptr});
-    stats.rays += static_cast<uint64_t>(rays);
-  }
+  stats.rays += RenderProducts(request, color, frame);
+  if (color) FinishColor(request, frame);
+  if (antialias) stats.rays += Antialias(request, frame);
   if (!request.products.rgb) frame.rgb = {};
   stats.render_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -1,6 +1,7 @@
 // Statistics of tests of sampling and of images: only included by tests.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>

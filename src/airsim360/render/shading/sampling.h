@@ -1,6 +1,7 @@
 // Even random points: Sobol's first two dimensions, Owen-scrambled.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "airsim360/math/vector.h"

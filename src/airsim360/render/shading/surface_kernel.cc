@@ -69,16 +69,23 @@ KERNEL real3 TowardsSun(const ShadeView& view, const RaySet& rays, int i, real3 
   return normalize3(e1 * x + e2 * y + s);
 }
 
-/// `f` is that of the vector before, or new; `sun` the direction of the sun's centre.
-KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real3 sun, Fetched& f,
-                          SurfaceSet& out) {
-  Fetch(view, rays, i, f);
-  Prefetch(view, rays, i + kLanes);
+/// Where a vector of rays meets surfaces.
+struct Meeting {
+  real3 d, p;        // direction of the rays; the points
+  real u, v, w;      // of the triangles
+  real3 facing, n;   // geometric and shading normal towards the viewer
+  real front;        // 1 where the triangle is seen from its front, else -1
+  real tu, tv;       // texture coordinates
+  real width, slant; // of the rays' cones; cosine between ray and surface
+  real footprint;    // log2 of texture tiles, for pictures alone: between the cone's width and its stretch on the slanted surface
+};
 
-  // Where, and which way the surface faces.
-  const real3 d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
-  const real3 p = load3(rays.ox + i, rays.oy + i, rays.oz + i) + d * load(rays.distance + i);
+KERNEL Meeting Meet(const RaySet& rays, int i, const Fetched& f) {
+  Meeting at;
+  at.d = load3(rays.dx + i, rays.dy + i, rays.dz + i);
+  at.p = load3(rays.ox + i, rays.oy + i, rays.oz + i) + at.d * load(rays.distance + i);
   const real u = load(rays.u + i), v = load(rays.v + i), w = 1.0f - u - v;
+  at.u = u, at.v = v, at.w = w;
   const real3 g = load3(f.facet[0], f.facet[1], f.facet[2]);
   real3 smooth = g;
   if (f.any_smooth) {
@@ -86,135 +93,159 @@ KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real
                        UnpackDirection(f.normal[2]) * v;
     smooth = sel3(IsSmooth(f), ToWorld(f, bent), g);
   }
-  const real front = sel(dot3(g, d) > 0.0f, real(-1.0f), real(1.0f));
-  const real3 facing = g * front;
-  real3 n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * front;
-
-  // Texture coordinates and footprint (log2, for pictures alone): between the cone's width and its stretch on
-  // the slanted surface.
-  real tu = load(f.uv[0]) * w + load(f.uv[2]) * u + load(f.uv[4]) * v;
-  real tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
-  const real width = load(rays.width + i);
-  const real slant = rmax(rabs(dot3(facing, d)), real(0.03f));
-  real footprint = real(0.0f);
+  at.front = sel(dot3(g, at.d) > 0.0f, real(-1.0f), real(1.0f));
+  at.facing = g * at.front;
+  at.n = sel3(dot3(smooth, g) > 0.0f, smooth, smooth * real(-1.0f)) * at.front;
+  at.tu = load(f.uv[0]) * w + load(f.uv[2]) * u + load(f.uv[4]) * v;
+  at.tv = load(f.uv[1]) * w + load(f.uv[3]) * u + load(f.uv[5]) * v;
+  at.width = load(rays.width + i);
+  at.slant = rmax(rabs(dot3(at.facing, at.d)), real(0.03f));
+  at.footprint = real(0.0f);
   if (f.any_picture)
-    footprint = log2_approx(rmax(width, real(1e-9f))) - 0.75f * log2_approx(slant) + load(f.texels_log2);
+    at.footprint = log2_approx(rmax(at.width, real(1e-9f))) - 0.75f * log2_approx(at.slant) + load(f.texels_log2);
+  return at;
+}
+
+/// Colour, roughness and light of the material: its textures and what makes places differ. Normals are still those of the mesh.
+KERNEL Skin PaintSkin(const ShadeView& view, const RaySet& rays, int i, const Fetched& f, const Meeting& at, const TileCorners& corners,
+                      Noises& noises) {
+  real3 color = load3(f.color[0], f.color[1], f.color[2]);
+  if (f.any_colored) color = color * VertexColors(f, at.u, at.v);
+  real metallic = load(f.metallic), roughness = load(f.roughness);
+  real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
+  if (f.any_base) {
+    color = color * SampleTiles(view, f, f.base_id, corners, at.footprint, true,
+                                load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
+  }
+  if (f.any_roughness) {
+    const real3 c = SampleTiles(view, f, f.roughness_id, corners, at.footprint, false,
+                                make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
+    roughness = roughness * c.y;
+    metallic = metallic * c.z;
+  }
+  if (f.any_emission)
+    emission = emission * SampleTexture(view.textures, f.emission_id, at.tu, at.tv, at.footprint, true);
+  if (f.any_beam || (view.glows != nullptr && stdx::any_of(emission.x + emission.y + emission.z > 0.0f)))
+    emission = Thrown(view, rays, i, f, at.d, emission);
+  if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
+    noises = LookUpNoises(view, f, at.p, at.n, at.width);
+  if (f.any_macro)
+    color = color * MacroTint(f, noises, at.width) *
+            wall_wear(noises.wide, noises.mid, noises.fine, at.width, noises.wall);
+  if (f.any_unit) color = color * UnitTint(f, at.tu, at.tv, at.footprint);
+  if (f.any_ground) WearGround(f, noises, at.p, at.tu, at.width, color, roughness);
+  if (f.any_leaf) color = LeafTint(f, color);
+  // However bright the tints, nothing gives back more light than it gets.
+  color = make3(rmin(color.x, real(1.0f)), rmin(color.y, real(1.0f)), rmin(color.z, real(1.0f)));
+  roughness = rmin(rmax(roughness, real(0.03f)), real(1.0f));
+  return {color, metallic, roughness, load(f.clear_coat), load(f.clear_coat_roughness), load(f.transmission), load(f.kind), at.n, emission};
+}
+
+/// Panes are smooth; behind some hangs something. `window`: those with a room behind them.
+KERNEL void Glaze(const Fetched& f, const Meeting& at, mask_t window, Skin& s) {
+  const mask_t glass = s.kind == kGlass;
+  s.n = sel3(glass, GlassNormal(f, s.n, at.p), s.n);
+  s.roughness = sel(glass, rmin(s.roughness, real(0.08f)), s.roughness);
+  // Behind some large panes without a room hang blinds: brighter than the dark.
+  const real blind = clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) *
+                     clamp01((0.3f - rabs(at.facing.z)) * 8.0f);
+  const real shade = sel(glass && !window, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
+  s.color = s.color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
+  // No two blinds or curtains have the same colour.
+  const mask_t hung = glass && !window && (load(f.transmission) < 0.01f) && (luminance(s.color) > 0.10f);
+  const real h = load(f.pane), warm = 0.16f * (hash_again(h, real(61.7f)) - 0.5f), light = 0.58f + 0.74f * h;
+  s.color = sel3(hung, make3(s.color.x * light * (1.0f + warm), s.color.y * light, s.color.z * light * (1.0f - warm)), s.color);
+}
+
+KERNEL void RaiseWaves(const ShadeView& view, const Meeting& at, Skin& s) {
+  const mask_t water = (s.kind == kWater) && (at.facing.z > 0.5f);
+  real lost = real(0.0f);
+  const real3 waves = Waves(view, at.p, at.width / rroot(at.slant), lost);
+  s.n = sel3(water, waves, s.n);
+  s.roughness = sel(water, rmin(rroot(rroot(2.0f * lost + 1e-5f)), real(0.5f)), s.roughness);
+}
+
+/// A bent normal must not look away from the viewer.
+KERNEL real3 TurnToViewer(real3 n, real3 d) {
+  const real towards = dot3(n, d);
+  const mask_t away = towards > -0.02f;
+  return stdx::any_of(away) ? sel3(away, normalize3(n - d * (towards + 0.02f)), n) : n;
+}
+
+KERNEL void StoreSurface(const Meeting& at, const Skin& s, int i, SurfaceSet& out) {
+  store3(out.px + i, out.py + i, out.pz + i, at.p);
+  store3(out.nx + i, out.ny + i, out.nz + i, s.n);
+  store3(out.gx + i, out.gy + i, out.gz + i, at.facing);
+  store3(out.ar + i, out.ag + i, out.ab + i, s.color);
+  store3(out.er + i, out.eg + i, out.eb + i, sel3(at.front > 0.0f, s.emission, s.emission * real(0.0f)));
+  store(out.metallic + i, s.metallic);
+  store(out.roughness + i, s.roughness);
+  store(out.transmission + i, s.transmission);
+  store(out.coat + i, s.coat);
+  store(out.coat_roughness + i, s.coat_roughness);
+  store(out.kind + i, s.kind);
+}
+
+/// Above the surface itself.
+KERNEL void StoreReflection(const Meeting& at, const Skin& s, int i, SurfaceSet& out) {
+  real3 r = reflect3(at.d, s.n);
+  const real below = dot3(r, at.facing);
+  const mask_t inside = below < 0.01f;
+  if (stdx::any_of(inside)) r = sel3(inside, normalize3(r + at.facing * (0.02f - below)), r);
+  store3(out.rx + i, out.ry + i, out.rz + i, r);
+  const mask_t sharp = (s.kind == kGlass) || (s.kind == kWater) ||
+                       ((s.roughness < kMirrorRoughness) && (s.metallic > 0.3f)) ||
+                       ((s.coat > 0.25f) && (s.coat_roughness < kMirrorRoughness));
+  store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
+}
+
+/// Whether the sun, whose ray has the direction `l`, can matter.
+KERNEL void StoreSun(const ShadeView& view, const Meeting& at, const Skin& s, real3 l, int i, SurfaceSet& out) {
+  store3(out.lx + i, out.ly + i, out.lz + i, l);
+  // Leaves from behind, too, but nothing where the two normals disagree about the side.
+  const real above = dot3(s.n, l);
+  const mask_t lit = (above * dot3(at.facing, l) > 0.0f) && ((above > 0.0f) || (s.kind == kFoliage));
+  const mask_t up = real(view.to_sun[2]) > -0.02f;
+  store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
+  store(out.traced + i, real(0.0f));
+  store(out.contact + i, real(1.0f));
+  store(out.clear + i, real(0.0f));
+}
+
+/// `f` is that of the vector before, or new; `sun` the direction of the sun's centre.
+KERNEL void PrepareVector(const ShadeView& view, const RaySet& rays, int i, real3 sun, Fetched& f,
+                          SurfaceSet& out) {
+  Fetch(view, rays, i, f);
+  Prefetch(view, rays, i + kLanes);
+  Meeting at = Meet(rays, i, f);
 
   // Rooms behind panes: what is seen through them, and where their pictures hang.
   const mask_t window = f.any_window ? load(f.interior) > 0.5f : mask_t(false);
   RoomView room;
   if (f.any_window) {
     room = LookInside(view, f, ToWorld(f, UnpackDirection(f.right)), ToWorld(f, UnpackDirection(f.up)),
-                      facing, d, w, u, v);
-    tu = tu + room.du;
-    tv = tv + room.dv;
+                      at.facing, at.d, at.w, at.u, at.v);
+    at.tu = at.tu + room.du;
+    at.tv = at.tv + room.dv;
   }
 
-  real3 color = load3(f.color[0], f.color[1], f.color[2]);
-  if (f.any_colored) color = color * VertexColors(f, u, v);
-  real metallic = load(f.metallic), roughness = load(f.roughness);
-  real3 emission = load3(f.emission[0], f.emission[1], f.emission[2]);
-  const TileCorners corners = ChooseCorners(f, tu, tv, footprint);
-  if (f.any_base) {
-    color = color * SampleTiles(view, f, f.base_id, corners, footprint, true,
-                                load3(f.mean[0], f.mean[1], f.mean[2]), corners.gain);
-  }
-  if (f.any_roughness) {
-    const real3 c = SampleTiles(view, f, f.roughness_id, corners, footprint, false,
-                                make3(real(1.0f), real(0.5f), real(1.0f)), real(1.0f));
-    roughness = roughness * c.y;
-    metallic = metallic * c.z;
-  }
-  if (f.any_emission)
-    emission = emission * SampleTexture(view.textures, f.emission_id, tu, tv, footprint, true);
-  if (f.any_beam || (view.glows != nullptr && stdx::any_of(emission.x + emission.y + emission.z > 0.0f)))
-    emission = Thrown(view, rays, i, f, d, emission);
+  const TileCorners corners = ChooseCorners(f, at.tu, at.tv, at.footprint);
   Noises noises;
-  if (f.any_macro || f.any_ground || view.wetness > 0 || view.snow > 0)
-    noises = LookUpNoises(view, f, p, n, width);
-  if (f.any_macro)
-    color = color * MacroTint(f, noises, width) *
-            wall_wear(noises.wide, noises.mid, noises.fine, width, noises.wall);
-  if (f.any_unit) color = color * UnitTint(f, tu, tv, footprint);
-  if (f.any_ground) WearGround(f, noises, p, tu, width, color, roughness);
-  if (f.any_leaf) color = LeafTint(f, color);
-  // However bright the tints, nothing gives back more light than it gets.
-  color = make3(rmin(color.x, real(1.0f)), rmin(color.y, real(1.0f)), rmin(color.z, real(1.0f)));
-  roughness = rmin(rmax(roughness, real(0.03f)), real(1.0f));
-
-  // Normal: map, panes, waves.
-  real kind = load(f.kind);
-  if (f.any_normal) n = MapNormal(view, f, corners, n, footprint, roughness);
-  if (f.any_glass) {
-    const mask_t glass = kind == kGlass;
-    n = sel3(glass, GlassNormal(f, n, p), n);
-    roughness = sel(glass, rmin(roughness, real(0.08f)), roughness);
-    // Behind some large panes without a room hang blinds: brighter than the dark.
-    const real blind = clamp01((0.30f - load(f.pane)) * 40.0f) * clamp01((load(f.area) - 0.7f) * 4.0f) *
-                       clamp01((0.3f - rabs(facing.z)) * 8.0f);
-    const real shade = sel(glass && !window, blind * 0.16f * (0.6f + 1.3f * load(f.pane)), real(0.0f));
-    color = color * (1.0f - shade) + make3(shade, shade * 0.97f, shade * 0.88f);
-    // No two blinds or curtains have the same colour.
-    const mask_t hung = glass && !window && (load(f.transmission) < 0.01f) && (luminance(color) > 0.10f);
-    const real h = load(f.pane), warm = 0.16f * (hash_again(h, real(61.7f)) - 0.5f), light = 0.58f + 0.74f * h;
-    color = sel3(hung, make3(color.x * light * (1.0f + warm), color.y * light, color.z * light * (1.0f - warm)), color);
-  }
-  if (f.any_window) FurnishPane(view, f, room, window, color, emission);
-  if (f.any_water) {
-    const mask_t water = (kind == kWater) && (facing.z > 0.5f);
-    real lost = real(0.0f);
-    const real3 waves = Waves(view, p, width / rroot(slant), lost);
-    n = sel3(water, waves, n);
-    roughness = sel(water, rmin(rroot(rroot(2.0f * lost + 1e-5f)), real(0.5f)), roughness);
-  }
-  real coat = load(f.clear_coat), coat_roughness = load(f.clear_coat_roughness);
-  real transmission = load(f.transmission);
+  Skin s = PaintSkin(view, rays, i, f, at, corners, noises);
+  if (f.any_normal) s.n = MapNormal(view, f, corners, s.n, at.footprint, s.roughness);
+  if (f.any_glass) Glaze(f, at, window, s);
+  if (f.any_window) FurnishPane(view, f, room, window, s.color, s.emission);
+  if (f.any_water) RaiseWaves(view, at, s);
   if (view.wetness > 0 || view.snow > 0) {
-    Skin skin{color, metallic, roughness, coat, coat_roughness, transmission, kind, n, emission};
-    LieWeather(view, f, noises, p, facing, width, tu, skin);
-    color = skin.color, metallic = skin.metallic, roughness = skin.roughness, coat = skin.coat;
-    coat_roughness = skin.coat_roughness, transmission = skin.transmission, kind = skin.kind, n = skin.n;
-    emission = skin.emission;
+    // A copy, since what a function that is not inlined changes lives in memory.
+    Skin weathered = s;
+    LieWeather(view, f, noises, at.p, at.facing, at.width, at.tu, weathered);
+    s = weathered;
   }
-  // A bent normal must not look away from the viewer.
-  const real towards = dot3(n, d);
-  const mask_t away = towards > -0.02f;
-  if (stdx::any_of(away)) n = sel3(away, normalize3(n - d * (towards + 0.02f)), n);
-
-  store3(out.px + i, out.py + i, out.pz + i, p);
-  store3(out.nx + i, out.ny + i, out.nz + i, n);
-  store3(out.gx + i, out.gy + i, out.gz + i, facing);
-  store3(out.ar + i, out.ag + i, out.ab + i, color);
-  store3(out.er + i, out.eg + i, out.eb + i, sel3(front > 0.0f, emission, emission * real(0.0f)));
-  store(out.metallic + i, metallic);
-  store(out.roughness + i, roughness);
-  store(out.transmission + i, transmission);
-  store(out.coat + i, coat);
-  store(out.coat_roughness + i, coat_roughness);
-  store(out.kind + i, kind);
-
-  // Reflection: above the surface itself.
-  real3 r = reflect3(d, n);
-  const real below = dot3(r, facing);
-  const mask_t inside = below < 0.01f;
-  if (stdx::any_of(inside)) r = sel3(inside, normalize3(r + facing * (0.02f - below)), r);
-  store3(out.rx + i, out.ry + i, out.rz + i, r);
-  const mask_t sharp = (kind == kGlass) || (kind == kWater) ||
-                       ((roughness < kMirrorRoughness) && (metallic > 0.3f)) ||
-                       ((coat > 0.25f) && (coat_roughness < kMirrorRoughness));
-  store(out.mirror + i, sel(sharp, real(1.0f), real(0.0f)));
-
-  // Sun.
-  const real3 l = TowardsSun(view, rays, i, sun);
-  store3(out.lx + i, out.ly + i, out.lz + i, l);
-  // Leaves from behind, too, but nothing where the two normals disagree about the side.
-  const real above = dot3(n, l);
-  const mask_t lit = (above * dot3(facing, l) > 0.0f) && ((above > 0.0f) || (kind == kFoliage));
-  const mask_t up = real(view.to_sun[2]) > -0.02f;
-  store(out.sunlit + i, sel(lit && up, real(1.0f), real(0.0f)));
-  store(out.traced + i, real(0.0f));
-  store(out.contact + i, real(1.0f));
-  store(out.clear + i, real(0.0f));
+  s.n = TurnToViewer(s.n, at.d);
+  StoreSurface(at, s, i, out);
+  StoreReflection(at, s, i, out);
+  StoreSun(view, at, s, TowardsSun(view, rays, i, sun), i, out);
 }
 
 }  // namespace

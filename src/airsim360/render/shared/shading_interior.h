@@ -76,6 +76,112 @@ SHARED real3 window_light(real hash, real area) {
   return evening_light(hash, area) * (lit * (1.0f / (0.55f * 0.25f)));
 }
 
+// A room behind a pane whose middle is (0, 0): its box, and numbers that make it what it is.
+struct Room {
+  real deep, left, right, low, high;
+  real h1, h2, h3, h4;
+};
+
+// Rooms are 2.6 m high or a little more than the pane, 3 to 6 m deep.
+SHARED Room make_room(real half_a, real half_b, real hash) {
+  Room r;
+  r.h1 = hash_again(hash, real(61.7f));
+  r.h2 = hash_again(hash, real(137.3f));
+  r.h3 = hash_again(hash, real(293.9f));
+  r.h4 = hash_again(hash, real(521.3f));
+  real sill = rmax(1.7f - 1.3f * half_b, real(0.06f));
+  r.deep = 3.0f + 3.0f * r.h1;
+  r.left = 0.0f - half_a - 0.25f - 1.1f * r.h2;
+  r.right = half_a + 0.25f + 1.1f * r.h3;
+  r.low = 0.0f - half_b - sill;
+  r.high = half_b + 0.22f;
+  return r;
+}
+
+// What a ray meets in a room.
+struct RoomHit {
+  real t, y, z;        // along the ray; height; depth behind the pane
+  real3 albedo;
+  real lamp, near;     // 1 on a lamp; 1 on the nearer furniture
+};
+
+// Painted walls, floor of wood or carpet, white ceiling with a row of lamps; `into`: depth per length of the ray.
+SHARED RoomHit meet_room(Room r, real a, real b, real da, real db, real into) {
+  real ta = (sel(da > 0.0f, r.right, r.left) - a) / sel(rabs(da) > 1e-5f, da, real(1e-5f));
+  real tb = (sel(db > 0.0f, r.high, r.low) - b) / sel(rabs(db) > 1e-5f, db, real(1e-5f));
+  real tn = r.deep / into;
+  RoomHit at;
+  at.t = rmax(rmin(rmin(ta, tb), tn), real(0.0f));  // points a hair outside of the pane look at its edge
+  mask_t on_side = (ta < tb) && (ta < tn);
+  mask_t on_level = (tb <= ta) && (tb < tn);
+  real x = a + da * at.t;
+  at.y = b + db * at.t;
+  at.z = into * at.t;
+  real3 paint =
+      lerp3(make3(real(0.62f), real(0.57f), real(0.47f)), make3(real(0.52f), real(0.56f), real(0.58f)), r.h4);
+  paint = paint * (0.72f + 0.35f * r.h2);
+  real3 wall = paint * sel(at.y < r.low + 0.10f, real(0.55f), real(1.0f));
+  // A door or a picture hangs on the back wall.
+  real middle = r.left + (r.right - r.left) * (0.25f + 0.5f * r.h3);
+  real door = inside01(x, middle - 0.42f, middle + 0.42f) * inside01(at.y, r.low, r.low + 2.05f) *
+              sel(r.h1 > 0.5f, real(1.0f), real(0.0f));
+  real picture = inside01(x, middle - 0.55f, middle + 0.45f) * inside01(at.y, r.low + 1.15f, r.low + 1.85f) *
+                 sel(r.h1 > 0.5f, real(0.0f), real(1.0f));
+  real3 back = lerp3(wall, make3(real(0.22f), real(0.13f), real(0.07f)), door);
+  back = lerp3(back, furnishing(r.h3, r.h4), picture);
+  real3 boards = make3(0.25f + 0.1f * r.h2, 0.17f + 0.08f * r.h2, real(0.10f)) *
+                 (0.85f + 0.3f * hash_cell(rfloor(x * 7.0f), rfloor(r.h1 * 99.0f)));
+  real3 level = sel3(db > 0.0f, make3(real(0.74f), real(0.73f), real(0.70f)), boards);
+  at.albedo = sel3(on_level, level, sel3(on_side, wall, back));
+  real lamp_x = rabs(x - 0.5f * (r.left + r.right));
+  at.lamp = sel(on_level, real(1.0f), real(0.0f)) * sel(db > 0.0f, real(1.0f), real(0.0f)) *
+            sel(lamp_x < 0.16f, real(1.0f), real(0.0f)) * inside01(at.z, r.deep * 0.25f, r.deep * 0.75f);
+  at.near = real(0.0f);
+  return at;
+}
+
+// Two rows of furniture: silhouettes on planes inside the room.
+SHARED void furnish_room(Room r, real a, real b, real da, real db, real into, INOUT(RoomHit) at) {
+  for (int k = 0; k < 2; k++) {
+    real z = r.deep * (k == 0 ? 0.72f : 0.34f);
+    real s = z / into;
+    real fx = a + da * s;
+    real fy = b + db * s - r.low;
+    real cell = rfloor(fx * 1.25f + r.h2 * 7.0f);
+    real within = fx * 1.25f + r.h2 * 7.0f - cell;
+    real pick = hash_cell(cell + rfloor(r.h1 * 512.0f), real(3.0f) + float(k) * 7.0f);
+    real shade = hash_cell(cell + rfloor(r.h3 * 512.0f), real(11.0f) + float(k) * 5.0f);
+    real tall = (k == 0 ? 0.55f : 0.38f) + pick * (k == 0 ? 1.4f : 0.55f);
+    real there = inside01(within, 0.10f + 0.1f * shade, 0.92f) * inside01(fy, real(-1.0f), tall) *
+                 inside01(fx, r.left, r.right) * sel(pick > 0.35f, real(1.0f), real(0.0f)) *
+                 sel(s < at.t, real(1.0f), real(0.0f));
+    mask_t met = there > 0.5f;
+    at.albedo = sel3(met, furnishing(pick * 2.0f - rfloor(pick * 2.0f), shade), at.albedo);
+    at.z = sel(met, z, at.z);
+    at.t = sel(met, s, at.t);
+    at.lamp = sel(met, real(0.0f), at.lamp);
+    at.near = k == 1 ? sel(met, real(1.0f), at.near) : at.near;
+  }
+}
+
+// Curtains at the sides, or a blind from above, 8 cm behind the glass: their colour, and 1 where they hang.
+SHARED real3 hang_cloth(Room r, real a, real b, real half_a, real half_b, real da, real db, real into, INOUT(real) hung) {
+  real c = 0.08f / into;
+  real cx = (a + da * c) / half_a;
+  real cy = (b + db * c) / half_b;
+  real drawn = 0.08f + 0.45f * r.h3;
+  real folds = 0.82f + 0.18f * sin_approx((a + da * c) * 46.0f + r.h1 * 6.0f);
+  real curtain =
+      sel(rabs(cx) > 1.0f - drawn, real(1.0f), real(0.0f)) * sel(r.h2 < 0.45f, real(1.0f), real(0.0f));
+  real slat = (b + db * c) * 24.0f;
+  real slats = 0.78f + 0.22f * (slat - rfloor(slat));
+  real blind = sel(cy > 1.0f - 1.5f * r.h4, real(1.0f), real(0.0f)) * sel(r.h2 > 0.70f, real(1.0f), real(0.0f));
+  real3 cloth =
+      lerp3(make3(real(0.55f), real(0.52f), real(0.46f)), furnishing(0.46f + 0.3f * r.h1, r.h3), r.h4) * folds;
+  hung = rmax(curtain, blind);
+  return lerp3(make3(real(0.58f), real(0.56f), real(0.52f)) * slats, cloth, curtain);
+}
+
 // What the ray through (a, b) of a pane of half size (half_a, half_b) meets; (da, db, dn) its direction,
 // dn > 0 inwards. `light`: day_light or evening_light, black if the room's lamps are off. Out: `daylight`, the radiance towards the viewer over
 // that of a white surface in the pane's place (day factor times albedo), `lamplight`, the radiance of a lit
@@ -85,97 +191,23 @@ SHARED real3 window_light(real hash, real area) {
 SHARED void interior_room(real a, real b, real half_a, real half_b, real da, real db, real dn, real hash,
                           real3 light, INOUT(real3) daylight, INOUT(real3) lamplight, INOUT(real) front,
                           INOUT(real) back_a, INOUT(real) back_b) {
-  real h1 = hash_again(hash, real(61.7f));
-  real h2 = hash_again(hash, real(137.3f));
-  real h3 = hash_again(hash, real(293.9f));
-  real h4 = hash_again(hash, real(521.3f));
   real into = rmax(dn, real(0.02f));
-
-  // The box: rooms are 2.6 m high or a little more than the pane, 3 to 6 m deep.
-  real deep = 3.0f + 3.0f * h1;
-  real left = 0.0f - half_a - 0.25f - 1.1f * h2;
-  real right = half_a + 0.25f + 1.1f * h3;
-  real sill = rmax(1.7f - 1.3f * half_b, real(0.06f));
-  real low = 0.0f - half_b - sill;
-  real high = half_b + 0.22f;
-  real ta = (sel(da > 0.0f, right, left) - a) / sel(rabs(da) > 1e-5f, da, real(1e-5f));
-  real tb = (sel(db > 0.0f, high, low) - b) / sel(rabs(db) > 1e-5f, db, real(1e-5f));
-  real tn = deep / into;
-  real t = rmax(rmin(rmin(ta, tb), tn), real(0.0f));  // points a hair outside of the pane look at its edge
-  mask_t on_side = (ta < tb) && (ta < tn);
-  mask_t on_level = (tb <= ta) && (tb < tn);
-  real x = a + da * t;
-  real y = b + db * t;
-  real z = into * t;
-
-  // Painted walls, floor of wood or carpet, white ceiling with a row of lamps.
-  real3 paint =
-      lerp3(make3(real(0.62f), real(0.57f), real(0.47f)), make3(real(0.52f), real(0.56f), real(0.58f)), h4);
-  paint = paint * (0.72f + 0.35f * h2);
-  real3 wall = paint * sel(y < low + 0.10f, real(0.55f), real(1.0f));
-  // A door or a picture hangs on the back wall.
-  real middle = left + (right - left) * (0.25f + 0.5f * h3);
-  real door = inside01(x, middle - 0.42f, middle + 0.42f) * inside01(y, low, low + 2.05f) *
-              sel(h1 > 0.5f, real(1.0f), real(0.0f));
-  real picture = inside01(x, middle - 0.55f, middle + 0.45f) * inside01(y, low + 1.15f, low + 1.85f) *
-                 sel(h1 > 0.5f, real(0.0f), real(1.0f));
-  real3 back = lerp3(wall, make3(real(0.22f), real(0.13f), real(0.07f)), door);
-  back = lerp3(back, furnishing(h3, h4), picture);
-  real3 boards = make3(0.25f + 0.1f * h2, 0.17f + 0.08f * h2, real(0.10f)) *
-                 (0.85f + 0.3f * hash_cell(rfloor(x * 7.0f), rfloor(h1 * 99.0f)));
-  real3 level = sel3(db > 0.0f, make3(real(0.74f), real(0.73f), real(0.70f)), boards);
-  real3 albedo = sel3(on_level, level, sel3(on_side, wall, back));
-  real lamp_x = rabs(x - 0.5f * (left + right));
-  real lamp = sel(on_level, real(1.0f), real(0.0f)) * sel(db > 0.0f, real(1.0f), real(0.0f)) *
-              sel(lamp_x < 0.16f, real(1.0f), real(0.0f)) * inside01(z, deep * 0.25f, deep * 0.75f);
-
-  // Two rows of furniture: silhouettes on planes inside the room.
-  real near = real(0.0f);
-  for (int k = 0; k < 2; k++) {
-    real at = deep * (k == 0 ? 0.72f : 0.34f);
-    real s = at / into;
-    real fx = a + da * s;
-    real fy = b + db * s - low;
-    real cell = rfloor(fx * 1.25f + h2 * 7.0f);
-    real within = fx * 1.25f + h2 * 7.0f - cell;
-    real pick = hash_cell(cell + rfloor(h1 * 512.0f), real(3.0f) + float(k) * 7.0f);
-    real shade = hash_cell(cell + rfloor(h3 * 512.0f), real(11.0f) + float(k) * 5.0f);
-    real tall = (k == 0 ? 0.55f : 0.38f) + pick * (k == 0 ? 1.4f : 0.55f);
-    real there = inside01(within, 0.10f + 0.1f * shade, 0.92f) * inside01(fy, real(-1.0f), tall) *
-                 inside01(fx, left, right) * sel(pick > 0.35f, real(1.0f), real(0.0f)) *
-                 sel(s < t, real(1.0f), real(0.0f));
-    mask_t met = there > 0.5f;
-    albedo = sel3(met, furnishing(pick * 2.0f - rfloor(pick * 2.0f), shade), albedo);
-    z = sel(met, at, z);
-    t = sel(met, s, t);
-    lamp = sel(met, real(0.0f), lamp);
-    near = k == 1 ? sel(met, real(1.0f), near) : near;
-  }
+  Room room = make_room(half_a, half_b, hash);
+  RoomHit at = meet_room(room, a, b, da, db, into);
+  furnish_room(room, a, b, da, db, into, at);
 
   // Daylight falls off with the depth; more of it reaches the floor than the ceiling.
-  real fall = 0.03f + 0.26f * exp2_approx(0.0f - 0.75f * z);
+  real fall = 0.03f + 0.26f * exp2_approx(0.0f - 0.75f * at.z);
   real share = fall * clamp01(0.35f + 0.5f * rmin(half_a * half_b, real(1.3f)));
-  real3 day = albedo * share;
-  real3 glow = (albedo * (0.75f + 0.25f * clamp01(1.2f - y * 0.3f)) + make3(lamp, lamp, lamp) * 9.0f) * light;
+  real3 day = at.albedo * share;
+  real3 glow = (at.albedo * (0.75f + 0.25f * clamp01(1.2f - at.y * 0.3f)) + make3(at.lamp, at.lamp, at.lamp) * 9.0f) * light;
 
-  // Curtains at the sides, or a blind from above, 8 cm behind the glass.
-  real c = 0.08f / into;
-  real cx = (a + da * c) / half_a;
-  real cy = (b + db * c) / half_b;
-  real drawn = 0.08f + 0.45f * h3;
-  real folds = 0.82f + 0.18f * sin_approx((a + da * c) * 46.0f + h1 * 6.0f);
-  real curtain =
-      sel(rabs(cx) > 1.0f - drawn, real(1.0f), real(0.0f)) * sel(h2 < 0.45f, real(1.0f), real(0.0f));
-  real slat = (b + db * c) * 24.0f;
-  real slats = 0.78f + 0.22f * (slat - rfloor(slat));
-  real blind = sel(cy > 1.0f - 1.5f * h4, real(1.0f), real(0.0f)) * sel(h2 > 0.70f, real(1.0f), real(0.0f));
-  real3 cloth =
-      lerp3(make3(real(0.55f), real(0.52f), real(0.46f)), furnishing(0.46f + 0.3f * h1, h3), h4) * folds;
-  real3 screen = lerp3(make3(real(0.58f), real(0.56f), real(0.52f)) * slats, cloth, curtain);
-  real hung = rmax(curtain, blind);
+  real hung = real(0.0f);
+  real3 screen = hang_cloth(room, a, b, half_a, half_b, da, db, into, hung);
   daylight = lerp3(day, screen * real(0.42f), hung);
   lamplight = lerp3(glow, screen * light * 0.35f, hung);
-  front = rmax(near, hung);
-  back_a = rmin(rmax(a + da * tn * 0.4f, left), right);
-  back_b = rmin(rmax(b + db * tn * 0.4f, low), high);
+  front = rmax(at.near, hung);
+  real back = room.deep / into;
+  back_a = rmin(rmax(a + da * back * 0.4f, room.left), room.right);
+  back_b = rmin(rmax(b + db * back * 0.4f, room.low), room.high);
 }

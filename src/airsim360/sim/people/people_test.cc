@@ -29,8 +29,10 @@ struct Peopled {
     model->tracer = WithoutBodies(base, {}, populated.people.get());
     model->people = populated.people;
     DroneSetup setup = HummingbirdAt(p_drone);
-    setup.sensors.cameras = {{"panorama", {.width = 256, .height = 128}}};
-    setup.sensors.cameras[0].spec.tier = Tier::kLabels;
+    CameraSpec panorama;
+    panorama.width = 256, panorama.height = 128;
+    panorama.tier = Tier::kLabels;
+    setup.sensors.cameras = {{"panorama", panorama}};
     model->drones.push_back(std::make_shared<const SimDrone>(setup, model->dt_ns));
   }
 };

@@ -49,47 +49,54 @@ void BuildBrownstoneBay(FacadePen& pen, const Dress& dress, const Opening& o, Rn
   for (float x : {o.x0 - 0.16f, o.x1 + 0.04f}) pen.Bar(x, x + 0.12f, o.z1 - 0.22f, o.z1, -0.12f, 0);
 }
 
-void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStream& rng) {
-  const float L = pen.length(), door = StoopMiddle(L), sill = 1.25f;
-  const int bays = std::max(2, static_cast<int>(std::lround(L / 2.3f)));
-  const float w = L / static_cast<float>(bays);
-  for (int i = 0; i < bays; ++i) {
-    const float x0 = w * static_cast<float>(i), x1 = x0 + w, m = (x0 + x1) / 2;
-    pen.Use(dress.wall);
-    if (std::abs(m - door) < w / 2) {
-      // Double door under a hood on brackets.
-      pen.WallAround(x0, x1, 0, height, m - 0.62f, m + 0.62f, sill, sill + 2.45f);
-      pen.Reveal(m - 0.62f, m + 0.62f, sill, sill + 2.45f, 0, 0.35f);
-      pen.Use(S::kDoorWood);
-      pen.Front(m - 0.62f, m + 0.62f, sill, sill + 2.45f, 0.35f);
-      pen.Use(S::kFrameDark);
-      pen.Bar(m - 0.02f, m + 0.02f, sill, sill + 2.0f, 0.32f, 0.35f, true, false);
-      pen.Use(dress.trim);
-      for (float x : {m - 0.95f, m + 0.67f}) pen.Bar(x, x + 0.28f, sill, sill + 2.5f, -0.10f, 0, true, false);
-      pen.Bar(m - 1.05f, m + 1.05f, sill + 2.5f, sill + 2.85f, -0.45f, 0);
-      continue;
-    }
-    FacadePen::Sash sash{.t = 0.06f, .nx = 0, .nz = 1, .frame = dress.frame, .glass = dress.glass};
-    Furnish(sash, rng);
-    pen.WallAround(x0, x1, 1.15f, height, m - 0.55f, m + 0.55f, sill + 0.35f, sill + 2.6f);
-    pen.Reveal(m - 0.55f, m + 0.55f, sill + 0.35f, sill + 2.6f, 0, 0.2f);
-    pen.Window(m - 0.55f, m + 0.55f, sill + 0.35f, sill + 2.6f, 0.2f, sash);
-    pen.Use(dress.trim);
-    pen.Bar(m - 0.75f, m + 0.75f, sill + 0.2f, sill + 0.35f, -0.12f, 0.1f);
-    pen.Bar(m - 0.75f, m + 0.75f, sill + 2.6f, sill + 2.82f, -0.15f, 0);
-    // Cellar window behind bars.
-    pen.Use(dress.wall);
-    pen.WallAround(x0, x1, 0, 1.15f, m - 0.5f, m + 0.5f, 0.25f, 0.95f);
-    pen.Reveal(m - 0.5f, m + 0.5f, 0.25f, 0.95f, 0, 0.2f);
-    pen.Use(S::kGlassDark);
-    pen.Front(m - 0.5f, m + 0.5f, 0.25f, 0.95f, 0.2f);
-    pen.Use(S::kIronBlack);
-    for (int k = 0; k < 6; ++k) {
-      const float x = m - 0.45f + 0.17f * static_cast<float>(k);
-      pen.Bar(x, x + 0.02f, 0.25f, 0.95f, 0.05f, 0.07f, true, false);
-    }
+namespace {
+
+constexpr float kParlourSill = 1.25f;  // metres above the pavement: the floor behind a stoop
+
+// Double door under a hood on brackets.
+void BuildParlourDoor(FacadePen& pen, const Dress& dress, float x0, float x1, float height) {
+  const float m = (x0 + x1) / 2, sill = kParlourSill;
+  pen.WallAround(x0, x1, 0, height, m - 0.62f, m + 0.62f, sill, sill + 2.45f);
+  pen.Reveal(m - 0.62f, m + 0.62f, sill, sill + 2.45f, 0, 0.35f);
+  pen.Use(S::kDoorWood);
+  pen.Front(m - 0.62f, m + 0.62f, sill, sill + 2.45f, 0.35f);
+  pen.Use(S::kFrameDark);
+  pen.Bar(m - 0.02f, m + 0.02f, sill, sill + 2.0f, 0.32f, 0.35f, true, false);
+  pen.Use(dress.trim);
+  for (float x : {m - 0.95f, m + 0.67f}) pen.Bar(x, x + 0.28f, sill, sill + 2.5f, -0.10f, 0, true, false);
+  pen.Bar(m - 1.05f, m + 1.05f, sill + 2.5f, sill + 2.85f, -0.45f, 0);
+}
+
+void BuildParlourWindow(FacadePen& pen, const Dress& dress, float x0, float x1, float height, RngStream& rng) {
+  const float m = (x0 + x1) / 2, sill = kParlourSill;
+  FacadePen::Sash sash{.t = 0.06f, .nx = 0, .nz = 1, .frame = dress.frame, .glass = dress.glass};
+  Furnish(sash, rng);
+  pen.WallAround(x0, x1, 1.15f, height, m - 0.55f, m + 0.55f, sill + 0.35f, sill + 2.6f);
+  pen.Reveal(m - 0.55f, m + 0.55f, sill + 0.35f, sill + 2.6f, 0, 0.2f);
+  pen.Window(m - 0.55f, m + 0.55f, sill + 0.35f, sill + 2.6f, 0.2f, sash);
+  pen.Use(dress.trim);
+  pen.Bar(m - 0.75f, m + 0.75f, sill + 0.2f, sill + 0.35f, -0.12f, 0.1f);
+  pen.Bar(m - 0.75f, m + 0.75f, sill + 2.6f, sill + 2.82f, -0.15f, 0);
+}
+
+// Behind bars.
+void BuildCellarWindow(FacadePen& pen, const Dress& dress, float x0, float x1) {
+  const float m = (x0 + x1) / 2;
+  pen.Use(dress.wall);
+  pen.WallAround(x0, x1, 0, 1.15f, m - 0.5f, m + 0.5f, 0.25f, 0.95f);
+  pen.Reveal(m - 0.5f, m + 0.5f, 0.25f, 0.95f, 0, 0.2f);
+  pen.Use(S::kGlassDark);
+  pen.Front(m - 0.5f, m + 0.5f, 0.25f, 0.95f, 0.2f);
+  pen.Use(S::kIronBlack);
+  for (int k = 0; k < 6; ++k) {
+    const float x = m - 0.45f + 0.17f * static_cast<float>(k);
+    pen.Bar(x, x + 0.02f, 0.25f, 0.95f, 0.05f, 0.07f, true, false);
   }
-  // Seven steps between cheek walls with iron handrails.
+}
+
+// Seven steps between cheek walls with iron handrails.
+void BuildStoop(FacadePen& pen, const Dress& dress, float door) {
+  const float sill = kParlourSill;
   pen.Use(dress.trim);
   constexpr int kSteps = 7;
   for (int i = 0; i < kSteps; ++i) {
@@ -111,6 +118,25 @@ void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStre
     const float y0 = -1.78f * pen.reach(), y1 = -0.15f * pen.reach();
     pen.mesh().Beam({x, y0, sill / kSteps + 0.97f}, {x, y1, sill + 0.97f}, 0.05f);
   }
+}
+
+}  // namespace
+
+void BuildParlourFloor(FacadePen& pen, const Dress& dress, float height, RngStream& rng) {
+  const float L = pen.length(), door = StoopMiddle(L);
+  const int bays = std::max(2, static_cast<int>(std::lround(L / 2.3f)));
+  const float w = L / static_cast<float>(bays);
+  for (int i = 0; i < bays; ++i) {
+    const float x0 = w * static_cast<float>(i), x1 = x0 + w, m = (x0 + x1) / 2;
+    pen.Use(dress.wall);
+    if (std::abs(m - door) < w / 2) {
+      BuildParlourDoor(pen, dress, x0, x1, height);
+    } else {
+      BuildParlourWindow(pen, dress, x0, x1, height, rng);
+      BuildCellarWindow(pen, dress, x0, x1);
+    }
+  }
+  BuildStoop(pen, dress, door);
 }
 
 namespace {

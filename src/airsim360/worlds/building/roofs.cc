@@ -5,12 +5,12 @@
 
 #include "airsim360/base/random.h"
 #include "airsim360/worlds/building/facade.h"
-#include "airsim360/worlds/props/placer.h"
+#include "airsim360/worlds/building/roof_clutter.h"
 
 namespace airsim360 {
 namespace {
 
-constexpr float kParapetThickness = 0.3f, kTau = 6.2831853f;
+using internal::kParapetThickness;
 
 // Ring between two outlines of the same corner count at heights za and zb, facing up.
 void Ring(MeshBuilder& mesh, const std::vector<Vec2f>& outer, const std::vector<Vec2f>& inner, float za,
@@ -109,138 +109,6 @@ void HipRoof(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& pl
     mesh.Tube({at.x, at.y + dy, ridge + 0.9f}, {at.x, at.y + dy, ridge + 1.3f}, 0.13f, 0.1f, 8, false, true);
 }
 
-void Bulkhead(MeshBuilder& mesh, const Surfaces& surfaces, const BuildingPlan& plan, Vec2f at,
-              EntityId building) {
-  const float z = plan.height();
-  mesh.SetEntity(building);
-  mesh.SetMaterial(surfaces[WallSurfaceOf(plan)]);
-  mesh.Box({at.x - 1.7f, at.y - 1.4f, z}, {at.x + 1.7f, at.y + 1.4f, z + 2.7f},
-           MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack);
-  mesh.SetMaterial(surfaces[Surface::kCoping]);
-  mesh.Box({at.x - 1.85f, at.y - 1.55f, z + 2.7f}, {at.x + 1.85f, at.y + 1.55f, z + 2.85f});
-  mesh.SetMaterial(surfaces[Surface::kDoorGreen]);
-  mesh.Box({at.x - 0.5f, at.y - 1.44f, z}, {at.x + 0.5f, at.y - 1.40f, z + 2.1f},
-           MeshBuilder::kFront | MeshBuilder::kTop | MeshBuilder::kLeft | MeshBuilder::kRight);
-}
-
-// On the narrow deck of a row house: a hatch over the stairs, chimneys at the shared walls, a skylight, vents.
-void HouseClutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, const BuildingPlan& plan, EntityId building,
-                  EntityId roof) {
-  RngStream rng(plan.seed, "house roof");
-  const GroundRect r = plan.bounds().Inset(kParapetThickness);
-  const auto uniform = [&](float a, float b) { return static_cast<float>(rng.Uniform(a, b)); };
-  if (r.width() < 3 || r.depth() < 6) return;
-  const float z = plan.height(), third = r.depth() / 3;
-  constexpr unsigned kSides = MeshBuilder::kLeft | MeshBuilder::kRight | MeshBuilder::kFront | MeshBuilder::kBack;
-  const auto box = [&](Surface surface, Vec2f at, Vec2f half, float z0, float z1, bool top) {
-    mesh.SetMaterial(surfaces[surface]);
-    mesh.Box({at.x - half.x, at.y - half.y, z0}, {at.x + half.x, at.y + half.y, z1}, kSides | (top ? MeshBuilder::kTop : 0u));
-  };
-  // The hatch in the middle third, chimneys in the outer ones.
-  const float cx = r.center().x, y = r.y0 + third * uniform(1.2f, 1.8f);
-  mesh.SetEntity(building);
-  const Vec2f hatch{cx + uniform(-0.3f, 0.3f) * (r.width() - 2), y};
-  box(WallSurfaceOf(plan), hatch, {0.65f, 1.2f}, z, z + 2.2f, false);
-  box(Surface::kCoping, hatch, {0.75f, 1.3f}, z + 2.2f, z + 2.3f, true);
-  box(rng.Chance(0.5) ? Surface::kDoorGreen : Surface::kFrameDark, hatch - Vec2f{0, 0.02f}, {0.4f, 1.21f}, z, z + 1.95f, true);
-  for (int i = 0; i < 2; ++i) {
-    const Vec2f at{i == 0 ? r.x0 + 0.45f : r.x1 - 0.45f, r.y0 + third * (i == 0 ? uniform(0.3f, 0.9f) : uniform(2.1f, 2.7f))};
-    if (rng.Chance(0.25)) continue;
-    box(Surface::kBrickBrown, at, {0.3f, uniform(0.4f, 0.9f)}, z, z + uniform(1.5f, 2.2f), true);
-    box(Surface::kBrickRed, at, {0.12f, 0.12f}, z + 1.5f, z + 2.5f, true);
-  }
-  mesh.SetEntity(roof);
-  const Vec2f light{cx + uniform(-0.6f, 0.6f), r.y0 + third * (rng.Chance(0.5) ? 0.5f : 2.5f)};
-  box(Surface::kMetal, light, {0.55f, 0.8f}, z, z + 0.3f, false);
-  box(Surface::kGlassBlue, light, {0.5f, 0.75f}, z + 0.3f, z + 0.38f, true);
-  for (float t : {0.15f, 0.85f}) shelf.Place("roof_vent", {cx + uniform(-0.25f, 0.25f) * r.width(), r.y0 + r.depth() * t, z}, 0, rng.Index(3));
-  if (rng.Chance(0.35)) shelf.Place("antenna", {r.x1 - 0.6f, r.y0 + third * 1.1f, z}, 0, rng.Index(3));
-}
-
-// Machines on a deck: a row of air conditioners, vents, sometimes a tank and antennas, a duct and pipes.
-void Clutter(MeshBuilder& mesh, const Surfaces& surfaces, PropShelf& shelf, const BuildingPlan& plan,
-             EntityId building, EntityId roof) {
-  RngStream rng(plan.seed, "roof clutter");
-  const GroundRect deck = plan.bounds().Inset(1.6f);
-  if (deck.width() < 5 || deck.depth() < 5) {
-    if (plan.upper.empty()) HouseClutter(mesh, surfaces, shelf, plan, building, roof);
-    return;
-  }
-  const float z = plan.height();
-  Occupancy taken;
-  // The cut corner of a chamfered outline stays free.
-  const Vec2f c = plan.bounds().center();
-  const auto inside = [&](Vec2f p) {
-    for (size_t i = 0; i < plan.outline.size(); ++i) {
-      const Vec2f a = plan.outline[i], b = plan.outline[(i + 1) % plan.outline.size()];
-      const float side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-      if (side < 1.5f * std::hypot(b.x - a.x, b.y - a.y)) return false;
-    }
-    return true;
-  };
-  const auto spot = [&] {
-    return Vec2f{static_cast<float>(rng.Uniform(deck.x0, deck.x1)),
-                 static_cast<float>(rng.Uniform(deck.y0, deck.y1))};
-  };
-  if (plan.upper.empty()) {
-    const Vec2f stair =
-        c + Vec2f{static_cast<float>(rng.Uniform(-1, 1)), static_cast<float>(rng.Uniform(-1, 1))};
-    Bulkhead(mesh, surfaces, plan, stair, building);
-    taken.Add({stair, {2.6f, 2.4f}, 0});
-  } else {
-    // The next tier stands there.
-    BuildingPlan tier;
-    tier.outline = plan.upper;
-    const GroundRect box = tier.bounds();
-    taken.Add({box.center(), {box.width() / 2 + 0.8f, box.depth() / 2 + 0.8f}, 0});
-  }
-  if (plan.kept_free.area() > 0)
-    taken.Add({plan.kept_free.center(), {plan.kept_free.width() / 2, plan.kept_free.depth() / 2}, 0});
-  const auto scatter = [&](std::string_view kind, int count, float yaw) {
-    const float r = FindPropKind(kind).footprint_radius;
-    for (int i = 0, tries = 0; i < count && tries < 40; ++tries) {
-      const Vec2f p = spot();
-      const Footprint footprint{p, {r, r}, yaw};
-      if (!inside(p) || !taken.IsFree(footprint)) continue;
-      taken.Add(footprint);
-      shelf.Place(kind, {p.x, p.y, z}, yaw, rng.Index(8));
-      ++i;
-    }
-  };
-  const float area = deck.area(), quarter = kTau / 4;
-  const bool old = plan.style == FacadeStyle::kBrickWalkUp || plan.style == FacadeStyle::kBrickLoft;
-  if (rng.Chance(plan.style == FacadeStyle::kDeco ? 0.65 : old ? 0.45 : 0.12)) scatter("water_tank", 1, 0);
-  scatter("ac_unit", std::min(6, 1 + static_cast<int>(area / 55)),
-          quarter * static_cast<float>(rng.Index(4)));
-  scatter("roof_vent", std::min(8, 2 + static_cast<int>(area / 45)), 0);
-  scatter("antenna", rng.Chance(0.6) ? 1 + static_cast<int>(rng.Index(2)) : 0, 0);
-  // A duct across the deck and skylights.
-  mesh.SetEntity(roof);
-  mesh.SetMaterial(surfaces[Surface::kMetal]);
-  const Footprint duct{{c.x, deck.y0 + 0.4f}, {deck.width() * 0.3f, 0.3f}, 0};
-  if (taken.IsFree(duct) && inside(duct.center - Vec2f{duct.half.x, 0}) &&
-      inside(duct.center + Vec2f{duct.half.x, 0})) {
-    taken.Add(duct);
-    mesh.Box({duct.center.x - duct.half.x, duct.center.y - 0.25f, z + 0.25f},
-             {duct.center.x + duct.half.x, duct.center.y + 0.25f, z + 0.7f});
-    for (float t : {-0.8f, 0.0f, 0.8f}) {
-      const float x = duct.center.x + t * duct.half.x;
-      mesh.Box({x - 0.05f, duct.center.y - 0.2f, z}, {x + 0.05f, duct.center.y + 0.2f, z + 0.25f}, 15);
-    }
-  }
-  for (int i = 0; i < 3; ++i) {
-    const Vec2f p = spot();
-    const Footprint light{p, {1.0f, 0.7f}, 0};
-    if (!inside(p) || !taken.IsFree(light)) continue;
-    taken.Add(light);
-    mesh.SetMaterial(surfaces[Surface::kMetal]);
-    mesh.Box({p.x - 0.9f, p.y - 0.6f, z}, {p.x + 0.9f, p.y + 0.6f, z + 0.35f}, 15);
-    mesh.SetMaterial(surfaces[Surface::kGlassBlue]);
-    mesh.Box({p.x - 0.9f, p.y - 0.6f, z + 0.35f}, {p.x + 0.9f, p.y + 0.6f, z + 0.42f},
-             15 | MeshBuilder::kTop);
-  }
-}
-
 }  // namespace
 
 void BuildRoof(SceneBuilder&, MeshBuilder& mesh, const Surfaces& surfaces, PropShelf* shelf,
@@ -251,7 +119,7 @@ void BuildRoof(SceneBuilder&, MeshBuilder& mesh, const Surfaces& surfaces, PropS
     return;
   }
   FlatDeck(mesh, surfaces, building, building_entity, roof_entity);
-  if (shelf) Clutter(mesh, surfaces, *shelf, building, building_entity, roof_entity);
+  if (shelf) internal::AddRoofClutter(mesh, surfaces, *shelf, building, building_entity, roof_entity);
 }
 
 }  // namespace airsim360

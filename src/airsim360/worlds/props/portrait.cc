@@ -133,6 +133,61 @@ struct Bust {
   }
 };
 
+struct Finish {
+  Vec3f color;
+  float gloss = 0.10f, power = 22;
+};
+
+// Rosier on cheeks, nose and ears; a shaved chin is cooler.
+Vec3f SkinColor(Vec3f skin, Vec3f head, float y) {
+  const float cheek = std::exp(-14 * (std::pow(std::abs(head.x) - 0.17f, 2.0f) + std::pow(head.y + 0.09f, 2.0f)));
+  const float chin = std::clamp((-0.14f - head.y) * 5, 0.0f, 1.0f) * (y > -0.45f ? 1.0f : 0.0f);
+  return {skin.x * (1 + 0.10f * cheek - 0.10f * chin), skin.y * (1 - 0.10f * cheek - 0.08f * chin), skin.z * (1 - 0.12f * cheek)};
+}
+
+Vec3f EyeColor(Vec3f iris, Vec3f head) {
+  const float r = Length2(std::abs(head.x) - 0.122f, head.y - 0.066f);
+  return r < 0.012f ? Vec3f{0.01f, 0.01f, 0.01f} : r < 0.028f ? iris : Vec3f{0.62f, 0.60f, 0.58f};
+}
+
+// What covers the point that the ray through (x, y) meets; `head`: the point in the head's frame, `height`: its y.
+Finish FinishAt(const Sitter& sitter, Cloth cloth, Vec3f head, float height, float x, float y) {
+  switch (cloth) {
+    case Cloth::kSkin:
+      return {SkinColor(sitter.skin, head, height)};
+    case Cloth::kHair:
+      return {sitter.hair * (0.9f + 0.5f * std::abs(std::sin(60 * head.x + 9 * head.z))), 0.22f, 30};
+    case Cloth::kEye:
+      return {EyeColor(sitter.iris, head), 0.9f, 90};
+    case Cloth::kLips:
+      return {{sitter.skin.x * 0.80f, sitter.skin.y * 0.52f, sitter.skin.z * 0.52f}, 0.25f};
+    case Cloth::kJacket:
+      return {sitter.jacket * (0.95f + 0.05f * std::sin(160 * x) * std::sin(150 * y)), 0.02f};
+    case Cloth::kLapel:
+      return {sitter.jacket * 1.15f, 0.03f};
+    case Cloth::kShirt:
+      return {sitter.shirt, 0.03f};
+    case Cloth::kTie:
+      return {sitter.tie * (std::sin(48 * (x + y)) > 0.6f ? 2.2f : 1.0f), 0.15f};
+  }
+  return {sitter.skin};
+}
+
+// Under a key light from the upper left, a fill from the right and a rim light from behind.
+Vec3f LightBust(const Bust& bust, Vec3f p, Vec3f n, bool skin, const Finish& finish) {
+  const Vec3f key = Normalized(Vec3f{-0.62f, 0.55f, 0.60f}), fill{0.80f, 0.10f, 0.59f}, rim = Normalized(Vec3f{0.75f, 0.35f, -0.55f});
+  const float wrap = skin ? 0.22f : 0.0f, open = bust.Open(p, n);
+  const float k = std::max(0.0f, (Dot(n, key) + wrap) / (1 + wrap)) * bust.Lit(p + n * 0.01f, key);
+  const float f = std::max(0.0f, Dot(n, fill)) * open, r = std::pow(std::max(0.0f, Dot(n, rim)), 2.0f);
+  // Light that went through skin comes out red at the edge of the shadow.
+  const Vec3f warm = skin ? Vec3f{1, 0.93f - 0.1f * (1 - k), 0.88f - 0.15f * (1 - k)} : Vec3f{1, 1, 1};
+  const float amount = 1.15f * k + 0.30f * f + 0.22f * open + 0.5f * r;
+  const Vec3f half = Normalized(key + Vec3f{0, 0, 1});
+  const float shine = finish.gloss * std::pow(std::max(0.0f, Dot(n, half)), finish.power) * k;
+  const Vec3f& color = finish.color;
+  return {color.x * amount * warm.x + shine, color.y * amount * warm.y + shine, color.z * amount * warm.z + shine};
+}
+
 }  // namespace
 
 Vec3f PortraitColor(const Sitter& sitter, float x, float y, Vec3f background) {
@@ -147,60 +202,8 @@ Vec3f PortraitColor(const Sitter& sitter, float x, float y, Vec3f background) {
     p.z -= near.distance * 0.8f;
     if (p.z < -0.7f) return background;
   }
-  Vec3f n = bust.Normal(p);
-  const Vec3f head = bust.ToHead(p);
-  Vec3f color = sitter.skin;
-  float gloss = 0.10f, power = 22;
-  switch (near.cloth) {
-    case Cloth::kSkin: {
-      // Rosier on cheeks, nose and ears; a shaved chin is cooler.
-      const float cheek = std::exp(-14 * (std::pow(std::abs(head.x) - 0.17f, 2.0f) + std::pow(head.y + 0.09f, 2.0f)));
-      const float chin = std::clamp((-0.14f - head.y) * 5, 0.0f, 1.0f) * (p.y > -0.45f ? 1.0f : 0.0f);
-      color = {color.x * (1 + 0.10f * cheek - 0.10f * chin), color.y * (1 - 0.10f * cheek - 0.08f * chin), color.z * (1 - 0.12f * cheek)};
-      break;
-    }
-    case Cloth::kHair:
-      color = sitter.hair * (0.9f + 0.5f * std::abs(std::sin(60 * head.x + 9 * head.z)));
-      gloss = 0.22f, power = 30;
-      break;
-    case Cloth::kEye: {
-      const float r = Length2(std::abs(head.x) - 0.122f, head.y - 0.066f);
-      color = r < 0.012f ? Vec3f{0.01f, 0.01f, 0.01f} : r < 0.028f ? sitter.iris : Vec3f{0.62f, 0.60f, 0.58f};
-      gloss = 0.9f, power = 90;
-      break;
-    }
-    case Cloth::kLips:
-      color = {sitter.skin.x * 0.80f, sitter.skin.y * 0.52f, sitter.skin.z * 0.52f};
-      gloss = 0.25f;
-      break;
-    case Cloth::kJacket:
-      color = sitter.jacket * (0.95f + 0.05f * std::sin(160 * x) * std::sin(150 * y));
-      gloss = 0.02f;
-      break;
-    case Cloth::kLapel:
-      color = sitter.jacket * 1.15f;
-      gloss = 0.03f;
-      break;
-    case Cloth::kShirt:
-      color = sitter.shirt;
-      gloss = 0.03f;
-      break;
-    case Cloth::kTie:
-      color = sitter.tie * (std::sin(48 * (x + y)) > 0.6f ? 2.2f : 1.0f);
-      gloss = 0.15f;
-      break;
-  }
-  const Vec3f key = Normalized(Vec3f{-0.62f, 0.55f, 0.60f}), fill{0.80f, 0.10f, 0.59f}, rim = Normalized(Vec3f{0.75f, 0.35f, -0.55f});
   const bool skin = near.cloth == Cloth::kSkin || near.cloth == Cloth::kLips;
-  const float wrap = skin ? 0.22f : 0.0f, open = bust.Open(p, n);
-  const float k = std::max(0.0f, (Dot(n, key) + wrap) / (1 + wrap)) * bust.Lit(p + n * 0.01f, key);
-  const float f = std::max(0.0f, Dot(n, fill)) * open, r = std::pow(std::max(0.0f, Dot(n, rim)), 2.0f);
-  // Light that went through skin comes out red at the edge of the shadow.
-  const Vec3f warm = skin ? Vec3f{1, 0.93f - 0.1f * (1 - k), 0.88f - 0.15f * (1 - k)} : Vec3f{1, 1, 1};
-  const float amount = 1.15f * k + 0.30f * f + 0.22f * open + 0.5f * r;
-  const Vec3f half = Normalized(key + Vec3f{0, 0, 1});
-  const float shine = gloss * std::pow(std::max(0.0f, Dot(n, half)), power) * k;
-  return {color.x * amount * warm.x + shine, color.y * amount * warm.y + shine, color.z * amount * warm.z + shine};
+  return LightBust(bust, p, bust.Normal(p), skin, FinishAt(sitter, near.cloth, bust.ToHead(p), p.y, x, y));
 }
 
 }  // namespace airsim360::internal

@@ -37,11 +37,60 @@ constexpr MaterialTarget kTargets[] = {
     {R::kPaintWorn, 0.500f, 0.130f, 0.58f, 0.06f, 0.40f},
 };
 
-TextureRecipe Painted(const char* name, float tile, Recipe recipe, void (*paint)(SurfaceMaps&)) {
-  for (const MaterialTarget& t : kTargets) {
-    if (t.recipe == recipe) return {name, tile, t.luminance, nullptr, paint, t.roughness, t.slope};
-  }
-  return {name, tile, 0.5f, nullptr, paint};
+// Recipes of albedo, roughness and height.
+struct PaintedRow {
+  Recipe recipe;
+  const char* name;
+  float tile;  // metres
+  void (*paint)(SurfaceMaps&);
+};
+constexpr PaintedRow kPainted[] = {
+    {R::kAsphalt, "asphalt", 2, AsphaltAged},
+    {R::kAsphaltFresh, "asphalt fresh", 1.5f, AsphaltFresh},
+    {R::kBitumen, "bitumen", 1, Bitumen},
+    {R::kConcrete, "concrete", 2.4f, Concrete},
+    {R::kSlabs, "slabs", 3, Slabs},
+    {R::kPavingBrick, "paving brick", 2, PavingBrick},
+    {R::kStoneSetts, "stone setts", 2, StoneSetts},
+    {R::kGravelPath, "gravel path", 1.6f, GravelPath},
+    {R::kGrass, "grass", 1.6f, Grass},
+    {R::kSoil, "soil", 2, Soil},
+    {R::kBrickRed, "brick red", 2, BrickRed},
+    {R::kBrickStock, "brick stock", 2, BrickStock},
+    {R::kBrickPainted, "brick painted", 2, BrickPainted},
+    {R::kAshlar, "ashlar", 3, Ashlar},
+    {R::kPlaster, "plaster", 2.5f, Plaster},
+    {R::kPlanks, "planks", 2, Planks},
+    {R::kRoofGravel, "roof gravel", 2, RoofGravel},
+    {R::kRoofTile, "roof tile", 2.4f, RoofTile},
+    {R::kSlate, "slate", 2, Slate},
+    {R::kGalvanised, "galvanised", 0.7f, Galvanised},
+    {R::kPaintWorn, "road paint", 1.5f, PaintWorn},
+};
+
+// Recipes of a colour a point.
+struct TexelRow {
+  Recipe recipe;
+  const char* name;
+  float tile, luminance;  // metres; mean
+  Texel (*texel)(float u, float v);
+};
+constexpr TexelRow kTexels[] = {
+    {R::kStripes, "stripes", 1.6f, 0.5f, Stripes},
+    {R::kFarWalls, "far walls", 24, 0.42f, FarWalls},
+    {R::kFarPiers, "far piers", 24, 0.40f, FarPiers},
+    {R::kFarRibbons, "far ribbons", 24, 0.36f, FarRibbons},
+    {R::kRock, "rock", 900, 0.12f, Rock},
+    {R::kFields, "fields", 2400, 0.13f, Fields},
+    {R::kShop0, "shop 0", 1, 0.17f, [](float u, float v) { return Shop(u, v, 0); }},
+    {R::kShop1, "shop 1", 1, 0.17f, [](float u, float v) { return Shop(u, v, 1); }},
+    {R::kShop2, "shop 2", 1, 0.17f, [](float u, float v) { return Shop(u, v, 2); }},
+};
+
+TextureRecipe Painted(const PaintedRow& row) {
+  for (const MaterialTarget& t : kTargets)
+    if (t.recipe == row.recipe) return {row.name, row.tile, t.luminance, nullptr, row.paint, t.roughness, t.slope};
+  return {row.name, row.tile, 0.5f, nullptr, row.paint};
 }
 
 }  // namespace
@@ -85,70 +134,11 @@ int SizeOf(Recipe recipe) {
 }
 
 TextureRecipe MakeRecipe(Recipe recipe) {
-  switch (recipe) {
-    case R::kAsphalt:
-      return Painted("asphalt", 2, recipe, AsphaltAged);
-    case R::kAsphaltFresh:
-      return Painted("asphalt fresh", 1.5f, recipe, AsphaltFresh);
-    case R::kBitumen:
-      return Painted("bitumen", 1, recipe, Bitumen);
-    case R::kConcrete:
-      return Painted("concrete", 2.4f, recipe, Concrete);
-    case R::kSlabs:
-      return Painted("slabs", 3, recipe, Slabs);
-    case R::kPavingBrick:
-      return Painted("paving brick", 2, recipe, PavingBrick);
-    case R::kStoneSetts:
-      return Painted("stone setts", 2, recipe, StoneSetts);
-    case R::kGravelPath:
-      return Painted("gravel path", 1.6f, recipe, GravelPath);
-    case R::kGrass:
-      return Painted("grass", 1.6f, recipe, Grass);
-    case R::kSoil:
-      return Painted("soil", 2, recipe, Soil);
-    case R::kBrickRed:
-      return Painted("brick red", 2, recipe, BrickRed);
-    case R::kBrickStock:
-      return Painted("brick stock", 2, recipe, BrickStock);
-    case R::kBrickPainted:
-      return Painted("brick painted", 2, recipe, BrickPainted);
-    case R::kAshlar:
-      return Painted("ashlar", 3, recipe, Ashlar);
-    case R::kPlaster:
-      return Painted("plaster", 2.5f, recipe, Plaster);
-    case R::kPlanks:
-      return Painted("planks", 2, recipe, Planks);
-    case R::kRoofGravel:
-      return Painted("roof gravel", 2, recipe, RoofGravel);
-    case R::kRoofTile:
-      return Painted("roof tile", 2.4f, recipe, RoofTile);
-    case R::kSlate:
-      return Painted("slate", 2, recipe, Slate);
-    case R::kGalvanised:
-      return Painted("galvanised", 0.7f, recipe, Galvanised);
-    case R::kPaintWorn:
-      return Painted("road paint", 1.5f, recipe, PaintWorn);
-    case R::kStripes:
-      return {"stripes", 1.6f, 0.5f, Stripes};
-    case R::kFarWalls:
-      return {"far walls", 24, 0.42f, FarWalls};
-    case R::kFarPiers:
-      return {"far piers", 24, 0.40f, FarPiers};
-    case R::kFarRibbons:
-      return {"far ribbons", 24, 0.36f, FarRibbons};
-    case R::kRock:
-      return {"rock", 900, 0.12f, Rock};
-    case R::kFields:
-      return {"fields", 2400, 0.13f, Fields};
-    case R::kShop0:
-      return {"shop 0", 1, 0.17f, [](float u, float v) { return Shop(u, v, 0); }};
-    case R::kShop1:
-      return {"shop 1", 1, 0.17f, [](float u, float v) { return Shop(u, v, 1); }};
-    case R::kShop2:
-      return {"shop 2", 1, 0.17f, [](float u, float v) { return Shop(u, v, 2); }};
-    default:
-      return {"plain", 1, 0.5f, [](float, float) { return Texel{}; }};
-  }
+  for (const PaintedRow& row : kPainted)
+    if (row.recipe == recipe) return Painted(row);
+  for (const TexelRow& row : kTexels)
+    if (row.recipe == recipe) return {row.name, row.tile, row.luminance, row.texel};
+  return {"plain", 1, 0.5f, [](float, float) { return Texel{}; }};
 }
 
 }  // namespace airsim360::internal

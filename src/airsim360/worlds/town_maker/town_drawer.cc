@@ -41,6 +41,15 @@ std::vector<Vec2d> Thinned(const std::vector<Vec2d>& line) {
   return thin;
 }
 
+Vec2d MiddleOf(const Patch& patch) {
+  const Bounds2d box = BoundsOf(patch.outer);
+  return (box.min + box.max) * 0.5;
+}
+
+Patches SquareAbout(Vec2d m, double half) {
+  return {{{{m.x - half, m.y - half}, {m.x + half, m.y - half}, {m.x + half, m.y + half}, {m.x - half, m.y + half}}, {}}};
+}
+
 }  // namespace
 
 std::string Metres(double value) {
@@ -163,66 +172,70 @@ Patches TownDrawer::FreeGround() const {
   return Subtract(whole, taken);
 }
 
-void TownDrawer::LayOpenPlaces() {
-  // Blocks from the middle outwards.
+// Blocks that are large enough, from the middle outwards.
+std::vector<size_t> TownDrawer::BlocksForOpenPlaces() const {
   std::vector<std::pair<double, size_t>> order;
-  const auto middle = [](const Patch& patch) {
-    const Bounds2d box = BoundsOf(patch.outer);
-    return (box.min + box.max) * 0.5;
-  };
   for (size_t i = 0; i < blocks_.size(); ++i)
-    if (Area(blocks_[i]) > 700) order.emplace_back(Length(middle(blocks_[i])), i);
+    if (Area(blocks_[i]) > 700) order.emplace_back(Length(MiddleOf(blocks_[i])), i);
   std::sort(order.begin(), order.end());
-  std::vector<bool> open(blocks_.size(), false);
-  std::vector<Patch> rest;
-  constexpr double kHalfSquare = 31;
+  std::vector<size_t> blocks;
+  for (const auto& [distance, block] : order) blocks.push_back(block);
+  return blocks;
+}
+
+// What is left of the blocks takes their place.
+void TownDrawer::LayOpenPlaces() {
+  const std::vector<size_t> order = BlocksForOpenPlaces();
+  OpenPlaces places{std::vector<bool>(blocks_.size(), false), {}};
   size_t at = 0;
-  const size_t squares = std::min<size_t>(spec_.squares, order.size()), skip = 3;
   // The terrace's house has the block in the middle.
   if (spec_.terrace && !order.empty()) {
-    open[order[0].second] = true;
-    taken_.push_back(blocks_[order[0].second]);
+    places.open[order[0]] = true;
+    taken_.push_back(blocks_[order[0]]);
     ++at;
   }
-  for (size_t n = 0; n < squares && at < order.size(); ++n, at += skip) {
-    const Patch& block = blocks_[order[at].second];
-    open[order[at].second] = true;
-    const Vec2d m = middle(block);
-    const Patches box{{{{m.x - kHalfSquare, m.y - kHalfSquare}, {m.x + kHalfSquare, m.y - kHalfSquare}, {m.x + kHalfSquare, m.y + kHalfSquare}, {m.x - kHalfSquare, m.y + kHalfSquare}}, {}}};
-    const bool whole = Area(block) < 5600;
-    const Patches inside = whole ? Patches{block} : Intersect(Patches{block}, box);
-    if (inside.empty()) continue;
-    const auto largest = std::max_element(inside.begin(), inside.end(), [](const Patch& a, const Patch& b) { return Area(a) < Area(b); });
-    LaySquare(*largest, n);
-    if (!whole)
-      for (const Patch& patch : Subtract(Patches{block}, inside)) rest.push_back(patch);
-  }
+  const size_t squares = std::min<size_t>(spec_.squares, order.size()), skip = 3;
+  for (size_t n = 0; n < squares && at < order.size(); ++n, at += skip) LaySquareIn(places, order[at], n);
+  LayParks(places, order, at);
+  std::vector<Patch> left;
+  for (size_t i = 0; i < blocks_.size(); ++i)
+    if (!places.open[i]) left.push_back(blocks_[i]);
+  left.insert(left.end(), places.rest.begin(), places.rest.end());
+  blocks_ = std::move(left);
+}
+
+void TownDrawer::LaySquareIn(OpenPlaces& places, size_t number_of_block, size_t number) {
+  constexpr double kHalfSquare = 31;
+  const Patch& block = blocks_[number_of_block];
+  places.open[number_of_block] = true;
+  const bool whole = Area(block) < 5600;
+  const Patches inside = whole ? Patches{block} : Intersect(Patches{block}, SquareAbout(MiddleOf(block), kHalfSquare));
+  if (inside.empty()) return;
+  const auto largest = std::max_element(inside.begin(), inside.end(), [](const Patch& a, const Patch& b) { return Area(a) < Area(b); });
+  LaySquare(*largest, number);
+  if (!whole)
+    for (const Patch& patch : Subtract(Patches{block}, inside)) places.rest.push_back(patch);
+}
+
+// Here and there, off the middle: beyond the first `at` + 1 blocks of `order`.
+void TownDrawer::LayParks(OpenPlaces& places, const std::vector<size_t>& order, size_t at) {
+  const size_t from = std::min(order.size(), at + 1), left = order.size() - from;
   for (uint64_t n = 0; n < spec_.parks; ++n) {
-    // Here and there, off the middle.
-    const size_t from = std::min(order.size(), at + 1), left = order.size() - from;
     if (left == 0) break;
     size_t pick = from + (left * static_cast<size_t>(n) * 2 / (2 * static_cast<size_t>(spec_.parks)) + n) % left;
-    for (size_t tries = 0; tries < left && open[order[pick].second]; ++tries) pick = from + (pick + 1 - from) % left;
-    if (open[order[pick].second]) break;
-    open[order[pick].second] = true;
-    const Patch& block = blocks_[order[pick].second];
+    for (size_t tries = 0; tries < left && places.open[order[pick]]; ++tries) pick = from + (pick + 1 - from) % left;
+    if (places.open[order[pick]]) break;
+    places.open[order[pick]] = true;
+    const Patch& block = blocks_[order[pick]];
     if (Area(block) < 14000) {
       LayPark(block, static_cast<size_t>(n));
       continue;
     }
-    const Vec2d m = middle(block);
-    const double half = spec_.plan == TownPlan::kScattered ? 19 : 50;
-    const Patches box{{{{m.x - half, m.y - half}, {m.x + half, m.y - half}, {m.x + half, m.y + half}, {m.x - half, m.y + half}}, {}}};
-    const Patches inside = Intersect(Patches{block}, box);
+    const Patches inside = Intersect(Patches{block}, SquareAbout(MiddleOf(block), spec_.plan == TownPlan::kScattered ? 19 : 50));
     if (inside.empty()) continue;
     LayPark(inside[0], static_cast<size_t>(n));
-    for (const Patch& patch : Subtract(Patches{block}, inside)) rest.push_back(patch);
+    for (const Patch& patch : Subtract(Patches{block}, inside)) places.rest.push_back(patch);
   }
-  std::vector<Patch> left;
-  for (size_t i = 0; i < blocks_.size(); ++i)
-    if (!open[i]) left.push_back(blocks_[i]);
-  left.insert(left.end(), rest.begin(), rest.end());
-  blocks_ = std::move(left);
 }
 
 void TownDrawer::LaySquare(const Patch& patch, size_t number) {

@@ -36,7 +36,14 @@ class TownDrawer {
   void AddStreet(const std::vector<Vec2d>& line, int rank, std::vector<int64_t> ends, bool bridge);
   std::pair<double, double> WidthsOf(int rank) const;
   Patches FreeGround() const;
+  struct OpenPlaces {
+    std::vector<bool> open;   // by block: not for houses
+    std::vector<Patch> rest;  // of open blocks, for houses
+  };
+  std::vector<size_t> BlocksForOpenPlaces() const;
   void LayOpenPlaces();
+  void LaySquareIn(OpenPlaces& places, size_t number_of_block, size_t number);
+  void LayParks(OpenPlaces& places, const std::vector<size_t>& order, size_t at);
   void LaySquare(const Patch& patch, size_t number);
   void LayPark(const Patch& patch, size_t number);
   OsmWay& AddArea(const Ring& ring, const TagList& tags);

@@ -24,28 +24,27 @@ void AddShrubLeaf(PlantLayer& layer, Vec3f p, Vec3f out, float size, RngStream& 
   AddLeaf(layer, p, direction, up, {s, s * 0.55f, 0.14f, 0.15f}, cell, out * 0.4f);
 }
 
-// Several stems from the ground that fill flat, overlapping lobes; single shoots stand out.
-Model MakeShrub(uint32_t variant, uint64_t seed) {
-  struct Build {
-    float height, radius, leaf;
-    int leaves;
-  };
-  constexpr Build builds[4] = {{1.3f, 0.80f, 0.062f, 9000},
-                               {1.0f, 0.85f, 0.055f, 9000},
-                               {1.9f, 0.95f, 0.075f, 10000},
-                               {0.8f, 0.6f, 0.050f, 6500}};
-  const Build& b = builds[variant];
-  RngStream random(seed, "shrub");
-  std::vector<std::pair<Vec3f, float>> lobes;
+struct ShrubBuild {
+  float height, radius, leaf;  // metres
+  int leaves;
+};
+constexpr ShrubBuild kShrubs[4] = {{1.3f, 0.80f, 0.062f, 9000}, {1.0f, 0.85f, 0.055f, 9000}, {1.9f, 0.95f, 0.075f, 10000}, {0.8f, 0.6f, 0.050f, 6500}};
+
+using Lobes = std::vector<std::pair<Vec3f, float>>;  // centre, radius
+
+// The outer ones alternate between low and middle heights, so that the plant is clothed to the ground.
+Lobes ShrubLobes(const ShrubBuild& b, RngStream& random) {
+  Lobes lobes;
   for (int i = 0; i < 16; ++i) {
-    const float a = 2.39996f * static_cast<float>(i),
-                r = b.radius * 0.68f * std::sqrt((static_cast<float>(i) + 0.5f) / 16);
-    // The outer ones alternate between low and middle heights, so that the plant is clothed to the ground.
-    const float z = b.height * (i % 2 ? 0.28f : 0.78f - 0.40f * r / b.radius) *
-                    static_cast<float>(random.Uniform(0.8, 1.1));
-    lobes.push_back(
-        {{r * std::cos(a), r * std::sin(a), z}, b.radius * static_cast<float>(random.Uniform(0.26, 0.44))});
+    const float a = 2.39996f * static_cast<float>(i), r = b.radius * 0.68f * std::sqrt((static_cast<float>(i) + 0.5f) / 16);
+    const float z = b.height * (i % 2 ? 0.28f : 0.78f - 0.40f * r / b.radius) * static_cast<float>(random.Uniform(0.8, 1.1));
+    lobes.push_back({{r * std::cos(a), r * std::sin(a), z}, b.radius * static_cast<float>(random.Uniform(0.26, 0.44))});
   }
+  return lobes;
+}
+
+// Stems from one root into the lobes.
+std::vector<BranchNode> GrowShrub(const ShrubBuild& b, const Lobes& lobes, RngStream& random) {
   const auto inside = [&](Vec3f p) {
     for (const auto& [c, r] : lobes) {
       const Vec3f d = p - c;
@@ -53,50 +52,64 @@ Model MakeShrub(uint32_t variant, uint64_t seed) {
     }
     return false;
   };
-  const auto attractors =
-      ScatterInside({-b.radius * 1.3f, -b.radius * 1.3f, 0.08f},
-                    {b.radius * 1.3f, b.radius * 1.3f, b.height * 1.1f}, 2200, inside, random);
+  const auto attractors = ScatterInside({-b.radius * 1.3f, -b.radius * 1.3f, 0.08f}, {b.radius * 1.3f, b.radius * 1.3f, b.height * 1.1f}, 2200,
+                                        inside, random);
   std::vector<BranchNode> nodes;
   AddStem(nodes, -1, {0, 0, -0.12f}, {0, 0, 0}, 0.06f, 0, random);
   const int root = static_cast<int>(nodes.size()) - 1;
   for (int i = 0; i < 6; ++i) {
     const float a = 1.0472f * static_cast<float>(i) + static_cast<float>(random.Uniform(-0.3, 0.3));
-    AddStem(nodes, root, {0, 0, 0},
-            Vec3f{0.40f * b.radius * std::cos(a), 0.40f * b.radius * std::sin(a), b.height * 0.4f}, 0.07f,
-            0.4f, random);
+    AddStem(nodes, root, {0, 0, 0}, Vec3f{0.40f * b.radius * std::cos(a), 0.40f * b.radius * std::sin(a), b.height * 0.4f}, 0.07f, 0.4f, random);
   }
-  Colonise(nodes, attractors,
-           {.step = 0.07f, .influence = 0.55f, .kill = 0.13f, .tropism = {0, 0, 0.2f}, .max_nodes = 4000},
-           random);
+  Colonise(nodes, attractors, {.step = 0.07f, .influence = 0.55f, .kill = 0.13f, .tropism = {0, 0, 0.2f}, .max_nodes = 4000}, random);
   Thicken(nodes, 0.045f, 0.003f);
+  return nodes;
+}
 
-  std::vector<PlantLayer> layers = PlantLayers({0.15f, 0.12f, 0.09f}, ShrubLeaves());
-  AddBark(layers[0], nodes, 0.004f, 0);
-  std::vector<size_t> sites;
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].tips <= 5 && nodes[i].p.z > 0.06f) sites.push_back(i);
-  }
-  const Vec3f middle{0, 0, b.height * 0.35f};
+// Thin twigs above the ground, where leaves grow.
+std::vector<Vec3f> LeafSites(const std::vector<BranchNode>& nodes) {
+  std::vector<Vec3f> sites;
+  for (const BranchNode& node : nodes)
+    if (node.tips <= 5 && node.p.z > 0.06f) sites.push_back(node.p);
+  return sites;
+}
+
+Vec3f AnyOf(const std::vector<Vec3f>& sites, RngStream& random) { return sites[random.Index(static_cast<uint32_t>(sites.size()))]; }
+
+void ClotheShrub(std::vector<PlantLayer>& layers, const ShrubBuild& b, const std::vector<Vec3f>& sites, Vec3f middle, RngStream& random) {
   for (int k = 0; k < b.leaves; ++k) {
-    const Vec3f p = nodes[sites[random.Index(static_cast<uint32_t>(sites.size()))]].p;
-    const Vec3f d = p - middle;
+    const Vec3f p = AnyOf(sites, random), d = p - middle;
     const float depth = Norm(Vec3f{d.x / b.radius, d.y / b.radius, d.z / (0.65f * b.height)});
-    const float openness =
-        0.05f + 0.65f * depth + 0.35f * d.z / b.height + 0.12f * static_cast<float>(random.Normal());
-    AddShrubLeaf(LeavesAt(layers, openness),
-                 p + RandomDirection(random) * (0.07f * static_cast<float>(random.Uniform())),
-                 Normalized(p - middle), b.leaf, random);
+    const float openness = 0.05f + 0.65f * depth + 0.35f * d.z / b.height + 0.12f * static_cast<float>(random.Normal());
+    AddShrubLeaf(LeavesAt(layers, openness), p + RandomDirection(random) * (0.07f * static_cast<float>(random.Uniform())), Normalized(p - middle),
+                 b.leaf, random);
   }
-  // Shoots of this year: leaves along a free stem.
+}
+
+// Shoots of this year: leaves along a free stem.
+void AddShoots(std::vector<PlantLayer>& layers, const ShrubBuild& b, const std::vector<Vec3f>& sites, Vec3f middle, RngStream& random) {
   for (int i = 0; i < 28; ++i) {
-    const Vec3f p = nodes[sites[random.Index(static_cast<uint32_t>(sites.size()))]].p,
-                out = Normalized(p - middle);
+    const Vec3f p = AnyOf(sites, random), out = Normalized(p - middle);
     const Vec3f d = Normalized(out + Vec3f{0, 0, 1.1f} + RandomDirection(random) * 0.3f);
     const float length = 0.22f * static_cast<float>(random.Uniform(0.6, 1.3));
     AddNeedle(layers[0], p, p + d * length, Normalized(Cross(d, Vec3f{0.3f, 0.5f, 0.1f})), 0.006f, out, 0);
     for (int k = 0; k < 14; ++k)
       AddShrubLeaf(layers[3], p + d * (length * static_cast<float>(k + 1) / 14), d, b.leaf * 0.8f, random);
   }
+}
+
+// Several stems from the ground that fill flat, overlapping lobes; single shoots stand out.
+Model MakeShrub(uint32_t variant, uint64_t seed) {
+  const ShrubBuild& b = kShrubs[variant];
+  RngStream random(seed, "shrub");
+  const Lobes lobes = ShrubLobes(b, random);
+  const std::vector<BranchNode> nodes = GrowShrub(b, lobes, random);
+  std::vector<PlantLayer> layers = PlantLayers({0.15f, 0.12f, 0.09f}, ShrubLeaves());
+  AddBark(layers[0], nodes, 0.004f, 0);
+  const std::vector<Vec3f> sites = LeafSites(nodes);
+  const Vec3f middle{0, 0, b.height * 0.35f};
+  ClotheShrub(layers, b, sites, middle, random);
+  AddShoots(layers, b, sites, middle, random);
   return JoinLayers("shrub", layers);
 }
 

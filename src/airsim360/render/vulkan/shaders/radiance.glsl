@@ -44,157 +44,208 @@ void Scatter(Ray ray, inout Shaded s, vec2 u) {
   const float below = dot(r, s.g);
   s.r = below < 0.01 ? normalize3(r + s.g * (0.02 - 2.0 * below)) : r;
 }
+#endif
 
-Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key, Choice choice) {
+/// What a camera ray has found so far.
+struct Look {
+  vec3 eye, direction;
+  float cone_angle;
+  Ray ray, first;    // that met `s`; that met `s0`
+  Shaded s, s0;      // surface at hand; what the camera sees
+  LampChoice lamps;  // of `s`
+  bool pending;      // `s` waits for its light
   Sample result;
-  result.terms.ambient = result.terms.sun = vec3(0.0);
-  result.n = result.g = result.around = vec3(0.0);
-  result.asks_sun = false, result.seen = result.leaf = 0.0;
-  float sun_known = -1.0;
+#ifdef HIGH
+  Choice choice;
+  float sun_known;
+#endif
+};
+
+/// The ray of one step.
+struct Query {
+  vec3 origin, to;
+  float reach;
+  bool wanted, looks;  // looks: sees panes and tells what it met, else only whether
+  LampEffect lamp;
+};
+
+void AskSun(int step, inout Look look, inout Query q) {
+  q.wanted = (step == kSun || look.pending) && look.s.sunlit > 0.0;
+  q.looks = false, q.to = look.s.l;
+#ifdef HIGH
+  if (step == kSun) {
+    look.result.asks_sun = q.wanted;
+    if (q.wanted && look.choice.sun != vec3(0.0)) q.to = look.choice.sun;
+    if (q.wanted && look.sun_known >= 0.0) look.result.seen = look.sun_known, q.wanted = false;
+  }
+#endif
+}
+
+void AskLamp(int which, Look look, inout Query q) {
+  q.wanted = ShareOf(look.lamps, which) > 0.0;
+  if (!q.wanted) return;
+  q.lamp = EffectOfLamp(view.lamps.v[look.lamps.lamp[which]], look.ray, look.s);
+  q.looks = false, q.to = q.lamp.direction, q.reach = q.lamp.distance_;
+}
+
+Query Ask(int step, inout Look look) {
+  Query q;
+  q.origin = look.eye, q.to = look.direction, q.reach = 1e30;
+  q.wanted = q.looks = true;
+  if (step == kSun || step == kMirrorSun || step == kBehindSun) {
+    AskSun(step, look, q);
+  } else if (step == kLamp0 || step == kLamp1) {
+    AskLamp(step - kLamp0, look, q);
+  } else if (step == kContact) {
+#ifdef HIGH
+    q.wanted = false;
+#else
+    q.wanted = look.s.g.z >= 0.7 && look.ray.distance_ <= 40.0 && look.s.kind == 0.0;
+#endif
+    q.to = vec3(0.0123, 0.0071, 1.0), q.reach = 1.2;
+  } else if (step == kMirror) {
+#ifdef HIGH
+    Scatter(look.ray, look.s, look.choice.mirrored);
+#endif
+    look.s0 = look.s;
+    q.wanted = look.s0.mirror;
+    q.to = look.s0.r;
+  } else if (step == kBehind) {
+    q.wanted = look.s0.kind == kGlass && look.s0.transmission > 0.0;
+  }
+  if (!q.wanted || step == kCamera) return q;
+  const bool of_first = step == kMirror || step == kBehind;
+  const vec3 p = of_first ? look.s0.p : look.s.p, g = of_first ? look.s0.g : look.s.g;
+  const float lift = ray_offset(p, of_first ? look.first.distance_ : look.ray.distance_);
+  const bool back = step == kBehind || (!q.looks && dot(g, q.to) < 0.0);
+  q.origin = p + g * (back ? -lift : lift);
+  // Inside the lamp.
+  if (!q.looks && q.reach <= lift) q.reach = 0.0;
+  return q;
+}
+
+/// A ray to the sun or a lamp has come back.
+void TakeLight(int step, Query q, inout Look look) {
+  const float seen = hit.instance == kMiss ? (hit.t + hit.bary.x + hit.bary.y) / 3.0 : 0.0;
+  if (step == kLamp0 || step == kLamp1) {
+    const float more = (seen - look.lamps.guess[step - kLamp0]) * ShareOf(look.lamps, step - kLamp0);
+    look.s.lamp_front += q.lamp.front * more, look.s.lamp_back += q.lamp.back * more, look.s.lamp_shine += q.lamp.shine * more;
+    return;
+  }
+  look.s.sunlit = seen;
+#ifdef HIGH
+  if (step == kSun) look.result.seen = seen;
+#endif
+}
+
+void TakeSky(int step, Query q, inout Look look) {
+  vec3 sky = LookUpSky(q.origin.z, q.to, step == kCamera);
+  if (step == kCamera) sky = BehindDrops(sky, look.eye, look.direction, 2e5, look.cone_angle);
+  if (step == kMirror) look.s0.reflected = sky, look.s0.traced = true;
+  if (step == kBehind) look.s0.behind = sky, look.s0.clear = true;
+  if (step != kCamera) return;
+#ifdef HIGH
+  look.result.terms.rest = sky;
+#endif
+  look.result.light = sky;
+}
+
+void TakeSurface(int step, Query q, uint key, inout Look look) {
+  Ray ray;
+  ray.origin = q.origin, ray.direction = q.to, ray.distance_ = hit.t, ray.bary = hit.bary;
+  ray.instance = hit.instance, ray.primitive = hit.primitive;
+  ray.width = step == kCamera ? hit.t * look.cone_angle : look.first.width * (1.0 + hit.t / max(look.first.distance_, 0.01));
+  ray.key = step == kCamera ? key : 0u;
+  look.ray = ray;
+  look.s = Prepare(ray);
+  // What is seen in a mirror does without rays to lamps.
+  look.lamps = LightByLamps(ray, look.s);
+  look.pending = step != kCamera;
+  if (step != kCamera) return;
+  look.first = ray, look.result.albedo = look.s.color;
+#ifdef HIGH
+  look.result.n = look.s.n, look.result.g = look.s.g;
+  look.result.leaf = look.s.kind == kFoliage ? look.s.transmission : 0.0;
+  look.result.around = LightAround(hit, look.direction, look.sun_known);
+#endif
+}
+
+#ifdef HIGH
+/// The terms of the first surface, about which all is known.
+void FindTerms(inout Look look) {
+  look.result.terms = TermsOf(look.ray, look.s, look.result.asks_sun);
+  if (view.rain + view.snow > 0.0) {
+    // Drops and flakes hide a share of every term and add their own light.
+    const float hidden = Hidden(look.eye, look.direction, look.ray.distance_, look.cone_angle);
+    look.result.terms.ambient *= 1.0 - hidden, look.result.terms.sun *= 1.0 - hidden;
+    look.result.terms.rest = lerp3(look.result.terms.rest, Vec(view.drop_light), hidden);
+  }
+}
+#endif
+
+/// Light of the surface at hand, about which all is known.
+void LightSurface(int step, inout Look look, inout vec3 light) {
+  light = LightOf(look.ray, look.s);
+  look.pending = false;
+  if (step == kBehind) look.s0.reflected = light, look.s0.traced = true;
+  if (step == kBehindLight) look.s0.behind = light, look.s0.clear = true;
+}
+
+#ifdef HIGH
+Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key, Choice choice) {
 #else
 /// `cone_angle` is the ray's width per metre, `key` 0 for pixel centres.
 Sample Radiance(vec3 eye, vec3 direction, float cone_angle, uint key) {
-  Sample result;
 #endif
-  result.albedo = vec3(0.0);
-  Ray ray, first;  // that met `s`; that met `s0`
-  Shaded s, s0;    // surface at hand; what the camera sees
-  LampChoice lamps;
-  bool pending = false;  // `s` waits for its light
+  Look look;
+  look.eye = eye, look.direction = direction, look.cone_angle = cone_angle;
+  look.result.albedo = vec3(0.0);
+  look.pending = false;
+#ifdef HIGH
+  look.result.terms.ambient = look.result.terms.sun = vec3(0.0);
+  look.result.n = look.result.g = look.result.around = vec3(0.0);
+  look.result.asks_sun = false, look.result.seen = look.result.leaf = 0.0;
+  look.choice = choice, look.sun_known = -1.0;
+#endif
   vec3 light = vec3(0.0);
   [[dont_unroll]] for (int step = kCamera; step <= kLast; ++step) {
     // A surface seen in or behind another, and at last the first one, are lit when all about them is known.
-    if (step == kLast) ray = first, s = s0, pending = true;
+    if (step == kLast) look.ray = look.first, look.s = look.s0, look.pending = true;
 #ifdef HIGH
     if (step == kLast) {
-      result.terms = TermsOf(ray, s, result.asks_sun);
-      if (view.rain + view.snow > 0.0) {
-        // Drops and flakes hide a share of every term and add their own light.
-        const float hidden = Hidden(eye, direction, ray.distance_, cone_angle);
-        result.terms.ambient *= 1.0 - hidden, result.terms.sun *= 1.0 - hidden;
-        result.terms.rest = lerp3(result.terms.rest, Vec(view.drop_light), hidden);
-      }
+      FindTerms(look);
       break;
     }
 #endif
-    if (pending && (step == kBehind || step == kBehindLight || step == kLast)) {
-      light = LightOf(ray, s);
-      pending = false;
-      if (step == kBehind) s0.reflected = light, s0.traced = true;
-      if (step == kBehindLight) s0.behind = light, s0.clear = true;
-    }
+    if (look.pending && (step == kBehind || step == kBehindLight || step == kLast)) LightSurface(step, look, light);
     if (step == kBehindLight) continue;
     if (step == kLast) break;
-
-    // The ray of this step.
-    vec3 origin = eye, to = direction;
-    float reach = 1e30;
-    bool looks = true, wanted = true;  // looks: sees panes and tells what it met, else only whether
-    LampEffect lamp;
-    if (step == kSun || step == kMirrorSun || step == kBehindSun) {
-      wanted = (step == kSun || pending) && s.sunlit > 0.0;
-      looks = false, to = s.l;
-#ifdef HIGH
-      if (step == kSun) {
-        result.asks_sun = wanted;
-        if (wanted && choice.sun != vec3(0.0)) to = choice.sun;
-        if (wanted && sun_known >= 0.0) result.seen = sun_known, wanted = false;
-      }
-#endif
-    } else if (step == kLamp0 || step == kLamp1) {
-      wanted = ShareOf(lamps, step - kLamp0) > 0.0;
-      if (wanted) {
-        lamp = EffectOfLamp(view.lamps.v[lamps.lamp[step - kLamp0]], ray, s);
-        looks = false, to = lamp.direction, reach = lamp.distance_;
-      }
-    } else if (step == kContact) {
-#ifdef HIGH
-      wanted = false;
-#else
-      wanted = s.g.z >= 0.7 && ray.distance_ <= 40.0 && s.kind == 0.0;
-#endif
-      to = vec3(0.0123, 0.0071, 1.0), reach = 1.2;
-    } else if (step == kMirror) {
-#ifdef HIGH
-      Scatter(ray, s, choice.mirrored);
-#endif
-      s0 = s;
-      wanted = s0.mirror;
-      to = s0.r;
-    } else if (step == kBehind) {
-      wanted = s0.kind == kGlass && s0.transmission > 0.0;
-    }
-    if (!wanted) continue;
-    if (step != kCamera) {
-      const bool of_first = step == kMirror || step == kBehind;
-      const vec3 p = of_first ? s0.p : s.p, g = of_first ? s0.g : s.g;
-      const float lift = ray_offset(p, of_first ? first.distance_ : ray.distance_);
-      const bool back = step == kBehind || (!looks && dot(g, to) < 0.0);
-      origin = p + g * (back ? -lift : lift);
-      // Inside the lamp.
-      if (!looks && reach <= lift) reach = 0.0;
-    }
+    const Query q = Ask(step, look);
+    if (!q.wanted) continue;
 
     // Rays of light start with the tint (t, bary), which panes change.
-    hit.instance = looks ? kMiss : 0u;
+    hit.instance = q.looks ? kMiss : 0u;
     hit.t = 1.0, hit.bary = vec2(1.0);
 #ifdef RECORD
-    RecordRay(origin, to, reach, looks);
+    RecordRay(q.origin, q.to, q.reach, q.looks);
 #endif
     traceRayEXT(accelerationStructureEXT(push.frame.v.tlas),
-                looks ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xff,
-                looks ? 0 : 3, 1, looks ? 0 : 1, origin, 0.0, to, reach, 0);
+                q.looks ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xff,
+                q.looks ? 0 : 3, 1, q.looks ? 0 : 1, q.origin, 0.0, q.to, q.reach, 0);
 
-    if (!looks) {
-      const float seen = hit.instance == kMiss ? (hit.t + hit.bary.x + hit.bary.y) / 3.0 : 0.0;
-      if (step == kLamp0 || step == kLamp1) {
-        const float more = (seen - lamps.guess[step - kLamp0]) * ShareOf(lamps, step - kLamp0);
-        s.lamp_front += lamp.front * more, s.lamp_back += lamp.back * more, s.lamp_shine += lamp.shine * more;
-      } else {
-        s.sunlit = seen;
-#ifdef HIGH
-        if (step == kSun) result.seen = seen;
-#endif
-      }
-      continue;
-    }
-    if (step == kContact) {
+    if (!q.looks) {
+      TakeLight(step, q, look);
+    } else if (step == kContact) {
       // Things close above level ground keep ambient light off.
-      if (hit.instance == kMiss) continue;
       const float t = min(1.0, hit.t / 1.2);
-      s.contact = 0.25 + 0.75 * t * t * (3.0 - 2.0 * t);
-      continue;
+      if (hit.instance != kMiss) look.s.contact = 0.25 + 0.75 * t * t * (3.0 - 2.0 * t);
+    } else {
+      if (step == kCamera) look.result.first = hit;
+      if (hit.instance != kMiss) TakeSurface(step, q, key, look);
+      else TakeSky(step, q, look);
+      if (step == kCamera && hit.instance == kMiss) return look.result;
     }
-    if (step == kCamera) result.first = hit;
-    if (hit.instance == kMiss) {
-      vec3 sky = LookUpSky(origin.z, to, step == kCamera);
-      if (step == kCamera) sky = BehindDrops(sky, eye, direction, 2e5, cone_angle);
-      if (step == kMirror) s0.reflected = sky, s0.traced = true;
-      if (step == kBehind) s0.behind = sky, s0.clear = true;
-      if (step != kCamera) continue;
-#ifdef HIGH
-      result.terms.rest = sky;
-#endif
-      result.light = sky;
-      return result;
-    }
-    ray.origin = origin, ray.direction = to, ray.distance_ = hit.t, ray.bary = hit.bary;
-    ray.instance = hit.instance, ray.primitive = hit.primitive;
-    ray.width = step == kCamera ? hit.t * cone_angle : first.width * (1.0 + hit.t / max(first.distance_, 0.01));
-    ray.key = step == kCamera ? key : 0u;
-    s = Prepare(ray);
-    // What is seen in a mirror does without rays to lamps.
-    lamps = LightByLamps(ray, s);
-    pending = step != kCamera;
-    if (step == kCamera) first = ray, result.albedo = s.color;
-#ifdef HIGH
-    if (step == kCamera) {
-      result.n = s.n, result.g = s.g;
-      result.leaf = s.kind == kFoliage ? s.transmission : 0.0;
-      result.around = LightAround(hit, direction, sun_known);
-    }
-#endif
   }
-  result.light = BehindDrops(light, eye, direction, first.distance_, cone_angle);
-  return result;
+  look.result.light = BehindDrops(light, eye, direction, look.first.distance_, cone_angle);
+  return look.result;
 }
