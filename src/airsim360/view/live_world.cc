@@ -10,6 +10,7 @@
 #include "airsim360/base/error.h"
 #include "airsim360/flight/drones/catalog.h"
 #include "airsim360/math/coordinate_limit.h"
+#include "airsim360/scene/viewpoint.h"
 #include "airsim360/sim/drone_bodies.h"
 #include "airsim360/view/drawing.h"
 #include "airsim360/view/drawn_frames.h"
@@ -74,7 +75,7 @@ Products ProductsOf(const Json& message, std::vector<std::string>& names) {
 
 DroneSetup SetupOf(const Scene& scene, const std::string& drone) {
   DroneSetup setup{.name = "drone", .model = CatalogModel(drone)};
-  const Vec3d spawn = VecCast<double>(scene.spawn.value_or(scene.bounds.center()));
+  const Vec3d spawn = VecCast<double>(FirstViewpoint(scene));
   setup.X_WB = BodyPose(spawn, scene.spawn_yaw_deg * std::numbers::pi / 180, 0, 0);
   setup.airborne = true;
   setup.crash_disarms = false;  // who bumps into something flies on
@@ -90,6 +91,7 @@ std::shared_ptr<const SimModel> ModelOf(Stage& stage, const std::string& drone) 
 // A picture that may still be asked about.
 struct Seen {
   int64_t number = 0;
+  std::vector<std::string> products;
   Frame frame;
 };
 
@@ -183,7 +185,8 @@ SocketMessage LiveWorld::Impl::Picture(const Json& message, bool may_fly) {
   if (products.flow) next = InstantAfter(loop.model(), *state, 0, kFlowSeconds);
   Capture capture;
   if (seen.size() == kKeptFrames) {
-    capture.frame = std::move(seen.front().frame);  // its memory
+    // Its memory, unless it holds other products: those would stay in memory unseen.
+    if (seen.front().products == names) capture.frame = std::move(seen.front().frame);
     seen.pop_front();
   }
   CaptureRig(rig, state->vehicles[0].motion, state->t_ns, *renderer, capture, products.flow ? &next : nullptr);
@@ -191,7 +194,7 @@ SocketMessage LiveWorld::Impl::Picture(const Json& message, bool may_fly) {
   planes.AddPicture(capture.frame.rgb);
   for (const std::string& name : names) planes.AddProduct(capture.frame, name);
   SocketMessage answer{planes.Finish(StateFields(capture)), true};
-  seen.push_back({next_number++, std::move(capture.frame)});
+  seen.push_back({next_number++, names, std::move(capture.frame)});
   return answer;
 }
 
