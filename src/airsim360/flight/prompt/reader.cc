@@ -208,37 +208,7 @@ void Reader::FinishMasses() {
   FinishLoadedMass();
   SumUpParts();
   std::stable_partition(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return !loose.part; });
-  for (const Loose& loose : loose_masses_) {
-    const Quantity& q = loose.quantity;
-    spanning_ = &tokens_[q.first];
-    const bool bound = q.unit && IsAtMost(q);
-    const double value = bound ? 0.996 * q.value : q.value;
-    if (bound && request_.mass && *request_.mass <= q.value * 1.005) continue;
-    if (loose.part && request_.mass && *request_.mass > 1.3 * q.value) {
-      Decide("'" + q.words + "' is of a part and left to the design");
-      continue;
-    }
-    if (!bound && request_.mass && IsSumOf(*request_.mass, q.value)) {  // "total 2.5 kg, payload 500 g, 2 kg drone"
-      Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
-      continue;
-    }
-    // What is beside the mass of a drone is carried.
-    const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
-    const bool inside = loose.part || loose.thing || IsIncluded(q);
-    if (whole_of_mass_ && inside && request_.mass && q.value * loose.count > *request_.mass) {
-      throw InputError("no drone fits the description: parts of '" + q.words + "' are more than '" + request_.words["mass"] +
-                       "' in all");
-    }
-    if (whole_of_mass_ && !carried && !bound && request_.mass && q.value < 0.98 * *request_.mass) {
-      Decide("'" + q.words + "' is of a part of '" + request_.words["mass"] + "' and left to the design");
-    } else if (carried) {
-      Decide("'" + q.words + "' is read as payload");
-      Set(payload, request_.payload, q.value, q.words);
-    } else {
-      if (bound) Decide("'" + q.words + "' is not reached by a little: " + Kilograms(value));
-      Set(mass, request_.mass, value, q.words);
-    }
-  }
+  for (const Loose& loose : loose_masses_) PlaceLoose(loose);
   spanning_ = nullptr;
   FinishLoads();
   FinishBareMass();
@@ -252,6 +222,40 @@ void Reader::FinishMasses() {
   // "12.5 kg dry, 10 l, 24.5 kg at take-off": the rest is of what was not said.
   if (request_.mass && *request_.mass >= whole) return;
   Set(mass, request_.mass, whole, request_.payload ? words + " and " + request_.words["payload"] : words);
+}
+
+/// A mass of which nothing says whose it is: the drone's, what it carries, or a part of it.
+void Reader::PlaceLoose(const Loose& loose) {
+  const FieldRange mass{"mass", 0.01, 400, "kg"}, payload{"payload", 0.0005, 1000, "kg"};
+  const Quantity& q = loose.quantity;
+  spanning_ = &tokens_[q.first];
+  const bool bound = q.unit && IsAtMost(q);
+  const double value = bound ? 0.996 * q.value : q.value;
+  if (bound && request_.mass && *request_.mass <= q.value * 1.005) return;
+  if (loose.part && request_.mass && *request_.mass > 1.3 * q.value) {
+    Decide("'" + q.words + "' is of a part and left to the design");
+    return;
+  }
+  if (!bound && request_.mass && IsSumOf(*request_.mass, q.value)) {  // "total 2.5 kg, payload 500 g, 2 kg drone"
+    Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+    return;
+  }
+  // What is beside the mass of a drone is carried.
+  const bool carried = (loose.thing || IsOfLoad(q)) && !bound && !request_.payload;
+  const bool inside = loose.part || loose.thing || IsIncluded(q);
+  if (whole_of_mass_ && inside && request_.mass && q.value * loose.count > *request_.mass) {
+    throw InputError("no drone fits the description: parts of '" + q.words + "' are more than '" + request_.words["mass"] +
+                     "' in all");
+  }
+  if (whole_of_mass_ && !carried && !bound && request_.mass && q.value < 0.98 * *request_.mass) {
+    Decide("'" + q.words + "' is of a part of '" + request_.words["mass"] + "' and left to the design");
+  } else if (carried) {
+    Decide("'" + q.words + "' is read as payload");
+    Set(payload, request_.payload, q.value, q.words);
+  } else {
+    if (bound) Decide("'" + q.words + "' is not reached by a little: " + Kilograms(value));
+    Set(mass, request_.mass, value, q.words);
+  }
 }
 
 /// Liquids and things of known mass, where no payload was said.

@@ -120,6 +120,7 @@ class Reader {
   void ReadMass(const Quantity& q);
   size_t NounOfMass(const Quantity& q) const;
   void SetMassOf(size_t noun, const Quantity& q);
+  void SetOwnMass(size_t noun, const Quantity& q);
   size_t WeighedThing(const Quantity& q, size_t noun) const;
   bool IsOfLoad(const Quantity& q) const;
   bool IsLoaded(const Quantity& q) const;
@@ -208,6 +209,7 @@ class Reader {
     bool loaded = false;  ///< "3 kg with camera"
     double count = 1;     ///< parts that have it each
   };
+  void PlaceLoose(const Loose& loose);
   std::vector<Loose> loose_masses_;
   std::vector<Quantity> volts_;          ///< of the battery
   std::optional<Quantity> power_;        ///< of hovering, in watts

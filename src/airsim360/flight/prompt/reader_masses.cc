@@ -279,12 +279,17 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
     case WordKind::kEmpty:
       return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
     default:
-      break;
+      return SetOwnMass(noun, q);
   }
+}
+
+/// The mass of the drone, of which others may have been said.
+void Reader::SetOwnMass(size_t noun, const Quantity& q) {
   // "under 250 g" is met just below, unless the mass itself is said.
   if (IsAtMost(q)) return loose_masses_.push_back({q, false});
   CorrectWith("mass", request_.mass, q.first);
-  if (kind == WordKind::kMass && IsWhole(noun)) {
+  const bool whole = Is(noun, WordKind::kMass) && IsWhole(noun);
+  if (whole) {
     whole_said_ = true;
     SumUpMass(q);
     if (request_.mass && IsSumOf(q.value, *request_.mass)) {  // "2 kg, payload 500 g, total 2.5 kg"
@@ -295,20 +300,19 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
     }
   }
   if (request_.mass && std::abs(*request_.mass - q.value) > 0.02 * std::max(*request_.mass, q.value)) {
-    const bool whole = kind == WordKind::kMass && IsWhole(noun);
+    // Only two wholes contradict each other: the smaller mass beside a whole is of something else.
     const bool smaller = q.value < *request_.mass;
-    if (whole_of_mass_ && !whole && smaller) return loose_masses_.push_back({q, false, false, false});
+    if (whole_of_mass_ && !whole && smaller) return loose_masses_.push_back({q, false});
     if (whole && !whole_of_mass_ && !smaller) {
-      Quantity said = mass_quantity_;
       request_.mass.reset();
       request_.words.erase("mass");
-      loose_masses_.push_back({said, false, false, false});
+      loose_masses_.push_back({mass_quantity_, false});
     }
   }
   if (!request_.mass) {
     mass_quantity_ = q;
     const size_t after = NounAfter(q);
-    whole_of_mass_ = (kind == WordKind::kMass && IsWhole(noun)) || (after != kNone && Is(after, WordKind::kMass) && IsWhole(after));
+    whole_of_mass_ = whole || (after != kNone && Is(after, WordKind::kMass) && IsWhole(after));
   }
   Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
 }
