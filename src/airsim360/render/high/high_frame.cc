@@ -10,6 +10,7 @@
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
 #include "airsim360/render/filter/denoiser.h"
+#include "airsim360/render/filter/exposure.h"
 #include "airsim360/render/frame/antialias.h"
 #include "airsim360/render/frame/packet_tracer.h"
 #include "airsim360/render/high/high_buffers.h"
@@ -124,6 +125,11 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
 
   uint64_t count = static_cast<uint64_t>(field.width) * static_cast<uint64_t>(field.height);
   if (samples > 1) {
+    // Where edges are white depends on the exposure that the picture will have: rooms by night are far brighter than the night.
+    if (shader.impl().indoor && request.auto_exposure) {
+      impl.exposure *= static_cast<float>(std::exp2(AutoExposureEv(radiance, request.camera, shader.Exposure(), shader.MostExposure())));
+      impl.Combine({buffers.light.pixels().data(), buffers.sun_seen.pixels().data(), impl.exposure, radiance.pixels().data(), buffers.luma.pixels().data()});
+    }
     Antialiaser().FindEdges(buffers.entity, buffers.luma, field.separable, buffers.edges);
     const HighEdgeTask task{&tracer,     &shader,       &rays,   labels,       impl.SunView(),
                             impl.origin, impl.exposure, samples, request.seed, &radiance};

@@ -76,6 +76,12 @@ void TraceUnknownSun(const Shader::Impl& impl, const RaySet& rays, const float* 
   }
 }
 
+// In rooms rays of the skin meet the lamps themselves: their highlights would count twice.
+void LeaveLampsToRays(const IndoorLight& room, const float* sharp, int count, SurfaceSet& s) {
+  for (int i = 0; i < count; ++i)
+    if (room.share[i] > 0.5f && sharp[i] == 0 && s.mirror[i] != 0) s.lamp_shine_r[i] = s.lamp_shine_g[i] = s.lamp_shine_b[i] = 0;
+}
+
 // Drops and flakes before a surface hide a share of every term and add their own light.
 void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_angle, LightTerms& terms) {
   LightSet black{}, own;
@@ -125,7 +131,10 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   if (indoors && impl.view.lamps.lamps != nullptr) impl.kernels.mix_lamps(room, rays.count, surfaces);
   alignas(64) float u[kBatch], v[kBatch];
   ReflectionPoints(rays, surfaces, sampling, u, v);
+  float sharp[kBatch];
+  std::copy_n(surfaces.mirror, rays.count, sharp);
   impl.kernels.scatter(rays, u, v, surfaces);
+  if (indoors) LeaveLampsToRays(room, sharp, rays.count, surfaces);
   impl.FollowRays(rays, surfaces);
 
   LightTerms scattered, &own = all ? terms : scattered;  // in the order of `rays`
@@ -133,7 +142,9 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, own);
   if (!all) PutTerms(rays, own, terms);
   PutSurfaces(rays, all, surfaces, tile);
-  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, indoors ? &room : nullptr, tile);
+  if (sampling == nullptr) return;
+  GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, indoors ? &room : nullptr, tile);
+  if (indoors) GatherGloss(impl, *sampling, rays, surfaces, tile);
 }
 
 }  // namespace airsim360::internal

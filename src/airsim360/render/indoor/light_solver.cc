@@ -16,7 +16,8 @@ constexpr float kHomeCell = 0.12f;        // m
 constexpr double kMostCoarse = 70000;     // cells of surface, about
 constexpr int kFirstBounces = 6, kMostBounces = 200;
 constexpr float kConverged = 2e-5f;       // of all light, that the last bounce brings
-constexpr float kOutsideCell = 0.5f;      // m
+constexpr float kOutsideCell = 0.12f;     // m
+constexpr uint32_t kOutsidePlaces = 8;   // of a cell that are looked at
 constexpr float kStratified = 0.6f;       // of the variance of random rays
 constexpr float kRefine = 1.5f;          // ratio of neighbours
 constexpr double kMostFine = 300000;      // surfels, about
@@ -140,6 +141,7 @@ void LightSolver::TraceEven() {
   others_.assign(count, {});
   coarse_light_.lamps.assign(count, {});
   links_.assign(count * 2 * rays, {LightLink::kNothing, 0, 0, 0});
+  radiance_.assign(count, {});
   std::vector<std::vector<std::pair<size_t, OutsidePlace>>> outside(count / kChunk + 1);
   ForSurfels(count, [&](size_t i, size_t chunk) {
     std::vector<Vec2f> points;
@@ -156,32 +158,35 @@ void LightSolver::TraceEven() {
   AddOutside(outside);
 }
 
-// Places a cell apart are one, in the order of links.
+// Places in one cell are one, with the mean of their light: beside a window sun and shade lie close together. In the order of links.
 void LightSolver::AddOutside(std::vector<std::vector<std::pair<size_t, OutsidePlace>>>& found) {
   std::unordered_map<uint64_t, uint32_t> known;
   const auto cell = [](float x) { return static_cast<int32_t>(std::floor(std::clamp(x / kOutsideCell, -5e5f, 5e5f))); };
-  const auto first = static_cast<uint32_t>(outside_.size());
+  const size_t first = radiance_.size();
+  std::vector<std::pair<uint32_t, OutsidePlace>> asked;  // from `first` on
+  std::vector<uint32_t> count;
   for (auto& part : found) {
     for (const auto& [at, place] : part) {
       const Vec3f n = place.n;
       const int side = std::fabs(n.x) > std::fabs(n.y) && std::fabs(n.x) > std::fabs(n.z) ? (n.x > 0 ? 0 : 1)
                        : std::fabs(n.y) > std::fabs(n.z)                                 ? (n.y > 0 ? 2 : 3)
                                                                                          : (n.z > 0 ? 4 : 5);
-      auto id = static_cast<uint32_t>(outside_.size());
+      auto id = static_cast<uint32_t>(count.size());
       const bool alone = place.radiance != Vec3f{} || n == Vec3f{};
       if (!alone) {
         const uint64_t key = IndoorKey(cell(place.p.x), cell(place.p.y), cell(place.p.z)) * 6 + static_cast<uint64_t>(side);
         id = known.try_emplace(key, id).first->second;
       }
-      if (id == outside_.size()) outside_.push_back(place);
-      links_[at].target = static_cast<uint32_t>(coarse_.surfels().size()) + id;
+      if (id == count.size()) count.push_back(0);
+      if (count[id] < kOutsidePlaces) ++count[id], asked.emplace_back(id, place);
+      links_[at].target = static_cast<uint32_t>(first) + id;
     }
     part = {};
   }
-  radiance_.resize(coarse_.surfels().size() + outside_.size());
-  ForSurfels(outside_.size() - first, [&](size_t k, size_t) {
-    radiance_[coarse_.surfels().size() + first + k] = RadianceOutside(outside_[first + k], k);
-  });
+  std::vector<Vec3f> light(asked.size());
+  ForSurfels(asked.size(), [&](size_t k, size_t) { light[k] = RadianceOutside(asked[k].second, k); });
+  radiance_.resize(first + count.size());
+  for (size_t k = 0; k < asked.size(); ++k) radiance_[first + asked[k].first] += light[k] * (1 / static_cast<float>(count[asked[k].first]));
 }
 
 void LightSolver::FindDirect() {

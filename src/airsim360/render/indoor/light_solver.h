@@ -76,7 +76,6 @@ class LightSolver {
   PlainLamps plain_;
   SurfelSet coarse_;
   std::vector<LightLink> links_;  ///< 2 x rays a surfel
-  std::vector<OutsidePlace> outside_;
   std::vector<Vec3f> direct_;     ///< irradiance of sun and lamps, by coarse surfel
   std::vector<Vec3f> others_;     ///< of it, lamps that the grid does not hold
   std::vector<Vec3f> radiance_;   ///< by target

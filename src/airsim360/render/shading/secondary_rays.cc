@@ -171,10 +171,21 @@ void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RayS
 
 namespace {
 
+void FindTint(const RayTracer& tracer, const RayQueue& queue, PaneTint& panes) {
+  std::array<Vec3f, 16> tint;
+  tint.fill({1, 1, 1});
+  if (tracer.has_clear_panes()) {
+    RayHit16 rays = queue.rays;
+    DimByPanes(tracer, panes.tables, queue.valid, rays, tint);
+  }
+  for (int k = 0; k < queue.count; ++k) panes.of[static_cast<size_t>(queue.lane[k])] = tint[static_cast<size_t>(k)];
+}
+
 // Sorts what the rays of a queue met into hits and misses.
-void TakeHits(const RayTracer& tracer, const RaySet& from, RayQueue& queue, RaySet& hits, RaySet& misses) {
+void TakeHits(const RayTracer& tracer, const RaySet& from, PaneTint* panes, RayQueue& queue, RaySet& hits, RaySet& misses) {
   queue.Close();
   tracer.Intersect16(queue.valid, queue.rays, false);
+  if (panes != nullptr) FindTint(tracer, queue, *panes);
   for (int k = 0; k < queue.count; ++k) {
     const RayHit16& r = queue.rays;
     const int source = queue.lane[k];
@@ -197,12 +208,12 @@ void TakeHits(const RayTracer& tracer, const RaySet& from, RayQueue& queue, RayS
 
 }  // namespace
 
-void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
                       RaySet& misses) {
   hits.count = misses.count = 0;
   const int first = FirstSet(s.mirror, rays.count);
   if (first >= rays.count) return;
-  RayQueue queue;
+  RayQueue queue(panes != nullptr ? kMaskSolid : kMaskAll);
   for (int i = first; i < rays.count; ++i) {
     if (i % 16 == 0 && NoneSet(s.mirror, i, rays.count)) {
       i += 15;
@@ -211,18 +222,18 @@ void TraceReflections(const RayTracer& tracer, const RaySet& rays, const Surface
     if (s.mirror[i] == 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
     queue.Add(p + g * RayOffset(p, rays.distance[i]), {s.rx[i], s.ry[i], s.rz[i]}, i);
-    if (queue.count == 16) TakeHits(tracer, rays, queue, hits, misses);
+    if (queue.count == 16) TakeHits(tracer, rays, panes, queue, hits, misses);
   }
-  if (queue.count > 0) TakeHits(tracer, rays, queue, hits, misses);
+  if (queue.count > 0) TakeHits(tracer, rays, panes, queue, hits, misses);
 }
 
-void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
                 RaySet& misses) {
   constexpr float kGlass = 2;  // SurfaceKind
   hits.count = misses.count = 0;
   const int first = FirstSet(s.transmission, rays.count);
   if (first >= rays.count) return;
-  RayQueue queue;
+  RayQueue queue(panes != nullptr ? kMaskSolid : kMaskAll);
   for (int i = first; i < rays.count; ++i) {
     if (i % 16 == 0 && NoneSet(s.transmission, i, rays.count)) {
       i += 15;
@@ -231,9 +242,9 @@ void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s
     if (s.kind[i] != kGlass || s.transmission[i] <= 0) continue;
     const Vec3f p{s.px[i], s.py[i], s.pz[i]}, g{s.gx[i], s.gy[i], s.gz[i]};
     queue.Add(p - g * RayOffset(p, rays.distance[i]), {rays.dx[i], rays.dy[i], rays.dz[i]}, i);
-    if (queue.count == 16) TakeHits(tracer, rays, queue, hits, misses);
+    if (queue.count == 16) TakeHits(tracer, rays, panes, queue, hits, misses);
   }
-  if (queue.count > 0) TakeHits(tracer, rays, queue, hits, misses);
+  if (queue.count > 0) TakeHits(tracer, rays, panes, queue, hits, misses);
 }
 
 }  // namespace airsim360::internal

@@ -1,6 +1,7 @@
 // The rays that surfaces send: to the sun, upwards, along reflections. All trace sixteen at a time.
 #pragma once
 
+#include <array>
 #include <bit>
 
 #include "airsim360/render/shading/ray_queue.h"
@@ -32,12 +33,17 @@ void TraceContact(const RayTracer& tracer, const RaySet& rays, SurfaceSet& s);
 /// Traces the rays of LightByLamps and corrects lamp_* by what they find.
 void TraceLamps(const RayTracer& tracer, const SurfaceTables& tables, const RaySet& rays,
                 const LampRays& wanted, int count, SurfaceSet& s);
+/// What clear panes on the way of secondary rays do. In rooms they let light through: windows are bright in mirrors.
+struct PaneTint {
+  const SurfaceTables& tables;
+  std::array<Vec3f, kBatch> of{};  ///< by surface: share of light that gets through
+};
 /// Follows the reflections of panes, water and mirrors: what they meet, and those that meet nothing; `slot`
-/// is the index of the surface.
-void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+/// is the index of the surface. panes == nullptr: clear panes are met as surfaces.
+void TraceReflections(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
                       RaySet& misses);
 /// Follows the view through clear panes (glass with transmission), one each, to what stands behind.
-void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, RaySet& hits,
+void TraceClear(const RayTracer& tracer, const RaySet& rays, const SurfaceSet& s, PaneTint* panes, RaySet& hits,
                 RaySet& misses);
 
 }  // namespace airsim360::internal

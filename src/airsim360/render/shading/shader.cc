@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "airsim360/base/log.h"
@@ -184,21 +185,28 @@ void Shader::Impl::FollowRays(const RaySet& rays, SurfaceSet& s, const SunNeighb
   if (around != nullptr) internal::GuessReflections(*around, rays, s);
   RaySet hits, misses;
   LightSet light;
+  std::optional<internal::PaneTint> panes;
+  if (indoor) panes.emplace(internal::PaneTint{tables});
+  internal::PaneTint* const tint = panes ? &*panes : nullptr;
   // Radiance of the rays just traced, handed to `put` with the surface that sent each.
-  const auto shade = [&](auto put) {
+  const auto shade = [&](auto keep) {
+    const auto put = [&](uint32_t slot, float r, float g, float b) {
+      if (tint != nullptr) r *= tint->of[slot].x, g *= tint->of[slot].y, b *= tint->of[slot].z;
+      keep(slot, r, g, b);
+    };
     if (hits.count > 0) ShadeSurfaces(hits, 1, light);
     for (int i = 0; i < hits.count; ++i) put(hits.slot[i], light.r[i], light.g[i], light.b[i]);
     Pad(misses);
     if (misses.count > 0) kernels.sky(view, misses, false, light);
     for (int i = 0; i < misses.count; ++i) put(misses.slot[i], light.r[i], light.g[i], light.b[i]);
   };
-  internal::TraceReflections(*tracer, rays, s, hits, misses);
+  internal::TraceReflections(*tracer, rays, s, tint, hits, misses);
   shade([&](uint32_t slot, float r, float g, float b) {
     s.reflected_r[slot] = r, s.reflected_g[slot] = g, s.reflected_b[slot] = b;
     s.traced[slot] = 1;
   });
   if (sun != nullptr) internal::KeepReflections(rays, s, sun);
-  internal::TraceClear(*tracer, rays, s, hits, misses);
+  internal::TraceClear(*tracer, rays, s, tint, hits, misses);
   shade([&](uint32_t slot, float r, float g, float b) {
     s.behind_r[slot] = r, s.behind_g[slot] = g, s.behind_b[slot] = b;
     s.clear[slot] = 1;
