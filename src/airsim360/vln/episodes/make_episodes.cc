@@ -25,7 +25,6 @@ constexpr double kLeastWay = 1.25;           // radii between start and goal
 constexpr double kEasy = 50, kHard = 100;    // metres: shorter, longer ways
 constexpr double kStraight = 1.08;           // length of a flight by its straight line, that one can turn from by words
 constexpr int64_t kVisible = 6;              // pixels that show a thing
-constexpr const char* kWeathers[] = {"clear", "partly_cloudy", "overcast", "rain", "fog"};
 constexpr double kDegree = std::numbers::pi / 180;
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
@@ -225,7 +224,7 @@ class Maker {
     e.world = options_.world;
     e.world_seed = world_seed_;
     e.seed = MixBits(HashName(e.id)) >> 12;
-    e.weather = options_.weather == "mix" ? kWeathers[MixBits(e.seed) % std::size(kWeathers)] : options_.weather;
+    e.weather = options_.weather == "mix" ? kMixedWeathers[MixBits(e.seed) % std::size(kMixedWeathers)] : options_.weather;
     e.people = options_.people;
     e.start = stands.start;
     e.before = at.before;

@@ -11,12 +11,15 @@
 
 namespace airsim360 {
 
+/// What "mix" draws from.
+inline constexpr const char* kMixedWeathers[] = {"clear", "golden", "overcast", "rain", "fog"};
+
 struct VlnMakeOptions {
   std::string world = {}, templates = "paper37";
   uint64_t seed = 0;  ///< worlds of `seeds` seeds from this one on
   int starts = 3, seeds = 1;
   int64_t people = 0;          ///< in episodes when they are flown
-  std::string weather = {};    ///< of pictures; "mix": another one an episode
+  std::string weather = {};    ///< of pictures; "mix": of every episode one of `kMixedWeathers`
   int64_t limit = 0;           ///< episodes of a seed; 0 = all
   std::string split = {};      ///< of all episodes; "" = by seeds and ids
   /// Opens the world of a seed, without people.

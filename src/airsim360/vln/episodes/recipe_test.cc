@@ -7,6 +7,7 @@
 #include <set>
 
 #include "airsim360/base/error.h"
+#include "airsim360/scene/environment.h"
 
 namespace airsim360 {
 namespace {
@@ -35,6 +36,10 @@ TEST(VlnRecipe, ThePapersInstructionsAreForItsTwoCitiesInThreeTownsEach) {
     else EXPECT_EQ(part.templates, "any");
   }
   EXPECT_EQ(seeds, (std::map<std::string, int>{{"downtown_west", 3}, {"new_york_city", 3}}));
+}
+
+TEST(VlnRecipe, EveryWeatherThatIsMixedCanBeDrawn) {
+  for (const char* weather : kMixedWeathers) EXPECT_NO_THROW(ParseEnvironmentPreset(weather)) << weather;
 }
 
 TEST(VlnRecipe, IsTheSameWhateverElseIsKnownAndNamesTheNearestRecipe) {

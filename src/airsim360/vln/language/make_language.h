@@ -28,7 +28,7 @@ struct LanguageSummary {
 /// InputError naming the flag of an option that makes no sense.
 void CheckLanguageOptions(const LanguageOptions& options);
 
-/// Gives `line` one item after another, as docs/reference/language_items.md has them. The same options give the same lines, whatever
+/// Gives `line` one item after another, as docs/guide/language.md has them. The same options give the same lines, whatever
 /// the number of threads. InputError for options that make no sense and a world that names nothing; RuntimeError if the world
 /// does not give so many items.
 LanguageSummary MakeLanguage(Stage& stage, const LanguageOptions& options, const std::function<void(const std::string& line)>& line);

@@ -18,14 +18,15 @@ Plan OnPlan(Vec3d p) { return {p.x, p.y}; }
 double Cross2(Plan a, Plan b) { return (std::conj(a) * b).imag(); }
 double Dot2(Plan a, Plan b) { return (std::conj(a) * b).real(); }
 
-double ToSegment(Plan p, Plan a, Plan b) {
+double SquareToSegment(Plan p, Plan a, Plan b) {
   const double length = std::norm(b - a);
   const double t = length > 0 ? std::clamp(Dot2(b - a, p - a) / length, 0.0, 1.0) : 0;
-  return std::abs(p - (a + t * (b - a)));
+  return std::norm(p - (a + t * (b - a)));
 }
 
 bool Under(Plan p, const std::array<Plan, 3>& t) {
   const double a = Cross2(t[1] - t[0], p - t[0]), b = Cross2(t[2] - t[1], p - t[1]), c = Cross2(t[0] - t[2], p - t[2]);
+  if (std::abs(a + b + c) < 1e-12) return false;  // a wall seen from above: its edges count, the line through them does not
   return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
 }
 
@@ -118,16 +119,20 @@ struct BruteForce::Shape {
   std::vector<EntityId> entities;
   Triangles triangles;
   double low = kInfinity, high = -kInfinity;
-  Vec3d middle;  // mean of the surface
+  Vec3d middle;      // mean of the surface
+  double reach = 0;  // from there to the farthest corner, seen from above
+
+  /// No part of it can be nearer.
+  double Least(Plan p) const { return std::abs(p - OnPlan(middle)) - reach - kTie; }
 
   double Distance(Plan p) const {
     double nearest = kInfinity;
     for (const auto& t : triangles) {
       const std::array<Plan, 3> flat = {OnPlan(t[0]), OnPlan(t[1]), OnPlan(t[2])};
       if (Under(p, flat)) return 0;
-      for (int i = 0; i < 3; ++i) nearest = std::min(nearest, ToSegment(p, flat[i], flat[(i + 1) % 3]));
+      for (int i = 0; i < 3; ++i) nearest = std::min(nearest, SquareToSegment(p, flat[i], flat[(i + 1) % 3]));
     }
-    return nearest;
+    return std::sqrt(nearest);
   }
 
   /// Heights of its surface at a place.
@@ -189,6 +194,8 @@ struct BruteForce::Shape {
       }
     }
     if (area > 0) middle = middle / area;
+    for (const auto& t : triangles)
+      for (const Vec3d& p : t) reach = std::max(reach, std::abs(OnPlan(p) - OnPlan(middle)));
   }
 };
 
@@ -274,7 +281,7 @@ bool BruteForce::StandsOn(const Shape& shape, const Noun& of) {
   const Plan foot = OnPlan(shape.middle);
   constexpr double kWalls = 15;  // metres from a place on a roof to a wall of its building
   for (const Shape* other : All(of)) {
-    if (other == &shape || std::abs(OnPlan(other->middle) - foot) > 200 || other->Distance(foot) > kWalls) continue;
+    if (other == &shape || std::abs(OnPlan(other->middle) - foot) > 200 || other->Least(foot) > kWalls || other->Distance(foot) > kWalls) continue;
     high = high || other->low <= shape.low - 3;
     for (const double z : other->HeightsAt(foot)) roof = roof || std::abs(z - shape.low) <= 1.2;
   }
@@ -283,8 +290,9 @@ bool BruteForce::StandsOn(const Shape& shape, const Noun& of) {
 
 bool BruteForce::IsInOneStorey(const Shape& shape, const Noun& of) {
   if (shape.high - shape.low > 4.2) return false;
+  const Plan at = OnPlan(shape.middle);
   for (const Shape* other : All(of))
-    if (other->low <= shape.low + 0.5 && other->high >= shape.high - 0.5 && other->Distance(OnPlan(shape.middle)) <= 3) return true;
+    if (other->low <= shape.low + 0.5 && other->high >= shape.high - 0.5 && other->Least(at) <= 3 && other->Distance(at) <= 3) return true;
   return false;
 }
 
@@ -296,7 +304,8 @@ bool BruteForce::IsSurrounded(const Shape& shape, const Predicate& predicate) {
   for (const Shape* other : others) {
     if (other == &shape) continue;
     const Plan way = OnPlan(other->middle) - middle;
-    if (std::abs(way) > 400 || shape.Distance(OnPlan(other->middle)) > predicate.within + 3) continue;
+    const double most = predicate.within + 3;
+    if (std::abs(way) > 400 || shape.Least(OnPlan(other->middle)) > most || shape.Distance(OnPlan(other->middle)) > most) continue;
     covered[static_cast<size_t>((std::arg(way) + std::numbers::pi) / (2 * std::numbers::pi) * kDirections) % kDirections] = true;
   }
   for (int d = 0; d < kDirections; ++d) {
@@ -305,7 +314,8 @@ bool BruteForce::IsSurrounded(const Shape& shape, const Predicate& predicate) {
       const Plan at = middle + r * along;
       const double off = shape.Distance(at);
       if (off > predicate.within) break;
-      covered[d] = off > 0.2 && std::ranges::any_of(others, [&](const Shape* o) { return o != &shape && o->triangles.size() < 4000 && o->Distance(at) == 0; });
+      const auto covers = [&](const Shape* o) { return o != &shape && o->triangles.size() < 4000 && o->Least(at) <= 0 && o->Distance(at) == 0; };
+      covered[d] = off > 0.2 && std::ranges::any_of(others, covers);
     }
   }
   return static_cast<double>(std::ranges::count(covered, true)) >= predicate.share * kDirections;
@@ -348,9 +358,15 @@ std::vector<std::vector<EntityId>> BruteForce::Answers(const Query& query, const
   std::vector<const Shape*> left = All(query.noun);
   for (const Predicate& predicate : query.predicates) {
     const Viewpoint& view = predicate.at_turn ? standpoint.turn.value() : standpoint.start;
+    const Plan eye = OnPlan(view.p_W);
+    double nearest = kInfinity;
+    // What is surely farther than the nearest so far is not measured to the millimetre.
     const auto measure = [&](const Shape* shape) {
-      return predicate.kind == PredicateKind::kNearest ? shape->Distance(OnPlan(view.p_W))
-                                                       : ((OnPlan(shape->middle) - OnPlan(view.p_W)) / std::polar(1.0, view.yaw)).real();
+      if (predicate.kind == PredicateKind::kOrdinal) return ((OnPlan(shape->middle) - eye) / std::polar(1.0, view.yaw)).real();
+      if (const double least = shape->Least(eye); least > nearest + 1) return least;
+      const double distance = shape->Distance(eye);
+      nearest = std::min(nearest, distance);
+      return distance;
     };
     if (predicate.kind != PredicateKind::kNearest && predicate.kind != PredicateKind::kOrdinal) {
       std::erase_if(left, [&](const Shape* shape) { return !Holds(predicate, query.noun, *shape, view); });

@@ -222,6 +222,26 @@ TEST(Decide, BothMethodsAgreeWhereverOneIsSure) {
   EXPECT_GT(decided, asked / 3);
 }
 
+TEST(BruteForce, WallsSeenFromAboveAreNoLinesWithoutEnd) {
+  TestTown town;
+  const EntityId box = town.Box("box", "furniture/box", {0, 0, 0}, {2, 2, 2});
+  BruteForce brute(town.Build());
+  EXPECT_DOUBLE_EQ(brute.Distance({box}, {1, 5, 0}), 4) << "in line with a wall";
+  EXPECT_DOUBLE_EQ(brute.Distance({box}, {4, 5, 0}), 5);
+  EXPECT_DOUBLE_EQ(brute.Distance({box}, {0.5, -0.25, 9}), 0);
+}
+
+TEST(BruteForce, TheNearestIsFoundAmongThingsOfAllSizes) {
+  TestTown town;
+  // The long one's middle is farther away than that of the others.
+  const EntityId wall = town.Box("box 1", "furniture/box", {30, 20, 0}, {70, 1, 2});
+  town.Box("box 2", "furniture/box", {-25, 0, 0}, {1, 1, 1});
+  town.Box("box 3", "furniture/box", {0, -22, 0}, {2, 2, 2});
+  BruteForce brute(town.Build());
+  const Query query{{.word = "box", .categories = {"furniture/box"}}, {{.kind = PredicateKind::kNearest}}};
+  EXPECT_EQ(brute.Answers(query, {{{0, 0, 2}, 0}, {}}), (std::vector<std::vector<EntityId>>{{wall}}));
+}
+
 TEST(QueryJson, WritesWhatItReads) {
   const Query query{{.word = "box", .categories = {"furniture"}, .names = {"box*"}, .without = {"box 1"}, .whole = true},
                     {Sector("left"), {.kind = PredicateKind::kSurroundedBy, .share = 0.25, .within = 12, .of = Named("tree")}}};
