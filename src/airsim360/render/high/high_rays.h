@@ -18,9 +18,4 @@ void GatherAmbient(const Shader::Impl& shader, const SunMapView& sun_map, const 
                    const RaySet& rays, const SurfaceSet& surfaces, const LightTerms& terms, const IndoorLight* room,
                    HighTile& tile);
 
-/// In rooms, after GatherAmbient: surfaces of middling gloss send rays about their mirrored direction, and what these see counts
-/// in `light_*` with the share of their skin.
-void GatherGloss(const Shader::Impl& shader, const TileSampling& sampling, const RaySet& rays, const SurfaceSet& surfaces,
-                 HighTile& tile);
-
 }  // namespace airsim360::internal

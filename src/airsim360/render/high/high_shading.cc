@@ -142,9 +142,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, own);
   if (!all) PutTerms(rays, own, terms);
   PutSurfaces(rays, all, surfaces, tile);
-  if (sampling == nullptr) return;
-  GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, indoors ? &room : nullptr, tile);
-  if (indoors) GatherGloss(impl, *sampling, rays, surfaces, tile);
+  if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, indoors ? &room : nullptr, tile);
 }
 
 }  // namespace airsim360::internal
