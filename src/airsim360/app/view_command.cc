@@ -1,4 +1,6 @@
 // airsim360 view: datasets and worlds in the browser, until SIGINT or SIGTERM; or as files.
+#include <malloc.h>
+
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -171,6 +173,9 @@ void Serve(const ViewSite& site, const ViewArguments& arguments, bool json) {
 }
 
 void RunView(const std::shared_ptr<ViewArguments>& arguments, const GlobalOptions& globals) {
+  // Pictures of many sizes come and go for hours: each lies in pages of its own, which go back when it goes. Otherwise malloc
+  // raises this limit with the first large ones, and what is left between later ones is never given back.
+  ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
   Understand(*arguments);
   const ViewSite site = SiteOf(arguments, globals);
   if (arguments->out.empty()) return Serve(site, *arguments, globals.json);
