@@ -35,7 +35,7 @@ class Datasets(ProgramTest):
         cls.addClassCleanup(folder.cleanup)
         cls.shared = pathlib.Path(folder.name)
         # The light of rooms takes half a minute a sky: solved once, kept as for users.
-        cls.enterClassContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=str(cls.shared / "cache")))
+        cls.enterClassContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=os.environ.get("AIRSIM360_CACHE") or str(cls.shared / "cache")))
         (cls.shared / "rooms.yaml").write_text(RECIPE)
         cls.plan = cls.shared / "plan.json"
         run("dataset", "plan", cls.shared / "rooms.yaml", "--seed", "5", "--out", cls.plan).check_returncode()

@@ -19,9 +19,9 @@ class ReferenceRelease(ProgramTest):
         text = PAGE.read_text()
         section = text[text.index("## The reference release"):].split("\n## ", 1)[0]
         documented = dict(re.findall(r"\| ([^|]+?) \| `([0-9a-f]{64})` \|", section))
-        cache = tempfile.TemporaryDirectory(prefix="airsim360_mini_cache_")
-        self.addCleanup(cache.cleanup)
-        self.enterContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=cache.name))
+        own = tempfile.TemporaryDirectory(prefix="airsim360_mini_cache_")
+        self.addCleanup(own.cleanup)
+        self.enterContext(unittest.mock.patch.dict(os.environ, AIRSIM360_CACHE=os.environ.get("AIRSIM360_CACHE") or own.name))
         plan = self.folder / "plan.json"
         self.run_ok("dataset", "plan", "omni360-mini", "--out", plan)
         made = json.loads(plan.read_text())
