@@ -12,8 +12,9 @@
 namespace airsim360::internal {
 namespace {
 constexpr double kPi = std::numbers::pi;
-constexpr double kFastestTip = 0.65 * 340.3;  // m/s; the gate ends at Mach 0.7
-constexpr double kFastestTipAsked = 0.69 * 340.3;  // for a thrust that was said
+constexpr double kSpeedOfSound = 340.3;  // m/s
+constexpr double kFastestTip = 0.65 * kSpeedOfSound;  // m/s; the gate ends at Mach 0.7
+constexpr double kFastestTipAsked = 0.69 * kSpeedOfSound;  // for a thrust that was said
 constexpr double kFastestIdleTip = 700;  // m/s without load: beyond what any motor and propeller are sold for
 constexpr double kLeastRatio = 1.5;           // thrust to weight that is not gone below unasked
 // Speed of a loaded motor over its speed without load, between hard and easy work.
@@ -58,7 +59,7 @@ void Designer::ChooseThrust() {
     }
     if (said_.thrust_to_weight || most < kLeastRatio) {
       Refuse(Text("%d propellers of %.0f mm at Mach %.2f of their tips give %.2f times the weight of %.3g kg",
-                  n_, D_ * 1000, tip / 340.3, most, m_) +
+                  n_, D_ * 1000, tip / kSpeedOfSound, most, m_) +
              (said_.thrust_to_weight ? ", not " + Words("thrust_to_weight") : ""));
     }
     SetThrust(most, "as much as tips at Mach 0.65 give");
@@ -82,7 +83,7 @@ void Designer::HoldToMotors() {
   if (said_.propeller && idle * D_ / 2 > kFastestIdleTip) {
     Refuse("'" + Words("motor_kv") + "' on '" + Words("cells") +
            Text("' are made for tips at Mach %.1f with propellers of %.0f mm, where thrust ends below Mach 1",
-                idle * D_ / 2 / 340.3, D_ * 1000));
+                idle * D_ / 2 / kSpeedOfSound, D_ * 1000));
   }
   const auto ratio_at = [&](double speed) { return n_ * k_f_ * speed * speed / (m_ * kGravity); };
   const double least = ratio_at(kLeastLoaded * idle), most = ratio_at(kMostLoaded * idle);

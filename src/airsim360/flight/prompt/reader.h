@@ -77,7 +77,6 @@ class Reader {
   void CheckLoadOfModel() const;
 
   // reader_distances.cc
-  double MetresOf(const Quantity& q) const;
   bool HasNear(const Quantity& q, bool (*is_word)(const std::string&)) const;
   bool ReadDistance(const Quantity& q);
   double PacksInParallel(const Quantity& q) const;

@@ -1,6 +1,5 @@
 // How high and how far it is to fly, and how many packs feed it.
 #include <algorithm>
-#include <cmath>
 
 #include "airsim360/flight/prompt/reader.h"
 
@@ -8,14 +7,7 @@ namespace airsim360::internal {
 namespace {
 
 constexpr size_t kNear = 5;  // tokens on either side that say what a distance is of
-
-bool StartsAny(const std::string& text, std::initializer_list<const char*> stems) {
-  return std::any_of(stems.begin(), stems.end(), [&](const char* stem) { return text.starts_with(stem); });
-}
-
-bool IsOneOf(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return text == word; });
-}
+constexpr double kMostPacks = 8;
 
 bool SaysAltitude(const std::string& text) {
   return StartsAny(text, {"altitude", "ceiling", "elevation", "hohe", "flughohe", "altura", "stratosphere"}) ||
@@ -38,13 +30,6 @@ bool SaysOtherReach(const std::string& text) {
 
 }  // namespace
 
-/// Metres of a quantity; miles are kilometres to the lexicon, which otherwise drops distances.
-double Reader::MetresOf(const Quantity& q) const {
-  const std::string& text = tokens_[q.last].text;
-  const double unit = text.starts_with("mile") ? 1609.344 : text.starts_with("n") ? 1852.0 : q.unit->value;
-  return tokens_[q.first].value * unit;
-}
-
 /// Whether a word around a quantity, up to the next figure and the end of the phrase, is so.
 bool Reader::HasNear(const Quantity& q, bool (*is_word)(const std::string&)) const {
   for (size_t k = q.first; k-- > 0 && q.first - k <= kNear && tokens_[k].kind != Token::Kind::kComma;) {
@@ -60,7 +45,7 @@ bool Reader::HasNear(const Quantity& q, bool (*is_word)(const std::string&)) con
 
 /// "At 5000 m altitude", "30 km high", "flies 20 km": kept for the laws of thrust and energy; true when it was read.
 bool Reader::ReadDistance(const Quantity& q) {
-  const double metres = MetresOf(q);
+  const double metres = tokens_[q.first].value * q.unit->value;
   if (metres < 1000 || HasNear(q, SaysOtherReach)) return false;
   const bool high = HasNear(q, SaysAltitude);
   // So far that its verb may stand anywhere: "from London to New York nonstop (5,500 km)".
@@ -94,8 +79,8 @@ double Reader::PacksInParallel(const Quantity& q) const {
     bool before = false;
     for (size_t m = n; m-- > 0 && n - m <= 12 && tokens_[m].text != ".";) {
       before |= tokens_[m].text.find("parallel") != std::string::npos;
-      const bool counts = before && tokens_[m].kind == Token::Kind::kNumber && m + 1 < tokens_.size() && Is(m + 1, WordKind::kBattery);
-      if (counts && tokens_[m].value >= 2 && tokens_[m].value <= 8) return tokens_[m].value;
+      const bool counts = before && tokens_[m].Counts(kMostPacks) && Is(m + 1, WordKind::kBattery);
+      if (counts) return tokens_[m].value;
     }
   }
   while (k > 0 && (Is(k - 1, WordKind::kCells) || Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) ||
@@ -105,9 +90,7 @@ double Reader::PacksInParallel(const Quantity& q) const {
   if (k == 0) return 1;
   const Token& count = tokens_[k - 1];
   const bool pair = IsOneOf(count.text, {"dual", "twin", "pair"});
-  const bool counted = count.kind == Token::Kind::kNumber && count.value >= 2 && count.value <= 8 &&
-                       count.value == std::floor(count.value);
-  if (!parallel || (!pair && !counted)) return 1;
+  if (!parallel || (!pair && !count.Counts(kMostPacks))) return 1;
   return pair ? 2 : count.value;
 }
 
@@ -120,7 +103,7 @@ double Reader::PacksOf(const Quantity& q) const {
     packs |= is_packs(k);
     const Token& token = tokens_[k];
     if (token.kind != Token::Kind::kNumber || Is(k + 1, WordKind::kCells)) continue;
-    const bool counts = (packs || each) && token.value >= 2 && token.value <= 8 && token.value == std::floor(token.value);
+    const bool counts = (packs || each) && token.Counts(kMostPacks);
     return counts && (is_packs(k + 1) || Is(k + 1, WordKind::kTimes) || k + 1 == q.first) ? token.value : 1;
   }
   return 1;
@@ -134,7 +117,7 @@ double Reader::CellsInParallel(const Quantity& q) const {
   if (!of_cell) return 1;
   for (size_t k = 1; k < tokens_.size(); ++k) {
     const Token& count = tokens_[k - 1];
-    if (tokens_[k].text == "p" && count.kind == Token::Kind::kNumber && count.value >= 2 && count.value <= 20) return count.value;
+    if (tokens_[k].text == "p" && count.Counts(20)) return count.value;
   }
   return 1;
 }

@@ -21,10 +21,6 @@ std::string Number(double value) {
   return text;
 }
 
-bool IsOneOf(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return text == word; });
-}
-
 }  // namespace
 
 /// "4 Hobbywing X8 (100 KV)": a motor by its maker or its count, no layout.

@@ -99,7 +99,7 @@ size_t Reader::NounOfMass(const Quantity& q) const {
   if (const size_t whole = WholeBefore(q); whole != kNone && !says_empty) return whole;
   // "3 kilos all in incl. a 500 g payload": what is included has its own noun.
   for (size_t k = q.first; noun != kNone && noun < q.first && k-- > noun + 1;) {
-    if (tokens_[k].text.starts_with("incl") || tokens_[k].text == "inkl") noun = kNone;
+    if (MeansIncluding(tokens_[k].text)) noun = kNone;
   }
   if (const size_t apposed = Apposed(q); apposed != kNone && !says_empty) {
     noun = apposed;
@@ -320,7 +320,7 @@ void Reader::SetOwnMass(size_t noun, const Quantity& q) {
 /// "Including its 300 g camera"
 bool Reader::IsIncluded(const Quantity& q) const {
   for (size_t k = q.first; k-- > 0 && q.first - k <= 3;) {
-    if (tokens_[k].text.starts_with("incl") || tokens_[k].text == "inkl") return true;
+    if (MeansIncluding(tokens_[k].text)) return true;
   }
   return false;
 }
@@ -369,8 +369,7 @@ void Reader::SumUpParts() {
 /// "Four motors 34 g each", "6 ESCs @ 40 g": how many parts have that mass, else 1.
 double Reader::CountOfParts(const Quantity& q) const {
   for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && tokens_[k].kind != Token::Kind::kComma;) {
-    const double value = tokens_[k].value;
-    if (tokens_[k].kind == Token::Kind::kNumber) return value >= 2 && value <= 12 && value == std::floor(value) ? value : 1;
+    if (tokens_[k].kind == Token::Kind::kNumber) return tokens_[k].Counts(12) ? tokens_[k].value : 1;
   }
   return 1;
 }

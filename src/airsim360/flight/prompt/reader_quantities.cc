@@ -9,24 +9,21 @@
 namespace airsim360::internal {
 namespace {
 
-bool IsCountOfThings(const Token& token) {
-  return token.kind == Token::Kind::kNumber && token.value >= 2 && token.value <= 12 &&
-         token.value == std::floor(token.value);
-}
+constexpr double kMostThings = 12;
 
 /// "two 6 kg balls", "2 x 1.5 kg", "two bags of 3 kg each": the things whose mass is said, else 1.
 double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
   const size_t i = q.first;
   const auto text = [&](size_t k) { return k < tokens.size() ? tokens[k].text : std::string(); };
   if (q.unit->kind != WordKind::kMassUnit) return 1;
-  if (i > 1 && tokens[i - 1].Is(WordKind::kTimes) && IsCountOfThings(tokens[i - 2])) return tokens[i - 2].value;
+  if (i > 1 && tokens[i - 1].Is(WordKind::kTimes) && tokens[i - 2].Counts(kMostThings)) return tokens[i - 2].value;
   const bool thing = q.last + 1 < tokens.size() && (tokens[q.last + 1].kind == Token::Kind::kUnknown ||
                                                     tokens[q.last + 1].Is(WordKind::kLoad));
-  if (i > 0 && thing && IsCountOfThings(tokens[i - 1])) return tokens[i - 1].value;
+  if (i > 0 && thing && tokens[i - 1].Counts(kMostThings)) return tokens[i - 1].value;
   // "Three cartons of 400 g"
   const bool plural = i > 2 && text(i - 1) == "of" && text(i - 2).ends_with("s") &&
                       (tokens[i - 2].kind == Token::Kind::kUnknown || tokens[i - 2].Is(WordKind::kLoad));
-  if (plural && IsCountOfThings(tokens[i - 3])) return tokens[i - 3].value;
+  if (plural && tokens[i - 3].Counts(kMostThings)) return tokens[i - 3].value;
   const std::string after = text(q.last + 1);
   const bool each_before = i > 1 && tokens[i - 1].text == "each" && tokens[i - 2].kind == Token::Kind::kComma;
   if (after != "each" && after != "apiece" && !each_before) return 1;
@@ -35,7 +32,7 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
     const bool part = tokens[k].Is(WordKind::kMotor) || tokens[k].Is(WordKind::kPropeller) ||
                       tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
     if (part) return 1;
-    if (IsCountOfThings(tokens[k])) return tokens[k].value;
+    if (tokens[k].Counts(kMostThings)) return tokens[k].value;
   }
   return 1;
 }
@@ -168,7 +165,7 @@ void Reader::ReadCapacity(const Quantity& q) {
 /// "Two 6S packs in series": how many packs, else 1.
 double Reader::PacksInSeries(size_t i) const {
   const size_t count = i > 1 && Is(i - 1, WordKind::kTimes) ? i - 2 : i - 1;
-  if (i == 0 || !IsCountOfThings(tokens_[count])) return 1;
+  if (i == 0 || !tokens_[count].Counts(kMostThings)) return 1;
   for (size_t k = i + 2; k < tokens_.size() && k < i + 8; ++k) {
     if (tokens_[k].text == "series") return tokens_[count].value;
   }

@@ -11,10 +11,6 @@ namespace {
 constexpr size_t kClause = 14;  // tokens that a verb reaches
 constexpr size_t kSpanOfThing = 5;  // tokens of a thing's name
 
-bool IsOneOf(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return text == word; });
-}
-
 /// Ends a sentence, not only a phrase.
 bool EndsSentence(const Token& token) {
   return token.kind == Token::Kind::kComma && IsOneOf(token.text, {".", "!", "?", ";", "|"});

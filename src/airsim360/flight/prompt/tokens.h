@@ -1,6 +1,9 @@
 // A description cut into words, numbers and names of real drones.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +35,18 @@ struct Token {
   std::string respelled;              ///< the word that a misspelt one is read as
 
   bool Is(WordKind word_kind) const { return kind == Kind::kWord && word->kind == word_kind; }
+  /// Whether it counts several things: a whole number from 2 to `most`.
+  bool Counts(double most) const { return kind == Kind::kNumber && value >= 2 && value <= most && value == std::floor(value); }
 };
+
+inline bool IsOneOf(std::string_view text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return text == word; });
+}
+inline bool StartsAny(std::string_view text, std::initializer_list<const char*> stems) {
+  return std::any_of(stems.begin(), stems.end(), [&](const char* stem) { return text.starts_with(stem); });
+}
+/// "incl", "including", "inkl"
+inline bool MeansIncluding(std::string_view text) { return text.starts_with("incl") || text == "inkl"; }
 
 /// InputError for a description of more than 1000 bytes and for a number beyond 1e9.
 std::vector<Token> Tokenize(std::string_view prompt);

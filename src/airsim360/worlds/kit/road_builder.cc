@@ -216,8 +216,11 @@ std::vector<RoadSpec> WithoutDeadEnds(std::vector<RoadSpec> roads, size_t juncti
 std::vector<SignalPhase> CrossStreetSignals() { return {{1u << kEastWestHead, 17, 3, 2}, {1u << kNorthSouthHead, 17, 3, 2}}; }
 
 void RoadBuilder::AddRoad(RoadSpec road) {
-  if (!HasRoomForLanes(road)) road.axis = {road.axis.front(), road.axis.back()};
-  if (HasRoomForLanes(road)) roads_.push_back(std::move(road));
+  if (!HasRoomForLanes(road)) {
+    road.axis = {road.axis.front(), road.axis.back()};
+    if (!HasRoomForLanes(road)) return;
+  }
+  roads_.push_back(std::move(road));
 }
 
 size_t RoadBuilder::AddJunction(Vec2f center, float radius, std::vector<SignalPhase> phases, float offset) {
