@@ -72,7 +72,8 @@ TEST(GpuHigh, LightKeptFromTheLastFramesIsTheCpus) {
     pair.gpu->Render(request, alone);
     EXPECT_GT(Difference(gpu, alone).mean, 0.6);
   }
-  const RenderRequest two[2] = {{.temporal = true}, {.temporal = true}};
+  RenderRequest two[2];
+  two[0].temporal = two[1].temporal = true;
   EXPECT_THROW(pair.gpu->Submit(two), InputError);
   for (const std::string& message : pair.gpu->messages()) ADD_FAILURE() << message;
 }

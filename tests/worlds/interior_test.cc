@@ -89,7 +89,9 @@ TEST(Interiors, OpenDoorsCanBeLookedThroughAndClosedOnesCannot) {
     const Vec3f along{door.through.x, door.through.y, 0}, from = door.center - along * 0.2f;
     const auto hit = tracer.Intersect(from, along, 0.4f);
     EXPECT_EQ(hit.has_value(), door.open < 0.5) << door.id;
-    if (door.open > 0.5) EXPECT_GE(tracer.Clearance(door.center, 1), 0.33f) << door.id;  // a drone of 0.3 m gets through
+    if (door.open > 0.5) {
+      EXPECT_GE(tracer.Clearance(door.center, 1), 0.33f) << door.id;  // a drone of 0.3 m gets through
+    }
     (door.open < 0.5 ? closed : open) += 1;
   }
   EXPECT_GT(open, 0);

@@ -17,7 +17,7 @@ std::string TarHeader(const std::string& name, uint64_t size) {
   if (name.size() > 99) throw InputError("--format webdataset: the name '" + name + "' has more than 99 bytes");
   std::array<char, kBlock> block{};
   const auto octal = [&](size_t at, size_t digits, uint64_t value) {
-    std::snprintf(block.data() + at, digits + 1, "%0*llo", static_cast<int>(digits), static_cast<unsigned long long>(value));
+    for (size_t i = digits; i-- > 0; value /= 8) block[at + i] = static_cast<char>('0' + value % 8);
   };
   std::memcpy(block.data(), name.data(), name.size());
   octal(100, 7, 0644), octal(108, 7, 0), octal(116, 7, 0), octal(124, 11, size), octal(136, 11, 0);

@@ -69,10 +69,10 @@ std::string HashOfScene(const Scene& scene) {
 struct FrameSource::RowState {
   size_t row;
   std::shared_ptr<Stage> stage;  // with people
-  std::unique_ptr<ViewpointSampler> viewpoints;
-  std::unique_ptr<FlightFrames> flights;
-  HumanArea area;  // of people
-  Flight film;     // of people: all frames of the row, once some are asked for
+  std::unique_ptr<ViewpointSampler> viewpoints = {};
+  std::unique_ptr<FlightFrames> flights = {};
+  HumanArea area = {};  // of people
+  Flight film = {};     // of people: all frames of the row, once some are asked for
 };
 
 OpenWorld WorldOpener(const DeviceChoice& device) {
@@ -150,7 +150,8 @@ Flight FrameSource::PartOf(const FrameBlock& block, int64_t first, int64_t last)
     ParallelFor(count, [&](int64_t i) {
       Shot& shot = flight.shots[static_cast<size_t>(i)];
       const int64_t k = first + i;
-      shot = {.t_ns = k * kBetweenViewpoints, .body = {.X_WB = state.viewpoints->Pose(in_row + k)}};
+      shot.t_ns = k * kBetweenViewpoints;
+      shot.body.X_WB = state.viewpoints->Pose(in_row + k);
       shot.last = true;
     });
   } else if (state.flights) {
@@ -186,10 +187,11 @@ Shot FrameSource::ShotOf(int64_t frame) {
 }
 
 WorldFacts FactsOf(const Scene& scene) {
-  WorldFacts facts{.hash = HashOfScene(scene),
-                   .entities = static_cast<int64_t>(scene.entities.size()),
-                   .triangles = static_cast<int64_t>(scene.Count().instanced_triangles),
-                   .attributions = scene.attributions};
+  WorldFacts facts;
+  facts.hash = HashOfScene(scene);
+  facts.entities = static_cast<int64_t>(scene.entities.size());
+  facts.triangles = static_cast<int64_t>(scene.Count().instanced_triangles);
+  facts.attributions = scene.attributions;
   std::set<CategoryId> used;
   for (const Entity& entity : scene.entities) used.insert(entity.category);
   for (const CategoryId id : used) facts.categories.push_back(scene.tree[id].path);
@@ -199,7 +201,9 @@ WorldFacts FactsOf(const Scene& scene) {
 DatasetPlan MakePlan(const Recipe& recipe, uint64_t seed, const std::function<bool(const std::string& world)>& exists,
                      const OpenWorld& open) {
   constexpr int64_t kMostIds = (1 << 24) - 1;  // of entity pictures
-  DatasetPlan plan{.recipe = recipe, .seed = seed};
+  DatasetPlan plan;
+  plan.recipe = recipe;
+  plan.seed = seed;
   // World by world, whatever the order of the rows.
   for (const RecipeRow& first : recipe.rows) {
     if (plan.worlds.contains(WorldKey(first))) continue;

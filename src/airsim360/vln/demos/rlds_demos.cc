@@ -63,10 +63,10 @@ std::vector<float> Joined(const std::vector<DemoStep>& steps, const Of& of) {
 std::string ExampleOf(const LanguageEpisode& episode, const std::vector<DemoStep>& steps, const std::vector<std::string>& pictures) {
   const size_t n = steps.size();
   std::vector<int64_t> first(n, 0), last(n, 0);
-  first.front() = last.back() = 1;
   std::vector<float> reward(n, 0), discount(n, 1);
-  reward.back() = 1;
-  discount.back() = 0;
+  first.at(0) = last.at(n - 1) = 1;
+  reward.at(n - 1) = 1;
+  discount.at(n - 1) = 0;
   TfExample example;
   example.Bytes("steps/observation/image", pictures);
   example.Floats("steps/observation/state", Joined(steps, [](const DemoStep& s) { return s.State(); }));

@@ -72,7 +72,9 @@ TEST(BuildingPlan, DoorsAndCeilingsAreWithinPublishedRanges) {
       if (!room.has_floor || !room.has_ceiling) continue;
       const float height = room.ceiling_z - room.floor_z;
       EXPECT_GE(height, 2.4f) << room.name;
-      if (plan.spec.use == BuildingUse::kApartment) EXPECT_LE(height, 3.0f) << room.name;
+      if (plan.spec.use == BuildingUse::kApartment) {
+        EXPECT_LE(height, 3.0f) << room.name;
+      }
       if (room.type == RoomType::kOpenOffice) {
         EXPECT_GE(height, 2.5f);
         EXPECT_LE(height, 3.2f);
@@ -81,7 +83,9 @@ TEST(BuildingPlan, DoorsAndCeilingsAreWithinPublishedRanges) {
         EXPECT_GE(height, 10.0f);
         EXPECT_LE(height, 14);
       }
-      if (room.type == RoomType::kParkingDeck) EXPECT_LE(height, 3.2f);
+      if (room.type == RoomType::kParkingDeck) {
+        EXPECT_LE(height, 3.2f);
+      }
     }
   });
 }
@@ -123,8 +127,9 @@ TEST(BuildingPlan, EveryRoomIsReachedFromOutside) {
         if (std::abs(a.storey - b.storey) == 1 && a.cell.Contains(b.cell.center()) && !(a.storey < b.storey ? a : b).has_ceiling && a.type != RoomType::kAtrium) reach(static_cast<int>(i));
       }
     }
-    for (size_t i = 0; i < plan.rooms.size(); ++i)
-      if (plan.rooms[i].has_floor) EXPECT_TRUE(reached.contains(static_cast<int>(i))) << plan.rooms[i].name;
+    for (size_t i = 0; i < plan.rooms.size(); ++i) {
+      EXPECT_TRUE(!plan.rooms[i].has_floor || reached.contains(static_cast<int>(i))) << plan.rooms[i].name;
+    }
   });
 }
 
