@@ -19,6 +19,10 @@ constexpr float kClosed = 0.97f;                     // cover from which the dec
 constexpr float kLowestRay = 0.0015f;                // sine; flatter rays see the same
 constexpr float kDetailRange = 40e3f;                // metres up to which the fine noise shows
 
+// The march from a point of a cloud towards the sun: steps that grow. Further on the field shades it on the mean.
+constexpr int kSunSteps = 7;
+constexpr float kFirstStep = 26, kStepGrowth = 1.75f, kSunReach = 1708;  // the sum of all steps
+
 // Multiple scattering as octaves of single scattering, each with half the extinction and 0.55 of the asymmetry of the one before
 // (Wrenninge, Kulla & Lundqvist, "Oz: the great and volumetric", 2013); weights so that a thick sunlit side has 0.7 of a white wall.
 constexpr int kOctaves = 8;
@@ -105,10 +109,11 @@ void Clouds::LightLayers() {
   const Vec3f sun = light_.sun_at(60);
   for (const CloudLayer& layer : layers_) {
     const float cover = layer.cover();
+    const float middle = 0.5f * (layer.lowest() + layer.highest());
+    const FieldShade shade(layer, light_.to_sun, kSunReach);
     // Between clouds light goes to and fro.
-    const Vec3f between = Mix(sun, Vec3f{1, 1, 1} * Luminance(sun), 0.4f) * (0.02f * cover);
-    lights_.push_back({light_.sun_at(0.5f * (layer.lowest() + layer.highest())), light_.sky * (1 - 0.2f * cover) + between,
-                       light_.ground * (1 - 0.45f * cover)});
+    const Vec3f between = Mix(sun, Vec3f{1, 1, 1} * Luminance(sun), 0.4f) * (0.02f * cover * shade.At(middle));
+    lights_.push_back({light_.sun_at(middle), light_.sky * (1 - 0.2f * cover) + between, light_.ground * (1 - 0.45f * cover), shade});
   }
   cirrus_sun_ = light_.sun_at(cirrus_.height());
 }
@@ -155,10 +160,10 @@ float Clouds::SunThrough(Vec3f d) const {
   return Exp(-0.5f * depth);
 }
 
-// What sunlight meets before a point of a cloud: steps that grow, up to 1.7 km.
+// What sunlight meets before a point of a cloud, up to kSunReach.
 float Clouds::DepthToSun(const CloudLayer& layer, Vec3f p, float altitude, float dither) const {
-  float t = 0, depth = 0, step = 26;
-  for (int k = 0; k < 7; ++k) {
+  float t = 0, depth = 0, step = kFirstStep;
+  for (int k = 0; k < kSunSteps; ++k) {
     dither += 0.618034f;
     dither -= dither >= 1 ? 1.0f : 0.0f;
     // Shaken within the step: not at all, and bases show terraces; all over it, and they show grain.
@@ -166,7 +171,7 @@ float Clouds::DepthToSun(const CloudLayer& layer, Vec3f p, float altitude, float
     if (there > layer.highest()) break;
     depth += layer.Density(p.x + light_.to_sun.x * at, p.y + light_.to_sun.y * at, there, k < 2) * step;
     t += step;
-    step *= 1.75f;
+    step *= kStepGrowth;
   }
   return depth;
 }
@@ -218,7 +223,7 @@ void Clouds::March(const CloudLayer& layer, const LayerLight& light, Ray& ray) c
     if (through > 0.25f || weight == 0) {
       dither += 0.7548777f;
       dither -= dither >= 1 ? 1.0f : 0.0f;
-      sun = SunScattered(layer, ray, p, altitude, dither);
+      sun = SunScattered(layer, ray, p, altitude, dither) * light.shade.At(altitude);
     }
     const float kept = Exp(-density * step), share = through * (1 - kept);
     sum += (light.sun * sun + AmbientScattered(layer, light, altitude)) * share;

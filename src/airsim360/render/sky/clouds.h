@@ -10,6 +10,7 @@
 #include "airsim360/render/sky/atmosphere.h"
 #include "airsim360/render/sky/cloud_layer.h"
 #include "airsim360/render/sky/cloud_sheets.h"
+#include "airsim360/render/sky/field_shade.h"
 #include "airsim360/scene/environment.h"
 
 namespace airsim360::internal {
@@ -44,6 +45,7 @@ class Clouds {
  private:
   struct LayerLight {
     Vec3f sun, sky, ground;  // irradiance facing the sun; radiances from above and below
+    FieldShade shade;        // of the sun, by clouds further than DepthToSun looks
   };
   struct Ray;
   void AddLow(const Environment& environment, Vec2f wind, uint32_t seed);

@@ -19,9 +19,9 @@ constexpr double kPi = 3.14159265358979;
 
 double Luminance(Vec3f c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-// A clear atmosphere with the sun at 48 degrees, its light for clouds, and what it gives level ground.
+// A clear atmosphere with the sun at 48 degrees or another elevation, its light for clouds, and what it gives level ground.
 struct ClearDay {
-  ClearDay() {
+  explicit ClearDay(float elevation = 0.8378f) : to_sun(DirectionOf(0.7f, elevation)) {
     for (int k = 0; k < kUp * kAround; ++k) diffuse += atmosphere.Radiance(At(k)) * static_cast<float>(kPi / (kUp * kAround));
     direct = atmosphere.SunIrradiance() * to_sun.z;
   }
@@ -34,17 +34,18 @@ struct ClearDay {
     return {to_sun, [this](float height) { return atmosphere.SunIrradiance(height); }, diffuse * static_cast<float>(1 / kPi),
             (diffuse + direct) * static_cast<float>(0.16 / kPi), ClearAir(2.5), 2.4f};
   }
-  // Luminance of level ground by the sky through these clouds.
-  double Diffuse(const Clouds& clouds) const {
-    double sum = 0;
+  // Light of level ground by the sky through these clouds; its luminance.
+  Vec3f DiffuseLight(const Clouds& clouds) const {
+    Vec3f sum{};
     for (int k = 0; k < kUp * kAround; ++k) {
       const Vec3f air = atmosphere.Radiance(At(k));
-      sum += Luminance(clouds.Over(At(k), air, air, HashUnit(k, 0, 1))) * kPi / (kUp * kAround);
+      sum += clouds.Over(At(k), air, air, HashUnit(k, 0, 1)) * static_cast<float>(kPi / (kUp * kAround));
     }
     return sum;
   }
+  double Diffuse(const Clouds& clouds) const { return Luminance(DiffuseLight(clouds)); }
   static constexpr int kUp = 12, kAround = 48;
-  Vec3f to_sun = DirectionOf(0.7f, 0.8378f);
+  Vec3f to_sun;
   Atmosphere atmosphere{to_sun, 2.5};
   Vec3f diffuse{}, direct{};
 };
@@ -179,6 +180,25 @@ std::vector<double> Picture(const Clouds& clouds) {
 
 // Correlation of where the clouds stand: of what differs from the mean of all skies and from the sky's own mean of each height,
 // as two nearly empty skies are alike without being the same.
+// Kasten & Czeplak (1980): broken cloud of N eighths leaves 1 - 0.75 (N / 8)^3.4 of the clear sky's light on level ground, so that
+// even with the sun free it is not brighter than clear; and bases that stand in each other's shade are not orange.
+TEST(Clouds, OfAFieldUnderALowSunStandInEachOthersShade) {
+  const ClearDay low(0.0524f);
+  Environment field;
+  field.cloud_cover = 0.6, field.cirrus_cover = 0;
+  double light = 0;
+  constexpr int kSeeds = 4;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    field.sky_seed = seed;
+    const Vec3f diffuse = low.DiffuseLight(Clouds(field, low.Light()));
+    light += Luminance(diffuse) / kSeeds;
+    EXPECT_LT(diffuse.x, 1.3f * diffuse.z) << seed;
+  }
+  const double clear = Luminance(low.diffuse + low.direct);
+  EXPECT_LT(light / clear, 1.05);
+  EXPECT_GT(light / clear, 0.4);
+}
+
 TEST(CloudVariety, NoTwoOfTwentyFourSeedsLookTheSame) {
   std::vector<std::vector<double>> pictures;
   for (int seed = 1; seed <= 24; ++seed) pictures.push_back(Picture(Clouds(Under("mediocris", seed), Day().Light())));
