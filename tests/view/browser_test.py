@@ -73,7 +73,7 @@ class PageTest(unittest.TestCase):
 
     def color(self, dx=0, dy=0):
         """Of the pixel of the screen beside the middle of the canvas."""
-        return self.page.run(f"(c => {{ const g = c.getContext('webgl2'), p = new Uint8Array(4); g.readPixels(c.width / 2 + {dx}, c.height / 2 - {dy}, 1, 1, g.RGBA, g.UNSIGNED_BYTE, p); return [...p]; }})"
+        return self.page.run(f"(c => {{ airsim360.main.panorama.paint(); const g = c.getContext('webgl2'), p = new Uint8Array(4); g.readPixels(c.width / 2 + {dx}, c.height / 2 - {dy}, 1, 1, g.RGBA, g.UNSIGNED_BYTE, p); return [...p]; }})"
                              "(document.querySelector('#pane-a canvas'))")
 
 
@@ -351,10 +351,57 @@ class LiveTest(PageTest):
         for product in self.page.run("[...document.getElementById('product').options].map(o => o.value)"):
             self.page.run(f"document.getElementById('product').value = '{product}'; document.getElementById('product').dispatchEvent(new Event('change'))")
             before = self.page.run("airsim360.live.picture.number")
-            self.page.wait(f"airsim360.live.picture.number > {before} + 2")
+            self.page.wait(f"airsim360.live.picture.number > {before} + 3")
             if product:
                 self.assertTrue(self.page.run(f"Boolean(airsim360.live.picture.planes['{product}'])"), product)
         self.assertEqual(self.page.problems(), [])
+
+
+    def test_names_come_after_the_first_picture(self):
+        self.open()
+        asked = self.page.wait("performance.getEntriesByType('resource').find(e => e.name.endsWith('/entities.json'))?.startTime")
+        self.assertGreater(asked, self.page.run("airsim360.first"))
+
+    def test_a_thing_is_found_by_its_name_and_the_drone_flies_there(self):
+        self.open()
+        self.page.wait("airsim360.live.picture?.number > 3")
+        self.page.key("/")
+        for letter in "bux":
+            self.page.key(letter)
+        self.page.key("Enter")
+        self.page.wait("document.getElementById('find-state').textContent === 'No thing is called \"bux\".'")
+        self.page.run("document.getElementById('find-text').value = 'box'")
+        self.page.key("Enter")
+        self.page.wait("document.getElementById('found').textContent.startsWith('box · ')")
+        self.assertIn("Namebox", self.text("card"))
+        self.page.run("document.getElementById('fly-there').click()")
+        self.page.wait("document.getElementById('fly-state').textContent === 'There: box'", 90)
+        centre, p = self.page.run("[airsim360.box.low.map((v, a) => (v + airsim360.box.high[a]) / 2), airsim360.live.picture.p]")
+        self.assertLess(math.dist(centre, p), 3 + 1.5)
+        # Whoever takes the keys takes the drone.
+        self.page.run("document.getElementById('fly-there').click()")
+        self.page.wait("airsim360.live.finder.flying || document.getElementById('fly-state').textContent === 'There: box'")
+        self.page.run("document.querySelector('#pane-a canvas').focus()")
+        self.page.key("r")
+        self.page.wait("!airsim360.live.finder.flying")
+        self.assertEqual(self.page.problems(), [])
+
+    def test_keys_that_are_held_steer_pictures_that_were_asked_for_before(self):
+        self.open()
+        self.page.wait("airsim360.live.picture?.number > 3")
+        self.page.call("Input.dispatchKeyEvent", type="keyDown", key="q")
+        told = self.page.run("airsim360.live.steered")
+        self.page.run(f"window.hands = 0; airsim360.live.told = airsim360.live.tell; airsim360.live.tell = function (h, ...more) {{ window.hands = h.hands; this.told(h, ...more); }}; 0")
+        self.page.wait(f"window.hands >= {told}")
+        self.page.call("Input.dispatchKeyEvent", type="keyUp", key="q")
+        self.assertEqual(self.page.problems(), [])
+
+    def test_only_what_was_kept_can_be_saved(self):
+        self.open()
+        self.page.wait("airsim360.live.picture?.number > 3")
+        self.assertTrue(self.page.run("airsim360.live.save.disabled"))
+        self.page.run("[...document.querySelectorAll('#live button')].find(b => b.textContent === 'Keep this frame').click()")
+        self.page.wait("!airsim360.live.save.disabled && airsim360.live.save.textContent === 'Save 1 frame'")
 
 
 class EditorTest(PageTest):
@@ -440,6 +487,20 @@ class TreesTest(EditorTest):
         self.press("tree-apply")
         self.page.wait(f"document.getElementById('tree-state').textContent.startsWith('{person}: waving')")
         self.page.wait("[...document.querySelectorAll('#tree-graph .active b')].map(e => e.textContent).join() === 'Sequence,wave!'")
+        self.assertEqual(self.page.problems(), [])
+
+    def test_the_blackboard_and_changes_of_state_are_shown(self):
+        self.edit()
+        name, person = self.page.run("['tree-name', 'tree-person'].map(id => document.getElementById(id).value)")
+        self.write(f'<root BTCPP_format="4"><BehaviorTree ID="{name}"><Sequence><SetBlackboard value="7.5" output_key="{{count}}"/><SetState state="waving" min_s="60" max_s="60" name="board"/></Sequence></BehaviorTree></root>')
+        self.page.wait("airsim360.live.trees.xml.includes('board')")
+        self.press("tree-apply")
+        self.page.wait("document.getElementById('tree-board').textContent === 'count7.5'")
+        self.assertFalse(self.page.run("document.getElementById('tree-board-none').checkVisibility()"))
+        self.page.wait("document.getElementById('tree-letters').textContent.includes('→ waving')")
+        self.page.run("(() => { const k = document.getElementById('tree-kind'); k.value = 'mission'; k.dispatchEvent(new Event('change')); })()")
+        self.page.wait("document.getElementById('tree-letters-title').textContent === 'Log'")
+        self.assertEqual(self.text("tree-board"), "")
         self.assertEqual(self.page.problems(), [])
 
     def test_an_area_drawn_on_the_map_is_the_yaml_that_the_commands_read(self):

@@ -1,6 +1,7 @@
 #include "airsim360/behaviour/tree.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 
 #include "airsim360/base/error.h"
@@ -68,7 +69,15 @@ class Compiler {
     if (found != scope.end()) return found->second;
     if (tree_.initial.size() >= kMaxSlots) Fail(at, "more than 500 blackboard keys");
     tree_.initial.emplace_back();
+    tree_.keys.push_back({KeyName(key)});
     return scope[key] = static_cast<uint16_t>(tree_.initial.size() - 1);
+  }
+
+  // With the subtrees that it lies in.
+  std::string KeyName(const std::string& key) const {
+    std::string name;
+    for (size_t i = 1; i < path_.size(); ++i) name.append(path_[i]).append(1, '/');
+    return name.append(key);
   }
 
   Value Text(const std::string& text) {
@@ -124,7 +133,9 @@ class Compiler {
         inner[name] = Slot(element, scope, value.substr(1, value.size() - 2));
       } else {
         inner.erase(name);
-        tree_.initial[Slot(element, inner, name)] = Text(value);
+        const uint16_t slot = Slot(element, inner, name);
+        tree_.initial[slot] = Text(value);
+        tree_.keys[slot].name = KeyName(*id + "/" + name);
       }
     }
     path_.push_back(*id);
@@ -181,6 +192,7 @@ class Compiler {
     if (IsKey(value)) {
       port.is_slot = true;
       port.slot = Slot(element, scope, value.substr(1, value.size() - 2));
+      if (info.kind != 'o' && tree_.keys[port.slot].what == 0) tree_.keys[port.slot].what = info.kind;
       // A word that a SubTree was given is read as what this port takes.
       Value& initial = tree_.initial[port.slot];
       if (initial.kind == Value::Kind::kText && info.kind != 't' && info.kind != 'o')
@@ -222,6 +234,44 @@ class Compiler {
 void ReadTrees(std::string_view xml, std::string_view name, const Palette& palette, const ParsePort& parse, TreeSet& set) {
   const XmlElement root = ReadXml(xml, name);
   Compiler(root, name, palette, parse, set).Run(std::make_shared<const std::string>(xml));
+}
+
+namespace {
+
+std::string NumberText(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", number);
+  return text;
+}
+
+std::string PointText(const Value& value) {
+  std::string text = NumberText(value.point.x);
+  text.append(1, ';').append(NumberText(value.point.y));
+  if (value.has_height) text.append(1, ';').append(NumberText(value.point.z));
+  return text;
+}
+
+std::string ValueText(char what, const Value& value, const TreeSet& set, const NameValue& name) {
+  if (std::string named = name(what, value); !named.empty()) return named;
+  switch (value.kind) {
+    case Value::Kind::kNumber: return NumberText(value.number);
+    case Value::Kind::kText: return value.index < set.texts.size() ? set.texts[value.index] : "";
+    case Value::Kind::kPoint: return PointText(value);
+    case Value::Kind::kPerson: return "person " + std::to_string(value.index);
+    case Value::Kind::kEntity: return "entity " + std::to_string(value.index);
+    case Value::Kind::kVehicle: return "vehicle " + std::to_string(value.index);
+    case Value::Kind::kNone: break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<BoardEntry> Board(const Tree& tree, const TreeSet& set, const std::vector<Value>& slots, const NameValue& name) {
+  std::vector<BoardEntry> board;
+  for (size_t i = 0; i < slots.size() && i < tree.keys.size(); ++i)
+    if (slots[i].kind != Value::Kind::kNone) board.push_back({tree.keys[i].name, ValueText(tree.keys[i].what, slots[i], set, name)});
+  return board;
 }
 
 }  // namespace airsim360::behaviour

@@ -39,6 +39,12 @@ struct TreeNode {
   std::string label;  ///< "Chat" or the author's name of it
 };
 
+/// A slot of the blackboard as authors know it.
+struct Key {
+  std::string name;  ///< "who"; of a subtree in place "Ring/who"
+  char what = 0;     ///< PortInfo::kind of a port that reads it; 0: none does
+};
+
 /// Node 0 is the root; slots start with `initial`.
 struct Tree {
   std::string name;
@@ -46,6 +52,7 @@ struct Tree {
   std::vector<uint16_t> children;
   std::vector<Port> ports;
   std::vector<Value> initial;
+  std::vector<Key> keys;                      ///< of each slot
   std::shared_ptr<const std::string> source;  ///< the file that it was read from, whole
 };
 
@@ -62,5 +69,14 @@ struct TreeSet {
 /// "name:line: …" with the nearest valid choice for unknown nodes, attributes, subtrees, states and the like,
 /// wrong numbers of children, trees that contain themselves, more than 2000 nodes a tree. `set` points into `palette`.
 void ReadTrees(std::string_view xml, std::string_view name, const Palette& palette, const ParsePort& parse, TreeSet& set);
+
+/// What a key of a blackboard holds, for people to read.
+struct BoardEntry {
+  std::string key, value;
+};
+/// Names persons, entities, vehicles, and choices of a kind of port; "" where it knows none.
+using NameValue = std::function<std::string(char what, const Value& value)>;
+/// The keys that hold something; `slots` as Tree::initial. Numbers, texts of `set` and points ("x;y;z") are written by this.
+std::vector<BoardEntry> Board(const Tree& tree, const TreeSet& set, const std::vector<Value>& slots, const NameValue& name);
 
 }  // namespace airsim360::behaviour

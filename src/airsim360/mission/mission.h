@@ -51,6 +51,7 @@ struct MissionProgress {
   std::vector<ActiveNode> active;   ///< nodes that run, from the root on
   std::vector<std::string> log;     ///< "12.34 s, line 5, Goto: …": what failed and why; the newest kMostLines
   size_t captures = 0;
+  std::vector<behaviour::BoardEntry> board;  ///< what the keys of the tree hold
 };
 inline constexpr const char* kMissionResultNames[] = {"running", "success", "failure"};
 

@@ -80,6 +80,8 @@ MissionProgress MissionPilot::progress() const {
   const auto& nodes = impl_->mission->tree().nodes;
   for (size_t i = 0; i < nodes.size(); ++i)
     if (impl_->run.nodes[i].status == Status::kRunning) progress.active.push_back({nodes[i].line, nodes[i].order, nodes[i].label});
+  const Mission& mission = *impl_->mission;
+  progress.board = behaviour::Board(mission.tree(), mission.trees, impl_->run.slots, [&](char, const behaviour::Value& value) { return NameOfThing(*mission.world.model, value); });
   return progress;
 }
 

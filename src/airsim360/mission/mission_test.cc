@@ -147,6 +147,14 @@ TEST(Mission, AHaltedNodeLeavesTheDroneHovering) {
   EXPECT_LT(flown.p().y, -1);
 }
 
+TEST(Mission, TheBlackboardIsToldWithTheNamesOfThings) {
+  const Flown flown("<Sequence><SetBlackboard value=\"7\" output_key=\"{n}\"/><Sees what=\"box\" distance=\"50\" thing=\"{seen}\"/></Sequence>", {-2, 0, 2}, true);
+  EXPECT_EQ(flown.pilot->progress().result, Result::kSuccess);
+  std::string board;
+  for (const auto& [key, value] : flown.pilot->progress().board) board += key + "=" + value + ";";
+  EXPECT_EQ(board, "n=7;seen=box;");
+}
+
 TEST(Mission, ACommandFromOutsideTakesTheDrone) {
   const auto model = RoomModel({HummingbirdAt({-2, -4, 2}, true)});
   SimLoop loop(model);

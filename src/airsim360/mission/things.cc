@@ -144,6 +144,13 @@ Value ParseThing(const std::string& text, const MissionWorld* world) {
   throw InputError("no thing, person or vehicle " + Quoted(text) + " in the world" + DidYouMean(text, names));
 }
 
+std::string NameOfThing(const SimModel& model, const Value& value) {
+  if (value.kind == Value::Kind::kPerson && model.people && value.index < model.people->cast.size()) return model.people->cast[value.index].name;
+  if (value.kind == Value::Kind::kVehicle && model.traffic && value.index < model.traffic->bodies.size()) return model.traffic->bodies[value.index].name;
+  if (value.kind == Value::Kind::kEntity) return model.tracer->scene().entity(value.index).name;
+  return {};
+}
+
 std::optional<ThingNow> FindThing(const SimModel& model, const SimState& state, const Value& value) {
   switch (value.kind) {
     case Value::Kind::kPoint: return ThingNow{value.point, {}, {}, value.has_height, true};

@@ -29,6 +29,9 @@ struct ThingNow {
 /// nullopt for somebody who is not in the world now, and for values that name no thing.
 std::optional<ThingNow> FindThing(const SimModel& model, const SimState& state, const behaviour::Value& value);
 
+/// What a value is called that names a person, an entity or a vehicle; "" for others.
+std::string NameOfThing(const SimModel& model, const behaviour::Value& value);
+
 /// Metres from a point to the box.
 double DistanceTo(const ThingNow& thing, Vec3d p_W);
 /// Whether nothing that stands is between the point and some part of the box that faces it.

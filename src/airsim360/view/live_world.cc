@@ -15,6 +15,7 @@
 #include "airsim360/view/drawing.h"
 #include "airsim360/view/drawn_frames.h"
 #include "airsim360/view/fair_mutex.h"
+#include "airsim360/view/frame_pool.h"
 #include "airsim360/view/live_messages.h"
 #include "airsim360/view/placing.h"
 #include "airsim360/view/planes.h"
@@ -91,8 +92,20 @@ std::shared_ptr<const SimModel> ModelOf(Stage& stage, const std::string& drone) 
 // A picture that may still be asked about.
 struct Seen {
   int64_t number = 0;
-  std::vector<std::string> products;
-  Frame frame;
+  std::shared_ptr<const Frame> frame;
+};
+
+// What the hands do, of the newest message of them.
+struct Hands {
+  Json input;
+  int64_t number = 0;  // that the page gave it
+  bool fresh = false;  // no picture has them yet
+};
+
+// A picture that is taken and not yet written: others take theirs meanwhile.
+struct TakenPicture {
+  std::shared_ptr<Frame> frame;
+  std::string fields;
 };
 
 }  // namespace
@@ -106,7 +119,11 @@ struct LiveWorld::Impl {
 
   SocketMessage Do(const Json& message, bool may_fly);
   SocketMessage Picture(const Json& message, bool may_fly);
+  TakenPicture Take(const Json& message, int width, const Products& products);
+  SocketMessage Feel(const Json& message);
+  void Steer(const Json& message);
   SocketMessage Planes(const Json& message);
+  std::shared_ptr<const Frame> SeenFrame(int64_t number);
   SocketMessage Set(const Json& message);
   SocketMessage Keep();
   SocketMessage Save();
@@ -114,23 +131,30 @@ struct LiveWorld::Impl {
   void Fly(const Json& input);
   void PassTime();
   std::shared_ptr<const SimModel> Model();
-  std::string StateFields(const Capture& capture) const;
+  void Prepare(const Json& message, PanoramicRig& rig, std::shared_ptr<const SimState>& state, NextTrigger& next);
+  std::string StateFields(const Capture& capture, const Vehicle& vehicle);
 
   std::shared_ptr<Stage> stage;
   LiveOptions options;
   SimLoop loop;
   TreeDesk trees{loop};  // as `mutex` says
-  std::mutex changes;  // of what follows; taken before `mutex`
+  std::mutex changes;  // of what follows; taken before the others
   std::string weather;
   double hour = -1;
-  FairMutex mutex;  // of the rest; pictures follow each other without a pause, and others want a turn
-  Environment environment;
+  FairMutex rendering;  // of what follows; taken before `mutex`. Pictures follow each other without a pause, and another light wants a turn
   std::unique_ptr<Renderer> own_renderer;  // of another environment than the stage's
   Renderer* renderer = nullptr;
-  double told_at = 0;
   int64_t next_number = 1;
-  std::deque<Seen> seen;  // newest last
+  FramePool frames;
+  std::mutex mutex;  // of the loop and what follows; never held while a picture is rendered
+  Environment environment;
+  double told_at = 0;
   Flight kept;
+  int64_t steered = 0;    // number of the hands that steer
+  std::mutex seeing;      // of what follows; who asks about a picture does not wait for the next one
+  std::deque<Seen> seen;  // newest last
+  std::mutex feeling;   // of what follows; hands do not wait for pictures
+  Hands hands;
 };
 
 void LiveWorld::Impl::Fly(const Json& input) {
@@ -152,59 +176,98 @@ void LiveWorld::Impl::PassTime() {
   }
 }
 
-std::string LiveWorld::Impl::StateFields(const Capture& capture) const {
-  const Vehicle& vehicle = loop.state().vehicles[0];
+std::string LiveWorld::Impl::StateFields(const Capture& capture, const Vehicle& vehicle) {
+  const std::lock_guard lock(mutex);
   const Quaternion q = ToQuaternion(capture.X_WC.R);
   const Vec3d p = capture.X_WC.p, v = vehicle.motion.v_WB;
   Json fields{{"number", next_number}, {"t", 1e-9 * static_cast<double>(capture.t_ns)}, {"p", {p.x, p.y, p.z}}, {"q", {q.w, q.x, q.y, q.z}},
               {"v", {v.x, v.y, v.z}}, {"render_ms", capture.stats.render_ms}, {"collisions", vehicle.collision.count},
-              {"charge", vehicle.drone.charge}, {"kept", kept.shots.size()}};
+              {"charge", vehicle.drone.charge}, {"kept", kept.shots.size()}, {"hands", steered}};
   if (vehicle.collision.count > 0 && vehicle.collision.entity != kNoEntity) fields["touched"] = stage->scene().entity(vehicle.collision.entity).name;
   const std::string text = fields.dump(-1, ' ', false, Json::error_handler_t::replace);
   return text.substr(1, text.size() - 2);
 }
 
+// Applied when the next picture is taken.
+SocketMessage LiveWorld::Impl::Feel(const Json& message) {
+  const auto number = static_cast<int64_t>(Number(message, "number", 0, 9e15, 0));
+  const Json input = message.value("input", Json());
+  SticksOf(input);
+  const std::lock_guard lock(feeling);
+  hands = {input, number, true};
+  return Said({{"done", "hands"}});
+}
+
+// The hands that came with a picture's question, or those that were told since the last picture.
+void LiveWorld::Impl::Steer(const Json& message) {
+  if (message.contains("input")) {
+    if (!trees.Flies()) Fly(message["input"]);
+    return;
+  }
+  const std::lock_guard lock(feeling);
+  if (!std::exchange(hands.fresh, false)) return;
+  steered = hands.number;
+  if (!trees.Flies()) Fly(hands.input);
+}
+
 SocketMessage LiveWorld::Impl::Picture(const Json& message, bool may_fly) {
-  const std::lock_guard lock(mutex);
   const int width = static_cast<int>(Number(message, "width", kSmallest, kLargest, 1024)) / 2 * 2;
   std::vector<std::string> names;
   const Products products = ProductsOf(message, names);
-  if (message.contains("input")) {
-    if (!may_fly) throw InputError("token: flying needs the page's token");
-    if (!trees.Flies()) Fly(message["input"]);
-  }
+  if (message.contains("input") && !may_fly) throw InputError("token: flying needs the page's token");
+  const TakenPicture taken = Take(message, width, products);
+  // Without the lock: the next picture is rendered while this one is written.
+  PlaneMessage planes;
+  planes.AddPicture(taken.frame->rgb);
+  for (const std::string& name : names) planes.AddProduct(*taken.frame, name);
+  FramePool::DropProducts(*taken.frame);
+  return {planes.Finish(taken.fields), true};
+}
+
+// The world at the instant of the picture.
+void LiveWorld::Impl::Prepare(const Json& message, PanoramicRig& rig, std::shared_ptr<const SimState>& state, NextTrigger& next) {
+  const std::lock_guard lock(mutex);
+  Steer(message);
   PassTime();
-  const std::shared_ptr<const SimState> state = loop.Snapshot();
+  state = loop.Snapshot();
+  rig.state = SceneStateOf(loop.model(), *state, 0);
+  if (rig.products.flow) next = InstantAfter(loop.model(), *state, 0, kFlowSeconds);
+}
+
+TakenPicture LiveWorld::Impl::Take(const Json& message, int width, const Products& products) {
+  const std::lock_guard turn(rendering);
   PanoramicRig rig;
   static_cast<RenderSettings&>(rig) = options.picture;
   rig.camera = Equirectangular{width, width / 2};
   rig.pano_frame = PanoFrame::kLevel;
   rig.products = products;
-  rig.state = SceneStateOf(loop.model(), *state, 0);
+  std::shared_ptr<const SimState> state;
   NextTrigger next;
-  if (products.flow) next = InstantAfter(loop.model(), *state, 0, kFlowSeconds);
+  Prepare(message, rig, state, next);
+  const std::shared_ptr<Frame> frame = frames.Take();
   Capture capture;
-  if (seen.size() == kKeptFrames) {
-    // Its memory, unless it holds other products: those would stay in memory unseen.
-    if (seen.front().products == names) capture.frame = std::move(seen.front().frame);
-    seen.pop_front();
-  }
+  capture.frame = std::move(*frame);
   CaptureRig(rig, state->vehicles[0].motion, state->t_ns, *renderer, capture, products.flow ? &next : nullptr);
-  PlaneMessage planes;
-  planes.AddPicture(capture.frame.rgb);
-  for (const std::string& name : names) planes.AddProduct(capture.frame, name);
-  SocketMessage answer{planes.Finish(StateFields(capture)), true};
-  seen.push_back({next_number++, names, std::move(capture.frame)});
-  return answer;
+  *frame = std::move(capture.frame);
+  TakenPicture taken{frame, StateFields(capture, state->vehicles[0])};
+  const std::lock_guard guard(seeing);
+  seen.push_back({next_number++, frame});
+  if (seen.size() > kKeptFrames) seen.pop_front();
+  return taken;
+}
+
+std::shared_ptr<const Frame> LiveWorld::Impl::SeenFrame(int64_t number) {
+  const std::lock_guard lock(seeing);
+  const auto found = std::ranges::find(seen, number, &Seen::number);
+  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone; ask about one of the newest " + std::to_string(kKeptFrames));
+  return found->frame;
 }
 
 SocketMessage LiveWorld::Impl::Planes(const Json& message) {
-  const std::lock_guard lock(mutex);
   const auto number = static_cast<int64_t>(Number(message, "number", 0, 9e15, 0));
-  const auto found = std::ranges::find(seen, number, &Seen::number);
-  if (found == seen.end()) throw InputError("number: picture " + std::to_string(number) + " is gone; ask about one of the newest " + std::to_string(kKeptFrames));
+  const std::shared_ptr<const Frame> frame = SeenFrame(number);
   PlaneMessage planes;
-  for (const char* name : {"range", "semantic", "entity"}) planes.AddProduct(found->frame, name);
+  for (const char* name : {"range", "semantic", "entity"}) planes.AddProduct(*frame, name);
   return {planes.Finish("\"number\":" + std::to_string(number)), true};
 }
 
@@ -227,6 +290,7 @@ SocketMessage LiveWorld::Impl::Set(const Json& message) {
   auto made = stage->NewRenderer(options.picture.tier, next);
   weather = wanted;
   hour = wanted_hour;
+  const std::lock_guard turn(rendering);
   const std::lock_guard lock(mutex);
   own_renderer = std::move(made);
   renderer = own_renderer.get();
@@ -278,6 +342,7 @@ SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
     return {trees.Do(what, message.dump())};
   }
   if (!may_fly) throw InputError("token: '" + what + "' needs the page's token");
+  if (what == "hands") return Feel(message);
   if (what == "set") return Set(message);
   if (what == "keep") return Keep();
   if (what == "save") return Save();
@@ -287,7 +352,7 @@ SocketMessage LiveWorld::Impl::Do(const Json& message, bool may_fly) {
     BringCar(loop, message.value("car", ""), PointOf(message));
     return Said({{"done", "car"}});
   }
-  throw InputError("do: '" + what + "' is none of picture, planes, set, keep, save, reset, cars, car, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
+  throw InputError("do: '" + what + "' is none of picture, planes, hands, set, keep, save, reset, cars, car, palette, trees, source, mind, check, apply, fly, mission, stop, person, draw");
 }
 
 LiveWorld::LiveWorld(std::shared_ptr<Stage> stage, LiveOptions options) : impl_(std::make_unique<Impl>(std::move(stage), std::move(options))) {}

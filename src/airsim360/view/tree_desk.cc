@@ -43,6 +43,12 @@ PersonAction ActionOf(const std::string& action, Vec3d p, bool is_there) {
   throw InputError("action: " + UnknownChoiceMessage("action", action, std::vector<std::string>{"send", "bring", "remove", "release"}));
 }
 
+Json BoardJson(const std::vector<behaviour::BoardEntry>& board) {
+  Json said = Json::array();
+  for (const auto& [key, value] : board) said.push_back({{"key", key}, {"value", value}});
+  return said;
+}
+
 std::string Written(const std::string& xml) { return behaviour::WriteXml(behaviour::ReadXml(xml, kPage)); }
 
 }  // namespace
@@ -68,6 +74,7 @@ struct TreeDesk::Impl {
   Json Check(const Json& message) const;
   Json Trees() const;
   Json Mind(const Json& message) const;
+  Json InboxJson(const PersonMind& mind) const;
   PersonIndex Find(const std::string& name) const;
   Json Person(const Json& message);
   Json Apply(const std::string& xml);
@@ -121,7 +128,17 @@ Json TreeDesk::Impl::Mind(const Json& message) const {
   const PersonMind mind = MindOf(*people.crowd, crowd, i);
   const PersonTransition last = LastTransition(*people.crowd, crowd, i);
   const Vec3d p = crowd.people[i].p_WP;
-  return {{"person", name}, {"p", {p.x, p.y, p.z}}, {"visible", crowd.people[i].visible}, {"tree", mind.tree}, {"active", mind.active}, {"labels", mind.labels}, {"state", last.to}, {"cause", last.cause}, {"inbox", mind.inbox}};
+  return {{"person", name}, {"p", {p.x, p.y, p.z}}, {"visible", crowd.people[i].visible}, {"tree", mind.tree}, {"active", mind.active}, {"labels", mind.labels}, {"state", last.to}, {"cause", last.cause},
+          {"inbox", InboxJson(mind)}, {"board", BoardJson(mind.board)}};
+}
+
+// When each was sent, and by whom, unless it was a command.
+Json TreeDesk::Impl::InboxJson(const PersonMind& mind) const {
+  const SimPeople& people = PeopleOf(loop.model());
+  Json said = Json::array();
+  for (const PersonMind::Letter& letter : mind.inbox)
+    said.push_back({{"type", letter.type}, {"from", letter.from < people.cast.size() ? Json(people.cast[letter.from].name) : Json()}, {"sent", 1e-9 * static_cast<double>(letter.t_ns)}});
+  return said;
 }
 
 PersonIndex TreeDesk::Impl::Find(const std::string& name) const {
@@ -176,11 +193,11 @@ Json TreeDesk::Impl::Fly(const std::string& xml) {
 }
 
 Json TreeDesk::Impl::Progress() const {
-  if (!pilot) return {{"result", "none"}, {"seconds", 0}, {"active", Json::array()}, {"log", Json::array()}};
+  if (!pilot) return {{"result", "none"}, {"seconds", 0}, {"active", Json::array()}, {"log", Json::array()}, {"board", Json::array()}};
   const MissionProgress progress = pilot->progress();
   Json active = Json::array();
   for (const auto& node : progress.active) active.push_back(node.order);
-  return {{"result", kMissionResultNames[static_cast<size_t>(progress.result)]}, {"seconds", progress.seconds}, {"active", active}, {"log", progress.log}};
+  return {{"result", kMissionResultNames[static_cast<size_t>(progress.result)]}, {"seconds", progress.seconds}, {"active", active}, {"log", progress.log}, {"board", BoardJson(progress.board)}};
 }
 
 void TreeDesk::Impl::Stop() {

@@ -24,9 +24,10 @@ class TreeDesk {
   static bool Handles(const std::string& what);
   static bool Changes(const std::string& what);
   /// The answer to a message, both JSON objects. palette: {people, mission}. trees: {trees, people: [{name, tree}]}. source
-  /// `tree`: {xml}. mind `person`: {p, visible, tree, active, labels, state, cause, inbox}. check `kind`, `xml`: {xml} as
+  /// `tree`: {xml}. mind `person`: {p, visible, tree, active, labels, state, cause, inbox: [{type,
+  /// from, sent}], board: [{key, value}]}. check `kind`, `xml`: {xml} as
   /// WriteXml has it. apply `xml`: people follow it from now on, {xml}. fly `xml`: the drone flies it, {xml}. mission: {result,
-  /// seconds, active, log}. stop: the mission ends. person `person`, `action` (send, bring, remove, release), `point`: someone
+  /// seconds, active, log, board}. stop: the mission ends. person `person`, `action` (send, bring, remove, release), `point`: someone
   /// walks there, is there at once, … InputError for what is wrong.
   std::string Do(const std::string& what, const std::string& message);
   /// Whether a mission has the drone: hands do not steer then.

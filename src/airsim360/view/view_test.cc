@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +14,7 @@
 
 #include "airsim360/view/fair_mutex.h"
 #include "airsim360/view/folder_file.h"
+#include "airsim360/view/frame_pool.h"
 #include "airsim360/view/live_world.h"
 #include "airsim360/view/page_files.h"
 #include "airsim360/view/planes.h"
@@ -181,6 +183,120 @@ TEST_F(Live, TimeStandsWhileTheClockDoesAndNeverJumps) {
   EXPECT_NEAR(time(), 0.25, 1e-9);
   now = -5;
   EXPECT_NEAR(time(), 0.25, 1e-9);
+}
+
+TEST_F(Live, HandsThatAreToldOnALineOfTheirOwnFlyLikeThoseOfAPicture) {
+  const auto fly = [](bool apart) {
+    double now = 0;
+    LiveWorld world(stage_, {.clock = [&] { return now; }});
+    Json header;
+    for (int i = 1; i <= 6; ++i) {
+      now += 0.05;
+      Json picture{{"do", "picture"}, {"width", 128}, {"token", "t"}};
+      const Json input{0.2, 0, 0.1, 0.3};
+      if (apart) EXPECT_EQ(world.Answer(Json{{"do", "hands"}, {"input", input}, {"number", 10 * i}, {"token", "t"}}.dump(), "t").bytes, R"({"done":"hands"})");
+      else picture["input"] = input;
+      header = airsim360::Read(world.Answer(picture.dump(), "t").bytes).header;
+      EXPECT_EQ(header["hands"], apart ? 10 * i : 0);
+    }
+    header.erase("render_ms");
+    header.erase("hands");
+    return header;
+  };
+  const Json told = fly(true);
+  EXPECT_GT(told["v"][2].get<double>(), 0.1);
+  EXPECT_EQ(told, fly(false));
+}
+
+TEST_F(Live, HandsAreToldOnceAndNotWithoutTheToken) {
+  double now = 0;
+  LiveWorld world(stage_, {.clock = [&] { return now; }});
+  const auto refused = [&](const char* message, const char* why) { EXPECT_NE(world.Answer(message, "t").bytes.find(why), std::string::npos) << message; };
+  refused(R"({"do":"hands","input":[0,0,1,0],"number":1})", "token");
+  refused(R"({"do":"hands","input":[0,0,2,0],"number":1,"token":"t"})", "-1 ... 1");
+  refused(R"({"do":"hands","number":1,"token":"t"})", "four numbers");
+  refused(R"({"do":"hands","input":[0,0,1,0],"number":-1,"token":"t"})", "number");
+  world.Answer(R"({"do":"hands","input":[0,0,1,0],"number":4,"token":"t"})", "t");
+  // Half a second later, told nothing more, it stops.
+  double v = 0, fastest = 0;
+  for (int i = 0; i < 60; ++i) {
+    now += 0.05;
+    v = airsim360::Read(world.Answer(R"({"do":"picture","width":128})", "t").bytes).header["v"][2].get<double>();
+    fastest = std::max(fastest, v);
+  }
+  EXPECT_GT(fastest, 1);
+  EXPECT_LT(std::abs(v), 0.1);
+}
+
+TEST_F(Live, PicturesThatAreAskedForAtOnceFollowEachOtherAndAreWhole) {
+  double now = 0;
+  LiveWorld world(stage_, {.clock = [&] { return now; }});
+  std::vector<int64_t> numbers[2];
+  const auto look = [&](int who, const char* message) {
+    for (int i = 0; i < 12; ++i) {
+      const Parts parts = airsim360::Read(world.Answer(message, "t").bytes);
+      numbers[who].push_back(parts.header["number"].get<int64_t>());
+      EXPECT_EQ(parts.header["planes"].size(), who == 0 ? 2u : 1u);
+      // Who asks about it gets the planes of that very picture, whatever has been looked at since.
+      const std::string planes = world.Answer(Json{{"do", "planes"}, {"number", numbers[who].back()}}.dump(), "t").bytes;
+      if (planes.starts_with("A360")) EXPECT_EQ(airsim360::Read(planes).header["planes"].size(), 3u);
+      else EXPECT_NE(planes.find("is gone"), std::string::npos) << planes;
+    }
+  };
+  std::thread other([&] { look(1, R"({"do":"picture","width":256})"); });
+  look(0, R"({"do":"picture","width":128,"products":["coverage"]})");
+  other.join();
+  std::vector<int64_t> all;
+  for (const auto& some : numbers) {
+    EXPECT_TRUE(std::ranges::is_sorted(some));
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::ranges::sort(all);
+  for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], static_cast<int64_t>(i + 1));
+}
+
+TEST_F(Live, QuestionsAreAnsweredWhileAPictureIsRendered) {
+  double now = 0;
+  LiveWorld world(stage_, {.clock = [&] { return now; }});
+  std::atomic<bool> done = false;
+  std::thread looking([&] {
+    for (int i = 0; i < 3; ++i) world.Answer(R"({"do":"picture","width":2048})", "t");
+    done = true;
+  });
+  // Who waits for a picture each time has three answers or four.
+  int answers = 0;
+  while (!done) {
+    EXPECT_NE(world.Answer(R"({"do":"mission"})", "t").bytes.find("none"), std::string::npos);
+    ++answers;
+  }
+  looking.join();
+  EXPECT_GT(answers, 20);
+}
+
+TEST(FramePool, MemoryIsUsedAgainAndHoldsNothingBeyondWhatEveryPictureHas) {
+  auto pool = std::make_unique<FramePool>();
+  auto first = pool->Take(), second = pool->Take(), third = pool->Take();
+  first->rgb = Image<Rgb8>(8, 4);
+  first->entity = Image<EntityId>(8, 4);
+  first->coverage = Image<CoveragePixel>(8, 4);
+  const Frame* memory = first.get();
+  const Rgb8* pixels = first->rgb.pixels().data();
+  std::shared_ptr<const Frame> held = first;
+  first.reset();
+  EXPECT_EQ(pool->resting(), 0u);
+  std::thread([&held] { held.reset(); }).join();
+  EXPECT_EQ(pool->resting(), 1u);
+  const auto again = pool->Take();
+  EXPECT_EQ(again.get(), memory);
+  EXPECT_EQ(again->rgb.pixels().data(), pixels);
+  EXPECT_EQ(again->entity.width(), 8);
+  EXPECT_TRUE(again->coverage.empty());
+  const auto fourth = pool->Take();
+  second.reset(), third.reset();
+  EXPECT_EQ(pool->resting(), 2u);
+  { const auto last = pool->Take(), one = pool->Take(), more = pool->Take(); }
+  EXPECT_EQ(pool->resting(), 2u);
+  pool.reset();  // what is out still may come back
 }
 
 TEST(FairMutex, TwoWhoWantItAllTheTimeHaveItByTurns) {

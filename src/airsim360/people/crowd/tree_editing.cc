@@ -45,17 +45,33 @@ void AdoptTrees(const CrowdModel& before, const CrowdModel& after, CrowdState& s
   }
 }
 
+namespace {
+
+std::vector<behaviour::BoardEntry> BoardOf(const CrowdModel& model, const Tree& tree, const TreeRun& run) {
+  const CrowdPlan& plan = *model.plan;
+  return behaviour::Board(tree, plan.trees, run.slots, [&](char what, const Value& value) -> std::string {
+    if (value.kind == Value::Kind::kPerson && value.index < model.people.size()) return model.people[value.index].name;
+    const auto choice = static_cast<size_t>(value.number);
+    if (what == 's' && choice < plan.states.size()) return plan.states[choice].name;
+    if (what == 'm' && choice < plan.messages.size()) return plan.messages[choice];
+    if (what == 'k' && choice < std::size(kPlaceKindNames)) return kPlaceKindNames[choice];
+    return what == 'a' && choice < model.areas.size() ? model.areas[choice].name : "";
+  });
+}
+
+}  // namespace
+
 PersonMind MindOf(const CrowdModel& model, const CrowdState& state, PersonIndex person) {
   if (person >= state.internals->agents.size()) throw InputError("no person " + std::to_string(person));
   const Agent& agent = state.internals->agents[person];
   const Tree& tree = model.plan->trees.trees[agent.tree];
-  PersonMind mind{tree.name, agent.commanded, {}, {}, {}};
+  PersonMind mind{tree.name, agent.commanded, {}, {}, {}, BoardOf(model, tree, agent.run)};
   for (size_t i = 0; i < tree.nodes.size(); ++i) {
     if (agent.run.nodes[i].status != Status::kRunning) continue;
     mind.active.push_back(tree.nodes[i].order);
     mind.labels.push_back(tree.nodes[i].label);
   }
-  for (const Message& message : agent.inbox) mind.inbox.push_back(model.plan->messages[message.type]);
+  for (const Message& message : agent.inbox) mind.inbox.push_back({model.plan->messages[message.type], message.from, message.t_ns});
   return mind;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "airsim360/behaviour/tree.h"
 #include "airsim360/people/crowd/crowd.h"
 
 namespace airsim360 {
@@ -28,7 +29,14 @@ struct PersonMind {
   bool commanded = false;           ///< the tree rests
   std::vector<int> active;          ///< nodes that run: their order in TreeSource
   std::vector<std::string> labels;  ///< of these
-  std::vector<std::string> inbox;   ///< types of the messages that wait
+  /// A message that waits; unread ones are forgotten after two seconds.
+  struct Letter {
+    std::string type;
+    PersonIndex from = kNoPerson;  ///< kNoPerson: a command
+    int64_t t_ns = 0;              ///< sent
+  };
+  std::vector<Letter> inbox;
+  std::vector<behaviour::BoardEntry> board;  ///< what the keys of the tree hold
 };
 PersonMind MindOf(const CrowdModel& model, const CrowdState& state, PersonIndex person);
 

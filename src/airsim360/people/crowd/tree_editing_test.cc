@@ -51,6 +51,30 @@ TEST(TreeEditing, PeopleWhoLiveFollowTheEditedTreeAndOthersAreAsTheyWere) {
   EXPECT_EQ(TreeSource(*edited, tree), Waving(tree));
 }
 
+TEST(TreeEditing, AMindTellsItsMessagesAndWhatItsKeysHold) {
+  TestCrowd crowd(Square(), Six());
+  crowd.Run(1);
+  const std::string tree = MindOf(*crowd.model, crowd.state, 0).tree;
+  const std::string xml = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"" + tree + R"("><Sequence><SetBlackboard value="7.5" output_key="{count}"/><SubTree ID="rest" mood="waving" point="3;4"/></Sequence></BehaviorTree>
+    <BehaviorTree ID="rest"><Sequence><SetBlackboard value="{point}" output_key="{copy}"/><SetState state="{mood}" min_s="30" max_s="30"/><SetBlackboard value="1" output_key="{later}"/></Sequence></BehaviorTree></root>)";
+  const auto edited = WithTrees(*crowd.model, xml, "page");
+  AdoptTrees(*crowd.model, *edited, crowd.state);
+  crowd.model = edited;
+  crowd.Run(1);
+  crowd.Do(0, MessagePerson{"greet"});
+  crowd.Run(0.5);
+  const PersonMind mind = MindOf(*edited, crowd.state, 0);
+  std::vector<std::string> board;
+  for (const auto& [key, value] : mind.board) board.push_back(key + "=" + value);
+  std::ranges::sort(board);
+  // Keys of a subtree are its own; the choice is told by its name; what no node has written yet is not there.
+  EXPECT_EQ(board, (std::vector<std::string>{"count=7.5", "rest/copy=3;4", "rest/mood=waving", "rest/point=3;4"}));
+  ASSERT_EQ(mind.inbox.size(), 1u);
+  EXPECT_EQ(mind.inbox[0].type, "greet");
+  EXPECT_EQ(mind.inbox[0].from, kNoPerson);
+  EXPECT_NEAR(1e-9 * static_cast<double>(mind.inbox[0].t_ns), 2, 0.2);
+}
+
 TEST(TreeEditing, WhatIsWrongChangesNothing) {
   TestCrowd crowd(Square(), Six());
   EXPECT_THROW(WithTrees(*crowd.model, Waving("x").replace(60, 4, "<Nod"), "page"), InputError);

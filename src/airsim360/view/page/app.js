@@ -48,6 +48,7 @@ class App {
     const {index} = this.main.dataset;
     document.title = `${index.name} – AirSim360 view`;
     $("title").textContent = `${index.name} · ${index.world} · ${this.main.dataset.size} frames`;
+    $("fly-hint").textContent = /^[a-z]\w*$/.test(index.world ?? "") ? `To fly in this world: airsim360 view --world ${index.world}` : "";
     this.scale = rangeScale(index.frames.range);
     this.fillProducts(shownProducts(index.products), this.panes.length > 1);
     this.fillViews(index.views);
@@ -74,6 +75,7 @@ class App {
   }
   async openLive(live) {
     this.live = new Live(live, $("live"), this);
+    this.main.panorama.moving = true;
     $("title").textContent = `${live.world} · live`;
     document.title = `${live.world} – AirSim360 live`;
     this.fillProducts(live.products, false);
@@ -137,8 +139,9 @@ class App {
   key(e) {
     if (e.target.matches("input, select, textarea") || e.ctrlKey || e.altKey || e.metaKey) return;
     if (this.live?.key(e, true)) return e.preventDefault();
-    const does = {",": () => this.step(-1), ".": () => this.step(1), p: () => this.play(), "/": () => $("question").focus()}[e.key];
-    if (!does || this.live) return;
+    const does = this.live ? {"/": () => { $("finding").open = true; $("find-text").focus(); }}[e.key]
+                           : {",": () => this.step(-1), ".": () => this.step(1), p: () => this.play(), "/": () => $("question").focus()}[e.key];
+    if (!does) return;
     e.preventDefault();
     does();
   }
@@ -184,19 +187,26 @@ class App {
 
   // Drawing: everything is fetched first, and shown at once if it is still wanted.
 
-  refresh() { return this.guard(this.draw(++this.turn)); }
+  refresh() {
+    this.asideDue = true;  // also where a picture overtakes this
+    return this.guard(this.draw(++this.turn));
+  }
   wanted() {
     return {product: this.product, opacity: Number($("opacity").value), filter: this.filter, chosen: this.chosen, scale: this.scale};
   }
-  async draw(turn) {
+  /// `aside`: map and legend too, which need not follow every picture of a live world.
+  async draw(turn, aside = true) {
     const names = planesFor(this.wanted());
     const fetched = await Promise.all(this.panes.map(pane => this.fetchPane(pane, names)));
     if (turn !== this.turn) return;
     fetched.forEach((got, i) => this.showPane(this.panes[i], got, fetched[0]));
     $("problem").hidden = true;
     this.shown = fetched;
-    this.showMap();
-    this.showLegend(fetched[0]);
+    if (aside || this.asideDue) {
+      this.asideDue = false;
+      this.showMap();
+      this.showLegend(fetched[0]);
+    }
     if (!this.live) this.noteAddress();
     if (!this.first) this.first = performance.now();
   }
@@ -334,6 +344,7 @@ class App {
     this.say(rows.slice(0, 5).map(([name, text]) => `${name} ${text}`).join(", "));
     $("look-at").hidden = !this.box.known;
     $("only-frames").hidden = true;
+    $("fly-there").hidden = !(this.live?.finder && source === this.live);
     if (!source.appearances) return;
     const seen = (await source.appearances())[id] ?? [];
     $("only-frames").hidden = false;

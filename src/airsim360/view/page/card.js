@@ -34,9 +34,9 @@ const SLACK = 0.05;  // metres
 const metres = v => `${v.toFixed(2)} m`;
 
 /// Rows of the card: [name, text].
-export function cardRows({id, entity, category, range, pixel, box, person}) {
+export function cardRows({id, entity, category, range, distance, pixel, box, person}) {
   const rows = [["Id", String(id)], ["Name", entity?.name ?? "(not in entities.json)"], ["Category", entity?.category_path ?? category?.path ?? "?"],
-                ["Kind", entity?.kind ?? "?"], ["Range", range > 0 ? metres(range) : "nothing hit"], ["Pixel", `column ${pixel[0]}, row ${pixel[1]}`], ["Seen", `${box.pixels} pixels`]];
+                ["Kind", entity?.kind ?? "?"], ...(pixel ? [["Range", range > 0 ? metres(range) : "nothing hit"], ["Pixel", `column ${pixel[0]}, row ${pixel[1]}`], ["Seen", `${box.pixels} pixels`]] : [["Distance", metres(distance)]])];
   if (box.known) {
     rows.push([box.exact ? "3D box" : "3D box seen", box.high.map((v, a) => metres(v - box.low[a])).join(" × ")]);
     rows.push(["Box centre", box.high.map((v, a) => ((v + box.low[a]) / 2).toFixed(2)).join(", ")]);

@@ -1,5 +1,6 @@
 // A world that is flown: asks for one picture after the other, with what the hands do.
 import {Drawing} from "./draw.js";
+import {Finder} from "./find.js";
 import {readMessage} from "./message.js";
 import {matrixOf} from "./sphere.js";
 import {TreeEditor} from "./trees.js";
@@ -10,6 +11,8 @@ const PAD = [["q", "Turn left", "↺"], ["w", "Forward", "▲"], ["e", "Turn rig
              ["a", "Left", "◀"], ["s", "Back", "▼"], ["d", "Right", "▶"], ["f", "Down", "⤓"]];
 const GONE = "the server is gone: start 'airsim360 view' again";
 const DEAD_ZONE = 0.12, RETRY_MS = 1000, SPEEDS = 4, PATH_POINTS = 3000;
+const TELL_MS = 200;  // between two looks at figures, map and legend
+const WAIT_MS = 3;  // for a picture: who waits longer is faster than the renderer
 
 // A picture of the stream, with the same questions as a recorded one.
 class LivePicture {
@@ -63,18 +66,21 @@ export class Live {
     Object.assign(this, {token, world, seed, app, flies, follows, resets, held: new Set(), path: [], width: 1024, speed: 0.3, frames: []});
     this.categories = new Map(categories.map(c => [c.id, c]));
     this.controls(box, weathers, keeps);
-    for (const id of ["trees", "drawing"]) document.getElementById(id).hidden = follows;
+    for (const id of ["trees", "drawing", "finding"]) document.getElementById(id).hidden = follows;
     if (follows) return;
     this.trees = new TreeEditor(this);
     this.drawing = new Drawing(this, app.map);
+    this.finder = new Finder(this, app);
   }
   async start() {
-    this.named = await (await fetch("entities.json")).json();
     this.peopled = false;
     await this.connect();
     this.run();
   }
-  entities() { return this.named; }
+  /// Names of a large world are megabytes: they come after the first picture.
+  entities() {
+    return this.named ??= fetch("entities.json").then(said => said.json()).catch(error => { this.named = null; throw error; });
+  }
   /// Buttons that send and bring people, and put vehicles, to the point that was clicked; nothing in worlds without them.
   async offerPlacing() {
     if (this.follows || this.peopled) return;
@@ -103,33 +109,50 @@ export class Live {
     this.app.say(`${person}: ${action}`);
   }
 
-  // Two lines to the server, so that pictures do not wait for what takes long.
+  // Lines to the server on which nothing waits for something else: pictures, what the hands do, and the rest. Pictures have two,
+  // so that one is rendered while the other travels; a world elsewhere is asked for one at a time.
   async connect() {
-    [this.stream, this.talk] = await Promise.all([Line.open(), Line.open()]);
+    const streams = this.follows ? 1 : 2, [talk, hands, ...stream] = await Promise.all(Array.from({length: 2 + streams}, () => Line.open()));
+    Object.assign(this, {talk, hands, stream, wait: 0, asked: 0});
   }
   ask(message) { return this.talk.ask({...message, token: this.token}); }
 
   // The next picture is asked for before this one is drawn, so that the renderer never waits for the page.
   async run() {
-    let coming = this.nextPicture();
+    let coming = [];
     for (;;) {
       try {
-        const [message, asked] = await coming;
-        coming = this.nextPicture();
+        this.askAhead(coming);
+        const since = performance.now(), [message, asked] = await coming.shift();
+        this.wait = 0.8 * this.wait + 0.2 * (performance.now() - since);
+        this.askAhead(coming);
+        this.steer();
         await this.show(message, asked);
+        this.entities().catch(() => {});
       } catch (error) {
         this.app.guard(Promise.reject(error)).catch(() => {});
         await new Promise(done => setTimeout(done, RETRY_MS));
-        if (!this.stream.open) await this.connect().catch(() => {});
-        coming = this.nextPicture();
+        if (!this.stream.every(line => line.open)) await this.connect().catch(() => {});
+        coming = [];
       }
     }
   }
+  /// One picture ahead of the one that is rendered, unless the page is the slower one: there they would only grow old.
+  askAhead(coming) {
+    const most = this.wait > WAIT_MS ? this.stream.length : 1;
+    while (coming.length < most) coming.push(this.nextPicture());
+  }
   nextPicture() {
-    const asked = performance.now();
-    const coming = this.stream.ask({do: "picture", width: this.width, products: this.wantedProducts(), input: this.flies ? this.input() : undefined, token: this.token}).then(message => [message, asked]);
+    const asked = performance.now(), input = this.follows && this.flies ? this.input() : undefined, line = this.stream[this.asked++ % this.stream.length];
+    const coming = line.ask({do: "picture", width: this.width, products: this.wantedProducts(), input, token: this.token}).then(message => [message, asked]);
     coming.catch(() => {});  // told where it is awaited
     return coming;
+  }
+  /// What the hands do counts for the next picture that is rendered, also for one that was asked for before.
+  steer() {
+    if (this.follows || !this.flies || !this.hands?.open) return;
+    this.steered = (this.steered ?? 0) + 1;
+    this.hands.ask({do: "hands", input: this.input(), number: this.steered, token: this.token}).catch(() => {});
   }
   wantedProducts() {
     const names = new Set(this.app.product ? [this.app.product] : []), {filter, chosen} = this.app;
@@ -142,20 +165,27 @@ export class Live {
     const bitmap = await createImageBitmap(message.jpeg, {colorSpaceConversion: "none", premultiplyAlpha: "none"});
     const before = this.picture;
     this.picture = new LivePicture(this, message, bitmap);
-    await this.app.draw(++this.app.turn);
+    const now = performance.now(), aside = !(now - this.toldAt < TELL_MS);
+    if (aside) this.toldAt = now;
+    await this.app.draw(++this.app.turn, aside);
     before?.shown.close();
-    this.tell(message.header, performance.now() - asked);
+    this.tell(message.header, performance.now() - asked, aside);
   }
-  tell(header, ms) { this.follows ? this.tellFollowed(header, ms) : this.tellFlown(header, ms); this.notePath(); }
+  /// Figures, which nobody reads faster than some times a second.
+  tell(header, ms, aside) {
+    const rate = this.countRate();
+    this.notePath();
+    if (aside) this.follows ? this.tellFollowed(header, ms, rate) : this.tellFlown(header, ms, rate);
+  }
   countRate() {
     this.frames.push(performance.now());
     while (this.frames[0] < performance.now() - 3000) this.frames.shift();
     return this.frames.length / 3;
   }
-  tellFollowed({t, episode, instruction, step, end, distance, goal, score}, ms) {
-    this.figures = {ms, rate: this.countRate()};
+  tellFollowed({t, episode, instruction, step, end, distance, goal, score}, ms, rate) {
+    this.figures = {ms, rate};
     const task = episode ? ` · episode ${episode}, ${step} actions, ${distance.toFixed(1)} m from the goal${end === "running" ? "" : ` · ${end}, ${score?.success ? "success" : "failure"}`}` : "";
-    this.state.textContent = `${this.flies ? "flying" : "looking on"} · ${this.figures.rate.toFixed(1)} pictures/s · time ${t.toFixed(1)} s${task}`;
+    this.state.textContent = `${this.flies ? "flying" : "looking on"} · ${this.figures.rate.toFixed(1)} pictures/s · ${(t - (this.began ??= episode ? 0 : t)).toFixed(1)} s${task}`;
     this.task.textContent = instruction ?? "";
     this.goal = goal;
     if (episode !== this.episode) this.enter(episode);
@@ -164,15 +194,19 @@ export class Live {
   enter(episode) {
     this.episode = episode;
     this.path = [];
-    fetch("entities.json").then(said => said.json()).then(named => { this.named = named; }).catch(() => {});
+    this.named = null;
   }
   signs() { return this.goal ? [{p: this.goal, text: "goal"}] : this.drawing?.signs() ?? []; }
-  tellFlown({v, render_ms, collisions, touched, kept, charge}, ms) {
-    this.figures = {ms, render_ms, rate: this.countRate()};
+  tellFlown({v, render_ms, collisions, touched, kept, charge}, ms, rate) {
+    this.figures = {ms, render_ms, rate};
     this.state.textContent = `${Math.hypot(...v).toFixed(1)} m/s · ${this.figures.rate.toFixed(1)} pictures/s (${render_ms.toFixed(0)} ms rendering) · battery ${Math.round(100 * charge)} %` +
       (collisions ? ` · touched ${touched ?? "something"} (${collisions})` : "");
     this.keptCount = kept;
-    if (this.save) this.save.textContent = `Save ${kept} frames`;
+    if (this.save) this.countKept(kept);
+  }
+  countKept(kept) {
+    this.save.textContent = kept === 1 ? "Save 1 frame" : `Save ${kept} frames`;
+    this.save.disabled = kept === 0;
   }
   notePath() {
     const {p} = this.picture, last = this.path.at(-1);
@@ -201,22 +235,33 @@ export class Live {
   key(e, down) {
     const key = e.key.toLowerCase();
     if (!KEYS[key] || !this.flies) return false;
-    down ? this.held.add(key) : this.held.delete(key);
+    // Who takes the keys takes the drone.
+    if (down) this.finder?.stop().catch(() => {});
+    this.hold(key, down);
     return true;
   }
+  hold(key, down) {
+    if (down === this.held.has(key)) return;
+    down ? this.held.add(key) : this.held.delete(key);
+    this.steer();
+  }
+  letGo() { for (const key of [...this.held]) this.hold(key, false); }
   controls(box, weathers, keeps) {
     const {flies, follows, resets} = this;
     addEventListener("keyup", e => this.key(e, false));
-    addEventListener("blur", () => this.held.clear());
+    addEventListener("blur", () => this.letGo());
     if (flies) box.append(this.pad(), this.slider("Speed", 1, SPEEDS * 4, 1, 5, value => { this.speed = value / 16; }));
     if (!follows) box.append(this.choice("Weather", ["the world's own", ...weathers], value => this.set({weather: value === "the world's own" ? "" : value})),
-               this.slider("Hour", 0, 24, 0.5, 12, value => this.set({hour: value})),
+               this.slider("Hour", 0, 24, 0.5, 12, value => this.set({hour: value}), "its own"),
                this.choice("Size", ["512", "1024", "2048", "4096"], value => { this.width = Number(value); }, "1024"));
     if (resets) box.append(this.button("To the start", () => this.ask({do: "reset"})));
     if (keeps) {
-      this.save = this.button("Save 0 frames", async () => { const said = await this.ask({do: "save"}); this.app.say(`Saved ${said.frames} frames in ${said.folder}`); this.note.textContent = `saved: ${said.folder}`; });
+      this.save = this.button("Save 0 frames", async () => { const said = await this.ask({do: "save"}); this.app.say(`Saved ${said.frames} frames in ${said.folder}`); this.note.textContent = `saved: airsim360 view ${said.folder} shows them`; });
+      this.countKept(0);
       this.note = document.createElement("span");
       box.append(this.button("Keep this frame", () => this.ask({do: "keep"})), this.save, this.note);
+    } else if (!follows) {
+      box.append(Object.assign(document.createElement("span"), {className: "hint", textContent: "To keep frames, start with --record DIR"}));
     }
     this.state = document.createElement("output");
     this.task = document.createElement("p");
@@ -232,10 +277,10 @@ export class Live {
     for (const [key, name, sign] of PAD) {
       const button = this.button(sign, () => {});
       button.setAttribute("aria-label", name);
-      button.addEventListener("pointerdown", e => { button.setPointerCapture(e.pointerId); this.held.add(key); });
-      for (const end of ["pointerup", "pointercancel"]) button.addEventListener(end, () => this.held.delete(key));
-      button.addEventListener("keydown", e => { if (e.key === " " || e.key === "Enter") this.held.add(key); });
-      for (const end of ["keyup", "blur"]) button.addEventListener(end, () => this.held.delete(key));
+      button.addEventListener("pointerdown", e => { button.setPointerCapture(e.pointerId); this.hold(key, true); });
+      for (const end of ["pointerup", "pointercancel"]) button.addEventListener(end, () => this.hold(key, false));
+      button.addEventListener("keydown", e => { if (e.key === " " || e.key === "Enter") this.hold(key, true); });
+      for (const end of ["keyup", "blur"]) button.addEventListener(end, () => this.hold(key, false));
       pad.append(button);
     }
     return pad;
@@ -258,10 +303,11 @@ export class Live {
     select.addEventListener("change", () => does(select.value));
     return this.labelled(text, select);
   }
-  slider(text, min, max, step, value, does) {
+  slider(text, min, max, step, value, does, shown = value) {
     const input = document.createElement("input"), out = document.createElement("output"), label = this.labelled(text, input);
     Object.assign(input, {type: "range", min, max, step, value});
     input.addEventListener("input", () => { out.textContent = input.value; does(Number(input.value)); });
+    out.textContent = shown;
     label.append(out);
     return label;
   }

@@ -52,7 +52,7 @@ export class Painter {
   /// Error where the browser has no WebGL 2.
   constructor(canvas) {
     this.canvas = canvas;
-    const gl = this.gl = canvas.getContext("webgl2", {alpha: false, antialias: false, preserveDrawingBuffer: true});
+    const gl = this.gl = canvas.getContext("webgl2", {alpha: false, antialias: false});
     if (!gl) throw new Error("this browser has no WebGL 2: switch hardware acceleration on, or use another browser");
     this.program = gl.createProgram();
     gl.attachShader(this.program, compile(gl, gl.VERTEX_SHADER, VERTEX));

@@ -5,6 +5,7 @@ import {pointOfRay} from "./sphere.js";
 const SVG = "http://www.w3.org/2000/svg";
 // COCO-17.
 const BONES = [[5, 7], [7, 9], [6, 8], [8, 10], [5, 6], [5, 11], [6, 12], [11, 12], [11, 13], [13, 15], [12, 14], [14, 16], [0, 1], [0, 2], [1, 3], [2, 4]];
+const MOVING_FINENESS = 1.5;  // points of the canvas for one pixel of the picture
 const KEY_STEP = 0.12, CLICK_SLACK = 4, ARROW_SPACING = 44, MOST_ARROW = 60;
 
 export class Panorama {
@@ -25,10 +26,8 @@ export class Panorama {
   get size() { return this.painter.size; }
 
   resize() {
-    const {width, height} = this.box.getBoundingClientRect(), ratio = Math.min(2, devicePixelRatio || 1);
+    const {width, height} = this.box.getBoundingClientRect();
     if (!width || !height) return;
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
     Object.assign(this.look, {width, height});
     this.draw();
   }
@@ -96,13 +95,25 @@ export class Panorama {
   }
   setOverlay(overlay) { this.painter.setOverlay(overlay); }
 
+  /// Points of the canvas for one CSS pixel: those of the screen; of a moving picture not many more than it has pixels, which a
+  /// weak machine would draw for nothing.
+  fineness() {
+    const screen = Math.min(2, devicePixelRatio || 1);
+    return this.moving ? Math.min(screen, MOVING_FINENESS * this.radiansOfPixel() * this.size[0] / (2 * Math.PI)) : screen;
+  }
+  fit() {
+    const fineness = this.fineness(), {width, height} = this.look, [w, h] = [width, height].map(side => Math.max(1, Math.round(side * fineness)));
+    if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, {width: w, height: h});
+  }
   draw() {
     cancelAnimationFrame(this.waiting);
-    this.waiting = requestAnimationFrame(() => {
-      this.look.flat = this.flat || !this.panoramic;
-      this.painter.draw(this.look, this.panoramic);
-      this.drawLines();
-    });
+    this.waiting = requestAnimationFrame(() => this.paint());
+  }
+  paint() {
+    this.look.flat = this.flat || !this.panoramic;
+    this.fit();
+    this.painter.draw(this.look, this.panoramic);
+    this.drawLines();
   }
   screenOf(x, y) { return this.look.screenOf(x, y, ...this.size, this.panoramic); }
   add(name, attributes, text) {
@@ -112,7 +123,7 @@ export class Panorama {
     this.lines.append(element);
   }
   drawLines() {
-    this.lines.replaceChildren();
+    if (this.lines.childElementCount) this.lines.replaceChildren();  // an empty drawing is not laid out anew
     for (const person of this.people) this.drawPerson(person);
     if (this.flow) this.drawFlow();
     for (const sign of this.signs) this.drawSign(sign);

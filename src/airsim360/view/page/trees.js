@@ -1,7 +1,7 @@
 // Behaviour trees of people and missions of the drone, edited in the page. The server reads and writes the XML, so that a tree
 // edited here and by hand has the same bytes.
 const $ = id => document.getElementById(id);
-const LOOK_MS = 400, MOST_UNDONE = 200;
+const LOOK_MS = 400, MOST_UNDONE = 200, MOST_LETTERS = 12;
 const NEW_MISSION = '<root BTCPP_format="4"><BehaviorTree ID="mission"><Sequence><Wait seconds="1"/></Sequence></BehaviorTree></root>';
 
 const elementsOf = doc => [...doc.querySelectorAll("*")];
@@ -31,7 +31,7 @@ export class TreeEditor {
     $("tree-graph").addEventListener("click", e => { const row = e.target.closest("[data-order]"); if (row) this.choose(Number(row.dataset.order)); });
     $("tree-graph").addEventListener("dblclick", e => { const row = e.target.closest("[data-order]"), node = this.elements[row?.dataset.order]; if (node?.tagName === "SubTree") this.enter(node.getAttribute("ID")); });
     $("tree-graph").addEventListener("keydown", e => this.key(e));
-    setInterval(() => { if ($("trees").open && this.palette) this.look().catch(() => {}); }, LOOK_MS);
+    setInterval(() => this.lookOnce(), LOOK_MS);
   }
   /// Mistakes are told beside the tree.
   guard(promise) {
@@ -224,13 +224,43 @@ export class TreeEditor {
 
   // What runs.
 
+  /// One question at a time: a slow server is not asked faster than it answers.
+  async lookOnce() {
+    if (this.looking || !$("trees").open || !this.palette) return;
+    this.looking = true;
+    await this.look().catch(() => {});
+    this.looking = false;
+  }
   async look() {
-    const said = await this.live.ask(this.kind === "people" ? {do: "mind", person: $("tree-person").value} : {do: "mission"});
+    const kind = this.kind, person = $("tree-person").value;
+    const said = await this.live.ask(kind === "people" ? {do: "mind", person} : {do: "mission"});
+    if (kind !== this.kind || person !== $("tree-person").value) return;  // another one was chosen meanwhile
+    this.know(said, kind === "people" ? person : "");
     this.active = new Set(this.running === this.xml ? said.active : []);
     this.glow();
     if ($("tree-state").classList.contains("wrong") || this.running !== this.xml) return;
-    this.say(this.kind === "people" ? `${said.person}: ${said.state} (${said.cause})${said.inbox.length ? `, hears ${said.inbox.join(", ")}` : ""}`
+    this.say(this.kind === "people" ? `${said.person}: ${said.state} (${said.cause})${said.inbox.length ? `, hears ${said.inbox.map(({type}) => type).join(", ")}` : ""}`
                                     : `${said.result}, ${said.seconds.toFixed(1)} s${said.log.length ? ` · ${said.log.at(-1)}` : ""}`);
+  }
+  /// What it knows: the blackboard as it is; messages also after they were read, the newest first.
+  know({board, inbox, log, state, cause}, person) {
+    if (person !== this.knows) Object.assign(this, {knows: person, letters: [], before: null});
+    $("tree-board").replaceChildren(...board.flatMap(({key, value}) => [["dt", key], ["dd", value]].map(([tag, text]) => Object.assign(document.createElement(tag), {textContent: text}))));
+    $("tree-board-none").hidden = board.length > 0;
+    $("tree-letters-title").textContent = person ? "Messages and states" : "Log";
+    if (person) this.hear(inbox, state, cause);
+    const lines = person ? this.letters.map(({text}) => text) : [...log].reverse();
+    if (lines.join() !== this.lines) $("tree-letters").replaceChildren(...lines.map(text => Object.assign(document.createElement("li"), {textContent: text})));
+    this.lines = lines.join();
+  }
+  hear(inbox, state, cause) {
+    const note = (text, key) => { this.letters.unshift({text, key}); this.letters.length = Math.min(this.letters.length, MOST_LETTERS); };
+    for (const {type, from, sent} of inbox) {
+      const key = `${type} ${from} ${sent}`;
+      if (!this.letters.some(letter => letter.key === key)) note(`${type} ${from ? `from ${from}` : "as a command"}, sent at ${sent.toFixed(1)} s`, key);
+    }
+    if (this.before && this.before !== state) note(`${this.before} → ${state} (${cause})`);
+    this.before = state;
   }
   /// Names of the trees in which something runs: a SubTree is no node of its own.
   activeTrees() {
