@@ -21,7 +21,7 @@ constexpr Word kWords[] = {
      "s|"
      "along|plus or minus|overall|they|them|he|she|his|her|if "
      "possible|preferably|preferred|ideally|hoping|say that|altogether|all together|apiece|"
-     "tetherless|tether less|untethered|between"},
+     "tetherless|tether less|untethered|between|measure|measures|measuring"},
     {kBreak, 0, "",
      "with|whose|and|w|for|but|on|at|plus a|while|when|under load|from|using a|where|then|without|into|"
      "through|if|because|having|featuring|including|incl|that has|which has|running|run|runs"},
@@ -109,7 +109,7 @@ constexpr Word kWords[] = {
      "day|hectare|hectares|acre|acres|dof|degrees of freedom|tof|db|lumen|lumens|mm lens|x "
      "zoom|gb|tb|ms|rpm|bit"},
     // Comparing.
-    {kAtMost, 0, "", "under|below|less than|sub|lighter than|smaller than|fewer than|<|shorter than"},
+    {kAtMost, 0, "", "under|below|less than|sub|not heavier than|no heavier than|unter|weniger als|moins de|sous les|menos de|por debajo de|meno di|sotto i|低于|不到|小于|lighter than|smaller than|fewer than|<|shorter than"},
     {kFactor, 2, "", "twice|double|doubled|two times|twofold|doubling"},
     {kFactor, 3, "", "thrice|triple|tripled|three times"},
     {kFactor, 4, "", "quadruple|four times"},

@@ -96,7 +96,7 @@ constexpr Word kWords[] = {
     {kArm, 0, "", "bras|brazos|brazo|braccia|arme|armen|ausleger|机臂"},
     {kMotor, 0, "", "motoren|moteurs|moteur|motores|motori|motore|电机|马达"},
     {kPropeller, 0, "",
-     "propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|桨径|螺旋桨直径|桨直径|桨叶直径|"
+     "rotordurchmesser|propellerdurchmesser|propellergrosse|propellern|propellers|helices|helice|eliche|elica|桨|螺旋桨|桨叶|桨径|螺旋桨直径|桨直径|桨叶直径|"
      "旋翼直径|プロペラ|luftschrauben"},
     {kWheelbase, 0, "",
      "achsabstand|radstand|diagonale|empattement|entraxe|轴距|对角线|distancia entre ejes|diagonales|"
@@ -110,7 +110,7 @@ constexpr Word kWords[] = {
      "decollo|起飞重量|最大起飞重量|起飞质量|总重|总重量|重量|重|自重|全重|重さ|重量は|整机重量|整机|含电池|"
      "带电池|"
      "en ordre de vol|al decollo|poids total"},
-    {kEmpty, 0, "", "eigengewicht|leermasse|ohne nutzlast|ohne zuladung|sans charge|sans charge utile|sin carga|sin carga util|"
+    {kEmpty, 0, "", "masse a vide|poids vide|eigengewicht|leermasse|ohne nutzlast|ohne zuladung|sans charge|sans charge utile|sin carga|sin carga util|"
      "senza carico|leergewicht|poids a vide|peso en vacio|peso vacio|peso a vuoto|空重|空机重量"},
     {kPayload, 0, "",
      "charge de|charge max|charge maximale|charge max de|nutzlast|zuladung|tragt|tragen|charge "
@@ -138,6 +138,7 @@ constexpr Word kWords[] = {
      "rapport poussee sur poids|schub gewichts verhaltnis|schub gewicht|empuje peso|relacion de empuje peso|"
      "rapporto spinta peso|spinta peso|推力重量比|推力比|推重"},
     {kWind, 0, "", "抗风|风速|viento|vent|vento"},
+    {kLoad, 0, "", "nacelle|capteur|sensore|soporte|cardan"},
     {kLoad, 0, "camera", "kamera|appareil photo|camara|相机|摄像头|カメラ"},
     {kLoad, 0, "", "激光雷达|云台|paket|pakete|paketen|colis|paquete|paquetes|包裹|pacco|pacchi"},
     {kLoad, 0, "liquid",

@@ -14,7 +14,7 @@ constexpr Word kWords[] = {
      "zoom camera|cinema camera|360 camera|speaker|speakers|loudspeaker|loud speaker|megaphone|computer|"
      "companion computer|companion|onboard computer|deck|bait|seed|seeds|defibrillator|aed|magnetometer|radar|"
      "winch|parachute|robot arm|robotic arm|manipulator arm|gripper arm|canopy|banner|cake|bottle|soda|laptop|kit bag|first aid kit|medicines|drugs|vials|turkey|burger|sandwich|battery bank|flowers|hasselblad|manipulator|gripper|spotlight|searchlight|light|lights|instrument|instruments|"
-     "equipment|gear|rig|camera rig|gopro rig|samples|sample|sampler|blood|vaccines|supplies|groceries|hook|"
+     "equipment|gear|camera rig|gopro rig|samples|sample|sampler|blood|vaccines|supplies|groceries|hook|"
      "sling load|slung load|fire extinguisher|hose|extinguishing balls|microphone|net|mortar|optics|pod|"
      "sensor head|sensor package|sensor suite|camera package|stuff|goods|food|books|bomb|lens|load|loads|lifebuoy|"
      "life ring|rope|tool|tools|module|modules|phone|tablet|vr camera|mail|letter|bag|coffee|beer|meal|meals"},

@@ -58,7 +58,7 @@ constexpr Word kWords[] = {
      "rotor|"
      "quadrupel|quadri copter|quadropter"},
     {kRotors, 6, "",
-     "hexa|hex|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
+     "hexa|hex|tarot x6|hexacopter|hexarotor|hexrotor|hexcopter|hexicopter|hexacopters|six rotor|hexakopter"},
     {kRotors, 8, "",
      "octo|octocopter|octorotor|octa|octacopter|octarotor|octacopters|octocopters|oktocopter|"
      "eight rotor|oktokopter"},
@@ -110,7 +110,7 @@ constexpr Word kWords[] = {
      "to corner|"
      "motor shaft to motor shaft|motor centre to motor centre|motor center to motor center|motors "
      "apart|m2m|m to m|"
-     "motor to motor diagonal|diag|across the motors|between the motors|between motors"},
+     "motor to motor diagonal|diag|between opposite motors|across motors|motors diagonal|across the motors|between the motors|between motors"},
     {kAcross, 0, "",
      "across|diameter|in diameter|diam|dia|wide|tip to tip|span|from tip to tip|durchmesser|de diametre|"
      "de diametro|diametre|diametro|直径|von durchmesser|im durchmesser"},
@@ -120,7 +120,7 @@ constexpr Word kWords[] = {
     {kMass, 0, "",
      "takes off at|taking off at|weighing in at|weighs in at|weighing|weighs|weigh|weight|mass|takeoff|take "
      "off|takeoff weight|take off weight|takeoff mass|take off mass|"
-     "auw|all up|all up weight|all up mass|mtow|mtom|tow|gross|gross weight|maximum takeoff weight|max "
+     "auw|aum|gtow|togw|wt|wgt|a u w|max tow|ready to go|all up|all up weight|all up mass|mtow|mtom|tow|gross|gross weight|maximum takeoff weight|max "
      "takeoff weight|"
      "maximum take off weight|total|total weight|total mass|flying weight|flight weight|ready to fly|rtf|all "
      "in|"
@@ -131,7 +131,7 @@ constexpr Word kWords[] = {
      "on its own|by itself|before payload|before the payload|before load|empty with battery|"
      "empty weight with battery|empty incl battery|empty including battery|empty|empty weight|without payload|without load|unladen|operating empty weight|bare weight|w o payload|"
      "w o load|without the payload|without any payload|without cargo|no payload|unloaded|"
-     "empty mass|weight without payload"},
+     "empty mass|oew|own weight|self weight|own mass|drone itself|quad itself|copter itself|aircraft itself|drone alone|drone only|without it|without them|empty weight incl battery|empty weight including battery|empty weight w battery|weight without payload|with empty tank|empty tank|tank empty|with an empty tank|net weight|net mass|no load"},
     {kBare, 0, "",
      "without battery|without the battery|without batteries|without a battery|without batt|without "
      "lipo|without lipos|"
@@ -154,7 +154,7 @@ constexpr Word kWords[] = {
      "capacity|lift capacity|"
      "delivers|deliver|delivering|drops|payload of|cargo of|carrying capacity|holds|takes|lifts up|picks up"},
     {kBattery, 0, "",
-     "battery|batteries|pack|packs|capacity|battery capacity|pack capacity|lipo|lipos|lipo pack|battery "
+     "battery|batteries|batt|batts|pack|packs|capacity|battery capacity|pack capacity|lipo|lipos|lipo pack|battery "
      "pack|accumulator|lihv|li po|hv lipo|lithium"},
     {kHover, 0, "",
      "hover|hovering|hovering for|hovers for|hover for|hovering at|hovers|hover time|hovered|hover "

@@ -5,7 +5,7 @@
 
 namespace airsim360 {
 
-DroneRequest ParsePrompt(std::string_view prompt) { return internal::Reader(prompt).Run(); }
+DroneRequest ParsePrompt(std::string_view prompt) { return internal::ReadPrompt(prompt); }
 
 bool NamesRealDrone(std::string_view words) {
   std::string key;

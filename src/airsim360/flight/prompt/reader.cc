@@ -18,7 +18,8 @@ std::string Kilograms(double value) {
 
 }  // namespace
 
-Reader::Reader(std::string_view prompt) : tokens_(Tokenize(prompt)) {
+Reader::Reader(std::string_view prompt, std::vector<Token> tokens, std::map<size_t, MassRole> roles)
+    : tokens_(std::move(tokens)), roles_(std::move(roles)) {
   request_.prompt = PrintableText(prompt);
   used_.assign(tokens_.size(), false);
   claimed_.assign(tokens_.size(), false);
@@ -177,6 +178,7 @@ void Reader::Finish() {
   spanning_ = nullptr;
   FinishRotors();
   FinishLengths();
+  FinishTimes();
   FinishMasses();
   CheckLoadOfModel();
   if (request_.brushless && request_.drone_class == "nano") request_.drone_class = "nano_brushless";
@@ -188,6 +190,7 @@ void Reader::Finish() {
   }
   FinishThrust();
   CheckVoltage();
+  CheckTips();
   CheckPower();
   ListUnused();
 }
@@ -207,10 +210,14 @@ void Reader::FinishMasses() {
   }
   FinishLoadedMass();
   SumUpParts();
-  std::stable_partition(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return !loose.part; });
+  RefuseHeavyParts();
+  // What is said outright before what is only bounded, parts last.
+  const auto order = [&](const Loose& loose) { return 2 * loose.part + (loose.quantity.unit && IsAtMost(loose.quantity)); };
+  std::stable_sort(loose_masses_.begin(), loose_masses_.end(), [&](const Loose& a, const Loose& b) { return order(a) < order(b); });
   for (const Loose& loose : loose_masses_) PlaceLoose(loose);
   spanning_ = nullptr;
   FinishLoads();
+  FinishOnTop();
   FinishBareMass();
   if (!request_.empty_mass) return;
   const std::string& words = request_.words["empty_mass"];
@@ -231,7 +238,10 @@ void Reader::PlaceLoose(const Loose& loose) {
   spanning_ = &tokens_[q.first];
   const bool bound = q.unit && IsAtMost(q);
   const double value = bound ? 0.996 * q.value : q.value;
-  if (bound && request_.mass && *request_.mass <= q.value * 1.005) return;
+  if (bound && request_.mass && *request_.mass <= q.value * 1.005) {
+    unexplained_ += *request_.mass < 0.6 * q.value;
+    return;
+  }
   if (loose.part && request_.mass && *request_.mass > 1.3 * q.value) {
     Decide("'" + q.words + "' is of a part and left to the design");
     return;
@@ -249,6 +259,7 @@ void Reader::PlaceLoose(const Loose& loose) {
   }
   if (whole_of_mass_ && !carried && !bound && request_.mass && q.value < 0.98 * *request_.mass) {
     Decide("'" + q.words + "' is of a part of '" + request_.words["mass"] + "' and left to the design");
+    ++unexplained_;
   } else if (carried) {
     Decide("'" + q.words + "' is read as payload");
     Set(payload, request_.payload, q.value, q.words);

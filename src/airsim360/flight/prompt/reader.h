@@ -1,6 +1,7 @@
 // Inside ParsePrompt: tokens become fields of a request.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,12 +27,34 @@ struct FieldRange {
   const char* unit;
 };
 
+inline constexpr size_t kMostMasses = 10;  // of more only two readings are compared
+
+/// What a mass is of.
+enum class MassRole { kWhole, kEmpty, kBare, kPayload, kThing, kBattery, kPart };
+
+struct MassClaim {
+  MassRole role = MassRole::kWhole;
+  int cost = 0;  ///< the likelier the less
+};
+
 inline constexpr FieldRange kPropellerRange{"propeller", 0.02, 1.85, "m"};  // palm-sized toys to 72 inch lifters
 
 class Reader {
  public:
-  explicit Reader(std::string_view prompt);
+  /// `roles`: what the masses are of that begin at these tokens; the grammar says it of the others.
+  Reader(std::string_view prompt, std::vector<Token> tokens, std::map<size_t, MassRole> roles);
+  /// Once.
   DroneRequest Run();
+  /// All numbers with a unit of mass, by their tokens.
+  std::vector<Quantity> Masses() const;
+  /// Masses that were said and are no part of the balance.
+  int unexplained() const { return unexplained_; }
+  /// Whether it was refused for two figures of one thing.
+  bool contradicted() const { return contradicted_; }
+  /// Whether it was refused for parts that are more than their whole.
+  bool heavy_parts() const { return heavy_parts_; }
+  std::vector<MassClaim> ClaimsOf(const Quantity& q, bool alone = false) const;
+  size_t MassBefore(const Quantity& q) const;
 
  private:
   using Field = std::optional<double>;
@@ -74,6 +97,8 @@ class Reader {
   void RefuseNoEnergy() const;
   void CheckPower() const;
   void CheckVoltage() const;
+  void CheckTips() const;
+  bool ReadTurns(const Quantity& q);
   void CheckLoadOfModel() const;
 
   // reader_distances.cc
@@ -92,7 +117,7 @@ class Reader {
   void Set(const FieldRange& range, Field& field, double value, const std::string& words);
   void CorrectWith(const char* name, Field& field, size_t i);
   void SumUp(const char* name, Field& field, const Quantity& q);
-  [[noreturn]] void Contradiction(const char* name, const std::string& words) const;
+  [[noreturn]] void Contradiction(const char* name, const std::string& words);
   void Decide(const std::string& sentence);
   const Word* WordAt(size_t i) const;
   bool Is(size_t i, WordKind kind) const { return i < tokens_.size() && tokens_[i].Is(kind); }
@@ -115,6 +140,14 @@ class Reader {
   void Use(size_t i);
   bool IsAtMost(const Quantity& q) const;
 
+  // reader_claims.cc
+  std::vector<MassClaim> ClaimsAfter(const Quantity& q) const;
+  void AddClaimsBefore(const Quantity& q, std::vector<MassClaim>& claims) const;
+  std::optional<MassRole> RoleOf(size_t k) const;
+  bool IsIncludedBefore(size_t k) const;
+  bool EndsLabel(size_t k) const;
+  void ReadMassAs(MassRole role, const Quantity& q);
+
   // reader_masses.cc
   void ReadMass(const Quantity& q);
   size_t NounOfMass(const Quantity& q) const;
@@ -132,11 +165,23 @@ class Reader {
   bool IsIncluded(const Quantity& q) const;
   bool IsLeftOut(size_t i) const;
   bool IsWithBattery(const Quantity& q) const;
-  void SumUpParts();
-  double CountOfParts(const Quantity& q) const;
   void FinishBareMass();
   void FinishOwnMass();
   bool IsSumOf(double whole, double own) const;
+
+  // reader_sums.cc
+  void SumUpParts();
+  double CountOfParts(const Quantity& q) const;
+  bool IsAddedTo(const Quantity& q) const;
+  bool IsWithoutLoad(size_t noun) const;
+  bool IsSumAfter(size_t k) const;
+  bool IsRepeatedLoad(const Quantity& q) const;
+  bool IsTaken(const Quantity& q) const;
+  bool IsOnTop(const Quantity& q) const;
+  void FinishOnTop();
+  void DropCorrected(const Quantity& q);
+  size_t BareInParentheses(const Quantity& q) const;
+  void RefuseHeavyParts();
 
   // reader_things.cc
   bool IsDroneWord(size_t i) const;
@@ -168,7 +213,11 @@ class Reader {
   bool ReadQuantity(size_t i);
   void ReadLength(const Quantity& q);
   bool IsOfPlace(const Quantity& q) const;
+  bool IsInchUnit(size_t i, size_t unit) const;
+  bool IsOfEmptyDrone(const Quantity& q) const;
+  bool IsLabelledHover(const Quantity& q) const;
   void FinishLengths();
+  void FinishTimes();
   void ReadTime(const Quantity& q);
   void ReadSpeed(const Quantity& q);
   void ReadVolume(const Quantity& q);
@@ -176,6 +225,7 @@ class Reader {
   void ReadCapacity(const Quantity& q);
   double PacksInSeries(size_t i) const;
   void ReadDays(const Quantity& q);
+  bool ReadWeight(const Quantity& q);
   void Dispatch(const Quantity& q);
   void Extend(Quantity& q);
   void ReadCode(size_t i);
@@ -189,6 +239,7 @@ class Reader {
   bool ReadFactor(size_t i);
   bool ReadDifference(const Quantity& q);
   bool ReadLabelled(size_t i);
+  bool ReadBareMass(size_t i);
   bool ReadCharge(size_t i);
   void NameElse(const Quantity& q, size_t noun);
   /// The token of `kind` among the words just before or after a bare number, else kNone.
@@ -197,6 +248,10 @@ class Reader {
   static constexpr size_t kNone = static_cast<size_t>(-1);
 
   std::vector<Token> tokens_;
+  std::map<size_t, MassRole> roles_;
+  int unexplained_ = 0;
+  bool heavy_parts_ = false, contradicted_ = false;
+  bool on_top_ = false;  ///< what is carried is not in the mass of the drone
   std::vector<bool> used_;     ///< tokens that said something
   std::vector<bool> claimed_;  ///< nouns that have their number
   DroneRequest request_;
@@ -213,6 +268,9 @@ class Reader {
   std::vector<Quantity> volts_;          ///< of the battery
   std::optional<Quantity> power_;        ///< of hovering, in watts
   std::vector<Quantity> loose_lengths_;  ///< that may be of something else
+  std::optional<Quantity> across_;       ///< of the whole drone: gives way to the distance of its motors
+  std::optional<Quantity> empty_time_;   ///< of flying without load
+  std::optional<Quantity> turns_;        ///< of its propellers, rpm
   const Token* spanning_ = nullptr;      ///< the number that is being read
   /// A number of rotors that no drone here has, and its words.
   std::optional<std::pair<double, std::string>> bad_rotors_;
@@ -235,5 +293,8 @@ class Reader {
   std::string hinted_class_, hinted_words_;  ///< a kind that things carried hint at
   bool anything_ = false;
 };
+
+/// The reading of a description that explains most of its masses; InputError where there is none.
+DroneRequest ReadPrompt(std::string_view prompt);
 
 }  // namespace airsim360::internal

@@ -1,11 +1,22 @@
 // How many rotors and arms there are.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "airsim360/base/error.h"
 #include "airsim360/flight/prompt/reader.h"
 
 namespace airsim360::internal {
+namespace {
+
+/// How much larger eight propellers are that have the disc area of `count`.
+std::string LargerBy(double count) {
+  char text[16];
+  std::snprintf(text, sizeof(text), "%.2f", std::sqrt(count / 8));
+  return text;
+}
+
+}  // namespace
 
 /// A word such as "hexacopter", "quad-arm", "tri".
 void Reader::ReadRotorsWord(size_t i) {
@@ -31,7 +42,8 @@ void Reader::ReadRotorsWord(size_t i) {
   const bool negated = i > 0 && ((Is(i - 1, WordKind::kNegation) && tokens_[i - 1].text != "never") ||
                                  tokens_[i - 1].text == "not");
   if (negated) return;
-  if (i > 1 && (tokens_[i - 1].text == "or" || tokens_[i - 1].text == "/") && Is(i - 2, WordKind::kRotors))
+  if (i > 1 && (tokens_[i - 1].text == "or" || tokens_[i - 1].text == "/") &&
+      (Is(i - 2, WordKind::kRotors) || Is(i - 2, WordKind::kCoaxial)))
     return Decide("of '" + tokens_[i - 2].text + "' and '" + text + "' the first is taken");
   CorrectWith("rotors", request_.rotors, i);
   SetRotors(word.value, text);
@@ -173,7 +185,9 @@ void Reader::RefuseRotors() const {
         "each");
   }
   throw InputError("'" + words + "': a drone here has 4 to 8 rotors" +
-                   (value > 8 ? ", and the dynamics hold no more than 8" : ""));
+                   (value > 8 ? ", and the dynamics hold no more than 8: an octocopter or an X8 with " + LargerBy(value) +
+                                   " times larger propellers carries the same on the same disc area"
+                                 : ""));
 }
 
 void Reader::FinishRotors() {

@@ -73,6 +73,12 @@ double Reader::PacksInParallel(const Quantity& q) const {
     parallel |= tokens_[k].text.find("parallel") != std::string::npos;
   }
   size_t k = q.first;
+  // "Two packs in parallel (4S 5200 each)"
+  const bool each = q.last + 1 < tokens_.size() && tokens_[q.last + 1].text == "each";
+  for (size_t n = k; each && n-- > 0 && k - n <= 9 && tokens_[n].text != ".";) {
+    parallel |= tokens_[n].text.find("parallel") != std::string::npos;
+    if (parallel && tokens_[n].Counts(kMostPacks) && Is(n + 1, WordKind::kBattery)) return tokens_[n].value;
+  }
   // "Six batteries in parallel, each 6S 4500 mAh"
   for (size_t n = k; n-- > 0 && k - n <= 4;) {
     if (tokens_[n].text != "each") continue;
@@ -86,10 +92,19 @@ double Reader::PacksInParallel(const Quantity& q) const {
   while (k > 0 && (Is(k - 1, WordKind::kCells) || Is(k - 1, WordKind::kBattery) || Is(k - 1, WordKind::kLithiumIon) ||
                    SaysLittle(k - 1) || (tokens_[k - 1].kind == Token::Kind::kNumber && Is(k, WordKind::kCells))))
     --k;
-  if (k > 0 && Is(k - 1, WordKind::kTimes)) --k;
+  // "2x 16000 mAh", "5000 mAh x2": packs that are counted so fly together.
+  const bool times = k > 1 && Is(k - 1, WordKind::kTimes) && tokens_[k - 2].kind == Token::Kind::kNumber;
+  const size_t after = q.last + (Is(q.last + 1, WordKind::kBattery) ? 2 : 1);
+  bool kept = false;  // "450 mAh x 4 (four packs included)"
+  for (size_t n = after; n < tokens_.size() && n < after + 7; ++n) kept |= StartsAny(tokens_[n].text, {"includ", "pack", "spare"});
+  if (!kept && Is(after, WordKind::kTimes) && after + 1 < tokens_.size() && tokens_[after + 1].Counts(kMostPacks) &&
+      (after + 2 >= tokens_.size() || !Is(after + 2, WordKind::kLengthUnit)))
+    return tokens_[after + 1].value;
+  if (times) --k;
   if (k == 0) return 1;
   const Token& count = tokens_[k - 1];
   const bool pair = IsOneOf(count.text, {"dual", "twin", "pair"});
+  parallel |= times;
   if (!parallel || (!pair && !count.Counts(kMostPacks))) return 1;
   return pair ? 2 : count.value;
 }

@@ -63,8 +63,10 @@ void Reader::CorrectWith(const char* name, Field& field, size_t i) {
                     (tokens_[k - 1].kind == Token::Kind::kComma || tokens_[k - 1].kind == Token::Kind::kDash);
     // "four minutes there and four back, so 8 minutes"
     const bool sum = tokens_[k].text == "so" && k + 1 == i && k > 0 && tokens_[k - 1].kind == Token::Kind::kComma;
-    if (Is(k, WordKind::kCorrection) && std::string_view(name) == "rotors") bad_rotors_.reset();
-    if ((no || sum || Is(k, WordKind::kCorrection)) && field) {
+    // "1S? 2S"
+    const bool doubt = tokens_[k].text == "?" && k + 1 == i;
+    if ((no || Is(k, WordKind::kCorrection)) && std::string_view(name) == "rotors") bad_rotors_.reset();
+    if ((no || doubt || sum || Is(k, WordKind::kCorrection)) && field) {
       Decide("'" + tokens_[k].text + "' takes back '" + request_.words[name] + "'");
       field.reset();
       request_.words.erase(name);
@@ -84,7 +86,8 @@ void Reader::SumUp(const char* name, Field& field, const Quantity& q) {
   request_.words.erase(name);
 }
 
-void Reader::Contradiction(const char* name, const std::string& words) const {
+void Reader::Contradiction(const char* name, const std::string& words) {
+  contradicted_ = true;
   throw InputError("'" + words + "' contradicts '" + request_.words.at(name) + "': both say the " + Spoken(name));
 }
 
@@ -184,7 +187,8 @@ size_t Reader::NounAfter(const Quantity& q) const {
 }
 
 size_t Reader::NounBefore(const Quantity& q, bool adjacent) const {
-  for (size_t i = q.first; i-- > 0 && q.first - i <= kPhrase;) {
+  const bool times = q.first > 1 && Is(q.first - 1, WordKind::kTimes);  // "batteries 2 x 1.9 kg"
+  for (size_t i = times ? FirstOf(q) : q.first; i-- > 0 && q.first - i <= kPhrase;) {
     if (tokens_[i].text == ")" && i + 1 == q.first) {  // "AUW (with battery) 2 kg"
       while (i > 0 && tokens_[i].text != "(") --i;
       continue;
@@ -213,6 +217,9 @@ size_t Reader::Apposed(const Quantity& q) const {
   while (close < tokens_.size() && SaysLittle(close)) ++close;
   if (Is(close, WordKind::kBreak) && tokens_[close].text == "with" && Is(close + 1, WordKind::kLoad)) close += 2;
   if (close < tokens_.size() && tokens_[close].kind != Token::Kind::kComma) return kNone;
+  // "... and the nacelle (600 g)": a thing that the lexicon does not know is named right before.
+  const bool thing = open > 0 && q.unit->kind == WordKind::kMassUnit && tokens_[open - 1].kind == Token::Kind::kUnknown && IsThing(open - 1);
+  if (thing) return kNone;
   bool carried = false;
   for (size_t i = 0; i < open; ++i) carried |= Is(i, WordKind::kPayload);
   for (size_t i = open; i-- > 0 && open - i <= 10 && tokens_[i].kind != Token::Kind::kComma;) {

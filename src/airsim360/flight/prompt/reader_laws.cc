@@ -67,6 +67,10 @@ bool Reader::ReadAxes(const Quantity& q) {
   if (next < tokens_.size() && !Is(next, WordKind::kDrone) && !EndsPhrase(next) && !Is(next, WordKind::kClass) &&
       !Is(next, WordKind::kFrame) && !SaysLittle(next) && tokens_[next].kind != Token::Kind::kNumber)
     return false;
+  for (size_t k = 0; k + 1 < tokens_.size(); ++k) {  // "4 axis 8 rotor"
+    const bool pairs = tokens_[k].kind == Token::Kind::kNumber && tokens_[k].value == 2 * value && Is(k + 1, WordKind::kRotorNoun);
+    if (pairs) return SetArms(value, q.words), true;
+  }
   SetRotors(value, q.words);
   return true;
 }
@@ -76,7 +80,10 @@ bool Reader::IsOfBattery(const Quantity& q) const {
   const auto of_battery = [&](size_t k) {
     return Is(k, WordKind::kCells) || Is(k, WordKind::kCapacityUnit) || Is(k, WordKind::kBattery);
   };
-  for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && tokens_[k].text != "," && tokens_[k].text != "." &&
+  // "6S battery, 11.1 V": a voltage that packs have reaches over the comma.
+  const double cells = q.value / kNominalCell, full = q.value / 4.2;
+  const bool of_pack = std::abs(cells - std::round(cells)) < 0.02 || std::abs(full - std::round(full)) < 0.02;
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && (of_pack || tokens_[k].text != ",") && tokens_[k].text != "." &&
                             !IsDroneWord(k);) {
     if (of_battery(k)) return true;
   }
@@ -103,6 +110,25 @@ void Reader::CheckVoltage() const {
     throw InputError("'" + q.words + "' contradicts '" + request_.words.at("cells") + "': a lithium cell has 3 to 4.35 V, " +
                      "nominally 3.7 V, so that these cells have " + Number(kNominalCell * *request_.cells) + " V");
   }
+}
+
+/// "Props turning at 60,000 rpm": true when it was read.
+bool Reader::ReadTurns(const Quantity& q) {
+  if (tokens_[q.last].text != "rpm" || turns_) return false;
+  turns_ = q;
+  turns_->value = tokens_[q.first].value;
+  NameElse(q, kNone);
+  return true;
+}
+
+/// Tips of propellers stay below the speed of sound.
+void Reader::CheckTips() const {
+  constexpr double kSound = 340.3;  // m/s
+  if (!turns_ || !request_.propeller || request_.facts.count("propeller")) return;
+  const double tips = std::numbers::pi * *request_.propeller * turns_->value / 60;
+  if (tips < kSound) return;
+  throw InputError("no drone fits the description: propellers of '" + request_.words.at("propeller") + "' at '" + turns_->words +
+                   "' have tips at Mach " + Number(tips / kSound) + ", where thrust ends below Mach 1");
 }
 
 void Reader::CheckPower() const {

@@ -48,12 +48,16 @@ size_t Reader::WholeBefore(const Quantity& q) const {
   // "Take off with 3 kg of sand"
   const size_t of = q.last + 1;
   if (of + 1 < tokens_.size() && tokens_[of].text == "of" && IsThing(of + 1)) return kNone;
+  // "AUW incl. camera (290 g) = 2.35 kg": what stands in parentheses is of the thing before them.
+  const bool apposed = q.first > 1 && tokens_[q.first - 1].text == "(" && IsThing(q.first - 2) && Masses().size() > 1;
+  if (apposed) return kNone;
   bool includes = false;
   for (size_t k = q.first; k-- > 0 && q.first - k <= 10;) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kMassUnit) && used_[k]) return kNone;  // the whole has its mass: this is what it includes
     if (Is(k, WordKind::kMass) && text.find("battery") == std::string::npos)
       return includes && !claimed_[k] ? k : kNone;
+    includes |= Is(k, WordKind::kMass) && (MeansIncluding(text) || text.starts_with("incl") || text.starts_with("with"));
     includes |=
         Is(k, WordKind::kBreak) && (text == "with" || text == "w" || text.starts_with("incl") || text == "&");
     const bool thing = Is(k, WordKind::kLoad) || Is(k, WordKind::kBattery) || Is(k, WordKind::kLithiumIon) ||
@@ -78,8 +82,16 @@ size_t Reader::NounOfMass(const Quantity& q) const {
     return kind == WordKind::kMass || kind == WordKind::kPayload || kind == WordKind::kEmpty ||
            kind == WordKind::kBattery || kind == WordKind::kBare;
   };
+  if (const size_t bare = BareInParentheses(q); bare != kNone) return bare;
   size_t noun = NounBefore(q, true);
   const size_t after = NounAfter(q);
+  // "Empty weight incl. battery: 27 kg"
+  if (noun != kNone && noun < q.first && after == kNone && Is(noun, WordKind::kBattery) && IsIncludedBefore(noun)) {
+    for (size_t k = noun; k-- > 0 && noun - k <= 4 && tokens_[k].kind != Token::Kind::kComma;) {
+      const bool label = Is(k, WordKind::kEmpty) || Is(k, WordKind::kMass) || Is(k, WordKind::kPayload);
+      if (label && !claimed_[k]) return k;
+    }
+  }
   bool owned = false;
   // "camera weighing 300 g", "battery of 400 g" say whose weight it is.
   if (noun != kNone && kind_of(noun) == WordKind::kMass && after == kNone && !IsWhole(noun)) {
@@ -130,15 +142,27 @@ bool Reader::IsWithBattery(const Quantity& q) const {
 }
 
 void Reader::ReadMass(const Quantity& q) {
+  if (const auto role = roles_.find(q.first); role != roles_.end()) return ReadMassAs(role->second, q);
   if (IsWithBattery(q) && !request_.mass && NounBefore(q, true) == kNone)
     return Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
   // "19.5 kg + payload 3.5 kg = 23 kg"
-  if (q.first > 0 && tokens_[q.first - 1].text == "=" && request_.mass && q.value > *request_.mass) {
-    SumUpMass(q);
+  if (q.first > 0 && IsSumAfter(q.first - 1) && request_.mass && q.value > *request_.mass &&
+      std::abs(*request_.mass + request_.payload.value_or(0) - q.value) < 0.03 * q.value) {
+    on_top_ = false;
+    request_.mass.reset();
+    request_.words.erase("mass");
     mass_quantity_ = q;
     whole_of_mass_ = whole_said_ = true;
     return Set({"mass", 0.01, 400, "kg"}, request_.mass, q.value, q.words);
   }
+  if (IsRepeatedLoad(q)) return;
+  DropCorrected(q);
+  on_top_ |= IsOnTop(q);
+  if (q.first > 0 && IsPartWord(tokens_[q.first - 1].text) && tokens_[q.first - 1].kind == Token::Kind::kUnknown &&
+      WholeBefore(q) == kNone && NounAfter(q) == kNone)
+    return loose_masses_.push_back({q, false, true, false, CountOfParts(q)});
+  if (IsAddedTo(q)) return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
+  if (IsTaken(q) && !request_.payload) return SetThing(q);
   const size_t noun = NounOfMass(q);
   const auto kind_of = [&](size_t noun) { return WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone; };
   const bool thing = noun == kNone && q.first > 0 && q.last + 1 < tokens_.size() &&
@@ -251,7 +275,7 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
   const WordKind kind = WordAt(noun) ? WordAt(noun)->kind : WordKind::kDrone;
   if (kind == WordKind::kElse || kind == WordKind::kMotor || kind == WordKind::kPropeller ||
       kind == WordKind::kFrame || kind == WordKind::kWind)
-    return kind == WordKind::kElse ? NameElse(q, noun)
+    return kind == WordKind::kElse ? (++unexplained_, NameElse(q, noun))
                                    : loose_masses_.push_back({q, false, kind != WordKind::kWind, false, CountOfParts(q)});
   // A drone has other figures besides.
   if (kind >= WordKind::kRotorNoun) Use(noun);
@@ -268,6 +292,9 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
       if (!request_.payload && (IsNamedBeside(q, noun) || NamesThingAfter(q))) return SetThing(q);
       return Set(payload, request_.payload, q.value, q.words);
     case WordKind::kBattery:
+      // "410 g without battery, with the 1300 battery 630 g"
+      if (request_.bare_mass && q.value > *request_.bare_mass && noun < q.first && IsIncludedBefore(noun))
+        return ReadMassAs(MassRole::kWhole, q);
       if (IsLeftOut(noun)) return Set({"bare_mass", 0.004, 400, "kg"}, request_.bare_mass, q.value, q.words);
       return Set({"battery_mass", 0.001, 200, "kg"}, request_.battery_mass, q.value, q.words);
     case WordKind::kBare: {
@@ -285,6 +312,7 @@ void Reader::SetMassOf(size_t noun, const Quantity& q) {
 
 /// The mass of the drone, of which others may have been said.
 void Reader::SetOwnMass(size_t noun, const Quantity& q) {
+  if (IsWithoutLoad(noun)) return Set({"empty_mass", 0.005, 400, "kg"}, request_.empty_mass, q.value, q.words);
   // "under 250 g" is met just below, unless the mass itself is said.
   if (IsAtMost(q)) return loose_masses_.push_back({q, false});
   CorrectWith("mass", request_.mass, q.first);
@@ -347,31 +375,6 @@ bool Reader::NamesThingAfter(const Quantity& q) const {
     if (IsThing(k)) return true;
   }
   return false;
-}
-
-/// A list of parts without their sum: "frame 400 g, motors and ESCs 320 g, battery 350 g".
-void Reader::SumUpParts() {
-  const bool said = request_.mass || request_.empty_mass || request_.bare_mass || model_ != nullptr;
-  const auto parts = std::count_if(loose_masses_.begin(), loose_masses_.end(), [](const Loose& loose) { return loose.part; });
-  if (said || parts < 2) return;
-  double sum = request_.battery_mass.value_or(0) + request_.payload.value_or(0);
-  for (const Loose& loose : loose_masses_) sum += loose.quantity.value * loose.count;
-  for (const Loose& loose : loose_masses_) {
-    const double value = loose.quantity.value * loose.count;
-    if (!loose.part && value > 0.8 * (sum - value)) return;  // the drone itself
-  }
-  Decide("the mass is the sum of its parts");
-  Set({"mass", 0.01, 400, "kg"}, request_.mass, sum, "the sum of the parts");
-  whole_of_mass_ = true;
-  loose_masses_.clear();
-}
-
-/// "Four motors 34 g each", "6 ESCs @ 40 g": how many parts have that mass, else 1.
-double Reader::CountOfParts(const Quantity& q) const {
-  for (size_t k = q.first; k-- > 0 && q.first - k <= 4 && tokens_[k].kind != Token::Kind::kComma;) {
-    if (tokens_[k].kind == Token::Kind::kNumber) return tokens_[k].Counts(12) ? tokens_[k].value : 1;
-  }
-  return 1;
 }
 
 /// Whether `whole` is a mass of the drone without payload and the payload that was said.

@@ -14,7 +14,8 @@ namespace {
 /// "2207", "2806.5": a stator's diameter and height in mm, two figures each.
 bool IsStator(double figures) {
   const double height = std::fmod(figures, 100);
-  return figures >= 600 && figures < 10000 && height >= 2 && height <= 45;
+  const double width = std::floor(figures / 100);
+  return figures >= 600 && figures < 10000 && height >= 2 && height <= std::min(45.0, 1.5 * width);
 }
 
 }  // namespace
@@ -26,9 +27,11 @@ size_t Reader::Beside(size_t i, WordKind kind, bool after) const {
     if (!after && n == 1 && tokens_[k].text == ")") {  // "TWR (empty) 3"
       if (k > 2 && tokens_[k - 2].text == "(" && Is(k - 3, kind)) return k - 3;
     }
-    if (k >= tokens_.size() || EndsPhrase(k) || tokens_[k].kind == Token::Kind::kNumber) break;
+    if (k >= tokens_.size() || EndsPhrase(k)) break;
+    const bool blades = after && tokens_[k].kind == Token::Kind::kNumber && (Is(k + 1, WordKind::kBlades) || Is(k + 2, WordKind::kBlades));
+    if (tokens_[k].kind == Token::Kind::kNumber && !blades) break;  // "5051 3-blade propellers"
     if (Is(k, kind)) return k;
-    const bool goes_on = SaysLittle(k) || tokens_[k].kind == Token::Kind::kUnknown || Is(k, WordKind::kBrushless) ||
+    const bool goes_on = blades || Is(k, WordKind::kBlades) || SaysLittle(k) || tokens_[k].kind == Token::Kind::kUnknown || Is(k, WordKind::kBrushless) ||
                          Is(k, WordKind::kSize);
     if (!goes_on) break;
   }
@@ -120,7 +123,9 @@ bool Reader::ReadPartNumber(size_t i) {
   const bool written_on = next == i + 2 && next < tokens_.size() && tokens_[next].kind == Token::Kind::kNumber &&
                           tokens_[next].glued && IsStator(token.value) && tokens_[next - 1].text != "," &&
                           tokens_[next].value >= 50;
-  if (kv || written_on || Beside(i, WordKind::kMotor, true) != kNone) return used_[i] = true;
+  // "1045, 1000 kv": no stator is as high as that.
+  const bool stator = kv && (IsStator(token.value) || std::fmod(token.value, 100) < 40 || token.value > 9999);
+  if (stator || written_on || Beside(i, WordKind::kMotor, true) != kNone) return used_[i] = true;
   double code[3];
   const bool propeller =
       Beside(i, WordKind::kPropeller, true) != kNone || Beside(i, WordKind::kPropeller, false) != kNone ||
@@ -156,11 +161,32 @@ bool Reader::ReadCharge(size_t i) {
                            Is(i + 2, WordKind::kCells);
   const bool battery = Is(i + 1, WordKind::kBattery) || (before != kNone && Is(before, WordKind::kBattery));
   if (!cells_before && !cells_after && !battery) return false;
+  // "Battery 155" of a list of grams, beside "1500 mAh"
+  const bool said = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.Is(WordKind::kCapacityUnit); });
+  if (said && !cells_before && !cells_after) return false;
   CorrectWith("capacity_ah", request_.capacity_ah, i);
   if (request_.capacity_ah) return false;
   Decide("'" + tokens_[i].text + "' is read as mAh");
   used_[i] = true;
   ReadCapacity({i, i, value / 1000, FindWord("mah", false), tokens_[i].text});
+  return true;
+}
+
+/// "AUW 680", "MTOW 8.8": a mass without a unit, in that of the other masses, else kilograms below 20.
+bool Reader::ReadBareMass(size_t i) {
+  const size_t noun = Beside(i, WordKind::kMass, false);
+  const double value = tokens_[i].value;
+  if (noun == kNone || claimed_[noun] || i - noun > 2 || request_.mass) return false;
+  if (i + 1 < tokens_.size() && !EndsPhrase(i + 1)) return false;
+  const std::vector<Quantity> masses = Masses();
+  if (!IsWhole(noun) && !masses.empty()) return false;
+  const bool toy = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) { return token.text.find("whoop") != std::string::npos; });
+  const Word* unit = FindWord(masses.empty() ? (value < 20 && !toy ? "kg" : "g") : tokens_[masses[0].last].text, false);
+  if (unit == nullptr || value * unit->value < 0.01 || value * unit->value > 400) return false;
+  used_[i] = true;
+  Decide("'" + tokens_[noun].text + " " + tokens_[i].text + "' is read in " + std::string(unit->value < 0.1 ? "grams" : "the unit of the masses"));
+  Use(noun);
+  ReadMassAs(MassRole::kWhole, {i, i, value * unit->value, unit, tokens_[i].text});
   return true;
 }
 
@@ -178,6 +204,11 @@ bool Reader::ReadLabelled(size_t i) {
     Dispatch({i, i, token.value * unit->value, unit, token.text + " " + tokens_[i - 2].text});
     return true;
   }
+  if (i > 0 && IsOneOf(tokens_[i - 1].text, {"axis", "axes"}) && rotor_words_ == 0 && !request_.rotors && token.Counts(8)) {
+    used_[i] = used_[i - 1] = true;
+    SetRotors(token.value, tokens_[i - 1].text + " " + token.text);
+    return true;
+  }
   if (i > 0 && tokens_[i - 1].text == "mach") {
     used_[i] = true;
     ReadSpeed({i - 1, i, token.value * 340.3, nullptr, "mach " + token.text});
@@ -187,7 +218,15 @@ bool Reader::ReadLabelled(size_t i) {
     const size_t noun = Beside(i, kind, false);
     return noun != kNone && !claimed_[noun] ? noun : kNone;
   };
+  if (ReadBareMass(i)) return true;
   const bool count = token.value == std::floor(token.value) && token.value < 41;
+  if (const size_t arms = label(WordKind::kArm); arms != kNone && token.Counts(12) && !arm_count_ && tokens_[arms].text == "arms" &&
+                                                  (i + 1 >= tokens_.size() || EndsPhrase(i + 1))) {
+    Use(arms);
+    used_[i] = true;
+    SetArms(token.value, "arms " + token.text);
+    return true;
+  }
   for (const WordKind kind : {WordKind::kRotorNoun, WordKind::kMotor}) {
     const size_t noun = label(kind);
     if (noun == kNone || !count || request_.rotors) continue;
@@ -342,7 +381,7 @@ void Reader::ReadBareNumber(size_t i) {
   }
   // "a 250 class quad", "450 frame", "a 450 quad": millimetres between motors that face each other.
   const bool size =
-      Beside(i, WordKind::kSizeNoun, true) != kNone || Beside(i, WordKind::kFrame, true) != kNone ||
+      Beside(i, WordKind::kSizeNoun, true) != kNone || (i > 0 && Is(i - 1, WordKind::kSizeNoun)) || Beside(i, WordKind::kFrame, true) != kNone ||
       Beside(i, WordKind::kWheelbase, true) != kNone || Beside(i, WordKind::kWheelbase, false) != kNone ||
       Beside(i, WordKind::kRotors, true) != kNone || Beside(i, WordKind::kFrame, false) != kNone;
   if (size && value >= 60 && value <= 2500 && !request_.arm) {

@@ -76,6 +76,10 @@ void Reader::RefuseOthers() const {
                  text == "not" || text == "without" || text == "versus";
     }
     // "Parrot Disco? no, the Anafi"
+    // "Blimp replacement"
+    negated |= i + 1 < tokens_.size() && StartsAny(tokens_[i + 1].text, {"replac", "alternative", "substitute", "ersatz"});
+    for (size_t k = i + 1; k + 1 < tokens_.size() && k <= i + 3; ++k)  // "underwater inspection? no, over water"
+      negated |= tokens_[k].text == "?" && IsOneOf(tokens_[k + 1].text, {"no", "no no", "nope", "nah"});
     negated |=
         !(strong && tokens_[i].word->meaning == "an endless flight") && i + 2 < tokens_.size() && tokens_[i + 1].kind == Token::Kind::kComma && tokens_[i + 2].text == "no";
     const bool drone_before = std::any_of(tokens_.begin(), tokens_.begin() + static_cast<long>(i), [](const Token& t) {

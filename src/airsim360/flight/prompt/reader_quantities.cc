@@ -29,9 +29,10 @@ double ThingsOf(const std::vector<Token>& tokens, const Quantity& q) {
   if (after != "each" && after != "apiece" && !each_before) return 1;
   const bool comma = i > 1 && tokens[i - 1].kind == Token::Kind::kComma;  // "2 crates, 1.5 kg each"
   for (size_t k = each_before ? i - 2 : comma ? i - 1 : i; k-- > 0 && i - k <= 7 && tokens[k].kind != Token::Kind::kComma;) {
-    const bool part = tokens[k].Is(WordKind::kMotor) || tokens[k].Is(WordKind::kPropeller) ||
+    const bool part = tokens[k].Is(WordKind::kDrone) || tokens[k].Is(WordKind::kRotors) || tokens[k].Is(WordKind::kMotor) || tokens[k].Is(WordKind::kPropeller) ||
                       tokens[k].Is(WordKind::kRotorNoun) || tokens[k].Is(WordKind::kBattery);
     if (part) return 1;
+    if (tokens[k].Counts(kMostThings) && tokens[k + 1].Is(WordKind::kCells)) return 1;
     if (tokens[k].Counts(kMostThings)) return tokens[k].value;
   }
   return 1;
@@ -45,9 +46,10 @@ bool Reader::ReadQuantity(size_t i) {
   if (unit < tokens_.size() && tokens_[unit].kind == Token::Kind::kDash) ++unit;
   const Word* word = WordAt(unit);
   if (word == nullptr || word->kind < WordKind::kMassUnit || word->kind > WordKind::kOtherUnit) return false;
-  // "hovers 20 in the wind": no inches.
-  if (tokens_[unit].text == "in" && unit + 1 < tokens_.size() &&
-      (tokens_[unit + 1].text == "the" || tokens_[unit + 1].text == "a" || tokens_[unit + 1].text == "my"))
+  if (!IsInchUnit(i, unit)) return false;
+  // "6010 KV130": the KV is of the number onto it.
+  if (word->kind == WordKind::kKvUnit && unit + 1 < tokens_.size() && tokens_[unit + 1].kind == Token::Kind::kNumber &&
+      tokens_[unit + 1].glued)
     return false;
   Quantity q{i, unit, tokens_[i].value * word->value, word, tokens_[i].text + " " + tokens_[unit].text};
   const bool minus = i > 0 && (tokens_[i - 1].text == "minus" || tokens_[i - 1].text == "negative") &&
@@ -76,9 +78,35 @@ bool Reader::ReadQuantity(size_t i) {
     NameElse(q, kNone);
     return true;
   }
-  if (tokens_[i].high > 0) Decide("of '" + q.words + "' the middle is taken");
+  if (tokens_[i].high > 0 && word->kind != WordKind::kCells) Decide("of '" + q.words + "' the middle is taken");
   if (!ReadDifference(q)) Dispatch(q);
   return true;
+}
+
+/// "Hovers 20 in the wind", "two 5000 in parallel": no inches.
+bool Reader::IsInchUnit(size_t i, size_t unit) const {
+  if (tokens_[unit].text != "in") return true;
+  if (tokens_[i].value > 100) return false;
+  return unit + 1 >= tokens_.size() ||
+         !IsOneOf(tokens_[unit + 1].text, {"the", "a", "my", "parallel", "series", "total", "hover", "still", "calm", "wind", "winds"});
+}
+
+/// "30 min without load", beside a load: gives way to a time of the loaded drone.
+bool Reader::IsOfEmptyDrone(const Quantity& q) const {
+  const bool loaded = std::any_of(tokens_.begin(), tokens_.end(), [](const Token& token) {
+    return token.Is(WordKind::kPayload) || token.Is(WordKind::kLoad) || token.Is(WordKind::kVolumeUnit);
+  });
+  if (!loaded) return false;
+  const auto empty = [&](size_t k) { return Is(k, WordKind::kEmpty) && !tokens_[k].text.ends_with("weight"); };
+  for (size_t k = q.last + 1; k < tokens_.size() && k <= q.last + 4 && tokens_[k].kind != Token::Kind::kNumber; ++k) {
+    if (empty(k)) return true;
+    if (tokens_[k].kind == Token::Kind::kComma && tokens_[k].text != "(") break;
+  }
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 5 && tokens_[k].kind != Token::Kind::kNumber;) {
+    if (tokens_[k].kind == Token::Kind::kComma && tokens_[k].text != "(" && tokens_[k].text != ")") break;
+    if (empty(k)) return true;
+  }
+  return false;
 }
 
 /// "a kilo and a half", "une heure et demie".
@@ -132,6 +160,11 @@ void Reader::Dispatch(const Quantity& q) {
       if (tokens_[i].value >= 100 && i > 0 && Is(i - 1, WordKind::kCells) && ReadCharge(i))
         return;  // "4S 1500s"
       if (tokens_[i].value > 40 && tokens_[q.last].text == "s") return ReadTime({i, q.last, tokens_[i].value, q.unit, q.words});
+      if (tokens_[i].high > 0) {  // "3-4S": what takes both is made for the higher
+        Decide("of '" + q.words + "' the higher is taken");
+        tokens_[i].value = tokens_[i].high;
+        spanning_ = nullptr;
+      }
       if (tokens_[i].value != std::floor(tokens_[i].value)) {
         throw InputError("'" + q.words + "' is not a whole number");
       }
@@ -147,7 +180,7 @@ void Reader::Dispatch(const Quantity& q) {
       break;
     default:
       if (q.unit->kind == WordKind::kDistanceUnit && ReadDistance(q)) return;
-      if (!ReadThrust(q) && !ReadPower(q) && !ReadAxes(q)) ReadDays(q);
+      if (!ReadThrust(q) && !ReadWeight(q) && !ReadPower(q) && !ReadTurns(q) && !ReadAxes(q)) ReadDays(q);
   }
 }
 
@@ -170,6 +203,17 @@ double Reader::PacksInSeries(size_t i) const {
     if (tokens_[k].text == "series") return tokens_[count].value;
   }
   return 1;
+}
+
+/// "A weight of 25 N", "weighing 15 N": true when it was read.
+bool Reader::ReadWeight(const Quantity& q) {
+  constexpr double kGravityHere = 9.80665;
+  const std::string& unit = tokens_[q.last].text;
+  if (unit != "n" && !unit.starts_with("newton")) return false;
+  const size_t noun = NounBefore(q, true);
+  if (noun == kNone || !Is(noun, WordKind::kMass)) return false;
+  ReadMass({q.first, q.last, tokens_[q.first].value / kGravityHere, FindWord("kg", false), q.words});
+  return true;
 }
 
 /// Days of flight are more than any multirotor has; days of anything else are none of its figures.
@@ -240,6 +284,10 @@ void Reader::ReadLength(const Quantity& q) {
     return Set(kPropellerRange, request_.propeller, value, q.words);
   }
   CorrectWith("arm", request_.arm, q.first);
+  if (noun != kNone && Is(noun, WordKind::kAcross)) {
+    if (!across_) across_ = q;
+    return;
+  }
   Set({"arm", 0.02, 3, "m"}, request_.arm, kind == WordKind::kArm ? q.value : q.value / 2, q.words);
 }
 
@@ -261,6 +309,14 @@ bool Reader::IsOfPlace(const Quantity& q) const {
 
 /// Of the lengths that may be of something else, the first is the drone's where nothing else says its size.
 void Reader::FinishLengths() {
+  if (across_) {  // "0.8 m tip to tip, 550 mm motor to motor"
+    const FieldRange arm{"arm", 0.02, 3, "m"};
+    if (!request_.arm || *request_.arm * 2 > across_->value) {
+      Set(arm, request_.arm, across_->value / 2, across_->words);
+    } else if (std::abs(*request_.arm * 2 - across_->value) > 0.02 * across_->value) {
+      Decide("'" + across_->words + "' is said of the whole and left to the distance of its motors");
+    }
+  }
   for (const Quantity& q : loose_lengths_) {
     if (request_.arm || q.value < 0.04 || q.value > 3) continue;
     const size_t next = q.last + 1;
@@ -271,12 +327,25 @@ void Reader::FinishLengths() {
   }
 }
 
+/// "Hover time with payload: 20 min"
+bool Reader::IsLabelledHover(const Quantity& q) const {
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 5 && tokens_[k].kind != Token::Kind::kComma;) {
+    if (tokens_[k].kind == Token::Kind::kNumber || Is(k, WordKind::kFlight)) return false;
+    if (Is(k, WordKind::kHover)) return tokens_[k].text == "hover time" || tokens_[k].text == "hovering time";
+  }
+  return false;
+}
+
 void Reader::ReadTime(const Quantity& q) {
+  if (IsOfEmptyDrone(q)) {
+    if (!empty_time_) empty_time_ = q;
+    return;
+  }
   // "40 min. hover": the point is that of the unit.
   const size_t beyond = q.last + 2;
   const bool abbreviated = Is(beyond, WordKind::kHover) && tokens_[q.last + 1].text == "." &&
                            (beyond + 1 >= tokens_.size() || tokens_[beyond + 1].kind != Token::Kind::kNumber);
-  const bool said_hover = abbreviated || PhraseHas(q, WordKind::kHover);
+  const bool said_hover = abbreviated || PhraseHas(q, WordKind::kHover) || IsLabelledHover(q);
   if (!said_hover && PhraseHas(q, WordKind::kElse)) return NameElse(q, kNone);
   const size_t apposed = Apposed(q);
   const bool hover = said_hover || (apposed != kNone && Is(apposed, WordKind::kHover));
@@ -289,7 +358,22 @@ void Reader::ReadTime(const Quantity& q) {
   Set({name, 10, 36000, "s"}, field, q.value, q.words);
 }
 
+/// The time without load, where no other was said.
+void Reader::FinishTimes() {
+  if (!empty_time_) return;
+  if (!request_.hover_time && !request_.flight_time) {
+    const bool hover = PhraseHas(*empty_time_, WordKind::kHover);
+    const char* name = hover ? "hover_time" : "flight_time";
+    Set({name, 10, 36000, "s"}, hover ? request_.hover_time : request_.flight_time, empty_time_->value, empty_time_->words);
+    request_.facts.insert(name);  // gives way where the load takes more
+    return;
+  }
+  Decide("'" + empty_time_->words + "' without load is left to the design, which is that of the loaded drone");
+}
+
 void Reader::ReadSpeed(const Quantity& q) {
+  // "4K/30fps": pictures a second, where no word speaks of speed.
+  if (tokens_[q.last].text == "fps" && !PhraseHas(q, WordKind::kSpeed)) return NameElse(q, kNone);
   // "can climb at 5 m/s, cruise at 10 m/s"
   size_t verb = q.first;
   while (verb-- > 0 && (SaysLittle(verb) || tokens_[verb].text == "at")) {
@@ -322,6 +406,7 @@ void Reader::ReadVolume(const Quantity& q) {
 }
 
 void Reader::ReadVoltage(const Quantity& q) {
+  CorrectWith("cells", request_.cells, q.first);
   const double full = q.value / 4.2;
   const bool charged = std::abs(full - std::round(full)) < 0.01;
   const double cells = charged ? std::round(full) : std::round(q.value / 3.8);

@@ -26,6 +26,67 @@ TEST(Reader, AMassBelongsToTheWholeToItsLoadOrToTheDroneWithoutBattery) {
   EXPECT_THROW(DroneFromPrompt("hexa, take-off weight 9 kg, payload 6 kg"), InputError);
 }
 
+TEST(Reader, OfSeveralReadingsTheOneThatExplainsAllMassesIsTaken) {
+  const DroneRequest list = ParsePrompt("quad: frame 115 g, four motors 34 g each, stack 18 g, lipo 205 g, rx and straps 24 g, action cam 120 g");
+  EXPECT_NEAR(*list.mass, 0.115 + 4 * 0.034 + 0.018 + 0.205 + 0.024 + 0.12, 1e-12);
+  EXPECT_NEAR(*list.payload, 0.12, 1e-12);
+  const DroneRequest sum = ParsePrompt("hexa. Payload: lidar 1.35 kg plus 45 MP camera 0.65 kg. MTOW 12.5 kg");
+  EXPECT_EQ(sum.mass, 12.5);
+  EXPECT_NEAR(*sum.payload, 2, 1e-12);
+  const DroneRequest package = ParsePrompt("octo, camera package (camera, lens, gimbal all in 9.5 kg), 27 kg AUW");
+  EXPECT_EQ(package.mass, 27);
+  EXPECT_EQ(package.payload, 9.5);
+  const DroneRequest more = ParsePrompt("package is two boxes of 1.2 kg and one of 600 g, quad, 11 kg all together");
+  EXPECT_NEAR(*more.payload, 3, 1e-12);
+  EXPECT_EQ(more.mass, 11);
+  EXPECT_EQ(ParsePrompt("quad, 58 grams without and 84 grams with battery").bare_mass, 0.058);
+  EXPECT_EQ(ParsePrompt("quad, 58 grams without and 84 grams with battery").mass, 0.084);
+  EXPECT_EQ(ParsePrompt("quad, net weight (without battery): 14.5 kg").bare_mass, 14.5);
+  // Whatever is said of its kind, two masses of one drone contradict each other.
+  EXPECT_THROW(ParsePrompt("a 250 g quad of 1 kg"), InputError);
+}
+
+TEST(Reader, PartsAreNoMoreThanTheirWhole) {
+  for (const char* prompt :
+       {"hexa, six motors of 400 g each, AUW 600 g", "quad, frame 2 kg, battery 3 kg, payload 5 kg, take-off weight 3 kg",
+        "Mass budget: airframe 4 kg, battery 6 kg, payload 5 kg. Take-off mass with all of these on board: 3 kg. Octo",
+        "Quadricopt\xc3\xa8re de 4 kg au d\xc3\xa9""collage ; chacun des quatre moteurs \xc3\xa0 bord p\xc3\xa8se 3,5 kg"})
+    EXPECT_THROW(DroneFromPrompt(prompt), InputError) << prompt;
+  EXPECT_EQ(ParsePrompt("hexa, six motors of 40 g each, AUW 600 g").mass, 0.6);
+}
+
+TEST(Reader, FiguresInTheFormsOfShopsAndForums) {
+  EXPECT_EQ(ParsePrompt("whoop, flight time 4:30").flight_time, 270);
+  EXPECT_EQ(ParsePrompt("whoop, flies 4min 30s").flight_time, 270);
+  EXPECT_EQ(ParsePrompt("quad, 32 min. 12S 16000mAh").cells, 12);
+  EXPECT_EQ(ParsePrompt("quad, 6S 2x 4500").capacity_ah, 9);
+  EXPECT_EQ(ParsePrompt("quad, two 4S 5000 in parallel").capacity_ah, 10);
+  EXPECT_EQ(ParsePrompt("drone, axis: 6, 30 inch").rotors, 6);
+  EXPECT_EQ(ParsePrompt("Battery: 3-4S. Quad").cells, 4);
+  EXPECT_EQ(ParsePrompt("quad, 4K/30fps, max speed 16 m/s").speed, 16);
+  EXPECT_EQ(ParsePrompt("quad, auw 680").mass, 0.68);
+  EXPECT_EQ(ParsePrompt("quad, 18 x 6.1 carbon").propeller, 18 * 0.0254);
+  EXPECT_EQ(ParsePrompt("quad, motor 6010 KV130").motor_kv, 130);
+  EXPECT_EQ(ParsePrompt("quad, 0.8 m tip to tip, motor to motor 550 mm").arm, 0.275);
+  EXPECT_EQ(ParsePrompt("quad, 30 min without payload, 18 min with 2 kg payload").flight_time, 1080);
+  EXPECT_NEAR(*ParsePrompt("quad, 1.6 kg, payload of 0.3 kg on top of that").mass, 1.9, 1e-12);
+  EXPECT_NEAR(*ParsePrompt("sub250 quad, 238 g").mass, 0.238, 1e-12);
+  EXPECT_NEAR(*ParsePrompt("5G WiFi quad of 210 g").mass, 0.21, 1e-12);
+  EXPECT_EQ(ParsePrompt("quad, stays up 1h10m").flight_time, 4200);
+  EXPECT_NEAR(*ParsePrompt("Quadrokopter, weighing 15 N").mass, 15 / 9.80665, 1e-9);
+  EXPECT_EQ(ParsePrompt("quad, AUW just shy of 230 g... say 225").mass, 0.225);
+  EXPECT_THROW(ParsePrompt("quad, 28 inch props at 60,000 rpm"), InputError);
+}
+
+TEST(Reader, ManyMassesTakeNoLongTime) {
+  std::string masses = "quad";
+  while (masses.size() < 980) masses += " and 9 g";
+  try {
+    ParsePrompt(masses);
+  } catch (const InputError&) {
+  }
+}
+
 TEST(Reader, ThrustOverTheWeightIsTheRatio) {
   EXPECT_NEAR(RatioOf("quad of 2 kg, the four motors together give 8 kg of thrust"), 4, 1e-9);
   EXPECT_NEAR(RatioOf("quad, AUW 1.2 kg, each motor pulls 900 g"), 3, 1e-9);

@@ -89,6 +89,8 @@ bool Reader::IsThing(size_t i) const {
     return CanBeThing(code ? tokens_[i - 1].text : token.text);
   }
   if (word == nullptr) return false;
+  if (token.text == "arm" && i > 0 && tokens_[i - 1].text == "dof") return true;  // "2-DoF arm"
+  if (token.text == "arm" && i > 0 && tokens_[i - 1].kind == Token::Kind::kUnknown) return CanBeThing(tokens_[i - 1].text);  // "contact arm"
   if (word->kind == WordKind::kClass) return IsOneOf(token.text, {"cargo", "freight", "drop", "crop", "spray"});
   if (word->kind == WordKind::kElse) {
     return IsOneOf(token.text, {"lens", "screen", "display", "monitor", "tv", "lcd", "oled", "antenna", "barrel",
@@ -202,6 +204,7 @@ bool Reader::IsObject(size_t i, bool weak) const {
 
 /// "Scanner weighs 1.8 kg", "camera, gimbal and follow focus come to 4.2 kg", "for my teddy, he weighs 250 g".
 bool Reader::IsOfWeighedThing(const Quantity& q) const {
+  if (WholeBefore(q) != kNone) return false;  // "whose mass including all sensors is 1.7 kg"
   bool link = false, finite = false, pronoun = false, person = false, it = false;
   size_t k = q.first;
   while (k-- > 0) {
@@ -209,7 +212,7 @@ bool Reader::IsOfWeighedThing(const Quantity& q) const {
     if (IsLink(tokens_[k])) {
       link = true;
       finite |= text != "weighing" && text != "pesant" && text != "pesando";
-    } else if (text == "i" && link) {
+    } else if (text == "i" && link && tokens_[k + 1].text != "weighed") {
       return true;  // who speaks wants to be carried
     } else if (IsOneOf(text, {"he", "she", "they", "it", "which", "that", "who", "it s", "il", "elle", "ella"})) {
       pronoun = link;
@@ -410,6 +413,7 @@ void Reader::SetThing(const Quantity& q) {
   }
   joined |= ContinuesList(q);
   if (!things_said_ || !joined) {
+    ++unexplained_;
     return Decide("'" + q.words + "' is part of the payload '" + request_.words["payload"] + "'");
   }
   last_thing_ = q.last;

@@ -23,7 +23,8 @@ constexpr const char* kWhole[] = {"total",  "together", "all",     "combined",  
                                   "in all", "in total", "overall", "all together", "sum"};
 constexpr const char* kGives[] = {"produce", "produces", "generate", "generates", "give",
                                   "gives",   "make",     "makes",    "push",      "pushes",
-                                  "put out", "puts out", "provide",  "provides"};
+                                  "put out", "puts out", "provide",  "provides",
+                                  "deliver", "delivers", "develop", "develops", "exert",    "exerts", "producing", "generating"};
 
 }  // namespace
 
@@ -32,6 +33,8 @@ bool Reader::ReadThrust(const Quantity& q) {
   const std::string& unit = tokens_[q.last].text;
   const bool newtons = unit == "n" || unit.starts_with("newton");
   if (q.unit->kind != WordKind::kMassUnit && !newtons) return false;
+  // "What thrust do I need for a 1.3 kg quad?"
+  if (!newtons && (Is(q.last + 1, WordKind::kRotors) || Is(q.last + 1, WordKind::kDrone))) return false;
   Thrust thrust{newtons ? tokens_[q.first].value / kGravityHere : q.value, false, false, q.words};
   size_t noun = kNone;
   bool motor = false, gives = newtons;
@@ -39,7 +42,7 @@ bool Reader::ReadThrust(const Quantity& q) {
     const std::string& text = tokens_[k].text;
     if (Is(k, WordKind::kThrust) && noun == kNone && !claimed_[k]) noun = k;
     motor |=
-        Is(k, WordKind::kMotor) || Is(k, WordKind::kRotorNoun) || text == "per motor" || text == "each motor";
+        Is(k, WordKind::kMotor) || Is(k, WordKind::kPropeller) || Is(k, WordKind::kRotorNoun) || text == "per motor" || text == "each motor";
     gives |= IsOneOf(text, kGives);
     thrust.each |= IsOneOf(text, kEach);
     thrust.whole |= IsOneOf(text, kWhole) ||
@@ -53,13 +56,23 @@ bool Reader::ReadThrust(const Quantity& q) {
     return tokens_[k].kind == Token::Kind::kComma || tokens_[k].text == "and" || tokens_[k].text == "with" ||
            Is(k, WordKind::kMass) || Is(k, WordKind::kPayload);
   };
-  for (size_t k = q.first; k-- > 0 && q.first - k <= 9 && !(ends(k) && tokens_[k].text != "total");) look(k);
+  for (size_t k = q.first; k-- > 0 && q.first - k <= 9 && !(ends(k) && tokens_[k].text != "total" && tokens_[k].text != ")");) {
+    while (k > 0 && tokens_[k].text == ")") {  // "each rotor (15 cm) delivers"
+      while (k > 0 && tokens_[k].text != "(") --k;
+      if (k > 0) --k;
+    }
+    look(k);
+  }
   for (size_t k = q.last + 1;
        k < tokens_.size() && k <= q.last + 9 && !(ends(k) && tokens_[k].text != "total"); ++k)
     look(k);
   // "The motors produce 30 N in total" needs no word for thrust.
   const bool without_noun = motor && gives && (thrust.each || thrust.whole);
   if (noun == kNone ? !without_noun : tokens_[noun].text.starts_with("pull") && !motor) return false;
+  if (const size_t count = FirstOf(q); newtons && count + 2 == q.first && noun != kNone) {  // "max thrust 4 x 9 N"
+    thrust.kilograms *= tokens_[count].value;
+    thrust.whole = true;
+  }
   Use(noun);
   for (size_t k = q.first; k <= q.last; ++k) used_[k] = true;
   if (!thrust_) thrust_ = thrust;

@@ -36,6 +36,21 @@ const std::vector<Rule>& Numbers() {
       {std::regex(R"(\b(single|one)[ -]cell\b)"), "1 cell"},
       {std::regex(R"(\bsingle (propeller|prop|motor)\b)"), "1 $1"},
       {std::regex(R"((\d)-?ish\b)"), "$1 "},
+      {std::regex(R"((\d ?(min|mins|minutes?)) ?(and )?([0-5]?[05]) ?s\b(?! *\d))"), "$1 $4 sec"},  // "4 min 30 s"
+      {std::regex(R"(\b(\d{1,2}) ?h ?(\d{1,2}) ?m(in|ins)?\b)"), "$1 h $2 min"},  // "1h10m"
+      {std::regex(R"(\b(\d{1,2}(\.\d+)?) x (\d{1,2}\.\d{1,2})\b(?!\s*(x|mm|cm|m|kg|g|in|inch|ah|mah|s|k)\b|\s*\x22))"), "$1x$3"},  // "18 x 6.1 carbon"
+      {std::regex(R"(\b(propellers?|props?) ?[:=] ?(\d{1,2}(\.\d+)?) x (\d{1,2}(\.\d+)?)(?![\d.]))"), "$1 $2x$4"},
+      {std::regex(R"(\b(w/o|without)\s*(?=[).;]|$))"), "without battery "},  // "310 g w/o"
+      // "Flight time 4:30", "4:30 min"
+      {std::regex(R"(\b((time|flights?|hovers?|endurance|flies|fly|of)[ :~a-z]{0,12})(\d{1,2}):([0-5]\d)( ?min(utes|s)?)?(?![\d:]))"), "$1$3 min $4 sec"},
+      {std::regex(R"(\b(\d{1,2}):([0-5]\d) ?(min|mins|minutes)\b)"), "$1 min $2 sec"},
+      {std::regex(R"((\d)\s*\*\s*(?=\d))"), "$1x"},  // "24*7.8"
+      // "Shy of 230 g... say 225"
+      {std::regex(R"((\d+(\.\d+)?)\s*(kg|g|grams|kilos|min|minutes|lbs?)\b([ ,.;-]+)(let s |lets |let's |let us )?(say|call it|make it|make that) (\d+(\.\d+)?)(?![\d.]*\s*[a-z%\x22]))"),
+       "$1 $3 , make that $7 $3"},
+      {std::regex(R"(每小时\s*(\d+(\.\d+)?)\s*公里)"), "$1 公里每小时"},
+      {std::regex(R"(时速\s*(\d+(\.\d+)?)\s*公里)"), "速度 $1 公里每小时"},
+      {std::regex(R"(\bfrom (\d{1,2}) ?s to (\d{1,2}) ?s\b)"), "$2s"},  // a battery that is changed
       {std::regex(R"(\b((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?)(?=( [a-z]+)? prop))"), "$1x$4"},
       {std::regex(R"(\b(propellers?|props?) ((9|[1-3]\d)(\.\d+)?) x (\d+(\.\d+)?))"), "$1 $2x$5"},
       {std::regex(R"(\b(propellers|props|rotors)\s*,\s*([\d.]+\s*(cm|mm|m|inch|inches|in|")) each\b)"),
@@ -47,6 +62,16 @@ const std::vector<Rule>& Numbers() {
 /// Turns of phrase whose words would mean something else one by one.
 const std::vector<Rule>& Phrases() {
   static const std::vector<Rule> kRules = {
+      {std::regex(R"(\ben charge\b)"), " "},
+      // "5G WiFi", "2.4G remote": no grams.
+      {std::regex(R"(\b(2\.4|5\.8|[345])\s?g(hz)?\b(?=[ -]*(wi-?fi|wlan|fpv|lte|network|modem|transmission|signal|link|module|connection|rc|remote|radio|control|transmitter|video|live)))"), " "},
+      {std::regex(R"(\b(wi-?fi|lte)[ -]?[45]g\b)"), " "},
+      {std::regex(R"(\bfor (a|one) (whole|full|entire) day\b)"), "for 24 hours"},
+      // "58 g without and 84 g with battery"
+      {std::regex(R"((\d ?(g|grams?|kg|lbs?|oz)) (without|dry|w/o)\s*(,|and|/|-)?\s*(and )?([\d.]+ ?(g|grams?|kg|lbs?|oz)) (with|w/|incl\.?) (the |a )?(battery|lipo|batt|pack)\b)"),
+       "$1 without battery, $6 with battery"},
+      {std::regex(R"((\d ?(g|grams?|kg|lbs?|oz)) (without|w/o)\s*(,|and|/|-)?\s*(and )?([\d.]+ ?(g|grams?|kg|lbs?|oz)) (with|w/|incl\.?) (the |a )?(payload|load|camera|cargo)\b)"),
+       "$1 without payload, $6 total with payload"},
       {std::regex(R"(\bin space\s*([,.;!?]|$))"), "in outer space $1"},
       {std::regex(R"(\bdrone[ -]in[ -]a[ -]box\b)"), "drone"},
       {std::regex(R"(\b24/7\b)"), " "},
@@ -58,7 +83,7 @@ const std::vector<Rule>& Phrases() {
       // "Without the GoPro", "minus camera and gimbal"
       {std::regex(
            R"(\b(without|w/o|minus|excluding|excl\.?|not counting|not including|less)( the| any| a| its)? )"
-           R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|action cam)s?)"
+           R"((camera|cam|gopro|go pro|gimbal|sensor|lidar|cargo|parcel|package|box|liquid|water|bait|scanner|action cam)s?)"
            R"(( (and|or|&) (the )?(camera|gimbal|lens|mount|sensor))?\b)"),
        " without payload "},
       // Still air is no wind to withstand.
@@ -74,6 +99,8 @@ const std::vector<Rule>& Phrases() {
       {std::regex(R"(\b(fl(y|ies|ying|ys)|hover(s|ing)?|stays? (up|airborne|in the air|aloft)|lasts?|runs?|keeps? (going|flying)))"
                   R"(( on)? (for ?ever|indefinitely|endlessly|eternally|without ever landing|till the end of time))"),
        " endless flight "},
+      {std::regex(R"((\d ?(kg|g|grams|lbs?|oz)( (payload|load|cargo|camera|battery|lipo|empty|dry))?)\s*=\s*(?=\d))"), "$1 , total "},  // a sum
+      {std::regex(R"(\)\s*=\s*(?=\d))"), ") , total "},
       {std::regex(R"(\s=\s?(?=~?\d))"), " is "},
       {std::regex(R"((\d)\s*\[(kg|g|lb|in|inch|mm|cm|m|min|s|h|ah|mah|wh|v|m/s|km/h)\])"), "$1 $2"},  // "1.4 [kg]"
       // "8 to 1": no range, which would rise.

@@ -34,7 +34,7 @@ constexpr std::string_view kFunctionWords =
     "somebody anyone however although though because whether unless except despite via per versus easily safely "
     "thereabouts odd usual usually currently probably possibly hopefully definitely typically normally "
     "per piece max min approx est etc incl excl inc ex bis nicht sehr nur noch auch aber sollte soll muss will "
-    "kann tres pas mais aussi avec doit peut faut muy pero tambien debe puede tiene quiero quisiera necesito vuele "
+    "board bord aboard onboard tout compris chacun chaque cada jeder jede kann tres pas mais aussi avec doit peut faut muy pero tambien debe puede tiene quiero quisiera necesito vuele "
     "estoy deve molto anche but";
 
 constexpr std::string_view kAdjectives =
@@ -64,7 +64,7 @@ constexpr std::string_view kMakers =
     "aio rx tx mavlink ros lidarless firmware led leds";
 
 constexpr std::string_view kDroneWords =
-    "build builds bird birds beast beasts craft crafts thing things toy toys kit kits model models flyer flyers flier "
+    "base rig rigs build builds bird birds beast beasts craft crafts thing things toy toys kit kits model models flyer flyers flier "
     "workhorse monster monsters basher ripper whoop whoops racer racers cruiser cruisers lifter lifters sprayer "
     "sprayers platform platforms system systems unit units setup project projects everything vessel one mine "
     "contraption gadget device apparatus prototype testbed demonstrator frame airframe aircraft machine machines "
@@ -122,6 +122,15 @@ bool IsProductCode(std::string_view word) {
 bool MeansDrone(std::string_view word) {
   static const Words kWords = Split(kDroneWords);
   return IsOneOf(word, kWords);
+}
+
+bool IsPartWord(std::string_view word) {
+  static const Words kWords = Split(
+      "esc escs fc stack vtx rx receiver receivers wiring wires wire harness avionics electronics autopilot pixhawk gps pdb "
+      "telemetry hardware screws plates plate legs hub misc rest remainder straps strap wires chassis airframe fuselage "
+      "regler elektronik rahmen electronique chassis chasis carcasa electronica telaio elettronica antennas "
+      "flight controller controllers skids");
+  return IsOneOf(word, kWords) || word == "landing gear";
 }
 
 bool NamesWhole(std::string_view word) {

@@ -15,6 +15,9 @@ bool IsProductCode(std::string_view word);
 /// "build", "bird", "beast"; "scale", "budget": said of the drone itself or of its figures.
 bool MeansDrone(std::string_view word);
 
+/// "esc", "avionics", "wiring": built into every drone.
+bool IsPartWord(std::string_view word);
+
 /// "kit", "unit", "system": of the drone where they stand alone, of a thing after its name: "defibrillator kit".
 bool NamesWhole(std::string_view word);
 

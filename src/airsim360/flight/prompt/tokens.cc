@@ -71,14 +71,41 @@ class Cutter {
       ++at_;
       return;
     }
+    // "1.1 kg - AUW 4.3 kg": a dash in spaces after a figure ends its phrase; "weight - 2 kg" has its figure to come.
+    const bool spaced = at_ > 0 && text_[at_ - 1] == ' ' && at_ + 1 < text_.size() && text_[at_ + 1] == ' ';
+    const bool figure = at_ + 2 < text_.size() && (IsDigit(text_[at_ + 2]) || text_[at_ + 2] == '.' || text_[at_ + 2] == '~');
+    if (c == '-' && spaced && (!figure || (!after_number && EndsInUnit()))) return AddKind(Token::Kind::kComma, 1);
     if (c == '-' || c == '/') {
-      return c == '-' ? AddKind(Token::Kind::kDash, 1) : AddKind(Token::Kind::kComma, 1);
+      // "EO/IR" is one word; lists of figures are divided.
+      const bool joins = at_ > 0 && IsLetter(text_[at_ - 1]) && at_ + 1 < text_.size() && IsLetter(text_[at_ + 1]) && !EndsInUnit();
+      return c == '-' || joins ? AddKind(Token::Kind::kDash, 1) : AddKind(Token::Kind::kComma, 1);
     }
+    if (c == ':' && EndsHeading()) return AddKind(Token::Kind::kComma, 1);
     const bool ends = c == ',' || c == ';' || c == '.' || c == '!' || c == '?' || c == '(' || c == ')' ||
                       c == '[' || c == ']' || c == '|';
     if (c == '.' && FollowsAbbreviation()) return void(++at_);
     if (ends) return AddKind(Token::Kind::kComma, 1);
     ++at_;
+  }
+
+  /// "A quad for benchmarking planners: 0.8 kg" ends there; "Take-off weight: 2 kg" is a label with its figure.
+  bool EndsHeading() const {
+    constexpr size_t kLabel = 3;
+    size_t words = 0;
+    for (size_t k = tokens_.size(); k-- > 0 && tokens_[k].kind != Token::Kind::kComma && tokens_[k].kind != Token::Kind::kNumber;) {
+      if (tokens_[k].kind == Token::Kind::kWord && tokens_[k].word->kind >= WordKind::kRotorNoun && tokens_[k].word->kind <= WordKind::kElse)
+        return false;
+      words += tokens_[k].kind != Token::Kind::kDash;
+    }
+    const bool figure = at_ + 1 < text_.size() && (text_[at_ + 1] == ' ' || IsDigit(text_[at_ + 1]));
+    return words > kLabel && figure;
+  }
+
+  bool EndsInUnit() const {
+    if (tokens_.size() < 2) return false;
+    const Token& last = tokens_.back();
+    const bool unit = last.kind == Token::Kind::kWord && last.word->kind >= WordKind::kMassUnit && last.word->kind <= WordKind::kOtherUnit;
+    return unit && tokens_[tokens_.size() - 2].kind == Token::Kind::kNumber;
   }
 
   /// The point of "incl." ends no sentence.
@@ -238,7 +265,7 @@ class Cutter {
     if (letters < text.size()) {
       const bool unit = !tokens_.empty() && tokens_.back().kind == Token::Kind::kNumber;
       if (const Word* word = FindWord(text.substr(0, letters), false);
-          word != nullptr && word->kind > WordKind::kTo && (letters > 1 || unit)) {
+          word != nullptr && word->kind > WordKind::kTo && word->kind != WordKind::kOtherUnit && (letters > 1 || unit)) {
         Token token;
         token.kind = Token::Kind::kWord;
         token.word = word;
