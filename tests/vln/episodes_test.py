@@ -135,6 +135,26 @@ class Episodes(unittest.TestCase):
         self.assertEqual(turned["cube6"], 1)
         self.assertGreater(turned["front"], 1)
 
+    def test_a_world_that_has_changed_since_is_noticed(self):
+        def other_world(e): e["world_things"]["sha256"] = "0" * 64
+        def more_things(e): e["world_things"]["count"] += 1
+        for change, says in ((other_world, "boxes of its first"), (more_things, "things and has")):
+            name, copy = self.edited(change)
+            done = run("vln", "check", copy, status=1)
+            self.assertEqual(done.stdout.count("the world has changed since it was made"), 1)
+            self.assertRegex(done.stdout, f"{name}.*{says}")
+            self.assertIn(f"{name}: the world has changed", run("vln", "run", copy, "--agent", "forward", "--out", self.path / "changed.jsonl").stderr)
+            (self.path / "changed.jsonl").unlink()
+        def unknown(e): e["world_things"] = None
+        self.assertEqual(json.loads(run("vln", "check", self.edited(unknown)[1], "--json").stdout)["wrong"], 0)
+        def spoilt(e): e["world_things"]["sha256"] = "XYZ"
+        self.assertIn("world_things.sha256", run("vln", "check", self.edited(spoilt)[1], status=2).stderr)
+
+    def test_people_do_not_make_it_another_world(self):
+        def peopled(e): e["people"] = 3
+        done = run("vln", "run", self.edited(peopled)[1], "--agent", "forward", "--out", self.path / "peopled.jsonl")
+        self.assertNotIn("has changed", done.stderr)
+
     def test_results_of_another_run_are_not_mixed(self):
         out = self.path / "mixed.jsonl"
         run("vln", "run", self.episodes, "--agent", "forward", "--limit", 2, "--out", out)

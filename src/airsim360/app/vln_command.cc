@@ -265,7 +265,7 @@ void AddRun(CLI::App& parent, GlobalOptions& globals) {
   command->add_option("--protocol", a->protocol, "ours, aerialvln, openfly, citynav, traveluav or uavon (default ours)");
   command->add_option("--program", a->program, "of agent exec: program and arguments, apart by spaces");
   command->add_option("--limit", a->options.limit, "the first N episodes (default all)");
-  command->add_option("--workers", a->options.workers, "episodes at a time, each with a renderer (default 1)");
+  command->add_option("--workers", a->options.workers, "episodes at a time (default 1)");
   command->add_flag("--realtime", a->options.realtime, "what an agent takes to think passes in its episode too");
   command->add_option("--width", a->options.width, "of panoramas, pixels (default 1024)");
   command->add_option("--timeout", a->options.chat.seconds, "seconds for one answer of a program or a server (default 120)");

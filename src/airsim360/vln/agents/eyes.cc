@@ -58,8 +58,8 @@ struct Eyes::Shot {
   RigidTransform X_WC;
 };
 
-Eyes::Eyes(std::shared_ptr<Stage> stage, VlnView view, const RenderSettings& picture, int width)
-    : stage_(std::move(stage)), view_(view), picture_(picture), width_(width) {}
+Eyes::Eyes(std::shared_ptr<SharedRenderers> renderers, VlnView view, const RenderSettings& picture, int width)
+    : renderers_(std::move(renderers)), view_(view), picture_(picture), width_(width) {}
 
 Eyes::~Eyes() = default;
 
@@ -83,13 +83,12 @@ std::vector<Eyes::Shot> Eyes::Shots(const RigidTransform& X_WB, int width) const
 }
 
 SeenAtStart Eyes::Recognise(const RigidTransform& X_WB, const std::vector<EntityId>& entities, const std::shared_ptr<const SceneState>& moved) {
-  if (!labels_) labels_ = stage_->NewRenderer(Tier::kLabels);
   SeenAtStart seen;
   Vec3d sum;  // of directions in the level heading frame
   for (const Shot& shot : Shots(X_WB, kRecogniserWidth)) {
     RenderRequest request = MakeRequest(shot.camera, shot.X_WC, Tier::kLabels, {.rgb = false, .range = true, .semantic = false, .entity = true});
     request.state = moved;
-    labels_->Render(request, frame_);
+    renderers_->Render("", request, frame_);
     const int w = frame_.entity.width(), h = frame_.entity.height();
     for (int y = 0; y < h; ++y) {
       for (int x = 0; x < w; ++x) {
@@ -115,21 +114,13 @@ SeenAtStart Eyes::Recognise(const RigidTransform& X_WB, const std::vector<Entity
   return seen;
 }
 
-Renderer& Eyes::RendererFor(const std::string& weather) {
-  if (colours_ && weather == weather_) return *colours_;
-  colours_ = weather.empty() ? stage_->NewRenderer(picture_.tier)
-                             : stage_->NewRenderer(picture_.tier, ApplyFlags({.weather = weather}, stage_->environment()));
-  weather_ = weather;
-  return *colours_;
-}
-
 std::vector<VlnPicture> Eyes::Pictures(const RigidTransform& X_WB, const std::string& weather, const std::shared_ptr<const SceneState>& moved) {
   std::vector<VlnPicture> pictures;
   for (const Shot& shot : Shots(X_WB, width_)) {
     RenderRequest request{picture_, shot.camera, shot.X_WC};
     request.products = {.rgb = true, .range = false, .semantic = false, .entity = false};
     request.state = moved;
-    RendererFor(weather).Render(request, frame_);
+    renderers_->Render(weather, request, frame_);
     Image<Rgb8> image = frame_.rgb;
     if (view_ == VlnView::kErp) MarkAzimuths(image);
     const Bytes jpeg = EncodeJpeg(image, kQuality);

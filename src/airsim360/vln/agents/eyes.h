@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "airsim360/stage/stage.h"
+#include "airsim360/vln/agents/shared_renderers.h"
 #include "airsim360/vln/episodes/language_episode.h"
 
 namespace airsim360 {
@@ -24,11 +24,11 @@ struct VlnPicture {
   std::string jpeg;  ///< bytes
 };
 
-/// Of one worker: has renderers of its own, made when they are first needed.
+/// Of one worker; renderers are those of all.
 class Eyes {
  public:
   /// `picture`: of Pictures. `width` of a panorama, pixels; a camera's picture is half as wide and as high.
-  Eyes(std::shared_ptr<Stage> stage, VlnView view, const RenderSettings& picture, int width);
+  Eyes(std::shared_ptr<SharedRenderers> renderers, VlnView view, const RenderSettings& picture, int width);
   ~Eyes();
 
   VlnView view() const { return view_; }
@@ -40,14 +40,11 @@ class Eyes {
  private:
   struct Shot;
   std::vector<Shot> Shots(const RigidTransform& X_WB, int width) const;
-  Renderer& RendererFor(const std::string& weather);
 
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<SharedRenderers> renderers_;
   VlnView view_;
   RenderSettings picture_;
   int width_;
-  std::unique_ptr<Renderer> labels_, colours_;
-  std::string weather_;
   Frame frame_;
 };
 

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kRoom = 0.45;      // metres free around a step
 constexpr double kOnLeg = 0.01;     // metres from a straight leg that rounding makes
+constexpr double kLongestLeg = 200;  // metres of a decision: after a minute another one is asked for
 constexpr double kBetter = 1;       // metres less to go that make steps worth it
+constexpr double kOff = 1.5, kAside = 15, kLost = 10;  // a metre beside the way as metres along it; so far beside; where it is out of sight
 constexpr double kHorizon = 5;      // moves that steps are planned for at a time
 constexpr int kMostExpanded = 3000, kMostInNeed = 60000;  // places looked at for that; where the first find nothing
 constexpr double kLeastRoom = 0.25;  // metres free around a step where nothing else helps
@@ -31,12 +33,12 @@ std::vector<Vec3d> Dense(const std::vector<Vec3d>& way) {
   return points;
 }
 
-// Without the points that lie on straight legs.
+// Without the points that lie on straight legs, as far as a decision is flown before the next is asked for.
 std::vector<Vec3d> Corners(const std::vector<Vec3d>& way) {
   std::vector<Vec3d> corners = {way.front()};
   for (size_t i = 1; i + 1 < way.size(); ++i) {
-    const Vec3d along = Normalized(way[i + 1] - corners.back());
-    if (Norm(Cross(way[i] - corners.back(), along)) > kOnLeg) corners.push_back(way[i]);
+    const Vec3d leg = way[i + 1] - corners.back();
+    if (Norm(leg) > kLongestLeg || Norm(Cross(way[i] - corners.back(), Normalized(leg))) > kOnLeg) corners.push_back(way[i]);
   }
   corners.push_back(way.back());
   return corners;
@@ -83,14 +85,22 @@ class OracleAgent : public VlnAgent {
     return {{.stop = true}};
   }
 
-  // Metres to go from a place: to the way, and along it.
-  double ToGo(Vec3d p) const {
+  // Metres to go from a place: to a point of the way that is near and in sight, and along it. Where the way leads around a block,
+  // its end is near through the block too; that would lead into bays.
+  double ToGo(const VlnSituation& s, Vec3d p) const {
     double best = 1e9, behind = 0;
     for (size_t i = way_.size(); i-- > 0;) {
-      best = std::min(best, 1.5 * Norm(p - way_[i]) + behind);
+      const double off = Norm(p - way_[i]), near = kOff * off + behind;
+      if (off <= kAside && near < best && Sees(s, p, way_[i])) best = near;
+      best = std::min(best, kLost * off + behind);
       if (i > 0) behind += Norm(way_[i] - way_[i - 1]);
     }
     return best;
+  }
+
+  static bool Sees(const VlnSituation& s, Vec3d from, Vec3d to) {
+    const double distance = Norm(to - from);
+    return distance < 1e-6 || !s.solid.Intersect(VecCast<float>(from), VecCast<float>((to - from) * (1 / distance)), static_cast<float>(distance));
   }
 
   // A place that steps lead to, on the way of a search.
@@ -109,7 +119,7 @@ class OracleAgent : public VlnAgent {
     const auto add = [&](Vec3d step, int turns, Preset last) {
       const double yaw = from.yaw - turns * sizes.turn;
       const Vec3d p = from.p + RotationZ(yaw) * step;
-      if (IsFree(s.solid, from.p, p, room)) steps.push_back({p, yaw, ToGo(p), from.decisions + std::abs(turns) + 1, parent, turns, last});
+      if (IsFree(s.solid, from.p, p, room)) steps.push_back({p, yaw, ToGo(s, p), from.decisions + std::abs(turns) + 1, parent, turns, last});
     };
     const int half = static_cast<int>(std::lround(kPi / sizes.turn));
     for (int turns = 1 - half; turns <= half; ++turns) add({sizes.forward, 0, 0}, turns, Preset::kForward);
@@ -121,10 +131,10 @@ class OracleAgent : public VlnAgent {
     return steps;
   }
 
-  // The fewest steps to where clearly less is to go than from here (Hart, Nilsson and Raphael 1968, what is to go counted a little
+  // The fewest steps to where clearly less is to go than from here (Hart, Nilsson and Raphael 1968, what is to go counted
   // more than it costs): turns count as much as moves do. Empty: there is none within the effort.
   std::vector<Preset> PlanSteps(const VlnSituation& s, double to_go, int effort, double wide) const {
-    constexpr double kGreed = 1.3;
+    constexpr double kGreed = 2;
     const Viewpoint view = s.Pose();
     // A drone that came to rest a little off may have less room than is kept from things on the way.
     const double room = std::clamp(static_cast<double>(s.solid.Clearance(VecCast<float>(view.p_W), 1)) - 0.02, kLeastRoom, wide);
@@ -173,9 +183,9 @@ class OracleAgent : public VlnAgent {
     const double here = Norm(s.episode.goal - p);
     if (planned_.empty()) {
       if (here <= 0.3 * s.radius) return {{.stop = true}};
-      planned_ = PlanSteps(s, ToGo(p), kMostExpanded, kRoom);
+      planned_ = PlanSteps(s, ToGo(s, p), kMostExpanded, kRoom);
       // Out of a bay the way leads away from the goal first, and through gaps that are hardly wider than the drone.
-      if (planned_.empty() && here > s.radius * kSurely) planned_ = PlanSteps(s, ToGo(p), kMostInNeed, kLeastRoom);
+      if (planned_.empty() && here > s.radius * kSurely) planned_ = PlanSteps(s, ToGo(s, p), kMostInNeed, kLeastRoom);
       if (planned_.empty()) return {{.stop = true}};
     }
     const Preset preset = planned_.front();

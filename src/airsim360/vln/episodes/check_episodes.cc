@@ -27,6 +27,19 @@ class Checker {
 
   /// Empty if all is well.
   std::string Problem(const LanguageEpisode& e) {
+    const std::string changed = Changed(e.things), what = Proof(e);
+    return changed.empty() || what.empty() ? changed + what : what + "; " + changed;
+  }
+
+ private:
+  // What is new of the world; looked up once for each world that episodes were made in.
+  const std::string& Changed(const WorldThings& made_in) {
+    const auto [entry, is_new] = changes_.try_emplace({made_in.count, made_in.sha256});
+    if (is_new) entry->second = ThingsDiffer(made_in, stage_->scene());
+    return entry->second;
+  }
+
+  std::string Proof(const LanguageEpisode& e) {
     const Scene& scene = stage_->scene();
     if (!IsBound(e)) return "not unique: it was imported, and no query says what is meant";
     for (const EntityId id : e.entities)
@@ -44,7 +57,6 @@ class Checker {
     return what.empty() ? Place(e.entities, e.goal_kind, e.before.empty() ? e.start.p_W : e.before.back().goal, e.goal) : what;
   }
 
- private:
   std::string Uniqueness(const Query& query, const Standpoint& stands, const std::vector<EntityId>& entities) {
     const auto answers = brute_.Answers(query, stands);
     if (answers.empty()) return "not unique: no " + query.noun.word + " answers the instruction";
@@ -91,6 +103,7 @@ class Checker {
 
   std::shared_ptr<Stage> stage_;
   BruteForce brute_;
+  std::map<std::pair<size_t, std::string>, std::string> changes_;
 };
 
 }  // namespace

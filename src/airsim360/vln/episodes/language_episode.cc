@@ -48,6 +48,15 @@ uint64_t SeedOf(VlnFields& fields, const char* name) {
   return found->get<uint64_t>();
 }
 
+WorldThings ThingsFrom(const VlnJson& value, const std::string& where) {
+  VlnFields fields(value, where);
+  const WorldThings things{static_cast<size_t>(fields.Number("count", 0, 1, UINT32_MAX)), fields.Text("sha256", "")};
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (things.sha256.size() != 64 || !std::ranges::all_of(things.sha256, is_hex)) throw InputError(where + ".sha256: is not 64 lower-case hexadecimal digits");
+  fields.Finish();
+  return things;
+}
+
 GoalKind RegionOf(VlnFields& fields) {
   const std::string region = fields.Text("region", "near");
   const std::vector<std::string> names(std::begin(kGoalKindNames), std::end(kGoalKindNames));
@@ -121,6 +130,7 @@ std::string EpisodeLine(const LanguageEpisode& e) {
                   {"language", "en"},
                   {"world", e.world},
                   {"world_seed", e.world_seed},
+                  {"world_things", e.things.count == 0 ? VlnJson(nullptr) : VlnJson{{"count", e.things.count}, {"sha256", e.things.sha256}}},
                   {"seed", e.seed},
                   {"weather", e.weather},
                   {"people", e.people},
@@ -161,6 +171,7 @@ LanguageEpisode ParseEpisodeLine(const std::string& line, const std::string& whe
   fields.Text("language", "en");
   e.world_seed = SeedOf(fields, "world_seed");
   e.seed = SeedOf(fields, "seed");
+  if (const VlnJson* things = fields.Find("world_things")) e.things = ThingsFrom(*things, where + ".world_things");
   e.weather = fields.Text("weather", "");
   e.people = static_cast<int64_t>(fields.Number("people", 0, 0, 100'000));
   e.start = ViewOf(fields.At("start"), where + ".start");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "airsim360/vln/episodes/instruction_template.h"
+#include "airsim360/vln/episodes/world_things.h"
 
 namespace airsim360 {
 
@@ -20,6 +21,9 @@ struct SeenAtStart {
   double range = 0;  ///< metres to the nearest of them
 };
 inline constexpr int kSeenWidth = 512;
+/// Of these pixels, what a person needs to recognise a thing: of sixteen goals flown to by hand five were not recognised, with 6 to
+/// 11 pixels where they were in sight at all (docs/internals/benchmarks/vln.md).
+inline constexpr int64_t kInSight = 24;
 
 /// A part of an instruction of several, before the last one.
 struct EpisodePart {
@@ -35,6 +39,7 @@ struct EpisodePart {
 struct LanguageEpisode {
   std::string id, template_id, instruction, world;
   uint64_t world_seed = 0, seed = 0;  ///< `seed`: of gusts and of agents that draw
+  WorldThings things = {};            ///< of the world that it was made in
   std::string weather = {};           ///< --weather of the pictures; "" = the world's own
   int64_t people = 0;
   Viewpoint start;

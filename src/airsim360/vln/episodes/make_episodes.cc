@@ -24,7 +24,6 @@ constexpr double kOpenRadius = 20, kRoomRadius = 1;  // metres around the goal t
 constexpr double kLeastWay = 1.25;           // radii between start and goal
 constexpr double kEasy = 50, kHard = 100;    // metres: shorter, longer ways
 constexpr double kStraight = 1.08;           // length of a flight by its straight line, that one can turn from by words
-constexpr int64_t kVisible = 6;              // pixels that show a thing
 constexpr double kDegree = std::numbers::pi / 180;
 
 double Milli(double value) { return std::round(value * 1000) / 1000; }
@@ -67,7 +66,7 @@ SeenAtStart Look(Stage& stage, const Viewpoint& start, const std::vector<EntityI
 }
 
 std::string DifficultyOf(const LanguageEpisode& e) {
-  const bool visible = e.seen.pixels >= kVisible;
+  const bool visible = e.seen.pixels >= kInSight;
   if (e.geodesic_length > kHard || (!visible && e.geodesic_length > kEasy)) return "hard";
   return visible && e.geodesic_length <= kEasy ? "easy" : "medium";
 }
@@ -83,7 +82,7 @@ class Maker {
  public:
   Maker(const VlnMakeOptions& options, uint64_t world_seed)
       : options_(options), world_seed_(world_seed), stage_(options.open(world_seed)), graph_(stage_->shared_scene()), ground_(stage_->solid()),
-        templates_(FindTemplates(options.templates, stage_->scene())) {}
+        things_(ThingsOf(stage_->scene())), templates_(FindTemplates(options.templates, stage_->scene())) {}
 
   int64_t count() const {
     const auto all = static_cast<int64_t>(templates_.size()) * options_.starts;
@@ -106,6 +105,13 @@ class Maker {
   }
 
  private:
+  // A start that does not show enough of the thing.
+  struct Hidden {
+    Standpoint stands;
+    Vec3d goal;
+    int64_t pixels;
+  };
+
   std::optional<LanguageEpisode> Bind(const InstructionTemplate& wanted, int k, std::string& why) {
     RngStream random(world_seed_, "vln " + wanted.id + " " + options_.world, static_cast<uint64_t>(k));
     // The k-th of three starts lies in the k-th third of the distances; what finds no place there may lie anywhere.
@@ -115,9 +121,9 @@ class Maker {
     const bool in_sight = wanted.in_sight || k % 3 == 0;
     int ways = 0, looks = 0;
     std::map<std::string, int> whys;
-    std::optional<std::pair<Standpoint, Vec3d>> hidden;
+    std::vector<Hidden> hidden;
     for (int draw = 0; draw < kDraws && ways < kWays && looks < kLooks; ++draw) {
-      const bool anywhere = draw > kDraws / 2;
+      const bool anywhere = draw > kDraws / 2 || looks > kLooks / 2;
       auto stands = DrawStart(ground_, graph_, wanted, anywhere ? wanted.nearest : least, anywhere ? wanted.farthest : least * ratio, random);
       if (!stands) continue;
       stands->start = Milli(stands->start);
@@ -127,15 +133,21 @@ class Maker {
         ++whys[verdict.why];
         continue;
       }
+      // What was drawn is not always what is meant.
+      if (PlanDistance(stands->start.p_W, verdict.answers[0].box).least > wanted.farthest) {
+        ++whys["'" + verdict.answers[0].name + "' is farther than the instruction allows"];
+        continue;
+      }
       const auto goal = FindGoal(ground_, wanted, verdict.answers[0], stands->start);
       if (!goal) {
         ++whys["no free place to stop at '" + verdict.answers[0].name + "'"];
         continue;
       }
       if (Norm(*goal - stands->start.p_W) < kLeastWay * radius()) continue;
-      if (in_sight && Look(*stage_, stands->start, verdict.answers[0].entities).pixels < kVisible) {
+      const int64_t pixels = in_sight ? Look(*stage_, stands->start, verdict.answers[0].entities).pixels : kInSight;
+      if (pixels < kInSight) {
         ++looks;
-        if (!hidden) hidden = {*stands, *goal};
+        hidden.push_back({*stands, *goal, pixels});
         continue;
       }
       if (wanted.then.empty() || draw % 4 == 0) ++ways;  // several parts fail more often
@@ -143,9 +155,11 @@ class Maker {
       if (auto episode = Finish(wanted, k, *stands, verdict, Milli(*goal), no)) return episode;
       ++whys[no];
     }
-    if (hidden) {
+    // A post box has eight pixels from where a flight begins at most: what shows the most of a thing comes first.
+    std::ranges::stable_sort(hidden, std::greater(), &Hidden::pixels);
+    for (const Hidden& place : hidden) {
       std::string no;
-      if (auto episode = Finish(wanted, k, hidden->first, Decide(graph_, wanted.query, hidden->first), Milli(hidden->second), no)) return episode;
+      if (auto episode = Finish(wanted, k, place.stands, Decide(graph_, wanted.query, place.stands), Milli(place.goal), no)) return episode;
       ++whys[no];
     }
     why = "no start could be drawn: no open place of that kind around a " + wanted.query.noun.word;
@@ -223,6 +237,7 @@ class Maker {
     e.instruction = wanted.text;
     e.world = options_.world;
     e.world_seed = world_seed_;
+    e.things = things_;
     e.seed = MixBits(HashName(e.id)) >> 12;
     e.weather = options_.weather == "mix" ? kMixedWeathers[MixBits(e.seed) % std::size(kMixedWeathers)] : options_.weather;
     e.people = options_.people;
@@ -249,6 +264,7 @@ class Maker {
   std::shared_ptr<Stage> stage_;
   SceneGraph graph_;
   VlnGround ground_;
+  WorldThings things_;
   std::vector<InstructionTemplate> templates_;
 };
 

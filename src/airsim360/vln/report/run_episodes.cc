@@ -298,15 +298,21 @@ class Crew {
   }
 
   // One after the other where the world changes: the stages of one world at a time are kept.
-  std::shared_ptr<Stage> StageOf(const LanguageEpisode& e) {
+  std::pair<std::shared_ptr<Stage>, std::shared_ptr<SharedRenderers>> StageOf(const LanguageEpisode& e) {
     const std::lock_guard lock(stage_mutex_);
     const std::string key = e.world + "#" + std::to_string(e.world_seed) + "#" + std::to_string(e.people);
-    if (key != stage_key_) {
+    const bool is_new = key != stage_key_;
+    if (is_new) {
       stage_ = options_.open(e.world, e.world_seed, e.people);
       stage_->solid();
+      renderers_ = std::make_shared<SharedRenderers>(stage_);
       stage_key_ = key;
     }
-    return stage_;
+    if (e.things.count > 0 && (is_new || e.things != things_)) {
+      things_ = e.things;
+      if (const std::string changed = ThingsDiffer(things_, stage_->scene()); !changed.empty()) LogWarning(e.id + ": " + changed);
+    }
+    return {stage_, renderers_};
   }
 
   // An episode that cannot begin here (imported ones may start inside a wall) is a result too.
@@ -328,11 +334,11 @@ class Crew {
     try {
       for (size_t i; !failed_ && (i = next_++) < count_;) {
         const LanguageEpisode& episode = episodes_[i];
-        if (const auto now = StageOf(episode); now != stage) {
+        if (auto [now, renderers] = StageOf(episode); now != stage) {
           eyes.reset();
           stage = now;
           world = std::make_shared<AgentWorld>(stage, options_.picture);
-          eyes = std::make_unique<Eyes>(stage, options_.view, options_.picture, options_.width);
+          eyes = std::make_unique<Eyes>(std::move(renderers), options_.view, options_.picture, options_.width);
         }
         Put(i, FlyOne(world, *eyes, episode));
       }
@@ -368,7 +374,9 @@ class Crew {
   std::atomic<bool> failed_ = false;
   std::mutex stage_mutex_;
   std::string stage_key_;
+  WorldThings things_;  // of the episode before
   std::shared_ptr<Stage> stage_;
+  std::shared_ptr<SharedRenderers> renderers_;
   std::mutex mutex_;  // of what follows
   size_t written_;
   std::map<size_t, VlnResult> waiting_;

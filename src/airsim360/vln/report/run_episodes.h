@@ -20,7 +20,7 @@ struct VlnRunOptions {
   std::optional<Decisions> decisions = {};  ///< none: the protocol's
   std::string protocol = "ours";
   int64_t limit = 0;   ///< of episodes; 0 = all
-  int workers = 1;     ///< episodes at a time, each with renderers of its own
+  int workers = 1;     ///< episodes at a time
   bool realtime = false;  ///< what an agent takes to think passes in its episode
   int width = 1024;    ///< of panoramas, pixels
   RenderSettings picture = {};
