@@ -58,8 +58,8 @@ void Reader::CorrectWith(const char* name, Field& field, size_t i) {
     // figure.
     if (!near && tokens_[k].kind == Token::Kind::kNumber) break;
     if (!near && !(Is(k, WordKind::kCorrection) && tokens_[k].text.size() > 6)) continue;
-    // "22 inch? no, 18 inch"
-    const bool no = tokens_[k].text == "no" && k > 0 &&
+    // "22 inch? no, 18 inch", "half an hour minus a few, say 24 minutes"
+    const bool no = (tokens_[k].text == "no" || tokens_[k].text == "say") && k > 0 &&
                     (tokens_[k - 1].kind == Token::Kind::kComma || tokens_[k - 1].kind == Token::Kind::kDash);
     // "four minutes there and four back, so 8 minutes"
     const bool sum = tokens_[k].text == "so" && k + 1 == i && k > 0 && tokens_[k - 1].kind == Token::Kind::kComma;

@@ -26,6 +26,13 @@ TEST(Reader, AMassBelongsToTheWholeToItsLoadOrToTheDroneWithoutBattery) {
   EXPECT_THROW(DroneFromPrompt("hexa, take-off weight 9 kg, payload 6 kg"), InputError);
 }
 
+TEST(Reader, TheSameInAnotherUnitIsNoSecondFigureUnlessItDiffers) {
+  const DroneRequest whoop = ParsePrompt("85 mm ducted whoop quad, 2 inch props (51 mm), 85 grams");
+  EXPECT_NEAR(*whoop.propeller, 0.0508, 1e-3);
+  EXPECT_NEAR(*ParsePrompt("quad of 3 lb (1.36 kg) on 10 inch props").mass, 1.36, 0.01);
+  EXPECT_THROW(ParsePrompt("my quad weighs 3 lb (2.5 kg) on 10 inch props"), InputError);
+}
+
 TEST(Reader, OfSeveralReadingsTheOneThatExplainsAllMassesIsTaken) {
   const DroneRequest list = ParsePrompt("quad: frame 115 g, four motors 34 g each, stack 18 g, lipo 205 g, rx and straps 24 g, action cam 120 g");
   EXPECT_NEAR(*list.mass, 0.115 + 4 * 0.034 + 0.018 + 0.205 + 0.024 + 0.12, 1e-12);

@@ -1,5 +1,6 @@
 #include "airsim360/flight/prompt/spoken_forms.h"
 
+#include <cmath>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -63,6 +64,10 @@ const std::vector<Rule>& Numbers() {
 const std::vector<Rule>& Phrases() {
   static const std::vector<Rule> kRules = {
       {std::regex(R"(\ben charge\b)"), " "},
+      // A dive tells nothing of the drone's own thrust.
+      {std::regex(R"(\b\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts?) in (a|the|full) (power )?dives?\b( and| ,|,)?)"), " "},
+      {std::regex(R"(\b(\d+(\.\d+)? ?(mph|km/h|kmh|kph|m/s|knots|kts)) level\b)"), "top speed $1"},
+      {std::regex(R"((\d) in parallel\b)"), "$1 parallel"},
       // "5G WiFi", "2.4G remote": no grams.
       {std::regex(R"(\b(2\.4|5\.8|[345])\s?g(hz)?\b(?=[ -]*(wi-?fi|wlan|fpv|lte|network|modem|transmission|signal|link|module|connection|rc|remote|radio|control|transmitter|video|live)))"), " "},
       {std::regex(R"(\b(wi-?fi|lte)[ -]?[45]g\b)"), " "},
@@ -115,10 +120,36 @@ const std::vector<Rule>& Phrases() {
   return kRules;
 }
 
+/// Kilograms or metres of a unit; the sign tells one from the other.
+double InSi(const std::string& unit) {
+  if (unit.starts_with("in") || unit == "\"") return -0.0254;
+  if (unit == "ft") return -0.3048;
+  if (unit == "mm" || unit == "cm" || unit == "m") return unit == "m" ? -1 : unit == "cm" ? -0.01 : -0.001;
+  if (unit.starts_with("lb") || unit.starts_with("pound")) return 0.45359237;
+  if (unit.starts_with("oz") || unit.starts_with("ounce")) return 0.45359237 / 16;
+  return unit == "kg" ? 1 : 0.001;
+}
+
+/// "2 inch props (51 mm)", "20 lbs (9.1 kg)": the same again in another unit says nothing new.
+std::string WithoutConversions(const std::string& text) {
+  static const std::regex kTwice(R"((\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)(?: [a-z]+)? ?\((?:=|~|or|about)? ?(\d{1,7}(?:\.\d{1,6})?) ?(inch(?:es)?|in|"|lbs?|oz|ft|pounds?|ounces?|mm|cm|m|g|kg)\))");
+  constexpr double kRounding = 0.04;
+  std::string out;
+  size_t at = 0;
+  for (std::sregex_iterator twice(text.begin(), text.end(), kTwice), end; twice != end; ++twice) {
+    const double one = std::stod(twice->str(1)) * InSi(twice->str(2)), other = std::stod(twice->str(3)) * InSi(twice->str(4));
+    if (twice->str(2) == twice->str(4) || std::abs(one - other) > kRounding * std::abs(one)) continue;
+    const size_t open = text.find('(', static_cast<size_t>(twice->position(2)));
+    out.append(text, at, open - at);
+    at = static_cast<size_t>(twice->position() + twice->length());
+  }
+  return out.append(text, at, text.size() - at);
+}
+
 }  // namespace
 
 std::string SpeltOut(const std::string& plain) {
-  std::string text = plain;
+  std::string text = WithoutConversions(plain);
   for (const auto* rules : {&Symbols(), &Numbers(), &Phrases()}) {
     for (const auto& [pattern, words] : *rules) text = std::regex_replace(text, pattern, words);
   }

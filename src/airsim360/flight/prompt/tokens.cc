@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "airsim360/base/error.h"
+#include "airsim360/flight/prompt/foreign_numbers.h"
 #include "airsim360/flight/prompt/number_words.h"
 #include "airsim360/flight/prompt/plain_text.h"
 #include "airsim360/flight/prompt/spoken_forms.h"
@@ -312,7 +313,7 @@ class Cutter {
 
 std::vector<Token> Tokenize(std::string_view prompt) {
   if (prompt.size() > kLongestPrompt) throw InputError("the description is longer than 1000 bytes");
-  return JoinNumbers(Cutter(SpeltOut(PlainText(prompt))).Run());
+  return JoinNumbers(Cutter(SpeltOut(WithForeignNumbers(PlainText(prompt)))).Run());
 }
 
 }  // namespace airsim360::internal
