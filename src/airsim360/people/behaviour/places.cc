@@ -9,8 +9,21 @@ namespace airsim360::internal {
 namespace {
 
 constexpr double kSeatWidth = 0.6, kFeetAhead = 0.1;
+constexpr double kReach = 0.7, kReachOfChairs = 1.4;  // metres from the ground that is walked on to the feet before a seat
 
-std::optional<PlaceKind> KindOfPlace(std::string_view path) {
+// In buildings that are furnished chairs are sat on too: at desks, at tables, in waiting rooms.
+bool IsChair(std::string_view path) {
+  for (const std::string_view prefix : {"furniture/seating/chair", "furniture/seating/office_chair", "furniture/seating/armchair", "furniture/sofa"})
+    if (path.starts_with(prefix)) return true;
+  return false;
+}
+bool IsFurnished(const Scene& scene) {
+  return std::any_of(scene.entities.begin(), scene.entities.end(),
+                     [&](const Entity& entity) { return scene.tree[entity.category].path.starts_with("construction/ceiling"); });
+}
+
+std::optional<PlaceKind> KindOfPlace(std::string_view path, bool furnished) {
+  if (furnished && IsChair(path)) return PlaceKind::kBench;
   static const std::vector<std::pair<std::string_view, PlaceKind>> kinds = {
       {"furniture/seating/bench", PlaceKind::kBench},    {"signage/shop_sign", PlaceKind::kShop},
       {"construction/door", PlaceKind::kShop},           {"furniture/vending", PlaceKind::kFood},
@@ -38,7 +51,7 @@ std::map<EntityId, std::vector<Vec3f>> Vertices(const Scene& scene, const std::m
 }
 
 /// Seats of a bench side by side. Its back rest, if it has one, says where its front is.
-void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMesh& mesh, std::vector<Place>& places) {
+void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMesh& mesh, double reach, std::vector<Place>& places) {
   const Vec2d centre{box.center().x, box.center().y};
   Box3f back;
   for (const Vec3f& v : vertices)
@@ -64,7 +77,7 @@ void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMes
   const int seats = std::clamp(static_cast<int>(2 * half / kSeatWidth), 1, 6);
   for (int i = 0; i < seats; ++i) {
     const Vec2d p = centre + front * (depth + kFeetAhead) + side * (kSeatWidth * (i - (seats - 1) / 2.0));
-    const NavPoint approach = mesh.Nearest({p.x, p.y, box.min.z}, 0.7);
+    const NavPoint approach = mesh.Nearest({p.x, p.y, box.min.z}, reach);
     if (!approach.valid()) continue;
     places.push_back({PlaceKind::kBench, approach, {p.x, p.y, mesh.GroundHeight(p.x, p.y, approach.p_W.z)}, std::atan2(front.y, front.x)});
   }
@@ -74,15 +87,17 @@ void AddSeats(const std::vector<Vec3f>& vertices, const Box3f& box, const NavMes
 
 std::vector<Place> FindPlaces(const Scene& scene, const NavMesh& mesh) {
   std::map<EntityId, PlaceKind> wanted;
+  const bool furnished = IsFurnished(scene);
   for (const Entity& entity : scene.entities)
-    if (const auto kind = KindOfPlace(scene.tree[entity.category].path); kind && !entity.bounds.empty())
+    if (const auto kind = KindOfPlace(scene.tree[entity.category].path, furnished); kind && !entity.bounds.empty())
       wanted[entity.id] = *kind;
   const std::map<EntityId, std::vector<Vec3f>> vertices = Vertices(scene, wanted);
   std::vector<Place> places;
   for (const auto& [id, kind] : wanted) {
     const Box3f& box = scene.entity(id).bounds;
     if (kind == PlaceKind::kBench) {
-      if (const auto found = vertices.find(id); found != vertices.end()) AddSeats(found->second, box, mesh, places);
+      if (const auto found = vertices.find(id); found != vertices.end())
+        AddSeats(found->second, box, mesh, IsChair(scene.tree[scene.entity(id).category].path) ? kReachOfChairs : kReach, places);
       continue;
     }
     // Others are stood before, a step away, facing them; signs hang above the pavement.

@@ -21,27 +21,30 @@ using internal::TestCrowd;
 using internal::TestGround;
 using internal::WriteTestFile;
 
+// A seat to the south (-y) with its back to the north.
+void AddSeat(TestGround& ground, float x, float y, float width, const char* category) {
+  Mesh seat;
+  const auto box = [&](Vec3f low, Vec3f high) {
+    const auto first = static_cast<uint32_t>(seat.positions.size());
+    for (int i = 0; i < 8; ++i)
+      seat.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    for (const Vec3u t : {Vec3u{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}})
+      seat.triangles.push_back({t.x + first, t.y + first, t.z + first});
+  };
+  box({x, y, 0}, {x + width, y + 0.45f, 0.45f});
+  box({x, y + 0.4f, 0.45f}, {x + width, y + 0.5f, 0.9f});
+  const EntityId entity = ground.builder().AddEntity("seat", ground.builder().tree().At(category));
+  const MeshId mesh = ground.builder().AddMesh(std::move(seat));
+  ground.builder().AddInstance({.mesh = mesh, .X_WM = {}, .entity = entity});
+}
+
 /// A square with a few boxes, a lawn and two benches with back rests.
 std::shared_ptr<const Scene> Park() {
   TestGround ground;
   ground.Floor("ground/sidewalk", 0, 0, 40, 30);
   ground.Floor("ground/grass", 40, 0, 50, 30);
   for (const float x : {8.0f, 20.0f, 30.0f}) ground.Box("furniture/planter/pot", {x, 14, 0}, {x + 2, 15, 0.8f});
-  for (const float x : {10.0f, 25.0f}) {
-    Mesh bench;  // seat to the south (-y), back to the north
-    const auto box = [&](Vec3f low, Vec3f high) {
-      const auto first = static_cast<uint32_t>(bench.positions.size());
-      for (int i = 0; i < 8; ++i)
-        bench.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-      for (const Vec3u t : {Vec3u{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}})
-        bench.triangles.push_back({t.x + first, t.y + first, t.z + first});
-    };
-    box({x, 25, 0}, {x + 1.8f, 25.45f, 0.45f});
-    box({x, 25.4f, 0.45f}, {x + 1.8f, 25.5f, 0.9f});
-    const EntityId entity = ground.builder().AddEntity("bench", ground.builder().tree().At("furniture/seating/bench/wood"));
-    const MeshId mesh = ground.builder().AddMesh(std::move(bench));
-    ground.builder().AddInstance({.mesh = mesh, .X_WM = {}, .entity = entity});
-  }
+  for (const float x : {10.0f, 25.0f}) AddSeat(ground, x, 25, 1.8f, "furniture/seating/bench/wood");
   return ground.Build();
 }
 
@@ -235,6 +238,26 @@ TEST_F(CrowdFiles, ASitterFindsABenchAndSitsWithTheBackToIt) {
   EXPECT_EQ(crowd[0].p_WP, seat);
   crowd.Run(30);
   EXPECT_GT(Norm(crowd[0].p_WP - seat), 3);
+}
+
+// In the open chairs belong to somebody; in rooms people sit at desks and tables.
+TEST_F(CrowdFiles, ChairsAtTablesAreSatOnInBuildingsAndNotInTheOpen) {
+  const char* tree = R"(<root BTCPP_format="4"><BehaviorTree ID="rest"><Sequence><GoToPlace kind="bench"/><SetState state="sitting" min_s="20" max_s="20"/></Sequence></BehaviorTree></root>)";
+  for (const bool building : {true, false}) {
+    TestGround ground;
+    ground.Floor("ground/floor", 0, 0, 12, 10);
+    ground.Box("furniture/table/dining_table", {4, 3.2f, 0.0f}, {7, 4, 0.75f});
+    AddSeat(ground, 5, 4.1f, 0.5f, "furniture/seating/office_chair");
+    if (building) ground.Box("construction/ceiling", {0, 0, 2.7f}, {12, 10, 2.8f});
+    TestCrowd crowd(ground.Build(), File("trees: [trees.xml]\nseed: 4\npeople:\n  - {at: [6, 8], behaviour: rest, age: 40}\n", tree));
+    crowd.Run(15);
+    ASSERT_EQ(crowd[0].lower == Behaviour::kSit, building);
+    if (!building) continue;
+    // The feet before the chair, under the table; looks south.
+    EXPECT_NEAR(crowd[0].p_WP.x, 5.25, 0.1);
+    EXPECT_NEAR(crowd[0].p_WP.y, 4.0, 0.15);
+    EXPECT_NEAR(std::remainder(crowd[0].yaw + 1.5708, 6.28318), 0, 0.35);
+  }
 }
 
 // A branch that is tried and fails gives up the bench that another one is on its way to.

@@ -9,6 +9,7 @@
 #include "airsim360/image/image.h"
 #include "airsim360/math/vector.h"
 #include "airsim360/render/frame/tile_kernel.h"
+#include "airsim360/render/high/gloss_filter.h"
 #include "airsim360/render/high/high_shading.h"
 
 namespace airsim360::internal {
@@ -24,6 +25,7 @@ struct HighBuffers {
   Image<uint8_t> luma, edges;
   TableVector<LightTerms> terms;  ///< of each tile
   std::vector<uint8_t> smooth;    ///< of each tile: not 0 if it has penumbrae
+  GlossPlanes gloss;              ///< where there are rooms
 
   void Resize(int width, int height);
   /// Share of the disc at the `pixel`-th pixel of the images, smoothed where there are penumbrae.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "airsim360/base/parallel.h"
 #include "airsim360/base/random.h"
@@ -110,17 +111,21 @@ class EdgeTile {
   void Shade() {
     constexpr float kSameSurface = 0.1f;
     Rgb32f around[HitBatch::kCapacity];
+    int64_t pixel_of[HitBatch::kCapacity];
     alignas(64) float sun_known[HitBatch::kCapacity];
     for (int i = 0; i < hits_.count; ++i) {
-      sun_known[i] = -1;
+      sun_known[i] = -1, pixel_of[i] = -1;
       if (hits_.instance[i] == kMiss) continue;
       float cost;
-      const int64_t pixel = MostAlike(i, cost);
+      const int64_t pixel = pixel_of[i] = MostAlike(i, cost);
       if (pixel < 0) continue;
       around[i] = buffers_.light.pixels()[static_cast<size_t>(pixel)];
       if (cost < kSameSurface) sun_known[i] = buffers_.Sun(pixel);
     }
-    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, terms_, shaded_);
+    std::optional<GlossPixels> gloss;
+    if (task_.gloss) gloss.emplace();
+    ShadeHigh(*task_.shader, task_.sun_map, hits_, nullptr, sun_known, terms_, shaded_, gloss ? &*gloss : nullptr);
+    if (gloss && gloss->any) AddGloss(*gloss, pixel_of);
     const LightTerms& t = terms_;
     for (int i = 0; i < hits_.count; ++i) {
       const float sun = shaded_.sun_seen[i];
@@ -129,6 +134,21 @@ class EdgeTile {
                            t.ambient_b[i] * around[i].b + t.sun_b[i] * sun + t.rest_b[i]});
     }
     hits_.count = 0;
+  }
+
+  // What the pixel around mirrors, if it does, is known better than by the sample alone.
+  void AddGloss(const GlossPixels& gloss, const int64_t* pixel_of) {
+    for (int i = 0; i < hits_.count; ++i) {
+      if (gloss.blur_x[i] == 0) continue;
+      Vec3f light = gloss.light[i];
+      const auto pixel = static_cast<size_t>(pixel_of[i]);
+      if (pixel_of[i] >= 0 && buffers_.gloss.blur_x.pixels()[pixel] > 0) {
+        const Rgb32f known = buffers_.gloss.light.pixels()[pixel];
+        light = {known.r, known.g, known.b};
+      }
+      terms_.rest_r[i] += gloss.skin[i].x * light.x, terms_.rest_g[i] += gloss.skin[i].y * light.y,
+          terms_.rest_b[i] += gloss.skin[i].z * light.z;
+    }
   }
 
   const HighEdgeTask& task_;

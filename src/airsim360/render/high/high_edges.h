@@ -20,6 +20,7 @@ struct HighEdgeTask {
   int samples;     ///< of an edge pixel, the centre ray included
   uint64_t seed;
   Image<Rgb32f>* radiance;  ///< in the image's columns
+  bool gloss = false;       ///< the buffers know what surfaces mirror
 };
 
 /// Replaces `task.radiance` of pixels marked in `buffers.edges` by a mean of `samples` rays spread over the

@@ -89,6 +89,8 @@ struct HighFrame::Impl {
   void TraceTile(int tile);
   HighPlanes Planes();
   void Denoise();
+  void MixGloss();
+  const TileLayout& LayoutAt(int row) const { return layouts[Shape(row) == PacketShape::kRow]; }
   // Whether some light has noise: in rooms alone there may be none.
   bool Noisy() const {
     return !shader->impl().indoor || std::ranges::any_of(buffers.light_samples.pixels(), [](uint8_t n) { return n != 0 && n != kCertain; });
@@ -111,11 +113,13 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
   impl.origin = VecCast<float>(request.X_WC.p);
   impl.exposure = shader.Exposure() * static_cast<float>(std::exp2(request.exposure_ev));
   impl.buffers.Resize(field.width, field.height);
+  if (shader.impl().indoor) impl.buffers.gloss.Resize(field.width, field.height);
   Prepare(tracer, shader);
   impl.frames = request.temporal ? impl.frames + 1 : 0;
 
   impl.TraceTiles();
   if (request.denoise && impl.Noisy()) impl.Denoise();
+  if (shader.impl().indoor) impl.MixGloss();
   HighBuffers& buffers = impl.buffers;
   if (radiance.width() != field.width || radiance.height() != field.height)
     radiance = Image<Rgb32f>(field.width, field.height);
@@ -132,7 +136,7 @@ uint64_t HighFrame::Render(const RayTracer& tracer, const Shader& shader, const 
     }
     Antialiaser().FindEdges(buffers.entity, buffers.luma, field.separable, buffers.edges);
     const HighEdgeTask task{&tracer,     &shader,       &rays,   labels,       impl.SunView(),
-                            impl.origin, impl.exposure, samples, request.seed, &radiance};
+                            impl.origin, impl.exposure, samples, request.seed, &radiance, shader.impl().indoor != nullptr};
     count += static_cast<uint64_t>(RefineEdges(task, MakeEdgeOffsets(rays, samples), buffers));
   }
   return count;
@@ -206,7 +210,10 @@ void HighFrame::Impl::TraceTile(int tile) {
                               {static_cast<float>(field.R[1]), static_cast<float>(field.R[4]),
                                static_cast<float>(field.R[7])}};
   HighTile shaded;
-  ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, buffers.terms[static_cast<size_t>(tile)], shaded);
+  std::optional<GlossPixels> gloss;
+  if (shader->impl().indoor) gloss.emplace();
+  ShadeHigh(*shader, SunView(), hits, &sampling, nullptr, buffers.terms[static_cast<size_t>(tile)], shaded, gloss ? &*gloss : nullptr);
+  if (gloss) buffers.gloss.Put(*gloss, *sampling.layout, column, row);
   buffers.smooth[static_cast<size_t>(tile)] = store(tile_labels, shaded, target, Planes());
 }
 
@@ -224,6 +231,15 @@ void HighFrame::Impl::Denoise() {
   X_WC.p = request->X_WC.p;
   const FilterGuides guides{&request->camera, X_WC, &buffers.range, &buffers.entity, &buffers.normal};
   denoiser.Run(guides, {&buffers.light, &buffers.light_samples}, request->temporal);
+}
+
+// The part of the picture that is mirrored, as wide as its lobes are.
+void HighFrame::Impl::MixGloss() {
+  if (request->denoise) FilterGloss(buffers.range, buffers.entity, buffers.normal, rays->field().separable, buffers.gloss);
+  ParallelFor(int64_t{buffers.across()} * buffers.down(), [&](int64_t tile) {
+    const int column = static_cast<int>(tile) % buffers.across() * kTileSize, row = static_cast<int>(tile) / buffers.across() * kTileSize;
+    buffers.gloss.AddTo(buffers.terms[static_cast<size_t>(tile)], LayoutAt(row), column, row);
+  });
 }
 
 void HighFrame::Impl::Combine(CombinedPlanes planes) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "airsim360/render/high/high_gloss.h"
 #include "airsim360/render/high/high_rays.h"
 #include "airsim360/render/shading/sampling.h"
 #include "airsim360/render/shading/secondary_rays.h"
@@ -102,7 +103,8 @@ void DrawPrecipitation(const Shader::Impl& impl, const RaySet& rays, float cone_
 }  // namespace
 
 void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& hits,
-               const TileSampling* sampling, const float* sun_known, LightTerms& terms, HighTile& tile) {
+               const TileSampling* sampling, const float* sun_known, LightTerms& terms, HighTile& tile,
+               GlossPixels* gloss) {
   const Shader::Impl& impl = shader.impl();
   const bool falling = impl.view.air.rain + impl.view.air.snow > 0;
   RaySet rays, sky;
@@ -134,6 +136,8 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   float sharp[kBatch];
   std::copy_n(surfaces.mirror, rays.count, sharp);
   impl.kernels.scatter(rays, u, v, surfaces);
+  GlossSet glossy;
+  if (indoors && gloss != nullptr) FindGloss(impl, rays, room, sharp, surfaces, glossy);
   if (indoors) LeaveLampsToRays(room, sharp, rays.count, surfaces);
   impl.FollowRays(rays, surfaces);
 
@@ -142,6 +146,7 @@ void ShadeHigh(const Shader& shader, const SunMapView& sun_map, const HitBatch& 
   if (falling) DrawPrecipitation(impl, rays, hits.cone_angle, own);
   if (!all) PutTerms(rays, own, terms);
   PutSurfaces(rays, all, surfaces, tile);
+  if (glossy.any) GatherGloss(impl, sampling, rays, surfaces, room, glossy, *gloss);
   if (sampling != nullptr) GatherAmbient(impl, sun_map, *sampling, rays, surfaces, own, indoors ? &room : nullptr, tile);
 }
 
